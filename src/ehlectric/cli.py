@@ -1,0 +1,195 @@
+"""The command line: run, check, init and plot."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from importlib import resources
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from ehlectric.errors import InputError
+from ehlectric.version import __version__
+
+if TYPE_CHECKING:
+    from ehlectric.result import Result
+
+NOT_CONVERGED = 3
+WRONG_INPUT = 2
+
+app = typer.Typer(
+    help="Film and electric field of lubricated contacts.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+)
+
+CaseFile = Annotated[Path, typer.Argument(help="Case file, TOML.", show_default=False)]
+Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing but errors.")]
+Json = Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")]
+
+
+@contextmanager
+def _user_errors() -> Iterator[None]:
+    """Wrong input as one line on stderr and exit status 2."""
+    try:
+        yield
+    except InputError as error:
+        typer.echo(f"error: {error}", err=True)
+        raise typer.Exit(WRONG_INPUT) from None
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"ehlectric {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _main(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version.")
+    ] = False,
+) -> None:
+    pass
+
+
+@app.command()
+def run(
+    case_file: CaseFile,
+    output: Annotated[
+        Path, typer.Option("--output", "-o", metavar="DIR", help="Folder for the results.")
+    ] = Path("results"),
+    plots: Annotated[bool, typer.Option("--plots/--no-plots", help="Draw the figures.")] = True,
+    quiet: Quiet = False,
+    as_json: Json = False,
+) -> None:
+    """Solve a case; write summary.json, result.nc, film.csv and figures.
+
+    Exit status 0: solved. 2: the input is wrong. 3: not converged, everything is written all the same.
+    """
+    with _user_errors():
+        from ehlectric.case import Case
+        from ehlectric.solver import solve
+        from ehlectric.store import prepare, save
+
+        case = Case.from_toml(case_file)
+        folder = prepare(output)
+        with _progress(shown=not quiet) as stage:
+            result = solve(
+                case,
+                progress=lambda nodes, step, residual: stage(
+                    f"film: {nodes} nodes, Newton step {step + 1}, residual {residual:.1e}"
+                ),
+            )
+            stage("writing results")
+            files = save(result, folder)
+            if plots:
+                from ehlectric.plot import save_figures
+
+                stage("drawing figures")
+                files += save_figures(result, folder)
+    if as_json:
+        typer.echo(json.dumps(result.summary(), indent=2))
+    elif not quiet:
+        from ehlectric.report import result_table
+
+        _print(result_table(result))
+        typer.echo("written: " + ", ".join(str(path) for path in files))
+    _warn(result.warnings)
+    if not result.converged:
+        typer.echo(f"error: not converged, the film has {result.film.status}", err=True)
+        raise typer.Exit(NOT_CONVERGED)
+
+
+@app.command()
+def check(case_file: CaseFile, quiet: Quiet = False, as_json: Json = False) -> None:
+    """Validate a case and say what it means: Hertz contact, groups, regime, film formulas."""
+    with _user_errors():
+        from ehlectric.case import Case
+        from ehlectric.conditions import remarks, resolve
+        from ehlectric.report import conditions_summary, conditions_table
+
+        case = Case.from_toml(case_file)
+        conditions = resolve(case)
+    if as_json:
+        typer.echo(json.dumps(conditions_summary(case, conditions), indent=2))
+    elif not quiet:
+        _print(conditions_table(case, conditions))
+    _warn(remarks(case, conditions))
+
+
+@app.command()
+def init(
+    path: Annotated[Path, typer.Argument(help="File to write.")] = Path("case.toml"),
+    force: Annotated[bool, typer.Option("--force", help="Overwrite a file.")] = False,
+    quiet: Quiet = False,
+) -> None:
+    """Write a commented case to start from."""
+    with _user_errors():
+        from ehlectric.store import prepare, whole
+
+        if path.exists() and not force:
+            raise InputError(f"{path}: is there already, takes a new file or --force")
+        if path.is_dir():
+            raise InputError(f"{path}: is a directory, takes a file")
+        prepare(path.parent)
+        template = resources.files("ehlectric.library") / "template.toml"
+        with whole(path) as beside:
+            beside.write_text(template.read_text(encoding="utf-8"), encoding="utf-8")
+    if not quiet:
+        typer.echo(f"written: {path}; solve it with: ehlectric run {path}")
+
+
+@app.command()
+def plot(
+    result_file: Annotated[Path, typer.Argument(help="A result.nc.", show_default=False)],
+    output: Annotated[
+        Path | None,
+        typer.Option("--output", "-o", metavar="DIR", help="Folder, default that of the file."),
+    ] = None,
+    quiet: Quiet = False,
+) -> None:
+    """Draw the figures of a result again."""
+    with _user_errors():
+        from ehlectric.store import load, prepare
+
+        result = load(result_file)
+        folder = prepare(result_file.parent if output is None else output)
+        from ehlectric.plot import save_figures
+
+        files = save_figures(result, folder)
+    if not quiet:
+        typer.echo("written: " + ", ".join(str(path) for path in files))
+
+
+@contextmanager
+def _progress(*, shown: bool) -> Iterator[Callable[[str], None]]:
+    """A line on stderr that says what is being done, where somebody can see it."""
+    if not (shown and sys.stderr.isatty()):
+        yield lambda _: None
+        return
+    from rich.console import Console
+
+    with Console(stderr=True).status("starting") as status:
+        yield status.update
+
+
+def _print(table: Any) -> None:
+    from rich.console import Console
+
+    Console(highlight=False).print(table)
+
+
+def _warn(texts: Any) -> None:
+    for text in texts:
+        typer.echo(f"warning: {text}", err=True)
+
+
+def main() -> None:
+    """Entry point of the ``ehlectric`` command."""
+    app()

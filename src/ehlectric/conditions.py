@@ -1,0 +1,194 @@
+"""What a case means: its alternatives resolved, the dry contact, the dimensionless groups."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from ehlectric import film_formulas, hertz
+from ehlectric.case import Case, Contact
+from ehlectric.errors import InputError
+
+# Roelands' reduced form of the viscosity at zero pressure, ln(eta0) + 9.67, with eta0 in Pa s.
+_ROELANDS_CONSTANT = 9.67
+
+
+@dataclass(frozen=True)
+class Conditions:
+    """Operating conditions of a line contact, SI units.
+
+    Attributes
+    ----------
+    reduced_radius, reduced_modulus, load_per_length : float
+        R [m], E' [Pa] with the factor two, and w [N/m].
+    entrainment_speed : float
+        (u1 + u2)/2 [m/s].
+    slide_to_roll_ratio : float
+        (u1 - u2)/entrainment_speed.
+    half_width, max_pressure : float
+        b [m] and p_h [Pa] of the dry contact.
+    velocity_parameter : float
+        lambda = 6 eta0 u_s R^2/(b^3 p_h) with u_s = u1 + u2.
+    curvature_share, compliance_share : float
+        Parts of 1/R and of 2/E' that are surface 1's.
+    formulas : film_formulas.LineContact
+        The contact as the film-thickness formulas take it.
+    """
+
+    reduced_radius: float
+    reduced_modulus: float
+    load_per_length: float
+    entrainment_speed: float
+    slide_to_roll_ratio: float
+    half_width: float
+    max_pressure: float
+    velocity_parameter: float
+    curvature_share: float
+    compliance_share: float
+    formulas: film_formulas.LineContact
+
+    @property
+    def thickness_scale(self) -> float:
+        """b^2/R, the film thickness of H = 1 [m]."""
+        return self.half_width**2 / self.reduced_radius
+
+
+def resolve(case: Case) -> Conditions:
+    """Operating conditions of a case.
+
+    Parameters
+    ----------
+    case : Case
+        A valid case.
+
+    Returns
+    -------
+    Conditions
+        With every alternative resolved.
+
+    Raises
+    ------
+    InputError
+        Where the values contradict each other: no positive reduced radius, a Hertz pressure below the
+        ambient one, a dry contact wider than its bodies.
+
+    Examples
+    --------
+    >>> contact = {"radius_1": "20 mm", "radius_2": "20 mm", "reduced_modulus": "226 GPa"}
+    >>> contact |= {"max_hertz_pressure": "1 GPa", "speed_1": 3.0, "speed_2": 1.0}
+    >>> case = Case.from_dict({"contact": contact, "lubricant": {"base": "paper"}})
+    >>> conditions = resolve(case)
+    >>> conditions.reduced_radius, conditions.entrainment_speed, conditions.slide_to_roll_ratio
+    (0.01, 2.0, 1.0)
+    """
+    contact, lubricant = case.contact, case.lubricant
+    radius, curvature_share = _radius(contact)
+    modulus, compliance_share = _modulus(contact)
+    speed, ratio = _speeds(contact)
+    load = contact.load_per_length
+    if load is None:
+        assert contact.max_hertz_pressure is not None
+        load = hertz.line_load(contact.max_hertz_pressure, radius, modulus)
+    half_width = hertz.line_half_width(load, radius, modulus)
+    max_pressure = hertz.line_max_pressure(load, radius, modulus)
+    _check_dry_contact(half_width, radius, max_pressure, lubricant.ambient_pressure)
+
+    alpha = 0.0
+    if lubricant.viscosity_law != "constant":
+        assert lubricant.pressure_viscosity_coefficient is not None
+        alpha = lubricant.pressure_viscosity_coefficient
+    eta0 = lubricant.viscosity
+    return Conditions(
+        reduced_radius=radius,
+        reduced_modulus=modulus,
+        load_per_length=load,
+        entrainment_speed=speed,
+        slide_to_roll_ratio=ratio,
+        half_width=half_width,
+        max_pressure=max_pressure,
+        velocity_parameter=12.0 * eta0 * speed * radius**2 / (half_width**3 * max_pressure),
+        curvature_share=curvature_share,
+        compliance_share=compliance_share,
+        formulas=film_formulas.LineContact(radius, modulus, load, speed, eta0, alpha),
+    )
+
+
+def _radius(contact: Contact) -> tuple[float, float]:
+    """Reduced radius, and the part of 1/R that is surface 1's: a half where only R is known."""
+    if contact.reduced_radius is not None:
+        return contact.reduced_radius, 0.5
+    r1, r2 = contact.radius_1, contact.radius_2
+    assert r1 is not None and r2 is not None
+    if not 1.0 / r1 + 1.0 / r2 > 0.0:
+        raise InputError(
+            f"contact.radius_1: got {r1:g} m with radius_2 {r2:g} m, takes radii with "
+            "1/radius_1 + 1/radius_2 above 0: a concave body must be wider than the other"
+        )
+    radius = hertz.reduced_radius(r1, r2)
+    return radius, radius / r1
+
+
+def _modulus(contact: Contact) -> tuple[float, float]:
+    """Reduced modulus, and the part of 2/E' that is surface 1's: a half where only E' is known."""
+    if contact.reduced_modulus is not None:
+        return contact.reduced_modulus, 0.5
+    assert contact.body_1 is not None and contact.body_2 is not None
+    first, second = (
+        hertz.body_compliance(body.youngs_modulus, body.poissons_ratio)
+        for body in (contact.body_1, contact.body_2)
+    )
+    return hertz.reduced_modulus(first, second), first / (first + second)
+
+
+def _speeds(contact: Contact) -> tuple[float, float]:
+    """Entrainment speed and slide-to-roll ratio."""
+    if contact.entrainment_speed is not None:
+        return contact.entrainment_speed, contact.slide_to_roll_ratio or 0.0
+    assert contact.speed_1 is not None and contact.speed_2 is not None
+    mean = 0.5 * (contact.speed_1 + contact.speed_2)
+    return mean, (contact.speed_1 - contact.speed_2) / mean
+
+
+def _check_dry_contact(half_width: float, radius: float, pressure: float, ambient: float) -> None:
+    if half_width > 0.5 * radius:
+        raise InputError(
+            f"contact: the dry contact would be {half_width:.3g} m wide on each side, more than half "
+            f"of the reduced radius {radius:.3g} m; takes a smaller load or a larger modulus"
+        )
+    if pressure <= 10.0 * ambient:
+        raise InputError(
+            f"contact: the Hertz pressure would be {pressure:.3g} Pa, less than ten times the ambient "
+            f"pressure {ambient:.3g} Pa; takes a larger load"
+        )
+
+
+def remarks(case: Case, conditions: Conditions) -> Iterator[str]:
+    """What a user should know about a case before it is solved, one text each."""
+    lubricant = case.lubricant
+    regime = film_formulas.regime(conditions.formulas)
+    if regime == "isoviscous-rigid":
+        yield (
+            "isoviscous-rigid regime: the bodies hardly deform, so half-width and Hertz pressure "
+            "scale nothing here; widen grid.inlet and grid.outlet until the film stays the same"
+        )
+    ambient_load = lubricant.ambient_pressure / conditions.max_pressure
+    ambient_load *= (case.grid.outlet - case.grid.inlet) / (0.5 * np.pi)
+    if ambient_load > 0.01:
+        yield (
+            f"the ambient pressure carries {100 * ambient_load:.1f} % of the load over this domain; "
+            "lubricant.ambient_pressure = 0 leaves it out"
+        )
+    if lubricant.viscosity_law == "barus" and conditions.max_pressure > 0.5e9:
+        yield "Barus' law overstates the viscosity above some 0.5 GPa by orders of magnitude"
+    if lubricant.viscosity_law == "roelands":
+        alpha, p0 = lubricant.pressure_viscosity_coefficient, lubricant.roelands_pressure
+        assert alpha is not None and p0 is not None and lubricant.roelands_z is not None
+        exponent = np.log(lubricant.viscosity) + _ROELANDS_CONSTANT
+        z = alpha * p0 / exponent if exponent > 0.0 else np.inf
+        if abs(z / lubricant.roelands_z - 1.0) > 0.1:
+            yield (
+                f"roelands_z is {lubricant.roelands_z:g}; Roelands' own relation gives {z:.3g} for this "
+                "viscosity and pressure-viscosity coefficient"
+            )

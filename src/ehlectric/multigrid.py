@@ -1,0 +1,224 @@
+"""Grid hierarchy and the V-cycle that preconditions the film's Newton steps.
+
+One V-cycle solves J (dP, dH00) = (r, load) approximately: the residual goes down to the coarsest grid,
+is solved there by a dense factorisation, and each finer grid adds one line relaxation on the way up.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TypeAlias
+
+import numpy as np
+from scipy import sparse
+from scipy.linalg import lapack, toeplitz
+
+from ehlectric.elastic import Deflection
+from ehlectric.reynolds import (
+    OFFSETS,
+    Coefficients,
+    Fluid,
+    Stencil,
+    evaluate,
+    linearise,
+    poiseuille_weight,
+    wedge_stencil,
+)
+from ehlectric.typing import Array, Mask
+
+# Half-bandwidth of the line relaxation. The part of the kernel dropped beyond it decays as
+# 1/distance^2: at 6 a V-cycle reduces the error about tenfold, and 10 gains little.
+HALF_BAND = 6
+
+# The hierarchy ends at the first grid of at most this many nodes: the dense solve there costs less
+# than one more grid.
+COARSEST = 101
+
+Influence: TypeAlias = Callable[[int, float], Array]
+
+
+def interpolation(coarse: int, fine: int) -> sparse.csr_array:
+    """Linear interpolation between two uniform grids over one interval, shape (fine, coarse)."""
+    numerator = np.arange(fine) * (coarse - 1)
+    left = np.minimum(numerator // (fine - 1), coarse - 2)
+    weight = numerator / (fine - 1) - left
+    rows = np.repeat(np.arange(fine), 2)
+    columns = np.stack([left, left + 1], axis=1).ravel()
+    values = np.stack([1.0 - weight, weight], axis=1).ravel()
+    matrix = sparse.csr_array((values, (rows, columns)), shape=(fine, coarse))
+    matrix.eliminate_zeros()
+    return matrix
+
+
+@dataclass(frozen=True)
+class Level:
+    """One grid: nodes, quadrature weights, operators, and the transfers to and from the next finer."""
+
+    x: Array  # (nx,)
+    dx: float
+    weights: Array  # (nx, 1), trapezoidal
+    deflection: Deflection
+    wedge: Stencil
+    to_finer: sparse.csr_array | None
+    from_finer: sparse.csr_array | None
+
+    @cached_property
+    def deflection_matrix(self) -> Array:
+        """The dense deflection operator, for the coarsest grid alone."""
+        matrix: Array = toeplitz(self.deflection.influence[:, 0])
+        return matrix
+
+
+def hierarchy(
+    nodes: int, *, inlet: float, outlet: float, influence: Influence, second_order: bool
+) -> list[Level]:
+    """Grids from the finest to the coarsest, each with half the intervals of the one before.
+
+    An odd number of intervals is halved upwards; such grids share only their end nodes, and the
+    transfers interpolate. There are always two grids at least, for the error estimate.
+    """
+    sizes = [nodes]
+    while sizes[-1] > COARSEST or len(sizes) < 2:
+        sizes.append(sizes[-1] // 2 + 1)
+    levels = []
+    for k, n in enumerate(sizes):
+        dx = (outlet - inlet) / (n - 1)
+        weights = np.full((n, 1), dx)
+        weights[0] = weights[-1] = 0.5 * dx
+        levels.append(
+            Level(
+                x=np.linspace(inlet, outlet, n),
+                dx=dx,
+                weights=weights,
+                deflection=Deflection.from_influence(influence(n, dx)),
+                wedge=wedge_stencil((n, 1), dx, second_order=second_order),
+                to_finer=interpolation(n, sizes[k - 1]) if k else None,
+                from_finer=interpolation(sizes[k - 1], n) if k else None,
+            )
+        )
+    return levels
+
+
+class Linearised:
+    """The Jacobian on one grid over its free nodes, as an operator and as a smoother.
+
+    Nodes that are not free stay as they are: what goes in must be zero there, and what the solvers give
+    back is.
+    """
+
+    def __init__(
+        self, level: Level, coefficients: Coefficients, pressure: Array, thickness: Array, free: Mask
+    ) -> None:
+        self.level = level
+        self.free = free
+        self.by_p, self.by_h = linearise(coefficients, level.wedge, pressure, thickness, level.dx)
+        self.by_p.coefficients[:, ~free] = 0.0
+        self.by_h.coefficients[:, ~free] = 0.0
+        # Nodes whose unknown is distributed, +1 to P_j and -1 to P_(j-1). Where eps/dX^2 is small
+        # against 1/dX the equation is the first difference of the deflection and acts like
+        # 1/(i - j - 1/2); on dipoles it acts like 1/(i - j)^2 and is diagonally dominant.
+        self.dipole = free & (poiseuille_weight(coefficients, level.dx) < 1.0 / level.dx)
+        self.dipole[1:] &= free[:-1]
+
+    def __call__(self, dp: Array, dh00: float) -> tuple[Array, float]:
+        """Change of the Reynolds residual and of the load integral."""
+        dh = self.level.deflection(dp) + dh00
+        return self.by_p(dp) + self.by_h(dh), float(np.vdot(self.level.weights, dp))
+
+    def _diagonal(self, offset: int) -> Array:
+        """Entries J_(i, i+offset) of the Jacobian along x, shape (nx, ny)."""
+        influence = self.level.deflection.influence[:, 0]
+        diagonal = np.zeros(self.free.shape)
+        for row, shift in enumerate(OFFSETS):
+            diagonal += self.by_h.coefficients[row] * influence[abs(shift - offset)]
+            if shift == offset:
+                diagonal += self.by_p.coefficients[row]
+        return diagonal
+
+    @cached_property
+    def _line_factors(self) -> tuple[Array, Array]:
+        """Banded LU in the distributed unknowns, all lines along x in one matrix."""
+        nx, ny = self.free.shape
+        matrix = np.zeros((3 * HALF_BAND + 1, ny, nx))
+        left = self._diagonal(-HALF_BAND - 1)
+        for offset in range(-HALF_BAND, HALF_BAND + 1):
+            rows = slice(max(0, -offset), min(nx, nx - offset))
+            columns = slice(max(0, offset), min(nx, nx + offset))
+            here = self._diagonal(offset)
+            entry = here[rows] - np.where(self.dipole[columns], left[rows], 0.0)
+            matrix[2 * HALF_BAND - offset, :, columns] = entry.T
+            left = here
+        matrix[2 * HALF_BAND][~self.free.T] = 1.0
+        factors, pivots, _ = lapack.dgbtrf(
+            matrix.reshape(3 * HALF_BAND + 1, nx * ny), HALF_BAND, HALF_BAND, overwrite_ab=1
+        )
+        return factors, pivots
+
+    def relax(self, r: Array) -> Array:
+        """One line relaxation: dP with (band of J) dP = r on the free nodes."""
+        nx, ny = r.shape
+        factors, pivots = self._line_factors
+        solution, _ = lapack.dgbtrs(factors, HALF_BAND, HALF_BAND, r.T.reshape(-1), pivots)
+        unknown = solution.reshape(ny, nx).T
+        dp: Array = unknown.copy()
+        dp[:-1] -= np.where(self.dipole[1:], unknown[1:], 0.0)
+        dp[~self.free] = 0.0
+        return dp
+
+    @cached_property
+    def _dense_factors(self) -> tuple[Array, Array]:
+        """LU of the whole bordered Jacobian."""
+        n = self.free.size
+        matrix = np.zeros((n + 1, n + 1))
+        matrix[:n, :n] = self.by_p.matrix() + self.by_h.matrix() @ self.level.deflection_matrix
+        matrix[:n, n] = self.by_h.coefficients.sum(axis=0).ravel()
+        matrix[n, :n] = np.where(self.free, self.level.weights, 0.0).ravel()
+        fixed = np.flatnonzero(~self.free.ravel())
+        matrix[fixed, fixed] = 1.0
+        factors, pivots, _ = lapack.dgetrf(matrix)
+        return factors, pivots
+
+    def solve_dense(self, r: Array, load: float) -> tuple[Array, float]:
+        """Exact (dP, dH00), for the coarsest grid."""
+        right = np.append(np.where(self.free, r, 0.0), load)
+        solution, _ = lapack.dgetrs(*self._dense_factors, right)
+        return solution[:-1].reshape(r.shape), float(solution[-1])
+
+
+def linearise_levels(
+    levels: list[Level],
+    fluid: Fluid,
+    *,
+    coefficients: Coefficients,
+    pressure: Array,
+    thickness: Array,
+    free: Mask,
+) -> list[Linearised]:
+    """The Jacobian on every grid: given on the first, rebuilt on the others at the injected state."""
+    jacobians = [Linearised(levels[0], coefficients, pressure, thickness, free)]
+    for level in levels[1:]:
+        pressure = level.from_finer @ pressure
+        thickness = level.from_finer @ thickness
+        # A coarse node between a free and a fixed one counts as fixed.
+        free = level.from_finer @ free.astype(float) > 1.0 - 1e-9
+        coefficients = evaluate(fluid, pressure, thickness)
+        jacobians.append(Linearised(level, coefficients, pressure, thickness, free))
+    return jacobians
+
+
+def v_cycle(jacobians: list[Linearised], r: Array, load: float) -> tuple[Array, float]:
+    """Approximate (dP, dH00) with J (dP, dH00) = (r, load) on the free nodes of the finest grid.
+
+    The residual is injected, not averaged: beside the pressure spike neighbouring rows differ by orders
+    of magnitude, and an average hands the small ones the error of the large.
+    """
+    finest, *coarser = jacobians
+    if not coarser:
+        return finest.solve_dense(r, load)
+    level = coarser[0].level
+    coarse_dp, dh00 = v_cycle(coarser, level.from_finer @ r, load)
+    dp = np.where(finest.free, level.to_finer @ coarse_dp, 0.0)
+    change, _ = finest(dp, dh00)
+    return dp + finest.relax(r - change), dh00

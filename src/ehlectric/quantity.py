@@ -1,0 +1,159 @@
+"""Numbers with units at the edge of the program: what a case file may write for a physical quantity."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from functools import cache
+from typing import TYPE_CHECKING, Any
+
+from pydantic import GetCoreSchemaHandler
+from pydantic_core import CoreSchema, core_schema
+
+if TYPE_CHECKING:
+    import pint
+
+_NUMBER_AND_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*")
+
+
+@cache
+def _registry() -> pint.UnitRegistry[float]:
+    import pint
+
+    return pint.UnitRegistry()
+
+
+def to_si(text: str, unit: str) -> float:
+    """SI value of a text such as "1.57 MN/m".
+
+    Parameters
+    ----------
+    text : str
+        A number and its unit.
+    unit : str
+        The SI unit of the quantity, as pint writes it; "" for a dimensionless one.
+
+    Returns
+    -------
+    float
+        Value in ``unit``.
+
+    Raises
+    ------
+    ValueError
+        Where the text is not a number with a unit of the right dimension.
+
+    Examples
+    --------
+    >>> to_si("22 1/GPa", "1/Pa")
+    2.2e-08
+    """
+    import pint
+
+    match = _NUMBER_AND_UNIT.fullmatch(text)
+    if match is None:
+        raise ValueError("it is not a number with a unit")
+    number, written = match.groups()
+    if not written and unit:
+        raise ValueError("it has no unit")
+    try:
+        # A ratio of units keeps the factor exact where it is a power of ten.
+        factor = _registry().Quantity(1.0, _registry().parse_units(written)).to(unit)
+    except pint.DimensionalityError:
+        raise ValueError(f"{written} is not a unit of this quantity") from None
+    except Exception:  # pint raises whatever its tokenizer meets
+        raise ValueError(f"{written!r} is not a unit") from None
+    return float(f"{float(number) * factor.magnitude:.15g}")
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """Pydantic annotation: a float in SI, or a text with its unit, within bounds.
+
+    ``reason`` says why the bounds are there.
+    """
+
+    unit: str
+    above: float = -math.inf
+    below: float = math.inf
+    least: float = -math.inf
+    most: float = math.inf
+    reason: str = ""
+
+    def __get_pydantic_core_schema__(self, _: Any, __: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.no_info_plain_validator_function(self.parse)
+
+    def parse(self, given: object) -> float:
+        """SI value of what the case gives.
+
+        Raises
+        ------
+        ValueError
+            With what it got and what the quantity takes.
+        """
+        try:
+            value = self._number(given)
+            if not math.isfinite(value):
+                raise ValueError("it is not finite")
+            if not (self.above < value < self.below and self.least <= value <= self.most):
+                raise ValueError("")
+        except ValueError as error:
+            why = f" ({error})" if str(error) else ""
+            raise ValueError(f"got {given!r}{why}, takes {self.takes}") from None
+        return value
+
+    def _number(self, given: object) -> float:
+        if isinstance(given, str):
+            return to_si(given, self.unit)
+        if isinstance(given, bool) or not isinstance(given, int | float):
+            raise ValueError("it is not a number")
+        try:
+            return float(given)
+        except OverflowError:
+            raise ValueError("it is too large") from None
+
+    @property
+    def takes(self) -> str:
+        """What the quantity takes, for messages."""
+        text = f"a number in {self.unit} or a text with its unit" if self.unit else "a number"
+        bounds = [
+            f"{word} {bound:g}"
+            for word, bound in (
+                ("above", self.above),
+                ("at least", self.least),
+                ("below", self.below),
+                ("at most", self.most),
+            )
+            if math.isfinite(bound)
+        ]
+        if bounds:
+            text += ", " + " and ".join(bounds)
+        return text + (f": {self.reason}" if self.reason else "")
+
+
+@dataclass(frozen=True)
+class Count:
+    """Pydantic annotation: a whole number within bounds."""
+
+    least: int
+    most: int
+    reason: str
+
+    def __get_pydantic_core_schema__(self, _: Any, __: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.no_info_plain_validator_function(self.parse)
+
+    def parse(self, given: object) -> int:
+        """The whole number given.
+
+        Raises
+        ------
+        ValueError
+            With what it got and what the count takes.
+        """
+        whole = isinstance(given, int) and not isinstance(given, bool)
+        if not (whole and self.least <= given <= self.most):  # type: ignore[operator]
+            raise ValueError(
+                f"got {given!r}, takes a whole number from {self.least} to {self.most}: {self.reason}"
+            )
+        return int(given)  # type: ignore[call-overload, no-any-return]

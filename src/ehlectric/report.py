@@ -1,0 +1,115 @@
+"""Tables for the terminal: what a case means and what its solution is."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rich.table import Table
+
+from ehlectric.case import Case
+from ehlectric.conditions import Conditions
+from ehlectric.film_formulas import FORMULAS, regime
+from ehlectric.result import SCHEMA, Result, resolved_inputs
+
+_FORMULA_NAMES = {
+    "dowson_higginson": "Dowson-Higginson",
+    "dowson_toyoda": "Dowson-Toyoda",
+    "pan_hamrock": "Pan-Hamrock",
+    "moes": "Moes",
+}
+
+
+def _table(title: str) -> Table:
+    table = Table(title=title or None, show_header=False, title_justify="left", box=None)
+    table.add_column(style="bold")
+    table.add_column(justify="right")
+    table.add_column()
+    return table
+
+
+def _add_conditions(table: Table, conditions: Conditions) -> None:
+    table.add_row("Hertz pressure", f"{conditions.max_pressure / 1e9:.4g}", "GPa")
+    table.add_row("half-width", f"{conditions.half_width * 1e6:.4g}", "µm")
+    table.add_row("Moes M", f"{conditions.formulas.moes_m:.4g}")
+    table.add_row("Moes L", f"{conditions.formulas.moes_l:.4g}")
+    table.add_row("regime", regime(conditions.formulas))
+
+
+def conditions_table(case: Case, conditions: Conditions) -> Table:
+    """What a case means, before it is solved."""
+    table = _table(case.title)
+    table.add_row("reduced radius", f"{conditions.reduced_radius * 1e3:.4g}", "mm")
+    table.add_row("reduced modulus", f"{conditions.reduced_modulus / 1e9:.4g}", "GPa")
+    table.add_row("load per length", f"{conditions.load_per_length / 1e6:.4g}", "MN/m")
+    table.add_row("entrainment speed", f"{conditions.entrainment_speed:.4g}", "m/s")
+    table.add_row("slide-to-roll ratio", f"{conditions.slide_to_roll_ratio:.4g}")
+    _add_conditions(table, conditions)
+    table.add_row("velocity parameter lambda", f"{conditions.velocity_parameter:.4g}")
+    table.add_row("voltage", f"{abs(case.electric.potential_2 - case.electric.potential_1):.4g}", "V")
+    for name, formula in FORMULAS.items():
+        for key, value in vars(formula(conditions.formulas)).items():
+            if value is not None:
+                film = key.removesuffix("_thickness")
+                table.add_row(f"{_FORMULA_NAMES[name]}, {film}", f"{value * 1e6:.4g}", "µm")
+    table.add_row("grid", f"{case.grid.nodes}", f"nodes, {case.grid.wedge} wedge")
+    return table
+
+
+def conditions_summary(case: Case, conditions: Conditions) -> dict[str, Any]:
+    """What a case means, SI units, with the keys of summary.json where they are the same."""
+    formulas = conditions.formulas
+    return {
+        "schema": SCHEMA.replace("summary", "check"),
+        "title": case.title,
+        "inputs": resolved_inputs(case, conditions),
+        "groups": {"moes_m": formulas.moes_m, "moes_l": formulas.moes_l},
+        "hertz": {"half_width": conditions.half_width, "max_pressure": conditions.max_pressure},
+        "velocity_parameter": conditions.velocity_parameter,
+        "regime": regime(formulas),
+        "film_formulas": {name: vars(formula(formulas)) for name, formula in FORMULAS.items()},
+    }
+
+
+def result_table(result: Result) -> Table:
+    """The key figures of a solution, with the film formulas and their difference from it."""
+    film, field, conditions = result.film, result.field, result.conditions
+    table = _table(result.case.title)
+    _add_conditions(table, conditions)
+    table.add_row("minimum film", f"{film.minimum_thickness * 1e6:.4g}", "µm")
+    position = film.minimum_position / conditions.half_width
+    table.add_row("  at x/b", f"{position:.4g}")
+    table.add_row("central film", f"{film.central_thickness * 1e6:.4g}", "µm")
+    table.add_row("mean film, Hertz zone", f"{film.mean_thickness * 1e6:.4g}", "µm")
+    table.add_row("maximum pressure", f"{film.max_pressure / 1e9:.4g}", "GPa")
+    error = film.discretisation_error
+    table.add_row("discretisation error", "unknown" if error is None else f"{100 * error:.2g}", "%")
+    table.add_row("residual", f"{film.residual:.1e}", f"{film.newton_iterations} Newton steps")
+    table.add_row("load residual", f"{film.load_residual:.1e}")
+    table.add_row("voltage", f"{field.voltage:.4g}", "V")
+    table.add_row("maximum field", f"{field.max_strength / 1e6:.4g}", "V/µm")
+    position = field.max_strength_position / conditions.half_width
+    table.add_row("  at x/b", f"{position:.4g}")
+    scale = film.minimum_thickness / field.voltage
+    table.add_row("  times h_min/V12", f"{field.max_strength * scale:.5g}")
+    table.add_row("width above 95 %", f"{field.high_field_width * 1e6:.4g}", "µm")
+    table.add_row("capacitance, field range", f"{field.capacitance * 1e9:.4g}", "nF/m")
+    table.add_row("thin-gap error of the field", f"{field.thin_gap_error:.1e}")
+    _add_formulas(table, result)
+    table.add_row("time", f"{result.film_seconds + result.field_seconds:.2g}", "s")
+    return table
+
+
+def _add_formulas(table: Table, result: Result) -> None:
+    """Film formulas, each with its difference from the solved film of the same name."""
+    table.add_section()
+    table.add_row("film formulas", "", "difference from the solved film; up to 30 % is usual")
+    for name, formula in FORMULAS.items():
+        for key, value in vars(formula(result.conditions.formulas)).items():
+            if value is not None:
+                solved = getattr(result.film, key)
+                film = key.removesuffix("_thickness")
+                table.add_row(
+                    f"  {_FORMULA_NAMES[name]}, {film}",
+                    f"{value * 1e6:.4g}",
+                    f"µm, {100 * (value / solved - 1):+.0f} %",
+                )

@@ -1,0 +1,147 @@
+"""The solution of one case: film, field, how they were obtained, and their summary."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ehlectric.case import Case
+from ehlectric.conditions import Conditions
+from ehlectric.field import Field
+from ehlectric.film import Film
+from ehlectric.film_formulas import FORMULAS
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+SCHEMA = "ehlectric.summary/1"
+
+
+@dataclass(frozen=True)
+class Result:
+    """Film and field of one case.
+
+    Attributes
+    ----------
+    case, conditions : Case, Conditions
+        What was solved, and what it means.
+    film, field : Film, Field
+        The solution, SI units.
+    warnings : tuple of str
+        What a user should know before using it.
+    film_seconds, field_seconds : float
+        Time it took [s].
+    version, date : str
+        Of the program that made it, and when (ISO 8601).
+    """
+
+    case: Case
+    conditions: Conditions
+    film: Film
+    field: Field
+    warnings: tuple[str, ...]
+    film_seconds: float
+    field_seconds: float
+    version: str
+    date: str
+
+    @property
+    def converged(self) -> bool:
+        """Whether the film is a solution; without it nothing here is one."""
+        return self.film.converged
+
+    def summary(self) -> dict[str, Any]:
+        """Key figures in SI units, nested as summary.json.
+
+        Returns
+        -------
+        dict
+            Values are numbers, texts, lists, or None where a value has no meaning; never NaN.
+        """
+        film, conditions = self.film, self.conditions
+        summary = {
+            "schema": SCHEMA,
+            "version": self.version,
+            "title": self.case.title,
+            "converged": self.converged,
+            "status": film.status,
+            "warnings": list(self.warnings),
+            "inputs": resolved_inputs(self.case, conditions),
+            "groups": {
+                "moes_m": conditions.formulas.moes_m,
+                "moes_l": conditions.formulas.moes_l,
+            },
+            "hertz": {
+                "half_width": conditions.half_width,
+                "max_pressure": conditions.max_pressure,
+            },
+            "film": {
+                "minimum_thickness": film.minimum_thickness,
+                "minimum_position": film.minimum_position,
+                "central_thickness": film.central_thickness,
+                "mean_thickness": film.mean_thickness,
+                "max_pressure": film.max_pressure,
+                "load_residual": film.load_residual,
+                "residual": film.residual,
+                "newton_iterations": film.newton_iterations,
+                "discretisation_error": film.discretisation_error,
+            },
+            "field": self._field_summary(),
+            "film_formulas": {
+                name: vars(formula(conditions.formulas)) for name, formula in FORMULAS.items()
+            },
+            "seconds": {"film": self.film_seconds, "field": self.field_seconds},
+        }
+        return {key: _plain(value) for key, value in summary.items()}
+
+    def _field_summary(self) -> dict[str, float | None]:
+        field, scale = self.field, self.film.minimum_thickness / self.field.voltage
+        central = None
+        if field.x[0] <= 0.0 <= field.x[-1]:
+            central = float(np.interp(0.0, field.x, field.middle_strength)) * scale
+        return {
+            "voltage": field.voltage,
+            "max_strength": field.max_strength,
+            "max_strength_position": field.max_strength_position,
+            "max_dimensionless": field.max_strength * scale,
+            "central_dimensionless": central,
+            "high_field_width": field.high_field_width,
+            "capacitance_per_length": field.capacitance,
+            "thin_gap_error": field.thin_gap_error,
+        }
+
+    def to_xarray(self) -> xr.Dataset:
+        """All arrays with their units, and the case, summary and solver history as attributes."""
+        from ehlectric.dataset import to_dataset
+
+        return to_dataset(self)
+
+
+def resolved_inputs(case: Case, conditions: Conditions) -> dict[str, Any]:
+    """The case as nested tables, its alternatives resolved."""
+    inputs = case.to_dict()
+    inputs["contact"] = {
+        "geometry": case.contact.geometry,
+        "reduced_radius": conditions.reduced_radius,
+        "reduced_modulus": conditions.reduced_modulus,
+        "load_per_length": conditions.load_per_length,
+        "entrainment_speed": conditions.entrainment_speed,
+        "slide_to_roll_ratio": conditions.slide_to_roll_ratio,
+    }
+    return inputs
+
+
+def _plain(value: Any) -> Any:
+    """JSON value: no NumPy scalars, and None for what is not finite."""
+    if isinstance(value, dict):
+        return {key: _plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    if isinstance(value, np.generic):
+        value = value.item()
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    return value

@@ -1,0 +1,208 @@
+"""solve(case): the only place where film and field meet."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from datetime import UTC, datetime
+from functools import partial
+
+import numpy as np
+from scipy.interpolate import PchipInterpolator
+
+from ehlectric.version import __version__
+from ehlectric.case import Case, Lubricant
+from ehlectric.conditions import Conditions, remarks, resolve
+from ehlectric.errors import ConvergenceError
+from ehlectric.field import Field, FieldProblem, solve_field
+from ehlectric.film import Film, FilmProblem, Scales, solve_film
+from ehlectric.film_formulas import moes
+from ehlectric.lubricant import DENSITY_LAWS, PERMITTIVITY_LAWS, VISCOSITY_LAWS, Law
+from ehlectric.newton import Progress
+from ehlectric.result import Result
+from ehlectric.reynolds import Fluid, FluidLaw
+from ehlectric.typing import Array
+
+# A film node this near to an end of the field range, in grid spacings, is that end.
+_SAME_NODE = 1e-6
+
+
+def solve(
+    case: Case, *, progress: Progress | None = None, require_convergence: bool = False
+) -> Result:
+    """Film and electric field of a case.
+
+    Parameters
+    ----------
+    case : Case
+        What to solve.
+    progress : callable, optional
+        Called with (nodes, Newton step, residual) before every Newton step of the film.
+    require_convergence : bool
+        Raise where the film was not solved, instead of giving back its status.
+
+    Returns
+    -------
+    Result
+        With ``converged`` false where the film was not solved; its field is then that of the last film.
+
+    Raises
+    ------
+    InputError
+        Where the values of the case contradict each other.
+    ConvergenceError
+        Where the film was not solved and ``require_convergence`` is set.
+
+    Examples
+    --------
+    >>> from ehlectric import Case
+    >>> contact = {"reduced_radius": "14.1 mm", "reduced_modulus": "226 GPa"}
+    >>> contact |= {"max_hertz_pressure": "1 GPa", "entrainment_speed": "4 m/s"}
+    >>> case = Case.from_dict({"contact": contact, "lubricant": {"base": "paper"}})
+    >>> round(solve(case).film.minimum_thickness * 1e6, 2)
+    0.74
+    """
+    conditions = resolve(case)
+    permittivity = _permittivity(case.lubricant)
+    # A permittivity law that fails does so at the Hertz pressure already: before the film is solved.
+    density = _bound(DENSITY_LAWS[case.lubricant.density_law], case.lubricant)
+    permittivity(density(np.array([conditions.max_pressure]))[0])
+
+    started = time.perf_counter()
+    film = solve_film(_film_problem(case, conditions), progress=progress)
+    film_done = time.perf_counter()
+    if require_convergence and not film.converged:
+        raise ConvergenceError(f"film {film.status} at the residual {film.residual:.1e}")
+    field = solve_field(_field_problem(case, conditions, film, permittivity))
+    field_done = time.perf_counter()
+    return Result(
+        case=case,
+        conditions=conditions,
+        film=film,
+        field=field,
+        warnings=(*remarks(case, conditions), *_findings(film, field)),
+        film_seconds=film_done - started,
+        field_seconds=field_done - film_done,
+        version=__version__,
+        date=datetime.now(UTC).isoformat(timespec="seconds"),
+    )
+
+
+def _bound(law: Law, lubricant: Lubricant) -> Callable[[Array], tuple[Array, Array]]:
+    """The law with its parameters from the case."""
+    return partial(law.function, **{name: getattr(lubricant, name) for name in law.parameters})
+
+
+def _permittivity(lubricant: Lubricant) -> Callable[[Array], Array]:
+    law = PERMITTIVITY_LAWS[lubricant.permittivity_law]
+    return partial(law.function, **{name: getattr(lubricant, name) for name in law.parameters})
+
+
+def _dimensionless(law: Callable[[Array], tuple[Array, Array]], scale: float) -> FluidLaw:
+    """A law of the pressure in Pa as one of P = p/scale."""
+
+    def of_dimensionless(pressure: Array) -> tuple[Array, Array]:
+        value, slope = law(scale * pressure)
+        return value, scale * slope
+
+    return of_dimensionless
+
+
+def _film_problem(case: Case, conditions: Conditions) -> FilmProblem:
+    lubricant, grid = case.lubricant, case.grid
+    p_h = conditions.max_pressure
+    viscosity = _bound(VISCOSITY_LAWS[lubricant.viscosity_law], lubricant)
+    density = _bound(DENSITY_LAWS[lubricant.density_law], lubricant)
+    guess = moes(conditions.formulas).central_thickness
+    assert guess is not None
+    return FilmProblem(
+        fluid=Fluid(
+            density=_dimensionless(density, p_h),
+            log_viscosity=_dimensionless(viscosity, p_h),
+            velocity_parameter=conditions.velocity_parameter,
+            ambient_pressure=lubricant.ambient_pressure / p_h,
+        ),
+        nodes=grid.nodes,
+        inlet=grid.inlet,
+        outlet=grid.outlet,
+        thickness_guess=guess / conditions.thickness_scale,
+        second_order=grid.wedge == "second-order",
+        tolerance=case.solver.tolerance,
+        max_iterations=case.solver.max_iterations,
+        scales=Scales(conditions.half_width, p_h, conditions.thickness_scale),
+    )
+
+
+def _field_problem(
+    case: Case, conditions: Conditions, film: Film, permittivity: Callable[[Array], Array]
+) -> FieldProblem:
+    """The Poisson problem in the solved film; a cavitated gap counts as filled with oil."""
+    x = _field_nodes(case, conditions, film)
+    lower, upper = surfaces(conditions, film)
+    return FieldProblem(
+        x=x,
+        lower=_resampled(film.x, lower, x),
+        upper=_resampled(film.x, upper, x),
+        permittivity=_resampled(film.x, permittivity(film.density), x),
+        potential_1=case.electric.potential_1,
+        potential_2=case.electric.potential_2,
+        degree=case.grid.field_degree,
+    )
+
+
+def _field_nodes(case: Case, conditions: Conditions, film: Film) -> Array:
+    """Columns of the field: the film's own nodes and the two ends of the range, unless a number is
+    given.
+    """
+    start, stop = (conditions.half_width * end for end in case.grid.field_range)
+    if case.grid.field_nodes is not None:
+        return np.linspace(start, stop, case.grid.field_nodes)
+    margin = _SAME_NODE * (film.x[1] - film.x[0])
+    inside = film.x[(film.x > start + margin) & (film.x < stop - margin)]
+    return np.concatenate([[start], inside, [stop]])
+
+
+def _resampled(x: Array, values: Array, at: Array) -> Array:
+    """Monotone cubic interpolation: exact at the nodes, and no film thinner than the solved one."""
+    resampled: Array = PchipInterpolator(x, values)(at)
+    return resampled
+
+
+def surfaces(conditions: Conditions, film: Film) -> tuple[Array, Array]:
+    """Heights of the two surfaces over the film's nodes [m].
+
+    Each body keeps its own part of the curvature and of the deflection; equal bodies, and those of which
+    only the reduced values are known, lie at -h/2 and h/2.
+    """
+    parabola = 0.5 * film.x**2 / conditions.reduced_radius
+    rest = film.thickness - parabola - film.deflection
+    lower = -(
+        conditions.curvature_share * parabola
+        + conditions.compliance_share * film.deflection
+        + 0.5 * rest
+    )
+    return lower, lower + film.thickness
+
+
+def _findings(film: Film, field: Field) -> Iterator[str]:
+    """What the solution shows that a user should know, one text each."""
+    if not film.converged:
+        yield (
+            f"the film is not a solution: {film.status} at the residual {film.residual:.1e}; try more "
+            "grid.nodes, and more solver.max_iterations where it has stalled"
+        )
+    error = film.discretisation_error
+    if error is None:
+        yield "no estimate of the discretisation error: the grid is too coarse for this film"
+    elif error > 0.02:
+        yield f"the film may be {100 * error:.0f} % off on this grid; take more grid.nodes"
+    if film.inlet_deficit > 0.01:
+        yield (
+            f"the inlet is too short: {100 * film.inlet_deficit:.1f} % of the pressure is built up "
+            "before it, and the film is that much too thin or a little less; lower grid.inlet"
+        )
+    if not film.cavitates:
+        yield "the film does not cavitate before the domain ends; raise grid.outlet"
+    if field.max_strength_position in (field.x[0], field.x[-1]):
+        yield "the largest field is at an end of grid.field_range; widen it"
+

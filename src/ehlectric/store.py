@@ -1,0 +1,126 @@
+"""Results on disk: NetCDF, JSON and CSV, each file whole or not there."""
+
+from __future__ import annotations
+
+import json
+import os
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+
+from ehlectric.dataset import from_dataset, to_dataset
+from ehlectric.errors import InputError
+from ehlectric.result import Result
+
+NETCDF = "result.nc"
+SUMMARY = "summary.json"
+FILM = "film.csv"
+
+
+def prepare(folder: str | Path) -> Path:
+    """Make a folder for results, before anything is solved.
+
+    Raises
+    ------
+    InputError
+        Where it cannot be made or written to.
+    """
+    folder = Path(folder)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            pass
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        raise InputError(f"{folder}: cannot be written to, {reason}") from None
+    return folder
+
+
+@contextmanager
+def whole(path: Path) -> Iterator[Path]:
+    """A path beside ``path`` to write to; it becomes ``path`` when all went well, else it goes."""
+    handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.stem}-", suffix=path.suffix)
+    os.close(handle)
+    beside = Path(name)
+    try:
+        yield beside
+        # mkstemp makes files for the owner alone; results are as readable as any other file.
+        umask = os.umask(0)
+        os.umask(umask)
+        beside.chmod(0o666 & ~umask)
+        beside.replace(path)
+    finally:
+        beside.unlink(missing_ok=True)
+
+
+def save(result: Result, folder: str | Path) -> list[Path]:
+    """Write summary.json, result.nc and film.csv.
+
+    Parameters
+    ----------
+    result : Result
+        What ``solve`` gave.
+    folder : str or Path
+        Where to; made if it is not there.
+
+    Returns
+    -------
+    list of Path
+        The files written.
+
+    Raises
+    ------
+    InputError
+        Where the folder cannot be written to.
+    """
+    folder = prepare(folder)
+    files = [folder / SUMMARY, folder / NETCDF, folder / FILM]
+    with whole(files[0]) as path:
+        text = json.dumps(result.summary(), indent=2, allow_nan=False)
+        path.write_text(text + "\n", encoding="utf-8")
+    with whole(files[1]) as path:
+        to_dataset(result).to_netcdf(path, engine="h5netcdf")
+    with whole(files[2]) as path:
+        film = result.film
+        columns = np.column_stack([film.x, film.pressure, film.thickness, film.density])
+        header = "x [m],pressure [Pa],thickness [m],density ratio [-]"
+        np.savetxt(path, columns, delimiter=",", header=header, comments="", fmt="%.12g")
+    return files
+
+
+def load(path: str | Path) -> Result:
+    """Read a result back from its NetCDF file.
+
+    Parameters
+    ----------
+    path : str or Path
+        A result.nc.
+
+    Returns
+    -------
+    Result
+        As it was saved.
+
+    Raises
+    ------
+    InputError
+        Where the file cannot be read or is not a result.
+    """
+    import xarray as xr
+
+    path = Path(path)
+    try:
+        path.open("rb").close()
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        raise InputError(f"{path}: cannot be read, {reason}") from None
+    try:
+        with xr.open_dataset(path, engine="h5netcdf") as dataset:
+            return from_dataset(dataset.load())
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from None
+    except (OSError, ValueError):
+        raise InputError(f"{path}: is not a NetCDF file") from None

@@ -1,0 +1,78 @@
+"""Validation errors as one line for the user: which key, what it got, what it takes."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable, Iterator
+from types import UnionType
+from typing import Any, Union, get_args, get_origin
+
+from pydantic import BaseModel, ValidationError
+from pydantic_core import ErrorDetails
+
+
+def nearest(name: str, known: Iterable[str]) -> str:
+    """The known name that is most like ``name``."""
+    return difflib.get_close_matches(name, list(known), n=1, cutoff=0.0)[0]
+
+
+def first_message(error: ValidationError, model: type[BaseModel]) -> str:
+    """The first thing to mend: an unknown key before a missing one, which it often is."""
+    details = sorted(error.errors(), key=lambda e: e["type"] != "extra_forbidden")
+    message = _message(details[0], model)
+    more = len(details) - 1
+    return message + (f" (and {more} more)" if more else "")
+
+
+def _message(detail: ErrorDetails, model: type[BaseModel]) -> str:
+    key = ".".join(str(part) for part in detail["loc"])
+    given = detail["input"]
+    match detail["type"]:
+        case "extra_forbidden":
+            return f"{key}: unknown key; the nearest known one is {_nearest_key(key, model)}"
+        case "missing":
+            return f"{key}: missing, takes a {_kind(key, model)}"
+        case "value_error":
+            # Messages of a quantity begin with "got", those of a table with the key they are about.
+            text = str(detail["ctx"]["error"])
+            return f"{key}: {text}" if text.startswith("got") else ".".join(filter(None, [key, text]))
+        case "literal_error":
+            return f"{key}: got {given!r}, takes {detail['ctx']['expected']}"
+        case "model_type" | "model_attributes_type" | "dict_type":
+            return f"{key}: got {given!r}, takes a table"
+        case "string_type":
+            return f"{key}: got {given!r}, takes a text"
+        case "tuple_type" | "too_long" | "too_short":
+            return f"{key}: got {given!r}, takes a list of two numbers"
+    return f"{key}: got {given!r}, {detail['msg']}"
+
+
+def _nearest_key(key: str, model: type[BaseModel]) -> str:
+    """The known key nearest to an unknown one: in its own table, or of the same name elsewhere."""
+    table, _, leaf = key.rpartition(".")
+    known = list(_keys(model))
+    elsewhere = [name for name in known if name.rpartition(".")[2] == leaf]
+    if elsewhere:
+        return elsewhere[0]
+    return nearest(key, [name for name in known if name.rpartition(".")[0] == table] or known)
+
+
+def _keys(model: type[BaseModel], prefix: str = "") -> Iterator[str]:
+    for name, field in model.model_fields.items():
+        yield prefix + name
+        inner = _table_of(field.annotation)
+        if inner is not None:
+            yield from _keys(inner, f"{prefix}{name}.")
+
+
+def _kind(key: str, model: type[BaseModel]) -> str:
+    """Whether a key is a table or a value."""
+    return "table" if any(name.startswith(key + ".") for name in _keys(model)) else "value"
+
+
+def _table_of(annotation: Any) -> type[BaseModel] | None:
+    candidates = get_args(annotation) if get_origin(annotation) in (Union, UnionType) else [annotation]
+    for candidate in candidates:
+        if isinstance(candidate, type) and issubclass(candidate, BaseModel):
+            return candidate
+    return None
