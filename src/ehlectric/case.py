@@ -26,15 +26,9 @@ class _Table(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
 
 
-_Radius = Annotated[
-    float, Quantity("m", above=0.0, most=1e3, reason="larger bodies are planes to a film")
-]
-_SignedRadius = Annotated[
-    float, Quantity("m", least=-1e3, most=1e3, reason="negative for a concave body")
-]
-_Modulus = Annotated[
-    float, Quantity("Pa", least=1e5, most=2e12, reason="from soft rubber to diamond")
-]
+_Radius = Annotated[float, Quantity("m", above=0.0, most=1e3, reason="larger bodies are planes to a film")]
+_SignedRadius = Annotated[float, Quantity("m", least=-1e3, most=1e3, reason="negative for a concave body")]
+_Modulus = Annotated[float, Quantity("Pa", least=1e5, most=2e12, reason="from soft rubber to diamond")]
 _Speed = Annotated[float, Quantity("m/s", least=-1e4, most=1e4, reason="surface speeds of machines")]
 
 
@@ -67,16 +61,10 @@ class Contact(_Table):
     body_1: Body | None = None
     body_2: Body | None = None
     load_per_length: (
-        Annotated[
-            float, Quantity("N/m", above=0.0, most=1e9, reason="a contact carries some load")
-        ]
-        | None
+        Annotated[float, Quantity("N/m", above=0.0, most=1e9, reason="a contact carries some load")] | None
     ) = None
     max_hertz_pressure: (
-        Annotated[
-            float, Quantity("Pa", above=0.0, most=2e10, reason="twice what any solid carries")
-        ]
-        | None
+        Annotated[float, Quantity("Pa", above=0.0, most=2e10, reason="twice what any solid carries")] | None
     ) = None
     entrainment_speed: (
         Annotated[
@@ -86,10 +74,7 @@ class Contact(_Table):
         | None
     ) = None
     slide_to_roll_ratio: (
-        Annotated[
-            float, Quantity("", least=-1e3, most=1e3, reason="(u1 - u2)/entrainment_speed")
-        ]
-        | None
+        Annotated[float, Quantity("", least=-1e3, most=1e3, reason="(u1 - u2)/entrainment_speed")] | None
     ) = None
     speed_1: _Speed | None = None
     speed_2: _Speed | None = None
@@ -132,9 +117,7 @@ def _law(laws: Mapping[str, object]) -> AfterValidator:
     def known(name: str) -> str:
         if name not in laws:
             known_names = ", ".join(repr(law) for law in laws)
-            raise ValueError(
-                f"got {name!r}, takes one of {known_names}; nearest is {nearest(name, laws)!r}"
-            )
+            raise ValueError(f"got {name!r}, takes one of {known_names}; nearest is {nearest(name, laws)!r}")
         return name
 
     return AfterValidator(known)
@@ -144,23 +127,16 @@ class Lubricant(_Table):
     """Properties of the lubricant and the laws they enter."""
 
     base: str | None = None
-    viscosity: Annotated[
-        float, Quantity("Pa*s", above=0.0, most=1e6, reason="at ambient pressure")
-    ]
+    viscosity: Annotated[float, Quantity("Pa*s", above=0.0, most=1e6, reason="at ambient pressure")]
     viscosity_law: Annotated[str, _law(VISCOSITY_LAWS)]
     pressure_viscosity_coefficient: (
-        Annotated[
-            float, Quantity("1/Pa", above=0.0, most=2e-7, reason="an oil has 5 to 40 1/GPa")
-        ]
-        | None
+        Annotated[float, Quantity("1/Pa", above=0.0, most=2e-7, reason="an oil has 5 to 40 1/GPa")] | None
     ) = None
-    roelands_z: (
-        Annotated[float, Quantity("", above=0.0, most=2.0, reason="an oil has 0.3 to 1")] | None
-    ) = None
+    roelands_z: Annotated[float, Quantity("", above=0.0, most=2.0, reason="an oil has 0.3 to 1")] | None = (
+        None
+    )
     roelands_pressure: (
-        Annotated[
-            float, Quantity("Pa", least=1e7, most=1e10, reason="Roelands' constant is 0.196 GPa")
-        ]
+        Annotated[float, Quantity("Pa", least=1e7, most=1e10, reason="Roelands' constant is 0.196 GPa")]
         | None
     ) = None
     density_law: Annotated[str, _law(DENSITY_LAWS)]
@@ -169,7 +145,8 @@ class Lubricant(_Table):
     ) = None
     density_c2: (
         Annotated[
-            float, Quantity("", least=1.0, most=3.0, reason="the density ratio at unlimited pressure")
+            float,
+            Quantity("", least=1.0, most=3.0, reason="the density ratio at unlimited pressure"),
         ]
         | None
     ) = None
@@ -177,9 +154,7 @@ class Lubricant(_Table):
     relative_permittivity: Annotated[
         float, Quantity("", least=1.0, most=1e3, reason="vacuum has 1, oils 2 to 5, water 80")
     ]
-    ambient_pressure: Annotated[
-        float, Quantity("Pa", least=0.0, most=1e8, reason="around the contact")
-    ] = 1e5
+    ambient_pressure: Annotated[float, Quantity("Pa", least=0.0, most=1e8, reason="around the contact")] = 1e5
 
     @model_validator(mode="before")
     @classmethod
@@ -205,12 +180,8 @@ class Lubricant(_Table):
 class Electric(_Table):
     """Potentials of the two surfaces; surface 1 is the lower one."""
 
-    potential_1: Annotated[
-        float, Quantity("V", least=-1e7, most=1e7, reason="of the lower surface")
-    ] = -1.0
-    potential_2: Annotated[
-        float, Quantity("V", least=-1e7, most=1e7, reason="of the upper surface")
-    ] = 1.0
+    potential_1: Annotated[float, Quantity("V", least=-1e7, most=1e7, reason="of the lower surface")] = -1.0
+    potential_2: Annotated[float, Quantity("V", least=-1e7, most=1e7, reason="of the upper surface")] = 1.0
 
     @model_validator(mode="after")
     def _check(self) -> Self:
@@ -232,12 +203,8 @@ class Grid(_Table):
         int,
         Count(65, 1_000_001, "fewer do not resolve the Hertz zone, more take over 10 GB of memory"),
     ] = 3201
-    inlet: Annotated[
-        float, Quantity("", least=-100.0, below=-1.0, reason="ahead of the Hertz zone")
-    ] = -4.0
-    outlet: Annotated[
-        float, Quantity("", above=1.0, most=100.0, reason="behind the Hertz zone")
-    ] = 2.0
+    inlet: Annotated[float, Quantity("", least=-100.0, below=-1.0, reason="ahead of the Hertz zone")] = -4.0
+    outlet: Annotated[float, Quantity("", above=1.0, most=100.0, reason="behind the Hertz zone")] = 2.0
     wedge: Literal["second-order", "first-order"] = "second-order"
     field_range: tuple[_FieldEnd, _FieldEnd] = (-1.25, 1.25)
     field_nodes: (
@@ -247,9 +214,7 @@ class Grid(_Table):
         ]
         | None
     ) = None
-    field_degree: Annotated[
-        int, Count(2, 20, "the potential is nearly linear across the film")
-    ] = 6
+    field_degree: Annotated[int, Count(2, 20, "the potential is nearly linear across the film")] = 6
 
     @model_validator(mode="after")
     def _check(self) -> Self:
@@ -410,5 +375,3 @@ def _displace(table: dict[str, Any], changes: Mapping[str, Any]) -> None:
                     if other is not row:
                         for name in set(other) - names:
                             table["contact"].pop(name, None)
-
-

@@ -8,15 +8,12 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from importlib import resources
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
 from ehlectric.errors import InputError
 from ehlectric.version import __version__
-
-if TYPE_CHECKING:
-    from ehlectric.result import Result
 
 NOT_CONVERGED = 3
 WRONG_INPUT = 2

@@ -1,25 +1,19 @@
-"""A result as an xarray dataset and back: names, units and what goes where in the NetCDF file."""
+"""Film and field as variables of a dataset and back: names, dimensions, long names and units."""
 
 from __future__ import annotations
 
 import json
-import tomllib
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ehlectric.case import Case
-from ehlectric.conditions import resolve
-from ehlectric.errors import InputError
 from ehlectric.field import Field
 from ehlectric.film import Film, Scales
 from ehlectric.newton import NewtonStep
-from ehlectric.typing import Array
 
 if TYPE_CHECKING:
     import xarray as xr
-
-    from ehlectric.result import Result
 
 # Name in the file: (attribute of the film or field, dimensions, long name, unit).
 _FILM = {
@@ -69,6 +63,7 @@ _HISTORY = {
     "step_krylov_iterations": ("krylov_iterations", "GMRES iterations of a Newton step"),
 }
 _FILM_NUMBERS = (
+    "status",
     "residual",
     "load_residual",
     "newton_iterations",
@@ -78,94 +73,46 @@ _FILM_NUMBERS = (
 _FIELD_NUMBERS = ("voltage", "capacitance", "capacitance_by_charge", "thin_gap_capacitance")
 
 
-def to_dataset(result: Result) -> xr.Dataset:
-    """All arrays of a result with long names and units; the rest as attributes.
-
-    Attributes that are no plain text or number are TOML (``case``) or JSON (``summary``, ``film``,
-    ``field``).
-    """
-    import xarray as xr
-
-    variables: dict[str, Any] = {}
-    for part, table in ((result.film, _FILM), (result.field, _FIELD)):
+def variables(film: Film, field: Field) -> dict[str, Any]:
+    """All arrays, as xarray takes them: dimensions, values, and long name and unit."""
+    named: dict[str, Any] = {}
+    for part, table in ((film, _FILM), (field, _FIELD)):
         for name, (attribute, dimensions, long_name, unit) in table.items():
             values = np.asarray(getattr(part, attribute))
             values = values.astype(np.int8) if values.dtype == bool else values
-            variables[name] = (dimensions, values, {"long_name": long_name, "units": unit})
+            named[name] = (dimensions, values, {"long_name": long_name, "units": unit})
     for name, (attribute, long_name) in _HISTORY.items():
-        values = np.array([getattr(step, attribute) for step in result.film.steps])
-        variables[name] = ("step", values, {"long_name": long_name, "units": "1"})
-    summary = result.summary()
-    film = {"status": result.film.status} | _numbers(result.film, _FILM_NUMBERS)
-    return xr.Dataset(
-        variables,
-        attrs={
-            "Conventions": "CF-1.11",
-            "title": result.case.title or "Film and electric field of a line contact",
-            "source": f"ehlectric {result.version}",
-            "history": f"{result.date} solved by ehlectric {result.version}",
-            "version": result.version,
-            "date": result.date,
-            "converged": int(result.converged),
-            "case": result.case.to_toml(),
-            "summary": json.dumps(summary),
-            "film": json.dumps(film),
-            "field": json.dumps(_numbers(result.field, _FIELD_NUMBERS)),
-            "warnings": json.dumps(result.warnings),
-            "seconds": json.dumps([result.film_seconds, result.field_seconds]),
-        },
-    ).set_coords(["x", "x_field", "s", "y"])
+        values = np.array([getattr(step, attribute) for step in film.steps])
+        named[name] = ("step", values, {"long_name": long_name, "units": "1"})
+    return named
 
 
-def _numbers(part: Film | Field, names: tuple[str, ...]) -> dict[str, Any]:
-    return {name: getattr(part, name) for name in names}
+COORDINATES = ("x", "x_field", "s", "y")
 
 
-def from_dataset(dataset: xr.Dataset) -> Result:
-    """The result a dataset was made of.
-
-    Raises
-    ------
-    InputError
-        Where the dataset is not one of these.
-    """
-    from ehlectric.result import Result
-
-    try:
-        case = Case.from_dict(tomllib.loads(dataset.attrs["case"]))
-        conditions = resolve(case)
-        film = Film(
-            **_arrays(dataset, _FILM),
-            **json.loads(dataset.attrs["film"]),
-            scales=Scales(
-                conditions.half_width, conditions.max_pressure, conditions.thickness_scale
-            ),
-            steps=tuple(
-                NewtonStep(int(nodes), float(residual), int(krylov))
-                for nodes, residual, krylov in zip(
-                    *(dataset[name].values for name in _HISTORY), strict=True
-                )
-            ),
-        )
-        field = Field(**_arrays(dataset, _FIELD), **json.loads(dataset.attrs["field"]))
-        film_seconds, field_seconds = json.loads(dataset.attrs["seconds"])
-        return Result(
-            case=case,
-            conditions=conditions,
-            film=film,
-            field=field,
-            warnings=tuple(json.loads(dataset.attrs["warnings"])),
-            film_seconds=film_seconds,
-            field_seconds=field_seconds,
-            version=str(dataset.attrs["version"]),
-            date=str(dataset.attrs["date"]),
-        )
-    except (KeyError, TypeError, ValueError) as error:
-        raise InputError(f"it is not a result of ehlectric, {error}") from None
+def attributes(film: Film, field: Field) -> dict[str, str]:
+    """What is no array, as JSON."""
+    return {
+        "film": json.dumps({name: getattr(film, name) for name in _FILM_NUMBERS}),
+        "field": json.dumps({name: getattr(field, name) for name in _FIELD_NUMBERS}),
+    }
 
 
-def _arrays(dataset: xr.Dataset, table: dict[str, Any]) -> dict[str, Array]:
-    arrays = {entry[0]: dataset[name].values for name, entry in table.items()}
-    if "cavitated" in arrays:
-        arrays["cavitated"] = arrays["cavitated"].astype(bool)
-    return arrays
+def film_of(dataset: xr.Dataset, scales: Scales) -> Film:
+    """The film a dataset was made of."""
+    arrays: dict[str, Any] = dict(_arrays(dataset, _FILM))
+    arrays["cavitated"] = arrays["cavitated"].astype(bool)
+    history = zip(*(dataset[name].values for name in _HISTORY), strict=True)
+    steps = tuple(NewtonStep(int(n), float(residual), int(krylov)) for n, residual, krylov in history)
+    return Film(**arrays, **json.loads(dataset.attrs["film"]), scales=scales, steps=steps)
+
+
+def field_of(dataset: xr.Dataset) -> Field:
+    """The field a dataset was made of."""
+    arrays: dict[str, Any] = dict(_arrays(dataset, _FIELD))
+    return Field(**arrays, **json.loads(dataset.attrs["field"]))
+
+
+def _arrays(dataset: xr.Dataset, table: dict[str, Any]) -> Iterator[tuple[str, Any]]:
+    for name, (attribute, *_) in table.items():
+        yield attribute, dataset[name].values

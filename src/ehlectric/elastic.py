@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import fft
 
-from ehlectric.typing import Array
+from ehlectric.typing import Array, ComplexArray
 
 
 def line_influence(nodes: int, dx: float) -> Array:
@@ -43,10 +43,11 @@ def line_influence(nodes: int, dx: float) -> Array:
     """
     distance = (np.arange(nodes + 1) - 0.5) * dx
     antiderivative = distance * (np.log(np.abs(distance)) - 1.0)
-    return (-np.diff(antiderivative) / np.pi)[:, np.newaxis]
+    influence: Array = (-np.diff(antiderivative) / np.pi)[:, np.newaxis]
+    return influence
 
 
-def rigid_influence(nodes: int, dx: float) -> Array:
+def rigid_influence(nodes: int, _dx: float) -> Array:
     """Influence coefficients of bodies that do not deflect: zeros, shape (nodes, 1)."""
     return np.zeros((nodes, 1))
 
@@ -68,7 +69,7 @@ class Deflection:
     """
 
     influence: Array
-    spectrum: Array
+    spectrum: ComplexArray
     padded: tuple[int, int]
 
     @classmethod

@@ -64,7 +64,7 @@ class _Window:
         return values[self.strip, self.column : self.column + 1]
 
     def residual(self, coefficients: Coefficients, pressure: Array, thickness: Array) -> Array:
-        """r at the nodes of the window."""
+        """R at the nodes of the window."""
         r = residual(coefficients, self.wedge, pressure, thickness, self.dx)
         return r[self.inner, 0]
 
@@ -108,7 +108,7 @@ def relax_spike(
     if not magnitude[node, column] > THRESHOLD:
         return None
     window = _Window.around(level, int(node), int(column))
-    unknown = np.flatnonzero(window.cut(free)[window.inner, 0])
+    unknown = np.flatnonzero(free[window.strip, window.column][window.inner])
     # The rows keep the scale they had, so that the two measures of the residual are the same one.
     p, h = window.cut(pressure).copy(), window.cut(thickness).copy()
     first: float | None = None
@@ -135,9 +135,7 @@ def relax_spike(
     return None
 
 
-def step_length(
-    thickness: Array, dp: Array, dh: Array, *, pressure_step: float, gap_step: float
-) -> float:
+def step_length(thickness: Array, dp: Array, dh: Array, *, pressure_step: float, gap_step: float) -> float:
     """Largest step in (0, 1] that changes no pressure by more than ``pressure_step`` and leaves every
     gap at least ``gap_step`` of itself.
     """

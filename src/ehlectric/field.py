@@ -226,9 +226,9 @@ class _Quadrature:
         across = _Across.of_degree(problem.degree)
         dx = np.diff(problem.x)
         gap = problem.upper - problem.lower
-        slope = (
-            np.diff(problem.lower)[:, np.newaxis] + np.diff(gap)[:, np.newaxis] * across.nodes
-        ) / dx[:, np.newaxis]
+        slope = (np.diff(problem.lower)[:, np.newaxis] + np.diff(gap)[:, np.newaxis] * across.nodes) / dx[
+            :, np.newaxis
+        ]
         shapes = np.stack([1.0 - _GAUSS, _GAUSS])
         nodal = _nodal(problem.permittivity, across.nodes.size)
         return cls(
@@ -255,9 +255,7 @@ class _Quadrature:
         eps_a = half * np.einsum("egq,g->eq", self.permittivity, shapes[a])
         eps_b = half * np.einsum("egq,g->eq", self.permittivity, shapes[b])
         eps_h = half * np.einsum("egq,eg->eq", self.permittivity, self.gap)
-        eps_ab = half * np.einsum(
-            "egq,eg->eq", self.permittivity, shapes[a] * shapes[b] / self.gap
-        )
+        eps_ab = half * np.einsum("egq,eg->eq", self.permittivity, shapes[a] * shapes[b] / self.gap)
         per_dx = 1.0 / self.dx[:, np.newaxis]
         coefficients = np.concatenate(
             [
@@ -269,9 +267,7 @@ class _Quadrature:
             axis=1,
         )
         ns = across.nodes.size
-        reference = np.concatenate(
-            [across.slope, across.mixed, np.swapaxes(across.mixed, 1, 2), across.mass]
-        )
+        reference = np.concatenate([across.slope, across.mixed, np.swapaxes(across.mixed, 1, 2), across.mass])
         matrix: Array = (coefficients @ reference.reshape(4 * ns, ns * ns)).reshape(-1, ns, ns)
         return matrix
 

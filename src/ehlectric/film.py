@@ -26,11 +26,15 @@ FIRST_GRID = 201
 
 @dataclass(frozen=True)
 class Scales:
-    """What makes the film dimensionless: x = X length, p = P pressure, h = H thickness, all SI."""
+    """What makes the film dimensionless: x = X length, p = P pressure, h = H thickness, all SI.
+
+    ``ambient_pressure`` is that of the fluid in Pa, where P times ``pressure`` would miss it by rounding.
+    """
 
     length: float = 1.0
     pressure: float = 1.0
     thickness: float = 1.0
+    ambient_pressure: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -55,7 +59,7 @@ class FilmProblem:
     max_iterations : int
         Newton steps allowed on each grid.
     scales : Scales
-        Length b [m], pressure p_h [Pa] and thickness b^2/R [m] of the result.
+        Length b [m], pressure p_h [Pa] and thickness b^2/R [m] of the result, and its ambient pressure [Pa].
     influence : callable
         Influence coefficients of the deflection, (nodes, dX) -> (nodes, 1).
     """
@@ -215,7 +219,12 @@ def _nested_iteration(problem: FilmProblem, progress: Progress | None) -> list[G
 
 
 def _solve_grid(
-    problem: FilmProblem, levels: list[Level], state: State, progress: Progress | None, *, spike: bool
+    problem: FilmProblem,
+    levels: list[Level],
+    state: State,
+    progress: Progress | None,
+    *,
+    spike: bool,
 ) -> GridSolution:
     finest = levels[0].x.size == problem.nodes
     return newton(
@@ -269,10 +278,10 @@ def _film(problem: FilmProblem, solutions: list[GridSolution]) -> Film:
     finest, scales = solutions[-1], problem.scales
     coarser = next((g for g in reversed(solutions) if g.level.x.size < problem.nodes), None)
     state, final, level = finest.state, finest.final, finest.level
-    pressure = np.maximum(state.pressure, problem.fluid.ambient_pressure)
+    pressure = np.maximum(scales.pressure * state.pressure, scales.ambient_pressure)
     return Film(
         x=scales.length * level.x,
-        pressure=scales.pressure * pressure[:, 0],
+        pressure=np.where(final.free, pressure, scales.ambient_pressure)[:, 0],
         thickness=scales.thickness * state.thickness[:, 0],
         deflection=scales.thickness * level.deflection(state.pressure)[:, 0],
         density=final.coefficients.density[:, 0],
@@ -297,12 +306,11 @@ def _discretisation_error(
         return None
     order = 2 if problem.second_order else 1
     gain = (coarse.level.dx / fine.level.dx) ** order - 1.0
-    f, c = (
-        np.array([np.min(h), np.interp(0.0, g.level.x, h)])
+    on_fine, on_coarse = (
+        np.array([np.min(g.state.thickness), np.interp(0.0, g.level.x, g.state.thickness[:, 0])])
         for g in (fine, coarse)
-        for h in [g.state.thickness[:, 0]]
     )
-    return float(np.max(np.abs(f - c) / (gain * f)))
+    return float(np.max(np.abs(on_fine - on_coarse) / (gain * on_fine)))
 
 
 def _inlet_deficit(fluid: Fluid, solution: GridSolution) -> float:

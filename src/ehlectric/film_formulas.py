@@ -170,12 +170,12 @@ def pan_hamrock(contact: LineContact) -> Thickness:
 
 def _moes_asymptotes(contact: LineContact) -> dict[str, float]:
     """Central H = (h/R) (eta0 u_s/(E' R))^(-1/2) of the four limits, by regime."""
-    m, l = contact.moes_m, contact.moes_l
+    moes_m, moes_l = contact.moes_m, contact.moes_l
     return {
-        "isoviscous-rigid": 3.0 / m,
-        "isoviscous-elastic": 2.621 * m**-0.2,
-        "piezoviscous-rigid": 1.287 * l ** (2.0 / 3.0),
-        "piezoviscous-elastic": 1.311 * m**-0.125 * l**0.75,
+        "isoviscous-rigid": 3.0 / moes_m,
+        "isoviscous-elastic": 2.621 * moes_m**-0.2,
+        "piezoviscous-rigid": 1.287 * moes_l ** (2.0 / 3.0),
+        "piezoviscous-elastic": 1.311 * moes_m**-0.125 * moes_l**0.75,
     }
 
 

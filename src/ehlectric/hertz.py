@@ -208,4 +208,5 @@ def line_gap(x: ArrayLike) -> Array:
     """
     distance = np.maximum(1.0, np.abs(np.asarray(x, dtype=float)))
     root = np.sqrt(distance**2 - 1.0)
-    return 0.5 * (distance * root - np.log(distance + root))
+    gap: Array = 0.5 * (distance * root - np.log(distance + root))
+    return gap

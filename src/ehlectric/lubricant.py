@@ -59,9 +59,7 @@ def roelands(
     15.2
     """
     ratio = 1.0 + np.asarray(pressure, dtype=float) / roelands_pressure
-    exponent = (
-        pressure_viscosity_coefficient * roelands_pressure / roelands_z * (ratio**roelands_z - 1.0)
-    )
+    exponent = pressure_viscosity_coefficient * roelands_pressure / roelands_z * (ratio**roelands_z - 1.0)
     return exponent, pressure_viscosity_coefficient * ratio ** (roelands_z - 1.0)
 
 
@@ -118,9 +116,7 @@ def constant_viscosity(pressure: ArrayLike) -> tuple[Array, Array]:
     return np.zeros_like(p), np.zeros_like(p)
 
 
-def dowson_higginson(
-    pressure: ArrayLike, *, density_c1: float, density_c2: float
-) -> tuple[Array, Array]:
+def dowson_higginson(pressure: ArrayLike, *, density_c1: float, density_c2: float) -> tuple[Array, Array]:
     """Density ratio after Dowson and Higginson, and its derivative.
 
     rho/rho0 = (C1 + C2 p)/(C1 + p)
@@ -250,9 +246,7 @@ class Law:
 
 
 VISCOSITY_LAWS = {
-    "roelands": Law(
-        roelands, ("pressure_viscosity_coefficient", "roelands_z", "roelands_pressure")
-    ),
+    "roelands": Law(roelands, ("pressure_viscosity_coefficient", "roelands_z", "roelands_pressure")),
     "barus": Law(barus, ("pressure_viscosity_coefficient",)),
     "constant": Law(constant_viscosity, ()),
 }

@@ -140,9 +140,7 @@ def newton(
             state, now = _without_spike(fluid, level, state, now)
         dp, dh00, krylov = _direction(fluid, levels, state, now)
         dh = level.deflection(dp) + dh00
-        length = step_length(
-            state.thickness, dp, dh, pressure_step=PRESSURE_STEP, gap_step=GAP_STEP
-        )
+        length = step_length(state.thickness, dp, dh, pressure_step=PRESSURE_STEP, gap_step=GAP_STEP)
         steps.append(NewtonStep(level.x.size, now.norm, krylov))
         candidate = State.of(level, state.pressure + length * dp, state.h00 + length * dh00)
         assessed = _assess(fluid, level, candidate)
@@ -177,9 +175,7 @@ def _assess(fluid: Fluid, level: Level, state: State) -> Residual:
     return replace(unnormed, norm=norm)
 
 
-def _without_spike(
-    fluid: Fluid, level: Level, state: State, now: Residual
-) -> tuple[State, Residual]:
+def _without_spike(fluid: Fluid, level: Level, state: State, now: Residual) -> tuple[State, Residual]:
     """The state with the nodes of the pressure spike solved for, where they stand out."""
     pressure = relax_spike(
         fluid,
@@ -197,9 +193,7 @@ def _without_spike(
     return state, _assess(fluid, level, state)
 
 
-def _direction(
-    fluid: Fluid, levels: list[Level], state: State, now: Residual
-) -> tuple[Array, float, int]:
+def _direction(fluid: Fluid, levels: list[Level], state: State, now: Residual) -> tuple[Array, float, int]:
     """(dP, dH00) of a Newton step, and the GMRES iterations it took.
 
     The nodes that are not free go to the ambient pressure; the rest follows from the linear system,
@@ -239,5 +233,3 @@ def _direction(
     )
     dp, dh00 = precondition(solution)
     return held + dp, dh00, len(norms)
-
-

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Any
 
 import matplotlib as mpl
 import numpy as np
@@ -16,16 +16,13 @@ from ehlectric.result import Result
 from ehlectric.store import whole
 from ehlectric.typing import Array
 
-if TYPE_CHECKING:
-    from matplotlib.collections import QuadMesh
-
 MICRO = 1e6
 GIGA = 1e-9
 
 # Colours that stay apart in print and for colour-blind readers (Okabe and Ito).
 _BLUE, _ORANGE, _GREEN, _GREY = "#0072b2", "#d55e00", "#009e73", "#555555"
 
-_STYLE = {
+_STYLE: dict[str, Any] = {
     "font.size": 9.0,
     "axes.labelsize": 9.0,
     "axes.titlesize": 9.0,
@@ -43,6 +40,12 @@ def _axes(ax: Axes | None) -> Axes:
         FigureCanvasAgg(figure)
         ax = figure.subplots()
     return ax
+
+
+def _figure(ax: Axes) -> Figure:
+    figure = ax.get_figure(root=True)
+    assert figure is not None
+    return figure
 
 
 def _position(result: Result, x: Array) -> Array:
@@ -90,7 +93,7 @@ def pressure_and_film(result: Result, ax: Axes | None = None) -> Axes:
 
 
 def potential(result: Result, ax: Axes | None = None) -> Axes:
-    """Map of the electric potential in the film.
+    """Map of the electric potential in the film, with ten equipotential lines.
 
     Parameters
     ----------
@@ -104,8 +107,13 @@ def potential(result: Result, ax: Axes | None = None) -> Axes:
     Axes
         With a colour bar beside them.
     """
-    field = result.field
-    return _map(result, field.potential, ax, label="potential $V$ [V]", cmap="viridis")
+    field, electric = result.field, result.case.electric
+    low, high = sorted((electric.potential_1, electric.potential_2))
+    ax = _map(result, field.potential, ax, label="potential $V$ [V]", limits=(low, high))
+    lines = np.linspace(low, high, 12)[1:-1]
+    x = np.broadcast_to(_position(result, field.x)[:, np.newaxis], field.y.shape)
+    ax.contour(x, MICRO * field.y, field.potential, lines, colors="white", linewidths=0.4, linestyles="-")
+    return ax
 
 
 def field_strength(result: Result, ax: Axes | None = None) -> Axes:
@@ -129,32 +137,27 @@ def field_strength(result: Result, ax: Axes | None = None) -> Axes:
     """
     field = result.field
     scale = result.film.minimum_thickness / field.voltage
+    values = scale * field.strength
     label = r"field strength $|E|\,h_\mathrm{min}/V_{12}$"
-    ax = _map(result, scale * field.strength, ax, label=label, cmap="inferno", bottom=0.0)
-    strength = rf"$V_{{12}}/h_\mathrm{{min}}$ = {1 / MICRO / scale:.3g} V/µm"
-    ax.text(0.02, 0.95, strength, transform=ax.transAxes, va="top", fontsize=8.0)
+    ax = _map(result, values, ax, label=label, limits=(0.0, max(1.0, float(np.max(values)))))
+    ax.set_title(rf"$V_{{12}}/h_\mathrm{{min}}$ = {1 / MICRO / scale:.3g} V/µm", loc="right")
     return ax
 
 
-def _map(
-    result: Result,
-    values: Array,
-    ax: Axes | None,
-    *,
-    label: str,
-    cmap: str,
-    bottom: float | None = None,
-) -> Axes:
+def _map(result: Result, values: Array, ax: Axes | None, *, label: str, limits: tuple[float, float]) -> Axes:
     ax = _axes(ax)
     field = result.field
     x = np.broadcast_to(_position(result, field.x)[:, np.newaxis], values.shape)
-    mesh: QuadMesh = ax.pcolormesh(
-        x, MICRO * field.y, values, shading="gouraud", cmap=cmap, vmin=bottom, rasterized=True
+    levels = np.linspace(*limits, 401)
+    # Rounding may put a wall beyond its own potential, and so out of the levels.
+    filled = ax.contourf(
+        x, MICRO * field.y, np.clip(values, *limits), levels, cmap="viridis", antialiased=False
     )
     for wall in (0, -1):
         ax.plot(x[:, 0], MICRO * field.y[:, wall], color="black", lw=0.8)
     ax.set(xlabel="$x/b$", ylabel="height $y$ [µm]", xlim=(x[0, 0], x[-1, 0]))
-    ax.get_figure(root=True).colorbar(mesh, ax=ax, label=label, pad=0.02)  # type: ignore[union-attr]
+    bar = _figure(ax).colorbar(filled, ax=ax, label=label, pad=0.02)
+    bar.set_ticks(list(np.linspace(*limits, 6)))
     return ax
 
 
@@ -187,9 +190,46 @@ def field_profiles(result: Result, ax: Axes | None = None) -> Axes:
     ax.set(xlabel="$x/b$", ylabel=r"field strength $|E|$ [V/µm]", xlim=(x[0], x[-1]))
     ax.set_ylim(0.0, 1.45 * to_figure * field.max_strength)
     scale = result.film.minimum_thickness / field.voltage * MICRO
-    right = ax.secondary_yaxis("right", functions=(lambda e: e * scale, lambda e: e / scale))
+    right = ax.secondary_yaxis(
+        "right", functions=(lambda e: np.asarray(e) * scale, lambda e: np.asarray(e) / scale)
+    )
     right.set_ylabel(r"$|E|\,h_\mathrm{min}/V_{12}$")
     ax.legend(loc="upper left", frameon=False, ncols=2)
+    return ax
+
+
+def field_deviation(result: Result, ax: Axes | None = None) -> Axes:
+    """Deviation of the field strength from the thin-gap estimate V12/h over X.
+
+    Parameters
+    ----------
+    result : Result
+        What to draw.
+    ax : Axes, optional
+        Where to; new axes otherwise.
+
+    Returns
+    -------
+    Axes
+        In per mille of V12/h.
+    """
+    ax = _axes(ax)
+    field = result.field
+    x = _position(result, field.x)
+    sections = (
+        ("surface 1", field.strength[:, 0], _BLUE, "-"),
+        ("surface 2", field.strength[:, -1], _ORANGE, "--"),
+        ("mid-film", field.middle_strength, "black", ":"),
+    )
+    # The end faces disturb the field over about two gaps; that is not the film's doing.
+    gap = field.voltage / field.thin_gap_strength
+    start = np.searchsorted(field.x, field.x[0] + 3.0 * gap[0])
+    stop = np.searchsorted(field.x, field.x[-1] - 3.0 * gap[-1])
+    for label, strength, color, style in sections:
+        deviation = 1e3 * (strength / field.thin_gap_strength - 1.0)
+        ax.plot(x[start:stop], deviation[start:stop], color=color, ls=style, label=label)
+    ax.set(xlabel="$x/b$", ylabel=r"$|E|\,h/V_{12} - 1$ [‰]", xlim=(x[0], x[-1]))
+    ax.legend(loc="lower left", frameon=False)
     return ax
 
 
@@ -198,6 +238,7 @@ FIGURES: dict[str, Callable[..., Axes]] = {
     "potential.png": potential,
     "field_strength.png": field_strength,
     "field_profiles.png": field_profiles,
+    "field_deviation.png": field_deviation,
 }
 
 
@@ -217,12 +258,12 @@ def save_figures(result: Result, folder: Path) -> list[Path]:
         The files written.
     """
     files = []
-    with mpl.rc_context(_STYLE):
+    with mpl.rc_context(_STYLE):  # type: ignore[arg-type]
         for name, draw in FIGURES.items():
             ax = draw(result)
             if result.case.title:
-                ax.set_title(result.case.title)
+                ax.set_title(result.case.title, loc="left")
             with whole(folder / name) as path:
-                ax.get_figure(root=True).savefig(path)  # type: ignore[union-attr]
+                _figure(ax).savefig(path)
             files.append(folder / name)
     return files

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -10,8 +11,9 @@ import numpy as np
 
 from ehlectric.case import Case
 from ehlectric.conditions import Conditions
+from ehlectric.dataset import COORDINATES, attributes, variables
 from ehlectric.field import Field
-from ehlectric.film import Film
+from ehlectric.film import Film, Scales
 from ehlectric.film_formulas import FORMULAS
 
 if TYPE_CHECKING:
@@ -90,9 +92,7 @@ class Result:
                 "discretisation_error": film.discretisation_error,
             },
             "field": self._field_summary(),
-            "film_formulas": {
-                name: vars(formula(conditions.formulas)) for name, formula in FORMULAS.items()
-            },
+            "film_formulas": {name: vars(formula(conditions.formulas)) for name, formula in FORMULAS.items()},
             "seconds": {"film": self.film_seconds, "field": self.field_seconds},
         }
         return {key: _plain(value) for key, value in summary.items()}
@@ -115,9 +115,35 @@ class Result:
 
     def to_xarray(self) -> xr.Dataset:
         """All arrays with their units, and the case, summary and solver history as attributes."""
-        from ehlectric.dataset import to_dataset
+        import xarray as xr
 
-        return to_dataset(self)
+        return xr.Dataset(
+            variables(self.film, self.field),
+            attrs={
+                "Conventions": "CF-1.11",
+                "title": self.case.title or "Film and electric field of a line contact",
+                "source": f"ehlectric {self.version}",
+                "history": f"{self.date} solved by ehlectric {self.version}",
+                "version": self.version,
+                "date": self.date,
+                "converged": int(self.converged),
+                "case": self.case.to_toml(),
+                "summary": json.dumps(self.summary()),
+                "warnings": json.dumps(self.warnings),
+                "seconds": json.dumps([self.film_seconds, self.field_seconds]),
+                **attributes(self.film, self.field),
+            },
+        ).set_coords(COORDINATES)
+
+
+def scales_of(case: Case, conditions: Conditions) -> Scales:
+    """What turns the dimensionless film of a case into SI units."""
+    return Scales(
+        length=conditions.half_width,
+        pressure=conditions.max_pressure,
+        thickness=conditions.thickness_scale,
+        ambient_pressure=case.lubricant.ambient_pressure,
+    )
 
 
 def resolved_inputs(case: Case, conditions: Conditions) -> dict[str, Any]:

@@ -73,6 +73,7 @@ class Stencil:
     coefficients: Array  # (4, nx, ny)
 
     def __call__(self, values: Array) -> Array:
+        """The operator applied to nodal values (nx, ny)."""
         c = self.coefficients
         product: Array = c[2] * values
         product[2:] += c[0, 2:] * values[:-2]
@@ -118,7 +119,7 @@ def poiseuille_weight(coefficients: Coefficients, dx: float) -> Array:
 def residual(
     coefficients: Coefficients, wedge: Stencil, pressure: Array, thickness: Array, dx: float
 ) -> Array:
-    """r at the interior nodes, zero in the two end rows."""
+    """R at the interior nodes, zero in the two end rows."""
     eps = coefficients.eps
     flux = 0.5 * (eps[1:] + eps[:-1]) * np.diff(pressure, axis=0) / dx**2
     r = wedge(coefficients.density * thickness)

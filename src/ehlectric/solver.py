@@ -10,26 +10,24 @@ from functools import partial
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
-from ehlectric.version import __version__
 from ehlectric.case import Case, Lubricant
 from ehlectric.conditions import Conditions, remarks, resolve
 from ehlectric.errors import ConvergenceError
 from ehlectric.field import Field, FieldProblem, solve_field
-from ehlectric.film import Film, FilmProblem, Scales, solve_film
+from ehlectric.film import Film, FilmProblem, solve_film
 from ehlectric.film_formulas import moes
 from ehlectric.lubricant import DENSITY_LAWS, PERMITTIVITY_LAWS, VISCOSITY_LAWS, Law
 from ehlectric.newton import Progress
-from ehlectric.result import Result
+from ehlectric.result import Result, scales_of
 from ehlectric.reynolds import Fluid, FluidLaw
 from ehlectric.typing import Array
+from ehlectric.version import __version__
 
 # A film node this near to an end of the field range, in grid spacings, is that end.
 _SAME_NODE = 1e-6
 
 
-def solve(
-    case: Case, *, progress: Progress | None = None, require_convergence: bool = False
-) -> Result:
+def solve(case: Case, *, progress: Progress | None = None, require_convergence: bool = False) -> Result:
     """Film and electric field of a case.
 
     Parameters
@@ -129,7 +127,7 @@ def _film_problem(case: Case, conditions: Conditions) -> FilmProblem:
         second_order=grid.wedge == "second-order",
         tolerance=case.solver.tolerance,
         max_iterations=case.solver.max_iterations,
-        scales=Scales(conditions.half_width, p_h, conditions.thickness_scale),
+        scales=scales_of(case, conditions),
     )
 
 
@@ -177,9 +175,7 @@ def surfaces(conditions: Conditions, film: Film) -> tuple[Array, Array]:
     parabola = 0.5 * film.x**2 / conditions.reduced_radius
     rest = film.thickness - parabola - film.deflection
     lower = -(
-        conditions.curvature_share * parabola
-        + conditions.compliance_share * film.deflection
-        + 0.5 * rest
+        conditions.curvature_share * parabola + conditions.compliance_share * film.deflection + 0.5 * rest
     )
     return lower, lower + film.thickness
 
@@ -205,4 +201,3 @@ def _findings(film: Film, field: Field) -> Iterator[str]:
         yield "the film does not cavitate before the domain ends; raise grid.outlet"
     if field.max_strength_position in (field.x[0], field.x[-1]):
         yield "the largest field is at an end of grid.field_range; widen it"
-

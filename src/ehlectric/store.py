@@ -5,15 +5,22 @@ from __future__ import annotations
 import json
 import os
 import tempfile
+import tomllib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ehlectric.dataset import from_dataset, to_dataset
+from ehlectric.case import Case
+from ehlectric.conditions import resolve
+from ehlectric.dataset import field_of, film_of
 from ehlectric.errors import InputError
-from ehlectric.result import Result
+from ehlectric.result import Result, scales_of
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 NETCDF = "result.nc"
 SUMMARY = "summary.json"
@@ -82,7 +89,7 @@ def save(result: Result, folder: str | Path) -> list[Path]:
         text = json.dumps(result.summary(), indent=2, allow_nan=False)
         path.write_text(text + "\n", encoding="utf-8")
     with whole(files[1]) as path:
-        to_dataset(result).to_netcdf(path, engine="h5netcdf")
+        result.to_xarray().to_netcdf(path, engine="h5netcdf")
     with whole(files[2]) as path:
         film = result.film
         columns = np.column_stack([film.x, film.pressure, film.thickness, film.density])
@@ -119,8 +126,27 @@ def load(path: str | Path) -> Result:
         raise InputError(f"{path}: cannot be read, {reason}") from None
     try:
         with xr.open_dataset(path, engine="h5netcdf") as dataset:
-            return from_dataset(dataset.load())
-    except InputError as error:
-        raise InputError(f"{path}: {error}") from None
+            return _result_of(dataset.load())
+    except (InputError, KeyError, TypeError) as error:
+        raise InputError(f"{path}: is not a result of ehlectric, {error}") from None
     except (OSError, ValueError):
         raise InputError(f"{path}: is not a NetCDF file") from None
+
+
+def _result_of(dataset: xr.Dataset) -> Result:
+    attributes = dataset.attrs
+    case = Case.from_dict(tomllib.loads(attributes["case"]))
+    conditions = resolve(case)
+    scales = scales_of(case, conditions)
+    film_seconds, field_seconds = json.loads(attributes["seconds"])
+    return Result(
+        case=case,
+        conditions=conditions,
+        film=film_of(dataset, scales),
+        field=field_of(dataset),
+        warnings=tuple(json.loads(attributes["warnings"])),
+        film_seconds=film_seconds,
+        field_seconds=field_seconds,
+        version=str(attributes["version"]),
+        date=str(attributes["date"]),
+    )

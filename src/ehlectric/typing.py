@@ -6,4 +6,5 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array: TypeAlias = NDArray[np.float64]
+ComplexArray: TypeAlias = NDArray[np.complex128]
 Mask: TypeAlias = NDArray[np.bool_]

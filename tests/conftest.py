@@ -1,0 +1,23 @@
+"""Fixtures shared by all tests."""
+
+import pytest
+
+from ehlectric import Case, solve
+
+PAPER_CONTACT = {
+    "reduced_radius": "14.1 mm",
+    "reduced_modulus": "226 GPa",
+    "load_per_length": "1.57 MN/m",
+    "entrainment_speed": "4 m/s",
+}
+
+
+@pytest.fixture(scope="session")
+def paper_case():
+    """First row of the paper's Table 3."""
+    return Case.from_dict({"contact": PAPER_CONTACT, "lubricant": {"base": "paper"}})
+
+
+@pytest.fixture(scope="session")
+def paper_result(paper_case):
+    return solve(paper_case)

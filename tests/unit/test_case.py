@@ -1,0 +1,238 @@
+"""Cases: alternatives, bounds, messages, replacement and round trips."""
+
+import tomllib
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from pydantic import ValidationError
+
+from ehlectric import Case, InputError
+from ehlectric.conditions import remarks, resolve
+from tests.conftest import PAPER_CONTACT
+
+TABLE = {"contact": PAPER_CONTACT, "lubricant": {"base": "paper"}}
+
+
+def changed(**tables):
+    """The paper's case with keys changed, or dropped where they are None."""
+    table = {key: dict(value) for key, value in TABLE.items()}
+    for name, keys in tables.items():
+        if not isinstance(keys, dict):
+            table[name] = keys
+            continue
+        section = table.setdefault(name, {})
+        for key, value in keys.items():
+            section[key] = value
+            if value is None:
+                del section[key]
+    return table
+
+
+def test_defaults_are_those_of_the_paper():
+    case = Case.from_dict(TABLE)
+    assert (case.electric.potential_1, case.electric.potential_2) == (-1.0, 1.0)
+    assert (case.grid.nodes, case.grid.inlet, case.grid.outlet) == (3201, -4.0, 2.0)
+    assert case.grid.wedge == "second-order"
+    assert case.grid.field_range == (-1.25, 1.25)
+    assert case.lubricant.ambient_pressure == 1e5
+    assert case.lubricant.viscosity == 0.04
+
+
+def test_cases_are_frozen():
+    case = Case.from_dict(TABLE)
+    with pytest.raises(ValidationError):
+        case.title = "other"
+
+
+# Each bad input with a part of the one line it gets.
+BAD = [
+    (changed(contact={"reduced_moduls": 1e9}), r"contact\.reduced_moduls: unknown key.*contact\.reduced_modulus"),
+    (changed(nodes=5), r"nodes: unknown key.*grid\.nodes"),
+    (changed(extra={"a": 1}), r"extra: unknown key"),
+    (changed(contact={"load_per_length": None}), r"contact\.load_per_length: missing.*max_hertz_pressure"),
+    (changed(lubricant={"base": None}), r"lubricant\.viscosity: missing"),
+    ({"lubricant": {"base": "paper"}}, r"contact: missing, takes a table"),
+    (changed(contact={"reduced_modulus": "226 kg"}), r"contact\.reduced_modulus: got '226 kg' \(kg is not a unit"),
+    (changed(contact={"load_per_length": -1.0}), r"contact\.load_per_length: got -1\.0, takes .*above 0"),
+    (changed(contact={"load_per_length": 0}), r"contact\.load_per_length: got 0, takes .*above 0"),
+    (changed(contact={"load_per_length": float("nan")}), r"got nan \(it is not finite\)"),
+    (changed(contact={"load_per_length": float("inf")}), r"got inf \(it is not finite\)"),
+    (changed(contact={"load_per_length": [1.0]}), r"got \[1\.0\] \(it is not a number\)"),
+    (changed(contact={"load_per_length": True}), r"got True \(it is not a number\)"),
+    (changed(contact={"max_hertz_pressure": "1 GPa"}), r"got load_per_length, max_hertz_pressure together"),
+    (changed(contact={"reduced_radius": None, "radius_1": 1.0}), r"contact\.radius_2: missing"),
+    (changed(contact={"reduced_radius": None, "radius_1": 0, "radius_2": 1.0}), r"radius_1: got 0"),
+    (changed(contact={"speed_1": 1.0}), r"entrainment_speed, speed_1 together"),
+    (changed(contact={"geometry": "ball"}), r"contact\.geometry: got 'ball', takes 'line'"),
+    (changed(contact=[1]), r"contact: got \[1\], takes a table"),
+    (changed(title=3), r"title: got 3, takes a text"),
+    (changed(lubricant={"base": "papr"}), r"lubricant\.base: got 'papr', takes .*paper"),
+    (changed(lubricant={"viscosity_law": "roeland"}), r"viscosity_law: got 'roeland'.*nearest is 'roelands'"),
+    (changed(lubricant={"viscosity_law": 3}), r"lubricant\.viscosity_law: got 3, takes a text"),
+    (changed(electric={"potential_1": "1 V"}), r"electric\.potential_2: got 1 V, which is potential_1"),
+    (changed(grid={"nodes": 10}), r"grid\.nodes: got 10, takes a whole number from 65"),
+    (changed(grid={"nodes": 10**9}), r"grid\.nodes: got 1000000000.*memory"),
+    (changed(grid={"nodes": "many"}), r"grid\.nodes: got 'many', takes a whole number"),
+    (changed(grid={"nodes": 100.5}), r"grid\.nodes: got 100\.5, takes a whole number"),
+    (changed(grid={"inlet": 3.0}), r"grid\.inlet: got 3\.0, takes a number.*below -1"),
+    (changed(grid={"field_range": [-5.0, 1.0]}), r"grid\.field_range: got \[-5, 1\].*\[-4, 2\]"),
+    (changed(grid={"field_range": [1.0, -1.0]}), r"grid\.field_range: got \[1, -1\]"),
+    (changed(grid={"field_range": [1.0]}), r"grid\.field_range"),
+    (changed(grid={"field_range": 1.0}), r"grid\.field_range: got 1\.0, takes a list of two numbers"),
+    (changed(grid={"wedge": "third"}), r"grid\.wedge: got 'third', takes 'second-order' or 'first-order'"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("table", "message"), BAD)
+def test_bad_input_gets_one_line(table, message):
+    with pytest.raises(InputError, match=message) as caught:
+        Case.from_dict(table)
+    assert "\n" not in str(caught.value)
+
+
+def test_messages_stay_short():
+    with pytest.raises(InputError) as caught:
+        Case.from_dict(changed(contact={"load_per_length": [1.0] * 1000}))
+    assert len(str(caught.value)) < 400
+
+
+@pytest.mark.parametrize("law", ["roelands", "barus", "constant"])
+def test_a_law_takes_what_it_needs(law):
+    lubricant = {
+        "viscosity": 0.04,
+        "viscosity_law": law,
+        "density_law": "incompressible",
+        "relative_permittivity": 2.4,
+    }
+    if law == "constant":
+        assert Case.from_dict({"contact": PAPER_CONTACT, "lubricant": lubricant})
+    else:
+        with pytest.raises(InputError, match="pressure_viscosity_coefficient: missing"):
+            Case.from_dict({"contact": PAPER_CONTACT, "lubricant": lubricant})
+
+
+def test_alternatives_give_the_same_contact():
+    reference = resolve(Case.from_dict(TABLE))
+    modulus = 226e9 * (1 - 0.3**2)
+    body = {"youngs_modulus": modulus, "poissons_ratio": 0.3}
+    contact = {
+        "radius_1": "28.2 mm",
+        "radius_2": 0.0282,
+        "body_1": body,
+        "body_2": body,
+        "max_hertz_pressure": reference.max_pressure,
+        "speed_1": 5.0,
+        "speed_2": 3.0,
+    }
+    other = resolve(Case.from_dict({"contact": contact, "lubricant": {"base": "paper"}}))
+    for name in ("reduced_radius", "reduced_modulus", "load_per_length", "entrainment_speed", "half_width"):
+        assert getattr(other, name) == pytest.approx(getattr(reference, name), rel=1e-12)
+    assert other.slide_to_roll_ratio == pytest.approx(0.5)
+    assert (other.curvature_share, other.compliance_share) == pytest.approx((0.5, 0.5))
+
+
+def test_shares_of_unequal_bodies():
+    contact = PAPER_CONTACT | {
+        "radius_1": 0.01,
+        "radius_2": -0.02,
+        "body_1": {"youngs_modulus": 200e9, "poissons_ratio": 0.0},
+        "body_2": {"youngs_modulus": 300e9, "poissons_ratio": 0.0},
+    }
+    del contact["reduced_radius"], contact["reduced_modulus"]
+    conditions = resolve(Case.from_dict({"contact": contact, "lubricant": {"base": "paper"}}))
+    # 1/R = 1/0.01 - 1/0.02 = 50: body 1 has 100 of it. Compliances 1/200 and 1/300: three to two.
+    assert conditions.reduced_radius == pytest.approx(0.02)
+    assert conditions.curvature_share == pytest.approx(2.0)
+    assert conditions.compliance_share == pytest.approx(0.6)
+
+
+CONTRADICTIONS = [
+    ({"radius_1": 0.02, "radius_2": -0.01, "reduced_radius": None}, "concave body must be wider"),
+    ({"load_per_length": "900 MN/m"}, "dry contact would be"),
+    ({"load_per_length": "1 mN/m"}, "less than ten times the ambient pressure"),
+]
+
+
+@pytest.mark.parametrize(("keys", "message"), CONTRADICTIONS)
+def test_contradictions_are_refused(keys, message):
+    with pytest.raises(InputError, match=message):
+        resolve(Case.from_dict(changed(contact=keys)))
+
+
+REMARKS = [
+    ({"contact.load_per_length": "2 kN/m"}, "isoviscous-rigid"),
+    ({"contact.max_hertz_pressure": "20 MPa"}, "ambient pressure carries"),
+    ({"lubricant.viscosity_law": "barus"}, "Barus"),
+    ({"lubricant.roelands_z": 0.4}, "Roelands' own relation gives 0.675"),
+]
+
+
+@pytest.mark.parametrize(("keys", "message"), REMARKS)
+def test_remarks(keys, message):
+    case = Case.from_dict(TABLE).replace(keys)
+    assert any(message in text for text in remarks(case, resolve(case)))
+
+
+def test_paper_case_needs_no_remark():
+    case = Case.from_dict(TABLE)
+    assert not list(remarks(case, resolve(case)))
+
+
+def test_replace_displaces_alternatives():
+    case = Case.from_dict(TABLE)
+    other = case.replace({"contact.max_hertz_pressure": "1 GPa"}, contact={"speed_1": 1.0, "speed_2": 3.0})
+    assert other.contact.load_per_length is None
+    assert other.contact.entrainment_speed is None
+    assert other.contact.max_hertz_pressure == 1e9
+    assert case.contact.load_per_length == 1.57e6
+    back = other.replace({"contact.load_per_length": 1.57e6, "contact.entrainment_speed": 4.0})
+    assert back == case
+
+
+def test_replace_of_the_base_drops_the_old_lubricant():
+    case = Case.from_dict(changed(lubricant={"viscosity": 0.1}))
+    assert case.replace({"lubricant.base": "paper"}).lubricant.viscosity == 0.04
+    assert case.replace(title="b", lubricant={"relative_permittivity": 3.0}).lubricant.viscosity == 0.1
+
+
+@pytest.mark.parametrize("key", ["contact.nonsense", "nonsense", "contact.load_per_length.x"])
+def test_replace_refuses_unknown_keys(key):
+    with pytest.raises(InputError, match="unknown key"):
+        Case.from_dict(TABLE).replace({key: 1.0})
+
+
+positive = st.floats(0.01, 1.0)
+
+
+@given(
+    title=st.text(st.characters(codec="utf-8", exclude_categories=("Cs", "Cc")), max_size=30),
+    radius=positive,
+    speed=st.floats(1e-3, 1e3),
+    voltage=st.floats(-1e3, 1e3).filter(lambda v: v != -1.0),
+    nodes=st.integers(65, 10**6),
+    field_range=st.tuples(st.floats(-4.0, -0.1), st.floats(0.1, 2.0)),
+)
+def test_toml_round_trip(title, radius, speed, voltage, nodes, field_range):
+    table = changed(
+        title=title,
+        contact={"reduced_radius": radius, "entrainment_speed": speed},
+        electric={"potential_2": voltage},
+        grid={"nodes": nodes, "field_range": list(field_range)},
+    )
+    case = Case.from_dict(table)
+    assert Case.from_dict(tomllib.loads(case.to_toml())) == case
+
+
+def test_files_that_are_no_cases(tmp_path):
+    for name, content, message in (
+        ("broken.toml", b"[contact\n", "is not TOML"),
+        ("latin.toml", b"title = '\xe9'", "is not a text file in UTF-8"),
+    ):
+        (tmp_path / name).write_bytes(content)
+        with pytest.raises(InputError, match=message):
+            Case.from_toml(tmp_path / name)
+    with pytest.raises(InputError, match="is a directory"):
+        Case.from_toml(tmp_path)
+    with pytest.raises(InputError, match="no such file"):
+        Case.from_toml(tmp_path / "nowhere.toml")

@@ -1,0 +1,61 @@
+"""Quantities with units against conversions done by hand."""
+
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from ehlectric.quantity import Count, Quantity, to_si
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "expected"),
+    [
+        ("14.1 mm", "m", 0.0141),
+        ("226 GPa", "Pa", 226e9),
+        ("1.57 MN/m", "N/m", 1.57e6),
+        ("0.04 Pa s", "Pa*s", 0.04),
+        ("40 mPa s", "Pa*s", 0.04),
+        ("40 cP", "Pa*s", 0.04),
+        ("22 1/GPa", "1/Pa", 22e-9),
+        ("22 GPa^-1", "1/Pa", 22e-9),
+        ("-1 V", "V", -1.0),
+        ("3.6 km/h", "m/s", 1.0),
+        ("1e-3kN/mm", "N/m", 1e3),
+        ("1 µm", "m", 1e-6),
+        ("+.5 bar", "Pa", 5e4),
+    ],
+)
+def test_units(text, unit, expected):
+    assert to_si(text, unit) == pytest.approx(expected, rel=1e-14)
+
+
+@pytest.mark.parametrize("text", ["226 kg", "226", "GPa", "", "226 GPaa", "nan Pa", "1 Pa Pa", "0x10 Pa", "1 )("])
+def test_wrong_units_are_refused(text):
+    with pytest.raises(ValueError, match="it |unit"):
+        to_si(text, "Pa")
+
+
+LENGTH = Quantity("m", above=0.0, most=10.0, reason="a test")
+
+
+@pytest.mark.parametrize(
+    "given", [0.0, -1.0, 11, math.nan, math.inf, True, None, [1.0], {}, "inf m", "-1 m", 10**400, "1e999 m"]
+)
+def test_quantity_says_what_it_got_and_takes(given):
+    with pytest.raises(ValueError, match="got .*takes a number in m .*above 0 and at most 10: a test"):
+        LENGTH.parse(given)
+
+
+@given(st.floats(1e-6, 9.0))
+def test_number_and_text_are_the_same(value):
+    assert LENGTH.parse(value) == value
+    assert LENGTH.parse(f"{value!r} m") == pytest.approx(value, rel=1e-14)
+    assert LENGTH.parse(f"{1e3 * value!r} mm") == pytest.approx(value, rel=1e-13)
+
+
+@pytest.mark.parametrize("given", [4, 101, 10.0, True, "10", None, [10], math.nan])
+def test_count_takes_whole_numbers_only(given):
+    with pytest.raises(ValueError, match="got .* takes a whole number from 5 to 100: a test"):
+        Count(5, 100, "a test").parse(given)
