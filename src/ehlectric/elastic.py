@@ -64,7 +64,7 @@ class Deflection:
     >>> x = np.linspace(-2.0, 2.0, 1601)
     >>> hertz = np.sqrt(np.maximum(0.0, 1.0 - x**2))[:, np.newaxis]
     >>> opened = Deflection.from_influence(line_influence(1601, x[1] - x[0]))(hertz)
-    >>> round(float(opened[800, 0]), 3), round(0.5 * (np.log(2.0) + 0.5), 3)
+    >>> round(float(opened[800, 0]), 3), round(0.5 * float(np.log(2.0) + 0.5), 3)
     (0.597, 0.597)
     """
 

@@ -127,7 +127,7 @@ def dowson_toyoda(contact: LineContact) -> Thickness:
     --------
     >>> contact = LineContact(14.1e-3, 226e9, 1.57e6, 4.0, 0.04, 22e-9)
     >>> round(dowson_toyoda(contact).central_thickness * 1e6, 3)
-    0.849
+    0.85
     """
     if contact._g == 0.0:
         return Thickness(None, None)

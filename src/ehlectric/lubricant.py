@@ -56,7 +56,7 @@ def roelands(
     >>> law = dict(pressure_viscosity_coefficient=22e-9, roelands_z=0.67, roelands_pressure=0.198e9)
     >>> exponent, slope = roelands(1e9, **law)
     >>> round(float(exponent), 2)
-    15.2
+    15.22
     """
     ratio = 1.0 + np.asarray(pressure, dtype=float) / roelands_pressure
     exponent = pressure_viscosity_coefficient * roelands_pressure / roelands_z * (ratio**roelands_z - 1.0)

@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Any
 from pydantic import GetCoreSchemaHandler
 from pydantic_core import CoreSchema, core_schema
 
+from ehlectric.errors import shown
+
 if TYPE_CHECKING:
     import pint
 
@@ -100,7 +102,7 @@ class Quantity:
                 raise ValueError("")
         except ValueError as error:
             why = f" ({error})" if str(error) else ""
-            raise ValueError(f"got {given!r}{why}, takes {self.takes}") from None
+            raise ValueError(f"got {shown(given)}{why}, takes {self.takes}") from None
         return value
 
     def _number(self, given: object) -> float:
@@ -154,6 +156,6 @@ class Count:
         whole = isinstance(given, int) and not isinstance(given, bool)
         if not (whole and self.least <= given <= self.most):  # type: ignore[operator]
             raise ValueError(
-                f"got {given!r}, takes a whole number from {self.least} to {self.most}: {self.reason}"
+                f"got {shown(given)}, takes a whole number from {self.least} to {self.most}: {self.reason}"
             )
         return int(given)  # type: ignore[call-overload, no-any-return]

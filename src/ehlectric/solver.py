@@ -199,5 +199,7 @@ def _findings(film: Film, field: Field) -> Iterator[str]:
         )
     if not film.cavitates:
         yield "the film does not cavitate before the domain ends; raise grid.outlet"
-    if field.max_strength_position in (field.x[0], field.x[-1]):
+    gap = field.voltage / field.thin_gap_strength
+    position = field.max_strength_position
+    if not field.x[0] + 3.0 * gap[0] < position < field.x[-1] - 3.0 * gap[-1]:
         yield "the largest field is at an end of grid.field_range; widen it"

@@ -10,6 +10,8 @@ from typing import Any, Union, get_args, get_origin
 from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
+from ehlectric.errors import shown
+
 
 def nearest(name: str, known: Iterable[str]) -> str:
     """The known name that is most like ``name``."""
@@ -26,7 +28,7 @@ def first_message(error: ValidationError, model: type[BaseModel]) -> str:
 
 def _message(detail: ErrorDetails, model: type[BaseModel]) -> str:
     key = ".".join(str(part) for part in detail["loc"])
-    given = detail["input"]
+    given = shown(detail["input"])
     match detail["type"]:
         case "extra_forbidden":
             return f"{key}: unknown key; the nearest known one is {_nearest_key(key, model)}"
@@ -37,14 +39,14 @@ def _message(detail: ErrorDetails, model: type[BaseModel]) -> str:
             text = str(detail["ctx"]["error"])
             return f"{key}: {text}" if text.startswith("got") else ".".join(filter(None, [key, text]))
         case "literal_error":
-            return f"{key}: got {given!r}, takes {detail['ctx']['expected']}"
+            return f"{key}: got {given}, takes {detail['ctx']['expected']}"
         case "model_type" | "model_attributes_type" | "dict_type":
-            return f"{key}: got {given!r}, takes a table"
+            return f"{key}: got {given}, takes a table"
         case "string_type":
-            return f"{key}: got {given!r}, takes a text"
+            return f"{key}: got {given}, takes a text"
         case "tuple_type" | "too_long" | "too_short":
-            return f"{key}: got {given!r}, takes a list of two numbers"
-    return f"{key}: got {given!r}, {detail['msg']}"
+            return f"{key}: got {given}, takes a list of two numbers"
+    return f"{key}: got {given}, {detail['msg']}"
 
 
 def _nearest_key(key: str, model: type[BaseModel]) -> str:

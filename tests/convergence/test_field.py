@@ -45,9 +45,7 @@ def cylinder_over_plane(columns, *, radius=5e-3, gap=GAP, degree=8):
     x = focus * np.sinh(np.linspace(-1, 1, columns) * np.arcsinh(reach / focus))
     upper = gap + radius - np.sqrt(radius**2 - x**2)
     end = cylinder_potential(reach, upper[-1] * lobatto_nodes(degree), radius, gap)
-    problem = FieldProblem(
-        x, 0 * x, upper, 1 + 0 * x, 0.0, 1.0, degree=degree, end_potentials=(end, end)
-    )
+    problem = FieldProblem(x, 0 * x, upper, 1 + 0 * x, 0.0, 1.0, degree=degree, end_potentials=(end, end))
     field = solve_field(problem)
     charge = np.trapezoid(epsilon_0 * field.strength[:, 0], x)
     return charge, cylinder_plane_charge(reach, radius, gap)

@@ -1,5 +1,7 @@
 """Contacts all over the Moes map: from isoviscous to several GPa, from the Hertz pressure, untuned."""
 
+import itertools
+
 import numpy as np
 import pytest
 
@@ -12,7 +14,7 @@ MODULUS, RADIUS, VISCOSITY, ALPHA = 226e9, 14.1e-3, 0.04, 22e-9
 def random_contacts():
     """Load and speed of M log-uniform in [3, 300] and L uniform in [1, 20]; the corners come first."""
     random = np.random.default_rng(2022)
-    groups = [(m, l) for m in (3.0, 300.0) for l in (1.0, 20.0)]
+    groups = list(itertools.product((3.0, 300.0), (1.0, 20.0)))
     while len(groups) < COUNT:
         groups.append((np.exp(random.uniform(np.log(3.0), np.log(300.0))), random.uniform(1.0, 20.0)))
     for moes_m, moes_l in groups:

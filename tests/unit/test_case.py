@@ -47,13 +47,13 @@ def test_cases_are_frozen():
 
 # Each bad input with a part of the one line it gets.
 BAD = [
-    (changed(contact={"reduced_moduls": 1e9}), r"contact\.reduced_moduls: unknown key.*contact\.reduced_modulus"),
+    (changed(contact={"reduced_moduls": 1e9}), r"reduced_moduls: unknown key.*contact\.reduced_modulus"),
     (changed(nodes=5), r"nodes: unknown key.*grid\.nodes"),
     (changed(extra={"a": 1}), r"extra: unknown key"),
     (changed(contact={"load_per_length": None}), r"contact\.load_per_length: missing.*max_hertz_pressure"),
     (changed(lubricant={"base": None}), r"lubricant\.viscosity: missing"),
     ({"lubricant": {"base": "paper"}}, r"contact: missing, takes a table"),
-    (changed(contact={"reduced_modulus": "226 kg"}), r"contact\.reduced_modulus: got '226 kg' \(kg is not a unit"),
+    (changed(contact={"reduced_modulus": "226 kg"}), r"reduced_modulus: got '226 kg' \(kg is not a unit"),
     (changed(contact={"load_per_length": -1.0}), r"contact\.load_per_length: got -1\.0, takes .*above 0"),
     (changed(contact={"load_per_length": 0}), r"contact\.load_per_length: got 0, takes .*above 0"),
     (changed(contact={"load_per_length": float("nan")}), r"got nan \(it is not finite\)"),

@@ -1,5 +1,7 @@
 """Transfers between grids and the V-cycle as a solver."""
 
+import itertools
+
 import numpy as np
 import pytest
 
@@ -19,14 +21,12 @@ def test_interpolation_is_exact_for_straight_lines(coarse, fine):
 
 @pytest.mark.parametrize("nodes", [65, 101, 102, 1000, 3200, 3201])
 def test_hierarchy_halves_down_to_the_coarsest(nodes):
-    levels = multigrid.hierarchy(
-        nodes, inlet=-4.0, outlet=2.0, influence=line_influence, second_order=True
-    )
+    levels = multigrid.hierarchy(nodes, inlet=-4.0, outlet=2.0, influence=line_influence, second_order=True)
     sizes = [level.x.size for level in levels]
     assert sizes[0] == nodes
     assert len(sizes) >= 2
     assert sizes[-1] <= multigrid.COARSEST
-    assert all(coarse - 1 == (fine - 1 + 1) // 2 for fine, coarse in zip(sizes, sizes[1:], strict=False))
+    assert all(coarse - 1 == (fine - 1 + 1) // 2 for fine, coarse in itertools.pairwise(sizes))
     for level in levels:
         assert level.weights.sum() == pytest.approx(6.0)
 

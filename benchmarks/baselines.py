@@ -1,0 +1,88 @@
+"""What the solvers are measured against: dense Newton for the film, SuperLU for the field."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy import sparse
+from scipy.constants import epsilon_0
+from scipy.linalg import lu_factor, lu_solve
+from scipy.sparse.linalg import splu
+
+from ehlectric import film, newton
+from ehlectric.field import FieldProblem
+from ehlectric.film import Film, FilmProblem
+from ehlectric.multigrid import Level, Linearised
+from ehlectric.reynolds import Fluid
+from ehlectric.typing import Array
+
+
+def dense_direction(
+    fluid: Fluid, levels: list[Level], state: newton.State, now: newton.Residual
+) -> tuple[Array, float, int]:
+    """The same Newton direction by LAPACK: the whole Jacobian, factorised."""
+    level = levels[0]
+    jacobian = Linearised(level, now.coefficients, state.pressure, state.thickness, now.free)
+    held = np.where(now.free, 0.0, fluid.ambient_pressure - state.pressure)
+    change, load = jacobian(held, 0.0)
+    n = state.pressure.size
+    matrix = np.zeros((n + 1, n + 1))
+    matrix[:n, :n] = jacobian.by_p.matrix()
+    for k, offset in enumerate((-2, -1, 0, 1)):
+        rows = slice(max(0, -offset), n - max(0, offset))
+        columns = slice(max(0, offset), n + min(0, offset))
+        matrix[rows, :n] += jacobian.by_h.coefficients[k, rows] * level.deflection_matrix[columns]
+    matrix[:n, n] = jacobian.by_h.coefficients.sum(axis=0)[:, 0]
+    matrix[n, :n] = np.where(now.free, level.weights, 0.0)[:, 0]
+    fixed = np.flatnonzero(~now.free[:, 0])
+    matrix[fixed, fixed] = 1.0
+    right = np.append(np.where(now.free, -now.reynolds - change, 0.0), now.load - load)
+    solution = lu_solve(lu_factor(matrix, overwrite_a=True, check_finite=False), right)
+    return held + np.where(now.free, solution[:n, np.newaxis], 0.0), float(solution[n]), 0
+
+
+def solve_film_densely(problem: FilmProblem) -> Film:
+    """``solve_film`` with every linear system solved by LAPACK on all threads."""
+    direction, threads = newton._direction, film.one_blas_thread
+    newton._direction, film.one_blas_thread = dense_direction, lambda: np.errstate()
+    try:
+        return film.solve_film(problem)
+    finally:
+        newton._direction, film.one_blas_thread = direction, threads
+
+
+def capacitance_by_superlu(problem: FieldProblem, across: int = 65) -> float:
+    """Capacitance per length [F/m] by linear elements on nx x ``across`` nodes and a sparse LU.
+
+    Four-node elements on the mapped grid, integrated at 2 x 2 Gauss points.
+    """
+    nx = problem.x.size
+    s = np.linspace(0.0, 1.0, across)
+    gap = problem.upper - problem.lower
+    dx, ds = np.diff(problem.x)[:, np.newaxis], s[1] - s[0]
+    numbers = np.arange(nx * across).reshape(nx, across)
+    corners = np.stack([numbers[:-1, :-1], numbers[1:, :-1], numbers[:-1, 1:], numbers[1:, 1:]], axis=-1)
+    matrix = np.zeros((nx - 1, across - 1, 4, 4))
+    points = np.array([0.5 - np.sqrt(3.0) / 6.0, 0.5 + np.sqrt(3.0) / 6.0])
+    for u in points:
+        h = ((1 - u) * gap[:-1] + u * gap[1:])[:, np.newaxis]
+        eps = ((1 - u) * problem.permittivity[:-1] + u * problem.permittivity[1:])[:, np.newaxis]
+        for v in points:
+            slope = (np.diff(problem.lower) + np.diff(gap) * (s[:-1] + v * ds)[:, np.newaxis]).T / dx
+            by_x = np.array([-(1 - v), 1 - v, -v, v]) / dx[:, :, np.newaxis]
+            by_s = np.array([-(1 - u), -u, 1 - u, u]) / ds
+            gradient_x = by_x - (slope / h)[:, :, np.newaxis] * by_s
+            gradient_y = by_s / h[:, :, np.newaxis]
+            weight = (0.25 * eps * h * dx * ds)[:, :, np.newaxis, np.newaxis]
+            for g in (gradient_x, np.broadcast_to(gradient_y, gradient_x.shape)):
+                matrix += weight * g[:, :, :, np.newaxis] * g[:, :, np.newaxis, :]
+    rows = np.broadcast_to(corners[:, :, :, np.newaxis], matrix.shape)
+    columns = np.broadcast_to(corners[:, :, np.newaxis, :], matrix.shape)
+    stiffness = sparse.csc_array(
+        (matrix.ravel(), (rows.ravel(), columns.ravel())), shape=(nx * across, nx * across)
+    )
+    wall = np.concatenate([numbers[:, 0], numbers[:, -1]])
+    inner = numbers[:, 1:-1].ravel()
+    v = np.zeros(nx * across)
+    v[numbers[:, -1]] = 1.0
+    v[inner] = splu(stiffness[inner][:, inner].tocsc()).solve(-(stiffness[inner][:, wall] @ v[wall]))
+    return float(epsilon_0 * v @ (stiffness @ v))

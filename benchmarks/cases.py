@@ -1,0 +1,26 @@
+"""Problems the benchmarks run on."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from ehlectric.case import Case
+from ehlectric.conditions import resolve
+from ehlectric.field import FieldProblem
+from ehlectric.film import FilmProblem
+from ehlectric.solver import _field_problem, _film_problem, _permittivity, solve
+
+EXAMPLE = Path(__file__).parents[1] / "examples" / "line_contact.toml"
+
+
+def film_problem(nodes: int) -> FilmProblem:
+    """The example's film on a grid of so many nodes."""
+    case = Case.from_toml(EXAMPLE).replace({"grid.nodes": nodes})
+    return _film_problem(case, resolve(case))
+
+
+def field_problem(columns: int) -> FieldProblem:
+    """The example's field on so many columns."""
+    case = Case.from_toml(EXAMPLE).replace({"grid.field_nodes": columns})
+    result = solve(case)
+    return _field_problem(case, result.conditions, result.film, _permittivity(case.lubricant))

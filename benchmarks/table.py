@@ -1,0 +1,95 @@
+"""Measure the solvers beside their baselines in one run and print docs/performance.md's table.
+
+python benchmarks/table.py
+"""
+
+from __future__ import annotations
+
+import os
+import platform
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import scipy
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+
+from benchmarks import baselines, cases
+from ehlectric.field import solve_field
+from ehlectric.film import solve_film
+
+EHLECTRIC = Path(sys.executable).with_name("ehlectric")
+
+
+def best(call: Callable[[], Any], repeats: int = 7) -> float:
+    """Shortest wall time of a call [s], after one that warms up: these machines are shared."""
+    times = []
+    for _ in range(repeats + (repeats > 1)):
+        started = time.perf_counter()
+        call()
+        times.append(time.perf_counter() - started)
+    return min(times)
+
+
+def peak_memory(nodes: int) -> float:
+    """Peak resident memory of a process that solves the film [GB]."""
+    code = (
+        "import resource; from benchmarks.cases import film_problem; from ehlectric.film import solve_film; "
+        f"solve_film(film_problem({nodes})); print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)"
+    )
+    root = Path(__file__).parents[1]
+    done = subprocess.run([sys.executable, "-c", code], cwd=root, capture_output=True, text=True, check=True)
+    return int(done.stdout) / 1e6
+
+
+def command(*arguments: str) -> float:
+    """Wall time of the command [s]."""
+    return best(lambda: subprocess.run([EHLECTRIC, *arguments], capture_output=True, check=True), 5)
+
+
+def processor() -> str:
+    """Name of the processor."""
+    for line in Path("/proc/cpuinfo").read_text().splitlines():
+        if line.startswith("model name"):
+            return line.split(":")[1].strip()
+    return platform.machine()
+
+
+def main() -> None:
+    """Print the table."""
+    rows = []
+    film = {n: best(lambda n=n: solve_film(cases.film_problem(n))) for n in (801, 3201)}
+    film |= {n: best(lambda n=n: solve_film(cases.film_problem(n)), 3) for n in (25_601, 102_401)}
+    dense = {n: best(lambda n=n: baselines.solve_film_densely(cases.film_problem(n)), 1) for n in (801, 3201)}
+    for n, seconds in film.items():
+        ratio = f"{dense[n] / seconds:.0f}" if n in dense else ""
+        slow = f"{dense[n]:.2f}" if n in dense else ""
+        rows.append((f"film, {n} nodes", f"{seconds:.3f}", "nested dense Newton (LAPACK)", slow, ratio))
+    for n in (801, 3201):
+        problem = cases.field_problem(n)
+        ours = best(lambda problem=problem: solve_field(problem))
+        theirs = best(lambda problem=problem: baselines.capacitance_by_superlu(problem), 3)
+        difference = abs(baselines.capacitance_by_superlu(problem) / solve_field(problem).capacitance - 1)
+        name = f"SuperLU, {n} x 65 linear elements, capacitance equal to {difference:.0e}"
+        rows.append((f"field, {n} columns", f"{ours:.4f}", name, f"{theirs:.2f}", f"{theirs / ours:.0f}"))
+    rows.append(("`ehlectric --version`", f"{command('--version'):.2f}", "", "", ""))
+    with tempfile.TemporaryDirectory() as folder:
+        seconds = command("run", str(cases.EXAMPLE), "-o", folder)
+    rows.append(("`ehlectric run` of the example, figures included", f"{seconds:.2f}", "", "", ""))
+    print(f"{processor()}, {len(os.sched_getaffinity(0))} cores, ", end="")
+    print(f"Python {platform.python_version()}, NumPy {np.__version__}, SciPy {scipy.__version__}\n")
+    print("| what | seconds | against | seconds | ratio |")
+    print("| --- | ---: | --- | ---: | ---: |")
+    for row in rows:
+        print("| " + " | ".join(row) + " |")
+    print(f"\nPeak memory, film of 102 401 nodes: {peak_memory(102_401):.2f} GB")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,32 @@
+"""Timings by pytest-benchmark: python -m pytest benchmarks"""
+
+import pytest
+
+from benchmarks import baselines, cases
+from ehlectric.field import solve_field
+from ehlectric.film import solve_film
+
+
+@pytest.mark.parametrize("nodes", [801, 3201, 25_601, 102_401])
+def test_film(benchmark, nodes):
+    film = benchmark(solve_film, cases.film_problem(nodes))
+    assert film.converged
+
+
+@pytest.mark.parametrize("nodes", [801, 3201])
+def test_film_by_dense_newton(benchmark, nodes):
+    film = benchmark.pedantic(baselines.solve_film_densely, (cases.film_problem(nodes),), rounds=1)
+    assert film.converged
+
+
+@pytest.mark.parametrize("columns", [801, 3201, 12_801])
+def test_field(benchmark, columns):
+    field = benchmark(solve_field, cases.field_problem(columns))
+    assert field.capacitance > 0.0
+
+
+@pytest.mark.parametrize("columns", [801, 3201])
+def test_field_by_superlu(benchmark, columns):
+    problem = cases.field_problem(columns)
+    capacitance = benchmark.pedantic(baselines.capacitance_by_superlu, (problem,), rounds=3)
+    assert capacitance == pytest.approx(solve_field(problem).capacitance, rel=1e-5)

@@ -1,0 +1,179 @@
+"""The commands as a user types them: output, files and exit status."""
+
+import json
+import os
+
+import pytest
+
+from ehlectric import Case, load
+from tests.cli.conftest import CASE, EXAMPLES
+
+FIGURES = {"film.png", "potential.png", "field_strength.png", "field_profiles.png", "field_deviation.png"}
+DATA = {"summary.json", "result.nc", "film.csv"}
+
+
+def test_run_writes_everything(ehlectric, case_file, tmp_path):
+    done = ehlectric("run", case_file, "-o", "out")
+    assert done.returncode == 0, done.stderr
+    assert {path.name for path in (tmp_path / "out").iterdir()} == FIGURES | DATA
+    for text in ("minimum film", "maximum field", "Dowson-Higginson", "up to 30 %", "M"):
+        assert text in done.stdout
+    for name in FIGURES:
+        assert (tmp_path / "out" / name).read_bytes().startswith(b"\x89PNG")
+
+
+def test_summary_has_the_agreed_keys(ehlectric, case_file, tmp_path):
+    ehlectric("run", case_file, "-o", "out", "--no-plots")
+    assert {path.name for path in (tmp_path / "out").iterdir()} == DATA
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text(), parse_constant=pytest.fail)
+    assert summary["schema"] == "ehlectric.summary/1"
+    assert summary["converged"] is True
+    assert set(summary) == {
+        "schema", "version", "title", "converged", "status", "warnings", "inputs", "groups", "hertz",
+        "film", "field", "film_formulas", "seconds",
+    }  # fmt: skip
+    assert set(summary["groups"]) == {"moes_m", "moes_l"}
+    assert set(summary["hertz"]) == {"half_width", "max_pressure"}
+    assert set(summary["film"]) == {
+        "minimum_thickness", "minimum_position", "central_thickness", "mean_thickness", "max_pressure",
+        "load_residual", "residual", "newton_iterations", "discretisation_error",
+    }  # fmt: skip
+    assert set(summary["field"]) == {
+        "voltage", "max_strength", "max_strength_position", "max_dimensionless", "central_dimensionless",
+        "high_field_width", "capacitance_per_length", "thin_gap_error",
+    }  # fmt: skip
+    assert set(summary["film_formulas"]) == {"dowson_higginson", "dowson_toyoda", "pan_hamrock", "moes"}
+    for formula in summary["film_formulas"].values():
+        assert set(formula) == {"minimum_thickness", "central_thickness"}
+    assert set(summary["seconds"]) == {"film", "field"}
+    # Alternatives are resolved: w = 2 pi R p_h^2/E'.
+    contact = summary["inputs"]["contact"]
+    assert contact["load_per_length"] == pytest.approx(2 * 3.141592653589793 * 0.0141 * 1e18 / 226e9)
+    assert "max_hertz_pressure" not in contact
+
+
+def test_json_is_the_summary_alone(ehlectric, case_file, tmp_path):
+    done = ehlectric("run", case_file, "-o", "out", "--no-plots", "--json")
+    assert json.loads(done.stdout) == json.loads((tmp_path / "out" / "summary.json").read_text())
+
+
+def test_quiet_prints_nothing(ehlectric, case_file):
+    done = ehlectric("run", case_file, "-o", "out", "--no-plots", "--quiet")
+    assert (done.returncode, done.stdout) == (0, "")
+
+
+def test_not_converged_is_exit_3_with_all_files(ehlectric, case_file, tmp_path):
+    case_file.write_text(CASE + "[solver]\nmax_iterations = 1\n")
+    done = ehlectric("run", case_file, "-o", "out")
+    assert done.returncode == 3
+    assert {path.name for path in (tmp_path / "out").iterdir()} == FIGURES | DATA
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    assert summary["converged"] is False
+    assert summary["status"] == "stalled"
+    assert "not converged" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_example_is_the_first_case_of_the_paper(ehlectric, tmp_path):
+    done = ehlectric("run", EXAMPLES / "line_contact.toml", "-o", "out", "--no-plots", "-q")
+    assert done.returncode == 0
+    film = json.loads((tmp_path / "out" / "summary.json").read_text())["film"]
+    # tests/published/data/line_contact_films.csv, second order.
+    assert film["minimum_thickness"] == pytest.approx(0.6378e-6, rel=1e-3)
+
+
+def test_plot_redraws(ehlectric, case_file, tmp_path):
+    ehlectric("run", case_file, "-o", "out", "--no-plots")
+    done = ehlectric("plot", "out/result.nc", "-o", "figures")
+    assert done.returncode == 0, done.stderr
+    assert {path.name for path in (tmp_path / "figures").iterdir()} == FIGURES
+
+
+def test_check_says_what_a_case_means(ehlectric, case_file):
+    done = ehlectric("check", case_file)
+    assert done.returncode == 0
+    for text in ("Hertz pressure", "half-width", "Moes M", "Moes L", "piezoviscous-elastic", "lambda"):
+        assert text in done.stdout
+    summary = json.loads(ehlectric("check", case_file, "--json").stdout)
+    assert summary["hertz"]["max_pressure"] == pytest.approx(1e9)
+    assert summary["regime"] == "piezoviscous-elastic"
+
+
+def test_init_writes_a_case_that_solves(ehlectric, tmp_path):
+    assert ehlectric("init", "new.toml").returncode == 0
+    assert ehlectric("check", "new.toml").returncode == 0
+    assert Case.from_toml(tmp_path / "new.toml").contact.entrainment_speed == 4.0
+    again = ehlectric("init", "new.toml")
+    assert again.returncode == 2
+    assert "is there already" in again.stderr
+    assert ehlectric("init", "new.toml", "--force").returncode == 0
+
+
+def test_version(ehlectric):
+    done = ehlectric("--version")
+    assert done.returncode == 0
+    assert done.stdout.startswith("ehlectric ")
+
+
+def test_results_read_back(ehlectric, case_file, tmp_path):
+    ehlectric("run", case_file, "-o", "out", "--no-plots")
+    result = load(tmp_path / "out" / "result.nc")
+    assert result.summary() == json.loads((tmp_path / "out" / "summary.json").read_text())
+
+
+def one_line(done):
+    """The error of a refused command."""
+    assert done.returncode == 2
+    assert "Traceback" not in done.stderr
+    lines = [line for line in done.stderr.splitlines() if line]
+    assert len(lines) == 1
+    assert lines[0].startswith("error: ")
+    return lines[0]
+
+
+BAD_FILES = [
+    ('reduced_modulus = "226 GPa"', 'reduced_modulus = "226 kg"', "contact.reduced_modulus: got '226 kg'"),
+    ("reduced_modulus", "reduced_moduls", "the nearest known one is contact.reduced_modulus"),
+    ('max_hertz_pressure = "1 GPa"', "", "contact.load_per_length: missing"),
+    ('max_hertz_pressure = "1 GPa"', "max_hertz_pressure = 0", "got 0, takes"),
+    ('max_hertz_pressure = "1 GPa"', "max_hertz_pressure = nan", "got nan"),
+    ("nodes = 401", "nodes = 1e12", "grid.nodes: got 1000000000000.0"),
+    ("nodes = 401", "inlet = 3.0", "grid.inlet: got 3.0"),
+    ("nodes = 401", "field_range = [-9, 9]", "grid.field_range: got [-9, 9]"),
+    ("[grid]", "[electric]\npotential_1 = 1\n[grid]", "electric.potential_2"),
+    ("[lubricant]", "[lubricant", "is not TOML"),
+    (
+        'base = "paper"',
+        'base = "paper"\nrelative_permittivity = 80',
+        "lubricant.permittivity_law: 'clausius-mossotti' has a pole",
+    ),
+]
+
+
+@pytest.mark.parametrize(("old", "new", "message"), BAD_FILES)
+def test_bad_case_is_one_line_and_nothing_is_written(ehlectric, case_file, tmp_path, old, new, message):
+    case_file.write_text(CASE.replace(old, new))
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / "summary.json").write_text("kept")
+    assert message in one_line(ehlectric("run", case_file, "-o", "out"))
+    assert [path.read_text() for path in (tmp_path / "out").iterdir()] == ["kept"]
+
+
+def test_files_that_cannot_be_used(ehlectric, case_file, tmp_path):
+    assert "no such file" in one_line(ehlectric("run", "nowhere.toml"))
+    assert "is a directory" in one_line(ehlectric("run", tmp_path))
+    (tmp_path / "taken").write_text("a file")
+    assert "cannot be written to" in one_line(ehlectric("run", case_file, "-o", "taken"))
+    assert "cannot be written to" in one_line(ehlectric("run", case_file, "-o", "taken/below"))
+    assert "is not a NetCDF file" in one_line(ehlectric("plot", "taken"))
+    assert "no such file" in one_line(ehlectric("plot", "nowhere.nc"))
+    assert "is a directory" in one_line(ehlectric("plot", tmp_path))
+    assert "cannot be written to" in one_line(ehlectric("init", "taken/case.toml"))
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="root may read and write everything")
+def test_permissions(ehlectric, case_file, tmp_path):
+    (tmp_path / "closed").mkdir(mode=0o500)
+    assert "cannot be written to" in one_line(ehlectric("run", case_file, "-o", "closed"))
+    case_file.chmod(0)
+    assert "permission denied" in one_line(ehlectric("run", case_file))

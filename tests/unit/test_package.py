@@ -1,0 +1,33 @@
+"""What importing the package costs and gives."""
+
+import subprocess
+import sys
+
+import pytest
+
+import ehlectric
+
+
+def modules_after(statement):
+    code = f"import sys; {statement}; print(*sys.modules)"
+    return set(subprocess.run([sys.executable, "-c", code], capture_output=True, text=True).stdout.split())
+
+
+def test_import_loads_nothing_heavy():
+    loaded = modules_after("import ehlectric")
+    assert "ehlectric" in loaded
+    assert not loaded & {"matplotlib", "xarray", "pint", "numpy", "scipy", "pydantic"}
+
+
+def test_solving_needs_no_figures_or_files():
+    loaded = modules_after("import ehlectric; ehlectric.solve; ehlectric.Case")
+    assert "scipy" in loaded
+    assert not loaded & {"matplotlib", "xarray", "pint", "h5py"}
+
+
+def test_public_names():
+    for name in ehlectric.__all__:
+        assert getattr(ehlectric, name) is not None
+    assert callable(ehlectric.solve)
+    with pytest.raises(AttributeError, match="nonsense"):
+        _ = ehlectric.nonsense

@@ -1,0 +1,167 @@
+"""Results: their summary, dataset, files and what they warn of."""
+
+import dataclasses
+import json
+import re
+
+import numpy as np
+import pytest
+
+from ehlectric import Case, ConvergenceError, InputError, load, save, solve
+from ehlectric.store import whole
+from tests.conftest import PAPER_CONTACT
+
+
+def test_dataset_has_units_and_provenance(paper_result):
+    dataset = paper_result.to_xarray()
+    for variable in dataset.variables.values():
+        assert variable.attrs["units"]
+        assert variable.attrs["long_name"]
+    assert dataset.attrs["Conventions"].startswith("CF-")
+    assert paper_result.version in dataset.attrs["history"]
+    assert dataset["strength"].dims == ("x_field", "s")
+    assert dataset["pressure"].attrs["units"] == "Pa"
+    assert dataset.sizes["step"] == len(paper_result.film.steps)
+
+
+def test_results_survive_the_disk(paper_result, tmp_path):
+    files = save(paper_result, tmp_path / "new" / "folder")
+    assert [path.name for path in files] == ["summary.json", "result.nc", "film.csv"]
+    back = load(files[1])
+    assert back.summary() == paper_result.summary()
+    assert back.case == paper_result.case
+    for part in ("film", "field"):
+        for field in dataclasses.fields(getattr(back, part)):
+            original = getattr(getattr(paper_result, part), field.name)
+            read = getattr(getattr(back, part), field.name)
+            if isinstance(original, np.ndarray):
+                np.testing.assert_array_equal(read, original)
+            else:
+                assert read == original
+
+
+def test_csv_has_units_in_its_header(paper_result, tmp_path):
+    *_, path = save(paper_result, tmp_path)
+    header, first = path.read_text().splitlines()[:2]
+    assert header == "x [m],pressure [Pa],thickness [m],density ratio [-]"
+    assert len(first.split(",")) == 4
+
+
+def test_other_netcdf_files_are_refused(paper_result, tmp_path):
+    paper_result.to_xarray().drop_vars("pressure").to_netcdf(tmp_path / "other.nc", engine="h5netcdf")
+    with pytest.raises(InputError, match="is not a result of ehlectric"):
+        load(tmp_path / "other.nc")
+
+
+def test_file_is_whole_or_not_there(tmp_path):
+    path = tmp_path / "file.txt"
+    path.write_text("old")
+
+    def write_half():
+        with whole(path) as beside:
+            beside.write_text("ha")
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        write_half()
+    assert [(p.name, p.read_text()) for p in tmp_path.iterdir()] == [("file.txt", "old")]
+
+
+def test_summary_is_json_without_nan(paper_result):
+    broken = dataclasses.replace(
+        paper_result, film=dataclasses.replace(paper_result.film, residual=float("nan"))
+    )
+    summary = json.loads(json.dumps(broken.summary(), allow_nan=False))
+    assert summary["film"]["residual"] is None
+
+
+def test_definitions_of_the_summary(paper_result):
+    """The definitions again, from the arrays."""
+    film, field = paper_result.film, paper_result.field
+    summary = paper_result.summary()
+    b = summary["hertz"]["half_width"]
+    assert summary["film"]["minimum_thickness"] == film.thickness.min()
+    assert film.x[np.argmin(film.thickness)] == summary["film"]["minimum_position"]
+    fine = np.linspace(-b, b, 200_001)
+    mean = np.mean(np.interp(fine, film.x, film.thickness))
+    assert summary["film"]["mean_thickness"] == pytest.approx(mean, rel=1e-5)
+    load = np.trapezoid(film.pressure, film.x)
+    assert load == pytest.approx(summary["inputs"]["contact"]["load_per_length"], rel=1e-9)
+    walls = np.max(field.strength[:, [0, -1]])
+    assert summary["field"]["max_strength"] == max(walls, np.max(field.middle_strength))
+    assert summary["field"]["voltage"] == 2.0
+
+
+def test_surfaces_of_equal_bodies_lie_at_half_the_film(paper_result):
+    field, film = paper_result.field, paper_result.film
+    # The two ends of the range lie between nodes of the film.
+    half = 0.5 * np.interp(field.x, film.x, film.thickness)[1:-1]
+    np.testing.assert_allclose(field.y[1:-1, -1], half, rtol=1e-12)
+    np.testing.assert_allclose(field.y[1:-1, 0], -half, rtol=1e-12)
+
+
+def test_film_nodes_carry_the_field(paper_result):
+    inside = paper_result.field.x[1:-1]
+    assert np.all(np.isin(inside, paper_result.film.x))
+
+
+def test_field_nodes_on_request(paper_case, paper_result):
+    result = solve(paper_case.replace({"grid.field_nodes": 4001, "grid.field_range": [-1.0, 1.1]}))
+    b = result.conditions.half_width
+    np.testing.assert_allclose(result.field.x, b * np.linspace(-1.0, 1.1, 4001))
+    assert result.field.max_strength == pytest.approx(paper_result.field.max_strength, rel=1e-4)
+
+
+def test_field_across_a_bent_gap(paper_result):
+    """A roller in a tight concave ring: the gap is bent as a whole, and its normal width is h cos(slope)."""
+    contact = PAPER_CONTACT | {"radius_1": 14.1e-3 / 3, "radius_2": -14.1e-3 / 2}
+    del contact["reduced_radius"]
+    case = Case.from_dict({"contact": contact, "lubricant": {"base": "paper"}})
+    result = solve(case)
+    np.testing.assert_allclose(result.film.thickness, paper_result.film.thickness, rtol=1e-9)
+    assert abs(result.field.y[:, 0]).max() > 5 * abs(paper_result.field.y[:, 0]).max()
+    slope = result.film.minimum_position / (14.1e-3 / 2.5)
+    expected = paper_result.field.max_strength * np.hypot(1.0, slope)
+    assert result.field.max_strength == pytest.approx(expected, rel=1e-3)
+
+
+WARNINGS = [
+    ({"grid.inlet": -1.3, "contact.entrainment_speed": 40.0}, "inlet is too short"),
+    ({"grid.outlet": 1.01, "grid.field_range": [-1.1, 1.0]}, "does not cavitate"),
+    ({"grid.nodes": 129, "contact.entrainment_speed": 0.5}, "discretisation error|% off on this grid"),
+    ({"grid.field_range": [0.2, 0.975]}, "end of grid.field_range"),
+    ({"contact.load_per_length": "3 kN/m"}, "isoviscous-rigid"),
+]
+
+
+@pytest.mark.parametrize(("keys", "message"), WARNINGS)
+def test_warnings(paper_case, keys, message):
+    case = paper_case.replace({"grid.nodes": 801} | keys)
+    warnings = solve(case).warnings
+    assert any(re.search(message, text) for text in warnings), warnings
+
+
+def test_paper_result_needs_no_warning(paper_result):
+    assert paper_result.warnings == ()
+
+
+def test_the_caller_may_ask_for_a_solution_or_nothing(paper_case):
+    case = paper_case.replace({"solver.max_iterations": 1, "grid.nodes": 401})
+    assert not solve(case).converged
+    with pytest.raises(ConvergenceError, match="stalled"):
+        solve(case, require_convergence=True)
+
+
+def test_progress_is_reported(paper_case):
+    seen = []
+    solve(paper_case.replace({"grid.nodes": 801}), progress=lambda *step: seen.append(step))
+    nodes, steps, residuals = zip(*seen, strict=True)
+    assert nodes[-1] == 801
+    assert steps[0] == 0
+    assert all(residual > 0 for residual in residuals)
+
+
+def test_results_are_reproducible(paper_case, paper_result):
+    again = solve(paper_case)
+    np.testing.assert_array_equal(again.film.thickness, paper_result.film.thickness)
+    np.testing.assert_array_equal(again.field.strength, paper_result.field.strength)
