@@ -82,13 +82,22 @@ class Deflection:
         wrapped[:nx, :ny] = influence
         wrapped[mx - nx + 1 :, :ny] = influence[:0:-1]
         wrapped[:, my - ny + 1 :] = wrapped[:, ny - 1 : 0 : -1]
-        return cls(influence, fft.rfftn(wrapped, axes=(1, 0)), (mx, my))
+        return cls(influence, _transform(wrapped, (mx, my)), (mx, my))
 
     def __call__(self, pressure: Array) -> Array:
         """Gap opened by ``pressure``, dimensionless, shape (nx, ny)."""
         nx, ny = self.influence.shape
         mx, my = self.padded
-        transform = fft.rfftn(pressure, s=(my, mx), axes=(1, 0))
-        transform *= self.spectrum
-        opened: Array = fft.irfftn(transform, s=(my, mx), axes=(1, 0))[:nx, :ny]
+        product = _transform(pressure, self.padded)
+        product *= self.spectrum
+        if my > 1:
+            product = fft.ifft(product, my, axis=1, overwrite_x=True)
+        opened: Array = fft.irfft(product, mx, axis=0)[:nx, :ny]
         return opened
+
+
+def _transform(values: Array, padded: tuple[int, int]) -> ComplexArray:
+    """Zero-padded transform, real along x; along y only where there is a y."""
+    mx, my = padded
+    transform: ComplexArray = fft.rfft(values, mx, axis=0)
+    return fft.fft(transform, my, axis=1, overwrite_x=True) if my > 1 else transform
