@@ -201,7 +201,7 @@ class Grid(_Table):
 
     nodes: Annotated[
         int,
-        Count(65, 1_000_001, "fewer do not resolve the Hertz zone, more take over 10 GB of memory"),
+        Count(65, 10_000_001, "fewer do not resolve the Hertz zone, more are atoms apart"),
     ] = 3201
     inlet: Annotated[float, Quantity("", least=-100.0, below=-1.0, reason="ahead of the Hertz zone")] = -4.0
     outlet: Annotated[float, Quantity("", above=1.0, most=100.0, reason="behind the Hertz zone")] = 2.0
@@ -210,7 +210,7 @@ class Grid(_Table):
     field_nodes: (
         Annotated[
             int,
-            Count(17, 1_000_001, "fewer do not resolve the exit, more take over 10 GB of memory"),
+            Count(17, 10_000_001, "fewer do not resolve the exit, more are atoms apart"),
         ]
         | None
     ) = None

@@ -109,10 +109,12 @@ def check(case_file: CaseFile, quiet: Quiet = False, as_json: Json = False) -> N
     with _user_errors():
         from ehlectric.case import Case
         from ehlectric.conditions import remarks, resolve
+        from ehlectric.memory import check_memory
         from ehlectric.report import conditions_summary, conditions_table
 
         case = Case.from_toml(case_file)
         conditions = resolve(case)
+        check_memory(case)
     if as_json:
         typer.echo(json.dumps(conditions_summary(case, conditions), indent=2))
     elif not quiet:

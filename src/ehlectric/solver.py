@@ -17,6 +17,7 @@ from ehlectric.field import Field, FieldProblem, solve_field
 from ehlectric.film import Film, FilmProblem, solve_film
 from ehlectric.film_formulas import moes
 from ehlectric.lubricant import DENSITY_LAWS, PERMITTIVITY_LAWS, VISCOSITY_LAWS, Law
+from ehlectric.memory import check_memory
 from ehlectric.newton import Progress
 from ehlectric.result import Result, scales_of
 from ehlectric.reynolds import Fluid, FluidLaw
@@ -61,6 +62,7 @@ def solve(case: Case, *, progress: Progress | None = None, require_convergence: 
     0.74
     """
     conditions = resolve(case)
+    check_memory(case)
     permittivity = _permittivity(case.lubricant)
     # A permittivity law that fails does so at the Hertz pressure already: before the film is solved.
     density = _bound(DENSITY_LAWS[case.lubricant.density_law], case.lubricant)

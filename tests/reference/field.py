@@ -28,3 +28,26 @@ def cylinder_plane_charge(x, radius, gap):
     """Charge of the plane within abs(x) per length and volt, in vacuum [F/m]."""
     focus = np.sqrt(gap**2 + 2 * gap * radius)
     return 4 * epsilon_0 * np.arctan(x / focus) / np.arccosh(1 + gap / radius)
+
+
+def sphere_images(radius, gap):
+    """Heights and charges [m, C] of the images of a sphere at 1 V above a grounded plane."""
+    heights, charges = [radius + gap], [4 * np.pi * epsilon_0 * radius]
+    while charges[-1] > 1e-16 * charges[0]:
+        height, charge = heights[-1], charges[-1]
+        charges.append(charge * radius / (radius + gap + height))
+        heights.append(radius + gap - radius**2 / (radius + gap + height))
+    return np.array(heights), np.array(charges)
+
+
+def sphere_potential(rho, y, radius, gap):
+    """Potential between a grounded plane y = 0 and a sphere at 1 V, at the heights y (n,)."""
+    heights, charges = sphere_images(radius, gap)
+    above, below = (np.hypot(rho, y[:, np.newaxis] + sign * heights) for sign in (-1, 1))
+    return (1 / above - 1 / below) @ charges / (4 * np.pi * epsilon_0)
+
+
+def sphere_plane_charge(rho, radius, gap):
+    """Charge of the plane within ``rho`` of the axis [C] at 1 V, in vacuum."""
+    heights, charges = sphere_images(radius, gap)
+    return np.sum(charges * (1 - heights / np.hypot(heights, rho)))

@@ -72,7 +72,7 @@ BAD = [
     (changed(lubricant={"viscosity_law": 3}), r"lubricant\.viscosity_law: got 3, takes a text"),
     (changed(electric={"potential_1": "1 V"}), r"electric\.potential_2: got 1 V, which is potential_1"),
     (changed(grid={"nodes": 10}), r"grid\.nodes: got 10, takes a whole number from 65"),
-    (changed(grid={"nodes": 10**9}), r"grid\.nodes: got 1000000000.*memory"),
+    (changed(grid={"nodes": 10**9}), r"grid\.nodes: got 1000000000, takes .* from 65 to 10000001"),
     (changed(grid={"nodes": "many"}), r"grid\.nodes: got 'many', takes a whole number"),
     (changed(grid={"nodes": 100.5}), r"grid\.nodes: got 100\.5, takes a whole number"),
     (changed(grid={"inlet": 3.0}), r"grid\.inlet: got 3\.0, takes a number.*below -1"),
@@ -210,7 +210,7 @@ positive = st.floats(0.01, 1.0)
     radius=positive,
     speed=st.floats(1e-3, 1e3),
     voltage=st.floats(-1e3, 1e3).filter(lambda v: v != -1.0),
-    nodes=st.integers(65, 10**6),
+    nodes=st.integers(65, 10**7),
     field_range=st.tuples(st.floats(-4.0, -0.1), st.floats(0.1, 2.0)),
 )
 def test_toml_round_trip(title, radius, speed, voltage, nodes, field_range):
