@@ -9,9 +9,9 @@ from scipy.linalg import lu_factor, lu_solve
 from scipy.sparse.linalg import splu
 
 from ehlectric import film, newton
-from ehlectric.field import FieldProblem
 from ehlectric.film import Film, FilmProblem
 from ehlectric.multigrid import Level, Linearised
+from ehlectric.poisson import FieldProblem
 from ehlectric.reynolds import Fluid
 from ehlectric.typing import Array
 

@@ -6,8 +6,8 @@ from pathlib import Path
 
 from ehlectric.case import Case
 from ehlectric.conditions import resolve
-from ehlectric.field import FieldProblem
 from ehlectric.film import FilmProblem
+from ehlectric.poisson import FieldProblem
 from ehlectric.solver import _field_problem, _film_problem, _permittivity, solve
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "line_contact.toml"

@@ -13,7 +13,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import toeplitz
+from scipy.linalg import lapack, toeplitz
 
 from ehlectric.multigrid import Level
 from ehlectric.reynolds import (
@@ -64,7 +64,7 @@ class _Window:
         return values[self.strip, self.column : self.column + 1]
 
     def residual(self, coefficients: Coefficients, pressure: Array, thickness: Array) -> Array:
-        """R at the nodes of the window."""
+        """Reynolds residual at the nodes of the window."""
         r = residual(coefficients, self.wedge, pressure, thickness, self.dx)
         return r[self.inner, 0]
 
@@ -109,9 +109,7 @@ def relax_spike(
         return None
     window = _Window.around(level, int(node), int(column))
     unknown = np.flatnonzero(free[window.strip, window.column][window.inner])
-    # The rows keep the scale they had, so that the two measures of the residual are the same one.
     p, h = window.cut(pressure).copy(), window.cut(thickness).copy()
-    first: float | None = None
     for _ in range(MAX_ITERATIONS):
         coefficients = evaluate(fluid, p, h)
         r = window.residual(coefficients, p, h)[unknown]
@@ -119,7 +117,6 @@ def relax_spike(
         # Rows scaled by their largest entry: their coefficients span many orders of magnitude.
         rows = 1.0 / np.max(np.abs(jacobian), axis=1)
         norm = float(np.max(np.abs(rows * r)))
-        first = norm if first is None else first
         if not np.isfinite(norm):
             return None
         if norm < 1e-2 * THRESHOLD:
@@ -127,7 +124,10 @@ def relax_spike(
             relaxed[window.strip, window.column] = p[:, 0]
             return relaxed
         dp = np.zeros((window.inner.stop - window.inner.start, 1))
-        dp[unknown, 0] = np.linalg.solve(rows[:, np.newaxis] * jacobian, -rows * r)
+        *_, step, singular = lapack.dgesv(rows[:, np.newaxis] * jacobian, -rows * r)
+        if singular:
+            return None
+        dp[unknown, 0] = step
         dh = window.influence @ dp
         length = step_length(h, dp, dh, pressure_step=pressure_step, gap_step=gap_step)
         p[window.inner] += length * dp

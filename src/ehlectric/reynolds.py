@@ -119,7 +119,7 @@ def poiseuille_weight(coefficients: Coefficients, dx: float) -> Array:
 def residual(
     coefficients: Coefficients, wedge: Stencil, pressure: Array, thickness: Array, dx: float
 ) -> Array:
-    """R at the interior nodes, zero in the two end rows."""
+    """The residual r at the interior nodes, zero in the two end rows."""
     eps = coefficients.eps
     flux = 0.5 * (eps[1:] + eps[:-1]) * np.diff(pressure, axis=0) / dx**2
     r = wedge(coefficients.density * thickness)

@@ -13,12 +13,13 @@ from scipy.interpolate import PchipInterpolator
 from ehlectric.case import Case, Lubricant
 from ehlectric.conditions import Conditions, remarks, resolve
 from ehlectric.errors import ConvergenceError
-from ehlectric.field import Field, FieldProblem, solve_field
+from ehlectric.field import Field, solve_field
 from ehlectric.film import Film, FilmProblem, solve_film
 from ehlectric.film_formulas import moes
 from ehlectric.lubricant import DENSITY_LAWS, PERMITTIVITY_LAWS, VISCOSITY_LAWS, Law
 from ehlectric.memory import check_memory
 from ehlectric.newton import Progress
+from ehlectric.poisson import FieldProblem
 from ehlectric.result import Result, scales_of
 from ehlectric.reynolds import Fluid, FluidLaw
 from ehlectric.typing import Array

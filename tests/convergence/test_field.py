@@ -5,7 +5,8 @@ import pytest
 import sympy
 from scipy.constants import epsilon_0
 
-from ehlectric.field import FieldProblem, lobatto_nodes, solve_field
+from ehlectric.field import solve_field
+from ehlectric.poisson import FieldProblem, lobatto_nodes
 from tests.reference.field import (
     cylinder_plane_charge,
     cylinder_potential,

@@ -6,7 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.constants import epsilon_0
 
-from ehlectric.field import FieldProblem, solve_field
+from ehlectric.field import solve_field
+from ehlectric.poisson import FieldProblem, lobatto_nodes
 
 X = np.linspace(-1e-4, 1e-4, 201)
 
@@ -46,8 +47,6 @@ def test_plates_with_uniform_charge():
 def test_layers_in_series():
     """A permittivity 1/(1 + s) across the gap: C = eps0/(h times the integral of 1 + s)."""
     degree, h = 12, 1e-6
-    from ehlectric.field import lobatto_nodes
-
     s = lobatto_nodes(degree)
     layers = np.tile(1 / (1 + s), (X.size, 1))
     field = solve_field(FieldProblem(X, 0 * X, 0 * X + h, layers, 0.0, 1.0, degree=degree))
