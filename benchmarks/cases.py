@@ -8,7 +8,7 @@ from ehlectric.case import Case
 from ehlectric.conditions import resolve
 from ehlectric.film import FilmProblem
 from ehlectric.poisson import FieldProblem
-from ehlectric.solver import _field_problem, _film_problem, _permittivity, solve
+from ehlectric.solver import _field_problem, _film_problem, solve
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "line_contact.toml"
 
@@ -23,4 +23,4 @@ def field_problem(columns: int) -> FieldProblem:
     """The example's field on so many columns."""
     case = Case.from_toml(EXAMPLE).replace({"grid.field_nodes": columns})
     result = solve(case)
-    return _field_problem(case, result.conditions, result.film, _permittivity(case.lubricant))
+    return _field_problem(case, result.conditions, result.film)

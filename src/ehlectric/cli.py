@@ -3,20 +3,26 @@
 from __future__ import annotations
 
 import json
+import os
+import signal
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from importlib import resources
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from ehlectric.errors import InputError
 from ehlectric.version import __version__
 
-NOT_CONVERGED = 3
+if TYPE_CHECKING:
+    from rich.table import Table
+
 WRONG_INPUT = 2
+NOT_CONVERGED = 3
+SIGNALLED = 128  # plus the number of the signal, as shells count
 
 app = typer.Typer(
     help="Film and electric field of lubricated contacts.",
@@ -26,7 +32,7 @@ app = typer.Typer(
 )
 
 CaseFile = Annotated[Path, typer.Argument(help="Case file, TOML.", show_default=False)]
-Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing but errors.")]
+Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No table, progress or warnings.")]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")]
 
 
@@ -36,8 +42,15 @@ def _user_errors() -> Iterator[None]:
     try:
         yield
     except InputError as error:
-        typer.echo(f"error: {error}", err=True)
-        raise typer.Exit(WRONG_INPUT) from None
+        text = str(error)
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        text = f"{error.filename}: cannot be used, {(error.strerror or str(error)).lower()}"
+    else:
+        return
+    typer.echo(f"error: {text}", err=True)
+    raise typer.Exit(WRONG_INPUT)
 
 
 def _version(wanted: bool) -> None:
@@ -71,11 +84,15 @@ def run(
     """
     with _user_errors():
         from ehlectric.case import Case
+        from ehlectric.conditions import resolve
+        from ehlectric.memory import check_memory
         from ehlectric.solver import solve
-        from ehlectric.store import prepare, save
+        from ehlectric.store import FIGURE_FILES, FILES, clear, prepare, save
 
         case = Case.from_toml(case_file)
-        folder = prepare(output)
+        resolve(case)
+        check_memory(case)
+        folder = prepare(output, FILES + FIGURE_FILES)
         with _progress(shown=not quiet) as stage:
             result = solve(
                 case,
@@ -84,6 +101,7 @@ def run(
                 ),
             )
             stage("writing results")
+            clear(folder, FILES + FIGURE_FILES)
             files = save(result, folder)
             if plots:
                 from ehlectric.plot import save_figures
@@ -97,7 +115,8 @@ def run(
 
         _print(result_table(result))
         typer.echo("written: " + ", ".join(str(path) for path in files))
-    _warn(result.warnings)
+    if not quiet:
+        _warn(result.warnings)
     if not result.converged:
         typer.echo(f"error: not converged, the film has {result.film.status}", err=True)
         raise typer.Exit(NOT_CONVERGED)
@@ -119,7 +138,8 @@ def check(case_file: CaseFile, quiet: Quiet = False, as_json: Json = False) -> N
         typer.echo(json.dumps(conditions_summary(case, conditions), indent=2))
     elif not quiet:
         _print(conditions_table(case, conditions))
-    _warn(remarks(case, conditions))
+    if not quiet:
+        _warn(remarks(case, conditions))
 
 
 @app.command()
@@ -130,12 +150,11 @@ def init(
 ) -> None:
     """Write a commented case to start from."""
     with _user_errors():
-        from ehlectric.store import prepare, whole
+        from ehlectric.store import prepare, refuse_special, whole
 
+        refuse_special(path)
         if path.exists() and not force:
             raise InputError(f"{path}: is there already, takes a new file or --force")
-        if path.is_dir():
-            raise InputError(f"{path}: is a directory, takes a file")
         prepare(path.parent)
         template = resources.files("ehlectric.library") / "template.toml"
         with whole(path) as beside:
@@ -155,15 +174,16 @@ def plot(
 ) -> None:
     """Draw the figures of a result again."""
     with _user_errors():
-        from ehlectric.store import load, prepare
+        from ehlectric.store import FIGURE_FILES, load, prepare
 
         result = load(result_file)
-        folder = prepare(result_file.parent if output is None else output)
+        folder = prepare(result_file.parent if output is None else output, FIGURE_FILES)
         from ehlectric.plot import save_figures
 
         files = save_figures(result, folder)
     if not quiet:
         typer.echo("written: " + ", ".join(str(path) for path in files))
+        _warn(result.warnings)
 
 
 @contextmanager
@@ -178,17 +198,55 @@ def _progress(*, shown: bool) -> Iterator[Callable[[str], None]]:
         yield status.update
 
 
-def _print(table: Any) -> None:
+def _print(table: Table) -> None:
     from rich.console import Console
 
-    Console(highlight=False).print(table)
+    console = Console(highlight=False)
+    with console.capture() as captured:
+        console.print(table)
+    typer.echo(captured.get(), nl=False)
 
 
-def _warn(texts: Any) -> None:
+def _warn(texts: Iterable[str]) -> None:
     for text in texts:
         typer.echo(f"warning: {text}", err=True)
 
 
+def _stop(number: int, _: object) -> None:
+    # Leaves through every finally, so that no half-written file stays behind.
+    sys.exit(SIGNALLED + number)
+
+
+def _command() -> int:
+    """Run the command; wrong words on the command line are one line too."""
+    try:
+        status = app(standalone_mode=False)
+        sys.stdout.flush()
+    except (KeyboardInterrupt, typer.Abort):
+        return SIGNALLED + signal.SIGINT
+    except OSError as error:
+        # Nothing can be printed any more, not even what the interpreter still holds at its exit.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        if isinstance(error, BrokenPipeError):
+            return SIGNALLED + signal.SIGPIPE
+        typer.echo(
+            f"error: standard output: cannot be written to, {(error.strerror or '').lower()}", err=True
+        )
+        return WRONG_INPUT
+    except Exception as error:
+        message = getattr(error, "format_message", None)
+        if message is None:
+            raise
+        typer.echo(f"error: {message()}", err=True)
+        return WRONG_INPUT
+    return int(status or 0)
+
+
 def main() -> None:
     """Entry point of the ``ehlectric`` command."""
-    app()
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, _stop)
+    for stream in (sys.stdout, sys.stderr):
+        # A terminal that knows no micro sign must not end the run.
+        stream.reconfigure(errors="replace")  # type: ignore[union-attr]
+    sys.exit(_command())

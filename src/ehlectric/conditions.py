@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
+from typing import Any
 
 import numpy as np
 
 from ehlectric import film_formulas, hertz
-from ehlectric.case import Case, Contact
+from ehlectric.case import Case
 from ehlectric.errors import InputError
+from ehlectric.inputs import Contact, Lubricant
+from ehlectric.lubricant import DENSITY_LAWS, PERMITTIVITY_LAWS, VISCOSITY_LAWS, Law
+from ehlectric.typing import Array
 
 # Roelands' reduced form of the viscosity at zero pressure, ln(eta0) + 9.67, with eta0 in Pa s.
 _ROELANDS_CONSTANT = 9.67
@@ -93,7 +98,11 @@ def resolve(case: Case) -> Conditions:
         load = hertz.line_load(contact.max_hertz_pressure, radius, modulus)
     half_width = hertz.line_half_width(load, radius, modulus)
     max_pressure = hertz.line_max_pressure(load, radius, modulus)
-    _check_dry_contact(half_width, radius, max_pressure, lubricant.ambient_pressure)
+    bodies = [abs(r) for r in (contact.radius_1, contact.radius_2) if r is not None]
+    _check_dry_contact(half_width, min([radius, *bodies]), max_pressure, lubricant.ambient_pressure)
+
+    # A permittivity law that fails does so at the Hertz pressure already, before anything is solved.
+    permittivity_law(lubricant)(density_law(lubricant)(np.array([max_pressure]))[0])
 
     alpha = 0.0
     if lubricant.viscosity_law != "constant":
@@ -154,14 +163,35 @@ def _speeds(contact: Contact) -> tuple[float, float]:
 def _check_dry_contact(half_width: float, radius: float, pressure: float, ambient: float) -> None:
     if half_width > 0.5 * radius:
         raise InputError(
-            f"contact: the dry contact would be {half_width:.3g} m wide on each side, more than half "
-            f"of the reduced radius {radius:.3g} m; takes a smaller load or a larger modulus"
+            f"contact: the dry contact would be {half_width:.3g} m wide on each side, more than half of the "
+            f"smallest radius {radius:.3g} m; takes less load, a larger modulus or less conforming bodies"
         )
-    if pressure <= 10.0 * ambient:
+    least = max(1e4, 10.0 * ambient)
+    if pressure < least:
         raise InputError(
-            f"contact: the Hertz pressure would be {pressure:.3g} Pa, less than ten times the ambient "
-            f"pressure {ambient:.3g} Pa; takes a larger load"
+            f"contact: the Hertz pressure would be {pressure:.3g} Pa, takes a load that gives at least "
+            f"{least:.3g} Pa, well above the ambient {ambient:.3g} Pa"
         )
+
+
+def _bound(law: Law, lubricant: Lubricant) -> Callable[..., Any]:
+    """A law with its parameters from the case."""
+    return partial(law.function, **{name: getattr(lubricant, name) for name in law.parameters})
+
+
+def viscosity_law(lubricant: Lubricant) -> Callable[[Array], tuple[Array, Array]]:
+    """ln(eta/eta0) and its derivative [1/Pa] over pressure [Pa]."""
+    return _bound(VISCOSITY_LAWS[lubricant.viscosity_law], lubricant)
+
+
+def density_law(lubricant: Lubricant) -> Callable[[Array], tuple[Array, Array]]:
+    """rho/rho0 and its derivative [1/Pa] over pressure [Pa]."""
+    return _bound(DENSITY_LAWS[lubricant.density_law], lubricant)
+
+
+def permittivity_law(lubricant: Lubricant) -> Callable[[Array], Array]:
+    """Relative permittivity over rho/rho0."""
+    return _bound(PERMITTIVITY_LAWS[lubricant.permittivity_law], lubricant)
 
 
 def remarks(case: Case, conditions: Conditions) -> Iterator[str]:
@@ -173,6 +203,8 @@ def remarks(case: Case, conditions: Conditions) -> Iterator[str]:
             "isoviscous-rigid regime: the bodies hardly deform, so half-width and Hertz pressure "
             "scale nothing here; widen grid.inlet and grid.outlet until the film stays the same"
         )
+    elif regime != "piezoviscous-elastic":
+        yield f"{regime} regime: the film formulas but Moes' are for piezoviscous-elastic contacts"
     ambient_load = lubricant.ambient_pressure / conditions.max_pressure
     ambient_load *= (case.grid.outlet - case.grid.inlet) / (0.5 * np.pi)
     if ambient_load > 0.01:

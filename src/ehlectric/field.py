@@ -123,17 +123,18 @@ def solve_field(problem: FieldProblem) -> Field:
     >>> round(solve_field(plates).capacitance * 1e9, 6)
     8.854188
     """
+    voltage = problem.potential_2 - problem.potential_1
     with one_blas_thread():
         quadrature = Quadrature.of(problem)
         elements = quadrature.elements()
         solver = BandedSolver(elements, fixed_ends=problem.end_potentials is not None)
+        # Relative to wall 1: a large common potential must not cost digits of the field.
         lifted = _lift(problem, quadrature.across.nodes)
         free = _solve(solver, elements, lifted, np.zeros_like(lifted))
         potential = free
         if problem.charge_density is not None:
             load = quadrature.charge(problem.charge_density)
             potential = _solve(solver, elements, lifted, load)
-    voltage = problem.potential_2 - problem.potential_1
     charge = epsilon_0 * float(np.sum(elements.apply(free)[:, -1]))
     return _field(
         problem,
@@ -144,16 +145,18 @@ def solve_field(problem: FieldProblem) -> Field:
 
 
 def _lift(problem: FieldProblem, s: Array) -> Array:
-    """Potential that meets the boundary conditions: linear across, or given on the end faces."""
-    v1, v2 = problem.potential_1, problem.potential_2
-    lifted = np.repeat((v1 + (v2 - v1) * s)[np.newaxis], problem.x.size, axis=0)
+    """Potential above wall 1 that meets the boundary conditions: linear across, or given on the end faces."""
+    linear = (problem.potential_2 - problem.potential_1) * s
+    lifted = np.repeat(linear[np.newaxis], problem.x.size, axis=0)
     if problem.end_potentials is not None:
-        lifted[0, 1:-1], lifted[-1, 1:-1] = (end[1:-1] for end in problem.end_potentials)
+        left, right = problem.end_potentials
+        lifted[0, 1:-1] = left[1:-1] - problem.potential_1
+        lifted[-1, 1:-1] = right[1:-1] - problem.potential_1
     return lifted
 
 
 def _solve(solver: BandedSolver, elements: Elements, lifted: Array, load: Array) -> Array:
-    """Nodal potential with the boundary values of ``lifted``."""
+    """Nodal potential above wall 1 with the boundary values of ``lifted``."""
     potential = lifted.copy()
     potential[:, 1:-1] += solver((load - elements.apply(lifted))[:, 1:-1])
     return potential
@@ -162,7 +165,7 @@ def _solve(solver: BandedSolver, elements: Elements, lifted: Array, load: Array)
 def _field(
     problem: FieldProblem, potential: Array, *, capacitance: float, capacitance_by_charge: float
 ) -> Field:
-    """Field strength by differentiation of the potential, and the thin-gap estimates."""
+    """Field strength by differentiation of the potential above wall 1, and the thin-gap estimates."""
     across = Across.of_degree(problem.degree)
     x, s = problem.x, across.nodes
     gap = problem.upper - problem.lower
@@ -182,7 +185,7 @@ def _field(
         s=s,
         y=problem.lower[:, np.newaxis] + gap[:, np.newaxis] * s,
         permittivity=permittivity,
-        potential=potential,
+        potential=problem.potential_1 + potential,
         field_x=field_x,
         field_y=field_y,
         strength=np.hypot(field_x, field_y),

@@ -25,6 +25,9 @@ LINE_LOAD = 0.5 * np.pi  # integral of P dX
 PRESSURE_STEP = 0.3
 GAP_STEP = 0.3
 
+# H below which no film is on the way: thousands of times thinner than at the corners of the Moes map.
+SMALLEST_GAP = 1e-8
+
 # Relative tolerance of the linear solves: Newton gains about three digits a step.
 LINEAR_TOLERANCE = 1e-3
 KRYLOV_LIMIT = 60
@@ -144,7 +147,7 @@ def newton(
         steps.append(NewtonStep(level.x.size, now.norm, krylov))
         candidate = State.of(level, state.pressure + length * dp, state.h00 + length * dh00)
         assessed = _assess(fluid, level, candidate)
-        if not np.isfinite(assessed.norm):
+        if not (np.isfinite(assessed.norm) and np.min(candidate.thickness) > SMALLEST_GAP):
             return GridSolution(level, state, now, tuple(steps), "diverged")
         state, now = candidate, assessed
     status: Status = "converged" if now.norm <= tolerance else "stalled"

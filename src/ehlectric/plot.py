@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import textwrap
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -12,12 +14,14 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
+from ehlectric.hertz import line_pressure
 from ehlectric.result import Result
-from ehlectric.store import whole
+from ehlectric.store import FIGURE_FILES, whole
 from ehlectric.typing import Array
 
 MICRO = 1e6
-GIGA = 1e-9
+
+_PREFIXES = {1e9: "G", 1e6: "M", 1e3: "k", 1.0: "", 1e-3: "m", 1e-6: "µ", 1e-9: "n", 1e-12: "p"}
 
 # Colours that stay apart in print and for colour-blind readers (Okabe and Ito).
 _BLUE, _ORANGE, _GREEN, _GREY = "#0072b2", "#d55e00", "#009e73", "#555555"
@@ -52,8 +56,19 @@ def _position(result: Result, x: Array) -> Array:
     return x / result.conditions.half_width
 
 
+def _label_position(result: Result, ax: Axes) -> None:
+    factor, unit = _unit(result.conditions.half_width, "m")
+    ax.set_xlabel(f"$x/b$   ($b$ = {factor * result.conditions.half_width:.4g} {unit})")
+
+
+def _unit(largest: float, unit: str) -> tuple[float, str]:
+    """Factor and unit in which a quantity is a number from 1 to 1000."""
+    size = next((p for p in _PREFIXES if p <= largest), 1e-12)
+    return 1.0 / size, _PREFIXES[size] + unit
+
+
 def pressure_and_film(result: Result, ax: Axes | None = None) -> Axes:
-    """Pressure and film thickness over X, the Hertz pressure behind them.
+    """Pressure and film thickness over X around the contact, the Hertz pressure behind them.
 
     Parameters
     ----------
@@ -70,25 +85,24 @@ def pressure_and_film(result: Result, ax: Axes | None = None) -> Axes:
     ax = _axes(ax)
     film, conditions = result.film, result.conditions
     x = _position(result, film.x)
-    hertz = conditions.max_pressure * np.sqrt(np.maximum(0.0, 1.0 - x**2))
-    lines = ax.plot(x, GIGA * hertz, color=_GREY, ls="--", lw=0.8, label="Hertz pressure")
-    lines += ax.plot(x, GIGA * film.pressure, color=_BLUE, label="pressure")
-    ax.set(xlabel="$x/b$", ylabel="pressure $p$ [GPa]", xlim=(x[0], x[-1]))
-    ax.set_ylim(0.0, 1.3 * GIGA * max(film.max_pressure, conditions.max_pressure))
+    largest = max(film.max_pressure, conditions.max_pressure)
+    factor, unit = _unit(largest, "Pa")
+    hertz = conditions.max_pressure * line_pressure(x)
+    lines = ax.plot(x, factor * hertz, color=_GREY, ls="--", lw=0.8, label="Hertz pressure")
+    lines += ax.plot(x, factor * film.pressure, color=_BLUE, label="pressure")
+    ax.set_xlim(max(x[0], -2.0), min(x[-1], 1.5))
+    _label_position(result, ax)
+    ax.set_ylabel(f"pressure $p$ [{unit}]", color=_BLUE)
+    ax.set_ylim(0.0, 1.3 * factor * largest)
     twin = ax.twinx()
-    lines += twin.plot(x, MICRO * film.thickness, color=_ORANGE, label="film thickness")
-    lines += twin.plot(
-        _position(result, np.array([film.minimum_position])),
-        [MICRO * film.minimum_thickness],
-        ls="",
-        marker="v",
-        ms=4.0,
-        color=_ORANGE,
-        label=rf"$h_\mathrm{{min}}$ = {MICRO * film.minimum_thickness:.3g} µm",
-    )
-    twin.set_ylabel("film thickness $h$ [µm]")
-    twin.set_ylim(0.0, 4.0 * MICRO * film.central_thickness)
-    ax.legend(handles=lines, loc="upper left", frameon=False)
+    factor, unit = _unit(film.central_thickness, "m")
+    minimum = factor * film.minimum_thickness
+    label = rf"film thickness, $h_\mathrm{{min}}$ = {minimum:.3g} {unit} at $x/b$ = "
+    label += f"{film.minimum_position / conditions.half_width:.3f}"
+    lines += twin.plot(x, factor * film.thickness, color=_ORANGE, label=label)
+    twin.set_ylabel(f"film thickness $h$ [{unit}]", color=_ORANGE)
+    twin.set_ylim(0.0, 5.0 * factor * film.central_thickness)
+    ax.legend(handles=lines, loc="upper left", frameon=True, framealpha=0.9, edgecolor="none")
     return ax
 
 
@@ -109,10 +123,10 @@ def potential(result: Result, ax: Axes | None = None) -> Axes:
     """
     field, electric = result.field, result.case.electric
     low, high = sorted((electric.potential_1, electric.potential_2))
-    ax = _map(result, field.potential, ax, label="potential $V$ [V]", limits=(low, high))
+    ax = _map(result, field.potential, ax, label="potential $V$ [V]", limits=(low, high), ticks=5)
+    x, y = _mesh(result)
     lines = np.linspace(low, high, 12)[1:-1]
-    x = np.broadcast_to(_position(result, field.x)[:, np.newaxis], field.y.shape)
-    ax.contour(x, MICRO * field.y, field.potential, lines, colors="white", linewidths=0.4, linestyles="-")
+    ax.contour(x, y, field.potential, lines, colors="white", linewidths=0.4, linestyles="-")
     return ax
 
 
@@ -137,32 +151,63 @@ def field_strength(result: Result, ax: Axes | None = None) -> Axes:
     """
     field = result.field
     scale = result.film.minimum_thickness / field.voltage
-    values = scale * field.strength
     label = r"field strength $|E|\,h_\mathrm{min}/V_{12}$"
-    ax = _map(result, values, ax, label=label, limits=(0.0, max(1.0, float(np.max(values)))))
-    ax.set_title(rf"$V_{{12}}/h_\mathrm{{min}}$ = {1 / MICRO / scale:.3g} V/µm", loc="right")
+    limits = (0.0, float(scale * np.max(field.strength)))
+    ax = _map(result, scale * field.strength, ax, label=label, limits=limits, ticks=6)
+    factor, unit = _unit(1.0 / scale, "V/m")
+    ax.set_title(rf"$V_{{12}}/h_\mathrm{{min}}$ = {factor / scale:.3g} {unit}", loc="right")
     return ax
 
 
-def _map(result: Result, values: Array, ax: Axes | None, *, label: str, limits: tuple[float, float]) -> Axes:
-    ax = _axes(ax)
+def _mesh(result: Result) -> tuple[Array, Array]:
+    """x/b and height at the nodes of the field, the height in the unit of the film's axis."""
     field = result.field
-    x = np.broadcast_to(_position(result, field.x)[:, np.newaxis], values.shape)
+    factor, _ = _unit(result.film.central_thickness, "m")
+    x = np.broadcast_to(_position(result, field.x)[:, np.newaxis], field.y.shape)
+    return x, factor * field.y
+
+
+def _map(
+    result: Result,
+    values: Array,
+    ax: Axes | None,
+    *,
+    label: str,
+    limits: tuple[float, float],
+    ticks: int,
+) -> Axes:
+    ax = _axes(ax)
+    x, y = _mesh(result)
+    _, unit = _unit(result.film.central_thickness, "m")
     levels = np.linspace(*limits, 401)
     # Rounding may put a wall beyond its own potential, and so out of the levels.
-    filled = ax.contourf(
-        x, MICRO * field.y, np.clip(values, *limits), levels, cmap="viridis", antialiased=False
-    )
+    clipped = np.clip(values, *limits)
+    filled = ax.contourf(x, y, clipped, levels, cmap="viridis", antialiased=False)
     for wall in (0, -1):
-        ax.plot(x[:, 0], MICRO * field.y[:, wall], color="black", lw=0.8)
-    ax.set(xlabel="$x/b$", ylabel="height $y$ [µm]", xlim=(x[0, 0], x[-1, 0]))
+        ax.plot(x[:, 0], y[:, wall], color="black", lw=0.8)
+    ax.set(ylabel=f"height $y$ [{unit}]", xlim=(x[0, 0], x[-1, 0]))
+    _label_position(result, ax)
+    _limit_height(ax, y)
+    electric = result.case.electric
+    for height, surface, volts in ((0.04, 1, electric.potential_1), (0.96, 2, electric.potential_2)):
+        where = "bottom" if surface == 1 else "top"
+        text = f"surface {surface}, {volts:g} V"
+        ax.text(0.5, height, text, transform=ax.transAxes, ha="center", va=where, fontsize=8.0)
     bar = _figure(ax).colorbar(filled, ax=ax, label=label, pad=0.02)
-    bar.set_ticks(list(np.linspace(*limits, 6)))
+    bar.set_ticks(list(np.linspace(*limits, ticks)), labels=[f"{t:.3g}" for t in np.linspace(*limits, ticks)])
     return ax
+
+
+def _limit_height(ax: Axes, y: Array) -> None:
+    """Show the film, not the wide gap beside it: heights where the gap is up to six times the least."""
+    gap = y[:, -1] - y[:, 0]
+    near = gap <= 6.0 * np.min(gap)
+    margin = 0.35 * float(np.max(gap[near]))
+    ax.set_ylim(float(np.min(y[near])) - margin, float(np.max(y[near])) + margin)
 
 
 def field_profiles(result: Result, ax: Axes | None = None) -> Axes:
-    """Field strength at mid-film and on both walls over X, the high-field zone shaded.
+    """Field strength at mid-film and on both walls over X, the high-field zone of mid-film shaded.
 
     Parameters
     ----------
@@ -174,27 +219,28 @@ def field_profiles(result: Result, ax: Axes | None = None) -> Axes:
     Returns
     -------
     Axes
-        In V/µm on the left, dimensionless on the right.
+        Dimensional on the left, dimensionless on the right.
     """
     ax = _axes(ax)
     field = result.field
     x = _position(result, field.x)
-    to_figure = 1.0 / MICRO
-    start, stop = field.high_field_zone
-    zone = _position(result, np.array([start, stop]))
-    width = rf"above 95 % of the maximum: {MICRO * field.high_field_width:.3g} µm"
-    ax.axvspan(zone[0], zone[1], color=_GREEN, alpha=0.25, lw=0.0, label=width)
-    ax.plot(x, to_figure * field.strength[:, 0], color=_BLUE, label="surface 1")
-    ax.plot(x, to_figure * field.strength[:, -1], color=_ORANGE, ls="--", label="surface 2")
-    ax.plot(x, to_figure * field.middle_strength, color="black", lw=0.8, ls=":", label="mid-film")
-    ax.set(xlabel="$x/b$", ylabel=r"field strength $|E|$ [V/µm]", xlim=(x[0], x[-1]))
-    ax.set_ylim(0.0, 1.45 * to_figure * field.max_strength)
-    scale = result.film.minimum_thickness / field.voltage * MICRO
+    factor, unit = _unit(field.max_strength, "V/m")
+    zone = _position(result, np.array(field.high_field_zone))
+    width, length = _unit(field.high_field_width, "m")
+    label = f"mid-film above 95 % of its maximum: {width * field.high_field_width:.3g} {length} wide"
+    ax.axvspan(zone[0], zone[1], color=_GREEN, alpha=0.25, lw=0.0, label=label)
+    ax.plot(x, factor * field.strength[:, 0], color=_BLUE, lw=2.4, label="surface 1")
+    ax.plot(x, factor * field.strength[:, -1], color=_ORANGE, ls="--", lw=1.6, label="surface 2")
+    ax.plot(x, factor * field.middle_strength, color="black", lw=0.8, label="mid-film")
+    ax.set(ylabel=rf"field strength $|E|$ [{unit}]", xlim=(x[0], x[-1]))
+    _label_position(result, ax)
+    ax.set_ylim(0.0, 1.08 * factor * field.max_strength)
+    scale = result.film.minimum_thickness / field.voltage / factor
     right = ax.secondary_yaxis(
         "right", functions=(lambda e: np.asarray(e) * scale, lambda e: np.asarray(e) / scale)
     )
     right.set_ylabel(r"$|E|\,h_\mathrm{min}/V_{12}$")
-    ax.legend(loc="upper left", frameon=False, ncols=2)
+    ax.legend(loc="lower center", frameon=False)
     return ax
 
 
@@ -211,35 +257,35 @@ def field_deviation(result: Result, ax: Axes | None = None) -> Axes:
     Returns
     -------
     Axes
-        In per mille of V12/h.
+        In per mille of V12/h, without the ends of the range: their faces disturb the field over some gaps.
     """
     ax = _axes(ax)
     field = result.field
     x = _position(result, field.x)
     sections = (
-        ("surface 1", field.strength[:, 0], _BLUE, "-"),
-        ("surface 2", field.strength[:, -1], _ORANGE, "--"),
-        ("mid-film", field.middle_strength, "black", ":"),
+        ("surface 1", field.strength[:, 0], _BLUE, "-", 2.4),
+        ("surface 2", field.strength[:, -1], _ORANGE, "--", 1.6),
+        ("mid-film", field.middle_strength, "black", "-", 0.8),
     )
-    # The end faces disturb the field over about two gaps; that is not the film's doing.
     gap = field.voltage / field.thin_gap_strength
-    start = np.searchsorted(field.x, field.x[0] + 3.0 * gap[0])
-    stop = np.searchsorted(field.x, field.x[-1] - 3.0 * gap[-1])
-    for label, strength, color, style in sections:
+    inner = (field.x > field.x[0] + 3.0 * gap[0]) & (field.x < field.x[-1] - 3.0 * gap[-1])
+    for label, strength, color, style, width in sections:
         deviation = 1e3 * (strength / field.thin_gap_strength - 1.0)
-        ax.plot(x[start:stop], deviation[start:stop], color=color, ls=style, label=label)
-    ax.set(xlabel="$x/b$", ylabel=r"$|E|\,h/V_{12} - 1$ [‰]", xlim=(x[0], x[-1]))
-    ax.legend(loc="lower left", frameon=False)
+        ax.plot(x[inner], deviation[inner], color=color, ls=style, lw=width, label=label)
+    ax.set(ylabel=r"$|E|\,h/V_{12} - 1$ [‰]", xlim=(x[0], x[-1]))
+    _label_position(result, ax)
+    ax.margins(y=0.1)
+    ax.legend(loc="best", frameon=False)
     return ax
 
 
-FIGURES: dict[str, Callable[..., Axes]] = {
-    "film.png": pressure_and_film,
-    "potential.png": potential,
-    "field_strength.png": field_strength,
-    "field_profiles.png": field_profiles,
-    "field_deviation.png": field_deviation,
-}
+FIGURES: dict[str, Callable[..., Axes]] = dict(
+    zip(
+        FIGURE_FILES,
+        (pressure_and_film, potential, field_strength, field_profiles, field_deviation),
+        strict=True,
+    )
+)
 
 
 def save_figures(result: Result, folder: Path) -> list[Path]:
@@ -257,12 +303,16 @@ def save_figures(result: Result, folder: Path) -> list[Path]:
     list of Path
         The files written.
     """
+    title = textwrap.shorten(result.case.title, 60, placeholder=" ...")
     files = []
-    with mpl.rc_context(_STYLE):  # type: ignore[arg-type]
+    with mpl.rc_context(_STYLE), warnings.catch_warnings():  # type: ignore[arg-type]
+        # A title may use letters that the font does not have.
+        warnings.filterwarnings("ignore", message="Glyph .* missing")
         for name, draw in FIGURES.items():
             ax = draw(result)
-            if result.case.title:
-                ax.set_title(result.case.title, loc="left")
+            ax.set_title(title, loc="left", parse_math=False)
+            if not result.converged:
+                ax.set_title("NOT CONVERGED", loc="center", color="red", weight="bold")
             with whole(folder / name) as path:
                 _figure(ax).savefig(path)
             files.append(folder / name)

@@ -48,6 +48,7 @@ class Across:
     @classmethod
     @cache
     def of_degree(cls, degree: int) -> Across:
+        """Everything across the gap that depends on the degree alone."""
         s = lobatto_nodes(degree)
         t = 2.0 * s - 1.0
         weights = 1.0 / (degree * (degree + 1) * eval_legendre(degree, t) ** 2)
@@ -139,6 +140,7 @@ class Quadrature:
 
     @classmethod
     def of(cls, problem: FieldProblem) -> Quadrature:
+        """The quadrature of a problem."""
         across = Across.of_degree(problem.degree)
         dx = np.diff(problem.x)
         gap = problem.upper - problem.lower

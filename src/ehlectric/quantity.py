@@ -16,6 +16,11 @@ from ehlectric.errors import shown
 if TYPE_CHECKING:
     import pint
 
+# A product and quotient of named units with one-digit exponents. Anything more is no unit of the field, and a
+# tower of exponents would keep pint busy for ever.
+_NAME = r"[A-Za-zµμΩ°]+(?:(?:\*\*|\^)?[-+]?[1-9]|²|³)?"
+_UNIT = re.compile(rf"(?:1?\s*/\s*)?{_NAME}(?:(?:\s*[*/·]\s*|\s+){_NAME})*")
+_EXPONENT = re.compile(r"(?<=[A-Za-zµμΩ°])(?:\*\*|\^)?([-+]?[1-9])")
 _NUMBER_AND_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*")
 
 
@@ -34,7 +39,7 @@ def to_si(text: str, unit: str) -> float:
     text : str
         A number and its unit.
     unit : str
-        The SI unit of the quantity, as pint writes it; "" for a dimensionless one.
+        The SI unit of the quantity, as pint writes it.
 
     Returns
     -------
@@ -51,22 +56,32 @@ def to_si(text: str, unit: str) -> float:
     >>> to_si("22 1/GPa", "1/Pa")
     2.2e-08
     """
-    import pint
-
     match = _NUMBER_AND_UNIT.fullmatch(text)
     if match is None:
         raise ValueError("it is not a number with a unit")
     number, written = match.groups()
-    if not written and unit:
+    if not written:
         raise ValueError("it has no unit")
+    # Fifteen digits undo the rounding of factors such as 1e-3, which are no binary numbers.
+    return float(f"{float(number) * _factor(written, unit):.15g}")
+
+
+def _factor(written: str, unit: str) -> float:
+    """What a value in the unit written is multiplied with to be in ``unit``."""
+    import pint
+
+    if _UNIT.fullmatch(written) is None:
+        raise ValueError(f"{shown(written)} is not a unit")
+    plain = _EXPONENT.sub(r"**\1", written).removeprefix("1").lstrip()
+    expression = f"1{plain}" if plain.startswith("/") else plain
     try:
-        # A ratio of units keeps the factor exact where it is a power of ten.
-        factor = _registry().Quantity(1.0, _registry().parse_units(written)).to(unit)
+        return float(_registry().Quantity(1.0, _registry().parse_units(expression)).to(unit).magnitude)
     except pint.DimensionalityError:
         raise ValueError(f"{written} is not a unit of this quantity") from None
-    except Exception:  # pint raises whatever its tokenizer meets
+    except pint.UndefinedUnitError:
+        raise ValueError(f"{written!r} is not a unit; capital and small letters count") from None
+    except pint.PintError:
         raise ValueError(f"{written!r} is not a unit") from None
-    return float(f"{float(number) * factor.magnitude:.15g}")
 
 
 @dataclass(frozen=True)
@@ -106,7 +121,7 @@ class Quantity:
         return value
 
     def _number(self, given: object) -> float:
-        if isinstance(given, str):
+        if isinstance(given, str) and self.unit:
             return to_si(given, self.unit)
         if isinstance(given, bool) or not isinstance(given, int | float):
             raise ValueError("it is not a number")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from rich.table import Table
+from rich.text import Text
 
 from ehlectric.case import Case
 from ehlectric.conditions import Conditions
@@ -20,7 +21,7 @@ _FORMULA_NAMES = {
 
 
 def _table(title: str) -> Table:
-    table = Table(title=title or None, show_header=False, title_justify="left", box=None)
+    table = Table(title=Text(title) if title else None, show_header=False, title_justify="left", box=None)
     table.add_column(style="bold")
     table.add_column(justify="right")
     table.add_column()
@@ -74,6 +75,10 @@ def result_table(result: Result) -> Table:
     """The key figures of a solution, with the film formulas and their difference from it."""
     film, field, conditions = result.film, result.field, result.conditions
     table = _table(result.case.title)
+    if not result.converged:
+        table.add_row(
+            "NOT CONVERGED", "", f"the film has {film.status}: do not use these numbers", style="red"
+        )
     _add_conditions(table, conditions)
     table.add_row("minimum film", f"{film.minimum_thickness * 1e6:.4g}", "µm")
     position = film.minimum_position / conditions.half_width
@@ -90,7 +95,7 @@ def result_table(result: Result) -> Table:
     position = field.max_strength_position / conditions.half_width
     table.add_row("  at x/b", f"{position:.4g}")
     scale = film.minimum_thickness / field.voltage
-    table.add_row("  times h_min/V12", f"{field.max_strength * scale:.5g}")
+    table.add_row("  times h_min/V12", f"{field.max_strength * scale:.4f}")
     table.add_row("width above 95 %", f"{field.high_field_width * 1e6:.4g}", "µm")
     table.add_row("capacitance, field range", f"{field.capacitance * 1e9:.4g}", "nF/m")
     table.add_row("thin-gap error of the field", f"{field.thin_gap_error:.1e}")
@@ -102,7 +107,7 @@ def result_table(result: Result) -> Table:
 def _add_formulas(table: Table, result: Result) -> None:
     """Film formulas, each with its difference from the solved film of the same name."""
     table.add_section()
-    table.add_row("film formulas", "", "difference from the solved film; up to 30 % is usual")
+    table.add_row("film formulas", "", "difference from the solved film, up to 30 % is usual")
     for name, formula in FORMULAS.items():
         for key, value in vars(formula(result.conditions.formulas)).items():
             if value is not None:

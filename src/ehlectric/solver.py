@@ -5,18 +5,23 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator
 from datetime import UTC, datetime
-from functools import partial
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
-from ehlectric.case import Case, Lubricant
-from ehlectric.conditions import Conditions, remarks, resolve
+from ehlectric.case import Case
+from ehlectric.conditions import (
+    Conditions,
+    density_law,
+    permittivity_law,
+    remarks,
+    resolve,
+    viscosity_law,
+)
 from ehlectric.errors import ConvergenceError
 from ehlectric.field import Field, solve_field
 from ehlectric.film import Film, FilmProblem, solve_film
 from ehlectric.film_formulas import moes
-from ehlectric.lubricant import DENSITY_LAWS, PERMITTIVITY_LAWS, VISCOSITY_LAWS, Law
 from ehlectric.memory import check_memory
 from ehlectric.newton import Progress
 from ehlectric.poisson import FieldProblem
@@ -64,39 +69,24 @@ def solve(case: Case, *, progress: Progress | None = None, require_convergence: 
     """
     conditions = resolve(case)
     check_memory(case)
-    permittivity = _permittivity(case.lubricant)
-    # A permittivity law that fails does so at the Hertz pressure already: before the film is solved.
-    density = _bound(DENSITY_LAWS[case.lubricant.density_law], case.lubricant)
-    permittivity(density(np.array([conditions.max_pressure]))[0])
-
     started = time.perf_counter()
     film = solve_film(_film_problem(case, conditions), progress=progress)
     film_done = time.perf_counter()
     if require_convergence and not film.converged:
         raise ConvergenceError(f"film {film.status} at the residual {film.residual:.1e}")
-    field = solve_field(_field_problem(case, conditions, film, permittivity))
+    field = solve_field(_field_problem(case, conditions, film))
     field_done = time.perf_counter()
     return Result(
         case=case,
         conditions=conditions,
         film=film,
         field=field,
-        warnings=(*remarks(case, conditions), *_findings(film, field)),
+        warnings=(*remarks(case, conditions), *_findings(case, film, field)),
         film_seconds=film_done - started,
         field_seconds=field_done - film_done,
         version=__version__,
         date=datetime.now(UTC).isoformat(timespec="seconds"),
     )
-
-
-def _bound(law: Law, lubricant: Lubricant) -> Callable[[Array], tuple[Array, Array]]:
-    """The law with its parameters from the case."""
-    return partial(law.function, **{name: getattr(lubricant, name) for name in law.parameters})
-
-
-def _permittivity(lubricant: Lubricant) -> Callable[[Array], Array]:
-    law = PERMITTIVITY_LAWS[lubricant.permittivity_law]
-    return partial(law.function, **{name: getattr(lubricant, name) for name in law.parameters})
 
 
 def _dimensionless(law: Callable[[Array], tuple[Array, Array]], scale: float) -> FluidLaw:
@@ -112,14 +102,12 @@ def _dimensionless(law: Callable[[Array], tuple[Array, Array]], scale: float) ->
 def _film_problem(case: Case, conditions: Conditions) -> FilmProblem:
     lubricant, grid = case.lubricant, case.grid
     p_h = conditions.max_pressure
-    viscosity = _bound(VISCOSITY_LAWS[lubricant.viscosity_law], lubricant)
-    density = _bound(DENSITY_LAWS[lubricant.density_law], lubricant)
     guess = moes(conditions.formulas).central_thickness
     assert guess is not None
     return FilmProblem(
         fluid=Fluid(
-            density=_dimensionless(density, p_h),
-            log_viscosity=_dimensionless(viscosity, p_h),
+            density=_dimensionless(density_law(lubricant), p_h),
+            log_viscosity=_dimensionless(viscosity_law(lubricant), p_h),
             velocity_parameter=conditions.velocity_parameter,
             ambient_pressure=lubricant.ambient_pressure / p_h,
         ),
@@ -134,9 +122,7 @@ def _film_problem(case: Case, conditions: Conditions) -> FilmProblem:
     )
 
 
-def _field_problem(
-    case: Case, conditions: Conditions, film: Film, permittivity: Callable[[Array], Array]
-) -> FieldProblem:
+def _field_problem(case: Case, conditions: Conditions, film: Film) -> FieldProblem:
     """The Poisson problem in the solved film; a cavitated gap counts as filled with oil."""
     x = _field_nodes(case, conditions, film)
     lower, upper = surfaces(conditions, film)
@@ -144,7 +130,7 @@ def _field_problem(
         x=x,
         lower=_resampled(film.x, lower, x),
         upper=_resampled(film.x, upper, x),
-        permittivity=_resampled(film.x, permittivity(film.density), x),
+        permittivity=_resampled(film.x, permittivity_law(case.lubricant)(film.density), x),
         potential_1=case.electric.potential_1,
         potential_2=case.electric.potential_2,
         degree=case.grid.field_degree,
@@ -183,26 +169,36 @@ def surfaces(conditions: Conditions, film: Film) -> tuple[Array, Array]:
     return lower, lower + film.thickness
 
 
-def _findings(film: Film, field: Field) -> Iterator[str]:
+def _findings(case: Case, film: Film, field: Field) -> Iterator[str]:
     """What the solution shows that a user should know, one text each."""
     if not film.converged:
         yield (
-            f"the film is not a solution: {film.status} at the residual {film.residual:.1e}; try more "
-            "grid.nodes, and more solver.max_iterations where it has stalled"
+            f"do not use this film, it is no solution: {film.status} at the residual {film.residual:.1e}; "
+            "try more grid.nodes, a lower grid.inlet, or more solver.max_iterations"
         )
     error = film.discretisation_error
-    if error is None:
-        yield "no estimate of the discretisation error: the grid is too coarse for this film"
-    elif error > 0.02:
-        yield f"the film may be {100 * error:.0f} % off on this grid; take more grid.nodes"
-    if film.inlet_deficit > 0.01:
+    if film.converged and error is None:
         yield (
-            f"the inlet is too short: {100 * film.inlet_deficit:.1f} % of the pressure is built up "
-            "before it, and the film is that much too thin or a little less; lower grid.inlet"
+            "do not use this film: the next coarser grid was not solved, so that nothing is known of its "
+            "discretisation error, which is large; take more grid.nodes"
+        )
+    elif error is not None and error > 0.01:
+        advice = "do not use it" if error > 0.1 else "take more grid.nodes"
+        yield f"the film may be {100 * error:.2g} % off or more on this grid; {advice}"
+    if film.inlet_deficit > 0.01:
+        effect = "do not use this film" if film.inlet_deficit > 0.2 else "the film is about that much off"
+        yield (
+            f"the inlet is too short: {100 * film.inlet_deficit:.2g} % of the pressure is built up before it, "
+            f"{effect}; lower grid.inlet"
         )
     if not film.cavitates:
         yield "the film does not cavitate before the domain ends; raise grid.outlet"
+    inside = int(np.count_nonzero((film.x >= field.x[0]) & (film.x <= field.x[-1])))
+    if case.grid.field_nodes is not None and case.grid.field_nodes < inside:
+        yield (
+            f"grid.field_nodes is coarser than the film, which has {inside} nodes in the field range: the "
+            "width of the high-field zone and the capacitance suffer"
+        )
     gap = field.voltage / field.thin_gap_strength
-    position = field.max_strength_position
-    if not field.x[0] + 3.0 * gap[0] < position < field.x[-1] - 3.0 * gap[-1]:
+    if not field.x[0] + 3.0 * gap[0] < field.max_strength_position < field.x[-1] - 3.0 * gap[-1]:
         yield "the largest field is at an end of grid.field_range; widen it"

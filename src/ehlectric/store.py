@@ -6,7 +6,8 @@ import json
 import os
 import tempfile
 import tomllib
-from collections.abc import Iterator
+import warnings
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -25,17 +26,39 @@ if TYPE_CHECKING:
 NETCDF = "result.nc"
 SUMMARY = "summary.json"
 FILM = "film.csv"
+FILES = (SUMMARY, NETCDF, FILM)
+FIGURE_FILES = (
+    "film.png",
+    "potential.png",
+    "field_strength.png",
+    "field_profiles.png",
+    "field_deviation.png",
+)
 
 
-def prepare(folder: str | Path) -> Path:
-    """Make a folder for results, before anything is solved.
+def prepare(folder: str | Path, names: Iterable[str] = ()) -> Path:
+    """Make a folder for files of these names, before anything is solved.
+
+    Parameters
+    ----------
+    folder : str or Path
+        Where the files will go.
+    names : iterable of str
+        Files that will be written there.
+
+    Returns
+    -------
+    Path
+        The folder.
 
     Raises
     ------
     InputError
-        Where it cannot be made or written to.
+        Where it cannot be made or written to, or a name is taken by something that is no file.
     """
     folder = Path(folder)
+    if folder.exists() and not folder.is_dir():
+        raise InputError(f"{folder}: cannot be written to, it is no folder")
     try:
         folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=folder):
@@ -43,12 +66,36 @@ def prepare(folder: str | Path) -> Path:
     except OSError as error:
         reason = (error.strerror or str(error)).lower()
         raise InputError(f"{folder}: cannot be written to, {reason}") from None
+    for name in names:
+        refuse_special(folder / name)
     return folder
+
+
+def refuse_special(path: Path) -> None:
+    """Refuse to write where a folder, a device or a broken link is.
+
+    Raises
+    ------
+    InputError
+        Where ``path`` is there and no regular file.
+    """
+    if os.path.lexists(path) and not path.is_file():
+        raise InputError(f"{path}: cannot be written to, it is no regular file")
+
+
+def clear(folder: Path, names: Iterable[str]) -> None:
+    """Take files of an earlier result away: a folder holds one result, whole."""
+    for name in names:
+        (folder / name).unlink(missing_ok=True)
 
 
 @contextmanager
 def whole(path: Path) -> Iterator[Path]:
-    """A path beside ``path`` to write to; it becomes ``path`` when all went well, else it goes."""
+    """A path beside ``path`` to write to; it becomes ``path`` when all went well, else it goes.
+
+    A link is followed, and its target replaced.
+    """
+    path = path.resolve()
     handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.stem}-", suffix=path.suffix)
     os.close(handle)
     beside = Path(name)
@@ -83,8 +130,8 @@ def save(result: Result, folder: str | Path) -> list[Path]:
     InputError
         Where the folder cannot be written to.
     """
-    folder = prepare(folder)
-    files = [folder / SUMMARY, folder / NETCDF, folder / FILM]
+    folder = prepare(folder, FILES)
+    files = [folder / name for name in FILES]
     with whole(files[0]) as path:
         text = json.dumps(result.summary(), indent=2, allow_nan=False)
         path.write_text(text + "\n", encoding="utf-8")
@@ -125,15 +172,22 @@ def load(path: str | Path) -> Result:
         reason = (error.strerror or str(error)).lower()
         raise InputError(f"{path}: cannot be read, {reason}") from None
     try:
-        with xr.open_dataset(path, engine="h5netcdf") as dataset:
-            return _result_of(dataset.load())
-    except (InputError, KeyError, TypeError) as error:
-        raise InputError(f"{path}: is not a result of ehlectric, {error}") from None
-    except (OSError, ValueError):
+        with warnings.catch_warnings(), xr.open_dataset(path, engine="h5netcdf") as file:
+            warnings.simplefilter("ignore")  # of what xarray thinks of files that are refused below
+            dataset = file.load()
+    except Exception:  # whatever HDF5 and its wrappers raise at damaged files
         raise InputError(f"{path}: is not a NetCDF file") from None
+    try:
+        return _result_of(dataset)
+    except (InputError, ArithmeticError, AttributeError, LookupError, TypeError, ValueError):
+        raise InputError(f"{path}: is not a result of ehlectric, or damaged") from None
 
 
 def _result_of(dataset: xr.Dataset) -> Result:
+    if not all(np.all(np.isfinite(variable.values)) for variable in dataset.variables.values()):
+        raise ValueError("a value is not finite")
+    if min(dataset.sizes[name] for name in ("x", "x_field", "s")) < 2:
+        raise ValueError("an array is empty")
     attributes = dataset.attrs
     case = Case.from_dict(tomllib.loads(attributes["case"]))
     conditions = resolve(case)

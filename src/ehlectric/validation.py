@@ -20,19 +20,25 @@ def nearest(name: str, known: Iterable[str]) -> str:
 
 def first_message(error: ValidationError, model: type[BaseModel]) -> str:
     """The first thing to mend: an unknown key before a missing one, which it often is."""
-    details = sorted(error.errors(), key=lambda e: e["type"] != "extra_forbidden")
-    message = _message(details[0], model)
-    more = len(details) - 1
-    return message + (f" (and {more} more)" if more else "")
+    first, *others = sorted(error.errors(), key=lambda e: e["type"] != "extra_forbidden")
+    message = _message(first, model)
+    if first["type"] == "missing":
+        table = first["loc"][:-1]
+        also = [other for other in others if other["type"] == "missing" and other["loc"][:-1] == table]
+        if also:
+            message += "; missing too: " + ", ".join(str(other["loc"][-1]) for other in also)
+        others = [other for other in others if other not in also]
+    return message + (f" (and {len(others)} more)" if others else "")
 
 
 def _message(detail: ErrorDetails, model: type[BaseModel]) -> str:
-    key = ".".join(str(part) for part in detail["loc"])
+    # The place within a list is of no use to somebody who wrote the list.
+    key = ".".join(_shown_key(part) for part in detail["loc"] if isinstance(part, str))
     given = shown(detail["input"])
     match detail["type"]:
         case "extra_forbidden":
             return f"{key}: unknown key; the nearest known one is {_nearest_key(key, model)}"
-        case "missing":
+        case "missing" if isinstance(detail["loc"][-1], str):
             return f"{key}: missing, takes a {_kind(key, model)}"
         case "value_error":
             # Messages of a quantity begin with "got", those of a table with the key they are about.
@@ -44,9 +50,14 @@ def _message(detail: ErrorDetails, model: type[BaseModel]) -> str:
             return f"{key}: got {given}, takes a table"
         case "string_type":
             return f"{key}: got {given}, takes a text"
-        case "tuple_type" | "too_long" | "too_short":
+        case "missing" | "tuple_type" | "too_long" | "too_short":
             return f"{key}: got {given}, takes a list of two numbers"
     return f"{key}: got {given}, {detail['msg']}"
+
+
+def _shown_key(key: str) -> str:
+    """A key as it was written, unless it would break the line."""
+    return key if key and key.isprintable() and len(key) <= 60 else shown(key)
 
 
 def _nearest_key(key: str, model: type[BaseModel]) -> str:

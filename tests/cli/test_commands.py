@@ -102,7 +102,7 @@ def test_check_says_what_a_case_means(ehlectric, case_file):
 def test_init_writes_a_case_that_solves(ehlectric, tmp_path):
     assert ehlectric("init", "new.toml").returncode == 0
     assert ehlectric("check", "new.toml").returncode == 0
-    assert Case.from_toml(tmp_path / "new.toml").contact.entrainment_speed == 4.0
+    assert Case.from_toml(tmp_path / "new.toml").contact.entrainment_speed == 2.0
     again = ehlectric("init", "new.toml")
     assert again.returncode == 2
     assert "is there already" in again.stderr

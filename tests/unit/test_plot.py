@@ -9,8 +9,8 @@ from ehlectric import plot
 @pytest.mark.parametrize("name", plot.FIGURES)
 def test_figures_have_labels_with_units(paper_result, name):
     ax = plot.FIGURES[name](paper_result)
-    assert ax.get_xlabel() == "$x/b$"
-    assert any(unit in ax.get_ylabel() for unit in ("[GPa]", "[µm]", "[V/µm]", "[‰]"))
+    assert ax.get_xlabel() == "$x/b$   ($b$ = 499.4 µm)"
+    assert any(unit in ax.get_ylabel() for unit in ("[GPa]", "[nm]", "[MV/m]", "[‰]"))
 
 
 @pytest.mark.parametrize("name", plot.FIGURES)

@@ -25,6 +25,10 @@ from ehlectric.quantity import Count, Quantity, to_si
         ("1e-3kN/mm", "N/m", 1e3),
         ("1 µm", "m", 1e-6),
         ("+.5 bar", "Pa", 5e4),
+        ("22 /GPa", "1/Pa", 22e-9),
+        ("5 N/mm2", "Pa", 5e6),
+        ("5 N/mm²", "Pa", 5e6),
+        ("5 N·mm^-2", "Pa", 5e6),
     ],
 )
 def test_units(text, unit, expected):
@@ -32,7 +36,8 @@ def test_units(text, unit, expected):
 
 
 @pytest.mark.parametrize(
-    "text", ["226 kg", "226", "GPa", "", "226 GPaa", "nan Pa", "1 Pa Pa", "0x10 Pa", "1 )("]
+    "text",
+    ["226 kg", "226", "GPa", "", "226 GPaa", "nan Pa", "1 Pa Pa", "0x10 Pa", "1 )(", "1 m**9**9**9", "1 Gpa"],
 )
 def test_wrong_units_are_refused(text):
     with pytest.raises(ValueError, match=r"it |unit"):
