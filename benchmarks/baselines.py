@@ -12,7 +12,7 @@ from ehlectric import film, newton
 from ehlectric.film import Film, FilmProblem
 from ehlectric.multigrid import Level, Linearised
 from ehlectric.poisson import FieldProblem
-from ehlectric.reynolds import Fluid
+from ehlectric.reynolds import OFFSETS, Fluid
 from ehlectric.typing import Array
 
 
@@ -27,7 +27,7 @@ def dense_direction(
     n = state.pressure.size
     matrix = np.zeros((n + 1, n + 1))
     matrix[:n, :n] = jacobian.by_p.matrix()
-    for k, offset in enumerate((-2, -1, 0, 1)):
+    for k, offset in enumerate(OFFSETS):
         rows = slice(max(0, -offset), n - max(0, offset))
         columns = slice(max(0, offset), n + min(0, offset))
         matrix[rows, :n] += jacobian.by_h.coefficients[k, rows] * level.deflection_matrix[columns]
@@ -43,7 +43,7 @@ def dense_direction(
 def solve_film_densely(problem: FilmProblem) -> Film:
     """``solve_film`` with every linear system solved by LAPACK on all threads."""
     direction, threads = newton._direction, film.one_blas_thread
-    newton._direction, film.one_blas_thread = dense_direction, lambda: np.errstate()
+    newton._direction, film.one_blas_thread = dense_direction, np.errstate
     try:
         return film.solve_film(problem)
     finally:

@@ -227,11 +227,9 @@ def _command() -> int:
     except OSError as error:
         # Nothing can be printed any more, not even what the interpreter still holds at its exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        if isinstance(error, BrokenPipeError):
-            return SIGNALLED + signal.SIGPIPE
-        typer.echo(
-            f"error: standard output: cannot be written to, {(error.strerror or '').lower()}", err=True
-        )
+        if not isinstance(error, BrokenPipeError):
+            reason = (error.strerror or str(error)).lower()
+            typer.echo(f"error: standard output: cannot be written to, {reason}", err=True)
         return WRONG_INPUT
     except Exception as error:
         message = getattr(error, "format_message", None)

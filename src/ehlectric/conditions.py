@@ -19,6 +19,9 @@ from ehlectric.typing import Array
 # Roelands' reduced form of the viscosity at zero pressure, ln(eta0) + 9.67, with eta0 in Pa s.
 _ROELANDS_CONSTANT = 9.67
 
+# A rigid film builds up over some ten sqrt(2 R h), which is this over M in half-widths.
+_RIGID_INLET = 14.0
+
 
 @dataclass(frozen=True)
 class Conditions:
@@ -101,7 +104,8 @@ def resolve(case: Case) -> Conditions:
     bodies = [abs(r) for r in (contact.radius_1, contact.radius_2) if r is not None]
     _check_dry_contact(half_width, min([radius, *bodies]), max_pressure, lubricant.ambient_pressure)
 
-    # A permittivity law that fails does so at the Hertz pressure already, before anything is solved.
+    # A permittivity law that fails at the Hertz pressure does so here; one that fails at the pressure spike
+    # alone can only do so when the film is there.
     permittivity_law(lubricant)(density_law(lubricant)(np.array([max_pressure]))[0])
 
     alpha = 0.0
@@ -199,9 +203,10 @@ def remarks(case: Case, conditions: Conditions) -> Iterator[str]:
     lubricant = case.lubricant
     regime = film_formulas.regime(conditions.formulas)
     if regime == "isoviscous-rigid":
+        reach = _RIGID_INLET / conditions.formulas.moes_m
         yield (
-            "isoviscous-rigid regime: the bodies hardly deform, so half-width and Hertz pressure "
-            "scale nothing here; widen grid.inlet and grid.outlet until the film stays the same"
+            "isoviscous-rigid regime: the bodies hardly deform, and half-width and Hertz pressure scale "
+            f"nothing; the film builds up over about {reach:.2g} half-widths, which grid.inlet must hold"
         )
     elif regime != "piezoviscous-elastic":
         yield f"{regime} regime: the film formulas but Moes' are for piezoviscous-elastic contacts"

@@ -6,7 +6,8 @@ pressure with influence coefficients, evaluated by zero-padded real FFTs in O(N 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy import fft
@@ -53,6 +54,29 @@ def rigid_influence(nodes: int, _dx: float) -> Array:
 
 
 @dataclass(frozen=True)
+class Geometry:
+    """What tells one kind of contact from another in the film equations.
+
+    Attributes
+    ----------
+    influence : callable
+        Influence coefficients of the deflection: (nodes, dX) -> (nx, ny).
+    dry_gap : callable
+        Gap of the undeformed bodies that just touch: X (nx,) -> H (nx, ny).
+    load : float
+        Integral of P over the contact.
+    """
+
+    influence: Callable[[int, float], Array]
+    dry_gap: Callable[[Array], Array]
+    load: float
+
+
+LINE = Geometry(line_influence, lambda x: 0.5 * x[:, np.newaxis] ** 2, 0.5 * np.pi)
+RIGID_LINE = replace(LINE, influence=rigid_influence)
+
+
+@dataclass(frozen=True)
 class Deflection:
     """The deflection operator of one grid: call it with a pressure (nx, ny).
 
@@ -83,6 +107,13 @@ class Deflection:
         wrapped[mx - nx + 1 :, :ny] = influence[:0:-1]
         wrapped[:, my - ny + 1 :] = wrapped[:, ny - 1 : 0 : -1]
         return cls(influence, _transform(wrapped, (mx, my)), (mx, my))
+
+    def matrix(self) -> Array:
+        """The dense operator on the nodes in order, shape (nx ny, nx ny)."""
+        nx, ny = self.influence.shape
+        x, y = np.divmod(np.arange(nx * ny), ny)
+        matrix: Array = self.influence[np.abs(x[:, np.newaxis] - x), np.abs(y[:, np.newaxis] - y)]
+        return matrix
 
     def __call__(self, pressure: Array) -> Array:
         """Gap opened by ``pressure``, dimensionless, shape (nx, ny)."""

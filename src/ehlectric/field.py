@@ -9,7 +9,7 @@ from scipy.constants import epsilon_0
 
 from ehlectric.poisson import Across, BandedSolver, Elements, FieldProblem, Quadrature, nodal_values
 from ehlectric.threads import one_blas_thread
-from ehlectric.typing import Array
+from ehlectric.typing import Array, Mask
 
 # The zone of high field is where the field is at least this part of its maximum.
 HIGH_FIELD = 0.95
@@ -30,8 +30,8 @@ class Field:
     thin_gap_strength : ndarray, shape (nx,)
         voltage/h(x) [V/m].
     capacitance, capacitance_by_charge : float
-        Per length, from the energy of the field and from the charge of a wall [F/m]; without the free
-        charge.
+        Per length, from the energy of the field and from the charge of a wall [F/m]; without the free charge.
+        They agree unless the end faces have given potentials.
     thin_gap_capacitance : float
         Integral of eps0 eps/h [F/m].
     """
@@ -66,9 +66,11 @@ class Field:
         return np.stack([self.strength[:, 0], self.middle_strength, self.strength[:, -1]])
 
     @property
-    def thin_gap_error(self) -> float:
-        """(max_strength - voltage/h_min)/max_strength."""
-        return 1.0 - float(np.max(self.thin_gap_strength)) / self.max_strength
+    def inner(self) -> Mask:
+        """Columns more than three gaps from the ends of the range, whose faces disturb the field."""
+        gap = self.voltage / self.thin_gap_strength
+        inner: Mask = (self.x > self.x[0] + 3.0 * gap[0]) & (self.x < self.x[-1] - 3.0 * gap[-1])
+        return inner
 
     @property
     def high_field_zone(self) -> tuple[float, float]:

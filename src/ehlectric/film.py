@@ -8,9 +8,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
-from ehlectric.elastic import line_influence
-from ehlectric.multigrid import Influence, Level, hierarchy
-from ehlectric.newton import LINE_LOAD, GridSolution, NewtonStep, Progress, State, Status, newton
+from ehlectric.elastic import LINE, Geometry
+from ehlectric.hertz import line_pressure
+from ehlectric.multigrid import Level, hierarchy
+from ehlectric.newton import GridSolution, NewtonStep, Progress, State, Status, newton
 from ehlectric.reynolds import Fluid, wedge_stencil
 from ehlectric.threads import one_blas_thread
 from ehlectric.typing import Array, Mask
@@ -59,8 +60,8 @@ class FilmProblem:
         Newton steps allowed on each grid.
     scales : Scales
         Length b [m], pressure p_h [Pa] and thickness b^2/R [m] of the result, and its ambient pressure [Pa].
-    influence : callable
-        Influence coefficients of the deflection, (nodes, dX) -> (nodes, 1).
+    geometry : Geometry
+        Kernel, dry gap and load of the contact.
     """
 
     fluid: Fluid
@@ -72,7 +73,7 @@ class FilmProblem:
     tolerance: float = 1e-9
     max_iterations: int = 30
     scales: Scales = Scales()
-    influence: Influence = line_influence
+    geometry: Geometry = LINE
 
 
 @dataclass(frozen=True)
@@ -197,23 +198,29 @@ def solve_film(problem: FilmProblem, *, progress: Progress | None = None) -> Fil
 def _nested_iteration(problem: FilmProblem, progress: Progress | None) -> list[GridSolution]:
     """Solutions from the coarsest grid used to the finest, which is the last.
 
-    Where a grid is not solved, the next finer one starts from the Hertz pressure again.
+    Where a grid is not solved, it and the next finer one start from the Hertz pressure.
     """
     levels = hierarchy(
         problem.nodes,
         inlet=problem.inlet,
         outlet=problem.outlet,
-        influence=problem.influence,
+        geometry=problem.geometry,
         second_order=problem.second_order,
     )
     first = max((k for k, level in enumerate(levels) if level.x.size >= FIRST_GRID), default=1)
     solutions: list[GridSolution] = []
     for k in range(max(first, 1), -1, -1):
+        best = None
         if solutions and solutions[-1].status == "converged":
-            solutions.append(_from_coarser(problem, levels[k:], solutions[-1], progress))
-            if solutions[-1].status == "converged":
-                continue
-        solutions.extend(_from_hertz(problem, levels[k:], progress))
+            best = _from_coarser(problem, levels[k:], solutions[-1], progress)
+        # What is nearly solved is not worth starting again.
+        if best is None or best.final.norm > NESTED_TOLERANCE:
+            *warm_up, restarted = _from_hertz(problem, levels[k:], progress)
+            solutions.extend(warm_up)
+            attempts = [restarted] if best is None else [restarted, best]
+            *others, best = sorted(attempts, key=lambda solution: -solution.final.norm)
+            solutions.extend(others)
+        solutions.append(best)
     return solutions
 
 
@@ -256,7 +263,7 @@ def _from_hertz(
     The first-order scheme is monotone and converges from further away.
     """
     level = levels[0]
-    hertz = np.sqrt(np.maximum(0.0, 1.0 - level.x**2))[:, np.newaxis]
+    hertz = line_pressure(level.x)[:, np.newaxis]
     state = State.of(level, np.maximum(hertz, problem.fluid.ambient_pressure), 0.0)
     centre = float(np.interp(0.0, level.x, state.thickness[:, 0]))
     state = State.of(level, state.pressure, problem.thickness_guess - centre)
@@ -278,6 +285,7 @@ def _film(problem: FilmProblem, solutions: list[GridSolution]) -> Film:
     coarser = next((g for g in reversed(solutions) if g.level.x.size < problem.nodes), None)
     state, final, level = finest.state, finest.final, finest.level
     pressure = np.maximum(scales.pressure * state.pressure, scales.ambient_pressure)
+    steps = tuple(step for solution in solutions for step in solution.steps)
     return Film(
         x=scales.length * level.x,
         pressure=np.where(final.free, pressure, scales.ambient_pressure)[:, 0],
@@ -289,9 +297,9 @@ def _film(problem: FilmProblem, solutions: list[GridSolution]) -> Film:
         scales=scales,
         status=finest.status,
         residual=final.norm,
-        load_residual=abs(final.load) / LINE_LOAD,
-        newton_iterations=len(finest.steps),
-        steps=tuple(step for solution in solutions for step in solution.steps),
+        load_residual=abs(final.load) / level.load,
+        newton_iterations=sum(step.nodes == problem.nodes for step in steps),
+        steps=steps,
         discretisation_error=_discretisation_error(problem, finest, coarser),
         inlet_deficit=_inlet_deficit(problem.fluid, finest),
     )

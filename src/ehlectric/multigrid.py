@@ -6,16 +6,14 @@ is solved there by a dense factorisation, and each finer grid adds one line rela
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TypeAlias
 
 import numpy as np
 from scipy import sparse
-from scipy.linalg import lapack, toeplitz
+from scipy.linalg import lapack
 
-from ehlectric.elastic import Deflection
+from ehlectric.elastic import Deflection, Geometry
 from ehlectric.reynolds import (
     OFFSETS,
     Coefficients,
@@ -28,8 +26,8 @@ from ehlectric.reynolds import (
 )
 from ehlectric.typing import Array, Mask
 
-# Half-bandwidth of the line relaxation. The part of the kernel dropped beyond it decays as
-# 1/distance^2: at 6 a V-cycle reduces the error about tenfold, and 10 gains little.
+# Half-bandwidth of the line relaxation. The part of the kernel dropped beyond it decays as 1/distance^2: at 6
+# a V-cycle reduces the error three- to twelvefold, and 10 gains little.
 HALF_BAND = 6
 
 # The hierarchy ends at the first grid of at most this many nodes: the dense solve there costs less
@@ -38,8 +36,6 @@ COARSEST = 101
 
 # Change of ln eps between neighbours above which a coarser grid cannot represent the nodes.
 UNRESOLVED = 1.5
-
-Influence: TypeAlias = Callable[[int, float], Array]
 
 
 def interpolation(coarse: int, fine: int) -> sparse.csr_array:
@@ -66,6 +62,8 @@ class Level:
     dx: float
     weights: Array  # (nx, 1), trapezoidal
     deflection: Deflection
+    dry_gap: Array  # (nx, ny)
+    load: float
     wedge: Stencil
     to_finer: sparse.csr_array | None
     from_finer: sparse.csr_array | None
@@ -85,12 +83,11 @@ class Level:
     @cached_property
     def deflection_matrix(self) -> Array:
         """The dense deflection operator, for the coarsest grid alone."""
-        matrix: Array = toeplitz(self.deflection.influence[:, 0])
-        return matrix
+        return self.deflection.matrix()
 
 
 def hierarchy(
-    nodes: int, *, inlet: float, outlet: float, influence: Influence, second_order: bool
+    nodes: int, *, inlet: float, outlet: float, geometry: Geometry, second_order: bool
 ) -> list[Level]:
     """Grids from the finest to the coarsest, each with half the intervals of the one before.
 
@@ -110,7 +107,9 @@ def hierarchy(
                 x=np.linspace(inlet, outlet, n),
                 dx=dx,
                 weights=weights,
-                deflection=Deflection.from_influence(influence(n, dx)),
+                deflection=Deflection.from_influence(geometry.influence(n, dx)),
+                dry_gap=geometry.dry_gap(np.linspace(inlet, outlet, n)),
+                load=geometry.load,
                 wedge=wedge_stencil((n, 1), dx, second_order=second_order),
                 to_finer=interpolation(n, sizes[k - 1]) if k else None,
                 from_finer=interpolation(sizes[k - 1], n) if k else None,

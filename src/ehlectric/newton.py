@@ -18,12 +18,13 @@ from ehlectric.multigrid import Level, linearise_levels, v_cycle
 from ehlectric.reynolds import Coefficients, Fluid, evaluate, poiseuille_weight, residual
 from ehlectric.typing import Array, Mask
 
-LINE_LOAD = 0.5 * np.pi  # integral of P dX
-
 # Limits of one Newton step: change of P, and what is left of the smallest gap. Larger steps leave the
 # basin of convergence at the spike of light contacts, smaller ones only cost steps.
 PRESSURE_STEP = 0.3
 GAP_STEP = 0.3
+
+# Rounding of H, times dX: some tens of the spacing of numbers near one.
+ROUNDING = 40.0 * np.finfo(float).eps
 
 # H below which no film is on the way: thousands of times thinner than at the corners of the Moes map.
 SMALLEST_GAP = 1e-8
@@ -59,7 +60,7 @@ class State:
     @classmethod
     def of(cls, level: Level, pressure: Array, h00: float) -> State:
         """State of a pressure and an H00 on a grid."""
-        gap = 0.5 * level.x[:, np.newaxis] ** 2 + level.deflection(pressure)
+        gap = level.dry_gap + level.deflection(pressure)
         return cls(pressure, h00, h00 + gap)
 
     def lifted(self, smallest: float) -> State:
@@ -119,7 +120,8 @@ def newton(
         Where to start.
     tolerance : float
         Residual at which to stop: the largest of the scaled rows, of the distance of held nodes from
-        the ambient pressure, and of ten times the relative load imbalance.
+        the ambient pressure, and of ten times the relative load imbalance. On very fine grids, what rounding
+        allows.
     max_iterations : int
         Newton steps after which to stop.
     progress : callable, optional
@@ -134,6 +136,8 @@ def newton(
         Whatever was reached, with its status.
     """
     level = levels[0]
+    # A row takes the difference of films over dX: what rounding leaves of it is no residual.
+    tolerance = max(tolerance, ROUNDING / level.dx)
     steps: list[NewtonStep] = []
     now = _assess(fluid, level, state)
     while now.norm > tolerance and len(steps) < max_iterations:
@@ -171,10 +175,10 @@ def _assess(fluid: Fluid, level: Level, state: State) -> Residual:
     free[0] = free[-1] = False
 
     local = coefficients.density * (influence[0, 0] - influence[1, 0]) / dx
-    load = LINE_LOAD - float(np.vdot(level.weights, state.pressure))
+    load = level.load - float(np.vdot(level.weights, state.pressure))
     unnormed = Residual(coefficients, r, poiseuille + local, free, load, np.nan)
     rows = np.where(free, unnormed.scaled, excess)
-    norm = float(np.max(np.abs(np.append(rows, LOAD_WEIGHT * load / LINE_LOAD))))
+    norm = float(np.max(np.abs(np.append(rows, LOAD_WEIGHT * load / level.load))))
     return replace(unnormed, norm=norm)
 
 

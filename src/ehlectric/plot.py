@@ -1,4 +1,4 @@
-"""Figures of a result. Nothing is computed here; each function draws on the axes it is given."""
+"""Figures of a result: each function draws on the axes it is given, and solves nothing."""
 
 from __future__ import annotations
 
@@ -267,11 +267,9 @@ def field_deviation(result: Result, ax: Axes | None = None) -> Axes:
         ("surface 2", field.strength[:, -1], _ORANGE, "--", 1.6),
         ("mid-film", field.middle_strength, "black", "-", 0.8),
     )
-    gap = field.voltage / field.thin_gap_strength
-    inner = (field.x > field.x[0] + 3.0 * gap[0]) & (field.x < field.x[-1] - 3.0 * gap[-1])
     for label, strength, color, style, width in sections:
         deviation = 1e3 * (strength / field.thin_gap_strength - 1.0)
-        ax.plot(x[inner], deviation[inner], color=color, ls=style, lw=width, label=label)
+        ax.plot(x[field.inner], deviation[field.inner], color=color, ls=style, lw=width, label=label)
     ax.set(ylabel=r"$|E|\,h/V_{12} - 1$ [‰]", xlim=(x[0], x[-1]))
     _label_position(result, ax)
     ax.margins(y=0.1)

@@ -17,7 +17,7 @@ from scipy.special import eval_legendre, roots_jacobi
 
 from ehlectric.typing import Array
 
-# Two Gauss points along an element: exact for the products of linear shape functions and geometry.
+# Two Gauss points along an element: more would not raise the order of linear elements.
 _GAUSS = np.array([0.5 - 0.5 / np.sqrt(3.0), 0.5 + 0.5 / np.sqrt(3.0)])
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import numbers
 import re
 from dataclasses import dataclass
 from functools import cache
@@ -123,7 +124,7 @@ class Quantity:
     def _number(self, given: object) -> float:
         if isinstance(given, str) and self.unit:
             return to_si(given, self.unit)
-        if isinstance(given, bool) or not isinstance(given, int | float):
+        if isinstance(given, bool) or not isinstance(given, numbers.Real):
             raise ValueError("it is not a number")
         try:
             return float(given)
@@ -168,8 +169,8 @@ class Count:
         ValueError
             With what it got and what the count takes.
         """
-        whole = isinstance(given, int) and not isinstance(given, bool)
-        if not (whole and self.least <= given <= self.most):  # type: ignore[operator]
+        whole = isinstance(given, numbers.Integral) and not isinstance(given, bool)
+        if not (whole and self.least <= int(given) <= self.most):  # type: ignore[call-overload]
             raise ValueError(
                 f"got {shown(given)}, takes a whole number from {self.least} to {self.most}: {self.reason}"
             )

@@ -98,7 +98,8 @@ def result_table(result: Result) -> Table:
     table.add_row("  times h_min/V12", f"{field.max_strength * scale:.4f}")
     table.add_row("width above 95 %", f"{field.high_field_width * 1e6:.4g}", "µm")
     table.add_row("capacitance, field range", f"{field.capacitance * 1e9:.4g}", "nF/m")
-    table.add_row("thin-gap error of the field", f"{field.thin_gap_error:.1e}")
+    if result.thin_gap_error is not None:
+        table.add_row("V12/h_min below it by", f"{100 * result.thin_gap_error:.2g}", "%")
     _add_formulas(table, result)
     table.add_row("time", f"{result.film_seconds + result.field_seconds:.2g}", "s")
     return table

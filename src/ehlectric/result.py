@@ -55,6 +55,14 @@ class Result:
         """Whether the film is a solution; without it nothing here is one."""
         return self.film.converged
 
+    @property
+    def thin_gap_error(self) -> float | None:
+        """(max_strength - voltage/h_min)/max_strength, None where the field range leaves h_min out."""
+        field, film = self.field, self.film
+        if not field.x[0] <= film.minimum_position <= field.x[-1]:
+            return None
+        return 1.0 - field.voltage / film.minimum_thickness / field.max_strength
+
     def summary(self) -> dict[str, Any]:
         """Key figures in SI units, nested as summary.json.
 
@@ -98,7 +106,8 @@ class Result:
         return {key: _plain(value) for key, value in summary.items()}
 
     def _field_summary(self) -> dict[str, float | None]:
-        field, scale = self.field, self.film.minimum_thickness / self.field.voltage
+        field, minimum = self.field, self.film.minimum_thickness
+        scale = minimum / field.voltage
         central = None
         if field.x[0] <= 0.0 <= field.x[-1]:
             central = float(np.interp(0.0, field.x, field.middle_strength)) * scale
@@ -110,7 +119,7 @@ class Result:
             "central_dimensionless": central,
             "high_field_width": field.high_field_width,
             "capacitance_per_length": field.capacitance,
-            "thin_gap_error": field.thin_gap_error,
+            "thin_gap_error": self.thin_gap_error,
         }
 
     def to_xarray(self) -> xr.Dataset:

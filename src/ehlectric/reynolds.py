@@ -82,12 +82,12 @@ class Stencil:
         return product
 
     def matrix(self) -> Array:
-        """The operator on one line along x as a dense matrix, shape (nx, nx)."""
-        c = self.coefficients[:, :, 0]
-        nx = c.shape[1]
-        dense = np.zeros((nx, nx))
+        """The operator as a dense matrix on the nodes in order, shape (nx ny, nx ny)."""
+        c = self.coefficients
+        _, nx, ny = c.shape
+        dense = np.zeros((nx * ny, nx * ny))
         for row, q in enumerate(OFFSETS):
-            dense += np.diag(c[row, max(0, -q) : nx - max(0, q)], q)
+            dense += np.diag(c[row, max(0, -q) : nx - max(0, q)].ravel(), q * ny)
         return dense
 
 

@@ -23,6 +23,10 @@ from ehlectric.result import Result, scales_of
 if TYPE_CHECKING:
     import xarray as xr
 
+# It can only be read by setting it, for the whole process: once, at the start.
+_UMASK = os.umask(0o077)
+os.umask(_UMASK)
+
 NETCDF = "result.nc"
 SUMMARY = "summary.json"
 FILM = "film.csv"
@@ -102,9 +106,7 @@ def whole(path: Path) -> Iterator[Path]:
     try:
         yield beside
         # mkstemp makes files for the owner alone; results are as readable as any other file.
-        umask = os.umask(0)
-        os.umask(umask)
-        beside.chmod(0o666 & ~umask)
+        beside.chmod(0o666 & ~_UMASK)
         beside.replace(path)
     finally:
         beside.unlink(missing_ok=True)

@@ -1,15 +1,19 @@
 """One BLAS thread around small and banded factorisations.
 
-OpenBLAS spreads even a factorisation of bandwidth six over its threads, and spends tens of times the
-work on handing it over.
+OpenBLAS spreads even a factorisation of bandwidth six over its threads, and spends tens of times the work on
+handing it over.
 """
 
 from __future__ import annotations
 
-from contextlib import AbstractContextManager
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import cache
 
 from threadpoolctl import ThreadpoolController
+
+_turn = threading.RLock()
 
 
 @cache
@@ -18,7 +22,12 @@ def _controller() -> ThreadpoolController:
     return ThreadpoolController()
 
 
-def one_blas_thread() -> AbstractContextManager[object]:
-    """Context in which BLAS and LAPACK run on one thread."""
-    limited: AbstractContextManager[object] = _controller().limit(limits=1, user_api="blas")
-    return limited
+@contextmanager
+def one_blas_thread() -> Iterator[None]:
+    """Context in which BLAS and LAPACK run on one thread.
+
+    The limit is the whole process's, and so threads take turns: one that set it while another was about to
+    lift it would leave it behind. Solving in parallel takes processes.
+    """
+    with _turn, _controller().limit(limits=1, user_api="blas"):
+        yield

@@ -13,7 +13,7 @@ title = "Test"
 reduced_radius = "14.1 mm"
 reduced_modulus = "226 GPa"
 max_hertz_pressure = "1 GPa"
-entrainment_speed = "4 m/s"
+entrainment_speed = "2 m/s"
 [lubricant]
 base = "paper"
 [grid]

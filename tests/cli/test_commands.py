@@ -2,11 +2,13 @@
 
 import json
 import os
+import subprocess
+import time
 
 import pytest
 
 from ehlectric import Case, load
-from tests.cli.conftest import CASE, EXAMPLES
+from tests.cli.conftest import CASE, COMMAND, EXAMPLES
 
 FIGURES = {"film.png", "potential.png", "field_strength.png", "field_profiles.png", "field_deviation.png"}
 DATA = {"summary.json", "result.nc", "film.csv"}
@@ -60,6 +62,9 @@ def test_json_is_the_summary_alone(ehlectric, case_file, tmp_path):
 def test_quiet_prints_nothing(ehlectric, case_file):
     done = ehlectric("run", case_file, "-o", "out", "--no-plots", "--quiet")
     assert (done.returncode, done.stdout) == (0, "")
+    case_file.write_text(CASE.replace("2 m/s", "40 m/s"))
+    assert "warning: the inlet is too short" in ehlectric("run", case_file, "--no-plots").stderr
+    assert ehlectric("run", case_file, "--no-plots", "--quiet").stderr == ""
 
 
 def test_not_converged_is_exit_3_with_all_files(ehlectric, case_file, tmp_path):
@@ -72,6 +77,50 @@ def test_not_converged_is_exit_3_with_all_files(ehlectric, case_file, tmp_path):
     assert summary["status"] == "stalled"
     assert "not converged" in done.stderr
     assert "Traceback" not in done.stderr
+
+
+def test_films_that_vanish_are_not_converged(ehlectric, case_file, tmp_path):
+    """An iterate without a film is given up; everything is written, and only words go to stderr."""
+    case_file.write_text(CASE.replace("2 m/s", "1e-6 m/s"))
+    done = ehlectric("run", case_file, "-o", "out")
+    assert done.returncode == 3
+    assert {path.name for path in (tmp_path / "out").iterdir()} == FIGURES | DATA
+    assert all(line.startswith(("warning: ", "error: ")) for line in done.stderr.splitlines())
+    assert "NOT CONVERGED" in done.stdout
+
+
+@pytest.mark.parametrize("title", ["[bold]x[/red] [/foo]", "a $\\\\bad{$ b", "油膜 ⚡", "w " * 90])
+def test_any_title_is_printed_and_drawn(ehlectric, case_file, tmp_path, title):
+    case_file.write_text(CASE.replace('"Test"', f'"{title}"'), encoding="utf-8")
+    done = ehlectric("run", case_file, "-o", "out")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert {path.name for path in (tmp_path / "out").iterdir()} > FIGURES
+
+
+def test_a_folder_holds_one_result(ehlectric, case_file, tmp_path):
+    ehlectric("run", case_file, "-o", "out")
+    ehlectric("run", case_file, "-o", "out", "--no-plots")
+    assert {path.name for path in (tmp_path / "out").iterdir()} == DATA
+
+
+def test_termination_leaves_no_stray_files(case_file, tmp_path):
+    process = subprocess.Popen([COMMAND, "run", case_file, "-o", tmp_path / "out"], stderr=subprocess.PIPE)
+    while not (tmp_path / "out" / "summary.json").exists() and process.poll() is None:
+        time.sleep(0.01)
+    process.terminate()
+    process.communicate(timeout=60)
+    assert not [path for path in (tmp_path / "out").iterdir() if path.name.startswith(".")]
+
+
+def test_reader_that_leaves(case_file, tmp_path):
+    """As in ``ehlectric check case.toml | head -1``."""
+    process = subprocess.Popen(
+        [COMMAND, "check", case_file], stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=tmp_path
+    )
+    process.stdout.close()
+    with process:
+        assert process.stderr.read() == b""
+    assert process.returncode != 0
 
 
 def test_example_is_the_first_case_of_the_paper(ehlectric, tmp_path):
@@ -169,6 +218,18 @@ def test_files_that_cannot_be_used(ehlectric, case_file, tmp_path):
     assert "no such file" in one_line(ehlectric("plot", "nowhere.nc"))
     assert "is a directory" in one_line(ehlectric("plot", tmp_path))
     assert "cannot be written to" in one_line(ehlectric("init", "taken/case.toml"))
+    assert "cannot be used" in one_line(ehlectric("init", 300 * "x"))
+    (tmp_path / "out" / "film.png").mkdir(parents=True)
+    assert "film.png: cannot be written to" in one_line(ehlectric("run", case_file, "-o", "out"))
+    assert [path.name for path in (tmp_path / "out").iterdir()] == ["film.png"]
+    (tmp_path / "dangling").symlink_to("nowhere")
+    assert "no regular file" in one_line(ehlectric("init", "dangling"))
+    assert "no regular file" in one_line(ehlectric("init", "/dev/null", "--force"))
+
+
+def test_words_on_the_command_line(ehlectric):
+    for words in (["frob"], ["run"], ["run", "a", "b"], ["check", "--frob"], ["run", "a", "-o"]):
+        one_line(ehlectric(*words))
 
 
 @pytest.mark.skipif(os.geteuid() == 0, reason="root may read and write everything")

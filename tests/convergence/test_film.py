@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ehlectric import solve
-from ehlectric.elastic import rigid_influence
+from ehlectric.elastic import RIGID_LINE
 from ehlectric.film import FilmProblem, solve_film
 from ehlectric.lubricant import constant_viscosity, incompressible
 from ehlectric.reynolds import Fluid
@@ -31,7 +31,7 @@ def martin_film(nodes, *, second_order):
         outlet=np.sqrt(2.0),
         thickness_guess=2.0,
         second_order=second_order,
-        influence=rigid_influence,
+        geometry=RIGID_LINE,
     )
     return solve_film(problem)
 

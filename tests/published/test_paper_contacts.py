@@ -7,6 +7,9 @@ import pandas as pd
 import pytest
 
 from ehlectric import solve
+from ehlectric.conditions import resolve
+from ehlectric.film import _nested_iteration
+from ehlectric.solver import _film_problem
 
 DATA = Path(__file__).parent / "data"
 FILMS = pd.read_csv(DATA / "line_contact_films.csv", comment="#").to_dict("records")
@@ -85,6 +88,23 @@ def test_solution_meets_its_equations(solved, row, wedge):
     assert np.max(np.abs(film.reynolds_residual[full])) < 1e-8
     assert np.min(film.reynolds_residual[film.cavitated]) > -1e-8
     assert film.cavitates
+
+
+@pytest.mark.parametrize("wedge", ["first-order", "second-order"])
+@pytest.mark.parametrize("row", FILMS, ids=row_name)
+def test_iterate_itself_keeps_to_the_ambient_pressure(paper_case, row, wedge):
+    """Before the result is given its exact ambient pressure where the film cavitates."""
+    case = paper_case.replace(
+        {
+            "contact.load_per_length": row["load_per_length"],
+            "contact.entrainment_speed": 0.5 * row["u_s"],
+            "grid.wedge": wedge,
+            "grid.nodes": 1601,
+        }
+    )
+    problem = _film_problem(case, resolve(case))
+    finest = _nested_iteration(problem, None)[-1]
+    assert np.min(finest.state.pressure) >= problem.fluid.ambient_pressure - 1e-9
 
 
 @pytest.mark.parametrize("row", TABLE_3, ids=lambda row: f"{row['u_s']:g} m/s")

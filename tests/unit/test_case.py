@@ -226,7 +226,7 @@ positive = st.floats(0.01, 1.0)
     radius=positive,
     speed=st.floats(1e-3, 1e3),
     voltage=st.floats(-1e3, 1e3).filter(lambda v: v != -1.0),
-    nodes=st.integers(81, 10**7),
+    nodes=st.integers(1000, 10**7),
     field_range=st.tuples(st.floats(-4.0, -0.1), st.floats(0.1, 2.0)),
 )
 def test_toml_round_trip(title, radius, speed, voltage, nodes, field_range):

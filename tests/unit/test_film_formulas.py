@@ -1,6 +1,7 @@
 """Film formulas against their limits and the paper's own groups."""
 
 import dataclasses
+import math
 
 import pytest
 
@@ -56,6 +57,39 @@ def test_formulas_are_within_thirty_percent_of_the_solved_film(paper_result):
         for name, value in vars(formula(PAPER)).items():
             if value is not None:
                 assert value == pytest.approx(getattr(film, name), rel=0.3)
+
+
+# U = 1e-11, G = 1e4, W = 1e-4: powers of ten, so that the formulas can be done by hand.
+ROUND = LineContact(1.0, 1e11, 1e7, 1.0, 1.0, 1e-7)
+
+
+@pytest.mark.parametrize(
+    ("name", "minimum", "central"),
+    [
+        ("dowson_higginson", 2.65e-5 * 10**-0.02, None),  # 10^(-7.70 + 2.16 + 0.52)
+        ("dowson_toyoda", None, 3.06e-5 * 10**0.05),  # 10^(-7.59 + 2.24 + 0.40)
+        (
+            "pan_hamrock",
+            1.714e-5 * 10**0.150,
+            2.922e-5 * 10**-0.068,
+        ),  # -7.634+2.272+0.512, -7.612+1.880+0.664
+    ],
+)
+def test_power_laws_by_hand(name, minimum, central):
+    thickness = film_formulas.FORMULAS[name](ROUND)
+    for value, expected in ((thickness.minimum_thickness, minimum), (thickness.central_thickness, central)):
+        assert value == (None if expected is None else pytest.approx(expected, rel=1e-9))
+
+
+def test_moes_between_its_limits_by_hand():
+    """M = L = 1: 3, 2.621, 1.287 and 1.311, s = (7 + 8 exp(-1.7473))/5 = 1.6788; term by term below."""
+    s = (7 + 8 * math.exp(-2 * 2.621 / 3)) / 5
+    assert s == pytest.approx(1.6788, abs=1e-4)
+    isoviscous = (12.980 + 9.470) ** (3 * s / 7)  # 3^(7/3), 2.621^(7/3)
+    piezoviscous = (0.41358 + 0.38769) ** (-2 * s / 7)  # 1.287^(-7/2), 1.311^(-7/2)
+    assert dimensionless(contact_of(1.0, 1.0)) == pytest.approx(
+        (isoviscous + piezoviscous) ** (1 / s), rel=1e-3
+    )
 
 
 def test_isoviscous_contact_has_only_the_moes_film():

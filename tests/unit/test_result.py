@@ -3,9 +3,11 @@
 import dataclasses
 import json
 import re
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
+from threadpoolctl import ThreadpoolController
 
 from ehlectric import Case, ConvergenceError, InputError, load, save, solve
 from ehlectric.store import whole
@@ -90,6 +92,84 @@ def test_definitions_of_the_summary(paper_result):
     walls = np.max(field.strength[:, [0, -1]])
     assert summary["field"]["max_strength"] == max(walls, np.max(field.middle_strength))
     assert summary["field"]["voltage"] == 2.0
+
+
+def test_sections_and_thin_gap_error_again(paper_result):
+    film, field = paper_result.film, paper_result.field
+    # Degree 6 has a node at s = 1/2.
+    assert field.s[3] == pytest.approx(0.5, abs=1e-15)
+    np.testing.assert_allclose(field.middle_strength, field.strength[:, 3], rtol=1e-12)
+    error = (field.max_strength - 2.0 / film.thickness.min()) / field.max_strength
+    assert paper_result.summary()["field"]["thin_gap_error"] == pytest.approx(error, rel=1e-9)
+    assert error > 0.0  # the walls of a constriction concentrate the field
+    assert paper_result.film.newton_iterations == sum(step.nodes == 3201 for step in film.steps) > 0
+
+
+def test_thin_gap_error_without_the_minimum(paper_case):
+    result = solve(paper_case.replace({"grid.field_range": [0.2, 0.5], "grid.nodes": 801}))
+    assert result.summary()["field"]["thin_gap_error"] is None
+    assert result.summary()["field"]["central_dimensionless"] is None
+
+
+@pytest.mark.parametrize(("wedge", "order"), [("first-order", 1), ("second-order", 2)])
+def test_discretisation_error_is_richardsons(paper_case, wedge, order):
+    """From two solutions of their own."""
+    case = paper_case.replace({"grid.wedge": wedge})
+    fine, coarse = (solve(case.replace({"grid.nodes": n})).film for n in (1601, 801))
+    estimates = [
+        abs(getattr(fine, name) - getattr(coarse, name)) / (2**order - 1) / getattr(fine, name)
+        for name in ("minimum_thickness", "central_thickness")
+    ]
+    assert fine.discretisation_error == pytest.approx(max(estimates), rel=1e-4)
+
+
+@pytest.mark.parametrize("speed", [4.0, 16.0])
+def test_inlet_deficit_is_what_the_film_lacks(paper_case, speed):
+    """Against a domain ten times as long; a film goes with some 3/4 power of its inlet integral."""
+    case = paper_case.replace({"contact.max_hertz_pressure": "0.5 GPa", "contact.entrainment_speed": speed})
+    short = solve(case.replace({"grid.inlet": -3.0, "grid.nodes": 1001})).film
+    long = solve(case.replace({"grid.inlet": -30.0, "grid.nodes": 6401})).film
+    lacking = 1.0 - short.central_thickness / long.central_thickness
+    assert lacking > 0.02
+    assert 0.6 < lacking / short.inlet_deficit < 1.1
+
+
+def test_surfaces_of_unequal_bodies():
+    """Each wall has its own curvature and its own part of the deflection, up to a common displacement."""
+    soft = {"youngs_modulus": 100e9, "poissons_ratio": 0.3}
+    stiff = {"youngs_modulus": 300e9, "poissons_ratio": 0.2}
+    contact = {"radius_1": 0.03, "radius_2": 0.06, "body_1": soft, "body_2": stiff}
+    contact |= {"max_hertz_pressure": "1 GPa", "entrainment_speed": 4.0}
+    result = solve(
+        Case.from_dict({"contact": contact, "lubricant": {"base": "paper"}, "grid": {"nodes": 801}})
+    )
+    film, lower = result.film, result.field.y[1:-1, 0]
+    inside = np.isin(film.x, result.field.x[1:-1])
+    part = (1 - 0.3**2) / 100e9
+    part /= part + (1 - 0.2**2) / 300e9
+    expected = -(film.x**2 / (2 * 0.03) + part * film.deflection)[inside]
+    np.testing.assert_allclose(lower - lower[0], expected - expected[0], atol=1e-15)
+    np.testing.assert_allclose(result.field.y[1:-1, -1] - lower, film.thickness[inside], rtol=1e-12)
+
+
+def test_threads_share_the_limit_on_blas(paper_case):
+    """After concurrent solutions the libraries have their threads back, and the films are the same."""
+    libraries = ThreadpoolController().select(user_api="blas")
+    before = [library["num_threads"] for library in libraries.info()]
+    case = paper_case.replace({"grid.nodes": 801})
+    with ThreadPoolExecutor(4) as pool:
+        films = list(pool.map(lambda _: solve(case).film.thickness, range(8)))
+    assert [library["num_threads"] for library in libraries.info()] == before
+    for film in films:
+        np.testing.assert_array_equal(film, films[0])
+
+
+def test_a_tolerance_below_rounding_is_not_chased(paper_case):
+    case = paper_case.replace({"solver.tolerance": 1e-11, "grid.nodes": 25_601})
+    film = solve(case).film
+    assert film.converged
+    assert film.residual < 1e-9
+    assert film.minimum_thickness == pytest.approx(0.639e-6, rel=1e-3)
 
 
 def test_surfaces_of_equal_bodies_lie_at_half_the_film(paper_result):

@@ -10,13 +10,13 @@ SHAPE = (40, 3)
 DX = 0.1
 
 
-def fluid():
+def fluid(ambient=0.0):
     law = {"pressure_viscosity_coefficient": 8.0, "roelands_z": 0.67, "roelands_pressure": 0.3}
     return reynolds.Fluid(
         density=lambda p: dowson_higginson(p, density_c1=0.6, density_c2=1.34),
         log_viscosity=lambda p: roelands(p, **law),
         velocity_parameter=0.05,
-        ambient_pressure=0.0,
+        ambient_pressure=ambient,
     )
 
 
@@ -70,5 +70,9 @@ def test_residual_sums_to_the_flow_through_the_ends(state, second_order):
 
 def test_coefficients_below_ambient_are_those_at_ambient():
     thickness = np.ones((5, 1))
-    below, at = (reynolds.evaluate(fluid(), np.full((5, 1), p), thickness) for p in (-0.5, 0.0))
-    np.testing.assert_array_equal(below.eps, at.eps)
+    below, lower, at = (
+        reynolds.evaluate(fluid(0.1), np.full((5, 1), p), thickness) for p in (-0.5, 0.05, 0.1)
+    )
+    for name in ("eps", "density"):
+        np.testing.assert_array_equal(getattr(below, name), getattr(at, name))
+        np.testing.assert_array_equal(getattr(lower, name), getattr(at, name))
