@@ -8,7 +8,7 @@ export PIP_CONSTRAINT := $(CURDIR)/requirements.lock
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
 .DEFAULT_GOAL := help
-.PHONY: help run test slow check format bench lock clean
+.PHONY: help run test slow check format figures bench lock clean
 
 help:
 	@echo "make run     install and solve the example, with figures"
@@ -16,6 +16,7 @@ help:
 	@echo "make slow    run the long tests"
 	@echo "make check   format, lint, types, import contract and tests"
 	@echo "make format  format the code"
+	@echo "make figures draw the figures of the README again"
 	@echo "make bench   run the benchmarks and print their table"
 
 $(BIN)/python:
@@ -55,6 +56,10 @@ check: $(VENV)/.dev
 format: $(VENV)/.dev
 	$(BIN)/ruff format .
 	$(BIN)/ruff check --fix .
+
+figures: $(VENV)/.run
+	$(BIN)/ehlectric run examples/line_contact.toml -o $(RESULTS) --quiet
+	cp $(RESULTS)/film.png $(RESULTS)/field_strength.png docs/figures
 
 bench: $(VENV)/.dev
 	$(BIN)/python benchmarks/table.py

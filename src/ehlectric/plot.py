@@ -57,14 +57,16 @@ def _position(result: Result, x: Array) -> Array:
 
 
 def _label_position(result: Result, ax: Axes) -> None:
-    factor, unit = _unit(result.conditions.half_width, "m")
+    factor, unit = _unit(result.conditions.half_width, "m", least=1.0)
     ax.set_xlabel(f"$x/b$   ($b$ = {factor * result.conditions.half_width:.4g} {unit})")
 
 
-def _unit(largest: float, unit: str) -> tuple[float, str]:
-    """Factor and unit in which a quantity is a number from 1 to 1000."""
-    size = next((p for p in _PREFIXES if p <= largest), 1e-12)
-    return 1.0 / size, _PREFIXES[size] + unit
+def _unit(largest: float, unit: str, *, least: float = 0.1) -> tuple[float, str]:
+    """Factor and prefixed unit in which ``largest`` is from ``least`` to a thousand times that."""
+    size = next((p for p in _PREFIXES if least * p <= largest), 1e-12)
+    prefixed = _PREFIXES[size] + unit
+    # Breakdown strengths are given in V/µm.
+    return 1.0 / size, "V/µm" if prefixed == "MV/m" else prefixed
 
 
 def pressure_and_film(result: Result, ax: Axes | None = None) -> Axes:
@@ -96,13 +98,14 @@ def pressure_and_film(result: Result, ax: Axes | None = None) -> Axes:
     ax.set_ylim(0.0, 1.3 * factor * largest)
     twin = ax.twinx()
     factor, unit = _unit(film.central_thickness, "m")
-    minimum = factor * film.minimum_thickness
-    label = rf"film thickness, $h_\mathrm{{min}}$ = {minimum:.3g} {unit} at $x/b$ = "
-    label += f"{film.minimum_position / conditions.half_width:.3f}"
-    lines += twin.plot(x, factor * film.thickness, color=_ORANGE, label=label)
+    lines += twin.plot(x, factor * film.thickness, color=_ORANGE, label="film thickness")
+    minimum, position = factor * film.minimum_thickness, film.minimum_position / conditions.half_width
+    ax.set_title(rf"$h_\mathrm{{min}}$ = {minimum:.3g} {unit} at $x/b$ = {position:.3f}", loc="right")
     twin.set_ylabel(f"film thickness $h$ [{unit}]", color=_ORANGE)
     twin.set_ylim(0.0, 5.0 * factor * film.central_thickness)
-    ax.legend(handles=lines, loc="upper left", frameon=True, framealpha=0.9, edgecolor="none")
+    # Under the dome of the pressure and above the film there is room in any contact.
+    centre = (0.0 - ax.get_xlim()[0]) / (ax.get_xlim()[1] - ax.get_xlim()[0])
+    ax.legend(handles=lines, loc="center", bbox_to_anchor=(centre, 0.44), frameon=False)
     return ax
 
 
@@ -226,7 +229,7 @@ def field_profiles(result: Result, ax: Axes | None = None) -> Axes:
     x = _position(result, field.x)
     factor, unit = _unit(field.max_strength, "V/m")
     zone = _position(result, np.array(field.high_field_zone))
-    width, length = _unit(field.high_field_width, "m")
+    width, length = _unit(field.high_field_width, "m", least=1.0)
     label = f"mid-film above 95 % of its maximum: {width * field.high_field_width:.3g} {length} wide"
     ax.axvspan(zone[0], zone[1], color=_GREEN, alpha=0.25, lw=0.0, label=label)
     ax.plot(x, factor * field.strength[:, 0], color=_BLUE, lw=2.4, label="surface 1")
@@ -301,16 +304,17 @@ def save_figures(result: Result, folder: Path) -> list[Path]:
     list of Path
         The files written.
     """
-    title = textwrap.shorten(result.case.title, 60, placeholder=" ...")
+    title = textwrap.shorten(result.case.title, 45, placeholder=" ...")
     files = []
     with mpl.rc_context(_STYLE), warnings.catch_warnings():  # type: ignore[arg-type]
         # A title may use letters that the font does not have.
         warnings.filterwarnings("ignore", message="Glyph .* missing")
         for name, draw in FIGURES.items():
             ax = draw(result)
-            ax.set_title(title, loc="left", parse_math=False)
-            if not result.converged:
-                ax.set_title("NOT CONVERGED", loc="center", color="red", weight="bold")
+            if result.converged:
+                ax.set_title(title, loc="left", parse_math=False)
+            else:
+                ax.set_title("NOT CONVERGED", loc="left", color="red", weight="bold")
             with whole(folder / name) as path:
                 _figure(ax).savefig(path)
             files.append(folder / name)

@@ -10,7 +10,7 @@ from ehlectric import plot
 def test_figures_have_labels_with_units(paper_result, name):
     ax = plot.FIGURES[name](paper_result)
     assert ax.get_xlabel() == "$x/b$   ($b$ = 499.4 µm)"
-    assert any(unit in ax.get_ylabel() for unit in ("[GPa]", "[nm]", "[MV/m]", "[‰]"))
+    assert any(unit in ax.get_ylabel() for unit in ("[GPa]", "[µm]", "[V/µm]", "[‰]"))
 
 
 @pytest.mark.parametrize("name", plot.FIGURES)
