@@ -23,4 +23,4 @@ def field_problem(columns: int) -> FieldProblem:
     """The example's field on so many columns."""
     case = Case.from_toml(EXAMPLE).replace({"grid.field_nodes": columns})
     result = solve(case)
-    return _field_problem(case, result.conditions, result.film)
+    return _field_problem(case, result.conditions, result.film, result.roughness)

@@ -15,7 +15,16 @@ from typing import Annotated, Any, Self
 from pydantic import AfterValidator, BaseModel, ValidationError
 
 from ehlectric.errors import InputError, shown
-from ehlectric.inputs import CONTACT_ALTERNATIVES, Contact, Electric, Grid, Lubricant, Solver, Table
+from ehlectric.inputs import (
+    CONTACT_ALTERNATIVES,
+    Contact,
+    Electric,
+    Grid,
+    Lubricant,
+    Roughness,
+    Solver,
+    Table,
+)
 from ehlectric.validation import first_message
 
 
@@ -48,6 +57,7 @@ class Case(Table):
     title: Annotated[str, AfterValidator(_title)] = ""
     contact: Contact
     lubricant: Lubricant
+    roughness: tuple[Roughness, ...] = ()
     electric: Electric = Electric()
     grid: Grid = Grid()
     solver: Solver = Solver()
@@ -90,6 +100,7 @@ class Case(Table):
             raise InputError(
                 f"{path}: is not TOML that can be read, some value is too long or too deep"
             ) from None
+        _find_files(table, path.parent)
         return cls.from_dict(table)
 
     def to_dict(self) -> dict[str, Any]:
@@ -136,6 +147,14 @@ class Case(Table):
                     raise InputError(f"{key}: unknown key, {parent} is not a table")
             target[leaf] = value
         return self.from_dict(table)
+
+
+def _find_files(table: dict[str, Any], folder: Path) -> None:
+    """Files named in a case lie relative to it."""
+    rough = table.get("roughness")
+    for surface in rough if isinstance(rough, list) else []:
+        if isinstance(surface, dict) and isinstance(surface.get("file"), str):
+            surface["file"] = str(folder / surface["file"])
 
 
 def _reason(error: OSError) -> str:

@@ -11,6 +11,7 @@ import numpy as np
 from ehlectric.field import Field
 from ehlectric.film import Film, Scales
 from ehlectric.newton import NewtonStep
+from ehlectric.typing import Array
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -85,6 +86,23 @@ def variables(film: Film, field: Field) -> dict[str, Any]:
         values = np.array([getattr(step, attribute) for step in film.steps])
         named[name] = ("step", values, {"long_name": long_name, "units": "1"})
     return named
+
+
+def roughness_variables(roughness: Array) -> dict[str, Any]:
+    """Heights of both surfaces over x."""
+    return {
+        f"roughness_{k}": (
+            "x",
+            heights,
+            {"long_name": f"roughness of surface {k}, out of the body", "units": "m"},
+        )
+        for k, heights in enumerate(roughness, 1)
+    }
+
+
+def roughness_of(dataset: xr.Dataset) -> Array:
+    """The roughness a dataset was made of."""
+    return np.stack([dataset["roughness_1"].values, dataset["roughness_2"].values])
 
 
 COORDINATES = ("x", "x_field", "s", "y")

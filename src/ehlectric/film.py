@@ -23,6 +23,9 @@ NESTED_TOLERANCE = 1e-6
 # a quarter of them do not resolve a thin film.
 FIRST_GRID = 201
 
+# Part of the central film below which a gap that was not solved for is no film.
+COLLAPSED = 1e-2
+
 
 @dataclass(frozen=True)
 class Scales:
@@ -93,7 +96,8 @@ class Film:
         d(rho H)/dX - d/dX(eps dP/dX) in units of P: zero in the full film, not negative where it
         cavitates.
     status : str
-        "converged", "stalled" (residual above the tolerance at the last step allowed) or "diverged".
+        "converged"; "stalled" (residual above the tolerance at the last step allowed); "diverged"; or
+        "film collapsed": not converged, with gaps below a hundredth of the central film.
     residual, load_residual : float
         Largest scaled residual, and abs(integral P dX/(pi/2) - 1).
     newton_iterations : int
@@ -152,6 +156,13 @@ class Film:
     def max_pressure(self) -> float:
         """Largest pressure of a node [Pa]."""
         return float(np.max(self.pressure))
+
+    @property
+    def collapsed_positions(self) -> Array:
+        """Where a film that was not found has gaps below a hundredth of the central one [m]."""
+        if self.status != "film collapsed":
+            return np.empty(0)
+        return self.x[self.thickness < COLLAPSED * self.central_thickness]
 
     @property
     def cavitates(self) -> bool:
@@ -295,7 +306,7 @@ def _film(problem: FilmProblem, solutions: list[GridSolution]) -> Film:
         cavitated=~final.free[:, 0],
         reynolds_residual=final.scaled[:, 0],
         scales=scales,
-        status=finest.status,
+        status=_status(finest),
         residual=final.norm,
         load_residual=abs(final.load) / level.load,
         newton_iterations=sum(step.nodes == problem.nodes for step in steps),
@@ -303,6 +314,15 @@ def _film(problem: FilmProblem, solutions: list[GridSolution]) -> Film:
         discretisation_error=_discretisation_error(problem, finest, coarser),
         inlet_deficit=_inlet_deficit(problem.fluid, finest),
     )
+
+
+def _status(finest: GridSolution) -> Status:
+    """Status, told apart where a film that was not found has a place without one."""
+    gap = finest.state.thickness
+    central = float(np.interp(0.0, finest.level.x, gap[:, 0]))
+    if finest.status != "converged" and float(np.min(gap)) < COLLAPSED * central:
+        return "film collapsed"
+    return finest.status
 
 
 def _discretisation_error(

@@ -36,7 +36,7 @@ KRYLOV_LIMIT = 60
 # The load is balanced this many times as closely as the pressures are solved.
 LOAD_WEIGHT = 10.0
 
-Status: TypeAlias = Literal["converged", "stalled", "diverged"]
+Status: TypeAlias = Literal["converged", "stalled", "diverged", "film collapsed"]
 Progress: TypeAlias = Callable[[int, int, float], None]  # nodes, Newton step, residual
 
 

@@ -11,10 +11,11 @@ import numpy as np
 
 from ehlectric.case import Case
 from ehlectric.conditions import Conditions
-from ehlectric.dataset import COORDINATES, attributes, variables
+from ehlectric.dataset import COORDINATES, attributes, roughness_variables, variables
 from ehlectric.field import Field
 from ehlectric.film import Film, Scales
 from ehlectric.film_formulas import FORMULAS
+from ehlectric.typing import Array
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -32,6 +33,8 @@ class Result:
         What was solved, and what it means.
     film, field : Film, Field
         The solution, SI units.
+    roughness : ndarray, shape (2, nx)
+        Heights of both surfaces' roughness at the film's nodes, positive out of the body [m].
     warnings : tuple of str
         What a user should know before using it.
     film_seconds, field_seconds : float
@@ -43,6 +46,7 @@ class Result:
     case: Case
     conditions: Conditions
     film: Film
+    roughness: Array
     field: Field
     warnings: tuple[str, ...]
     film_seconds: float
@@ -120,6 +124,7 @@ class Result:
             "high_field_width": field.high_field_width,
             "capacitance_per_length": field.capacitance,
             "thin_gap_error": self.thin_gap_error,
+            "columns": field.x.size,
         }
 
     def to_xarray(self) -> xr.Dataset:
@@ -127,7 +132,7 @@ class Result:
         import xarray as xr
 
         return xr.Dataset(
-            variables(self.film, self.field),
+            variables(self.film, self.field) | roughness_variables(self.roughness),
             attrs={
                 "Conventions": "CF-1.11",
                 "title": self.case.title or "Film and electric field of a line contact",

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from datetime import UTC, datetime
 
 import numpy as np
@@ -18,6 +19,7 @@ from ehlectric.conditions import (
     resolve,
     viscosity_law,
 )
+from ehlectric.elastic import LINE, Geometry
 from ehlectric.errors import ConvergenceError
 from ehlectric.field import Field, solve_field
 from ehlectric.film import Film, FilmProblem, solve_film
@@ -29,6 +31,10 @@ from ehlectric.result import Result, scales_of
 from ehlectric.reynolds import Fluid, FluidLaw
 from ehlectric.typing import Array
 from ehlectric.version import __version__
+from ehlectric.walls import RoughSurface, rough_surfaces
+
+# Parts into which an interval of the film is refined for the field at the most.
+_MOST_PARTS = 32
 
 # A film node this near to an end of the field range, in grid spacings, is that end.
 _SAME_NODE = 1e-6
@@ -69,19 +75,22 @@ def solve(case: Case, *, progress: Progress | None = None, require_convergence: 
     """
     conditions = resolve(case)
     check_memory(case)
+    rough = rough_surfaces(case, conditions)
     started = time.perf_counter()
-    film = solve_film(_film_problem(case, conditions), progress=progress)
+    film = solve_film(_film_problem(case, conditions, rough), progress=progress)
     film_done = time.perf_counter()
     if require_convergence and not film.converged:
         raise ConvergenceError(f"film {film.status} at the residual {film.residual:.1e}")
-    field = solve_field(_field_problem(case, conditions, film))
+    roughness = _heights(rough, film.x)
+    field = solve_field(_field_problem(case, conditions, film, roughness))
     field_done = time.perf_counter()
     return Result(
         case=case,
         conditions=conditions,
         film=film,
+        roughness=roughness,
         field=field,
-        warnings=(*remarks(case, conditions), *_findings(case, film, field)),
+        warnings=(*remarks(case, conditions), *_findings(case, conditions, film, field)),
         film_seconds=film_done - started,
         field_seconds=field_done - film_done,
         version=__version__,
@@ -99,7 +108,8 @@ def _dimensionless(law: Callable[[Array], tuple[Array, Array]], scale: float) ->
     return of_dimensionless
 
 
-def _film_problem(case: Case, conditions: Conditions) -> FilmProblem:
+def _film_problem(case: Case, conditions: Conditions, rough: Sequence[RoughSurface] = ()) -> FilmProblem:
+    """The film; of rough surfaces only the sum of their heights enters it."""
     lubricant, grid = case.lubricant, case.grid
     p_h = conditions.max_pressure
     guess = moes(conditions.formulas).central_thickness
@@ -119,13 +129,33 @@ def _film_problem(case: Case, conditions: Conditions) -> FilmProblem:
         tolerance=case.solver.tolerance,
         max_iterations=case.solver.max_iterations,
         scales=scales_of(case, conditions),
+        geometry=_rough_geometry(conditions, rough) if rough else LINE,
     )
 
 
-def _field_problem(case: Case, conditions: Conditions, film: Film) -> FieldProblem:
+def _rough_geometry(conditions: Conditions, rough: Sequence[RoughSurface]) -> Geometry:
+    """A line contact whose gap is narrowed by the peaks of its surfaces."""
+    b, scale = conditions.half_width, conditions.thickness_scale
+
+    def dry_gap(x: Array) -> Array:
+        gap: Array = LINE.dry_gap(x) - _heights(rough, b * x).sum(axis=0)[:, np.newaxis] / scale
+        return gap
+
+    return replace(LINE, dry_gap=dry_gap)
+
+
+def _heights(rough: Sequence[RoughSurface], x: Array) -> Array:
+    """Roughness of both surfaces at given positions [m], shape (2, n)."""
+    heights = np.zeros((2, x.size))
+    for surface in rough:
+        heights[surface.surface - 1] += surface.height(x)
+    return heights
+
+
+def _field_problem(case: Case, conditions: Conditions, film: Film, roughness: Array) -> FieldProblem:
     """The Poisson problem in the solved film; a cavitated gap counts as filled with oil."""
-    x = _field_nodes(case, conditions, film)
-    lower, upper = surfaces(conditions, film)
+    x = _field_nodes(case, conditions, film, refine=bool(np.any(roughness)))
+    lower, upper = surfaces(conditions, film, roughness)
     return FieldProblem(
         x=x,
         lower=_resampled(film.x, lower, x),
@@ -137,16 +167,23 @@ def _field_problem(case: Case, conditions: Conditions, film: Film) -> FieldProbl
     )
 
 
-def _field_nodes(case: Case, conditions: Conditions, film: Film) -> Array:
-    """Columns of the field: the film's own nodes and the two ends of the range, unless a number is
-    given.
+def _field_nodes(case: Case, conditions: Conditions, film: Film, *, refine: bool) -> Array:
+    """Columns of the field: the film's own nodes and the two ends of the range, unless a number is given.
+
+    Rough walls turn within the distance of the other wall: there each interval is parted until half of the
+    least gap is resolved.
     """
     start, stop = (conditions.half_width * end for end in case.grid.field_range)
     if case.grid.field_nodes is not None:
         return np.linspace(start, stop, case.grid.field_nodes)
-    margin = _SAME_NODE * (film.x[1] - film.x[0])
-    inside = film.x[(film.x > start + margin) & (film.x < stop - margin)]
-    return np.concatenate([[start], inside, [stop]])
+    dx = film.x[1] - film.x[0]
+    inside = film.x[(film.x > start + _SAME_NODE * dx) & (film.x < stop - _SAME_NODE * dx)]
+    nodes = np.concatenate([[start], inside, [stop]])
+    parts = int(np.ceil(dx / max(0.5 * film.minimum_thickness, dx / _MOST_PARTS))) if refine else 1
+    if parts == 1:
+        return nodes
+    fractions = np.arange(parts) / parts
+    return np.append((nodes[:-1, np.newaxis] + np.diff(nodes)[:, np.newaxis] * fractions).ravel(), stop)
 
 
 def _resampled(x: Array, values: Array, at: Array) -> Array:
@@ -155,26 +192,33 @@ def _resampled(x: Array, values: Array, at: Array) -> Array:
     return resampled
 
 
-def surfaces(conditions: Conditions, film: Film) -> tuple[Array, Array]:
+def surfaces(conditions: Conditions, film: Film, roughness: Array) -> tuple[Array, Array]:
     """Heights of the two surfaces over the film's nodes [m].
 
-    Each body keeps its own part of the curvature and of the deflection; equal bodies, and those of which
-    only the reduced values are known, lie at -h/2 and h/2.
+    Each body keeps its own part of the curvature and of the deflection, and its own roughness; smooth equal
+    bodies, and those of which only the reduced values are known, lie at -h/2 and h/2.
     """
     parabola = 0.5 * film.x**2 / conditions.reduced_radius
-    rest = film.thickness - parabola - film.deflection
-    lower = -(
-        conditions.curvature_share * parabola + conditions.compliance_share * film.deflection + 0.5 * rest
+    rigid = film.thickness - parabola - film.deflection + roughness.sum(axis=0)
+    lower = roughness[0] - (
+        conditions.curvature_share * parabola + conditions.compliance_share * film.deflection + 0.5 * rigid
     )
     return lower, lower + film.thickness
 
 
-def _findings(case: Case, film: Film, field: Field) -> Iterator[str]:
+def _findings(case: Case, conditions: Conditions, film: Film, field: Field) -> Iterator[str]:
     """What the solution shows that a user should know, one text each."""
     if not film.converged:
         yield (
             f"do not use this film, it is no solution: {film.status} at the residual {film.residual:.1e}; "
             "try more grid.nodes, a lower grid.inlet, or more solver.max_iterations"
+        )
+    places = film.collapsed_positions / conditions.half_width
+    if places.size:
+        yield (
+            "the surfaces would touch at x/b = "
+            + ", ".join(f"{place:.3f}" for place in places[:8])
+            + (f" and {places.size - 8} more nodes" if places.size > 8 else "")
         )
     error = film.discretisation_error
     if film.converged and error is None:

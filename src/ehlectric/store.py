@@ -16,7 +16,7 @@ import numpy as np
 
 from ehlectric.case import Case
 from ehlectric.conditions import resolve
-from ehlectric.dataset import field_of, film_of
+from ehlectric.dataset import field_of, film_of, roughness_of
 from ehlectric.errors import InputError
 from ehlectric.result import Result, scales_of
 
@@ -199,6 +199,7 @@ def _result_of(dataset: xr.Dataset) -> Result:
         case=case,
         conditions=conditions,
         film=film_of(dataset, scales),
+        roughness=roughness_of(dataset),
         field=field_of(dataset),
         warnings=tuple(json.loads(attributes["warnings"])),
         film_seconds=film_seconds,

@@ -51,7 +51,10 @@ def _message(detail: ErrorDetails, model: type[BaseModel]) -> str:
         case "string_type":
             return f"{key}: got {given}, takes a text"
         case "missing" | "tuple_type" | "too_long" | "too_short":
-            return f"{key}: got {given}, takes a list of two numbers"
+            kind = (
+                f"tables, each headed [[{key}]]" if _kind(key, model) == "table" else "a list of two numbers"
+            )
+            return f"{key}: got {given}, takes {kind}"
     return f"{key}: got {given}, {detail['msg']}"
 
 
@@ -84,7 +87,7 @@ def _kind(key: str, model: type[BaseModel]) -> str:
 
 
 def _table_of(annotation: Any) -> type[BaseModel] | None:
-    candidates = get_args(annotation) if get_origin(annotation) in (Union, UnionType) else [annotation]
+    candidates = get_args(annotation) if get_origin(annotation) in (Union, UnionType, tuple) else [annotation]
     for candidate in candidates:
         if isinstance(candidate, type) and issubclass(candidate, BaseModel):
             return candidate

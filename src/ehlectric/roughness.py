@@ -1,0 +1,284 @@
+"""Roughness profiles: form removal, Gaussian filter, cutting, and statistics.
+
+Heights are positive out of the body, so that a peak narrows the gap. A profile is equally spaced, and its
+midpoint lies at x = 0.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Literal, TypeAlias
+
+import numpy as np
+from scipy.signal import fftconvolve
+
+from ehlectric.errors import InputError
+from ehlectric.typing import Array
+
+Form: TypeAlias = Literal["none", "mean", "line", "parabola"]
+FORM_DEGREES: dict[str, int] = {"mean": 0, "line": 1, "parabola": 2}
+
+# Constant of the Gaussian profile filter, for a transmission of one half at the cutoff (ISO 16610-21).
+ALPHA = float(np.sqrt(np.log(2.0) / np.pi))
+
+# Points below which a profile has no statistics worth the name.
+LEAST_POINTS = 16
+
+
+@dataclass(frozen=True)
+class Profile:
+    """Equally spaced heights [m], positive out of the body."""
+
+    spacing: float
+    heights: Array  # (n,)
+
+    @property
+    def x(self) -> Array:
+        """Positions, the midpoint at zero [m], shape (n,)."""
+        n = self.heights.size
+        return np.linspace(-0.5, 0.5, n) * ((n - 1) * self.spacing)
+
+    @property
+    def length(self) -> float:
+        """Distance of the last point from the first [m]."""
+        return (self.heights.size - 1) * self.spacing
+
+
+@dataclass(frozen=True)
+class Statistics:
+    """Amplitude and slope parameters of a profile, SI units.
+
+    Attributes
+    ----------
+    rq, ra : float
+        Root mean square and mean absolute height about the mean [m].
+    rsk, rku : float
+        Skewness and kurtosis, 0 and 3 for a Gaussian profile; 0 for a flat one.
+    correlation_length : float
+        Distance at which the autocorrelation falls to 1/e [m]; the length where it does not.
+    rms_slope, largest_slope : float
+        Of the differences between neighbours.
+    """
+
+    rq: float
+    ra: float
+    rsk: float
+    rku: float
+    correlation_length: float
+    rms_slope: float
+    largest_slope: float
+
+
+def statistics(profile: Profile) -> Statistics:
+    """Statistics of a profile about its mean.
+
+    Parameters
+    ----------
+    profile : Profile
+        Two points at least.
+
+    Returns
+    -------
+    Statistics
+        As defined in ISO 21920-2, over the whole profile.
+
+    Examples
+    --------
+    A sine has Rq = amplitude/sqrt(2) and a kurtosis of 1.5:
+
+    >>> import numpy as np
+    >>> sine = Profile(1e-8, 1e-7 * np.sin(2 * np.pi * np.arange(10000) / 1000))
+    >>> round(statistics(sine).rq / 1e-7, 4), round(statistics(sine).rku, 3)
+    (0.7071, 1.5)
+    """
+    z = profile.heights - np.mean(profile.heights)
+    slopes = np.diff(z) / profile.spacing
+    rq = float(np.sqrt(np.mean(z**2)))
+    flat = rq == 0.0
+    return Statistics(
+        rq=rq,
+        ra=float(np.mean(np.abs(z))),
+        rsk=0.0 if flat else float(np.mean(z**3) / rq**3),
+        rku=0.0 if flat else float(np.mean(z**4) / rq**4),
+        correlation_length=profile.length if flat else _correlation_length(z, profile.spacing),
+        rms_slope=float(np.sqrt(np.mean(slopes**2))),
+        largest_slope=float(np.max(np.abs(slopes))),
+    )
+
+
+def _correlation_length(z: Array, spacing: float) -> float:
+    covariance = fftconvolve(z, z[::-1])[z.size - 1 :] / np.arange(z.size, 0, -1)
+    below = np.flatnonzero(covariance < covariance[0] / np.e)
+    if below.size == 0:
+        return (z.size - 1) * spacing
+    k = int(below[0])
+    step = (covariance[k - 1] - covariance[0] / np.e) / (covariance[k - 1] - covariance[k])
+    return float((k - 1 + step) * spacing)
+
+
+def without_form(profile: Profile, form: Form) -> Profile:
+    """The profile less its form, by least squares.
+
+    Parameters
+    ----------
+    profile : Profile
+        As measured.
+    form : str
+        "none", "mean", "line" or "parabola".
+
+    Returns
+    -------
+    Profile
+        Of the same length.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> bent = Profile(1.0, np.arange(20.0) ** 2)
+    >>> bool(np.allclose(without_form(bent, "parabola").heights, 0.0, atol=1e-9))
+    True
+    """
+    if form == "none":
+        return profile
+    t = profile.x / max(profile.length, profile.spacing)
+    fit = np.polynomial.Polynomial.fit(t, profile.heights, FORM_DEGREES[form])
+    return replace(profile, heights=profile.heights - fit(t))
+
+
+def waviness(profile: Profile, cutoff: float) -> Profile:
+    """Gaussian profile filter: the waves longer than a cutoff.
+
+    The weight is exp(-pi (x/(alpha cutoff))^2)/(alpha cutoff) with alpha = sqrt(ln 2/pi): half of the
+    amplitude passes at the cutoff, exp(-pi (alpha cutoff/wavelength)^2) at a wavelength.
+
+    Parameters
+    ----------
+    profile : Profile
+        What to filter; near its ends the weights are those of the part that is there.
+    cutoff : float
+        Cutoff wavelength [m], at most the length of the profile.
+
+    Returns
+    -------
+    Profile
+        Of the same length.
+
+    Raises
+    ------
+    InputError
+        Where the cutoff is longer than the profile or shorter than two spacings.
+
+    Notes
+    -----
+    ISO 16610-21.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> profile = Profile(0.1, np.sin(2 * np.pi * np.arange(4000) * 0.1 / 8.0))
+    >>> round(float(np.max(waviness(profile, 8.0).heights[1000:3000])), 3)
+    0.5
+    """
+    if not 2.0 * profile.spacing <= cutoff <= profile.length:
+        raise InputError(
+            f"cutoff: got {cutoff * 1e6:.4g} µm, takes a length between two spacings and the whole profile, "
+            f"{2e6 * profile.spacing:.4g} to {1e6 * profile.length:.4g} µm"
+        )
+    # Beyond one cutoff the weight is a millionth of that in the middle.
+    reach = int(np.ceil(cutoff / profile.spacing))
+    distance = np.arange(-reach, reach + 1) * profile.spacing
+    weights = np.exp(-np.pi * (distance / (ALPHA * cutoff)) ** 2)
+    weights /= weights.sum()
+    total = fftconvolve(profile.heights, weights, mode="full")[reach : reach + profile.heights.size]
+    share = fftconvolve(np.ones_like(profile.heights), weights, mode="full")
+    return replace(profile, heights=total / share[reach : reach + profile.heights.size])
+
+
+def trimmed(profile: Profile, length: float) -> Profile:
+    """The profile less a length at each end [m].
+
+    Raises
+    ------
+    InputError
+        Where too little would be left.
+    """
+    n = round(length / profile.spacing)
+    left = profile.heights.size - 2 * n
+    if left < LEAST_POINTS:
+        raise InputError(
+            f"trim: got {length * 1e6:.4g} µm, which leaves {max(left, 0)} of {profile.heights.size} points; "
+            f"takes a length that leaves {LEAST_POINTS}"
+        )
+    return replace(profile, heights=profile.heights[n : n + left])
+
+
+@dataclass(frozen=True)
+class Processing:
+    """What is done to a profile, in this order; None leaves a step out. Lengths in m.
+
+    ``cutoff_long`` removes the waves longer than it, ``cutoff_short`` the shorter ones; ``trim`` is half of
+    the longer of the two where it is not given.
+    """
+
+    form: Form = "none"
+    cutoff_long: float | None = None
+    cutoff_short: float | None = None
+    trim: float | None = None
+    rescale_rq: float | None = None
+    truncate: float | None = None
+
+
+def processed(profile: Profile, steps: Processing) -> list[tuple[str, Profile]]:
+    """A profile after every step, with what the step was; the first is the profile as it came.
+
+    Parameters
+    ----------
+    profile : Profile
+        As read or generated.
+    steps : Processing
+        What to do.
+
+    Returns
+    -------
+    list of (str, Profile)
+        Descriptions and profiles, in order.
+
+    Raises
+    ------
+    InputError
+        Where a step cannot be done.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> profile = Profile(1e-7, 1e-8 * np.arange(100.0))
+    >>> [name for name, _ in processed(profile, Processing(form="line"))]
+    ['as read', 'form: line']
+    """
+    done = [("as read", profile)]
+
+    def add(name: str, after: Profile) -> None:
+        done.append((name, after))
+
+    if steps.form != "none":
+        add(f"form: {steps.form}", without_form(done[-1][1], steps.form))
+    if steps.cutoff_long is not None:
+        before = done[-1][1]
+        rest = before.heights - waviness(before, steps.cutoff_long).heights
+        add(f"cutoff_long: {steps.cutoff_long * 1e6:.4g} µm", replace(before, heights=rest))
+    if steps.cutoff_short is not None:
+        add(f"cutoff_short: {steps.cutoff_short * 1e6:.4g} µm", waviness(done[-1][1], steps.cutoff_short))
+    cutoffs = [c for c in (steps.cutoff_long, steps.cutoff_short) if c is not None]
+    trim = steps.trim if steps.trim is not None else 0.5 * max(cutoffs, default=0.0)
+    if trim > 0.0:
+        add(f"trim: {trim * 1e6:.4g} µm at each end", trimmed(done[-1][1], trim))
+    if steps.rescale_rq is not None:
+        rq = statistics(done[-1][1]).rq
+        if rq == 0.0:
+            raise InputError("rescale_rq: got a flat profile, takes one with some height")
+        scaled = done[-1][1].heights * (steps.rescale_rq / rq)
+        add(f"rescale_rq: {steps.rescale_rq * 1e9:.4g} nm", replace(done[-1][1], heights=scaled))
+    if steps.truncate is not None:
+        cut = np.clip(done[-1][1].heights, -steps.truncate, steps.truncate)
+        add(f"truncate: {steps.truncate * 1e9:.4g} nm", replace(done[-1][1], heights=cut))
+    return done
