@@ -1,4 +1,4 @@
-"""The command line: run, check, init and plot."""
+"""The command line: run, check, surface, init and plot."""
 
 from __future__ import annotations
 
@@ -88,9 +88,10 @@ def run(
         from ehlectric.memory import check_memory
         from ehlectric.solver import solve
         from ehlectric.store import FIGURE_FILES, FILES, clear, prepare, save
+        from ehlectric.walls import rough_surfaces
 
         case = Case.from_toml(case_file)
-        resolve(case)
+        rough_surfaces(case, resolve(case))
         check_memory(case)
         folder = prepare(output, FILES + FIGURE_FILES)
         with _progress(shown=not quiet) as stage:
@@ -130,9 +131,11 @@ def check(case_file: CaseFile, quiet: Quiet = False, as_json: Json = False) -> N
         from ehlectric.conditions import remarks, resolve
         from ehlectric.memory import check_memory
         from ehlectric.report import conditions_summary, conditions_table
+        from ehlectric.walls import rough_surfaces
 
         case = Case.from_toml(case_file)
         conditions = resolve(case)
+        rough_surfaces(case, conditions)
         check_memory(case)
     if as_json:
         typer.echo(json.dumps(conditions_summary(case, conditions), indent=2))
@@ -140,6 +143,54 @@ def check(case_file: CaseFile, quiet: Quiet = False, as_json: Json = False) -> N
         _print(conditions_table(case, conditions))
     if not quiet:
         _warn(remarks(case, conditions))
+
+
+@app.command()
+def surface(
+    file: Annotated[Path, typer.Argument(help="File of an instrument.", show_default=False)],
+    x_unit: Annotated[str | None, typer.Option(help="Where the file does not say.")] = None,
+    z_unit: Annotated[str | None, typer.Option(help="Where the file does not say.")] = None,
+    line: Annotated[int, typer.Option(help="Line of a map, from 0.")] = 0,
+    along: Annotated[str, typer.Option(help="row or column.")] = "row",
+    form: Annotated[str, typer.Option(help="none, mean, line or parabola.")] = "none",
+    cutoff_long: Annotated[str | None, typer.Option(help="Removes longer waves.")] = None,
+    cutoff_short: Annotated[str | None, typer.Option(help="Removes shorter waves.")] = None,
+    trim: Annotated[str | None, typer.Option(help="Taken off each end.")] = None,
+    rescale_rq: Annotated[str | None, typer.Option(help="Rq to scale to.")] = None,
+    truncate: Annotated[str | None, typer.Option(help="Height to cut at.")] = None,
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", metavar="PNG", help="Draw the profile.")
+    ] = None,
+    as_json: Json = False,
+) -> None:
+    """Show what a file holds and what each step does to it: the keys of a case's roughness as options.
+
+    Lengths carry their unit, as in --cutoff-long "80 um".
+    """
+    table = {
+        "x_unit": x_unit, "z_unit": z_unit, "line": line, "along": along, "form": form,
+        "cutoff_long": cutoff_long, "cutoff_short": cutoff_short, "trim": trim,
+        "rescale_rq": rescale_rq, "truncate": truncate,
+    }  # fmt: skip
+    with _user_errors():
+        from ehlectric.report import surface_table
+        from ehlectric.store import prepare
+        from ehlectric.walls import measured, roughness_of
+
+        given = {key: value for key, value in table.items() if value is not None}
+        rough = measured(roughness_of({"surface": 1, "file": str(file)} | given))
+        if output is not None:
+            prepare(output.parent, [output.name])
+            from ehlectric.plot import save_profile
+
+            save_profile(rough.steps, output)
+    described = rough.describe()
+    if as_json:
+        typer.echo(json.dumps(described, indent=2))
+    else:
+        _print(surface_table(described))
+        if output is not None:
+            typer.echo(f"written: {output}")
 
 
 @app.command()

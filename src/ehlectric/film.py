@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -22,6 +22,11 @@ NESTED_TOLERANCE = 1e-6
 # The nested iteration starts from the Hertz pressure on the coarsest grid of at least this many nodes:
 # a quarter of them do not resolve a thin film.
 FIRST_GRID = 201
+
+# Parts of the roughness it is raised by, first and least, and the residual on the way.
+FIRST_RISE = 0.2
+LEAST_RISE = 0.01
+RISE_TOLERANCE = 1e-3
 
 # Part of the central film below which a gap that was not solved for is no film.
 COLLAPSED = 1e-2
@@ -65,6 +70,8 @@ class FilmProblem:
         Length b [m], pressure p_h [Pa] and thickness b^2/R [m] of the result, and its ambient pressure [Pa].
     geometry : Geometry
         Kernel, dry gap and load of the contact.
+    added_gap : callable, optional
+        Gap that roughness adds, X (nx,) -> G (nx, ny); a peak adds a negative one.
     """
 
     fluid: Fluid
@@ -77,6 +84,7 @@ class FilmProblem:
     max_iterations: int = 30
     scales: Scales = Scales()
     geometry: Geometry = LINE
+    added_gap: Callable[[Array], Array] | None = None
 
 
 @dataclass(frozen=True)
@@ -211,13 +219,7 @@ def _nested_iteration(problem: FilmProblem, progress: Progress | None) -> list[G
 
     Where a grid is not solved, it and the next finer one start from the Hertz pressure.
     """
-    levels = hierarchy(
-        problem.nodes,
-        inlet=problem.inlet,
-        outlet=problem.outlet,
-        geometry=problem.geometry,
-        second_order=problem.second_order,
-    )
+    levels = _levels(problem, roughness=1.0)
     first = max((k for k, level in enumerate(levels) if level.x.size >= FIRST_GRID), default=1)
     solutions: list[GridSolution] = []
     for k in range(max(first, 1), -1, -1):
@@ -232,7 +234,55 @@ def _nested_iteration(problem: FilmProblem, progress: Progress | None) -> list[G
             *others, best = sorted(attempts, key=lambda solution: -solution.final.norm)
             solutions.extend(others)
         solutions.append(best)
+    if problem.added_gap is not None and solutions[-1].final.norm > NESTED_TOLERANCE:
+        smooth = _nested_iteration(replace(problem, added_gap=None), progress)
+        solutions += [*smooth, *_raise_roughness(problem, smooth[-1], progress)]
     return solutions
+
+
+def _levels(problem: FilmProblem, *, roughness: float) -> list[Level]:
+    """The grids, with a part of the roughness."""
+    added, geometry = problem.added_gap, problem.geometry
+    if added is not None:
+        smooth = geometry.dry_gap
+        geometry = replace(geometry, dry_gap=lambda x: smooth(x) + roughness * added(x))
+    return hierarchy(
+        problem.nodes,
+        inlet=problem.inlet,
+        outlet=problem.outlet,
+        geometry=geometry,
+        second_order=problem.second_order,
+    )
+
+
+def _raise_roughness(
+    problem: FilmProblem, smooth: GridSolution, progress: Progress | None
+) -> Iterator[GridSolution]:
+    """Roughness raised from nothing to its height, each solution the start of the next.
+
+    Gives up at the first part of the height that cannot be gone beyond.
+    """
+    best, reached, step = smooth, 0.0, FIRST_RISE
+    while best.status == "converged" and reached < 1.0:
+        part = min(1.0, reached + step)
+        levels = _levels(problem, roughness=part)
+        start = State.of(levels[0], best.state.pressure, best.state.h00)
+        start = start.lifted(0.3 * float(best.state.thickness.min()))
+        solution = _solve_grid(
+            problem if part == 1.0 else replace(problem, tolerance=RISE_TOLERANCE),
+            levels,
+            start,
+            progress,
+            spike=True,
+        )
+        if solution.status == "converged":
+            best, reached, step = solution, part, 1.5 * step
+            yield solution
+        elif step > LEAST_RISE:
+            step *= 0.5
+        else:
+            yield solution
+            return
 
 
 def _solve_grid(

@@ -196,8 +196,10 @@ def _without_spike(fluid: Fluid, level: Level, state: State, now: Residual) -> t
     )
     if pressure is None:
         return state, now
-    state = State.of(level, pressure, state.h00)
-    return state, _assess(fluid, level, state)
+    relaxed = State.of(level, pressure, state.h00)
+    if np.min(relaxed.thickness) <= SMALLEST_GAP:
+        return state, now
+    return relaxed, _assess(fluid, level, relaxed)
 
 
 def _direction(fluid: Fluid, levels: list[Level], state: State, now: Residual) -> tuple[Array, float, int]:

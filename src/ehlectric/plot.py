@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import textwrap
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +16,7 @@ from matplotlib.figure import Figure
 
 from ehlectric.hertz import line_pressure
 from ehlectric.result import Result
+from ehlectric.roughness import Profile, statistics
 from ehlectric.store import FIGURE_FILES, whole
 from ehlectric.typing import Array
 
@@ -278,6 +279,50 @@ def field_deviation(result: Result, ax: Axes | None = None) -> Axes:
     ax.margins(y=0.1)
     ax.legend(loc="best", frameon=False)
     return ax
+
+
+def profile_steps(steps: Sequence[tuple[str, Profile]], ax: Axes | None = None) -> Axes:
+    """A profile as read, less its mean, and after the last step.
+
+    Parameters
+    ----------
+    steps : sequence of (str, Profile)
+        As ``roughness.processed`` gives them.
+    ax : Axes, optional
+        Where to; new axes otherwise.
+
+    Returns
+    -------
+    Axes
+        Both heights in one unit.
+    """
+    ax = _axes(ax)
+    first, last = steps[0][1], steps[-1][1]
+    heights = first.heights - np.mean(first.heights)
+    factor, unit = _unit(float(np.max(np.abs(heights))), "m", least=1.0)
+    along, length = _unit(first.length, "m", least=1.0)
+    name = "as read, less its mean"
+    ax.plot(along * first.x, factor * heights, color=_GREY, lw=0.8, label=name)
+    if len(steps) > 1:
+        ax.plot(along * last.x, factor * last.heights, color=_BLUE, lw=0.8, label="after the last step")
+    rq = statistics(last).rq
+    scale, height = _unit(rq, "m", least=1.0)
+    ax.set_title(f"Rq = {scale * rq:.3g} {height}", loc="right")
+    ax.set(xlabel=f"$x$ [{length}]", ylabel=f"height [{unit}]")
+    ax.set_xlim(along * first.x[0], along * first.x[-1])
+    low, high = ax.get_ylim()
+    ax.set_ylim(low, high + 0.25 * (high - low))
+    ax.legend(loc="upper left", frameon=False, ncols=2)
+    return ax
+
+
+def save_profile(steps: Sequence[tuple[str, Profile]], path: Path) -> None:
+    """Draw ``profile_steps`` as a PNG file."""
+    with mpl.rc_context(_STYLE):  # type: ignore[arg-type]
+        ax = profile_steps(steps)
+        ax.set_title(path.stem, loc="left", parse_math=False)
+        with whole(path) as beside:
+            _figure(ax).savefig(beside)
 
 
 FIGURES: dict[str, Callable[..., Axes]] = dict(

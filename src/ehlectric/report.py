@@ -100,8 +100,38 @@ def result_table(result: Result) -> Table:
     table.add_row("capacitance, field range", f"{field.capacitance * 1e9:.4g}", "nF/m")
     if result.thin_gap_error is not None:
         table.add_row("V12/h_min below it by", f"{100 * result.thin_gap_error:.2g}", "%")
+    if result.rough:
+        roughness = result.summary()["roughness"]
+        table.add_row(
+            "Rq of surfaces 1, 2", f"{roughness['rq_1'] * 1e9:.3g}, {roughness['rq_2'] * 1e9:.3g}", "nm"
+        )
+        table.add_row("lambda ratio", f"{roughness['lambda_ratio']:.3g}")
     _add_formulas(table, result)
     table.add_row("time", f"{result.film_seconds + result.field_seconds:.2g}", "s")
+    return table
+
+
+def surface_table(surface: dict[str, Any]) -> Table:
+    """What was read of a surface, and its statistics after every step."""
+    first = surface["steps"][0]
+    title = (
+        f"{surface['source']}: {' x '.join(str(n) for n in surface['size'])} points, "
+        f"spacing {first['spacing'] * 1e6:.6g} µm, {100 * surface['voids']:.2g} % void"
+    )
+    table = Table(title=Text(title), title_justify="left", box=None, padding=(0, 1, 0, 0))
+    table.add_column("step", no_wrap=True)
+    for name in ("points", "Rq\n[nm]", "Ra\n[nm]", "Rsk", "Rku", "corr.\n[µm]", "max.\nslope"):
+        table.add_column(name, justify="right", no_wrap=True)
+    for step in surface["steps"]:
+        table.add_row(
+            step["step"],
+            str(step["points"]),
+            *(f"{step[key] * 1e9:.{1 if step[key] < 1e-6 else 0}f}" for key in ("rq", "ra")),
+            f"{step['rsk']:.2f}",
+            f"{step['rku']:.1f}",
+            f"{step['correlation_length'] * 1e6:.3g}",
+            f"{step['largest_slope']:.2g}",
+        )
     return table
 
 

@@ -35,6 +35,8 @@ class Result:
         The solution, SI units.
     roughness : ndarray, shape (2, nx)
         Heights of both surfaces' roughness at the film's nodes, positive out of the body [m].
+    rough : tuple of dict
+        Where each rough surface came from and its statistics after every step, SI units.
     warnings : tuple of str
         What a user should know before using it.
     film_seconds, field_seconds : float
@@ -47,6 +49,7 @@ class Result:
     conditions: Conditions
     film: Film
     roughness: Array
+    rough: tuple[dict[str, Any], ...]
     field: Field
     warnings: tuple[str, ...]
     film_seconds: float
@@ -76,7 +79,7 @@ class Result:
             Values are numbers, texts, lists, or None where a value has no meaning; never NaN.
         """
         film, conditions = self.film, self.conditions
-        summary = {
+        summary: dict[str, Any] = {
             "schema": SCHEMA,
             "version": self.version,
             "title": self.case.title,
@@ -107,7 +110,21 @@ class Result:
             "film_formulas": {name: vars(formula(conditions.formulas)) for name, formula in FORMULAS.items()},
             "seconds": {"film": self.film_seconds, "field": self.field_seconds},
         }
+        if self.rough:
+            summary["roughness"] = {
+                "surfaces": list(self.rough),
+                "rq_1": self._rq[0],
+                "rq_2": self._rq[1],
+                "lambda_ratio": film.minimum_thickness / math.hypot(*self._rq),
+            }
         return {key: _plain(value) for key, value in summary.items()}
+
+    @property
+    def _rq(self) -> tuple[float, float]:
+        """Rq of the roughness of both surfaces over the Hertz zone [m]."""
+        inside = np.abs(self.film.x) <= self.conditions.half_width
+        first, second = np.std(self.roughness[:, inside], axis=1)
+        return float(first), float(second)
 
     def _field_summary(self) -> dict[str, float | None]:
         field, minimum = self.field, self.film.minimum_thickness
@@ -144,6 +161,7 @@ class Result:
                 "case": self.case.to_toml(),
                 "summary": json.dumps(self.summary()),
                 "warnings": json.dumps(self.warnings),
+                "rough": json.dumps(_plain(self.rough)),
                 "seconds": json.dumps([self.film_seconds, self.field_seconds]),
                 **attributes(self.film, self.field),
             },

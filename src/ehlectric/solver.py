@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
 from datetime import UTC, datetime
 
 import numpy as np
@@ -19,7 +18,6 @@ from ehlectric.conditions import (
     resolve,
     viscosity_law,
 )
-from ehlectric.elastic import LINE, Geometry
 from ehlectric.errors import ConvergenceError
 from ehlectric.field import Field, solve_field
 from ehlectric.film import Film, FilmProblem, solve_film
@@ -32,6 +30,9 @@ from ehlectric.reynolds import Fluid, FluidLaw
 from ehlectric.typing import Array
 from ehlectric.version import __version__
 from ehlectric.walls import RoughSurface, rough_surfaces
+
+# Gap below which walls count as this far apart in the field [m]: the size of an atom.
+_ATOM = 1e-10
 
 # Parts into which an interval of the film is refined for the field at the most.
 _MOST_PARTS = 32
@@ -89,8 +90,13 @@ def solve(case: Case, *, progress: Progress | None = None, require_convergence: 
         conditions=conditions,
         film=film,
         roughness=roughness,
+        rough=tuple(surface.describe() for surface in rough),
         field=field,
-        warnings=(*remarks(case, conditions), *_findings(case, conditions, film, field)),
+        warnings=(
+            *remarks(case, conditions),
+            *_continuations(case, conditions, rough),
+            *_findings(case, conditions, film, field),
+        ),
         film_seconds=film_done - started,
         field_seconds=field_done - film_done,
         version=__version__,
@@ -129,19 +135,19 @@ def _film_problem(case: Case, conditions: Conditions, rough: Sequence[RoughSurfa
         tolerance=case.solver.tolerance,
         max_iterations=case.solver.max_iterations,
         scales=scales_of(case, conditions),
-        geometry=_rough_geometry(conditions, rough) if rough else LINE,
+        added_gap=_added_gap(conditions, rough) if rough else None,
     )
 
 
-def _rough_geometry(conditions: Conditions, rough: Sequence[RoughSurface]) -> Geometry:
-    """A line contact whose gap is narrowed by the peaks of its surfaces."""
+def _added_gap(conditions: Conditions, rough: Sequence[RoughSurface]) -> Callable[[Array], Array]:
+    """The gap that both surfaces' roughness adds, dimensionless: peaks narrow it."""
     b, scale = conditions.half_width, conditions.thickness_scale
 
-    def dry_gap(x: Array) -> Array:
-        gap: Array = LINE.dry_gap(x) - _heights(rough, b * x).sum(axis=0)[:, np.newaxis] / scale
+    def added_gap(x: Array) -> Array:
+        gap: Array = -_heights(rough, b * x).sum(axis=0)[:, np.newaxis] / scale
         return gap
 
-    return replace(LINE, dry_gap=dry_gap)
+    return added_gap
 
 
 def _heights(rough: Sequence[RoughSurface], x: Array) -> Array:
@@ -156,10 +162,13 @@ def _field_problem(case: Case, conditions: Conditions, film: Film, roughness: Ar
     """The Poisson problem in the solved film; a cavitated gap counts as filled with oil."""
     x = _field_nodes(case, conditions, film, refine=bool(np.any(roughness)))
     lower, upper = surfaces(conditions, film, roughness)
+    # Middle and gap, not the two walls: between two nodes walls of their own might cross.
+    middle = _resampled(film.x, 0.5 * (lower + upper), x)
+    gap = np.maximum(_resampled(film.x, film.thickness, x), _ATOM)
     return FieldProblem(
         x=x,
-        lower=_resampled(film.x, lower, x),
-        upper=_resampled(film.x, upper, x),
+        lower=middle - 0.5 * gap,
+        upper=middle + 0.5 * gap,
         permittivity=_resampled(film.x, permittivity_law(case.lubricant)(film.density), x),
         potential_1=case.electric.potential_1,
         potential_2=case.electric.potential_2,
@@ -206,6 +215,18 @@ def surfaces(conditions: Conditions, film: Film, roughness: Array) -> tuple[Arra
     return lower, lower + film.thickness
 
 
+def _continuations(case: Case, conditions: Conditions, rough: Sequence[RoughSurface]) -> Iterator[str]:
+    """Profiles shorter than the domain, and how they were continued."""
+    ends = (conditions.half_width * case.grid.inlet, conditions.half_width * case.grid.outlet)
+    for table, surface in zip(case.roughness, rough, strict=True):
+        reach = 2.0 * max(abs(end - table.shift) for end in ends)
+        if surface.extent < reach:
+            yield (
+                f"the profile of surface {surface.surface} is {surface.extent * 1e6:.4g} µm long and the "
+                f"domain needs {reach * 1e6:.4g} µm: it was continued by extend = {table.extend!r}"
+            )
+
+
 def _findings(case: Case, conditions: Conditions, film: Film, field: Field) -> Iterator[str]:
     """What the solution shows that a user should know, one text each."""
     if not film.converged:
@@ -220,6 +241,8 @@ def _findings(case: Case, conditions: Conditions, film: Film, field: Field) -> I
             + ", ".join(f"{place:.3f}" for place in places[:8])
             + (f" and {places.size - 8} more nodes" if places.size > 8 else "")
         )
+    if film.minimum_thickness < _ATOM:
+        yield "the film is thinner than an atom in places; the field is that of a gap of 0.1 nm there"
     error = film.discretisation_error
     if film.converged and error is None:
         yield (

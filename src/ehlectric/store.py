@@ -200,6 +200,7 @@ def _result_of(dataset: xr.Dataset) -> Result:
         conditions=conditions,
         film=film_of(dataset, scales),
         roughness=roughness_of(dataset),
+        rough=tuple(json.loads(attributes["rough"])),
         field=field_of(dataset),
         warnings=tuple(json.loads(attributes["warnings"])),
         film_seconds=film_seconds,

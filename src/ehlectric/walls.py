@@ -5,12 +5,13 @@ A profile shorter than the domain is continued as the case says, without a step;
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
 import numpy as np
+from pydantic import ValidationError
 from scipy.interpolate import CubicSpline
 
 from ehlectric import generators
@@ -18,9 +19,10 @@ from ehlectric.case import Case
 from ehlectric.conditions import Conditions
 from ehlectric.errors import InputError
 from ehlectric.inputs import Roughness
-from ehlectric.roughness import Processing, Profile, processed
+from ehlectric.roughness import Processing, Profile, processed, statistics
 from ehlectric.surface_files import Surface, read_surface
 from ehlectric.typing import Array
+from ehlectric.validation import first_message
 
 # Part of a profile over which its ends are blended or faded where it is continued.
 TAPER = 0.05
@@ -52,6 +54,21 @@ class RoughSurface:
     steps: list[tuple[str, Profile]]
     extent: float
 
+    def describe(self) -> dict[str, Any]:
+        """What it is and what was done to it, SI units, for the files of a result."""
+        read = self.surface_read
+        return {
+            "surface": self.surface,
+            "source": None if read is None else read.source,
+            "size": None if read is None else list(read.heights.shape),
+            "voids": None if read is None else read.voids,
+            "steps": [
+                {"step": name, "points": profile.heights.size, "spacing": profile.spacing}
+                | vars(statistics(profile))
+                for name, profile in self.steps
+            ],
+        }
+
 
 def rough_surfaces(case: Case, conditions: Conditions) -> list[RoughSurface]:
     """Read or make the roughness of a case.
@@ -81,16 +98,43 @@ def _rough_surface(table: Roughness, case: Case, conditions: Conditions) -> Roug
     domain = (grid.outlet - grid.inlet) * b
     if table.generator in ("sinusoid", "asperity", "pit"):
         return RoughSurface(table.surface, _shape(table, domain), None, [], np.inf)
-    surface_read = None
     if table.file is not None:
-        surface_read = read_surface(table.file, x_unit=table.x_unit, z_unit=table.z_unit)
-        profile = surface_read.line(table.line, along=table.along)
-    else:
-        profile = _random(table, domain)
+        return measured(table)
+    return _of_profile(table, _random(table, domain), None)
+
+
+def roughness_of(table: Mapping[str, Any]) -> Roughness:
+    """A [[roughness]] table on its own.
+
+    Raises
+    ------
+    InputError
+        One line with the key, what it got and what it takes.
+    """
+    try:
+        return Roughness.model_validate(dict(table))
+    except ValidationError as error:
+        raise InputError(first_message(error, Roughness)) from None
+
+
+def measured(table: Roughness) -> RoughSurface:
+    """The rough surface of a file, which needs no contact to be looked at.
+
+    Raises
+    ------
+    InputError
+        Where the file cannot be used.
+    """
+    assert table.file is not None
+    surface = read_surface(table.file, x_unit=table.x_unit, z_unit=table.z_unit)
+    return _of_profile(table, surface.line(table.line, along=table.along), surface)
+
+
+def _of_profile(table: Roughness, profile: Profile, read: Surface | None) -> RoughSurface:
     steps = processed(profile, processing_of(table))
     last = steps[-1][1]
     height = _shifted(continued(last, table.extend), table.shift)
-    return RoughSurface(table.surface, height, surface_read, steps, last.length)
+    return RoughSurface(table.surface, height, read, steps, last.length)
 
 
 def processing_of(table: Roughness) -> Processing:

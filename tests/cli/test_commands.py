@@ -138,6 +138,37 @@ def test_plot_redraws(ehlectric, case_file, tmp_path):
     assert {path.name for path in (tmp_path / "figures").iterdir()} == FIGURES
 
 
+def test_rough_example(ehlectric, tmp_path):
+    done = ehlectric("run", EXAMPLES / "rough_contact.toml", "-o", "out")
+    assert done.returncode == 0, done.stderr
+    field = json.loads((tmp_path / "out" / "summary.json").read_text())["field"]
+    # The paper's conclusion for rough films: V12/h_min is the largest field, within some per cent.
+    assert field["max_dimensionless"] == pytest.approx(1.0, abs=0.02)
+    assert load(tmp_path / "out" / "result.nc").summary()["field"] == field
+
+
+def test_surface_shows_every_step(ehlectric, tmp_path):
+    words = ["--form", "parabola", "--cutoff-long", "80 um", "--truncate", "0.05 um", "-o", "profile.png"]
+    done = ehlectric("surface", EXAMPLES / "surfaces" / "dektak-1.csv", *words)
+    assert done.returncode == 0, done.stderr
+    for text in ("form: parabola", "cutoff_long: 80", "trim: 40", "truncate: 50", "9600", "0.156245"):
+        assert text in done.stdout
+    assert (tmp_path / "profile.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_surfaces_that_cannot_be_used(ehlectric, case_file, tmp_path):
+    assert "no such file" in one_line(ehlectric("surface", "nowhere.csv"))
+    dektak = EXAMPLES / "surfaces" / "dektak-1.csv"
+    assert "form: got 'cube'" in one_line(ehlectric("surface", dektak, "--form", "cube"))
+    assert "cutoff: got 5000" in one_line(ehlectric("surface", dektak, "--cutoff-long", "5 mm"))
+    case_file.write_text(CASE + '[[roughness]]\nsurface = 1\nfile = "nowhere.csv"\n')
+    assert "no such file" in one_line(ehlectric("run", case_file))
+    pit = '[[roughness]]\nsurface = 1\ngenerator = "pit"\ndepth = "50 nm"\nwidth = "9 mm"\n'
+    case_file.write_text(CASE + pit)
+    assert "roughness.width: got 0.009 m, takes less" in one_line(ehlectric("run", case_file))
+    assert not (tmp_path / "results").exists()
+
+
 def test_check_says_what_a_case_means(ehlectric, case_file):
     done = ehlectric("check", case_file)
     assert done.returncode == 0

@@ -49,6 +49,15 @@ def test_cases_are_frozen():
 # ruff: noqa: E501
 BAD = [
     (changed(contact={"reduced_moduls": 1e9}), r"reduced_moduls: unknown key.*contact\.reduced_modulus"),
+    (changed(roughness={"surface": 1}), r"roughness: got .* takes tables, each headed \[\[roughness\]\]"),
+    (changed(roughness=[{"surface": 3}]), r"roughness\.surface: got 3, takes 1 or 2"),
+    (changed(roughness=[{"surface": 1}]), r"roughness\.file: missing, takes either file or generator"),
+    (changed(roughness=[{"surface": 1, "file": "a", "cutof": 1}]), r"cutof: unknown key.*roughness\.cutoff"),
+    (changed(roughness=[{"surface": 1, "file": "a", "generator": "pit"}]), r"got file and generator together"),
+    (changed(roughness=[{"surface": 1, "generator": "pits"}]), r"generator: got 'pits', takes one of 'sinusoid'"),
+    (changed(roughness=[{"surface": 1, "generator": "gaussian", "rq": 1e-8}]), r"correlation_length: missing"),
+    (changed(roughness=[{"surface": 1, "file": "a", "rq": 1e-8}]), r"rq: got it with a file, which has no use"),
+    (changed(roughness=[{"surface": 1, "file": "a", "direction": "y"}]), r"direction: got 'y'.*assume_transverse"),
     (changed(nodes=5), r"nodes: unknown key.*grid\.nodes"),
     (changed(extra={"a": 1}), r"extra: unknown key"),
     (changed(contact={"load_per_length": None}), r"contact\.load_per_length: missing.*max_hertz_pressure"),

@@ -1,0 +1,93 @@
+"""The paper's eight contacts with a measured profile, and its conclusion about them."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from ehlectric import Case, solve
+from tests.conftest import PAPER_CONTACT
+
+DEKTAK = Path(__file__).parents[2] / "examples" / "surfaces" / "dektak-1.csv"
+PROFILE = {"file": str(DEKTAK), "form": "parabola", "cutoff_long": 80e-6, "truncate": 0.05e-6}
+
+
+def rough_case(surface=1, nodes=3201, load=1.57e6, speed=4.0, **changes):
+    contact = PAPER_CONTACT | {"load_per_length": load, "entrainment_speed": speed} | changes
+    return Case.from_dict(
+        {
+            "contact": {key: value for key, value in contact.items() if value is not None},
+            "lubricant": {"base": "paper"},
+            "roughness": [{"surface": surface} | PROFILE],
+            "grid": {"nodes": nodes},
+        }
+    )
+
+
+@pytest.mark.parametrize("nodes", [3201, 12_801])
+@pytest.mark.parametrize("speed", [4.0, 2.0, 1.0, 0.5])
+@pytest.mark.parametrize("load", [1.57e6, 3.925e5])
+def test_v12_over_h_min_is_the_largest_field(load, speed, nodes):
+    """The paper's first conclusion, for a profile like its own: within four per cent, and from above."""
+    result = solve(rough_case(load=load, speed=speed, nodes=nodes))
+    assert result.film.converged
+    assert result.film.load_residual < 1e-10
+    field = result.summary()["field"]
+    assert 1.0 < field["max_dimensionless"] < 1.04
+    smooth = solve(result.case.replace(roughness=()))
+    assert result.film.minimum_thickness < 1.01 * smooth.film.minimum_thickness
+
+
+def test_film_does_not_tell_which_surface_is_rough():
+    first, second = (solve(rough_case(surface)) for surface in (1, 2))
+    np.testing.assert_allclose(second.film.thickness, first.film.thickness, rtol=1e-10)
+    # Equal bodies: the field is the mirror image.
+    assert second.field.max_strength == pytest.approx(first.field.max_strength, rel=1e-8)
+    np.testing.assert_allclose(second.field.strength[:, ::-1], first.field.strength, rtol=1e-6)
+
+
+def test_field_of_unequal_bodies_tells():
+    # A small body in a tight ring: the walls slope, and so it matters which of them is rough.
+    radii = {"reduced_radius": None, "radius_1": 14.1e-3 / 3, "radius_2": -14.1e-3 / 2}
+    first, second = (solve(rough_case(surface, **radii)) for surface in (1, 2))
+    assert abs(second.field.max_strength / first.field.max_strength - 1.0) > 1e-6
+
+
+def test_roughness_is_in_the_summary():
+    summary = solve(rough_case(nodes=1601)).summary()
+    steps = summary["roughness"]["surfaces"][0]["steps"]
+    assert [step["step"].split(":")[0] for step in steps] == [
+        "as read",
+        "form",
+        "cutoff_long",
+        "trim",
+        "truncate",
+    ]
+    assert steps[3]["rq"] == pytest.approx(9.0e-9, rel=0.02)
+    assert summary["roughness"]["rq_2"] == 0.0
+    expected = summary["film"]["minimum_thickness"] / summary["roughness"]["rq_1"]
+    assert summary["roughness"]["lambda_ratio"] == pytest.approx(expected)
+
+
+def test_profile_shorter_than_the_domain_is_said():
+    assert any("continued by extend = 'mirror'" in text for text in solve(rough_case(nodes=801)).warnings)
+
+
+def test_sinusoid_lies_where_it_should():
+    table = {"surface": 2, "generator": "sinusoid", "amplitude": "20 nm", "wavelength": "40 um", "phase": 0.3}
+    case = rough_case(nodes=1601).replace(roughness=(table,))
+    result = solve(case)
+    assert result.film.converged
+    expected = 20e-9 * np.sin(2 * np.pi * result.film.x / 40e-6 + 0.3)
+    np.testing.assert_allclose(result.roughness[1], expected, atol=1e-20)
+    assert np.all(result.roughness[0] == 0.0)
+
+
+def test_film_of_the_order_of_its_roughness():
+    """Roughness as high as the film is raised in steps; one far higher than it leaves no film."""
+    table = {"surface": 1, "generator": "gaussian", "rq": 1.5e-7, "correlation_length": 5e-6, "seed": 4}
+    solved = solve(rough_case(nodes=801, speed=4.0).replace(roughness=(table,)))
+    assert solved.film.converged
+    none = solve(rough_case(nodes=801, speed=1e-3).replace(roughness=(table,)))
+    assert none.film.status == "film collapsed"
+    assert any("surfaces would touch at x/b" in text for text in none.warnings)

@@ -1,0 +1,122 @@
+"""Filter, form, statistics and generators against exact values."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from ehlectric import InputError, generators
+from ehlectric.roughness import Processing, Profile, processed, statistics, trimmed, waviness, without_form
+from ehlectric.walls import continued
+
+CUTOFF = 80e-6
+
+
+@pytest.mark.parametrize("ratio", np.geomspace(0.3, 3.0, 9))
+def test_filter_transmits_as_the_standard_says(ratio):
+    """exp(-pi (alpha cutoff/wavelength)^2), alpha^2 = ln 2/pi: one half at the cutoff (ISO 16610-21)."""
+    wavelength = ratio * CUTOFF
+    spacing = 0.5e-6
+    profile = Profile(spacing, np.empty(4001))
+    profile = Profile(spacing, np.cos(2 * np.pi * profile.x / wavelength))
+    exact = 0.5 ** ((CUTOFF / wavelength) ** 2)
+    assert waviness(profile, CUTOFF).heights[2000] == pytest.approx(exact, abs=5e-3 * max(exact, 0.01))
+
+
+def test_filter_keeps_what_is_constant():
+    flat = waviness(Profile(1e-6, np.full(200, 3.0)), CUTOFF).heights
+    np.testing.assert_allclose(flat, 3.0, rtol=1e-12)
+
+
+@given(st.lists(st.floats(-1.0, 1.0), min_size=3, max_size=3))
+def test_form_removal_is_exact_for_its_own_form(coefficients):
+    profile = Profile(1e-6, np.empty(101))
+    t = profile.x / 1e-4
+    for degree, form in enumerate(("mean", "line", "parabola")):
+        heights = np.polynomial.polynomial.polyval(t, coefficients[: degree + 1])
+        left = without_form(Profile(1e-6, heights), form)
+        np.testing.assert_allclose(left.heights, 0.0, atol=1e-12)
+
+
+def test_statistics_of_a_sine():
+    """Rq = a/sqrt 2, Ra = 2 a/pi, Rsk = 0, Rku = 3/2, rms slope a q/sqrt 2."""
+    spacing, wavelength, amplitude = 1e-7, 1e-4, 1e-7
+    x = spacing * np.arange(10_000)
+    s = statistics(Profile(spacing, amplitude * np.sin(2 * np.pi * x / wavelength)))
+    assert s.rq == pytest.approx(amplitude / np.sqrt(2), rel=1e-6)
+    assert s.ra == pytest.approx(2 * amplitude / np.pi, rel=1e-4)
+    assert s.rsk == pytest.approx(0.0, abs=1e-9)
+    assert s.rku == pytest.approx(1.5, rel=1e-6)
+    slope = 2 * np.pi * amplitude / wavelength
+    assert s.rms_slope == pytest.approx(slope / np.sqrt(2), rel=1e-3)
+    assert s.largest_slope == pytest.approx(slope, rel=1e-3)
+
+
+def test_steps_come_in_order_and_trim_by_half_a_cutoff():
+    profile = Profile(1e-6, 1e-7 * np.random.default_rng(0).standard_normal(2000))
+    steps = processed(profile, Processing("line", 80e-6, 10e-6, None, 5e-8, 6e-8))
+    assert [name.split(":")[0] for name, _ in steps] == [
+        "as read", "form", "cutoff_long", "cutoff_short", "trim", "rescale_rq", "truncate",
+    ]  # fmt: skip
+    assert steps[4][1].heights.size == 2000 - 2 * 40
+    assert statistics(steps[5][1]).rq == pytest.approx(5e-8, rel=1e-9)
+    assert np.max(np.abs(steps[6][1].heights)) == 6e-8
+
+
+@pytest.mark.parametrize("cutoff", [1e-6, 1e-2])
+def test_cutoffs_that_cannot_be(cutoff):
+    with pytest.raises(InputError, match="cutoff: got"):
+        waviness(Profile(1e-6, np.zeros(200)), cutoff)
+
+
+def test_trim_that_leaves_nothing():
+    with pytest.raises(InputError, match="leaves 0 of 100 points"):
+        trimmed(Profile(1e-6, np.zeros(100)), 60e-6)
+
+
+def test_random_profiles_are_reproducible_and_as_asked():
+    made = {"rq": 1e-8, "correlation_length": 5e-6, "length": 5e-3}
+    one, same, other = (generators.gaussian(seed=seed, **made) for seed in (1, 1, 2))
+    np.testing.assert_array_equal(one.heights, same.heights)
+    assert np.max(np.abs(one.heights - other.heights)) > 1e-8
+    s = statistics(one)
+    assert s.rq == pytest.approx(1e-8, rel=1e-9)
+    assert s.correlation_length == pytest.approx(5e-6, rel=0.05)
+    assert s.rku == pytest.approx(3.0, abs=0.3)
+
+
+def test_self_affine_spectrum_has_its_slope():
+    """The power spectrum falls as q^(-1 - 2 hurst) between roll-off and the shortest wave."""
+    hurst = 0.7
+    profile = generators.self_affine(
+        rq=1e-8, hurst=hurst, rolloff_wavelength=1e-4, length=2e-2, seed=3, shortest=1e-6
+    )
+    power = np.abs(np.fft.rfft(profile.heights)) ** 2
+    q = np.fft.rfftfreq(profile.heights.size, profile.spacing)
+    band = (q > 2e4) & (q < 5e5)
+    slope = np.polyfit(np.log(q[band]), np.log(power[band]), 1)[0]
+    # The logarithm of a single power has a spread of 1.3: some thousand waves average it.
+    assert slope == pytest.approx(-1 - 2 * hurst, abs=0.15)
+    assert np.max(power[q > 1.01e6]) < 1e-12 * np.max(power)
+
+
+def test_shapes():
+    assert generators.sinusoid(0.0, amplitude=1.0, wavelength=2.0, phase=np.pi / 2) == pytest.approx(1.0)
+    assert generators.asperity(3.0, height=2.0, width=1.0, position=2.5) == pytest.approx(1.0)
+    pit = {"depth": 1.0, "width": 2.0, "rim": 0.25, "position": 5.0}
+    assert generators.pit(5.0, **pit) == pytest.approx(-1.0, abs=1e-4)
+    assert generators.pit(np.array([3.0, 7.0]), **pit) == pytest.approx([0.25 - 2**-4] * 2, abs=1e-6)
+
+
+@pytest.mark.parametrize("extend", ["mirror", "repeat", "flat"])
+def test_continued_profiles_have_no_step(extend):
+    profile = Profile(1e-6, 1e-7 * np.cumsum(np.random.default_rng(4).standard_normal(400)) / 10)
+    height = continued(profile, extend)
+    fine = np.linspace(-1.2e-3, 1.2e-3, 48_001)
+    steps = np.abs(np.diff(height(fine)))
+    inside = np.abs(np.diff(height(np.linspace(-1.5e-4, 1.5e-4, 6001))))
+    assert np.max(steps) < 2.0 * np.max(inside)
+    middle = profile.x[100:300]
+    np.testing.assert_allclose(height(middle), profile.heights[100:300], atol=1e-18)
+    if extend == "flat":
+        assert np.all(height(np.array([-3e-4, 3e-4])) == 0.0)

@@ -1,0 +1,180 @@
+"""Readers on real and made files: spacing, size, roughness, and what they refuse.
+
+The real file is from the public repository ContactEngineering/SurfaceTopography, MIT licence.
+"""
+
+import struct
+import zipfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from ehlectric import InputError
+from ehlectric.roughness import Processing, processed, statistics
+from ehlectric.surface_files import read_surface
+
+DEKTAK = Path(__file__).parents[2] / "examples" / "surfaces" / "dektak-1.csv"
+
+
+def rq_after(surface, **steps):
+    return statistics(processed(surface.line(), Processing(**steps))[-1][1]).rq
+
+
+def test_dektak_spacing_is_that_of_the_whole_length():
+    """Its positions are rounded to 0.1 um: neighbours are 0.1 or 0.2 um apart, the truth is 0.15625."""
+    surface = read_surface(DEKTAK)
+    assert surface.heights.shape == (1, 9600)
+    assert surface.spacing_x == pytest.approx(0.15625e-6, rel=1e-3)
+    assert surface.voids == 0.0
+
+
+# Computed by another reader and filter, and recorded with the file: nm.
+@pytest.mark.parametrize(
+    ("steps", "rq"),
+    [
+        ({"form": "line"}, 94.0),
+        ({"form": "parabola"}, 38.0),
+        ({"form": "parabola", "cutoff_long": 80e-6}, 9.0),
+        ({"form": "parabola", "cutoff_long": 250e-6}, 8.8),
+    ],
+)
+def test_dektak_roughness(steps, rq):
+    assert rq_after(read_surface(DEKTAK), **steps) * 1e9 == pytest.approx(rq, rel=0.02)
+
+
+def text_file(path, *, header="x [um];z [nm]", rows=40, separator=";", change=lambda lines: lines):
+    lines = [f"{0.5 * k:.1f}{separator}{10 * np.sin(k):.4f}" for k in range(rows)]
+    path.write_text("\n".join([header, *change(lines)]))
+    return path
+
+
+@pytest.mark.parametrize("separator", [";", ",", "\t", " "])
+def test_text_with_units_in_its_header(tmp_path, separator):
+    header = separator.join(["x[um]", "z[nm]"])
+    surface = read_surface(text_file(tmp_path / "a.txt", header=header, separator=separator))
+    assert surface.spacing_x == pytest.approx(0.5e-6, rel=1e-12)
+    assert surface.heights[0, 1] == pytest.approx(10e-9 * np.sin(1), rel=1e-4)
+
+
+def test_units_may_be_given_and_must_not_contradict(tmp_path):
+    bare = text_file(tmp_path / "bare.txt", header="position;height")
+    with pytest.raises(InputError, match="x_unit: missing"):
+        read_surface(bare)
+    assert read_surface(bare, x_unit="um", z_unit="nm").spacing_x == pytest.approx(0.5e-6)
+    with pytest.raises(InputError, match=r"x_unit: got 'mm', but .* states 'um'"):
+        read_surface(text_file(tmp_path / "a.txt"), x_unit="mm")
+
+
+def test_column_of_validity(tmp_path):
+    lines = [f"{0.5 * k:.4f};{1e-3 * np.sin(k):.6f};{int(k % 10 != 0)}" for k in range(60)]
+    path = tmp_path / "contour.hfm"
+    path.write_text("\n".join(["X;Y;valid", "[mm];[mm];[1/0]", *lines]))
+    surface = read_surface(path)
+    assert surface.spacing_x == pytest.approx(0.5e-3)
+    assert surface.voids == pytest.approx(0.1)
+    line = surface.line()
+    assert np.all(np.isfinite(line.heights))
+    assert line.heights.size == 59  # the void at the start is left out
+
+
+BAD_TEXT = [
+    ({"rows": 3}, "has 3 points"),
+    ({"change": lambda lines: [*lines[:20], "here; text", *lines[20:]]}, "line 22 is 'here; text'"),
+    ({"change": lambda lines: [*lines[:20], "30;0", *lines[21:]]}, "do not increase"),
+    ({"change": lambda lines: [*lines[:20], *lines[25:]]}, "spacing is not uniform"),
+    ({"header": "x [nm];z [mm]"}, "largest slope"),
+]
+
+
+@pytest.mark.parametrize(("made", "message"), BAD_TEXT)
+def test_doubtful_text_is_refused(tmp_path, made, message):
+    with pytest.raises(InputError, match=message):
+        read_surface(text_file(tmp_path / "a.csv", **made)).line()
+
+
+def x3p_file(path, heights, *, kind="D"):
+    xml = f"""<?xml version="1.0"?><p:ISO5436_2 xmlns:p="http://www.opengps.eu/2008/ISO5436_2"><Record1><Axes>
+    <CX><AxisType>I</AxisType><Increment>1.5e-7</Increment></CX>
+    <CY><AxisType>I</AxisType><Increment>3e-7</Increment></CY>
+    <CZ><AxisType>A</AxisType><DataType>{kind}</DataType></CZ></Axes></Record1><Record3><MatrixDimension>
+    <SizeX>{heights.shape[1]}</SizeX><SizeY>{heights.shape[0]}</SizeY><SizeZ>1</SizeZ></MatrixDimension>
+    <DataLink><PointDataLink>bindata/data.bin</PointDataLink></DataLink></Record3></p:ISO5436_2>"""
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("main.xml", xml)
+        archive.writestr("bindata/data.bin", heights.astype({"D": "<f8", "F": "<f4"}[kind]).tobytes())
+    return path
+
+
+MAP = 1e-8 * np.random.default_rng(0).standard_normal((20, 31))
+
+
+@pytest.mark.parametrize("kind", ["D", "F"])
+def test_x3p(tmp_path, kind):
+    surface = read_surface(x3p_file(tmp_path / "a.x3p", MAP, kind=kind))
+    np.testing.assert_allclose(surface.heights, MAP, rtol=1e-6)
+    assert (surface.spacing_x, surface.spacing_y) == (1.5e-7, 3e-7)
+    np.testing.assert_allclose(surface.line(3).heights, MAP[3], rtol=1e-6)
+    column = surface.line(5, along="column")
+    np.testing.assert_allclose(column.heights, MAP[:, 5], rtol=1e-6)
+    assert column.spacing == 3e-7
+
+
+def al3d_file(path, heights, *, rows=None):
+    tags = {
+        "Version": "1",
+        "Cols": str(heights.shape[1]),
+        "Rows": str(rows or heights.shape[0]),
+        "DepthImageOffset": "1000",
+        "PixelSizeXMeter": "4.4e-7",
+        "PixelSizeYMeter": "4.4e-7",
+        "InvalidPixelValue": "1e30",
+    }
+    head = b"AliconaImaging\0\r\n"
+    for name, value in tags.items():
+        head += struct.pack("20s30s2s", name.encode(), value.encode(), b"\r\n")
+    padded = np.zeros((heights.shape[0], heights.shape[1] + heights.shape[1] % 2), "<f4")
+    padded[:, : heights.shape[1]] = heights
+    path.write_bytes(head.ljust(1000, b"\0") + padded.tobytes())
+    return path
+
+
+def test_al3d_with_padding_and_voids(tmp_path):
+    heights = MAP.copy()
+    heights[2, 7:10] = 1e30
+    surface = read_surface(al3d_file(tmp_path / "a.al3d", heights))
+    assert surface.heights.shape == (20, 31)
+    assert np.isnan(surface.heights[2, 7:10]).all()
+    assert surface.voids == pytest.approx(3 / 620)
+    assert np.isfinite(surface.line(2).heights).all()
+
+
+def test_files_that_are_cut_or_wrong(tmp_path):
+    whole = x3p_file(tmp_path / "a.x3p", MAP).read_bytes()
+    (tmp_path / "cut.x3p").write_bytes(whole[: len(whole) // 2])
+    (tmp_path / "no.x3p").write_text("no zip")
+    (tmp_path / "binary.opd").write_bytes(bytes(range(256)))
+    (tmp_path / "words.csv").write_text("nothing but words\n" * 20)
+    al3d_file(tmp_path / "short.al3d", MAP, rows=4000)
+    for name, message in (
+        ("cut.x3p", "no whole X3P"),
+        ("no.x3p", "no whole X3P"),
+        ("binary.opd", "neither text, X3P nor AL3D|cannot be read by SurfaceTopography"),
+        ("words.csv", "no two columns"),
+        ("short.al3d", "bytes long, takes 513000"),
+        ("nowhere.csv", "no such file"),
+    ):
+        with pytest.raises(InputError, match=message):
+            read_surface(tmp_path / name)
+
+
+def test_lines_that_are_not_there(tmp_path):
+    heights = MAP.copy()
+    heights[4] = 1e30
+    surface = read_surface(al3d_file(tmp_path / "a.al3d", heights))
+    with pytest.raises(InputError, match="got 20, takes a row from 0 to 19"):
+        surface.line(20)
+    with pytest.raises(InputError, match="row 4 has data at 0 of 31"):
+        surface.line(4)
+    with pytest.raises(InputError, match="is a profile and has no columns"):
+        read_surface(DEKTAK).line(0, along="column")
