@@ -9,8 +9,9 @@ from scipy.linalg import lu_factor, lu_solve
 from scipy.sparse.linalg import splu
 
 from ehlectric import film, newton
-from ehlectric.film import Film, FilmProblem
+from ehlectric.film import Film
 from ehlectric.multigrid import Level, Linearised
+from ehlectric.nested import FilmProblem
 from ehlectric.poisson import FieldProblem
 from ehlectric.reynolds import OFFSETS, Fluid
 from ehlectric.typing import Array

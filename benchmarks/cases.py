@@ -6,7 +6,7 @@ from pathlib import Path
 
 from ehlectric.case import Case
 from ehlectric.conditions import resolve
-from ehlectric.film import FilmProblem
+from ehlectric.nested import FilmProblem
 from ehlectric.poisson import FieldProblem
 from ehlectric.solver import _field_problem, _film_problem, solve
 

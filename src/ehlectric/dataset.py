@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ehlectric.field import Field
-from ehlectric.film import Film, Scales
+from ehlectric.film import Film
+from ehlectric.nested import Scales
 from ehlectric.newton import NewtonStep
 from ehlectric.typing import Array
 
@@ -98,6 +99,27 @@ def roughness_variables(roughness: Array) -> dict[str, Any]:
         )
         for k, heights in enumerate(roughness, 1)
     }
+
+
+def smooth_variables(*, pressure: Array, thickness: Array, middle_strength: Array) -> dict[str, Any]:
+    """The same contact with smooth surfaces."""
+    what = "of smooth surfaces"
+    return {
+        "smooth_pressure": ("x", pressure, {"long_name": f"pressure {what}", "units": "Pa"}),
+        "smooth_thickness": ("x", thickness, {"long_name": f"film thickness {what}", "units": "m"}),
+        "smooth_middle_strength": (
+            "x_field",
+            middle_strength,
+            {"long_name": f"electric field strength at mid-film {what}", "units": "V/m"},
+        ),
+    }
+
+
+def smooth_of(dataset: xr.Dataset) -> dict[str, Array] | None:
+    """Arrays of the smooth contact, where there is one."""
+    if "smooth_pressure" not in dataset:
+        return None
+    return {name: dataset[f"smooth_{name}"].values for name in ("pressure", "thickness", "middle_strength")}
 
 
 def roughness_of(dataset: xr.Dataset) -> Array:

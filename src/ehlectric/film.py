@@ -1,90 +1,19 @@
-"""The lubricant film of a loaded contact: nested iteration, error estimate and the film in SI units."""
+"""The lubricant film of a loaded contact in SI units, with its status and its error estimate."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
 
-from ehlectric.elastic import LINE, Geometry
-from ehlectric.hertz import line_pressure
-from ehlectric.multigrid import Level, hierarchy
-from ehlectric.newton import GridSolution, NewtonStep, Progress, State, Status, newton
-from ehlectric.reynolds import Fluid, wedge_stencil
+from ehlectric.nested import FilmProblem, Scales, nested_iteration
+from ehlectric.newton import GridSolution, NewtonStep, Progress, Status
+from ehlectric.reynolds import Fluid
 from ehlectric.threads import one_blas_thread
 from ehlectric.typing import Array, Mask
 
-# The coarser grids are solved to this residual, far below their discretisation error.
-NESTED_TOLERANCE = 1e-6
-
-# The nested iteration starts from the Hertz pressure on the coarsest grid of at least this many nodes:
-# a quarter of them do not resolve a thin film.
-FIRST_GRID = 201
-
-# Parts of the roughness it is raised by, first and least, and the residual on the way.
-FIRST_RISE = 0.2
-LEAST_RISE = 0.01
-RISE_TOLERANCE = 1e-3
-
 # Part of the central film below which a gap that was not solved for is no film.
 COLLAPSED = 1e-2
-
-
-@dataclass(frozen=True)
-class Scales:
-    """What makes the film dimensionless: x = X length, p = P pressure, h = H thickness, all SI.
-
-    ``ambient_pressure`` is that of the fluid in Pa, where P times ``pressure`` would miss it by rounding.
-    """
-
-    length: float = 1.0
-    pressure: float = 1.0
-    thickness: float = 1.0
-    ambient_pressure: float = 0.0
-
-
-@dataclass(frozen=True)
-class FilmProblem:
-    """A line contact in dimensionless form, X = x/b, P = p/p_h, H = h R/b^2.
-
-    Parameters
-    ----------
-    fluid : Fluid
-        Laws over P, the velocity parameter lambda = 6 eta0 u_s R^2/(b^3 p_h) with u_s = u1 + u2, and the
-        ambient pressure over p_h.
-    nodes : int
-        Nodes along x, at least 65.
-    inlet, outlet : float
-        Ends of the domain in half-widths, inlet < -1 and outlet > 1.
-    thickness_guess : float
-        Central H to start from; that of a film-thickness formula is near enough.
-    second_order : bool
-        Upstream wedge term of second order, else of first.
-    tolerance : float
-        Largest scaled residual of a solution.
-    max_iterations : int
-        Newton steps allowed on each grid.
-    scales : Scales
-        Length b [m], pressure p_h [Pa] and thickness b^2/R [m] of the result, and its ambient pressure [Pa].
-    geometry : Geometry
-        Kernel, dry gap and load of the contact.
-    added_gap : callable, optional
-        Gap that roughness adds, X (nx,) -> G (nx, ny); a peak adds a negative one.
-    """
-
-    fluid: Fluid
-    nodes: int
-    inlet: float
-    outlet: float
-    thickness_guess: float
-    second_order: bool = True
-    tolerance: float = 1e-9
-    max_iterations: int = 30
-    scales: Scales = Scales()
-    geometry: Geometry = LINE
-    added_gap: Callable[[Array], Array] | None = None
 
 
 @dataclass(frozen=True)
@@ -210,134 +139,8 @@ def solve_film(problem: FilmProblem, *, progress: Progress | None = None) -> Fil
     """
     # An iterate may leave the numbers on its way to a status; it must not print about it.
     with one_blas_thread(), np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        solutions = _nested_iteration(problem, progress)
+        solutions = nested_iteration(problem, progress)
         return _film(problem, solutions)
-
-
-def _nested_iteration(problem: FilmProblem, progress: Progress | None) -> list[GridSolution]:
-    """Solutions from the coarsest grid used to the finest, which is the last.
-
-    Where a grid is not solved, it and the next finer one start from the Hertz pressure.
-    """
-    levels = _levels(problem, roughness=1.0)
-    first = max((k for k, level in enumerate(levels) if level.x.size >= FIRST_GRID), default=1)
-    solutions: list[GridSolution] = []
-    for k in range(max(first, 1), -1, -1):
-        best = None
-        if solutions and solutions[-1].status == "converged":
-            best = _from_coarser(problem, levels[k:], solutions[-1], progress)
-        # What is nearly solved is not worth starting again.
-        if best is None or best.final.norm > NESTED_TOLERANCE:
-            *warm_up, restarted = _from_hertz(problem, levels[k:], progress)
-            solutions.extend(warm_up)
-            attempts = [restarted] if best is None else [restarted, best]
-            *others, best = sorted(attempts, key=lambda solution: -solution.final.norm)
-            solutions.extend(others)
-        solutions.append(best)
-    if problem.added_gap is not None and solutions[-1].final.norm > NESTED_TOLERANCE:
-        smooth = _nested_iteration(replace(problem, added_gap=None), progress)
-        solutions += [*smooth, *_raise_roughness(problem, smooth[-1], progress)]
-    return solutions
-
-
-def _levels(problem: FilmProblem, *, roughness: float) -> list[Level]:
-    """The grids, with a part of the roughness."""
-    added, geometry = problem.added_gap, problem.geometry
-    if added is not None:
-        smooth = geometry.dry_gap
-        geometry = replace(geometry, dry_gap=lambda x: smooth(x) + roughness * added(x))
-    return hierarchy(
-        problem.nodes,
-        inlet=problem.inlet,
-        outlet=problem.outlet,
-        geometry=geometry,
-        second_order=problem.second_order,
-    )
-
-
-def _raise_roughness(
-    problem: FilmProblem, smooth: GridSolution, progress: Progress | None
-) -> Iterator[GridSolution]:
-    """Roughness raised from nothing to its height, each solution the start of the next.
-
-    Gives up at the first part of the height that cannot be gone beyond.
-    """
-    best, reached, step = smooth, 0.0, FIRST_RISE
-    while best.status == "converged" and reached < 1.0:
-        part = min(1.0, reached + step)
-        levels = _levels(problem, roughness=part)
-        start = State.of(levels[0], best.state.pressure, best.state.h00)
-        start = start.lifted(0.3 * float(best.state.thickness.min()))
-        solution = _solve_grid(
-            problem if part == 1.0 else replace(problem, tolerance=RISE_TOLERANCE),
-            levels,
-            start,
-            progress,
-            spike=True,
-        )
-        if solution.status == "converged":
-            best, reached, step = solution, part, 1.5 * step
-            yield solution
-        elif step > LEAST_RISE:
-            step *= 0.5
-        else:
-            yield solution
-            return
-
-
-def _solve_grid(
-    problem: FilmProblem,
-    levels: list[Level],
-    state: State,
-    progress: Progress | None,
-    *,
-    spike: bool,
-) -> GridSolution:
-    finest = levels[0].x.size == problem.nodes
-    return newton(
-        problem.fluid,
-        levels,
-        state,
-        tolerance=problem.tolerance if finest else max(problem.tolerance, NESTED_TOLERANCE),
-        max_iterations=problem.max_iterations,
-        progress=progress,
-        eliminate_spike=spike,
-    )
-
-
-def _from_coarser(
-    problem: FilmProblem, levels: list[Level], coarse: GridSolution, progress: Progress | None
-) -> GridSolution:
-    """Start from the next coarser grid: a monotone cubic is smooth and does not overshoot."""
-    level = levels[0]
-    pressure = PchipInterpolator(coarse.level.x, coarse.state.pressure, axis=0)(level.x)
-    state = State.of(level, pressure, coarse.state.h00)
-    state = state.lifted(0.5 * float(coarse.state.thickness.min()))
-    return _solve_grid(problem, levels, state, progress, spike=True)
-
-
-def _from_hertz(
-    problem: FilmProblem, levels: list[Level], progress: Progress | None
-) -> Iterator[GridSolution]:
-    """Start from the Hertz pressure: with the first-order wedge, then with the one asked for.
-
-    The first-order scheme is monotone and converges from further away.
-    """
-    level = levels[0]
-    hertz = line_pressure(level.x)[:, np.newaxis]
-    state = State.of(level, np.maximum(hertz, problem.fluid.ambient_pressure), 0.0)
-    centre = float(np.interp(0.0, level.x, state.thickness[:, 0]))
-    state = State.of(level, state.pressure, problem.thickness_guess - centre)
-    state = state.lifted(0.5 * problem.thickness_guess)
-    if problem.second_order:
-        monotone = [
-            replace(level, wedge=wedge_stencil(level.weights.shape, level.dx, second_order=False))
-            for level in levels
-        ]
-        start = _solve_grid(problem, monotone, state, progress, spike=False)
-        yield start
-        state = start.state if start.status == "converged" else state
-    yield _solve_grid(problem, levels, state, progress, spike=False)
 
 
 def _film(problem: FilmProblem, solutions: list[GridSolution]) -> Film:

@@ -98,15 +98,24 @@ def pressure_and_film(result: Result, ax: Axes | None = None) -> Axes:
     ax.set_ylabel(f"pressure $p$ [{unit}]", color=_BLUE)
     ax.set_ylim(0.0, 1.3 * factor * largest)
     twin = ax.twinx()
+    ax_factor = factor
     factor, unit = _unit(film.central_thickness, "m")
     lines += twin.plot(x, factor * film.thickness, color=_ORANGE, label="film thickness")
+    if result.smooth:
+        ax.plot(x, result.smooth.pressure * ax_factor, color="black", lw=0.9, ls=":")
+        smooth = factor * result.smooth.thickness
+        lines += twin.plot(x, smooth, color="black", lw=0.9, ls=":", label="both, smooth surfaces")
     minimum, position = factor * film.minimum_thickness, film.minimum_position / conditions.half_width
     ax.set_title(rf"$h_\mathrm{{min}}$ = {minimum:.3g} {unit} at $x/b$ = {position:.3f}", loc="right")
     twin.set_ylabel(f"film thickness $h$ [{unit}]", color=_ORANGE)
     twin.set_ylim(0.0, 5.0 * factor * film.central_thickness)
-    # Under the dome of the pressure and above the film there is room in any contact.
+    # Under the dome of the pressure and above the film there is room in any smooth contact.
     centre = (0.0 - ax.get_xlim()[0]) / (ax.get_xlim()[1] - ax.get_xlim()[0])
-    ax.legend(handles=lines, loc="center", bbox_to_anchor=(centre, 0.44), frameon=False)
+    height = 0.44
+    if result.rough:
+        ax.set_ylim(0.0, 1.6 * ax_factor * largest)
+        height = 0.82
+    ax.legend(handles=lines, loc="center", bbox_to_anchor=(centre, height), frameon=False)
     return ax
 
 
@@ -233,9 +242,13 @@ def field_profiles(result: Result, ax: Axes | None = None) -> Axes:
     width, length = _unit(field.high_field_width, "m", least=1.0)
     label = f"mid-film above 95 % of its maximum: {width * field.high_field_width:.3g} {length} wide"
     ax.axvspan(zone[0], zone[1], color=_GREEN, alpha=0.25, lw=0.0, label=label)
-    ax.plot(x, factor * field.strength[:, 0], color=_BLUE, lw=2.4, label="surface 1")
-    ax.plot(x, factor * field.strength[:, -1], color=_ORANGE, ls="--", lw=1.6, label="surface 2")
+    thin = 0.4 if result.rough else 1.0
+    ax.plot(x, factor * field.strength[:, 0], color=_BLUE, lw=2.4 * thin, label="surface 1")
+    ax.plot(x, factor * field.strength[:, -1], color=_ORANGE, ls="--", lw=1.6 * thin, label="surface 2")
     ax.plot(x, factor * field.middle_strength, color="black", lw=0.8, label="mid-film")
+    if result.smooth:
+        smooth = factor * result.smooth.middle_strength
+        ax.plot(x, smooth, color=_GREY, lw=1.2, ls=":", label="mid-film, smooth surfaces")
     ax.set(ylabel=rf"field strength $|E|$ [{unit}]", xlim=(x[0], x[-1]))
     _label_position(result, ax)
     ax.set_ylim(0.0, 1.08 * factor * field.max_strength)
@@ -281,48 +294,44 @@ def field_deviation(result: Result, ax: Axes | None = None) -> Axes:
     return ax
 
 
-def profile_steps(steps: Sequence[tuple[str, Profile]], ax: Axes | None = None) -> Axes:
-    """A profile as read, less its mean, and after the last step.
+def profile(drawn: Profile, ax: Axes | None = None) -> Axes:
+    """Heights of a profile about their mean, with its Rq.
 
     Parameters
     ----------
-    steps : sequence of (str, Profile)
-        As ``roughness.processed`` gives them.
+    drawn : Profile
+        What to draw.
     ax : Axes, optional
         Where to; new axes otherwise.
 
     Returns
     -------
     Axes
-        Both heights in one unit.
+        With the unit of height that fits.
     """
     ax = _axes(ax)
-    first, last = steps[0][1], steps[-1][1]
-    heights = first.heights - np.mean(first.heights)
+    heights = drawn.heights - np.mean(drawn.heights)
     factor, unit = _unit(float(np.max(np.abs(heights))), "m", least=1.0)
-    along, length = _unit(first.length, "m", least=1.0)
-    name = "as read, less its mean"
-    ax.plot(along * first.x, factor * heights, color=_GREY, lw=0.8, label=name)
-    if len(steps) > 1:
-        ax.plot(along * last.x, factor * last.heights, color=_BLUE, lw=0.8, label="after the last step")
-    rq = statistics(last).rq
-    scale, height = _unit(rq, "m", least=1.0)
-    ax.set_title(f"Rq = {scale * rq:.3g} {height}", loc="right")
+    along, length = _unit(drawn.length, "m")
+    ax.plot(along * drawn.x, factor * heights, color=_BLUE, lw=0.7)
+    rq = statistics(drawn).rq
+    scale, prefixed = _unit(rq, "m", least=1.0)
+    ax.set_title(f"Rq = {scale * rq:.3g} {prefixed}", loc="right")
     ax.set(xlabel=f"$x$ [{length}]", ylabel=f"height [{unit}]")
-    ax.set_xlim(along * first.x[0], along * first.x[-1])
-    low, high = ax.get_ylim()
-    ax.set_ylim(low, high + 0.25 * (high - low))
-    ax.legend(loc="upper left", frameon=False, ncols=2)
+    ax.set_xlim(along * drawn.x[0], along * drawn.x[-1])
     return ax
 
 
 def save_profile(steps: Sequence[tuple[str, Profile]], path: Path) -> None:
-    """Draw ``profile_steps`` as a PNG file."""
+    """Draw a profile as read and after its last step as a PNG file."""
     with mpl.rc_context(_STYLE):  # type: ignore[arg-type]
-        ax = profile_steps(steps)
-        ax.set_title(path.stem, loc="left", parse_math=False)
+        figure = Figure(figsize=(6.3, 4.2))
+        FigureCanvasAgg(figure)
+        shown = [steps[0], steps[-1]] if len(steps) > 1 else [steps[0]]
+        for ax, (name, step) in zip(figure.subplots(len(shown), squeeze=False)[:, 0], shown, strict=True):
+            profile(step, ax).set_title(name if step is steps[0][1] else "after the last step", loc="left")
         with whole(path) as beside:
-            _figure(ax).savefig(beside)
+            figure.savefig(beside)
 
 
 FIGURES: dict[str, Callable[..., Axes]] = dict(

@@ -102,10 +102,11 @@ def result_table(result: Result) -> Table:
         table.add_row("V12/h_min below it by", f"{100 * result.thin_gap_error:.2g}", "%")
     if result.rough:
         roughness = result.summary()["roughness"]
-        table.add_row(
-            "Rq of surfaces 1, 2", f"{roughness['rq_1'] * 1e9:.3g}, {roughness['rq_2'] * 1e9:.3g}", "nm"
-        )
+        for k in (1, 2):
+            table.add_row(f"Rq of surface {k}, Hertz zone", f"{roughness[f'rq_{k}'] * 1e9:.3g}", "nm")
         table.add_row("lambda ratio", f"{roughness['lambda_ratio']:.3g}")
+        if result.smooth:
+            table.add_row("minimum film, smooth", f"{result.smooth.minimum_thickness * 1e6:.4g}", "µm")
     _add_formulas(table, result)
     table.add_row("time", f"{result.film_seconds + result.field_seconds:.2g}", "s")
     return table

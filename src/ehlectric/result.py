@@ -11,16 +11,35 @@ import numpy as np
 
 from ehlectric.case import Case
 from ehlectric.conditions import Conditions
-from ehlectric.dataset import COORDINATES, attributes, roughness_variables, variables
+from ehlectric.dataset import COORDINATES, attributes, roughness_variables, smooth_variables, variables
 from ehlectric.field import Field
-from ehlectric.film import Film, Scales
+from ehlectric.film import Film
 from ehlectric.film_formulas import FORMULAS
+from ehlectric.nested import Scales
 from ehlectric.typing import Array
 
 if TYPE_CHECKING:
     import xarray as xr
 
 SCHEMA = "ehlectric.summary/1"
+
+
+@dataclass(frozen=True)
+class Smooth:
+    """The same contact with smooth surfaces, to set a rough one beside.
+
+    ``pressure`` [Pa] and ``thickness`` [m] at the film's nodes, ``middle_strength`` [V/m] at the columns of
+    the field.
+    """
+
+    pressure: Array
+    thickness: Array
+    middle_strength: Array
+
+    @property
+    def minimum_thickness(self) -> float:
+        """Film thickness of the lowest node [m]."""
+        return float(np.min(self.thickness))
 
 
 @dataclass(frozen=True)
@@ -37,6 +56,8 @@ class Result:
         Heights of both surfaces' roughness at the film's nodes, positive out of the body [m].
     rough : tuple of dict
         Where each rough surface came from and its statistics after every step, SI units.
+    smooth : Smooth or None
+        The contact without its roughness; None where it has none, or was not solved without.
     warnings : tuple of str
         What a user should know before using it.
     film_seconds, field_seconds : float
@@ -50,6 +71,7 @@ class Result:
     film: Film
     roughness: Array
     rough: tuple[dict[str, Any], ...]
+    smooth: Smooth | None
     field: Field
     warnings: tuple[str, ...]
     film_seconds: float
@@ -116,6 +138,7 @@ class Result:
                 "rq_1": self._rq[0],
                 "rq_2": self._rq[1],
                 "lambda_ratio": film.minimum_thickness / math.hypot(*self._rq),
+                "smooth_minimum_thickness": self.smooth and self.smooth.minimum_thickness,
             }
         return {key: _plain(value) for key, value in summary.items()}
 
@@ -149,7 +172,9 @@ class Result:
         import xarray as xr
 
         return xr.Dataset(
-            variables(self.film, self.field) | roughness_variables(self.roughness),
+            variables(self.film, self.field)
+            | roughness_variables(self.roughness)
+            | (smooth_variables(**vars(self.smooth)) if self.smooth else {}),
             attrs={
                 "Conventions": "CF-1.11",
                 "title": self.case.title or "Film and electric field of a line contact",

@@ -20,13 +20,15 @@ from ehlectric.conditions import (
 )
 from ehlectric.errors import ConvergenceError
 from ehlectric.field import Field, solve_field
-from ehlectric.film import Film, FilmProblem, solve_film
+from ehlectric.film import Film, solve_film
 from ehlectric.film_formulas import moes
 from ehlectric.memory import check_memory
+from ehlectric.nested import FilmProblem
 from ehlectric.newton import Progress
 from ehlectric.poisson import FieldProblem
-from ehlectric.result import Result, scales_of
+from ehlectric.result import Result, Smooth, scales_of
 from ehlectric.reynolds import Fluid, FluidLaw
+from ehlectric.roughness import statistics
 from ehlectric.typing import Array
 from ehlectric.version import __version__
 from ehlectric.walls import RoughSurface, rough_surfaces
@@ -91,10 +93,11 @@ def solve(case: Case, *, progress: Progress | None = None, require_convergence: 
         film=film,
         roughness=roughness,
         rough=tuple(surface.describe() for surface in rough),
+        smooth=_smooth(case, field) if rough else None,
         field=field,
         warnings=(
             *remarks(case, conditions),
-            *_continuations(case, conditions, rough),
+            *_profile_remarks(case, conditions, rough),
             *_findings(case, conditions, film, field),
         ),
         film_seconds=film_done - started,
@@ -137,6 +140,15 @@ def _film_problem(case: Case, conditions: Conditions, rough: Sequence[RoughSurfa
         scales=scales_of(case, conditions),
         added_gap=_added_gap(conditions, rough) if rough else None,
     )
+
+
+def _smooth(case: Case, field: Field) -> Smooth | None:
+    """The case without its roughness, on the same grids; None where that is not solved."""
+    result = solve(case.replace(roughness=()))
+    if not result.converged:
+        return None
+    middle = np.interp(field.x, result.field.x, result.field.middle_strength)
+    return Smooth(result.film.pressure, result.film.thickness, middle)
 
 
 def _added_gap(conditions: Conditions, rough: Sequence[RoughSurface]) -> Callable[[Array], Array]:
@@ -215,16 +227,25 @@ def surfaces(conditions: Conditions, film: Film, roughness: Array) -> tuple[Arra
     return lower, lower + film.thickness
 
 
-def _continuations(case: Case, conditions: Conditions, rough: Sequence[RoughSurface]) -> Iterator[str]:
-    """Profiles shorter than the domain, and how they were continued."""
-    ends = (conditions.half_width * case.grid.inlet, conditions.half_width * case.grid.outlet)
+def _profile_remarks(case: Case, conditions: Conditions, rough: Sequence[RoughSurface]) -> Iterator[str]:
+    """Profiles shorter than the domain, and profiles finer than the grid."""
+    grid, b = case.grid, conditions.half_width
+    dx = b * (grid.outlet - grid.inlet) / (grid.nodes - 1)
     for table, surface in zip(case.roughness, rough, strict=True):
-        reach = 2.0 * max(abs(end - table.shift) for end in ends)
+        reach = 2.0 * max(abs(b * end - table.shift) for end in (grid.inlet, grid.outlet))
         if surface.extent < reach:
             yield (
                 f"the profile of surface {surface.surface} is {surface.extent * 1e6:.4g} µm long and the "
                 f"domain needs {reach * 1e6:.4g} µm: it was continued by extend = {table.extend!r}"
             )
+        if surface.steps:
+            length = statistics(surface.steps[-1][1]).correlation_length
+            if dx > 0.5 * length:
+                yield (
+                    f"the grid, {dx * 1e6:.3g} µm, does not resolve the profile of surface "
+                    f"{surface.surface}, whose correlation length is {length * 1e6:.3g} µm: its error "
+                    "estimate means nothing yet"
+                )
 
 
 def _findings(case: Case, conditions: Conditions, film: Film, field: Field) -> Iterator[str]:

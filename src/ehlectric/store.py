@@ -16,9 +16,9 @@ import numpy as np
 
 from ehlectric.case import Case
 from ehlectric.conditions import resolve
-from ehlectric.dataset import field_of, film_of, roughness_of
+from ehlectric.dataset import field_of, film_of, roughness_of, smooth_of
 from ehlectric.errors import InputError
-from ehlectric.result import Result, scales_of
+from ehlectric.result import Result, Smooth, scales_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -201,6 +201,7 @@ def _result_of(dataset: xr.Dataset) -> Result:
         film=film_of(dataset, scales),
         roughness=roughness_of(dataset),
         rough=tuple(json.loads(attributes["rough"])),
+        smooth=Smooth(**smooth) if (smooth := smooth_of(dataset)) else None,
         field=field_of(dataset),
         warnings=tuple(json.loads(attributes["warnings"])),
         film_seconds=film_seconds,

@@ -186,9 +186,8 @@ def _numbers(path: Path, text: str) -> tuple[Array, int, list[str]]:
 def _units(header: list[str]) -> tuple[str | None, str | None]:
     """Units of the two columns, from lines such as "Lateral um,Raw Micrometer" or "[mm];[mm]"."""
     for line in reversed(header[-2:]):
-        fields = [
-            f for f in re.split(r"[,;\t]+" if re.search(r"[,;\t]", line) else r"\s+", line) if f.strip()
-        ]
+        separator = r"[,;\t]+" if re.search(r"[,;\t]", line) else r"\s+"
+        fields = [field for field in re.split(separator, line) if field.strip()]
         if len(fields) >= 2 and (_unit_in(fields[0]) or _unit_in(fields[1])):
             return _unit_in(fields[0]), _unit_in(fields[1])
     return None, None

@@ -5,8 +5,9 @@ import pytest
 
 from ehlectric import solve
 from ehlectric.elastic import RIGID_LINE
-from ehlectric.film import FilmProblem, solve_film
+from ehlectric.film import solve_film
 from ehlectric.lubricant import constant_viscosity, incompressible
+from ehlectric.nested import FilmProblem
 from ehlectric.reynolds import Fluid
 from tests.reference.martin import exit_angle, film_coefficient
 

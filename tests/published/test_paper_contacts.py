@@ -8,7 +8,7 @@ import pytest
 
 from ehlectric import solve
 from ehlectric.conditions import resolve
-from ehlectric.film import _nested_iteration
+from ehlectric.nested import nested_iteration
 from ehlectric.solver import _film_problem
 
 DATA = Path(__file__).parent / "data"
@@ -103,7 +103,7 @@ def test_iterate_itself_keeps_to_the_ambient_pressure(paper_case, row, wedge):
         }
     )
     problem = _film_problem(case, resolve(case))
-    finest = _nested_iteration(problem, None)[-1]
+    finest = nested_iteration(problem, None)[-1]
     assert np.min(finest.state.pressure) >= problem.fluid.ambient_pressure - 1e-9
 
 

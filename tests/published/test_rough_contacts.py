@@ -34,8 +34,8 @@ def test_v12_over_h_min_is_the_largest_field(load, speed, nodes):
     assert result.film.load_residual < 1e-10
     field = result.summary()["field"]
     assert 1.0 < field["max_dimensionless"] < 1.04
-    smooth = solve(result.case.replace(roughness=()))
-    assert result.film.minimum_thickness < 1.01 * smooth.film.minimum_thickness
+    assert result.smooth is not None
+    assert result.film.minimum_thickness < 1.01 * result.smooth.minimum_thickness
 
 
 def test_film_does_not_tell_which_surface_is_rough():
@@ -67,6 +67,18 @@ def test_roughness_is_in_the_summary():
     assert summary["roughness"]["rq_2"] == 0.0
     expected = summary["film"]["minimum_thickness"] / summary["roughness"]["rq_1"]
     assert summary["roughness"]["lambda_ratio"] == pytest.approx(expected)
+
+
+def test_smooth_contact_is_beside_the_rough_one():
+    result = solve(rough_case(nodes=1601))
+    alone = solve(result.case.replace(roughness=()))
+    np.testing.assert_array_equal(result.smooth.thickness, alone.film.thickness)
+    assert alone.smooth is None
+    expected = result.summary()["roughness"]["smooth_minimum_thickness"]
+    assert expected == alone.film.minimum_thickness
+    at = np.isin(result.field.x, alone.field.x)
+    assert at.sum() == alone.field.x.size
+    np.testing.assert_allclose(result.smooth.middle_strength[at], alone.field.middle_strength, rtol=1e-12)
 
 
 def test_profile_shorter_than_the_domain_is_said():

@@ -9,8 +9,9 @@ import pytest
 from ehlectric import multigrid, reynolds
 from ehlectric.conditions import resolve
 from ehlectric.elastic import LINE, Deflection
-from ehlectric.film import FilmProblem, solve_film
+from ehlectric.film import solve_film
 from ehlectric.lubricant import barus, incompressible
+from ehlectric.nested import FilmProblem
 from ehlectric.reynolds import Fluid, evaluate
 from ehlectric.solver import _film_problem
 
