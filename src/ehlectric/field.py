@@ -62,6 +62,12 @@ class Field:
         return float(self.x[np.argmax(np.max(self._sections, axis=0))])
 
     @property
+    def max_strength_wall(self) -> str:
+        """Where across the film the largest abs(E) is: "surface 1", "mid-film" or "surface 2"."""
+        section = int(np.argmax(np.max(self._sections, axis=1)))
+        return ("surface 1", "mid-film", "surface 2")[section]
+
+    @property
     def _sections(self) -> Array:
         return np.stack([self.strength[:, 0], self.middle_strength, self.strength[:, -1]])
 

@@ -93,7 +93,7 @@ def result_table(result: Result) -> Table:
     table.add_row("voltage", f"{field.voltage:.4g}", "V")
     table.add_row("maximum field", f"{field.max_strength / 1e6:.4g}", "V/µm")
     position = field.max_strength_position / conditions.half_width
-    table.add_row("  at x/b", f"{position:.4g}")
+    table.add_row("  at x/b", f"{position:.4g}", field.max_strength_wall if result.rough else "")
     scale = film.minimum_thickness / field.voltage
     table.add_row("  times h_min/V12", f"{field.max_strength * scale:.4f}")
     table.add_row("width above 95 %", f"{field.high_field_width * 1e6:.4g}", "µm")

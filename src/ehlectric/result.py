@@ -149,7 +149,7 @@ class Result:
         first, second = np.std(self.roughness[:, inside], axis=1)
         return float(first), float(second)
 
-    def _field_summary(self) -> dict[str, float | None]:
+    def _field_summary(self) -> dict[str, float | str | None]:
         field, minimum = self.field, self.film.minimum_thickness
         scale = minimum / field.voltage
         central = None
@@ -165,6 +165,7 @@ class Result:
             "capacitance_per_length": field.capacitance,
             "thin_gap_error": self.thin_gap_error,
             "columns": field.x.size,
+            "max_strength_wall": field.max_strength_wall,
         }
 
     def to_xarray(self) -> xr.Dataset:

@@ -42,6 +42,9 @@ def test_film_does_not_tell_which_surface_is_rough():
     first, second = (solve(rough_case(surface)) for surface in (1, 2))
     np.testing.assert_allclose(second.film.thickness, first.film.thickness, rtol=1e-10)
     # Equal bodies: the field is the mirror image.
+    # The peak of a rough wall is where the field is largest, and it is that wall.
+    walls = (first.field.max_strength_wall, second.field.max_strength_wall)
+    assert walls == ("surface 1", "surface 2")
     assert second.field.max_strength == pytest.approx(first.field.max_strength, rel=1e-8)
     np.testing.assert_allclose(second.field.strength[:, ::-1], first.field.strength, rtol=1e-6)
 

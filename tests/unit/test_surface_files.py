@@ -12,8 +12,9 @@ import pytest
 
 from ehlectric import InputError
 from ehlectric.roughness import Processing, processed, statistics
-from ehlectric.surface_files import read_surface
+from ehlectric.surface_files import _read_other, read_surface
 
+DATA = Path(__file__).parents[1] / "data" / "surfaces"
 DEKTAK = Path(__file__).parents[2] / "examples" / "surfaces" / "dektak-1.csv"
 
 
@@ -41,6 +42,56 @@ def test_dektak_spacing_is_that_of_the_whole_length():
 )
 def test_dektak_roughness(steps, rq):
     assert rq_after(read_surface(DEKTAK), **steps) * 1e9 == pytest.approx(rq, rel=0.02)
+
+
+def rq_of_line(surface, index, along, form="parabola"):
+    return statistics(processed(surface.line(index, along=along), Processing(form=form))[-1][1]).rq * 1e9
+
+
+# Sizes, spacings and roughness recorded with the files by another reader and filter: um and nm.
+@pytest.mark.parametrize(
+    ("steps", "rq"),
+    [
+        ({"form": "line"}, 245.0),
+        ({"form": "parabola"}, 138.0),
+        ({"form": "parabola", "cutoff_long": 80e-6}, 13.2),
+        ({"form": "parabola", "cutoff_long": 800e-6}, 22.6),
+        ({"form": "parabola", "cutoff_long": 800e-6, "trim": 0.0}, 40.0),
+    ],
+)
+def test_contour_file(steps, rq):
+    surface = read_surface(DATA / "hfm-1.hfm")
+    assert surface.heights.shape == (1, 9600)
+    assert surface.spacing_x == pytest.approx(0.5e-6, rel=1e-6)
+    assert rq_after(surface, **steps) * 1e9 == pytest.approx(rq, rel=0.02)
+
+
+def test_real_x3p():
+    surface = read_surface(DATA / "x3p-2-half.x3p")
+    assert surface.heights.shape == (325, 650)
+    assert (surface.spacing_x, surface.spacing_y) == pytest.approx((0.127657e-6, 0.314582e-6), rel=1e-5)
+    assert rq_of_line(surface, 162, "row") == pytest.approx(86.0, rel=0.02)
+    assert rq_of_line(surface, 325, "column") == pytest.approx(17.0, rel=0.02)
+
+
+def test_real_al3d():
+    surface = read_surface(DATA / "al3d-1.al3d")
+    assert surface.heights.shape == (296, 200)
+    assert (surface.spacing_x, surface.spacing_y) == pytest.approx((0.438027e-6, 0.438027e-6), rel=1e-6)
+    rows, columns = np.indices(surface.heights.shape).reshape(2, -1)
+    plane = np.stack([np.ones(rows.size), rows, columns], axis=1)
+    z = surface.heights.ravel()
+    rest = z - plane @ np.linalg.lstsq(plane, z, rcond=None)[0]
+    assert np.std(rest) == pytest.approx(290e-9, rel=0.02)
+
+
+@pytest.mark.parametrize("name", ["x3p-2-half.x3p", "al3d-1.al3d"])
+def test_readers_agree_with_surface_topography(name):
+    pytest.importorskip("SurfaceTopography", exc_type=ImportError)
+    ours, theirs = read_surface(DATA / name), _read_other(DATA / name)
+    assert ours.spacing_x == pytest.approx(theirs.spacing_x)
+    differences = (ours.heights - ours.heights.mean()) - (theirs.heights - theirs.heights.mean())
+    np.testing.assert_allclose(differences, 0.0, atol=1e-15)
 
 
 def text_file(path, *, header="x [um];z [nm]", rows=40, separator=";", change=lambda lines: lines):
