@@ -9,6 +9,7 @@ from ehlectric.conditions import resolve
 from ehlectric.nested import FilmProblem
 from ehlectric.poisson import FieldProblem
 from ehlectric.solver import _field_problem, _film_problem, solve
+from ehlectric.walls import rough_surfaces
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "line_contact.toml"
 
@@ -17,6 +18,13 @@ def film_problem(nodes: int) -> FilmProblem:
     """The example's film on a grid of so many nodes."""
     case = Case.from_toml(EXAMPLE).replace({"grid.nodes": nodes})
     return _film_problem(case, resolve(case))
+
+
+def rough_film_problem(nodes: int) -> FilmProblem:
+    """The film of the rough example on a grid of so many nodes."""
+    case = Case.from_toml(EXAMPLE.with_name("rough_contact.toml")).replace({"grid.nodes": nodes})
+    conditions = resolve(case)
+    return _film_problem(case, conditions, rough_surfaces(case, conditions))
 
 
 def field_problem(columns: int) -> FieldProblem:

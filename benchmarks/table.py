@@ -12,6 +12,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -74,6 +75,11 @@ def main() -> None:
         slow = f"{dense[n]:.2f}" if n in dense else ""
         against = "nested dense Newton (LAPACK)" if n in dense else ""
         rows.append((f"film, {n} nodes", f"{seconds:.3f}", against, slow, ratio))
+    rough = cases.rough_film_problem(12_801)
+    smooth = replace(rough, added_gap=None)
+    times = [best(lambda problem=problem: solve_film(problem), 3) for problem in (rough, smooth)]
+    ratio = f"{times[1] / times[0]:.2f}"
+    rows.append(("rough film, 12801 nodes", f"{times[0]:.3f}", "smooth film", f"{times[1]:.3f}", ratio))
     for n in (801, 3201):
         problem = cases.field_problem(n)
         ours = best(lambda problem=problem: solve_field(problem))

@@ -87,13 +87,14 @@ def run(
         from ehlectric.conditions import resolve
         from ehlectric.memory import check_memory
         from ehlectric.solver import solve
-        from ehlectric.store import FIGURE_FILES, FILES, clear, prepare, save
+        from ehlectric.store import FIGURE_FILES, FILES, ROUGHNESS_FIGURE, clear, prepare, save
         from ehlectric.walls import rough_surfaces
 
         case = Case.from_toml(case_file)
         rough_surfaces(case, resolve(case))
         check_memory(case)
-        folder = prepare(output, FILES + FIGURE_FILES)
+        names = (*FILES, *FIGURE_FILES, ROUGHNESS_FIGURE)
+        folder = prepare(output, names)
         with _progress(shown=not quiet) as stage:
             result = solve(
                 case,
@@ -102,7 +103,7 @@ def run(
                 ),
             )
             stage("writing results")
-            clear(folder, FILES + FIGURE_FILES)
+            clear(folder, names)
             files = save(result, folder)
             if plots:
                 from ehlectric.plot import save_figures
@@ -112,8 +113,11 @@ def run(
     if as_json:
         typer.echo(json.dumps(result.summary(), indent=2))
     elif not quiet:
-        from ehlectric.report import result_table
+        from ehlectric.report import result_table, surface_table
 
+        for rough in result.rough:
+            if rough["steps"]:
+                _print(surface_table(rough))
         _print(result_table(result))
         typer.echo("written: " + ", ".join(str(path) for path in files))
     if not quiet:

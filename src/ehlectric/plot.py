@@ -17,7 +17,7 @@ from matplotlib.figure import Figure
 from ehlectric.hertz import line_pressure
 from ehlectric.result import Result
 from ehlectric.roughness import Profile, statistics
-from ehlectric.store import FIGURE_FILES, whole
+from ehlectric.store import FIGURE_FILES, ROUGHNESS_FIGURE, whole
 from ehlectric.typing import Array
 
 MICRO = 1e6
@@ -334,6 +334,39 @@ def save_profile(steps: Sequence[tuple[str, Profile]], path: Path) -> None:
             figure.savefig(beside)
 
 
+def roughness(result: Result, ax: Axes | None = None) -> Axes:
+    """Roughness of both surfaces over X as the film sees it, peaks up for either.
+
+    Parameters
+    ----------
+    result : Result
+        What to draw.
+    ax : Axes, optional
+        Where to; new axes otherwise.
+
+    Returns
+    -------
+    Axes
+        Of the same range of X as the film's figure.
+    """
+    ax = _axes(ax)
+    x = _position(result, result.film.x)
+    factor, unit = _unit(float(np.max(np.abs(result.roughness))), "m", least=1.0)
+    described = result.summary()["roughness"]
+    for k, color in ((1, _BLUE), (2, _ORANGE)):
+        heights, rq = result.roughness[k - 1], described[f"rq_{k}"]
+        if np.any(heights):
+            label = f"surface {k}, Rq = {factor * rq:.3g} {unit} within $|x/b| \\leq 1$"
+            ax.plot(x, factor * heights, color=color, lw=0.7, label=label)
+    ax.set_xlim(max(x[0], -2.0), min(x[-1], 1.5))
+    _label_position(result, ax)
+    ax.set_ylabel(f"height [{unit}]")
+    low, high = ax.get_ylim()
+    ax.set_ylim(low, high + 0.25 * (high - low))
+    ax.legend(loc="upper left", frameon=False, ncols=2)
+    return ax
+
+
 FIGURES: dict[str, Callable[..., Axes]] = dict(
     zip(
         FIGURE_FILES,
@@ -341,6 +374,10 @@ FIGURES: dict[str, Callable[..., Axes]] = dict(
         strict=True,
     )
 )
+
+
+def _figures_of(result: Result) -> dict[str, Callable[..., Axes]]:
+    return FIGURES | ({ROUGHNESS_FIGURE: roughness} if result.rough else {})
 
 
 def save_figures(result: Result, folder: Path) -> list[Path]:
@@ -363,7 +400,7 @@ def save_figures(result: Result, folder: Path) -> list[Path]:
     with mpl.rc_context(_STYLE), warnings.catch_warnings():  # type: ignore[arg-type]
         # A title may use letters that the font does not have.
         warnings.filterwarnings("ignore", message="Glyph .* missing")
-        for name, draw in FIGURES.items():
+        for name, draw in _figures_of(result).items():
             ax = draw(result)
             if result.converged:
                 ax.set_title(title, loc="left", parse_math=False)

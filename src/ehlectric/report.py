@@ -115,10 +115,10 @@ def result_table(result: Result) -> Table:
 def surface_table(surface: dict[str, Any]) -> Table:
     """What was read of a surface, and its statistics after every step."""
     first = surface["steps"][0]
-    title = (
-        f"{surface['source']}: {' x '.join(str(n) for n in surface['size'])} points, "
-        f"spacing {first['spacing'] * 1e6:.6g} µm, {100 * surface['voids']:.2g} % void"
-    )
+    size = "made" if surface["size"] is None else " x ".join(str(n) for n in surface["size"]) + " points"
+    void = "" if surface["voids"] is None else f", {100 * surface['voids']:.2g} % void"
+    source = f"{surface['source']}: " if surface["source"] else ""
+    title = f"surface {surface['surface']}, {source}{size}, spacing {first['spacing'] * 1e6:.6g} µm{void}"
     table = Table(title=Text(title), title_justify="left", box=None, padding=(0, 1, 0, 0))
     table.add_column("step", no_wrap=True)
     for name in ("points", "Rq\n[nm]", "Ra\n[nm]", "Rsk", "Rku", "corr.\n[µm]", "max.\nslope"):

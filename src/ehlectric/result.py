@@ -137,6 +137,7 @@ class Result:
                 "surfaces": list(self.rough),
                 "rq_1": self._rq[0],
                 "rq_2": self._rq[1],
+                "rq_combined": math.hypot(*self._rq),
                 "lambda_ratio": film.minimum_thickness / math.hypot(*self._rq),
                 "smooth_minimum_thickness": self.smooth and self.smooth.minimum_thickness,
             }

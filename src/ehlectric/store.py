@@ -38,6 +38,7 @@ FIGURE_FILES = (
     "field_profiles.png",
     "field_deviation.png",
 )
+ROUGHNESS_FIGURE = "roughness.png"  # of rough contacts alone
 
 
 def prepare(folder: str | Path, names: Iterable[str] = ()) -> Path:

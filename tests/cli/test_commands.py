@@ -141,6 +141,8 @@ def test_plot_redraws(ehlectric, case_file, tmp_path):
 def test_rough_example(ehlectric, tmp_path):
     done = ehlectric("run", EXAMPLES / "rough_contact.toml", "-o", "out")
     assert done.returncode == 0, done.stderr
+    assert {path.name for path in (tmp_path / "out").iterdir()} == FIGURES | DATA | {"roughness.png"}
+    assert "cutoff_long: 80" in done.stdout
     field = json.loads((tmp_path / "out" / "summary.json").read_text())["field"]
     # The paper's conclusion for rough films: V12/h_min is the largest field, within some per cent.
     assert field["max_dimensionless"] == pytest.approx(1.0, abs=0.02)

@@ -56,6 +56,30 @@ def test_field_of_unequal_bodies_tells():
     assert abs(second.field.max_strength / first.field.max_strength - 1.0) > 1e-6
 
 
+RESOLVED = [
+    {"surface": 1, "generator": "sinusoid", "amplitude": "20 nm", "wavelength": "40 um"},
+    {"surface": 1, "generator": "gaussian", "rq": "10 nm", "correlation_length": "10 um", "seed": 3},
+    {"surface": 1, "cutoff_short": "10 um"} | PROFILE,
+]
+
+
+@pytest.mark.parametrize("load", [1.57e6, 3.925e5])
+@pytest.mark.parametrize("table", RESOLVED, ids=["sinusoid", "gaussian", "measured"])
+def test_error_estimate_of_roughness_the_grid_resolves(table, load):
+    """Within a factor 3 of the true error, against sixteen times as many nodes."""
+    case = rough_case(load=load, speed=1.0).replace(roughness=(table,))
+    film, fine = (solve(case.replace({"grid.nodes": n})).film for n in (3201, 51_201))
+    true = max(
+        abs(film.minimum_thickness / fine.minimum_thickness - 1.0),
+        abs(film.central_thickness / fine.central_thickness - 1.0),
+    )
+    assert true / 3.0 < film.discretisation_error < 3.0 * true
+
+
+def test_grid_that_does_not_resolve_the_profile_is_said():
+    assert any("does not resolve the profile" in text for text in solve(rough_case(nodes=801)).warnings)
+
+
 def test_roughness_is_in_the_summary():
     summary = solve(rough_case(nodes=1601)).summary()
     steps = summary["roughness"]["surfaces"][0]["steps"]
