@@ -123,7 +123,7 @@ def run(
     if not quiet:
         _warn(result.warnings)
     if not result.converged:
-        typer.echo(f"error: not converged, the film has {result.film.status}", err=True)
+        typer.echo(f"error: not converged: {result.film.status}", err=True)
         raise typer.Exit(NOT_CONVERGED)
 
 

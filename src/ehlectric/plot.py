@@ -13,6 +13,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from ehlectric.hertz import line_pressure
 from ehlectric.result import Result
@@ -207,7 +208,8 @@ def _map(
         text = f"surface {surface}, {volts:g} V"
         ax.text(0.5, height, text, transform=ax.transAxes, ha="center", va=where, fontsize=8.0)
     bar = _figure(ax).colorbar(filled, ax=ax, label=label, pad=0.02)
-    bar.set_ticks(list(np.linspace(*limits, ticks)), labels=[f"{t:.3g}" for t in np.linspace(*limits, ticks)])
+    nice = MaxNLocator(ticks).tick_values(*limits)
+    bar.set_ticks([tick for tick in nice if limits[0] <= tick <= limits[1]])
     return ax
 
 
@@ -314,9 +316,10 @@ def profile(drawn: Profile, ax: Axes | None = None) -> Axes:
     factor, unit = _unit(float(np.max(np.abs(heights))), "m", least=1.0)
     along, length = _unit(drawn.length, "m")
     ax.plot(along * drawn.x, factor * heights, color=_BLUE, lw=0.7)
-    rq = statistics(drawn).rq
-    scale, prefixed = _unit(rq, "m", least=1.0)
-    ax.set_title(f"Rq = {scale * rq:.3g} {prefixed}", loc="right")
+    s = statistics(drawn)
+    scale, prefixed = _unit(s.rq, "m", least=1.0)
+    amplitudes = f"Rq {scale * s.rq:.3g} {prefixed}, Ra {scale * s.ra:.3g} {prefixed}"
+    ax.set_title(f"{amplitudes}, Rsk {s.rsk:.2f}, Rku {s.rku:.1f}", loc="right")
     ax.set(xlabel=f"$x$ [{length}]", ylabel=f"height [{unit}]")
     ax.set_xlim(along * drawn.x[0], along * drawn.x[-1])
     return ax

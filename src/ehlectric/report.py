@@ -76,9 +76,7 @@ def result_table(result: Result) -> Table:
     film, field, conditions = result.film, result.field, result.conditions
     table = _table(result.case.title)
     if not result.converged:
-        table.add_row(
-            "NOT CONVERGED", "", f"the film has {film.status}: do not use these numbers", style="red"
-        )
+        table.add_row("NOT CONVERGED", "", f"{film.status}: do not use these numbers", style="red")
     _add_conditions(table, conditions)
     table.add_row("minimum film", f"{film.minimum_thickness * 1e6:.4g}", "µm")
     position = film.minimum_position / conditions.half_width
@@ -102,6 +100,7 @@ def result_table(result: Result) -> Table:
         table.add_row("V12/h_min below it by", f"{100 * result.thin_gap_error:.2g}", "%")
     if result.rough:
         roughness = result.summary()["roughness"]
+        table.add_row("field solved on", f"{field.x.size}", "columns")
         for k in (1, 2):
             table.add_row(f"Rq of surface {k}, Hertz zone", f"{roughness[f'rq_{k}'] * 1e9:.3g}", "nm")
         table.add_row("lambda ratio", f"{roughness['lambda_ratio']:.3g}")
@@ -117,6 +116,8 @@ def surface_table(surface: dict[str, Any]) -> Table:
     first = surface["steps"][0]
     size = "made" if surface["size"] is None else " x ".join(str(n) for n in surface["size"]) + " points"
     void = "" if surface["voids"] is None else f", {100 * surface['voids']:.2g} % void"
+    if surface["height_step"] is not None:
+        void += f", heights in steps of {surface['height_step'] * 1e9:.2g} nm"
     source = f"{surface['source']}: " if surface["source"] else ""
     title = f"surface {surface['surface']}, {source}{size}, spacing {first['spacing'] * 1e6:.6g} µm{void}"
     table = Table(title=Text(title), title_justify="left", box=None, padding=(0, 1, 0, 0))

@@ -16,6 +16,7 @@ from ehlectric.field import Field
 from ehlectric.film import Film
 from ehlectric.film_formulas import FORMULAS
 from ehlectric.nested import Scales
+from ehlectric.roughness import Profile, Statistics, statistics
 from ehlectric.typing import Array
 
 if TYPE_CHECKING:
@@ -138,10 +139,18 @@ class Result:
                 "rq_1": self._rq[0],
                 "rq_2": self._rq[1],
                 "rq_combined": math.hypot(*self._rq),
+                "combined": vars(self._combined),
                 "lambda_ratio": film.minimum_thickness / math.hypot(*self._rq),
                 "smooth_minimum_thickness": self.smooth and self.smooth.minimum_thickness,
             }
         return {key: _plain(value) for key, value in summary.items()}
+
+    @property
+    def _combined(self) -> Statistics:
+        """Statistics of the sum of both surfaces' roughness over the Hertz zone."""
+        film = self.film
+        inside = np.abs(film.x) <= self.conditions.half_width
+        return statistics(Profile(float(film.x[1] - film.x[0]), self.roughness.sum(axis=0)[inside]))
 
     @property
     def _rq(self) -> tuple[float, float]:

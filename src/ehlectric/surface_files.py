@@ -53,6 +53,14 @@ class Surface:
         """Part of the points without data."""
         return float(np.mean(np.isnan(self.heights)))
 
+    @property
+    def height_step(self) -> float | None:
+        """Step in which the heights are stored [m], None where they are not coarse enough to show one."""
+        levels = np.unique(self.heights[np.isfinite(self.heights)])
+        if levels.size < 2 or levels.size > 0.5 * self.heights.size:
+            return None
+        return float(np.median(np.diff(levels)))
+
     def line(self, index: int = 0, *, along: str = "row") -> Profile:
         """One line of the surface as a profile, its voids filled by straight lines.
 

@@ -62,6 +62,7 @@ class RoughSurface:
             "source": None if read is None else read.source,
             "size": None if read is None else list(read.heights.shape),
             "voids": None if read is None else read.voids,
+            "height_step": None if read is None else read.height_step,
             "steps": [
                 {"step": name, "points": profile.heights.size, "spacing": profile.spacing}
                 | vars(statistics(profile))

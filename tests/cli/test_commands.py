@@ -89,6 +89,18 @@ def test_films_that_vanish_are_not_converged(ehlectric, case_file, tmp_path):
     assert "NOT CONVERGED" in done.stdout
 
 
+def test_surfaces_that_touch_are_said(ehlectric, case_file, tmp_path):
+    rough = '[[roughness]]\nsurface = 2\ngenerator = "gaussian"\nrq = "200 nm"\nseed = 1\n'
+    case_file.write_text(CASE.replace("2 m/s", "1 mm/s") + rough + 'correlation_length = "5 um"\n')
+    done = ehlectric("run", case_file, "-o", "out")
+    assert done.returncode == 3
+    assert "error: not converged: film collapsed" in done.stderr
+    assert "warning: the surfaces would touch at x/b" in done.stderr
+    assert {path.name for path in (tmp_path / "out").iterdir()} == FIGURES | DATA | {"roughness.png"}
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    assert (summary["converged"], summary["status"]) == (False, "film collapsed")
+
+
 @pytest.mark.parametrize("title", ["[bold]x[/red] [/foo]", "a $\\\\bad{$ b", "油膜 ⚡", "w " * 90])
 def test_any_title_is_printed_and_drawn(ehlectric, case_file, tmp_path, title):
     case_file.write_text(CASE.replace('"Test"', f'"{title}"'), encoding="utf-8")

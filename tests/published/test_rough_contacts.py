@@ -92,6 +92,9 @@ def test_roughness_is_in_the_summary():
     ]
     assert steps[3]["rq"] == pytest.approx(9.0e-9, rel=0.02)
     assert summary["roughness"]["rq_2"] == 0.0
+    # Only one surface is rough: combined is its own.
+    assert summary["roughness"]["rq_combined"] == summary["roughness"]["rq_1"]
+    assert summary["roughness"]["combined"]["rq"] == pytest.approx(summary["roughness"]["rq_1"])
     expected = summary["film"]["minimum_thickness"] / summary["roughness"]["rq_1"]
     assert summary["roughness"]["lambda_ratio"] == pytest.approx(expected)
 

@@ -28,6 +28,7 @@ def test_dektak_spacing_is_that_of_the_whole_length():
     assert surface.heights.shape == (1, 9600)
     assert surface.spacing_x == pytest.approx(0.15625e-6, rel=1e-3)
     assert surface.voids == 0.0
+    assert surface.height_step is None or surface.height_step < 1e-10
 
 
 # Computed by another reader and filter, and recorded with the file: nm.
@@ -64,6 +65,8 @@ def test_contour_file(steps, rq):
     assert surface.heights.shape == (1, 9600)
     assert surface.spacing_x == pytest.approx(0.5e-6, rel=1e-6)
     assert rq_after(surface, **steps) * 1e9 == pytest.approx(rq, rel=0.02)
+    # Heights in steps of 2 to 3 nm.
+    assert 1.9e-9 < surface.height_step < 3.1e-9
 
 
 def test_real_x3p():
