@@ -110,6 +110,12 @@ def _checked(profile: Profile, source: str) -> Profile:
             f"{source}: the largest slope between neighbours is {slope:.3g}, takes one up to {STEEPEST:g}; "
             "are x_unit and z_unit right?"
         )
+    height = float(np.ptp(profile.heights))
+    if height > profile.length:
+        raise InputError(
+            f"{source}: the heights range over {height:.3g} m and the line over {profile.length:.3g} m, takes "
+            "a surface, whose heights range over less than its length; are x_unit and z_unit right?"
+        )
     return profile
 
 
