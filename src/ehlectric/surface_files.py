@@ -113,7 +113,7 @@ def _checked(profile: Profile, source: str) -> Profile:
     height = float(np.ptp(profile.heights))
     if height > profile.length:
         raise InputError(
-            f"{source}: the heights range over {height:.3g} m and the line over {profile.length:.3g} m, takes "
+            f"{source}: the heights range over {height:.3g} m, the line over {profile.length:.3g} m, takes "
             "a surface, whose heights range over less than its length; are x_unit and z_unit right?"
         )
     return profile

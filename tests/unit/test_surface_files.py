@@ -139,7 +139,7 @@ BAD_TEXT = [
     ({"change": lambda lines: [*lines[:20], *lines[25:]]}, "spacing is not uniform"),
     ({"header": "x [nm];z [mm]"}, "largest slope"),
     (
-        {"change": lambda lines: [f"{k};{3 * k}" for k in range(40)], "header": "x [um];z [um]"},
+        {"change": lambda lines: [f"{k};{3 * k}" for k in range(len(lines))], "header": "x [um];z [um]"},
         "heights range",
     ),
     ({"change": lambda lines: [*lines[:20], "10.0;nan", *lines[21:]]}, "line 22 is '10.0;nan'"),
