@@ -147,6 +147,9 @@ def _film(problem: FilmProblem, solutions: list[GridSolution]) -> Film:
     """The result on the finest grid, in SI units."""
     finest, scales = solutions[-1], problem.scales
     coarser = next((g for g in reversed(solutions) if g.level.x.size < problem.nodes), None)
+    if any(g.status == "converged" and g.level.x.size == problem.nodes for g in solutions[:-1]):
+        # The way led over other films on this grid: the coarser one is not of the same surfaces.
+        coarser = None
     state, final, level = finest.state, finest.final, finest.level
     pressure = np.maximum(scales.pressure * state.pressure, scales.ambient_pressure)
     steps = tuple(step for solution in solutions for step in solution.steps)

@@ -98,7 +98,8 @@ def solve(case: Case, *, progress: Progress | None = None, require_convergence: 
         warnings=(
             *remarks(case, conditions),
             *_profile_remarks(case, conditions, rough),
-            *_findings(case, conditions, film, field),
+            *_film_findings(case, conditions, film),
+            *_field_findings(case, film, field),
         ),
         film_seconds=film_done - started,
         field_seconds=field_done - film_done,
@@ -248,8 +249,8 @@ def _profile_remarks(case: Case, conditions: Conditions, rough: Sequence[RoughSu
                 )
 
 
-def _findings(case: Case, conditions: Conditions, film: Film, field: Field) -> Iterator[str]:
-    """What the solution shows that a user should know, one text each."""
+def _film_findings(case: Case, conditions: Conditions, film: Film) -> Iterator[str]:
+    """What the film shows that a user should know, one text each."""
     if not film.converged:
         yield (
             f"do not use this film, it is no solution: {film.status} at the residual {film.residual:.1e}; "
@@ -265,7 +266,12 @@ def _findings(case: Case, conditions: Conditions, film: Film, field: Field) -> I
     if film.minimum_thickness < _ATOM:
         yield "the film is thinner than an atom in places; the field is that of a gap of 0.1 nm there"
     error = film.discretisation_error
-    if film.converged and error is None:
+    if film.converged and error is None and case.roughness:
+        yield (
+            "nothing is known of the discretisation error, as the roughness had to be raised in steps; "
+            "compare with more grid.nodes"
+        )
+    elif film.converged and error is None:
         yield (
             "do not use this film: the next coarser grid was not solved, so that nothing is known of its "
             "discretisation error, which is large; take more grid.nodes"
@@ -281,6 +287,10 @@ def _findings(case: Case, conditions: Conditions, film: Film, field: Field) -> I
         )
     if not film.cavitates:
         yield "the film does not cavitate before the domain ends; raise grid.outlet"
+
+
+def _field_findings(case: Case, film: Film, field: Field) -> Iterator[str]:
+    """What the field shows that a user should know, one text each."""
     inside = int(np.count_nonzero((film.x >= field.x[0]) & (film.x <= field.x[-1])))
     if case.grid.field_nodes is not None and case.grid.field_nodes < inside:
         yield (
