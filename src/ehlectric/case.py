@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any, Self
 
-from pydantic import AfterValidator, BaseModel, ValidationError
+from pydantic import AfterValidator, BaseModel
 
 from ehlectric.errors import InputError, shown
 from ehlectric.inputs import (
@@ -25,7 +25,6 @@ from ehlectric.inputs import (
     Solver,
     Table,
 )
-from ehlectric.validation import first_message
 
 
 def _title(text: str) -> str:
@@ -61,20 +60,6 @@ class Case(Table):
     electric: Electric = Electric()
     grid: Grid = Grid()
     solver: Solver = Solver()
-
-    @classmethod
-    def from_dict(cls, table: Mapping[str, Any]) -> Self:
-        """Case of nested tables, as a TOML parser gives them.
-
-        Raises
-        ------
-        InputError
-            One line with the key, what it got and what it takes.
-        """
-        try:
-            return cls.model_validate(dict(table))
-        except ValidationError as error:
-            raise InputError(first_message(error, cls)) from None
 
     @classmethod
     def from_toml(cls, path: str | Path) -> Self:

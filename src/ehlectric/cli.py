@@ -177,12 +177,13 @@ def surface(
         "rescale_rq": rescale_rq, "truncate": truncate,
     }  # fmt: skip
     with _user_errors():
+        from ehlectric.inputs import Roughness
         from ehlectric.report import surface_table
         from ehlectric.store import prepare
-        from ehlectric.walls import measured, roughness_of
+        from ehlectric.walls import measured
 
         given = {key: value for key, value in table.items() if value is not None}
-        rough = measured(roughness_of({"surface": 1, "file": str(file)} | given))
+        rough = measured(Roughness.from_dict({"surface": 1, "file": str(file)} | given))
         if output is not None:
             prepare(output.parent, [output.name])
             from ehlectric.plot import save_profile

@@ -5,19 +5,33 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, model_validator
+from pydantic import AfterValidator, BaseModel, ConfigDict, ValidationError, model_validator
 
 from ehlectric import library
-from ehlectric.errors import shown
+from ehlectric.errors import InputError, shown
 from ehlectric.lubricant import DENSITY_LAWS, PERMITTIVITY_LAWS, VISCOSITY_LAWS
 from ehlectric.quantity import Count, Quantity
-from ehlectric.validation import nearest
+from ehlectric.validation import first_message, nearest
 
 
 class Table(BaseModel):
     """A frozen table of a case file that refuses unknown keys."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
+
+    @classmethod
+    def from_dict(cls, table: Mapping[str, Any]) -> Self:
+        """Validated input of nested tables, as a TOML parser gives them.
+
+        Raises
+        ------
+        InputError
+            One line with the key, what it got and what it takes.
+        """
+        try:
+            return cls.model_validate(dict(table))
+        except ValidationError as error:
+            raise InputError(first_message(error, cls)) from None
 
 
 _Radius = Annotated[float, Quantity("m", least=1e-6, most=1e3, reason="larger bodies are planes to a film")]
@@ -189,7 +203,7 @@ GENERATORS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "asperity": (("height", "width"), ("position",)),
 }
 _FILE_KEYS = ("x_unit", "z_unit", "line", "along", "direction", "assume_transverse")
-_SHAPES = ("sinusoid", "pit", "asperity")
+SHAPES = ("sinusoid", "pit", "asperity")
 _STEPS = ("form", "cutoff_long", "cutoff_short", "trim", "rescale_rq", "truncate", "extend")
 
 
@@ -246,7 +260,7 @@ class Roughness(Table):
                 if getattr(self, name) is None:
                     raise ValueError(f"{name}: missing, the generator {self.generator!r} takes it")
             allowed |= {"generator", *needed, *optional}
-            allowed |= set() if self.generator in _SHAPES else set(_STEPS)
+            allowed |= set() if self.generator in SHAPES else set(_STEPS)
         given = {
             name for name, field in type(self).model_fields.items() if getattr(self, name) != field.default
         }

@@ -99,11 +99,11 @@ def pressure_and_film(result: Result, ax: Axes | None = None) -> Axes:
     ax.set_ylabel(f"pressure $p$ [{unit}]", color=_BLUE)
     ax.set_ylim(0.0, 1.3 * factor * largest)
     twin = ax.twinx()
-    ax_factor = factor
+    to_pressure = factor
     factor, unit = _unit(film.central_thickness, "m")
     lines += twin.plot(x, factor * film.thickness, color=_ORANGE, label="film thickness")
     if result.smooth:
-        ax.plot(x, result.smooth.pressure * ax_factor, color="black", lw=0.9, ls=":")
+        ax.plot(x, to_pressure * result.smooth.pressure, color="black", lw=0.9, ls=":")
         smooth = factor * result.smooth.thickness
         lines += twin.plot(x, smooth, color="black", lw=0.9, ls=":", label="both, smooth surfaces")
     minimum, position = factor * film.minimum_thickness, film.minimum_position / conditions.half_width
@@ -114,7 +114,7 @@ def pressure_and_film(result: Result, ax: Axes | None = None) -> Axes:
     centre = (0.0 - ax.get_xlim()[0]) / (ax.get_xlim()[1] - ax.get_xlim()[0])
     height = 0.44
     if result.rough:
-        ax.set_ylim(0.0, 1.6 * ax_factor * largest)
+        ax.set_ylim(0.0, 1.6 * to_pressure * largest)
         height = 0.82
     ax.legend(handles=lines, loc="center", bbox_to_anchor=(centre, height), frameon=False)
     return ax
@@ -380,7 +380,7 @@ FIGURES: dict[str, Callable[..., Axes]] = dict(
 
 
 def _figures_of(result: Result) -> dict[str, Callable[..., Axes]]:
-    return FIGURES | ({ROUGHNESS_FIGURE: roughness} if result.rough else {})
+    return FIGURES | ({ROUGHNESS_FIGURE: roughness} if np.any(result.roughness) else {})
 
 
 def save_figures(result: Result, folder: Path) -> list[Path]:

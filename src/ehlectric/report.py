@@ -103,7 +103,8 @@ def result_table(result: Result) -> Table:
         table.add_row("field solved on", f"{field.x.size}", "columns")
         for k in (1, 2):
             table.add_row(f"Rq of surface {k}, Hertz zone", f"{roughness[f'rq_{k}'] * 1e9:.3g}", "nm")
-        table.add_row("lambda ratio", f"{roughness['lambda_ratio']:.3g}")
+        if roughness["lambda_ratio"] is not None:
+            table.add_row("lambda ratio", f"{roughness['lambda_ratio']:.3g}")
         if result.smooth:
             table.add_row("minimum film, smooth", f"{result.smooth.minimum_thickness * 1e6:.4g}", "µm")
     _add_formulas(table, result)

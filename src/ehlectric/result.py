@@ -16,7 +16,7 @@ from ehlectric.field import Field
 from ehlectric.film import Film
 from ehlectric.film_formulas import FORMULAS
 from ehlectric.nested import Scales
-from ehlectric.roughness import Profile, Statistics, statistics
+from ehlectric.roughness import Profile, statistics
 from ehlectric.typing import Array
 
 if TYPE_CHECKING:
@@ -134,30 +134,26 @@ class Result:
             "seconds": {"film": self.film_seconds, "field": self.field_seconds},
         }
         if self.rough:
-            summary["roughness"] = {
-                "surfaces": list(self.rough),
-                "rq_1": self._rq[0],
-                "rq_2": self._rq[1],
-                "rq_combined": math.hypot(*self._rq),
-                "combined": vars(self._combined),
-                "lambda_ratio": film.minimum_thickness / math.hypot(*self._rq),
-                "smooth_minimum_thickness": self.smooth and self.smooth.minimum_thickness,
-            }
+            summary["roughness"] = self._roughness_summary()
         return {key: _plain(value) for key, value in summary.items()}
 
-    @property
-    def _combined(self) -> Statistics:
-        """Statistics of the sum of both surfaces' roughness over the Hertz zone."""
+    def _roughness_summary(self) -> dict[str, Any]:
+        """Statistics over the Hertz zone; no lambda ratio where that is smooth."""
         film = self.film
         inside = np.abs(film.x) <= self.conditions.half_width
-        return statistics(Profile(float(film.x[1] - film.x[0]), self.roughness.sum(axis=0)[inside]))
-
-    @property
-    def _rq(self) -> tuple[float, float]:
-        """Rq of the roughness of both surfaces over the Hertz zone [m]."""
-        inside = np.abs(self.film.x) <= self.conditions.half_width
-        first, second = np.std(self.roughness[:, inside], axis=1)
-        return float(first), float(second)
+        heights = self.roughness[:, inside]
+        rq_1, rq_2 = (float(rq) for rq in np.std(heights, axis=1))
+        rq = math.hypot(rq_1, rq_2)
+        combined = Profile(float(film.x[1] - film.x[0]), heights.sum(axis=0))
+        return {
+            "surfaces": list(self.rough),
+            "rq_1": rq_1,
+            "rq_2": rq_2,
+            "rq_combined": rq,
+            "combined": vars(statistics(combined)),
+            "lambda_ratio": film.minimum_thickness / rq if rq > 0.0 else None,
+            "smooth_minimum_thickness": self.smooth and self.smooth.minimum_thickness,
+        }
 
     def _field_summary(self) -> dict[str, float | str | None]:
         field, minimum = self.field, self.film.minimum_thickness

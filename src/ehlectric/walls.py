@@ -5,24 +5,23 @@ A profile shorter than the domain is continued as the case says, without a step;
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, fields
 from functools import partial
+from itertools import chain
 from typing import Any
 
 import numpy as np
-from pydantic import ValidationError
 from scipy.interpolate import CubicSpline
 
 from ehlectric import generators
 from ehlectric.case import Case
 from ehlectric.conditions import Conditions
 from ehlectric.errors import InputError
-from ehlectric.inputs import Roughness
+from ehlectric.inputs import GENERATORS, SHAPES, Roughness
 from ehlectric.roughness import Processing, Profile, processed, statistics
 from ehlectric.surface_files import Surface, read_surface
 from ehlectric.typing import Array
-from ehlectric.validation import first_message
 
 # Part of a profile over which its ends are blended or faded where it is continued.
 TAPER = 0.05
@@ -97,25 +96,11 @@ def rough_surfaces(case: Case, conditions: Conditions) -> list[RoughSurface]:
 def _rough_surface(table: Roughness, case: Case, conditions: Conditions) -> RoughSurface:
     b, grid = conditions.half_width, case.grid
     domain = (grid.outlet - grid.inlet) * b
-    if table.generator in ("sinusoid", "asperity", "pit"):
+    if table.generator in SHAPES:
         return RoughSurface(table.surface, _shape(table, domain), None, [], np.inf)
     if table.file is not None:
         return measured(table)
     return _of_profile(table, _random(table, domain), None)
-
-
-def roughness_of(table: Mapping[str, Any]) -> Roughness:
-    """A [[roughness]] table on its own.
-
-    Raises
-    ------
-    InputError
-        One line with the key, what it got and what it takes.
-    """
-    try:
-        return Roughness.model_validate(dict(table))
-    except ValidationError as error:
-        raise InputError(first_message(error, Roughness)) from None
 
 
 def measured(table: Roughness) -> RoughSurface:
@@ -140,16 +125,11 @@ def _of_profile(table: Roughness, profile: Profile, read: Surface | None) -> Rou
 
 def processing_of(table: Roughness) -> Processing:
     """The steps a case asks for."""
-    names = ("form", "cutoff_long", "cutoff_short", "trim", "rescale_rq", "truncate")
-    return Processing(**{name: getattr(table, name) for name in names})
+    return Processing(**{step.name: getattr(table, step.name) for step in fields(Processing)})
 
 
 def _shape(table: Roughness, domain: float) -> Height:
-    names = {
-        "sinusoid": ("amplitude", "wavelength", "phase"),
-        "asperity": ("height", "width", "position"),
-        "pit": ("depth", "width", "rim", "position"),
-    }[str(table.generator)]
+    names = chain(*GENERATORS[str(table.generator)])
     values: dict[str, Any] = {
         name: getattr(table, name) for name in names if getattr(table, name) is not None
     }

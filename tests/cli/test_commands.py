@@ -161,6 +161,15 @@ def test_rough_example(ehlectric, tmp_path):
     assert load(tmp_path / "out" / "result.nc").summary()["field"] == field
 
 
+def test_rough_where_the_contact_is_not(ehlectric, case_file, tmp_path):
+    bump = '[[roughness]]\nsurface = 1\ngenerator = "asperity"\nheight = "20 nm"\nwidth = "1 um"\n'
+    case_file.write_text(CASE + bump + 'position = "90 mm"\n')
+    done = ehlectric("run", case_file, "-o", "out")
+    assert (done.returncode, done.stderr) == (0, "")
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    assert summary["roughness"]["lambda_ratio"] is None
+
+
 def test_surface_shows_every_step(ehlectric, tmp_path):
     words = ["--form", "parabola", "--cutoff-long", "80 um", "--truncate", "0.05 um", "-o", "profile.png"]
     done = ehlectric("surface", EXAMPLES / "surfaces" / "dektak-1.csv", *words)

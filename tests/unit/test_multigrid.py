@@ -63,11 +63,17 @@ def jacobians(nodes):
         outlet=2.0,
         thickness_guess=0.3,
     )
+    return at_solution(problem)
+
+
+def at_solution(problem):
+    """The Jacobian on every grid at the solution of a problem."""
     film = solve_film(problem)
     assert film.converged
-    pressure, thickness = film.pressure[:, np.newaxis], film.thickness[:, np.newaxis]
+    pressure = (film.pressure / film.scales.pressure)[:, np.newaxis]
+    thickness = (film.thickness / film.scales.thickness)[:, np.newaxis]
     return multigrid.linearise_levels(
-        multigrid.hierarchy(nodes, inlet=-4.0, outlet=2.0, geometry=LINE, second_order=True),
+        multigrid.hierarchy(problem.nodes, inlet=-4.0, outlet=2.0, geometry=LINE, second_order=True),
         problem.fluid,
         coefficients=evaluate(problem.fluid, pressure, thickness),
         pressure=pressure,
@@ -149,16 +155,5 @@ def test_v_cycle_reduces_the_error_fivefold(nodes):
 def test_v_cycle_on_the_paper_contact(paper_case, nodes):
     """The spike of 2 GPa is the hard case: one slow error beside it, which GMRES takes in an iteration."""
     case = paper_case.replace({"grid.nodes": nodes})
-    problem = _film_problem(case, resolve(case))
-    film = solve_film(problem)
-    pressure = (film.pressure / film.scales.pressure)[:, np.newaxis]
-    thickness = (film.thickness / film.scales.thickness)[:, np.newaxis]
-    levels = multigrid.linearise_levels(
-        multigrid.hierarchy(nodes, inlet=-4.0, outlet=2.0, geometry=LINE, second_order=True),
-        problem.fluid,
-        coefficients=evaluate(problem.fluid, pressure, thickness),
-        pressure=pressure,
-        thickness=thickness,
-        free=~film.cavitated[:, np.newaxis],
-    )
+    levels = at_solution(_film_problem(case, resolve(case)))
     assert convergence_factor(levels) < 0.4
