@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ehlectric.errors import InputError
+from ehlectric.errors import ConvergenceError, InputError, shown
 from ehlectric.version import __version__
 
 if TYPE_CHECKING:
@@ -43,6 +43,9 @@ def _user_errors() -> Iterator[None]:
         yield
     except InputError as error:
         text = str(error)
+    except ConvergenceError as error:
+        typer.echo(f"error: not converged: {error}", err=True)
+        raise typer.Exit(NOT_CONVERGED) from None
     except BrokenPipeError:
         raise
     except OSError as error:
@@ -75,6 +78,9 @@ def run(
         Path, typer.Option("--output", "-o", metavar="DIR", help="Folder for the results.")
     ] = Path("results"),
     plots: Annotated[bool, typer.Option("--plots/--no-plots", help="Draw the figures.")] = True,
+    solver: Annotated[
+        str, typer.Option(metavar="NAME", help="ehlectric, or paper: its multigrid and over-relaxation.")
+    ] = "ehlectric",
     quiet: Quiet = False,
     as_json: Json = False,
 ) -> None:
@@ -86,10 +92,13 @@ def run(
         from ehlectric.case import Case
         from ehlectric.conditions import resolve
         from ehlectric.memory import check_memory
+        from ehlectric.paper.solvers import SOLVERS
         from ehlectric.solver import solve
         from ehlectric.store import FIGURE_FILES, FILES, ROUGHNESS_FIGURE, clear, prepare, save
         from ehlectric.walls import rough_surfaces
 
+        if solver not in SOLVERS:
+            raise InputError(f"--solver: got {shown(solver)}, takes one of {', '.join(SOLVERS)}")
         case = Case.from_toml(case_file)
         rough_surfaces(case, resolve(case))
         check_memory(case)
@@ -99,8 +108,9 @@ def run(
             result = solve(
                 case,
                 progress=lambda nodes, step, residual: stage(
-                    f"film: {nodes} nodes, Newton step {step + 1}, residual {residual:.1e}"
+                    f"film: {nodes} nodes, step {step + 1}, residual {residual:.1e}"
                 ),
+                solvers=SOLVERS[solver],
             )
             stage("writing results")
             clear(folder, names)

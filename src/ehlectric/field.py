@@ -144,7 +144,7 @@ def solve_field(problem: FieldProblem) -> Field:
             load = quadrature.charge(problem.charge_density)
             potential = _solve(solver, elements, lifted, load)
     charge = epsilon_0 * float(np.sum(elements.apply(free)[:, -1]))
-    return _field(
+    return field_from_potential(
         problem,
         potential,
         capacitance=epsilon_0 * quadrature.energy(free) / voltage**2,
@@ -170,10 +170,25 @@ def _solve(solver: BandedSolver, elements: Elements, lifted: Array, load: Array)
     return potential
 
 
-def _field(
+def field_from_potential(
     problem: FieldProblem, potential: Array, *, capacitance: float, capacitance_by_charge: float
 ) -> Field:
-    """Field strength by differentiation of the potential above wall 1, and the thin-gap estimates."""
+    """Field strength by differentiation of a potential, and the thin-gap estimates.
+
+    Parameters
+    ----------
+    problem : FieldProblem
+        What was solved.
+    potential : ndarray, shape (nx, degree + 1)
+        Potential above wall 1 at the nodes [V].
+    capacitance, capacitance_by_charge : float
+        Per length [F/m].
+
+    Returns
+    -------
+    Field
+        All that follows from them.
+    """
     across = Across.of_degree(problem.degree)
     x, s = problem.x, across.nodes
     gap = problem.upper - problem.lower

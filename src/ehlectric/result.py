@@ -61,6 +61,8 @@ class Result:
         The contact without its roughness; None where it has none, or was not solved without.
     warnings : tuple of str
         What a user should know before using it.
+    solvers : str
+        "ehlectric", or "paper" where the paper's own methods solved it.
     film_seconds, field_seconds : float
         Time it took [s].
     version, date : str
@@ -75,6 +77,7 @@ class Result:
     smooth: Smooth | None
     field: Field
     warnings: tuple[str, ...]
+    solvers: str
     film_seconds: float
     field_seconds: float
     version: str
@@ -128,6 +131,7 @@ class Result:
                 "residual": film.residual,
                 "newton_iterations": film.newton_iterations,
                 "discretisation_error": film.discretisation_error,
+                "solver": self.solvers,
             },
             "field": self._field_summary(),
             "film_formulas": {name: vars(formula(conditions.formulas)) for name, formula in FORMULAS.items()},
@@ -172,6 +176,7 @@ class Result:
             "thin_gap_error": self.thin_gap_error,
             "columns": field.x.size,
             "max_strength_wall": field.max_strength_wall,
+            "solver": self.solvers,
         }
 
     def to_xarray(self) -> xr.Dataset:
@@ -194,6 +199,7 @@ class Result:
                 "summary": json.dumps(self.summary()),
                 "warnings": json.dumps(self.warnings),
                 "rough": json.dumps(_plain(self.rough)),
+                "solvers": self.solvers,
                 "seconds": json.dumps([self.film_seconds, self.field_seconds]),
                 **attributes(self.film, self.field),
             },

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from datetime import UTC, datetime
 
 import numpy as np
@@ -43,7 +44,25 @@ _MOST_PARTS = 32
 _SAME_NODE = 1e-6
 
 
-def solve(case: Case, *, progress: Progress | None = None, require_convergence: bool = False) -> Result:
+@dataclass(frozen=True)
+class Solvers:
+    """What solves the film and the field of a case, by the name under which a result says so."""
+
+    name: str
+    film: Callable[..., Film]
+    field: Callable[[FieldProblem], Field]
+
+
+OWN = Solvers("ehlectric", solve_film, solve_field)
+
+
+def solve(
+    case: Case,
+    *,
+    progress: Progress | None = None,
+    require_convergence: bool = False,
+    solvers: Solvers = OWN,
+) -> Result:
     """Film and electric field of a case.
 
     Parameters
@@ -54,6 +73,8 @@ def solve(case: Case, *, progress: Progress | None = None, require_convergence: 
         Called with (nodes, Newton step, residual) before every Newton step of the film.
     require_convergence : bool
         Raise where the film was not solved, instead of giving back its status.
+    solvers : Solvers
+        The package's own, or those of ``ehlectric.paper.solvers``.
 
     Returns
     -------
@@ -80,12 +101,12 @@ def solve(case: Case, *, progress: Progress | None = None, require_convergence: 
     check_memory(case)
     rough = rough_surfaces(case, conditions)
     started = time.perf_counter()
-    film = solve_film(_film_problem(case, conditions, rough), progress=progress)
+    film = solvers.film(_film_problem(case, conditions, rough), progress=progress)
     film_done = time.perf_counter()
     if require_convergence and not film.converged:
         raise ConvergenceError(f"film {film.status} at the residual {film.residual:.1e}")
     roughness = _heights(rough, film.x)
-    field = solve_field(_field_problem(case, conditions, film, roughness))
+    field = solvers.field(_field_problem(case, conditions, film, roughness))
     field_done = time.perf_counter()
     return Result(
         case=case,
@@ -93,7 +114,7 @@ def solve(case: Case, *, progress: Progress | None = None, require_convergence: 
         film=film,
         roughness=roughness,
         rough=tuple(surface.describe() for surface in rough),
-        smooth=_smooth(case, field) if rough else None,
+        smooth=_smooth(case, field, solvers) if rough else None,
         field=field,
         warnings=(
             *remarks(case, conditions),
@@ -101,6 +122,7 @@ def solve(case: Case, *, progress: Progress | None = None, require_convergence: 
             *_film_findings(case, conditions, film),
             *_field_findings(case, film, field),
         ),
+        solvers=solvers.name,
         film_seconds=film_done - started,
         field_seconds=field_done - film_done,
         version=__version__,
@@ -143,9 +165,9 @@ def _film_problem(case: Case, conditions: Conditions, rough: Sequence[RoughSurfa
     )
 
 
-def _smooth(case: Case, field: Field) -> Smooth | None:
+def _smooth(case: Case, field: Field, solvers: Solvers) -> Smooth | None:
     """The case without its roughness, on the same grids; None where that is not solved."""
-    result = solve(case.replace(roughness=()))
+    result = solve(case.replace(roughness=()), solvers=solvers)
     if not result.converged:
         return None
     middle = np.interp(field.x, result.field.x, result.field.middle_strength)

@@ -205,6 +205,7 @@ def _result_of(dataset: xr.Dataset) -> Result:
         smooth=Smooth(**smooth) if (smooth := smooth_of(dataset)) else None,
         field=field_of(dataset),
         warnings=tuple(json.loads(attributes["warnings"])),
+        solvers=str(attributes["solvers"]),
         film_seconds=film_seconds,
         field_seconds=field_seconds,
         version=str(attributes["version"]),

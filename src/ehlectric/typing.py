@@ -8,3 +8,4 @@ from numpy.typing import NDArray
 Array: TypeAlias = NDArray[np.float64]
 ComplexArray: TypeAlias = NDArray[np.complex128]
 Mask: TypeAlias = NDArray[np.bool_]
+IntArray: TypeAlias = NDArray[np.intp]

@@ -292,3 +292,26 @@ def test_permissions(ehlectric, case_file, tmp_path):
     assert "cannot be written to" in one_line(ehlectric("run", case_file, "-o", "closed"))
     case_file.chmod(0)
     assert "permission denied" in one_line(ehlectric("run", case_file))
+
+
+def test_the_papers_solvers(ehlectric, case_file, tmp_path):
+    done = ehlectric("run", case_file, "-o", "out", "--no-plots", "--solver", "paper")
+    assert done.returncode == 0, done.stderr
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    assert summary["film"]["solver"] == summary["field"]["solver"] == "paper"
+    assert summary["converged"]
+
+
+def test_unknown_solver_is_refused(ehlectric, case_file, tmp_path):
+    done = ehlectric("run", case_file, "-o", "out", "--solver", "comsol")
+    assert done.returncode == 2
+    assert done.stderr == "error: --solver: got 'comsol', takes one of ehlectric, paper\n"
+    assert not (tmp_path / "out").exists()
+
+
+def test_grid_that_the_papers_multigrid_cannot_halve(ehlectric, case_file):
+    case_file.write_text(case_file.read_text().replace("nodes = 401", "nodes = 1000"))
+    done = ehlectric("run", case_file, "-o", "out", "--solver", "paper")
+    assert done.returncode == 2
+    assert done.stderr.startswith("error: grid.nodes: got 1000")
+    assert len(done.stderr.splitlines()) == 1

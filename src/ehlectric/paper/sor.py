@@ -1,0 +1,356 @@
+"""Point successive over-relaxation for the field on a Cartesian grid: the paper's own method.
+
+Eqs. (16), (17) and (A1) to (A5) of Morris et al. (2022), doi:10.3390/lubricants10050087, for cells of any
+shape: with unequal arms h_W, h_E, h_S, h_N from node (l, k) to its neighbours, a_1 of the east one is
+
+    a_1 = (eps_(l,k) + eps_(l,k-1))/2 dy^2 2/(h_E (h_E + h_W))
+
+with a_0 = a_1 + a_2 + a_3 + a_4 and Q = rho_q dy^2, which is the paper's where all arms are dx = dy. An arm
+ends where it meets a surface, at that surface's potential (Shortley and Weller 1938, doi:10.1063/1.1710426).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.constants import epsilon_0
+from scipy.interpolate import CubicSpline
+
+from ehlectric.errors import ConvergenceError
+from ehlectric.field import Field, field_from_potential
+from ehlectric.poisson import FieldProblem, lobatto_nodes
+from ehlectric.typing import Array, IntArray
+
+# Rows in the least gap: the error of the field is below a thousandth.
+ROWS = 8
+
+# Residual of eq. (16), over the voltage, at which the sweeps stop.
+TOLERANCE = 1e-10
+
+MOST_SWEEPS = 100_000
+
+# A node this near to a surface, in rows, is on it.
+_ON_SURFACE = 1e-9
+
+EAST, NORTH, WEST, SOUTH = range(4)
+
+
+@dataclass(frozen=True)
+class CartesianGrid:
+    """Rows and columns over the gap; the unknowns are the nodes between the surfaces.
+
+    Attributes
+    ----------
+    x, lower, upper : ndarray, shape (nx,)
+        Columns and the two surfaces there [m].
+    y : ndarray, shape (ny,)
+        Equidistant rows [m].
+    column, row : ndarray of int, shape (n,)
+        Of every unknown, the nodes of even column + row first.
+    number : ndarray of int, shape (nx, ny)
+        Of the unknown of a node; -1 where there is none.
+    even : int
+        Unknowns of even column + row.
+    """
+
+    x: Array
+    lower: Array
+    upper: Array
+    y: Array
+    column: IntArray
+    row: IntArray
+    number: IntArray
+    even: int
+
+    @classmethod
+    def over(cls, x: Array, lower: Array, upper: Array, *, rows: int) -> CartesianGrid:
+        """Grid with so many rows in the least gap."""
+        dy = float(np.min(upper - lower)) / rows
+        y = np.arange(float(np.min(lower)), float(np.max(upper)) + dy, dy)
+        margin = _ON_SURFACE * dy
+        inside = (y > lower[:, np.newaxis] + margin) & (y < upper[:, np.newaxis] - margin)
+        column, row = np.nonzero(inside)
+        order = np.argsort((column + row) % 2, kind="stable")
+        column, row = column[order], row[order]
+        number = np.full(inside.shape, -1)
+        number[column, row] = np.arange(column.size)
+        return cls(x, lower, upper, y, column, row, number, int(np.sum((column + row) % 2 == 0)))
+
+    @property
+    def dy(self) -> float:
+        """Distance of the rows [m]."""
+        return float(self.y[1] - self.y[0])
+
+
+@dataclass(frozen=True)
+class Stencil:
+    """Eq. (16) at every unknown: V = sum of share times V of neighbour, plus source.
+
+    ``neighbour`` and ``share`` are (4, n) in the order of a_1 to a_4: east, north, west, south; the numbers
+    n and n + 1 stand for the two surfaces. ``arm`` holds the distances [m], ``permittivity`` that of each.
+    """
+
+    grid: CartesianGrid
+    neighbour: IntArray
+    share: Array
+    source: Array
+    arm: Array
+    permittivity: Array
+
+
+def stencil(grid: CartesianGrid, cells: Array, charge_density: Array | None = None) -> Stencil:
+    """Coefficients (A1) to (A5) over (A1).
+
+    Parameters
+    ----------
+    grid : CartesianGrid
+        Nodes and surfaces.
+    cells : ndarray, shape (nx - 1, ny - 1)
+        Relative permittivity in the cells, staggered from the potential.
+    charge_density : ndarray, shape (n,), optional
+        At the unknowns [C/m^3].
+
+    Returns
+    -------
+    Stencil
+        No flux leaves at the first and the last column: the neighbour beyond mirrors the one within.
+    """
+    neighbour, arm = _arms(grid)
+    east = np.minimum(grid.column, grid.x.size - 2)
+    west = np.maximum(grid.column - 1, 0)
+    north = np.minimum(grid.row, cells.shape[1] - 1)
+    south = np.maximum(grid.row - 1, 0)
+    around = {
+        (side, level): cells[column, row]
+        for side, column in ((EAST, east), (WEST, west))
+        for level, row in ((NORTH, north), (SOUTH, south))
+    }
+    permittivity = 0.5 * np.stack(
+        [
+            around[EAST, NORTH] + around[EAST, SOUTH],
+            around[WEST, NORTH] + around[EAST, NORTH],
+            around[WEST, SOUTH] + around[WEST, NORTH],
+            around[EAST, SOUTH] + around[WEST, SOUTH],
+        ]
+    )
+    opposite = arm[[WEST, SOUTH, EAST, NORTH]]
+    a = permittivity * grid.dy**2 * 2.0 / (arm * (arm + opposite))
+    a0 = a.sum(axis=0)
+    charge = 0.0 if charge_density is None else charge_density
+    return Stencil(grid, neighbour, a / a0, charge * grid.dy**2 / (epsilon_0 * a0), arm, permittivity)
+
+
+def _arms(grid: CartesianGrid) -> tuple[IntArray, Array]:
+    """Neighbour and distance of every unknown in four directions, each (4, n)."""
+    n, dy = grid.column.size, grid.dy
+    lower_wall, upper_wall = n, n + 1
+    column, row = grid.column, grid.row
+    y = grid.y[row]
+    neighbour = np.empty((4, n), dtype=np.intp)
+    arm = np.empty((4, n))
+    neighbour[NORTH] = grid.number[column, np.minimum(row + 1, grid.y.size - 1)]
+    neighbour[SOUTH] = grid.number[column, np.maximum(row - 1, 0)]
+    for side, wall, distance in (
+        (NORTH, upper_wall, grid.upper[column] - y),
+        (SOUTH, lower_wall, y - grid.lower[column]),
+    ):
+        cut = neighbour[side] < 0
+        neighbour[side, cut] = wall
+        arm[side] = np.where(cut, distance, dy)
+    for side, step in ((EAST, 1), (WEST, -1)):
+        beside = column + step
+        beyond = (beside < 0) | (beside >= grid.x.size)
+        beside = np.where(beyond, column - step, beside)
+        neighbour[side] = grid.number[beside, row]
+        width = np.abs(grid.x[beside] - grid.x[column])
+        below = (neighbour[side] < 0) & (y < 0.5 * (grid.lower[beside] + grid.upper[beside]))
+        above = (neighbour[side] < 0) & ~below
+        share = np.ones(n)
+        for cut, wall, surface in ((below, lower_wall, grid.lower), (above, upper_wall, grid.upper)):
+            here, there = surface[column[cut]], surface[beside[cut]]
+            share[cut] = (y[cut] - here) / (there - here)
+            neighbour[side, cut] = wall
+        arm[side] = share * width
+    return neighbour, arm
+
+
+@dataclass(frozen=True)
+class Relaxed:
+    """Potential of the unknowns, the two surfaces' last (n + 2,), and the sweeps and factor it took."""
+
+    potential: Array
+    sweeps: int
+    factor: float
+
+
+def over_relax(equations: Stencil, start: Array, *, factor: float, tolerance: float = TOLERANCE) -> Relaxed:
+    """Sweeps of eqs. (16) and (17), nodes of even column + row before the odd ones.
+
+    Parameters
+    ----------
+    equations : Stencil
+        What to solve.
+    start : ndarray, shape (n + 2,)
+        Potential to start from, the lower and the upper surface's last [V].
+    factor : float
+        Damping factor zeta, from 0 to 2.
+    tolerance : float
+        Largest residual over the voltage at which to stop.
+
+    Returns
+    -------
+    Relaxed
+        With the sweeps it took.
+
+    Raises
+    ------
+    ConvergenceError
+        After a hundred thousand sweeps.
+    """
+    v = start.copy()
+    voltage = abs(v[-1] - v[-2])
+    even, n = equations.grid.even, equations.grid.column.size
+    halves = [
+        (part, [np.ascontiguousarray(row) for row in equations.neighbour[:, part]], equations.share[:, part])
+        for part in (slice(0, even), slice(even, n))
+    ]
+    for sweep in range(1, MOST_SWEEPS + 1):
+        largest = 0.0
+        for part, neighbours, shares in halves:
+            residual = equations.source[part] - v[part]
+            for neighbour, share in zip(neighbours, shares, strict=True):
+                residual += share * v[neighbour]
+            v[part] += factor * residual
+            largest = max(largest, float(np.max(np.abs(residual), initial=0.0)))
+        if largest <= tolerance * voltage:
+            return Relaxed(v, sweep, factor)
+    raise ConvergenceError(
+        f"field stalled at the residual {largest / voltage:.1e} after {MOST_SWEEPS} sweeps"
+    )
+
+
+def young_factor(grid: CartesianGrid) -> float:
+    """Best damping factor of a plate capacitor as wide as the widest gap.
+
+    Young's 2/(1 + sqrt(1 - mu^2)) with the Jacobi radius mu = 1 - (1 - cos(pi dy/h)) dx^2/(dx^2 + dy^2).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> x = np.linspace(0.0, 8.0, 9)
+    >>> round(young_factor(CartesianGrid.over(x, 0.0 * x, 0.0 * x + 8.0, rows=8)), 4)
+    1.5708
+    """
+    dx, height = float(np.median(np.diff(grid.x))), float(np.max(grid.upper - grid.lower))
+    radius = 1.0 - (1.0 - math.cos(math.pi * grid.dy / height)) * dx**2 / (dx**2 + grid.dy**2)
+    return 2.0 / (1.0 + math.sqrt(1.0 - radius**2))
+
+
+def cartesian(problem: FieldProblem, rows: int) -> tuple[Stencil, Array]:
+    """Equations of a problem on a Cartesian grid, and the linear potential to start from (n + 2,).
+
+    Raises
+    ------
+    ValueError
+        Where the problem has what the paper's has not: free charge, given potentials on the end faces, or a
+        permittivity that changes across the gap.
+    """
+    if problem.charge_density is not None or problem.end_potentials is not None:
+        raise ValueError("the paper's field has no free charge and no given end potentials")
+    if problem.permittivity.ndim != 1:
+        raise ValueError("the paper's permittivity is uniform across the gap")
+    grid = CartesianGrid.over(problem.x, problem.lower, problem.upper, rows=rows)
+    staggered = 0.5 * (problem.permittivity[1:] + problem.permittivity[:-1])
+    cells = np.broadcast_to(staggered[:, np.newaxis], (grid.x.size - 1, grid.y.size - 1))
+    gap = (grid.upper - grid.lower)[grid.column]
+    share = (grid.y[grid.row] - grid.lower[grid.column]) / gap
+    voltage = problem.potential_2 - problem.potential_1
+    linear = np.concatenate(
+        [problem.potential_1 + voltage * share, [problem.potential_1, problem.potential_2]]
+    )
+    return stencil(grid, cells), linear
+
+
+def solve_field(problem: FieldProblem, *, rows: int = ROWS) -> Field:
+    """Field between two conducting walls by the paper's successive over-relaxation.
+
+    Parameters
+    ----------
+    problem : FieldProblem
+        Geometry, permittivity by column and potentials, SI units; its ``x`` are the columns of the grid.
+    rows : int
+        Rows of the grid in the least gap, at least 4.
+
+    Returns
+    -------
+    Field
+        As ``ehlectric.field.solve_field`` gives it, at the same places: the potential between the rows by
+        cubic splines along the columns. ``capacitance`` is that of the energy of all arms,
+        ``capacitance_by_charge`` that of the field on wall 1; they agree to the error of the grid.
+
+    Raises
+    ------
+    ValueError
+        Where the problem has free charge, given end potentials or a permittivity that changes across the gap.
+    ConvergenceError
+        After a hundred thousand sweeps.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> x = np.linspace(0.0, 1e-3, 11)
+    >>> plates = FieldProblem(x, 0.0 * x, 0.0 * x + 1e-6, 1.0 + 0.0 * x, 0.0, 1.0)
+    >>> round(solve_field(plates).capacitance * 1e9, 6)
+    8.854188
+    """
+    equations, linear = cartesian(problem, rows)
+    relaxed = over_relax(equations, linear, factor=young_factor(equations.grid))
+    return field_from(problem, equations, relaxed.potential)
+
+
+def field_from(problem: FieldProblem, equations: Stencil, potential: Array) -> Field:
+    """Field of a potential of the unknowns and the two surfaces, (n + 2,)."""
+    voltage = problem.potential_2 - problem.potential_1
+    above = _at_lobatto_nodes(equations.grid, potential, problem.degree) - problem.potential_1
+    energy = _energy(equations, potential)
+    field = field_from_potential(
+        problem, above, capacitance=epsilon_0 * energy / voltage**2, capacitance_by_charge=np.nan
+    )
+    slope = np.gradient(problem.lower, problem.x, edge_order=2)
+    charge = problem.permittivity * field.strength[:, 0] * np.sqrt(1.0 + slope**2)
+    by_charge = epsilon_0 * float(np.trapezoid(charge, problem.x)) / abs(voltage)
+    return replace(field, capacitance_by_charge=by_charge)
+
+
+def _at_lobatto_nodes(grid: CartesianGrid, potential: Array, degree: int) -> Array:
+    """Potential at the nodes of the mapped grid, (nx, degree + 1)."""
+    s = lobatto_nodes(degree)
+    values = np.empty((grid.x.size, s.size))
+    order = np.lexsort((grid.row, grid.column))
+    starts = np.searchsorted(grid.column[order], np.arange(grid.x.size + 1))
+    for column, (low, high) in enumerate(zip(grid.lower, grid.upper, strict=True)):
+        unknowns = order[starts[column] : starts[column + 1]]
+        y = np.concatenate([[low], grid.y[grid.row[unknowns]], [high]])
+        v = np.concatenate([potential[-2:-1], potential[unknowns], potential[-1:]])
+        values[column] = CubicSpline(y, v)(low + (high - low) * s)
+    return values
+
+
+def _energy(equations: Stencil, potential: Array) -> float:
+    """Integral of eps abs(grad V)^2 as the sum over all arms, each counted once [V^2]."""
+    grid = equations.grid
+    widths = np.empty_like(grid.x)
+    widths[1:-1] = 0.5 * (grid.x[2:] - grid.x[:-2])
+    widths[0], widths[-1] = 0.5 * (grid.x[1] - grid.x[0]), 0.5 * (grid.x[-1] - grid.x[-2])
+    drop = potential[equations.neighbour] - potential[: grid.column.size]
+    across = np.empty_like(equations.arm)
+    across[[EAST, WEST]] = grid.dy
+    across[[NORTH, SOUTH]] = widths[grid.column]
+    per_arm = equations.permittivity * drop**2 / equations.arm * across
+    # An arm between two unknowns belongs to both; a mirrored neighbour beyond the end columns is no arm.
+    per_arm[equations.neighbour < grid.column.size] *= 0.5
+    per_arm[EAST, grid.column == grid.x.size - 1] = 0.0
+    per_arm[WEST, grid.column == 0] = 0.0
+    return float(np.sum(per_arm))
