@@ -38,11 +38,11 @@ def test_summary_has_the_agreed_keys(ehlectric, case_file, tmp_path):
     assert set(summary["hertz"]) == {"half_width", "max_pressure"}
     assert set(summary["film"]) == {
         "minimum_thickness", "minimum_position", "central_thickness", "mean_thickness", "max_pressure",
-        "load_residual", "residual", "newton_iterations", "discretisation_error",
+        "load_residual", "residual", "newton_iterations", "discretisation_error", "solver",
     }  # fmt: skip
     assert set(summary["field"]) == {
         "voltage", "max_strength", "max_strength_position", "max_dimensionless", "central_dimensionless",
-        "high_field_width", "capacitance_per_length", "thin_gap_error", "columns", "max_strength_wall",
+        "high_field_width", "capacitance_per_length", "thin_gap_error", "columns", "max_strength_wall", "solver",
     }  # fmt: skip
     assert set(summary["film_formulas"]) == {"dowson_higginson", "dowson_toyoda", "pan_hamrock", "moes"}
     for formula in summary["film_formulas"].values():
