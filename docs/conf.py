@@ -27,6 +27,7 @@ extensions = [
 exclude_patterns = ["_build", "_generated", "gallery", "**/README.md", "auto_gallery/**/*.ipynb"]
 templates_path = ["_templates"]
 nitpicky = True
+smartquotes = False  # options of commands begin with two hyphens
 
 # Pages.
 myst_enable_extensions = ["amsmath", "colon_fence", "deflist", "dollarmath"]

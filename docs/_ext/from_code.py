@@ -47,15 +47,17 @@ def _number(value: float) -> str:
     if isinstance(value, int):
         return str(value)
     mantissa, _, exponent = f"{value:g}".partition("e")
+    if mantissa.strip("-") == "100000" and not exponent:
+        mantissa, exponent = mantissa[:-5], "5"
     return f"{mantissa}e{int(exponent)}" if exponent else mantissa
 
 
 def _bounds(given: Quantity | Count) -> str:
     low, high = given.least, given.most
     above, below = getattr(given, "above", low), getattr(given, "below", high)
-    left = f"> {_number(above)}" if above > low else f"≥ {_number(low)}"
-    right = f"< {_number(below)}" if below < high else f"≤ {_number(high)}"
-    return f"{left}, {right}"
+    left = f"above {_number(above)}" if above > low else _number(low)
+    right = f"below {_number(below)}" if below < high else _number(high)
+    return f"{left} to {right}".replace("-", "\N{MINUS SIGN}")
 
 
 def _find(annotation: Any, metadata: Iterable[Any]) -> Any:
@@ -81,7 +83,6 @@ def _takes(name: str, found: Any) -> tuple[str, str, str]:
     if name == "generator":
         return "", ", ".join(f'`"{name}"`' for name in inputs.GENERATORS), ""
     if isinstance(found, Quantity):
-        # The bounds of radii of either sign leave out what is no radius; the check is beside the table.
         return found.unit.replace("*", " ") or "–", _bounds(found), found.reason
     if isinstance(found, Count):
         return "–", _bounds(found), found.reason
@@ -112,7 +113,6 @@ def _keys(table: str, model: type[inputs.Table], meanings: dict[str, str]) -> It
         pair = get_origin(field.annotation) is tuple
         unit, takes, why = _takes(name, found)
         takes = "a pair of numbers, each " + takes if pair else takes
-        # What a law of the library's lubricant gives is no default of the key.
         yield [f"`{name}`", meanings[name], unit, takes, _default(field), why]
 
 
@@ -127,7 +127,7 @@ def _command(name: str, command: Any) -> Iterator[str]:
     rows = []
     for p in [*arguments, *options]:
         written = ", ".join(f"`{o}`" for o in [*p.opts, *p.secondary_opts]) if p in options else f"`{p.name.upper()}`"
-        default = "" if p.default in (None, False) or callable(p.default) or p.required else f"`{p.default}`"
+        default = "" if p.default is None or p.default is False or p.required else f"`{p.default}`"
         rows.append([written, getattr(p, "help", None) or "", "on" if p.default is True else default])
     yield _table(["argument or option", "what it does", "default"], rows)
 
@@ -150,6 +150,10 @@ def _write(app: Sphinx) -> None:
             [f'`"{name}"`', *(", ".join(f"`{key}`" for key in keys) or "–" for keys in rows)]
             for name, rows in inputs.GENERATORS.items()
         ],
+    )
+    pages["alternatives"] = "\n".join(
+        "- " + ", or ".join(" and ".join(f"`{key}`" for key in row) for row in rows)
+        for rows in inputs.CONTACT_ALTERNATIVES
     )
     group = typer.main.get_command(commands)
     pages["commands"] = "\n".join(
