@@ -43,8 +43,8 @@ nitpick_ignore_regex = [("py:class", r"pydantic\..*|pydantic_.*")]
 
 # MathJax with its glyphs drawn as paths is one file, and so reads without a network and from a folder.
 _MATHJAX = find_spec("sphinx-mathjax-offline")
-assert _MATHJAX is not None and _MATHJAX.origin is not None, "sphinx-mathjax-offline is not installed"
-html_static_path = ["_static", str(Path(_MATHJAX.origin).parent / "static" / "mathjax" / "tex-svg.js")]
+assert _MATHJAX is not None, "sphinx-mathjax-offline is not installed"
+html_static_path = ["_static", str(Path(_MATHJAX.origin or "").parent / "static" / "mathjax" / "tex-svg.js")]
 mathjax_path = "tex-svg.js"
 mathjax3_config = {"options": {"enableMenu": False}}
 
@@ -58,6 +58,8 @@ sphinx_gallery_conf = {
     "reset_modules": ("matplotlib", "gallery_style.apply"),
     "image_srcset": ["2x"],
     "remove_config_comments": True,
+    "capture_repr": (),  # what is printed is shown, and no value besides
+    "notebook_extensions": set(),
     "show_memory": False,
     "show_signature": False,
     "min_reported_time": 1e9,

@@ -1,11 +1,13 @@
 """Tables written from the code before every build: keys of a case, commands, variables of a result.
 
-What the code knows (units, bounds, defaults, options) is read from it. What a key is for stands in ``keys.toml``;
-a key without a line there, or a line without a key, ends the build.
+What the code knows (units, bounds, defaults, options) is read from it. What a key is for stands in
+``keys.toml``; a key without a line there, or a line without a key, ends the build. So does a page that names
+a test that is not there.
 """
 
 from __future__ import annotations
 
+import re
 import tomllib
 from collections.abc import Iterable, Iterator
 from pathlib import Path
@@ -76,19 +78,19 @@ def _find(annotation: Any, metadata: Iterable[Any]) -> Any:
     return None
 
 
-def _takes(name: str, found: Any) -> tuple[str, str, str]:
-    """Unit, what the key takes, and why."""
+def _takes(name: str, found: Any, *, pair: bool) -> str:
+    """What the key takes, with its unit, and why."""
     if name in _LAWS:
-        return "", ", ".join(f'`"{law}"`' for law in _LAWS[name]), ""
+        return ", ".join(f'`"{law}"`' for law in _LAWS[name])
     if name == "generator":
-        return "", ", ".join(f'`"{name}"`' for name in inputs.GENERATORS), ""
-    if isinstance(found, Quantity):
-        return found.unit.replace("*", " ") or "–", _bounds(found), found.reason
-    if isinstance(found, Count):
-        return "–", _bounds(found), found.reason
+        return ", ".join(f'`"{name}"`' for name in inputs.GENERATORS)
+    if isinstance(found, Quantity | Count):
+        unit = f" {found.unit.replace('*', ' ')}" if isinstance(found, Quantity) and found.unit else ""
+        kind = "whole, " if isinstance(found, Count) else "two, each " if pair else ""
+        return f"{kind}{_bounds(found)}{unit}: {found.reason}"
     if isinstance(found, tuple):
-        return "", ", ".join(f'`"{v}"`' if isinstance(v, str) else f"`{v}`" for v in found), ""
-    return "", "a table" if isinstance(found, type) else "text", ""
+        return ", ".join(f'`"{v}"`' if isinstance(v, str) else f"`{v}`" for v in found)
+    return "a table" if isinstance(found, type) else "text"
 
 
 def _default(field: Any) -> str:
@@ -110,10 +112,8 @@ def _keys(table: str, model: type[inputs.Table], meanings: dict[str, str]) -> It
         raise ExtensionError(f"docs/_ext/keys.toml and the keys of [{table}] differ in: {odd}")
     for name, field in model.model_fields.items():
         found = _find(field.annotation, field.metadata)
-        pair = get_origin(field.annotation) is tuple
-        unit, takes, why = _takes(name, found)
-        takes = "a pair of numbers, each " + takes if pair else takes
-        yield [f"`{name}`", meanings[name], unit, takes, _default(field), why]
+        takes = _takes(name, found, pair=get_origin(field.annotation) is tuple)
+        yield [f"`{name}`", meanings[name], takes, _default(field)]
 
 
 def _command(name: str, command: Any) -> Iterator[str]:
@@ -126,7 +126,11 @@ def _command(name: str, command: Any) -> Iterator[str]:
     yield command.help.strip() + "\n"
     rows = []
     for p in [*arguments, *options]:
-        written = ", ".join(f"`{o}`" for o in [*p.opts, *p.secondary_opts]) if p in options else f"`{p.name.upper()}`"
+        written = (
+            ", ".join(f"`{o}`" for o in [*p.opts, *p.secondary_opts])
+            if p in options
+            else f"`{p.name.upper()}`"
+        )
         default = "" if p.default is None or p.default is False or p.required else f"`{p.default}`"
         rows.append([written, getattr(p, "help", None) or "", "on" if p.default is True else default])
     yield _table(["argument or option", "what it does", "default"], rows)
@@ -136,14 +140,10 @@ def _write(app: Sphinx) -> None:
     folder = Path(app.srcdir) / "_generated"
     folder.mkdir(exist_ok=True)
     meanings = tomllib.loads((Path(__file__).parent / "keys.toml").read_text(encoding="utf-8"))
-    head = ["key", "what it is", "unit", "takes", "default", "why these bounds"]
+    head = ["key", "what it is", "takes", "default"]
     pages = {}
     for table, model in _TABLES.items():
-        rows = list(_keys(table, model, meanings[table]))
-        used = [k for k in range(len(head)) if k < 2 or any(row[k] not in ("", "–") for row in rows)]
-        pages[f"keys_{table.replace('.', '_')}"] = _table(
-            [head[k] for k in used], [[row[k] for k in used] for row in rows]
-        )
+        pages[f"keys_{table.replace('.', '_')}"] = _table(head, _keys(table, model, meanings[table]))
     pages["generators"] = _table(
         ["generator", "needs", "may have"],
         [
@@ -168,20 +168,41 @@ def _write(app: Sphinx) -> None:
 
 def _variables() -> str:
     """Variables of result.nc, from a small rough contact."""
-    contact = {"reduced_radius": 0.01, "reduced_modulus": 2e11, "max_hertz_pressure": 1e9, "entrainment_speed": 2.0}
+    contact = {
+        "reduced_radius": 0.01,
+        "reduced_modulus": 2e11,
+        "max_hertz_pressure": 1e9,
+        "entrainment_speed": 2.0,
+    }
     rough = {"surface": 1, "generator": "sinusoid", "amplitude": 1e-9, "wavelength": 1e-4}
     case = {"contact": contact, "lubricant": {"base": "paper"}, "roughness": [rough], "grid": {"nodes": 401}}
     dataset = solve(Case.from_dict(case)).to_xarray()
     return _table(
         ["variable", "over", "meaning", "unit"],
         [
-            [f"`{name}`", ", ".join(f"`{d}`" for d in v.dims), v.attrs["long_name"], v.attrs["units"].replace("1", "–")]
+            [
+                f"`{name}`",
+                ", ".join(f"`{d}`" for d in v.dims),
+                v.attrs["long_name"],
+                v.attrs["units"].replace("1", "–"),
+            ]
             for name, v in dataset.variables.items()
         ],
     )
 
 
+def _check_tests(app: Sphinx) -> None:
+    """Tests that a page names must be there."""
+    root = Path(app.srcdir)
+    sources = "".join(path.read_text(encoding="utf-8") for path in (root.parent / "tests").rglob("*.py"))
+    for page in root.glob("*.md"):
+        for name in re.findall(r"`(test_\w+)`", page.read_text(encoding="utf-8")):
+            if f"def {name}(" not in sources:
+                raise ExtensionError(f"{page.name} names {name}, which is no test")
+
+
 def setup(app: Sphinx) -> dict[str, Any]:
     """Before anything is read."""
     app.connect("builder-inited", _write, priority=100)
+    app.connect("builder-inited", _check_tests)
     return {"parallel_read_safe": True}

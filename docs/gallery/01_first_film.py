@@ -2,8 +2,8 @@
 A first film and its field
 ==========================
 
-A roller of 14.1 mm reduced radius on steel, 1.57 MN/m, surfaces rolling at 4 m/s each, one volt on either side of
-earth. This is the first contact of Morris, Leighton and Morris, `Lubricants 2022, 10(5), 87
+A roller of 14.1 mm reduced radius on steel, 1.57 MN/m, surfaces rolling at 4 m/s each, one volt on either
+side of earth. This is the first contact of Morris, Leighton and Morris, `Lubricants 2022, 10(5), 87
 <https://doi.org/10.3390/lubricants10050087>`_.
 """
 
@@ -27,18 +27,19 @@ case = ehlectric.Case.from_dict(
 result = ehlectric.solve(case)
 
 # %%
-# The film first. The pressure follows Hertz but for the spike before the exit, where the film is thinnest.
+# The film first. The pressure follows Hertz but for the spike before the exit, where the film is
+# thinnest.
 plot.pressure_and_film(result, plt.subplots()[1])
 
 # %%
-# Then the potential, linear across the film, and the strength of the field. Heights are drawn hundreds
-# of times larger than lengths.
+# Then the potential, linear across the film, and the strength of the field. Heights are drawn hundreds of
+# times larger than lengths.
 plot.potential(result, plt.subplots()[1])
 plot.field_strength(result, plt.subplots()[1])
 
 # %%
-# The field is largest at the exit constriction, in a strip some twenty micrometres wide. It is there that a film breaks
-# down, and it is the width of that strip that a discharge finds.
+# The field is largest at the exit constriction, in a strip some twenty micrometres wide. Its width is of
+# interest for the current density of a discharge.
 plot.field_profiles(result, plt.subplots()[1])
 
 # %%

@@ -2,8 +2,8 @@
 Speed and load against the film formulas
 ========================================
 
-A film-thickness formula is a fit to films computed or measured in its time. Four of them are set beside the solved film here,
-over two decades of speed at two loads.
+A film-thickness formula is a fit to films computed or measured in its time. Four of them are set beside
+the solved film here, over two decades of speed at two loads.
 """
 
 import matplotlib.pyplot as plt
@@ -77,7 +77,7 @@ compare("minimum_thickness", r"minimum film $h_\mathrm{min}$")
 compare("central_thickness", "central film $h(0)$")
 
 # %%
-# The formulas differ from the solved film by tens of per cent, and from each other by more: the error of a formula is the
-# error of V12/h_min made with it. The solver's own error estimates:
+# The formulas differ from the solved film by tens of per cent, and from each other by more: the error of
+# a formula is the error of V12/h_min made with it. The solver's own error estimates:
 worst = max(r.film.discretisation_error for rs in solved.values() for r in rs)
 print(f"largest discretisation error of these {2 * speeds.size} films: {100 * worst:.2f} %")

@@ -2,8 +2,8 @@
 A measured surface in the contact
 =================================
 
-A stylus profile on the lower body, held still while the other surface slides past. Form and long waves are taken out first;
-``ehlectric surface`` shows the same steps without solving.
+A stylus profile on the lower body, held still while the other surface slides past. Form and long waves
+are taken out first; ``ehlectric surface`` shows the same steps without solving.
 """
 
 import matplotlib.pyplot as plt
@@ -43,8 +43,8 @@ for step in result.rough[0]["steps"]:
     )
 
 # %%
-# The roughness as the film sees it, and pressure and film. A ridge a few micrometres wide carries up to three times the Hertz
-# pressure, which presses it nearly flat: the film hardly shows it.
+# The roughness as the film sees it, and pressure and film. A ridge a few micrometres wide carries up to
+# three times the Hertz pressure, which presses it nearly flat: the film hardly shows it.
 plot.roughness(result, plt.subplots(figsize=(6.3, 2.4))[1])
 plot.pressure_and_film(result, plt.subplots()[1])
 
@@ -53,12 +53,14 @@ plot.pressure_and_film(result, plt.subplots()[1])
 plot.field_profiles(result, plt.subplots()[1])
 
 # %%
-# V12/h_min with the minimum of the *rough* film is within some per cent of the largest field. The smooth film gives
-# less: roughness takes some of the film.
+# V12/h_min with the minimum of the *rough* film is within some per cent of the largest field. The smooth
+# film gives less: roughness takes some of the film.
 summary = result.summary()
 smooth = result.smooth.minimum_thickness
 voltage = result.field.voltage
-print(f"largest field, solved   {1e-6 * result.field.max_strength:.2f} V/µm, {result.field.max_strength_wall}")
+print(
+    f"largest field, solved   {1e-6 * result.field.max_strength:.2f} V/µm, {result.field.max_strength_wall}"
+)
 print(f"V12/h_min, rough film   {1e-6 * voltage / result.film.minimum_thickness:.2f} V/µm")
 print(f"V12/h_min, smooth film  {1e-6 * voltage / smooth:.2f} V/µm")
 print(f"lambda ratio            {summary['roughness']['lambda_ratio']:.1f}")

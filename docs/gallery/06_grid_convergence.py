@@ -2,8 +2,8 @@
 Is the grid fine enough?
 ========================
 
-Every film carries an estimate of its own discretisation error, from the two finest grids of the nested iteration. Here it is set
-beside the true error, against a grid far finer than any of these.
+Every film carries an estimate of its own discretisation error, from the two finest grids of the nested
+iteration. Here it is set beside the true error, against a grid far finer than any of these.
 """
 
 import matplotlib.pyplot as plt
@@ -23,7 +23,10 @@ case = ehlectric.Case.from_dict(
     }
 )
 nodes = np.array([401, 801, 1601, 3201, 6401, 12_801, 25_601])
-QUANTITIES = {"central_thickness": ("$h(0)$", "#0072b2"), "minimum_thickness": (r"$h_\mathrm{min}$", "#d55e00")}
+QUANTITIES = {
+    "central_thickness": ("$h(0)$", "#0072b2"),
+    "minimum_thickness": (r"$h_\mathrm{min}$", "#d55e00"),
+}
 
 
 def film(count, wedge):
@@ -35,7 +38,8 @@ def film(count, wedge):
 reference = film(204_801, "second-order")
 
 # %%
-# True errors of the central and of the minimum film, and the one estimate that the film carries, which is the larger of two.
+# True errors of the central and of the minimum film, and the one estimate that the film carries, which is
+# the larger of two.
 figure, axes = plt.subplots(1, 2, figsize=(6.8, 3.6), sharey=True)
 for ax, wedge in zip(axes, ("first-order", "second-order"), strict=True):
     films = [film(n, wedge) for n in nodes]
@@ -55,6 +59,7 @@ for ax, wedge in zip(axes, ("first-order", "second-order"), strict=True):
 axes[0].set_ylabel("relative error [%]")
 
 # %%
-# The central film converges with the order of the scheme. The minimum lies beside the pressure spike, a jump over two or
-# three nodes on every grid, and converges more slowly with the second-order wedge: there the estimate, which takes the order of
-# the scheme for granted, is about half of the true error. It is an estimate, and no bound.
+# The central film converges with the order of the scheme. The minimum lies beside the pressure spike, a
+# jump over two or three nodes on every grid, and converges more slowly with the second-order wedge: there
+# the estimate, which takes the order of the scheme for granted, is about half of the true error. It is an
+# estimate, and no bound.
