@@ -73,7 +73,7 @@ html_title = f"ehlectric {release}"
 html_css_files = ["ehlectric.css"]
 html_show_sourcelink = False
 html_copy_source = False
-html_sidebars = {"changelog": [], "contributing": []}
+html_sidebars = {"verification": []}  # it has no pages below it
 html_theme_options = {
     "header_links_before_dropdown": 9,
     "navigation_with_keys": False,

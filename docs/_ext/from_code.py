@@ -143,7 +143,9 @@ def _write(app: Sphinx) -> None:
     head = ["key", "what it is", "takes", "default"]
     pages = {}
     for table, model in _TABLES.items():
-        pages[f"keys_{table.replace('.', '_')}"] = _table(head, _keys(table, model, meanings[table]))
+        pages[f"keys_{table.replace('.', '_')}"] = "```{rst-class} keys\n```\n\n" + _table(
+            head, _keys(table, model, meanings[table])
+        )
     pages["generators"] = _table(
         ["generator", "needs", "may have"],
         [

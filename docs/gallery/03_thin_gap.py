@@ -35,7 +35,7 @@ ax = plot.field_deviation(result, plt.subplots()[1])
 b = result.conditions.half_width
 ax.axvline(result.film.minimum_position / b, color="black", ls=":", lw=0.8)
 ax.set_xlim(0.78, 1.02)
-ax.get_legend().set_loc("center right")
+ax.get_legend().set_loc("lower right")
 
 # %%
 # So V12/h_min falls short of the largest field by parts in a million, and by the more the thicker the
