@@ -32,9 +32,11 @@ result = ehlectric.solve(case)
 plot.pressure_and_film(result, plt.subplots()[1])
 
 # %%
-# Then the potential, linear across the film, and the strength of the field. Heights are drawn hundreds of
-# times larger than lengths.
+# Then the potential, linear across the film. Heights are drawn hundreds of times larger than lengths.
 plot.potential(result, plt.subplots()[1])
+
+# %%
+# The strength of the field, over that of the minimum film between plates:
 plot.field_strength(result, plt.subplots()[1])
 
 # %%

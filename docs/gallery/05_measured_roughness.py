@@ -43,9 +43,12 @@ for step in result.rough[0]["steps"]:
     )
 
 # %%
-# The roughness as the film sees it, and pressure and film. A ridge a few micrometres wide carries up to
-# three times the Hertz pressure, which presses it nearly flat: the film hardly shows it.
+# The roughness as the film sees it:
 plot.roughness(result, plt.subplots(figsize=(6.3, 2.4))[1])
+
+# %%
+# Pressure and film. A ridge a few micrometres wide carries up to three times the Hertz pressure, which
+# presses it nearly flat: the film hardly shows it.
 plot.pressure_and_film(result, plt.subplots()[1])
 
 # %%
