@@ -8,7 +8,7 @@ export PIP_CONSTRAINT := $(CURDIR)/requirements.lock
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
 .DEFAULT_GOAL := help
-.PHONY: help run test slow check format figures bench lock clean
+.PHONY: help run test slow check format docs figures bench lock clean
 
 help:
 	@echo "make run     install and solve the example, with figures"
@@ -16,6 +16,7 @@ help:
 	@echo "make slow    run the long tests"
 	@echo "make check   format, lint, types, import contract and tests"
 	@echo "make format  format the code"
+	@echo "make docs    build the documentation, run its gallery; warnings are errors"
 	@echo "make figures draw the figures of the README again"
 	@echo "make bench   run the benchmarks and print their table"
 
@@ -34,6 +35,10 @@ $(VENV)/.test: $(BIN)/python pyproject.toml requirements.lock
 
 $(VENV)/.dev: $(BIN)/python pyproject.toml requirements.lock
 	$(BIN)/python -m pip install --quiet --editable ".[dev]"
+	@touch $@
+
+$(VENV)/.docs: $(BIN)/python pyproject.toml requirements.lock
+	$(BIN)/python -m pip install --quiet --editable ".[docs]"
 	@touch $@
 
 run: $(VENV)/.run
@@ -57,6 +62,10 @@ format: $(VENV)/.dev
 	$(BIN)/ruff format .
 	$(BIN)/ruff check --fix .
 
+docs: $(VENV)/.docs
+	$(BIN)/python -m sphinx -W --keep-going -n -q -b html docs docs/_build/html
+	@echo "The documentation is in $(CURDIR)/docs/_build/html/index.html"
+
 figures: $(VENV)/.run
 	$(BIN)/ehlectric run examples/line_contact.toml -o $(RESULTS) --quiet
 	cp $(RESULTS)/film.png $(RESULTS)/field_strength.png docs/figures
@@ -65,7 +74,7 @@ bench: $(VENV)/.dev
 	$(BIN)/python benchmarks/table.py
 
 lock:
-	uv pip compile pyproject.toml --extra dev --extra instruments --universal --python-version 3.11 --no-header --quiet --output-file requirements.lock
+	uv pip compile pyproject.toml --extra dev --extra docs --extra instruments --universal --python-version 3.11 --no-header --quiet --output-file requirements.lock
 
 clean:
-	rm -rf $(VENV) results .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .coverage
+	rm -rf $(VENV) results docs/_build docs/_generated docs/auto_gallery docs/api/generated .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .coverage

@@ -1,0 +1,210 @@
+"""Tables written from the code before every build: keys of a case, commands, variables of a result.
+
+What the code knows (units, bounds, defaults, options) is read from it. What a key is for stands in
+``keys.toml``; a key without a line there, or a line without a key, ends the build. So does a page that names
+a test that is not there.
+"""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import Any, Literal, get_args, get_origin
+
+import typer
+from sphinx.application import Sphinx
+from sphinx.errors import ExtensionError
+
+from ehlectric import Case, inputs, lubricant, solve
+from ehlectric.cli import app as commands
+from ehlectric.quantity import Count, Quantity
+
+_TABLES = {
+    "contact": inputs.Contact,
+    "contact.body": inputs.Body,
+    "lubricant": inputs.Lubricant,
+    "roughness": inputs.Roughness,
+    "electric": inputs.Electric,
+    "grid": inputs.Grid,
+    "solver": inputs.Solver,
+}
+_LAWS = {
+    "viscosity_law": lubricant.VISCOSITY_LAWS,
+    "density_law": lubricant.DENSITY_LAWS,
+    "permittivity_law": lubricant.PERMITTIVITY_LAWS,
+}
+
+
+def _row(cells: Iterable[str]) -> str:
+    return "| " + " | ".join(cell.replace("|", r"\|") for cell in cells) + " |"
+
+
+def _table(head: list[str], rows: Iterable[list[str]]) -> str:
+    return "\n".join([_row(head), _row(["---"] * len(head)), *map(_row, rows)]) + "\n"
+
+
+def _number(value: float) -> str:
+    if isinstance(value, int):
+        return str(value)
+    mantissa, _, exponent = f"{value:g}".partition("e")
+    if mantissa.strip("-") == "100000" and not exponent:
+        mantissa, exponent = mantissa[:-5], "5"
+    return f"{mantissa}e{int(exponent)}" if exponent else mantissa
+
+
+def _bounds(given: Quantity | Count) -> str:
+    low, high = given.least, given.most
+    above, below = getattr(given, "above", low), getattr(given, "below", high)
+    left = f"above {_number(above)}" if above > low else _number(low)
+    right = f"below {_number(below)}" if below < high else _number(high)
+    return f"{left} to {right}".replace("-", "\N{MINUS SIGN}")
+
+
+def _find(annotation: Any, metadata: Iterable[Any]) -> Any:
+    """The Quantity, Count, literal texts or table behind an annotation."""
+    for item in metadata:
+        if isinstance(item, Quantity | Count):
+            return item
+    if get_origin(annotation) is Literal:
+        return get_args(annotation)
+    if isinstance(annotation, type) and issubclass(annotation, inputs.Table):
+        return annotation
+    for part in get_args(annotation):
+        found = _find(part, getattr(part, "__metadata__", ()))
+        if found is not None:
+            return found
+    return None
+
+
+def _takes(name: str, found: Any, *, pair: bool) -> str:
+    """What the key takes, with its unit, and why."""
+    if name in _LAWS:
+        return ", ".join(f'`"{law}"`' for law in _LAWS[name])
+    if name == "generator":
+        return ", ".join(f'`"{name}"`' for name in inputs.GENERATORS)
+    if isinstance(found, Quantity | Count):
+        unit = f" {found.unit.replace('*', ' ')}" if isinstance(found, Quantity) and found.unit else ""
+        kind = "whole, " if isinstance(found, Count) else "two, each " if pair else ""
+        return f"{kind}{_bounds(found)}{unit}: {found.reason}"
+    if isinstance(found, tuple):
+        return ", ".join(f'`"{v}"`' if isinstance(v, str) else f"`{v}`" for v in found)
+    return "a table" if isinstance(found, type) else "text"
+
+
+def _default(field: Any) -> str:
+    if field.is_required():
+        return "required"
+    value = field.default
+    if value is None:
+        return "–"
+    if isinstance(value, tuple):
+        return f"`[{', '.join(map(_number, value))}]`"
+    if isinstance(value, bool):
+        return f"`{str(value).lower()}`"
+    return f'`"{value}"`' if isinstance(value, str) else f"`{_number(value)}`"
+
+
+def _keys(table: str, model: type[inputs.Table], meanings: dict[str, str]) -> Iterator[list[str]]:
+    if set(meanings) != set(model.model_fields):
+        odd = ", ".join(sorted(set(meanings) ^ set(model.model_fields)))
+        raise ExtensionError(f"docs/_ext/keys.toml and the keys of [{table}] differ in: {odd}")
+    for name, field in model.model_fields.items():
+        found = _find(field.annotation, field.metadata)
+        takes = _takes(name, found, pair=get_origin(field.annotation) is tuple)
+        yield [f"`{name}`", meanings[name], takes, _default(field)]
+
+
+def _command(name: str, command: Any) -> Iterator[str]:
+    """Usage, help, arguments and options of one command."""
+    arguments = [p for p in command.params if p.param_type_name == "argument"]
+    options = [p for p in command.params if p.param_type_name == "option"]
+    words = [p.name.upper() if p.required else f"[{p.name.upper()}]" for p in arguments]
+    yield f"## ehlectric {name}\n"
+    yield f"```text\nehlectric {name} {'[OPTIONS] ' if options else ''}{' '.join(words)}\n```\n"
+    yield command.help.strip() + "\n"
+    rows = []
+    for p in [*arguments, *options]:
+        written = (
+            ", ".join(f"`{o}`" for o in [*p.opts, *p.secondary_opts])
+            if p in options
+            else f"`{p.name.upper()}`"
+        )
+        default = "" if p.default is None or p.default is False or p.required else f"`{p.default}`"
+        rows.append([written, getattr(p, "help", None) or "", "on" if p.default is True else default])
+    yield _table(["argument or option", "what it does", "default"], rows)
+
+
+def _write(app: Sphinx) -> None:
+    folder = Path(app.srcdir) / "_generated"
+    folder.mkdir(exist_ok=True)
+    meanings = tomllib.loads((Path(__file__).parent / "keys.toml").read_text(encoding="utf-8"))
+    head = ["key", "what it is", "takes", "default"]
+    pages = {}
+    for table, model in _TABLES.items():
+        pages[f"keys_{table.replace('.', '_')}"] = "```{rst-class} keys\n```\n\n" + _table(
+            head, _keys(table, model, meanings[table])
+        )
+    pages["generators"] = _table(
+        ["generator", "needs", "may have"],
+        [
+            [f'`"{name}"`', *(", ".join(f"`{key}`" for key in keys) or "–" for keys in rows)]
+            for name, rows in inputs.GENERATORS.items()
+        ],
+    )
+    pages["alternatives"] = "\n".join(
+        "- " + ", or ".join(" and ".join(f"`{key}`" for key in row) for row in rows)
+        for rows in inputs.CONTACT_ALTERNATIVES
+    )
+    group = typer.main.get_command(commands)
+    pages["commands"] = "\n".join(
+        text for name, command in group.commands.items() for text in _command(name, command)
+    )
+    pages["variables"] = _variables()
+    for name, text in pages.items():
+        path = folder / f"{name}.md"
+        if not path.exists() or path.read_text(encoding="utf-8") != text:
+            path.write_text(text, encoding="utf-8")
+
+
+def _variables() -> str:
+    """Variables of result.nc, from a small rough contact."""
+    contact = {
+        "reduced_radius": 0.01,
+        "reduced_modulus": 2e11,
+        "max_hertz_pressure": 1e9,
+        "entrainment_speed": 2.0,
+    }
+    rough = {"surface": 1, "generator": "sinusoid", "amplitude": 1e-9, "wavelength": 1e-4}
+    case = {"contact": contact, "lubricant": {"base": "paper"}, "roughness": [rough], "grid": {"nodes": 401}}
+    dataset = solve(Case.from_dict(case)).to_xarray()
+    return _table(
+        ["variable", "over", "meaning", "unit"],
+        [
+            [
+                f"`{name}`",
+                ", ".join(f"`{d}`" for d in v.dims),
+                v.attrs["long_name"],
+                v.attrs["units"].replace("1", "–"),
+            ]
+            for name, v in dataset.variables.items()
+        ],
+    )
+
+
+def _check_tests(app: Sphinx) -> None:
+    """Tests that a page names must be there."""
+    root = Path(app.srcdir)
+    sources = "".join(path.read_text(encoding="utf-8") for path in (root.parent / "tests").rglob("*.py"))
+    for page in root.glob("*.md"):
+        for name in re.findall(r"`(test_\w+)`", page.read_text(encoding="utf-8")):
+            if f"def {name}(" not in sources:
+                raise ExtensionError(f"{page.name} names {name}, which is no test")
+
+
+def setup(app: Sphinx) -> dict[str, Any]:
+    """Before anything is read."""
+    app.connect("builder-inited", _write, priority=100)
+    app.connect("builder-inited", _check_tests)
+    return {"parallel_read_safe": True}

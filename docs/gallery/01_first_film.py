@@ -1,0 +1,55 @@
+"""
+A first film and its field
+==========================
+
+A roller of 14.1 mm reduced radius on steel, 1.57 MN/m, surfaces rolling at 4 m/s each, one volt on either
+side of earth. This is the first contact of Morris, Leighton and Morris, `Lubricants 2022, 10(5), 87
+<https://doi.org/10.3390/lubricants10050087>`_.
+"""
+
+import matplotlib.pyplot as plt
+
+import ehlectric
+from ehlectric import plot
+
+case = ehlectric.Case.from_dict(
+    {
+        "contact": {
+            "reduced_radius": "14.1 mm",
+            "reduced_modulus": "226 GPa",
+            "load_per_length": "1.57 MN/m",
+            "entrainment_speed": "4 m/s",
+        },
+        "lubricant": {"base": "paper"},
+        "electric": {"potential_1": "-1 V", "potential_2": "1 V"},
+    }
+)
+result = ehlectric.solve(case)
+
+# %%
+# The film first. The pressure follows Hertz but for the spike before the exit, where the film is
+# thinnest.
+plot.pressure_and_film(result, plt.subplots()[1])
+
+# %%
+# Then the potential, linear across the film. Heights are drawn hundreds of times larger than lengths.
+plot.potential(result, plt.subplots()[1])
+
+# %%
+# The strength of the field, over that of the minimum film between plates:
+plot.field_strength(result, plt.subplots()[1])
+
+# %%
+# The field is largest at the exit constriction, in a strip some twenty micrometres wide. Its width is of
+# interest for the current density of a discharge.
+plot.field_profiles(result, plt.subplots()[1])
+
+# %%
+# The key figures, in SI units. ``result.summary()`` holds them all.
+field = result.field
+print(f"minimum film      {1e6 * result.film.minimum_thickness:.3f} µm")
+print(f"estimated error   {100 * result.film.discretisation_error:.2f} %")
+print(f"largest field     {1e-6 * field.max_strength:.2f} V/µm")
+print(f"V12/h_min         {1e-6 * field.voltage / result.film.minimum_thickness:.2f} V/µm")
+print(f"width above 95 %  {1e6 * field.high_field_width:.1f} µm")
+print(f"capacitance       {1e9 * field.capacitance:.2f} nF/m over 2.5 half-widths")
