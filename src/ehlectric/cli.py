@@ -1,4 +1,4 @@
-"""The command line: run, check, surface, init and plot."""
+"""The command line: run, check, surface, init, plot and reproduce."""
 
 from __future__ import annotations
 
@@ -250,6 +250,42 @@ def plot(
     if not quiet:
         typer.echo("written: " + ", ".join(str(path) for path in files))
         _warn(result.warnings)
+
+
+@app.command()
+def reproduce(
+    output: Annotated[
+        Path, typer.Option("--output", "-o", metavar="DIR", help="Folder for the results.")
+    ] = Path("reproduced"),
+    figure: Annotated[int | None, typer.Option(help="Only this figure, 2 to 11.")] = None,
+    table: Annotated[int | None, typer.Option(help="Only this table, 3.")] = None,
+    quiet: Quiet = False,
+) -> None:
+    """Solve the contacts of Morris, Leighton and Morris (2022); write tables, figures and a report."""
+    with _user_errors():
+        from ehlectric.paper.reproduce import reproduce as reproduced
+
+        with _bar(shown=not quiet) as progress:
+            files, converged = reproduced(output, figure=figure, table=table, progress=progress)
+    if not quiet:
+        typer.echo("written: " + ", ".join(str(path) for path in files))
+    if not converged:
+        typer.echo("error: not converged: some films of the study", err=True)
+        raise typer.Exit(NOT_CONVERGED)
+
+
+@contextmanager
+def _bar(*, shown: bool) -> Iterator[Callable[[int, int, str], None]]:
+    """A progress bar on stderr, where somebody can see it."""
+    if not (shown and sys.stderr.isatty()):
+        yield lambda _done, _of, _text: None
+        return
+    from rich.console import Console
+    from rich.progress import Progress
+
+    with Progress(console=Console(stderr=True)) as bar:
+        task = bar.add_task("starting", total=None)
+        yield lambda done, of, text: bar.update(task, completed=done, total=of, description=text)
 
 
 @contextmanager

@@ -102,6 +102,28 @@ class Field:
         start, stop = self.high_field_zone
         return stop - start
 
+    def strength_at(self, height: float) -> Array:
+        """Field strength along a straight line of constant height.
+
+        Parameters
+        ----------
+        height : float
+            The line's y [m].
+
+        Returns
+        -------
+        ndarray, shape (nx,)
+            abs(E) [V/m], not a number where the line is outside the gap.
+        """
+        lower, upper = self.y[:, 0], self.y[:, -1]
+        at = ((height - lower) / (upper - lower))[:, np.newaxis]
+        basis = np.ones_like(self.y)
+        for k, node in enumerate(self.s):
+            others = np.delete(self.s, k)
+            basis[:, k] = np.prod((at - others) / (node - others), axis=1)
+        strength = np.hypot(np.sum(basis * self.field_x, axis=1), np.sum(basis * self.field_y, axis=1))
+        return np.where((lower <= height) & (height <= upper), strength, np.nan)
+
 
 def solve_field(problem: FieldProblem) -> Field:
     """Solve the Poisson problem between two conducting walls.

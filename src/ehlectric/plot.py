@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import textwrap
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -38,6 +39,15 @@ _STYLE: dict[str, Any] = {
     "savefig.dpi": 300,
     "figure.constrained_layout.use": True,
 }
+
+
+@contextmanager
+def style() -> Iterator[None]:
+    """Context in which figures have the package's sizes of text and lines."""
+    with mpl.rc_context(_STYLE), warnings.catch_warnings():  # type: ignore[arg-type]
+        # A title may use letters that the font does not have.
+        warnings.filterwarnings("ignore", message="Glyph .* missing")
+        yield
 
 
 def _axes(ax: Axes | None) -> Axes:
@@ -327,7 +337,7 @@ def profile(drawn: Profile, ax: Axes | None = None) -> Axes:
 
 def save_profile(steps: Sequence[tuple[str, Profile]], path: Path) -> None:
     """Draw a profile as read and after its last step as a PNG file."""
-    with mpl.rc_context(_STYLE):  # type: ignore[arg-type]
+    with style():
         figure = Figure(figsize=(6.3, 4.2))
         FigureCanvasAgg(figure)
         shown = [steps[0], steps[-1]] if len(steps) > 1 else [steps[0]]
@@ -400,9 +410,7 @@ def save_figures(result: Result, folder: Path) -> list[Path]:
     """
     title = textwrap.shorten(result.case.title, 45, placeholder=" ...")
     files = []
-    with mpl.rc_context(_STYLE), warnings.catch_warnings():  # type: ignore[arg-type]
-        # A title may use letters that the font does not have.
-        warnings.filterwarnings("ignore", message="Glyph .* missing")
+    with style():
         for name, draw in _figures_of(result).items():
             ax = draw(result)
             if result.converged:

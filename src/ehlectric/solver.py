@@ -101,12 +101,12 @@ def solve(
     check_memory(case)
     rough = rough_surfaces(case, conditions)
     started = time.perf_counter()
-    film = solvers.film(_film_problem(case, conditions, rough), progress=progress)
+    film = solvers.film(film_problem(case, conditions, rough), progress=progress)
     film_done = time.perf_counter()
     if require_convergence and not film.converged:
         raise ConvergenceError(f"film {film.status} at the residual {film.residual:.1e}")
     roughness = _heights(rough, film.x)
-    field = solvers.field(_field_problem(case, conditions, film, roughness))
+    field = solvers.field(field_problem(case, conditions, film, roughness))
     field_done = time.perf_counter()
     return Result(
         case=case,
@@ -140,8 +140,8 @@ def _dimensionless(law: Callable[[Array], tuple[Array, Array]], scale: float) ->
     return of_dimensionless
 
 
-def _film_problem(case: Case, conditions: Conditions, rough: Sequence[RoughSurface] = ()) -> FilmProblem:
-    """The film; of rough surfaces only the sum of their heights enters it."""
+def film_problem(case: Case, conditions: Conditions, rough: Sequence[RoughSurface] = ()) -> FilmProblem:
+    """The film equations of a case; of rough surfaces only the sum of their heights enters them."""
     lubricant, grid = case.lubricant, case.grid
     p_h = conditions.max_pressure
     guess = moes(conditions.formulas).central_thickness
@@ -193,8 +193,23 @@ def _heights(rough: Sequence[RoughSurface], x: Array) -> Array:
     return heights
 
 
-def _field_problem(case: Case, conditions: Conditions, film: Film, roughness: Array) -> FieldProblem:
-    """The Poisson problem in the solved film; a cavitated gap counts as filled with oil."""
+def field_problem(case: Case, conditions: Conditions, film: Film, roughness: Array) -> FieldProblem:
+    """The Poisson problem in a solved film; a cavitated gap counts as filled with oil.
+
+    Parameters
+    ----------
+    case, conditions : Case, Conditions
+        What was solved.
+    film : Film
+        Its film.
+    roughness : ndarray, shape (2, nx)
+        Heights of both surfaces at the film's nodes [m].
+
+    Returns
+    -------
+    FieldProblem
+        On the columns that ``grid`` asks for.
+    """
     x = _field_nodes(case, conditions, film, refine=bool(np.any(roughness)))
     lower, upper = surfaces(conditions, film, roughness)
     # Middle and gap, not the two walls: between two nodes walls of their own might cross.

@@ -42,7 +42,8 @@ def test_summary_has_the_agreed_keys(ehlectric, case_file, tmp_path):
     }  # fmt: skip
     assert set(summary["field"]) == {
         "voltage", "max_strength", "max_strength_position", "max_dimensionless", "central_dimensionless",
-        "high_field_width", "capacitance_per_length", "thin_gap_error", "columns", "max_strength_wall", "solver",
+        "high_field_width", "capacitance_per_length", "thin_gap_error", "columns", "max_strength_wall",
+        "solver",
     }  # fmt: skip
     assert set(summary["film_formulas"]) == {"dowson_higginson", "dowson_toyoda", "pan_hamrock", "moes"}
     for formula in summary["film_formulas"].values():

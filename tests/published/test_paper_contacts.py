@@ -9,11 +9,12 @@ import pytest
 from ehlectric import solve
 from ehlectric.conditions import resolve
 from ehlectric.nested import nested_iteration
-from ehlectric.solver import _film_problem
+from ehlectric.paper.contacts import table_3
+from ehlectric.solver import film_problem
 
 DATA = Path(__file__).parent / "data"
 FILMS = pd.read_csv(DATA / "line_contact_films.csv", comment="#").to_dict("records")
-TABLE_3 = pd.read_csv(DATA / "paper_table_3.csv", comment="#").to_dict("records")
+TABLE_3 = table_3()
 HALF_PRINT = 0.005e-6  # the paper prints 0.01 um
 MICRO, NANO = 1e-6, 1e-9
 
@@ -102,7 +103,7 @@ def test_iterate_itself_keeps_to_the_ambient_pressure(paper_case, row, wedge):
             "grid.nodes": 1601,
         }
     )
-    problem = _film_problem(case, resolve(case))
+    problem = film_problem(case, resolve(case))
     finest = nested_iteration(problem, None)[-1]
     assert np.min(finest.state.pressure) >= problem.fluid.ambient_pressure - 1e-9
 

@@ -10,7 +10,7 @@ from ehlectric.field import solve_field
 from ehlectric.film import solve_film
 from ehlectric.paper import fas, sor
 from ehlectric.paper.solvers import PAPER
-from ehlectric.solver import _field_problem, _film_problem
+from ehlectric.solver import field_problem, film_problem
 from tests.published.test_paper_contacts import FILMS, row_name
 
 
@@ -22,13 +22,13 @@ def paper_contact(paper_case, row, **changes):
     return case.replace({f"grid.{key}": value for key, value in changes.items()})
 
 
-def film_problem(case):
-    return _film_problem(case, resolve(case))
+def film_of(case):
+    return film_problem(case, resolve(case))
 
 
 @pytest.mark.parametrize("row", FILMS, ids=row_name)
 def test_multigrid_and_newton_find_one_film(paper_case, row):
-    problem = film_problem(paper_contact(paper_case, row, wedge="first-order"))
+    problem = film_of(paper_contact(paper_case, row, wedge="first-order"))
     theirs, ours = fas.solve_film(problem), solve_film(problem)
     assert theirs.converged
     np.testing.assert_allclose(theirs.thickness, ours.thickness, rtol=1e-6)
@@ -44,7 +44,7 @@ def test_multigrid_and_newton_find_one_film(paper_case, row):
 
 @pytest.mark.parametrize("row", FILMS[::4] + FILMS[3::4], ids=row_name)
 def test_multigrid_solves_the_second_order_film_too(paper_case, row):
-    problem = film_problem(paper_contact(paper_case, row, wedge="second-order"))
+    problem = film_of(paper_contact(paper_case, row, wedge="second-order"))
     theirs, ours = fas.solve_film(problem), solve_film(problem)
     assert theirs.converged
     np.testing.assert_allclose(theirs.thickness, ours.thickness, rtol=1e-6)
@@ -53,7 +53,7 @@ def test_multigrid_solves_the_second_order_film_too(paper_case, row):
 @pytest.mark.parametrize("row", [FILMS[0], FILMS[3]], ids=row_name)
 def test_cycles_do_not_grow_with_the_grid(paper_case, row):
     films = [
-        fas.solve_film(film_problem(paper_contact(paper_case, row, wedge="first-order", nodes=n)))
+        fas.solve_film(film_of(paper_contact(paper_case, row, wedge="first-order", nodes=n)))
         for n in (801, 3201, 12_801)
     ]
     assert all(film.converged for film in films)
@@ -63,12 +63,12 @@ def test_cycles_do_not_grow_with_the_grid(paper_case, row):
 def test_wrong_sign_of_eq_19_does_not_balance_the_load(paper_case, monkeypatch):
     """As printed, with c > 0, the load runs away."""
     monkeypatch.setattr(fas, "LOAD_DAMPING", 0.2)
-    film = fas.solve_film(film_problem(paper_contact(paper_case, FILMS[4], wedge="first-order", nodes=801)))
+    film = fas.solve_film(film_of(paper_contact(paper_case, FILMS[4], wedge="first-order", nodes=801)))
     assert not film.converged
 
 
 def test_film_that_is_not_found_says_so(paper_case):
-    problem = film_problem(paper_case.replace({"contact.entrainment_speed": 1e-3, "grid.nodes": 801}))
+    problem = film_of(paper_case.replace({"contact.entrainment_speed": 1e-3, "grid.nodes": 801}))
     film = fas.solve_film(problem)
     assert film.status in ("stalled", "diverged", "film collapsed")
     assert film.x.size == 801
@@ -77,7 +77,7 @@ def test_film_that_is_not_found_says_so(paper_case):
 
 def film_and_field(paper_case, row, field_nodes):
     result = solve(paper_contact(paper_case, row, field_nodes=field_nodes))
-    problem = _field_problem(result.case, result.conditions, result.film, result.roughness)
+    problem = field_problem(result.case, result.conditions, result.film, result.roughness)
     return problem, solve_field(problem)
 
 

@@ -13,7 +13,7 @@ from ehlectric.film import solve_film
 from ehlectric.lubricant import barus, incompressible
 from ehlectric.nested import FilmProblem
 from ehlectric.reynolds import Fluid, evaluate
-from ehlectric.solver import _film_problem
+from ehlectric.solver import film_problem
 
 
 @pytest.mark.parametrize(("coarse", "fine"), [(5, 9), (6, 10), (51, 100), (33, 64), (7, 7)])
@@ -155,5 +155,5 @@ def test_v_cycle_reduces_the_error_fivefold(nodes):
 def test_v_cycle_on_the_paper_contact(paper_case, nodes):
     """The spike of 2 GPa is the hard case: one slow error beside it, which GMRES takes in an iteration."""
     case = paper_case.replace({"grid.nodes": nodes})
-    levels = at_solution(_film_problem(case, resolve(case)))
+    levels = at_solution(film_problem(case, resolve(case)))
     assert convergence_factor(levels) < 0.4

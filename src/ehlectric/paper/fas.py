@@ -94,7 +94,7 @@ def solve_film(problem: FilmProblem, *, progress: Progress | None = None) -> Fil
         raise ValueError("the paper's multigrid takes deflecting line contacts")
     sizes = grid_sizes(problem.nodes)
     with one_blas_thread(), np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        grids = [_equations(problem, n) for n in sizes]
+        grids = [equations_of(problem, n) for n in sizes]
         first = max((k for k, g in enumerate(grids) if g.x.size >= FIRST_GRID), default=0)
         cycled = _first_grid(problem, grids[first:])
         coarser: tuple[FilmEquations, Iterate] | None = None
@@ -140,7 +140,8 @@ def grid_sizes(nodes: int) -> list[int]:
     return sizes
 
 
-def _equations(problem: FilmProblem, nodes: int) -> FilmEquations:
+def equations_of(problem: FilmProblem, nodes: int) -> FilmEquations:
+    """The film equations of a problem on a grid of so many nodes, without right sides."""
     x = np.linspace(problem.inlet, problem.outlet, nodes)
     added = 0.0 if problem.added_gap is None else problem.added_gap(x)[:, 0]
     return FilmEquations(
@@ -322,25 +323,26 @@ def _solve_coarsest(equations: FilmEquations, at: Iterate) -> Iterate:
     """Pressure by Newton's method at a fixed H00, and H00 by eq. (19), in turn."""
     for _ in range(LOAD_STEPS):
         for _ in range(COARSE_STEPS):
-            at = _newton_step(equations, at)
+            at = newton_step(equations, at)
         missing = equations.load - equations.carried(at.pressure)
         at = replace(at, h00=at.h00 + LOAD_DAMPING * missing)
     return at
 
 
-def _newton_step(equations: FilmEquations, at: Iterate) -> Iterate:
+def newton_step(equations: FilmEquations, at: Iterate) -> Iterate:
+    """One step of Newton's method for the pressure at a fixed H00, dense."""
     c = equations.coefficients(at)
     residual = equations.residual(at, c)
     free = equations.free(at, residual)
     by_p, by_h = equations.derivatives(at, c)
-    jacobian = (_dense(by_p) + _dense(by_h) @ equations.kernel_matrix)[np.ix_(free, free)]
+    jacobian = (dense(by_p) + dense(by_h) @ equations.kernel_matrix)[np.ix_(free, free)]
     change = np.zeros_like(residual)
     if np.all(np.isfinite(jacobian)):
         change[free] = np.linalg.solve(jacobian, residual[free])
     return _moved(equations, at, _limited(equations, c, change))
 
 
-def _dense(rows: Array) -> Array:
+def dense(rows: Array) -> Array:
     """Rows over the nodes of NEIGHBOURS as a matrix (n, n)."""
     n = rows.shape[1]
     matrix = np.zeros((n, n))

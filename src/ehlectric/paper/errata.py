@@ -1,0 +1,198 @@
+"""Slips of the print, each with a check that is computed where it is asked for."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ehlectric.conditions import resolve
+from ehlectric.errors import ConvergenceError
+from ehlectric.field import solve_field
+from ehlectric.film_formulas import LineContact
+from ehlectric.hertz import line_load, line_max_pressure
+from ehlectric.nested import FilmProblem
+from ehlectric.paper import fas
+from ehlectric.paper.contacts import CONTACTS, LOADS
+from ehlectric.paper.film_equations import FilmEquations, Iterate
+from ehlectric.paper.study import Study, largest_difference
+from ehlectric.solver import field_problem, film_problem
+
+_R, _E = 14.1e-3, 226e9
+
+
+@dataclass(frozen=True)
+class Slip:
+    """What is printed, what it should be, and what shows it."""
+
+    printed: str
+    should_be: str
+    check: Callable[[Study], str]
+
+
+def _viscosity(_: Study) -> str:
+    groups = [LineContact(_R, _E, LOADS[2], 4.0, eta, 22e-9) for eta in (4e-4, 0.04)]
+    z = 22e-9 * 0.198e9 / (math.log(0.04) + 9.67)
+    return (
+        f"M and L of Table 3's first row are printed as 49.2 and 15.7: 4e-4 gives {groups[0].moes_m:.1f} and "
+        f"{groups[0].moes_l:.2f}, 0.04 gives {groups[1].moes_m:.1f} and {groups[1].moes_l:.1f}. Roelands' "
+        f"relation gives z = {z:.3f} for 0.04, printed 0.67"
+    )
+
+
+def _load(_: Study) -> str:
+    return (
+        f"w = 1.57e6 N/m gives p_h = {line_max_pressure(LOADS[2], _R, _E) / 1e9:.3f} GPa; 1 GPa takes "
+        f"{line_load(1e9, _R, _E):.3g} N/m"
+    )
+
+
+def _solved(nodes: int) -> tuple[FilmProblem, FilmEquations, Iterate]:
+    """The first 1 GPa contact: its film equations on a grid of so many nodes, and their solution."""
+    case = CONTACTS[0].case(nodes=nodes, wedge="first-order")
+    problem = film_problem(case, resolve(case))
+    film, equations = fas.solve_film(problem), fas.equations_of(problem, nodes)
+    pressure = film.pressure / problem.scales.pressure
+    rigid = film.thickness / problem.scales.thickness - equations.gap - equations.deflection(pressure)
+    return problem, equations, Iterate(pressure, float(np.mean(rigid)))
+
+
+def _cavitation(_: Study) -> str:
+    problem, equations, at = _solved(801)
+    lowest = float(np.min(_unconstrained(equations, at).pressure))
+    return (
+        f"{CONTACTS[0].name}, 801 nodes: solved without the condition, the pressure behind the exit goes to "
+        f"{100.0 * lowest:.1f} % of p_h, a tension of {-lowest * problem.scales.pressure / 1e6:.0f} MPa"
+    )
+
+
+def _unconstrained(equations: FilmEquations, at: Iterate) -> Iterate:
+    """Newton's method on pressure and H00 with every inner node free to have any pressure."""
+    n = equations.x.size
+    weights = np.full(n, equations.dx)
+    weights[[0, -1]] *= 0.5
+    for _ in range(30):
+        c = equations.coefficients(at)
+        by_p, by_h = equations.derivatives(at, c)
+        matrix = np.zeros((n + 1, n + 1))
+        matrix[:n, :n] = fas.dense(by_p) + fas.dense(by_h) @ equations.kernel_matrix
+        matrix[:n, n] = by_h.sum(axis=0)
+        matrix[0, 0] = matrix[n - 1, n - 1] = 1.0
+        matrix[n, :n] = weights
+        right = np.append(equations.residual(at, c), equations.load - equations.carried(at.pressure))
+        change = np.linalg.solve(matrix, right)
+        change /= max(1.0, float(np.max(np.abs(change))) / 0.1)
+        at = Iterate(at.pressure + change[:n], at.h00 + float(change[n]))
+        if np.max(np.abs(change)) < 1e-10:
+            return at
+    raise ConvergenceError("the film without cavitation was not solved")
+
+
+def _sign_of_c(_: Study) -> str:
+    equations, at = _solved(401)[1:]
+    loads = []
+    for lift in (0.0, 0.01):
+        lifted = replace(at, h00=at.h00 + lift)
+        for _step in range(20):
+            lifted = fas.newton_step(equations, lifted)
+        loads.append(equations.carried(lifted.pressure))
+    return (
+        f"{CONTACTS[0].name}, 401 nodes: with H00 raised by 0.01 the film, solved again, carries "
+        f"{loads[1]:.4f} instead of {loads[0]:.4f}"
+    )
+
+
+def _wall_charge(_: Study) -> str:
+    eps = 2.4
+    return (
+        "eq. (16) at a wall node among nodes of the same potential V = 1 V, with Q = V eps0: V = "
+        f"(a0 V + Q/eps0)/a0 = {(4.0 * eps + 1.0) / (4.0 * eps):.2f} V"
+    )
+
+
+def _square_cells(study: Study) -> str:
+    contact = CONTACTS[0]
+    case = contact.case()
+    result = study.smooth[contact].result
+    problem = field_problem(case, result.conditions, result.film, result.roughness)
+    dx, dy = float(np.median(np.diff(problem.x))), result.film.minimum_thickness / 8.0
+    squeezed = solve_field(replace(problem, x=problem.x * dy / dx))
+    ours = result.field.max_strength * result.film.minimum_thickness / result.field.voltage
+    theirs = squeezed.max_strength * result.film.minimum_thickness / squeezed.voltage
+    return (
+        f"{contact.name}, cells of {dx * 1e9:.0f} by {dy * 1e9:.0f} nm: as printed, the coefficients solve "
+        f"the gap squeezed {dx / dy:.0f} times along x, with E_max h_min/V12 {theirs:.3f}, not {ours:.3f}"
+    )
+
+
+def _m68(study: Study) -> str:
+    groups = study.smooth[CONTACTS[5]].result.conditions.formulas
+    return f"M = {groups.moes_m:.1f}; Table 3 prints 69.6"
+
+
+def _inverse(study: Study) -> str:
+    results = [solved.result for solved in study.smooth.values()]
+    products = [r.field.max_strength * r.film.minimum_thickness / r.field.voltage for r in results]
+    films = [r.film.minimum_thickness * 1e6 for r in results]
+    return (
+        f"E_max h_min/V12 is {min(products):.4f} to {max(products):.4f} for films of {min(films):.2f} to "
+        f"{max(films):.2f} µm: the field goes with 1/h_min"
+    )
+
+
+def _current_density(study: Study) -> str:
+    area = 2.0 * study.smooth[CONTACTS[4]].result.conditions.half_width * 10e-3
+    return (
+        f"over the Hertz area of a 2 GPa contact 10 mm long, {area * 1e6:.0f} mm^2, 0.8 A/m^2 is "
+        f"{0.8 * area * 1e6:.0f} µA and 0.8 A/mm^2 is {0.8e6 * area:.0f} A, as discharges have"
+    )
+
+
+def _readings(study: Study) -> str:
+    smooth, rough = (
+        max(largest_difference(solved) for solved in part.values()) for part in (study.smooth, study.rough)
+    )
+    return (
+        f"Figures 7 and 11 draw both: they differ by up to {100.0 * smooth:.2g} % in the smooth films and "
+        f"{100.0 * rough:.2g} % in the rough ones"
+    )
+
+
+def _stated(text: str) -> Callable[[Study], str]:
+    return lambda _: text
+
+
+SLIPS = (
+    Slip("Table 1: eta0 = 4e-4 Pa s", "0.04 Pa s", _viscosity),
+    Slip("Table 2: one load, 1.57e6 N/m, for both pressures", "1 GPa takes 3.925e5 N/m", _load),
+    Slip(
+        "Eq. (6) and its boundary conditions alone",
+        "P >= p_atm/p_h, and P = p_atm/p_h where the film cavitates",
+        _cavitation,
+    ),
+    Slip("Eq. (19): c is a damping factor", "c < 0: too little load must lower H00", _sign_of_c),
+    Slip("Section 2.4: Q = V eps0 on the walls", "V itself, a Dirichlet condition", _wall_charge),
+    Slip(
+        "Eqs. (A1) to (A5) for any grid",
+        "they hold for square cells; else a1 and a3 times (dy/dx)^2, a0 their new sum, Q = rho_q dy^2",
+        _square_cells,
+    ),
+    Slip("Figure 6: M68", "M69.5", _m68),
+    Slip(
+        "Section 3.1: the field strength 'increases linearly with minimum film thickness'",
+        "it goes inversely with it",
+        _inverse,
+    ),
+    Slip("Section 3.1: 0.8 A m^-2", "0.8 A mm^-2", _current_density),
+    Slip(
+        "Roughness held still under rolling surfaces called 'pure rolling'",
+        "the stationary problem is that of a rough surface at rest, the other sliding over it",
+        _stated(
+            "roughness of a rolling surface travels with it, and eq. (6) then needs the squeeze term "
+            "d(rho H)/dT; the rough films here are stationary too, and say so"
+        ),
+    ),
+    Slip("Mid-film 'as defined by half of the average film thickness'", "the line s = 1/2", _readings),
+)

@@ -1,0 +1,251 @@
+"""The tables of the study: Table 3 beside its print, and those that answer the paper's conclusions."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ehlectric.conditions import density_law, permittivity_law
+from ehlectric.paper.contacts import PaperContact, table_3
+from ehlectric.paper.study import Study
+from ehlectric.result import Result
+from ehlectric.store import whole
+
+MICRO = 1e6
+
+# Lateral sizes of discharge pits that the paper quotes, mean and largest (its reference 46) [m].
+PITS = (1.7e-6, 4e-6)
+
+# What agrees: deviation from the print, beside half of its last digit.
+TOLERANCE, HALF_PRINT = 0.04, 0.005e-6
+
+
+@dataclass(frozen=True)
+class PaperTable:
+    """Numbers under heads with their units, and how many digits of them to show."""
+
+    name: str
+    title: str
+    heads: tuple[str, ...]
+    formats: tuple[str, ...]
+    rows: tuple[tuple[str | float, ...], ...]
+
+    @property
+    def shown(self) -> list[list[str]]:
+        """The rows as text."""
+        return [
+            [format(value, form) for value, form in zip(row, self.formats, strict=True)] for row in self.rows
+        ]
+
+    def save(self, path: Path) -> None:
+        """Write the table as CSV, all digits."""
+        with whole(path) as beside, beside.open("w", newline="", encoding="utf-8") as file:
+            writer = csv.writer(file)
+            writer.writerow(self.heads)
+            writer.writerows(self.rows)
+
+
+def _table(
+    name: str, title: str, columns: Sequence[tuple[str, str]], rows: Sequence[tuple[str | float, ...]]
+) -> PaperTable:
+    heads, formats = zip(*columns, strict=True)
+    return PaperTable(name, title, heads, formats, tuple(rows))
+
+
+def agrees(computed: float, printed: float) -> bool:
+    """Whether a film agrees with its print: within 4 % and the rounding of the print; both in metres.
+
+    Examples
+    --------
+    >>> agrees(0.142e-6, 0.15e-6), agrees(0.2e-6, 0.15e-6)
+    (True, False)
+    """
+    return abs(computed - printed) <= TOLERANCE * printed + HALF_PRINT
+
+
+def printed_table(study: Study) -> PaperTable:
+    """Table 3: the 2 GPa contacts, as printed and as computed with both wedges."""
+    rows: list[tuple[str | float, ...]] = []
+    contacts = {contact.u_s: contact for contact in study.smooth if contact.gigapascal == 2}
+    for printed in table_3():
+        contact = contacts[printed["u_s"]]
+        second, first = study.smooth[contact].result, study.first_order[contact]
+        pairs = [
+            (film, printed[f"{author}_{key}"] / MICRO)
+            for result in (second, first)
+            for author in ("venner", "paper")
+            for film, key in (
+                (result.film.minimum_thickness, "h_min"),
+                (result.film.mean_thickness, "h_av"),
+            )
+        ]
+        rows.append(
+            (
+                contact.u_s,
+                printed["moes_m"],
+                second.conditions.formulas.moes_m,
+                printed["moes_l"],
+                second.conditions.formulas.moes_l,
+                printed["venner_h_min"],
+                printed["venner_h_av"],
+                printed["paper_h_min"],
+                printed["paper_h_av"],
+                first.film.minimum_thickness * MICRO,
+                first.film.mean_thickness * MICRO,
+                second.film.minimum_thickness * MICRO,
+                second.film.mean_thickness * MICRO,
+                100.0 * (second.film.discretisation_error or np.nan),
+                "yes" if all(agrees(*pair) for pair in pairs) else "no",
+            )
+        )
+    films = [
+        f"{source}, {quantity} [µm]"
+        for source in ("Venner & Napel", "paper", "first order", "second order")
+        for quantity in ("h_min", "h_av")
+    ]
+    columns = [("u_s [m/s]", "g"), ("M printed", "g"), ("M", ".1f"), ("L printed", "g"), ("L", ".2f")]
+    columns += [(head, ".2f") for head in films[:4]] + [(head, ".4f") for head in films[4:]]
+    columns += [("grid error [%]", ".2f"), ("within 4 %", "")]
+    return _table("table_3", "Table 3: films at 2 GPa", columns, rows)
+
+
+def _row_head(contact: PaperContact, result: Result) -> tuple[str | float, ...]:
+    groups = result.conditions.formulas
+    return (contact.name, groups.moes_m, groups.moes_l)
+
+
+_HEAD = [("contact", ""), ("M", ".1f"), ("L", ".2f")]
+
+
+def rough_table(study: Study) -> PaperTable:
+    """Largest field of the rough contacts over V12/h_min of the rough and of the smooth film."""
+    rows = []
+    for contact, solved in study.rough.items():
+        rough, smooth = solved.result, study.smooth[contact].result
+        rq = float(np.std(rough.roughness[0][np.abs(rough.film.x) <= rough.conditions.half_width]))
+        per_volt = rough.field.max_strength / rough.field.voltage
+        rows.append(
+            (
+                *_row_head(contact, rough),
+                smooth.film.minimum_thickness * MICRO,
+                rough.film.minimum_thickness * MICRO,
+                rq * 1e9,
+                smooth.field.max_strength / smooth.field.voltage * smooth.film.minimum_thickness,
+                per_volt * rough.film.minimum_thickness,
+                per_volt * smooth.film.minimum_thickness,
+            )
+        )
+    columns = [
+        *_HEAD,
+        ("h_min smooth [µm]", ".4f"),
+        ("h_min rough [µm]", ".4f"),
+        ("Rq in the Hertz zone [nm]", ".1f"),
+        ("smooth: E_max h_min/V12", ".4f"),
+        ("rough: E_max h_min/V12", ".4f"),
+        ("rough E_max, smooth h_min/V12", ".3f"),
+    ]
+    return _table("conclusion_1", "Largest field of the rough contacts", columns, rows)
+
+
+def width_table(study: Study) -> PaperTable:
+    """Width of the zone above 95 % of the largest mid-film field, beside the half-width and the pits."""
+    rows = []
+    for contact, solved in study.smooth.items():
+        result = solved.result
+        width, fine = result.field.high_field_width, study.fine[contact].field.high_field_width
+        b = result.conditions.half_width
+        rows.append(
+            (
+                *_row_head(contact, result),
+                width * MICRO,
+                # Richardson's estimate of a quantity of second order.
+                abs(width - fine) * 4.0 / 3.0 * MICRO,
+                b * MICRO,
+                width / b,
+                *(width / pit for pit in PITS),
+            )
+        )
+    columns = [
+        *_HEAD,
+        ("width [µm]", ".2f"),
+        ("grid error [µm]", ".3f"),
+        ("half-width b [µm]", ".1f"),
+        ("width/b", ".4f"),
+        ("width/mean pit 1.7 µm", ".1f"),
+        ("width/largest pit 4 µm", ".1f"),
+    ]
+    return _table("conclusion_2", "Width of the zone of high field", columns, rows)
+
+
+def permittivity_table(study: Study) -> PaperTable:
+    """What changes where the permittivity does not follow the density."""
+    rows = []
+    for contact, constant in study.constant.items():
+        result = study.smooth[contact].result
+        p_h = np.array([result.conditions.max_pressure])
+        density, _ = density_law(result.case.lubricant)(p_h)
+        at_hertz = float(permittivity_law(result.case.lubricant)(density)[0])
+        inner = result.field.inner
+        change = constant.field.middle_strength / result.field.middle_strength - 1.0
+        rows.append(
+            (
+                *_row_head(contact, result),
+                result.case.lubricant.relative_permittivity,
+                at_hertz,
+                1e6 * (constant.field.max_strength / result.field.max_strength - 1.0),
+                1e6 * float(np.max(np.abs(change[inner]))),
+                constant.field.capacitance / result.field.capacitance,
+            )
+        )
+    columns = [
+        *_HEAD,
+        ("eps ambient", ".2f"),
+        ("eps at p_h", ".3f"),
+        ("change of E_max [1e-6]", ".2f"),
+        ("largest change at mid-film [1e-6]", ".0f"),
+        ("capacitance ratio", ".3f"),
+    ]
+    return _table("conclusion_3", "The eight contacts with a constant permittivity", columns, rows)
+
+
+def methods_table(study: Study) -> PaperTable:
+    """How the paper's own methods did, and how far they are from ours."""
+    rows = [
+        (
+            contact.name,
+            m.cycles,
+            m.factor,
+            m.film_difference,
+            m.unknowns,
+            m.sweeps,
+            m.damping,
+            m.capacitance_difference,
+            m.strength_difference,
+        )
+        for contact, m in study.methods.items()
+    ]
+    columns = [
+        ("contact", ""),
+        ("V-cycles to 1e-6", "d"),
+        ("factor of a cycle", ".3f"),
+        ("film, largest difference", ".0e"),
+        ("nodes of the field", "d"),
+        ("sweeps", "d"),
+        ("best damping factor", ".3f"),
+        ("capacitance, difference", ".0e"),
+        ("E_max, difference", ".0e"),
+    ]
+    return _table("methods", "The paper's own methods beside ours", columns, rows)
+
+
+TABLES: dict[str, tuple[Callable[[Study], PaperTable], tuple[str, ...]]] = {
+    "table_3": (printed_table, ("smooth", "first_order")),
+    "conclusion_1": (rough_table, ("smooth", "rough")),
+    "conclusion_2": (width_table, ("smooth", "fine")),
+    "conclusion_3": (permittivity_table, ("smooth", "constant")),
+    "methods": (methods_table, ("methods",)),
+}
