@@ -215,7 +215,7 @@ def _map(
     electric = result.case.electric
     for height, surface, volts in ((0.04, 1, electric.potential_1), (0.96, 2, electric.potential_2)):
         where = "bottom" if surface == 1 else "top"
-        text = f"surface {surface}, {volts:g} V"
+        text = f"surface {surface}, {volts:g} V".replace("-", "−")
         ax.text(0.5, height, text, transform=ax.transAxes, ha="center", va=where, fontsize=8.0)
     bar = _figure(ax).colorbar(filled, ax=ax, label=label, pad=0.02)
     nice = MaxNLocator(ticks).tick_values(*limits)

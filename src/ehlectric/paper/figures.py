@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -19,6 +20,9 @@ from ehlectric.typing import Array
 # Curves of one panel by speed, from dark to light, apart in print and for colour-blind readers.
 _COLOURS = ("#440154", "#31688e", "#35b779", "#d0a010")
 _MICRO = 1e6
+
+# The straight line of mid-film over the curves of s = 1/2.
+_STRAIGHT: dict[str, Any] = {"color": "#d55e00", "lw": 0.6, "ls": (0, (3, 5))}
 
 
 @dataclass(frozen=True)
@@ -89,11 +93,13 @@ def _middle(solved: dict[PaperContact, Solved], scale: Callable[[Result], float]
             x = result.field.x / result.conditions.half_width
             factor = scale(result)
             ax.plot(x, factor * result.field.middle_strength, color=colour, label=contact.printed)
-            ax.plot(x, factor * solved[contact].straight, color="black", lw=0.5, ls=(0, (4, 4)))
+            ax.plot(x, factor * solved[contact].straight, **_STRAIGHT)
             differences.append(largest_difference(solved[contact]))
-        ax.plot([], [], color="black", lw=0.5, ls=(0, (4, 4)), label="straight line")
+        ax.plot([], [], **_STRAIGHT, label="straight line")
         _title(ax, f"({letter}) {gigapascal} GPa")
-        ax.set_title(f"readings differ by up to {100.0 * max(differences):.2g} %", loc="right")
+        ax.set_title(
+            f"straight line and $s = 1/2$ differ by up to {100.0 * max(differences):.2g} %", loc="right"
+        )
         ax.set(xlabel="$x/b$", ylabel=label, xlim=(-1.25, 1.25))
         ax.set_ylim(0.0, 1.22 * ax.get_ylim()[1])
         ax.legend(loc="upper left", ncols=3, frameon=False)

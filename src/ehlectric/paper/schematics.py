@@ -51,7 +51,7 @@ def film_model() -> Figure:
         ax.plot(x, sign * half, color=_INK, lw=1.2)
     pressure = 0.16 + 1.3 * np.sqrt(np.maximum(0.0, 1.0 - x**2))
     ax.plot(x[np.abs(x) <= 1.0], pressure[np.abs(x) <= 1.0], color=_INK, lw=1.0, ls="--")
-    _text(ax, 0.0, 1.2, "pressure $p(x)$")
+    _text(ax, 0.0, 0.85, "pressure $p(x)$")
     for sign, k, where in ((1.0, 2, 2.0), (-1.0, 1, -2.0)):
         _text(ax, 0.0, where, f"body {k}: $E_{k}$, $\\nu_{k}$, $R_{k}$")
         _arrow(ax, (-2.3, sign * 1.35), (-1.5, sign * 1.35))
@@ -64,7 +64,7 @@ def film_model() -> Figure:
     _text(ax, 0.72, 0.0, "$h(x)$", fontsize=8.0)
     for end, side in ((-4.0, "inlet"), (2.0, "outlet")):
         ax.plot([end, end], [-_gap(np.array([end]))[0], _gap(np.array([end]))[0]], color=_INK, lw=1.0, ls=":")
-        _text(ax, end, -3.05, f"{side}, $x/b$ = {end:g}\n$p = p_\\mathrm{{atm}}$")
+        _text(ax, end, -3.05, f"{side}, $x/b = {end:g}$\n$p = p_\\mathrm{{atm}}$")
     _text(ax, -2.6, 0.0, "lubricant: $\\eta(p)$, $\\rho(p)$")
     _text(ax, 1.62, 0.0, "$p \\geq p_\\mathrm{atm}$", fontsize=8.0)
     _arrow(ax, (-4.6, -2.2), (-4.0, -2.2))
@@ -86,7 +86,7 @@ def field_model() -> Figure:
     for column in np.linspace(-1.25, 1.25, 26):
         reach = float(_gap(np.array([column]))[0])
         ax.plot([column, column], [-reach, reach], color="#b08800", lw=0.5)
-    for sign, k, volts in ((-1.0, 1, "-1"), (1.0, 2, "+1")):
+    for sign, k, volts in ((-1.0, 1, "−1"), (1.0, 2, "+1")):
         ax.fill_between(x, sign * half, sign * 0.62, color=_BODY, lw=0.0)
         ax.plot(x, sign * half, color=_INK, lw=1.2)
         _text(

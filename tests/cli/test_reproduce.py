@@ -1,0 +1,90 @@
+"""The reproduce command as a user types it."""
+
+import csv
+import re
+
+import pytest
+
+from ehlectric.paper.contacts import table_3
+
+PNG = b"\x89PNG"
+
+
+def rows_of(path):
+    with path.open(encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def test_schematics_need_no_solution(ehlectric, tmp_path):
+    for number in (2, 3):
+        done = ehlectric("reproduce", "-o", "out", "--figure", number)
+        assert done.returncode == 0, done.stderr
+        assert (tmp_path / "out" / f"figure_{number}.png").read_bytes().startswith(PNG)
+
+
+def test_table_3_alone(ehlectric, tmp_path):
+    done = ehlectric("reproduce", "-o", "out", "--table", "3")
+    assert done.returncode == 0, done.stderr
+    assert [path.name for path in (tmp_path / "out").iterdir()] == ["table_3.csv"]
+    rows = rows_of(tmp_path / "out" / "table_3.csv")
+    assert [float(row["u_s [m/s]"]) for row in rows] == [row["u_s"] for row in table_3()]
+    for row, printed in zip(rows, table_3(), strict=True):
+        assert row["within 4 %"] == "yes"
+        assert float(row["M"]) == pytest.approx(printed["moes_m"], rel=2e-3)
+        assert float(row["paper, h_av [µm]"]) == printed["paper_h_av"]
+        computed = float(row["second order, h_min [µm]"])
+        assert abs(computed - printed["venner_h_min"]) < 0.04 * printed["venner_h_min"] + 0.005
+
+
+def test_one_figure_alone(ehlectric, tmp_path):
+    done = ehlectric("reproduce", "-o", "out", "--figure", "7", "--quiet")
+    assert done.returncode == 0, done.stderr
+    assert done.stdout == done.stderr == ""
+    assert [path.name for path in (tmp_path / "out").iterdir()] == ["figure_7.png"]
+
+
+@pytest.mark.parametrize(
+    ("option", "value", "message"),
+    [
+        (
+            "--figure",
+            "1",
+            "error: --figure: got 1, takes 2 to 11: Figure 1 is a photograph under copyright\n",
+        ),
+        ("--figure", "12", "error: --figure: got 12, takes 2 to 11\n"),
+        ("--table", "1", "error: --table: got 1, takes 3; Tables 1 and 2 are inputs\n"),
+    ],
+)
+def test_what_is_not_there_is_refused(ehlectric, tmp_path, option, value, message):
+    done = ehlectric("reproduce", "-o", "out", option, value)
+    assert (done.returncode, done.stderr) == (2, message)
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.slow
+def test_whole_study(ehlectric, tmp_path):
+    """All figures and tables, and a report that refers to nothing outside itself."""
+    done = ehlectric("reproduce", "-o", "out")
+    assert done.returncode == 0, done.stderr
+    names = {path.name for path in (tmp_path / "out").iterdir()}
+    figures = {f"figure_{number}.png" for number in range(2, 12)}
+    tables = {"table_3.csv", "conclusion_1.csv", "conclusion_2.csv", "conclusion_3.csv", "methods.csv"}
+    assert names == figures | tables | {"report.html"}
+    report = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+    assert not re.search(r"""(?:src|href)=["'](?!data:|#)""", report)
+    assert report.count("data:image/png;base64,") == 10
+    assert "NOT" not in re.sub(r"base64,[^\"]*", "", report)
+
+    for row in rows_of(tmp_path / "out" / "conclusion_1.csv"):
+        assert float(row["smooth: E_max h_min/V12"]) == pytest.approx(1.0, abs=1e-3)
+        assert 1.0 < float(row["rough: E_max h_min/V12"]) < 1.04
+    for row in rows_of(tmp_path / "out" / "conclusion_2.csv"):
+        assert float(row["grid error [µm]"]) < 0.01 * float(row["width [µm]"])
+    for row in rows_of(tmp_path / "out" / "conclusion_3.csv"):
+        # Clausius and Mossotti's values as printed in the specification of the eight contacts.
+        expected = {"1": 2.888, "2": 3.014}[row["contact"][0]]
+        assert float(row["eps at p_h"]) == pytest.approx(expected, abs=1e-3)
+        assert abs(float(row["change of E_max [1e-6]"])) < 1.0
+    for row in rows_of(tmp_path / "out" / "methods.csv"):
+        assert float(row["film, largest difference"]) < 1e-5
+        assert int(row["V-cycles to 1e-6"]) <= 8
