@@ -22,8 +22,12 @@ import scipy
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
 from benchmarks import baselines, cases
+from ehlectric.conditions import resolve
 from ehlectric.field import solve_field
 from ehlectric.film import solve_film
+from ehlectric.paper import fas, sor
+from ehlectric.paper.contacts import CONTACTS
+from ehlectric.solver import field_problem, film_problem
 
 EHLECTRIC = Path(sys.executable).with_name("ehlectric")
 
@@ -51,9 +55,36 @@ def peak_memory(nodes: int) -> float:
     return int(line.split()[1]) / 1e6
 
 
-def command(*arguments: str) -> float:
+def paper_methods() -> list[tuple[str, ...]]:
+    """Our solvers beside the paper's own: film to the same residual, field to the same columns."""
+    rows = []
+    for contact in (CONTACTS[0], CONTACTS[7]):
+        case = contact.case(wedge="first-order")
+        conditions = resolve(case)
+        problem = film_problem(case, conditions)
+        ours, theirs = best(lambda p=problem: solve_film(p)), best(lambda p=problem: fas.solve_film(p), 3)
+        cycles = fas.solve_film(problem).newton_iterations
+        what = f"paper's multigrid, {cycles} V-cycles to the same residual, 1e-9"
+        rows.append(_row(f"film, 3201 nodes, first order, {contact.name}", ours, what, theirs))
+        field = field_problem(case, conditions, solve_film(problem), np.zeros((2, case.grid.nodes)))
+        ours, reference = best(lambda f=field: solve_field(f)), solve_field(field).capacitance
+        for lines in (8, 16):
+            theirs = best(lambda f=field, n=lines: sor.solve_field(f, rows=n), 3)
+            equations, start = sor.cartesian(field, lines)
+            sweeps = sor.over_relax(equations, start, factor=sor.young_factor(equations.grid)).sweeps
+            difference = abs(sor.solve_field(field, rows=lines).capacitance / reference - 1.0)
+            what = f"paper's over-relaxation, {lines} rows in h_min, {sweeps} sweeps, capacitance equal to "
+            rows.append(_row(f"field, {field.x.size} columns", ours, f"{what}{difference:.0e}", theirs))
+    return rows
+
+
+def _row(what: str, ours: float, against: str, theirs: float) -> tuple[str, ...]:
+    return (what, f"{ours:.4f}", against, f"{theirs:.3f}", f"{theirs / ours:.0f}")
+
+
+def command(*arguments: str, repeats: int = 5) -> float:
     """Wall time of the command [s]."""
-    return best(lambda: subprocess.run([EHLECTRIC, *arguments], capture_output=True, check=True), 5)
+    return best(lambda: subprocess.run([EHLECTRIC, *arguments], capture_output=True, check=True), repeats)
 
 
 def processor() -> str:
@@ -87,10 +118,14 @@ def main() -> None:
         difference = abs(baselines.capacitance_by_superlu(problem) / solve_field(problem).capacitance - 1)
         name = f"SuperLU, {n} x 65 linear elements, capacitance equal to {difference:.0e}"
         rows.append((f"field, {n} columns", f"{ours:.4f}", name, f"{theirs:.2f}", f"{theirs / ours:.0f}"))
+    rows += paper_methods()
     rows.append(("`ehlectric --version`", f"{command('--version'):.2f}", "", "", ""))
     with tempfile.TemporaryDirectory() as folder:
         seconds = command("run", str(cases.EXAMPLE), "-o", folder)
     rows.append(("`ehlectric run` of the example, figures included", f"{seconds:.2f}", "", "", ""))
+    with tempfile.TemporaryDirectory() as folder:
+        seconds = command("reproduce", "-o", folder, repeats=1)
+    rows.append(("`ehlectric reproduce`, 48 solutions and ten figures", f"{seconds:.1f}", "", "", ""))
     print(f"{processor()}, {len(os.sched_getaffinity(0))} cores, ", end="")
     print(f"Python {platform.python_version()}, NumPy {np.__version__}, SciPy {scipy.__version__}\n")
     print("| what | seconds | against | seconds | ratio |")

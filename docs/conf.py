@@ -70,6 +70,7 @@ sphinx_gallery_conf = {
 
 html_theme = "pydata_sphinx_theme"
 html_title = f"ehlectric {release}"
+html_extra_path = ["_generated/extra"]
 html_css_files = ["ehlectric.css"]
 html_show_sourcelink = False
 html_copy_source = False

@@ -17,8 +17,14 @@ import typer
 from sphinx.application import Sphinx
 from sphinx.errors import ExtensionError
 
+import ehlectric
 from ehlectric import Case, inputs, lubricant, solve
 from ehlectric.cli import app as commands
+from ehlectric.paper import report
+from ehlectric.paper.figures import FIGURES
+from ehlectric.paper.study import Study, run_study
+from ehlectric.paper.tables import TABLES
+from ehlectric.plot import style
 from ehlectric.quantity import Count, Quantity
 
 _TABLES = {
@@ -30,6 +36,7 @@ _TABLES = {
     "grid": inputs.Grid,
     "solver": inputs.Solver,
 }
+_UNLISTED = ("cli", "typing", "version")  # the guide shows the commands
 _LAWS = {
     "viscosity_law": lubricant.VISCOSITY_LAWS,
     "density_law": lubricant.DENSITY_LAWS,
@@ -193,6 +200,37 @@ def _variables() -> str:
     )
 
 
+def _paper(app: Sphinx) -> None:
+    """Tables, figures and the report of the paper's study, where the code is newer than they are."""
+    folder = Path(app.srcdir) / "_generated"
+    page = folder / "extra" / "report.html"
+    newest = max(path.stat().st_mtime for path in Path(ehlectric.__file__).parent.rglob("*.*"))
+    if page.exists() and page.stat().st_mtime > newest:
+        return
+    page.parent.mkdir(parents=True, exist_ok=True)
+    study = run_study(Study.__dataclass_fields__)
+    if not study.converged:
+        raise ExtensionError("a film of the paper's study did not converge")
+    for name, (build, _) in TABLES.items():
+        table = build(study)
+        (folder / f"paper_{name}.md").write_text(_table(list(table.heads), table.shown), encoding="utf-8")
+    figures = {number: folder / f"paper_figure_{number}.png" for number in FIGURES}
+    with style():
+        for number, path in figures.items():
+            FIGURES[number].draw(study).savefig(path, dpi=200)
+    page.write_text(report.html(study, figures), encoding="utf-8")
+
+
+def _check_modules(app: Sphinx) -> None:
+    """Every module stands in the API."""
+    package = Path(ehlectric.__file__).parent
+    listed = (Path(app.srcdir) / "api" / "index.md").read_text(encoding="utf-8")
+    for path in package.rglob("*.py"):
+        name = "ehlectric." + ".".join(path.relative_to(package).with_suffix("").parts)
+        if path.stem not in ("__init__", "__main__", *_UNLISTED) and f"   {name}\n" not in listed:
+            raise ExtensionError(f"docs/api/index.md does not list {name}")
+
+
 def _check_tests(app: Sphinx) -> None:
     """Tests that a page names must be there."""
     root = Path(app.srcdir)
@@ -206,5 +244,7 @@ def _check_tests(app: Sphinx) -> None:
 def setup(app: Sphinx) -> dict[str, Any]:
     """Before anything is read."""
     app.connect("builder-inited", _write, priority=100)
+    app.connect("builder-inited", _paper, priority=100)
     app.connect("builder-inited", _check_tests)
+    app.connect("builder-inited", _check_modules)
     return {"parallel_read_safe": True}
