@@ -30,8 +30,8 @@ VISCOSITY = {
 }
 DENSITY = {"density_c1": 0.59e9 / _P_H, "density_c2": 1.34}
 
-# (1 - t^2)^3 (1 + SKEW t) in Chebyshev polynomials. P over t integrates to pi times the first coefficient, and
-# over X it is to be pi/2.
+# (1 - t^2)^3 (1 + SKEW t) in Chebyshev polynomials. P over t integrates to pi times the first coefficient,
+# and over X it is to be pi/2.
 _SERIES = chebyshev.poly2cheb(polynomial.polymul(polynomial.polypow([1, 0, -1], 3), [1, SKEW]))
 _SCALE = 0.5 / (HALF * _SERIES[0])
 
