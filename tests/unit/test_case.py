@@ -220,6 +220,12 @@ def test_replace_displaces_alternatives():
     assert back == case
 
 
+def test_replace_takes_parts_of_another_case():
+    case = Case.from_dict(TABLE)
+    other = case.replace({"contact.max_hertz_pressure": "1 GPa", "grid.nodes": 801})
+    assert case.replace(contact=other.contact, grid=other.grid) == other
+
+
 def test_replace_of_the_base_drops_the_old_lubricant():
     case = Case.from_dict(changed(lubricant={"viscosity": 0.1}))
     assert case.replace({"lubricant.base": "paper"}).lubricant.viscosity == 0.04
