@@ -47,6 +47,7 @@ class _Window:
     column: int
     influence: Array  # change of H on the strip by P in the window
     wedge: Stencil
+    source: Array  # on the strip
     dx: float
 
     @classmethod
@@ -57,7 +58,8 @@ class _Window:
         inner = slice(start - strip.start, stop - strip.start)
         kernel = toeplitz(level.deflection.influence[: strip.stop - strip.start, 0])
         wedge = Stencil(level.wedge.coefficients[:, strip, column : column + 1])
-        return cls(strip, inner, column, kernel[:, inner], wedge, level.dx)
+        source = level.source[strip, column : column + 1]
+        return cls(strip, inner, column, kernel[:, inner], wedge, source, level.dx)
 
     def cut(self, values: Array) -> Array:
         """The strip out of a whole grid, shape (n, 1)."""
@@ -65,7 +67,7 @@ class _Window:
 
     def residual(self, coefficients: Coefficients, pressure: Array, thickness: Array) -> Array:
         """Reynolds residual at the nodes of the window."""
-        r = residual(coefficients, self.wedge, pressure, thickness, self.dx)
+        r = residual(coefficients, self.wedge, pressure, thickness, self.dx) - self.source
         return r[self.inner, 0]
 
     def jacobian(self, coefficients: Coefficients, pressure: Array, thickness: Array) -> Array:

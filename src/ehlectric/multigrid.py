@@ -6,6 +6,7 @@ is solved there by a dense factorisation, and each finer grid adds one line rela
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -65,6 +66,7 @@ class Level:
     dry_gap: Array  # (nx, ny)
     load: float
     wedge: Stencil
+    source: Array  # (nx, ny), right side of the Reynolds equation, zero in the end rows
     to_finer: sparse.csr_array | None
     from_finer: sparse.csr_array | None
 
@@ -87,7 +89,13 @@ class Level:
 
 
 def hierarchy(
-    nodes: int, *, inlet: float, outlet: float, geometry: Geometry, second_order: bool
+    nodes: int,
+    *,
+    inlet: float,
+    outlet: float,
+    geometry: Geometry,
+    second_order: bool,
+    source: Callable[[Array], Array] | None = None,
 ) -> list[Level]:
     """Grids from the finest to the coarsest, each with half the intervals of the one before.
 
@@ -102,15 +110,20 @@ def hierarchy(
         dx = (outlet - inlet) / (n - 1)
         weights = np.full((n, 1), dx)
         weights[0] = weights[-1] = 0.5 * dx
+        x = np.linspace(inlet, outlet, n)
+        right = np.zeros((n, 1))
+        if source is not None:
+            right[1:-1] = source(x)[1:-1]
         levels.append(
             Level(
-                x=np.linspace(inlet, outlet, n),
+                x=x,
                 dx=dx,
                 weights=weights,
                 deflection=Deflection.from_influence(geometry.influence(n, dx)),
-                dry_gap=geometry.dry_gap(np.linspace(inlet, outlet, n)),
+                dry_gap=geometry.dry_gap(x),
                 load=geometry.load,
                 wedge=wedge_stencil((n, 1), dx, second_order=second_order),
+                source=right,
                 to_finer=interpolation(n, sizes[k - 1]) if k else None,
                 from_finer=interpolation(sizes[k - 1], n) if k else None,
             )

@@ -72,6 +72,9 @@ class FilmProblem:
         Kernel, dry gap and load of the contact.
     added_gap : callable, optional
         Gap that roughness adds, X (nx,) -> G (nx, ny); a peak adds a negative one.
+    source : callable, optional
+        Right side of the Reynolds equation in place of zero, X (nx,) -> (nx, ny): what a manufactured
+        solution, or a surface that takes oil up or gives it off, adds to it.
     """
 
     fluid: Fluid
@@ -85,6 +88,7 @@ class FilmProblem:
     scales: Scales = Scales()
     geometry: Geometry = LINE
     added_gap: Callable[[Array], Array] | None = None
+    source: Callable[[Array], Array] | None = None
 
 
 def nested_iteration(problem: FilmProblem, progress: Progress | None) -> list[GridSolution]:
@@ -125,6 +129,7 @@ def _levels(problem: FilmProblem, *, roughness: float) -> list[Level]:
         outlet=problem.outlet,
         geometry=geometry,
         second_order=problem.second_order,
+        source=problem.source,
     )
 
 

@@ -167,7 +167,7 @@ def _assess(fluid: Fluid, level: Level, state: State) -> Residual:
     """
     dx, influence = level.dx, level.deflection.influence
     coefficients = evaluate(fluid, state.pressure, state.thickness)
-    r = residual(coefficients, level.wedge, state.pressure, state.thickness, dx)
+    r = residual(coefficients, level.wedge, state.pressure, state.thickness, dx) - level.source
     poiseuille = poiseuille_weight(coefficients, dx)
     excess = state.pressure - fluid.ambient_pressure
     c = 1.0 / np.maximum(20.0 * state.thickness / dx, poiseuille)

@@ -3,6 +3,7 @@
 import json
 import os
 import subprocess
+import sys
 import time
 
 import pytest
@@ -217,6 +218,8 @@ def test_version(ehlectric):
     done = ehlectric("--version")
     assert done.returncode == 0
     assert done.stdout.startswith("ehlectric ")
+    module = subprocess.run([sys.executable, "-m", "ehlectric", "--version"], capture_output=True, text=True)
+    assert module.stdout == done.stdout
 
 
 def test_results_read_back(ehlectric, case_file, tmp_path):

@@ -74,6 +74,11 @@ BAD = [
     (changed(contact={"reduced_radius": None, "radius_1": 1.0}), r"contact\.radius_2: missing"),
     (changed(contact={"reduced_radius": None, "radius_1": 0, "radius_2": 1.0}), r"radius_1: got 0"),
     (changed(contact={"speed_1": 1.0}), r"entrainment_speed, speed_1 together"),
+    (changed(contact={"entrainment_speed": None, "speed_1": 1.0, "speed_2": -1.0}), r"speed_1, speed_2: got 1 and -1 m/s"),
+    (
+        changed(contact={"entrainment_speed": None, "speed_1": 1.0, "speed_2": 2.0, "slide_to_roll_ratio": 0}),
+        r"slide_to_roll_ratio: got it beside speed_1 and speed_2",
+    ),
     (changed(contact={"geometry": "ball"}), r"contact\.geometry: got 'ball', takes 'line'"),
     (changed(contact=[1]), r"contact: got \[1\], takes a table"),
     (changed(title=3), r"title: got 3, takes a text"),
@@ -213,6 +218,12 @@ def test_replace_displaces_alternatives():
     assert case.contact.load_per_length == 1.57e6
     back = other.replace({"contact.load_per_length": 1.57e6, "contact.entrainment_speed": 4.0})
     assert back == case
+
+
+def test_replace_takes_parts_of_another_case():
+    case = Case.from_dict(TABLE)
+    other = case.replace({"contact.max_hertz_pressure": "1 GPa", "grid.nodes": 801})
+    assert case.replace(contact=other.contact, grid=other.grid) == other
 
 
 def test_replace_of_the_base_drops_the_old_lubricant():

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.constants import epsilon_0
 
@@ -98,3 +98,56 @@ def test_high_field_zone_of_a_known_shape():
 def test_high_field_zone_reaches_the_ends_of_a_uniform_field():
     field = solve_field(FieldProblem(X, 0 * X, 0 * X + 1e-6, 1 + 0 * X, 0.0, 1.0))
     assert field.high_field_zone == (X[0], X[-1])
+
+
+waves = st.lists(st.floats(-0.4, 0.4), min_size=4, max_size=4)
+
+
+def random_gap(lower, gap, permittivity, **changes):
+    """Walls and permittivity of random waves that level off at the ends; the gap is the distance of both."""
+    phase = np.pi * np.arange(1, 5)[:, np.newaxis] * (X - X[0]) / (X[-1] - X[0])
+    mean, height = (coefficients @ np.cos(phase) for coefficients in (np.array(lower), np.array(gap)))
+    values = {"x": X, "lower": 5e-6 * mean, "upper": 5e-6 * mean + 5e-6 * np.exp(height)}
+    values |= {"permittivity": 2.4 * np.exp(np.array(permittivity) @ np.cos(phase))}
+    return FieldProblem(**(values | {"potential_1": 3.0, "potential_2": -2.0} | changes))
+
+
+@settings(deadline=None)
+@given(lower=waves, gap=waves, permittivity=waves)
+def test_energy_and_charge_give_one_capacitance(lower, gap, permittivity):
+    field = solve_field(random_gap(lower, gap, permittivity))
+    assert field.capacitance_by_charge == pytest.approx(field.capacitance, rel=1e-9)
+
+
+@settings(deadline=None)
+@given(lower=waves, gap=waves, permittivity=waves)
+def test_capacitance_lies_between_its_variational_bounds(lower, gap, permittivity):
+    """Thomson's with flux straight across, eps/h, and Dirichlet's with V = s."""
+    problem = random_gap(lower, gap, permittivity)
+    field = solve_field(problem)
+    h = problem.upper - problem.lower
+    slope, opening = np.gradient(problem.lower, X), np.gradient(h, X)
+    straight = np.trapezoid(epsilon_0 * problem.permittivity / h, X)
+    square = 1 + slope**2 + slope * opening + opening**2 / 3
+    linear = np.trapezoid(epsilon_0 * problem.permittivity / h * square, X)
+    # Walls between the columns are straight here, and trapezia and gradients smooth them: some parts in 1e-5.
+    assert (1 - 3e-5) * straight <= field.capacitance <= (1 + 3e-5) * linear
+
+
+@settings(deadline=None, max_examples=20)
+@given(lower=waves, gap=waves, density=st.floats(-100.0, 100.0), voltage=st.floats(0.1, 100.0))
+def test_voltage_and_charge_superpose(lower, gap, density, voltage):
+    """V of both is that of the voltage and that of the charge; the capacitance knows of no charge."""
+    charge = density * np.cos(3e4 * X)[:, np.newaxis] * np.linspace(0.5, 1.5, 7)
+
+    def potential(volts, part):
+        potentials = {"potential_1": 0.0, "potential_2": volts}
+        field = solve_field(random_gap(lower, gap, waveless, charge_density=part * charge, **potentials))
+        return field.potential, field.capacitance
+
+    waveless = [0.0] * 4
+    (both, with_charge), (double, _), (alone, without) = (
+        potential(voltage, part) for part in (1.0, 2.0, 0.0)
+    )
+    np.testing.assert_allclose(double - both, both - alone, atol=1e-9 * (voltage + abs(density)))
+    assert with_charge == pytest.approx(without, rel=1e-12)

@@ -28,6 +28,52 @@ def test_slope_is_the_derivative(law, parameters, pressure):
     assert law(pressure, **parameters)[1] == pytest.approx(central, rel=1e-5, abs=1e-18)
 
 
+# Parameters anywhere within the bounds of the inputs.
+roelands_parameters = st.fixed_dictionaries(
+    {
+        "pressure_viscosity_coefficient": st.floats(1e-11, 2e-7),
+        "roelands_z": st.floats(0.01, 2.0),
+        "roelands_pressure": st.floats(1e7, 1e10),
+    }
+)
+density_parameters = st.fixed_dictionaries(
+    {"density_c1": st.floats(1e7, 1e11), "density_c2": st.floats(1.0, 3.0)}
+)
+
+
+@given(pressure=pressures, viscosity=roelands_parameters, density=density_parameters)
+def test_laws_of_any_parameters_have_their_slope(pressure, viscosity, density):
+    for law, parameters in ((lubricant.roelands, viscosity), (lubricant.dowson_higginson, density)):
+        value, slope = law(pressure, **parameters)
+        assert np.isfinite(value)
+        assert slope >= 0.0
+        # Wide enough for rounding, narrow enough for the laws' own scale of some 1e7 Pa.
+        step = 1e-4 * (pressure + 1e7)
+        low, high = (law(max(pressure + sign * step, 0.0), **parameters)[0] for sign in (-1, 1))
+        mean = (high - low) / (pressure + step - max(pressure - step, 0.0))
+        assert slope == pytest.approx(mean, rel=1e-3, abs=1e-11 * value / step)
+
+
+@given(pressure=pressures, parameters=density_parameters)
+def test_density_lies_between_its_limits(pressure, parameters):
+    ratio, slope = lubricant.dowson_higginson(pressure, **parameters)
+    assert 1.0 <= ratio <= parameters["density_c2"] * (1 + 1e-15)
+    # The bulk modulus rho/(drho/dp) at p = 0 is C1/(C2 - 1).
+    bulk = lubricant.dowson_higginson(0.0, **parameters)[1] * parameters["density_c1"]
+    assert bulk == pytest.approx(parameters["density_c2"] - 1.0, abs=1e-12)
+    assert slope <= (parameters["density_c2"] - 1.0) / parameters["density_c1"] * (1 + 1e-12)
+
+
+@given(pressure=pressures, parameters=roelands_parameters)
+def test_roelands_lies_below_barus_where_z_is_below_one(pressure, parameters):
+    """And above it where z is above one: (1 + x)^z - 1 against z x, Bernoulli's inequality."""
+    alpha = parameters["pressure_viscosity_coefficient"]
+    difference = lubricant.roelands(pressure, **parameters)[0] - alpha * pressure
+    # (1 + x)^z - 1 loses what 1 + x rounds off.
+    rounding = 1e-14 * (alpha * pressure + alpha * parameters["roelands_pressure"] / parameters["roelands_z"])
+    assert np.sign(parameters["roelands_z"] - 1.0) * difference >= -rounding
+
+
 @pytest.mark.parametrize(("law", "parameters"), PRESSURE_LAWS)
 @given(low=pressures, high=pressures)
 def test_laws_rise_with_pressure(law, parameters, low, high):
@@ -63,6 +109,17 @@ def test_clausius_mossotti_keeps_the_molar_polarisation(ratio, reference):
     eps = lubricant.clausius_mossotti(ratio, relative_permittivity=reference)
     left = (eps - 1) / (eps + 2)
     assert left == pytest.approx(ratio * (reference - 1) / (reference + 2), rel=1e-9, abs=1e-12)
+
+
+@given(ratio=st.floats(0.0, 1.4), more=st.floats(0.0, 0.1), reference=st.floats(1.0, 3.9))
+def test_clausius_mossotti_limits(ratio, more, reference):
+    """Vacuum where there is no liquid, the given value at its own density, and rising between."""
+    eps = lubricant.clausius_mossotti(
+        np.array([0.0, ratio, ratio + more, 1.0]), relative_permittivity=reference
+    )
+    assert eps[0] == 1.0
+    assert 1.0 <= eps[1] <= eps[2] * (1 + 1e-15)
+    assert eps[3] == pytest.approx(reference, rel=1e-14)
 
 
 def test_clausius_mossotti_refuses_its_pole():

@@ -62,6 +62,20 @@ def test_number_and_text_are_the_same(value):
     assert LENGTH.parse(f"{1e3 * value!r} mm") == pytest.approx(value, rel=1e-13)
 
 
+PREFIXES = {"": 0, "k": 3, "M": 6, "G": 9, "m": -3, "µ": -6, "u": -6, "n": -9}
+
+
+@given(
+    number=st.decimals(-9999, 9999, places=3),
+    prefix=st.sampled_from(sorted(PREFIXES)),
+    unit=st.sampled_from(["m", "Pa", "V", "N/m", "m/s", "Pa s"]),
+)
+def test_prefixes_are_powers_of_ten(number, prefix, unit):
+    """The float nearest to the decimal number: 0.1 mm is 1e-4 m, not 1.0000000000000002e-4 m."""
+    expected = float(number.scaleb(PREFIXES[prefix]))
+    assert to_si(f"{number} {prefix}{unit}", unit.replace(" ", "*")) == expected
+
+
 @pytest.mark.parametrize("given", [4, 101, 10.0, True, "10", None, [10], math.nan])
 def test_count_takes_whole_numbers_only(given):
     with pytest.raises(ValueError, match=r"got .* takes a whole number from 5 to 100: a test"):

@@ -55,6 +55,17 @@ def test_other_netcdf_files_are_refused(paper_result, tmp_path):
         load(tmp_path / "other.nc")
 
 
+@pytest.mark.parametrize("value", [np.nan, np.inf])
+def test_damaged_results_are_refused(paper_result, tmp_path, value):
+    dataset = paper_result.to_xarray().copy(deep=True)
+    dataset["thickness"][7] = value
+    dataset.to_netcdf(tmp_path / "damaged.nc", engine="h5netcdf")
+    paper_result.to_xarray().isel(s=slice(0, 1)).to_netcdf(tmp_path / "empty.nc", engine="h5netcdf")
+    for name in ("damaged.nc", "empty.nc"):
+        with pytest.raises(InputError, match="not a result of ehlectric, or damaged"):
+            load(tmp_path / name)
+
+
 def test_file_is_whole_or_not_there(tmp_path):
     path = tmp_path / "file.txt"
     path.write_text("old")
@@ -227,6 +238,18 @@ def test_warnings(paper_case, keys, message):
 
 def test_paper_result_needs_no_warning(paper_result):
     assert paper_result.warnings == ()
+
+
+def test_roughness_higher_than_the_film_is_raised_in_vain(paper_case):
+    """The smooth film is solved; with ever smaller rises of the roughness there is a height with none."""
+    rough = {"surface": 2, "generator": "gaussian", "rq": "200 nm", "correlation_length": "5 um", "seed": 1}
+    changes = {"contact.max_hertz_pressure": "1 GPa", "contact.entrainment_speed": 0.2, "grid.nodes": 801}
+    result = solve(paper_case.replace(changes | {"roughness": [rough]}))
+    assert not result.converged
+    assert result.smooth is not None
+    assert result.smooth.minimum_thickness < 200e-9
+    assert result.film.discretisation_error is None
+    assert any("do not use this film" in text for text in result.warnings)
 
 
 def test_the_caller_may_ask_for_a_solution_or_nothing(paper_case):

@@ -6,8 +6,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ehlectric import InputError, generators
+from ehlectric.conditions import resolve
 from ehlectric.roughness import Processing, Profile, processed, statistics, trimmed, waviness, without_form
-from ehlectric.walls import continued
+from ehlectric.walls import continued, rough_surfaces
 
 CUTOFF = 80e-6
 
@@ -63,6 +64,12 @@ def test_steps_come_in_order_and_trim_by_half_a_cutoff():
     assert np.max(np.abs(steps[6][1].heights)) == 6e-8
 
 
+def test_flat_profile_has_no_roughness_to_rescale():
+    steps = Processing("none", None, None, None, 5e-8, None)
+    with pytest.raises(InputError, match="rescale_rq: got a flat profile"):
+        processed(Profile(1e-6, np.zeros(100)), steps)
+
+
 @pytest.mark.parametrize("cutoff", [1e-6, 1e-2])
 def test_cutoffs_that_cannot_be(cutoff):
     with pytest.raises(InputError, match="cutoff: got"):
@@ -98,6 +105,24 @@ def test_self_affine_spectrum_has_its_slope():
     # The logarithm of a single power has a spread of 1.3: some thousand waves average it.
     assert slope == pytest.approx(-1 - 2 * hurst, abs=0.15)
     assert np.max(power[q > 1.01e6]) < 1e-12 * np.max(power)
+
+
+@pytest.mark.parametrize("shortest", [None, 2e-6])
+def test_self_affine_surface_of_a_case(paper_case, shortest):
+    """As rough as asked over twice the domain, and no wave below the shortest, by default a hundredth."""
+    asked = {"generator": "self-affine", "rq": 2e-8, "hurst": 0.8, "rolloff_wavelength": 1e-4, "seed": 5}
+    asked |= {} if shortest is None else {"shortest_wavelength": shortest}
+    case = paper_case.replace(roughness=[{"surface": 2} | asked])
+    (surface,) = rough_surfaces(case, resolve(case))
+    _, profile = surface.steps[-1]
+    assert surface.surface == 2
+    assert profile.length == pytest.approx(2 * 6 * 499.4e-6, rel=0.01)
+    assert statistics(profile).rq == pytest.approx(2e-8, rel=1e-9)
+    power = np.abs(np.fft.rfft(profile.heights)) ** 2
+    q = np.fft.rfftfreq(profile.heights.size, profile.spacing)
+    cut = 1.0 / (shortest or 1e-6)
+    assert np.max(power[q > 1.01 * cut]) < 1e-12 * np.max(power)
+    assert np.max(power[(q > 0.9 * cut) & (q < cut)]) > 1e-9 * np.max(power)
 
 
 def test_shapes():

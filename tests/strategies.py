@@ -1,0 +1,118 @@
+"""Cases of every kind a case file may hold, for hypothesis."""
+
+from hypothesis import strategies as st
+
+NO_CONTROL = st.characters(codec="utf-8", exclude_categories=("Cs", "Cc"))
+
+radius = st.floats(1e-6, 1e3)
+modulus = st.floats(1e5, 2e12)
+body = st.fixed_dictionaries({"youngs_modulus": modulus, "poissons_ratio": st.floats(-0.99, 0.5)})
+
+
+def either(*alternatives):
+    return st.one_of(*(st.fixed_dictionaries(keys, optional=others) for keys, others in alternatives))
+
+
+def merged(*parts):
+    """Tables of which each part gives some keys."""
+    return st.tuples(*parts).map(lambda tables: {k: v for table in tables for k, v in table.items()})
+
+
+contacts = merged(
+    either(
+        ({"reduced_radius": radius}, {}),
+        ({"radius_1": radius, "radius_2": radius.map(lambda r: -r)}, {}),
+    ),
+    either(({"reduced_modulus": modulus}, {}), ({"body_1": body, "body_2": body}, {})),
+    either(
+        ({"load_per_length": st.floats(1e-2, 1e9)}, {}), ({"max_hertz_pressure": st.floats(1e4, 2e10)}, {})
+    ),
+    either(
+        ({"entrainment_speed": st.floats(1e-9, 1e4)}, {"slide_to_roll_ratio": st.floats(-1e3, 1e3)}),
+        ({"speed_1": st.floats(1.0, 1e4), "speed_2": st.floats(-0.9, 1e4)}, {}),
+    ),
+)
+permittivity = {"relative_permittivity": st.floats(1.0, 1e3)}
+more = {
+    "ambient_pressure": st.floats(0.0, 1e8),
+    "permittivity_law": st.sampled_from(["constant", "clausius-mossotti"]),
+}
+viscosity = {"viscosity": st.floats(1e-7, 1e6)}
+alpha = {"pressure_viscosity_coefficient": st.floats(1e-11, 2e-7)}
+roelands = {"roelands_z": st.floats(0.01, 2.0), "roelands_pressure": st.floats(1e7, 1e10)}
+density = {"density_c1": st.floats(1e7, 1e11), "density_c2": st.floats(1.0, 3.0)}
+lubricants = either(
+    ({"base": st.just("paper")}, more | permittivity | viscosity | alpha | roelands | density),
+    (
+        {
+            **viscosity,
+            "viscosity_law": st.just("constant"),
+            "density_law": st.just("incompressible"),
+            **permittivity,
+        },
+        more,
+    ),
+    (
+        {
+            **viscosity,
+            **alpha,
+            **roelands,
+            **density,
+            "viscosity_law": st.sampled_from(["roelands", "barus"]),
+            "density_law": st.just("dowson-higginson"),
+            **permittivity,
+        },
+        more,
+    ),
+)
+height, length = st.floats(1e-12, 1e-3), st.floats(1e-9, 1.0)
+place = {"shift": st.floats(-1.0, 1.0), "surface": st.sampled_from([1, 2])}
+roughness = either(
+    (
+        {
+            "surface": place["surface"],
+            "generator": st.just("sinusoid"),
+            "amplitude": height,
+            "wavelength": length,
+        },
+        {"phase": st.floats(-9.0, 9.0), "shift": place["shift"]},
+    ),
+    (
+        {
+            "surface": place["surface"],
+            "generator": st.just("gaussian"),
+            "rq": height,
+            "correlation_length": length,
+            "seed": st.integers(0, 2**32),
+        },
+        {"form": st.sampled_from(["none", "line"]), "trim": length, "extend": st.just("flat")},
+    ),
+    (
+        {"surface": place["surface"], "file": st.text(NO_CONTROL, min_size=1).map(lambda name: f"/{name}")},
+        {"line": st.integers(0, 9), "x_unit": st.just("mm"), "cutoff_long": length, "truncate": height},
+    ),
+)
+grids = either(
+    (
+        {"nodes": st.integers(20_000, 10**7)},
+        {
+            "inlet": st.floats(-100.0, -2.0),
+            "outlet": st.floats(2.0, 100.0),
+            "wedge": st.sampled_from(["first-order", "second-order"]),
+            "field_range": st.tuples(st.floats(-2.0, -0.1), st.floats(0.1, 2.0)).map(list),
+            "field_nodes": st.integers(17, 10**6),
+            "field_degree": st.integers(2, 20),
+        },
+    ),
+)
+volts = st.floats(-1e7, 0.0), st.floats(1.0, 1e7)
+tables = st.fixed_dictionaries(
+    {"contact": contacts, "lubricant": lubricants},
+    optional={
+        "title": st.text(NO_CONTROL, max_size=200),
+        "roughness": st.lists(roughness, max_size=2),
+        "electric": st.fixed_dictionaries({"potential_1": volts[0], "potential_2": volts[1]}),
+        "grid": grids,
+        "solver": st.fixed_dictionaries({"tolerance": st.floats(1e-11, 1e-3)}),
+    },
+)
