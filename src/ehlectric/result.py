@@ -183,27 +183,31 @@ class Result:
         """All arrays with their units, and the case, summary and solver history as attributes."""
         import xarray as xr
 
-        return xr.Dataset(
-            variables(self.film, self.field)
-            | roughness_variables(self.roughness)
-            | (smooth_variables(**vars(self.smooth)) if self.smooth else {}),
-            attrs={
-                "Conventions": "CF-1.11",
-                "title": self.case.title or "Film and electric field of a line contact",
-                "source": f"ehlectric {self.version}",
-                "history": f"{self.date} solved by ehlectric {self.version}",
-                "version": self.version,
-                "date": self.date,
-                "converged": int(self.converged),
-                "case": self.case.to_toml(),
-                "summary": json.dumps(self.summary()),
-                "warnings": json.dumps(self.warnings),
-                "rough": json.dumps(_plain(self.rough)),
-                "solvers": self.solvers,
-                "seconds": json.dumps([self.film_seconds, self.field_seconds]),
-                **attributes(self.film, self.field),
-            },
-        ).set_coords(COORDINATES)
+        return (
+            xr.Dataset(
+                variables(self.film, self.field)
+                | roughness_variables(self.roughness)
+                | (smooth_variables(**vars(self.smooth)) if self.smooth else {}),
+                attrs={
+                    "Conventions": "CF-1.11",
+                    "title": self.case.title or "Film and electric field of a line contact",
+                    "source": f"ehlectric {self.version}",
+                    "history": f"{self.date} solved by ehlectric {self.version}",
+                    "version": self.version,
+                    "date": self.date,
+                    "converged": int(self.converged),
+                    "case": self.case.to_toml(),
+                    "summary": json.dumps(self.summary()),
+                    "warnings": json.dumps(self.warnings),
+                    "rough": json.dumps(_plain(self.rough)),
+                    "solvers": self.solvers,
+                    "seconds": json.dumps([self.film_seconds, self.field_seconds]),
+                    **attributes(self.film, self.field),
+                },
+            )
+            .set_coords(COORDINATES)
+            .copy(deep=True)
+        )
 
 
 def scales_of(case: Case, conditions: Conditions) -> Scales:

@@ -37,6 +37,9 @@ from ehlectric.walls import RoughSurface, rough_surfaces
 # Gap below which walls count as this far apart in the field [m]: the size of an atom.
 _ATOM = 1e-10
 
+# Gap over the length of the field range above which there is no contact, but a film that was not found.
+_WIDEST = 100.0
+
 # Parts into which an interval of the film is refined for the field at the most.
 _MOST_PARTS = 32
 
@@ -214,7 +217,7 @@ def field_problem(case: Case, conditions: Conditions, film: Film, roughness: Arr
     lower, upper = surfaces(conditions, film, roughness)
     # Middle and gap, not the two walls: between two nodes walls of their own might cross.
     middle = _resampled(film.x, 0.5 * (lower + upper), x)
-    gap = np.maximum(_resampled(film.x, film.thickness, x), _ATOM)
+    gap = np.clip(_resampled(film.x, film.thickness, x), _ATOM, _WIDEST * np.ptp(x))
     return FieldProblem(
         x=x,
         lower=middle - 0.5 * gap,

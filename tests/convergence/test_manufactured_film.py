@@ -4,12 +4,13 @@ import numpy as np
 import pytest
 
 from ehlectric.film import solve_film
+from ehlectric.paper import fas
 from tests.reference import film as exact
 
 
-def errors(nodes, *, second_order):
+def errors(solve, nodes, *, second_order):
     """Largest error of P and of H, and that of H00."""
-    film = solve_film(exact.problem(nodes, second_order=second_order))
+    film = solve(exact.problem(nodes, second_order=second_order))
     assert film.converged
     assert not np.any(film.cavitated[1:-1])
     pressure = film.pressure - exact.pressure(film.x)
@@ -19,11 +20,20 @@ def errors(nodes, *, second_order):
     return [np.max(np.abs(e)) for e in (pressure, thickness, h00)]
 
 
-# Largest errors on the finest grid are some times dX = 1e-3, and dX^2.
-@pytest.mark.parametrize(("second_order", "order", "largest"), [(False, 1, 5e-4), (True, 2, 2e-6)])
-def test_manufactured_film(slope, second_order, order, largest):
-    nodes = np.array([401, 801, 1601, 3201])
-    found = np.array([errors(n, second_order=second_order) for n in nodes])
-    assert np.all(found[-1] < largest)
-    for name, column in zip(("P", "H", "H00"), found.T, strict=True):
-        assert slope(1.0 / (nodes - 1), column) == pytest.approx(order, abs=0.06), name
+SOLVERS = {
+    "ours": (solve_film, (401, 801, 1601, 3201)),
+    # On 3201 nodes of this film its cycles stay in a limit cycle at the pressure's steepest place.
+    "the paper's": (fas.solve_film, (401, 801, 1601)),
+}
+
+
+@pytest.mark.parametrize("name", SOLVERS)
+@pytest.mark.parametrize(("second_order", "order", "largest"), [(False, 1, 0.5), (True, 2, 2.0)])
+def test_manufactured_film(slope, name, second_order, order, largest):
+    """Errors fall with dX or dX^2, and are at most half of dX, or twice dX^2."""
+    solve, nodes = SOLVERS[name]
+    dx = (exact.OUTLET - exact.INLET) / (np.array(nodes) - 1)
+    found = np.array([errors(solve, n, second_order=second_order) for n in nodes])
+    assert np.all(found[-1] < largest * dx[-1] ** order)
+    for quantity, column in zip(("P", "H", "H00"), found.T, strict=True):
+        assert slope(dx, column) == pytest.approx(order, abs=0.06), quantity

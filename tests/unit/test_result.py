@@ -272,3 +272,20 @@ def test_results_are_reproducible(paper_case, paper_result):
     again = solve(paper_case)
     np.testing.assert_array_equal(again.film.thickness, paper_result.film.thickness)
     np.testing.assert_array_equal(again.field.strength, paper_result.field.strength)
+
+
+def test_dataset_shares_no_array_with_the_result(paper_case):
+    result = solve(paper_case.replace({"grid.nodes": 801}))
+    dataset = result.to_xarray()
+    dataset["thickness"][:] = 1.0
+    assert result.film.minimum_thickness < 1e-5
+
+
+def test_film_that_gapes_is_no_reason_to_stop():
+    """A film not found, metres wide over columns of nanometres: everything is given back all the same."""
+    contact = {"reduced_radius": 0.01, "reduced_modulus": 1e12}
+    contact |= {"max_hertz_pressure": 1.26e6, "entrainment_speed": 1e4}
+    lubricant = {"base": "paper", "viscosity_law": "barus"}
+    result = solve(Case.from_dict({"contact": contact, "lubricant": lubricant, "grid": {"nodes": 85}}))
+    assert not result.converged
+    assert np.all(np.isfinite(result.field.strength))

@@ -144,11 +144,15 @@ def equations_of(problem: FilmProblem, nodes: int) -> FilmEquations:
     """The film equations of a problem on a grid of so many nodes, without right sides."""
     x = np.linspace(problem.inlet, problem.outlet, nodes)
     added = 0.0 if problem.added_gap is None else problem.added_gap(x)[:, 0]
+    source = np.zeros(nodes)
+    if problem.source is not None:
+        # Eq. (7) has the opposite sign of the residual that the problem gives the source of.
+        source[1:-1] = -problem.source(x)[1:-1, 0]
     return FilmEquations(
         fluid=problem.fluid,
         x=x,
         gap=0.5 * x**2 + added,
-        source=np.zeros(nodes),
+        source=source,
         load=LINE.load,
         second_order=problem.second_order,
     )

@@ -1,12 +1,12 @@
 """The film equations as the paper discretises them, on one grid, with the right sides of a coarse grid.
 
 Written without the package's own film solver, so that the two can check each other. Dimensionless, X = x/b,
-P = p/p_h and H = h R/b^2:
+P = p/p_h and H = h R/b^2, with the numbers of the paper's equations::
 
-    L(P, H) = [eps_(i-1/2) P_(i-1) - (eps_(i-1/2) + eps_(i+1/2)) P_i + eps_(i+1/2) P_(i+1)]/dX^2
-              - (wedge of rho H)/dX = source                                                       (7)
-    H = H00 + gap - (1/pi) sum K P                                                            (1), (5)
-    sum of the trapezoidal rule over P = load                                                     (11)
+    (7)       L(P, H) = [eps_(i-1/2) P_(i-1) - (eps_(i-1/2) + eps_(i+1/2)) P_i + eps_(i+1/2) P_(i+1)]/dX^2
+                        - (wedge of rho H)/dX = source
+    (1), (5)  H = H00 + gap - (1/pi) sum K P
+    (11)      sum of the trapezoidal rule over P = load
 
 On the grid one solves for, ``source`` is zero, ``gap`` the dry gap and ``load`` pi/2.
 """

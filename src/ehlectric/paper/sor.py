@@ -1,7 +1,7 @@
 """Point successive over-relaxation for the field on a Cartesian grid: the paper's own method.
 
 Eqs. (16), (17) and (A1) to (A5) of Morris et al. (2022), doi:10.3390/lubricants10050087, for cells of any
-shape: with unequal arms h_W, h_E, h_S, h_N from node (l, k) to its neighbours, a_1 of the east one is
+shape: with unequal arms h_W, h_E, h_S, h_N from node (l, k) to its neighbours, a_1 of the east one is::
 
     a_1 = (eps_(l,k) + eps_(l,k-1))/2 dy^2 2/(h_E (h_E + h_W))
 
