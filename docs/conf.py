@@ -74,7 +74,7 @@ html_extra_path = ["_generated/extra"]
 html_css_files = ["ehlectric.css"]
 html_show_sourcelink = False
 html_copy_source = False
-html_sidebars = {"verification": []}  # it has no pages below it
+html_sidebars = {"verification": [], "paper": []}  # they have no pages below them
 html_theme_options = {
     "header_links_before_dropdown": 9,
     "navigation_with_keys": False,

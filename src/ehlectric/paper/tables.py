@@ -36,9 +36,13 @@ class PaperTable:
 
     @property
     def shown(self) -> list[list[str]]:
-        """The rows as text."""
+        """The rows as text that does not break within a cell."""
         return [
-            [format(value, form) for value, form in zip(row, self.formats, strict=True)] for row in self.rows
+            [
+                format(value, form).replace(" ", "\N{NO-BREAK SPACE}")
+                for value, form in zip(row, self.formats, strict=True)
+            ]
+            for row in self.rows
         ]
 
     def save(self, path: Path) -> None:
