@@ -268,6 +268,11 @@ class Roughness(Table):
         for name in sorted(given - allowed - {"surface"}):
             what = f"the generator {self.generator!r}" if self.generator else "a file"
             raise ValueError(f"{name}: got it with {what}, which has no use for it")
+        rolloff, shortest = self.rolloff_wavelength, self.shortest_wavelength
+        if rolloff is not None and shortest is not None and shortest >= rolloff:
+            raise ValueError(
+                f"shortest_wavelength: got {shortest:g} m, takes less than rolloff_wavelength, {rolloff:g} m"
+            )
         if self.direction == "y" and not self.assume_transverse:
             raise ValueError(
                 "direction: got 'y', measured across entrainment; a line contact sees every profile as "
