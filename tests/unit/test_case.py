@@ -264,6 +264,20 @@ def test_toml_round_trip(title, radius, speed, voltage, nodes, field_range):
     assert Case.from_dict(tomllib.loads(case.to_toml())) == case
 
 
+def test_files_of_a_case_written_elsewhere(tmp_path, monkeypatch):
+    """A name relative to one folder means another file beside the next one."""
+    (tmp_path / "other").mkdir()
+    rough = TABLE | {"roughness": [{"surface": 1, "file": "surfaces/a.csv"}]}
+    (tmp_path / "case.toml").write_text(Case.from_dict(rough).to_toml())
+    monkeypatch.chdir(tmp_path)
+    case = Case.from_toml("case.toml")
+    assert case.roughness[0].file == str(tmp_path / "surfaces" / "a.csv")
+    (tmp_path / "other" / "case.toml").write_text(case.to_toml())
+    assert Case.from_toml("other/case.toml") == case
+    monkeypatch.chdir("other")
+    assert Case.from_toml("case.toml") == case
+
+
 def test_byte_order_mark_of_windows_editors(tmp_path):
     path = tmp_path / "case.toml"
     path.write_text(Case.from_dict(TABLE).to_toml(), encoding="utf-8-sig")
