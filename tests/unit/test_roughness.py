@@ -70,7 +70,22 @@ def test_flat_profile_has_no_roughness_to_rescale():
         processed(Profile(1e-6, np.zeros(100)), steps)
 
 
-@pytest.mark.parametrize("cutoff", [1e-6, 1e-2])
+def test_filter_at_its_shortest_cutoff():
+    """Four spacings: the sampled Gaussian still passes one half; at two it would pass 0.89."""
+    profile = Profile(1e-6, np.cos(0.5 * np.pi * np.arange(-200, 201)))
+    assert waviness(profile, 4e-6).heights[200] == pytest.approx(0.5, abs=5e-3)
+
+
+def test_means_are_taken_out_with_any_form():
+    """Of all the points, and of what a trim leaves: a line fitted to a step is none of its parts' own."""
+    heights = np.where(np.arange(400) < 100, 3e-7, 1e-7) + 0.1
+    for form in ("mean", "line", "parabola"):
+        steps = processed(Profile(1e-6, heights), Processing(form, trim=60e-6))
+        for _, profile in steps[1:]:
+            assert np.mean(profile.heights) == pytest.approx(0.0, abs=1e-15)
+
+
+@pytest.mark.parametrize("cutoff", [1e-6, 3.9e-6, 1e-2])
 def test_cutoffs_that_cannot_be(cutoff):
     with pytest.raises(InputError, match="cutoff: got"):
         waviness(Profile(1e-6, np.zeros(200)), cutoff)
