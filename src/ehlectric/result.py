@@ -16,16 +16,13 @@ from ehlectric.field import Field
 from ehlectric.film import Film
 from ehlectric.film_formulas import FORMULAS
 from ehlectric.nested import Scales
-from ehlectric.roughness import Profile, statistics
+from ehlectric.roughness import FLAT, Profile, statistics
 from ehlectric.typing import Array
 
 if TYPE_CHECKING:
     import xarray as xr
 
 SCHEMA = "ehlectric.summary/1"
-
-# Rq below which the Hertz zone is smooth [m]: a hundredth of an atom.
-_SMOOTH = 1e-12
 
 
 @dataclass(frozen=True)
@@ -153,7 +150,7 @@ class Result:
         # Of the sum, which alone the film feels: surfaces may be alike, or fill each other's valleys.
         combined = statistics(Profile(float(film.x[1] - film.x[0]), heights.sum(axis=0)))
         smooth = None if self.smooth is None else self.smooth.minimum_thickness
-        rough = combined.rq >= _SMOOTH
+        rough = combined.rq >= FLAT
         return {
             "surfaces": list(self.rough),
             "rq_1": rq_1,

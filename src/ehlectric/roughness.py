@@ -24,6 +24,9 @@ ALPHA = float(np.sqrt(np.log(2.0) / np.pi))
 # Spacings in the shortest cutoff: in two of them the sampled weights pass 0.89 at the cutoff instead of 0.5.
 LEAST_CUTOFF = 4.0
 
+# Rq below which a profile is flat [m]: a hundredth of an atom, and more than rounding leaves of a constant.
+FLAT = 1e-12
+
 # Points below which a profile has no statistics worth the name.
 LEAST_POINTS = 16
 
@@ -282,7 +285,7 @@ def processed(profile: Profile, steps: Processing) -> list[tuple[str, Profile]]:
         add(f"trim: {trim * 1e6:.4g} µm at each end", centred)
     if steps.rescale_rq is not None:
         rq = statistics(done[-1][1]).rq
-        if rq == 0.0:
+        if rq < FLAT:
             raise InputError("rescale_rq: got a flat profile, takes one with some height")
         scaled = done[-1][1].heights * (steps.rescale_rq / rq)
         add(f"rescale_rq: {steps.rescale_rq * 1e9:.4g} nm", replace(done[-1][1], heights=scaled))

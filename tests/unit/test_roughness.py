@@ -66,10 +66,11 @@ def test_steps_come_in_order_and_trim_by_half_a_cutoff():
     assert np.max(np.abs(steps[6][1].heights)) == 6e-8
 
 
-def test_flat_profile_has_no_roughness_to_rescale():
-    steps = Processing("none", None, None, None, 5e-8, None)
+@pytest.mark.parametrize("form", ["none", "mean", "parabola"])
+def test_flat_profile_has_no_roughness_to_rescale(form):
+    steps = Processing(form, None, None, None, 5e-8, None)
     with pytest.raises(InputError, match="rescale_rq: got a flat profile"):
-        processed(Profile(1e-6, np.zeros(100)), steps)
+        processed(Profile(1e-6, np.full(100, 0.1)), steps)
 
 
 def test_filter_at_its_shortest_cutoff():
