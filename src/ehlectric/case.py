@@ -135,11 +135,11 @@ class Case(Table):
 
 
 def _find_files(table: dict[str, Any], folder: Path) -> None:
-    """Files named in a case lie relative to it."""
+    """Files named in a case lie relative to it; their names hold wherever the case is written to."""
     rough = table.get("roughness")
     for surface in rough if isinstance(rough, list) else []:
         if isinstance(surface, dict) and isinstance(surface.get("file"), str):
-            surface["file"] = str(folder / surface["file"])
+            surface["file"] = str((folder / surface["file"]).absolute())
 
 
 def _reason(error: OSError) -> str:

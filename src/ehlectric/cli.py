@@ -145,18 +145,19 @@ def check(case_file: CaseFile, quiet: Quiet = False, as_json: Json = False) -> N
         from ehlectric.conditions import remarks, resolve
         from ehlectric.memory import check_memory
         from ehlectric.report import conditions_summary, conditions_table
+        from ehlectric.walls import remarks as rough_remarks
         from ehlectric.walls import rough_surfaces
 
         case = Case.from_toml(case_file)
         conditions = resolve(case)
-        rough_surfaces(case, conditions)
+        rough = rough_surfaces(case, conditions)
         check_memory(case)
     if as_json:
         typer.echo(json.dumps(conditions_summary(case, conditions), indent=2))
     elif not quiet:
         _print(conditions_table(case, conditions))
     if not quiet:
-        _warn(remarks(case, conditions))
+        _warn([*remarks(case, conditions), *rough_remarks(case, conditions, rough)])
 
 
 @app.command()
@@ -204,6 +205,7 @@ def surface(
         typer.echo(json.dumps(described, indent=2))
     else:
         _print(surface_table(described))
+        _warn(rough.remarks)
         if output is not None:
             typer.echo(f"written: {output}")
 

@@ -5,16 +5,23 @@ Heights are positive out of the body.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy import fft
+from scipy.signal import fftconvolve
 
+from ehlectric.errors import InputError
 from ehlectric.roughness import Profile
 from ehlectric.typing import Array
 
 _FOUR_LN_2 = 4.0 * np.log(2.0)
+
+# Points of a made profile beyond which it is refused: some 1 GB is then in use.
+MOST_POINTS = 10_000_000
+
+# Roll-off wavelengths after which the kernel of a self-affine profile is cut: less than a thousandth of Rq is
+# beyond.
+_REACH = 8.0
 
 
 def sinusoid(x: ArrayLike, *, amplitude: float, wavelength: float, phase: float = 0.0) -> Array:
@@ -106,28 +113,36 @@ def gaussian(*, rq: float, correlation_length: float, length: float, seed: int) 
     Parameters
     ----------
     rq : float
-        Root mean square height [m], met by the profile itself.
+        Root mean square height of all such profiles together [m]; a short one has another of its own.
     correlation_length : float
         Distance at which the autocorrelation is 1/e [m].
     length : float
-        Length of the profile [m]; it is periodic over a little more.
+        Length of the profile [m], at the least.
     seed : int
-        The same seed, rq and lengths give the same profile.
+        The same seed, rq and correlation length give the same height at the same position, whatever the
+        length.
 
     Returns
     -------
     Profile
-        With sixteen points a correlation length.
+        With sixteen points a correlation length, one of them at x = 0.
+
+    Raises
+    ------
+    InputError
+        Where that would be too many points.
 
     Examples
     --------
     >>> import numpy as np
-    >>> heights = gaussian(rq=1e-8, correlation_length=1e-5, length=1e-3, seed=1).heights
-    >>> round(float(np.std(heights)) * 1e9, 6)
+    >>> heights = gaussian(rq=1e-8, correlation_length=1e-5, length=1.0, seed=1).heights
+    >>> round(float(np.std(heights)) * 1e9, 1)
     10.0
     """
     spacing = correlation_length / 16.0
-    return _spectral(spacing, length, rq, seed, lambda q: np.exp(-((q * correlation_length) ** 2) / 4.0))
+    # Two of these Gaussians folded give the autocorrelation; at four lengths they are 1e-14.
+    kernel = np.exp(-2.0 * (np.arange(-64, 65) / 16.0) ** 2)
+    return _folded(kernel, spacing, length, rq, seed, "correlation_length")
 
 
 def self_affine(
@@ -138,46 +153,69 @@ def self_affine(
     Parameters
     ----------
     rq : float
-        Root mean square height [m], met by the profile itself.
+        Root mean square height of all such profiles together [m]; a short one has another of its own.
     hurst : float
         Hurst exponent, from 0 (rough) to 1 (smooth).
     rolloff_wavelength : float
         Wavelength above which the spectrum is flat [m].
     length : float
-        Length of the profile [m]; it is periodic over a little more.
+        Length of the profile [m], at the least.
     seed : int
-        The same seed and lengths give the same profile.
+        With the same seed and wavelengths the height at a position is the same, whatever the length.
     shortest : float
-        Shortest wavelength [m].
+        Shortest wavelength [m]; shorter ones are weaker by some orders of magnitude.
 
     Returns
     -------
     Profile
-        With four points in the shortest wavelength.
+        With four points in the shortest wavelength, one of them at x = 0.
+
+    Raises
+    ------
+    InputError
+        Where that would be too many points.
 
     Examples
     --------
     >>> import numpy as np
-    >>> made = dict(rq=1e-8, hurst=0.8, rolloff_wavelength=1e-4, length=1e-3, seed=1, shortest=1e-6)
-    >>> round(float(np.std(self_affine(**made).heights)) * 1e9, 6)
+    >>> made = dict(rq=1e-8, hurst=0.8, rolloff_wavelength=1e-4, length=1.0, seed=1, shortest=1e-5)
+    >>> round(float(np.std(self_affine(**made).heights)) * 1e9, 1)
     10.0
     """
-    rolloff, cut = 2.0 * np.pi / rolloff_wavelength, 2.0 * np.pi / shortest
+    spacing = shortest / 4.0
+    reach = int(np.ceil(_REACH * rolloff_wavelength / spacing))
+    _check_points(2 * reach, spacing, 2.0 * reach * spacing, "shortest_wavelength")
+    # The kernel is the inverse cosine transform of the spectrum's root, over four times what is kept of it.
+    n = fft.next_fast_len(8 * reach, real=True)
+    q = fft.rfftfreq(n, spacing)
+    root = np.maximum(q, 1.0 / rolloff_wavelength) ** (-0.5 - hurst) * (q <= 1.0 / shortest)
+    # Faded over its outer half, so that it has no step at its ends.
+    fade = np.clip(2.0 - 2.0 * np.arange(reach + 1) / reach, 0.0, 1.0)
+    half = fft.irfft(root, n)[: reach + 1] * (0.5 - 0.5 * np.cos(np.pi * fade))
+    return _folded(np.concatenate([half[:0:-1], half]), spacing, length, rq, seed, "shortest_wavelength")
 
-    def spectrum(q: Array) -> Array:
-        return np.maximum(q, rolloff) ** (-1.0 - 2.0 * hurst) * (q <= cut)
 
-    return _spectral(shortest / 4.0, length, rq, seed, spectrum)
+def _folded(kernel: Array, spacing: float, length: float, rq: float, seed: int, key: str) -> Profile:
+    """White noise folded with a symmetric kernel, on points counted from x = 0.
+
+    The noise to the right and to the left are two streams, so that a longer profile only adds to its ends.
+    The variance is that of theory, the sum of the kernel's squares.
+    """
+    reach = kernel.size // 2
+    half = int(np.ceil(0.5 * length / spacing))
+    _check_points(2 * (half + reach), spacing, length, key)
+    right, left = (
+        np.random.default_rng(stream).standard_normal(half + reach + side)
+        for side, stream in zip((1, 0), np.random.SeedSequence(seed).spawn(2), strict=True)
+    )
+    noise = np.concatenate([left[::-1], right])
+    heights: Array = fftconvolve(noise, kernel, mode="valid")
+    return Profile(spacing, heights * (rq / np.sqrt(np.sum(kernel**2))))
 
 
-def _spectral(
-    spacing: float, length: float, rq: float, seed: int, spectrum: Callable[[Array], Array]
-) -> Profile:
-    """Filtered white noise of a power spectrum, scaled to its Rq; periodic, so that no end is special."""
-    n = fft.next_fast_len(int(np.ceil(length / spacing)) + 1, real=True)
-    noise = np.random.default_rng(seed).standard_normal(n)
-    q = 2.0 * np.pi * fft.rfftfreq(n, spacing)
-    shape = np.sqrt(spectrum(q))
-    shape[0] = 0.0
-    heights = fft.irfft(fft.rfft(noise) * shape, n)
-    return Profile(spacing, heights * (rq / np.sqrt(np.mean(heights**2))))
+def _check_points(points: int, spacing: float, length: float, key: str) -> None:
+    if points > MOST_POINTS:
+        raise InputError(
+            f"{key}: asks for {points:.3g} points, {spacing:.3g} m apart over {length:.3g} m; takes a longer "
+            f"one, which needs at most {MOST_POINTS:.0e}"
+        )

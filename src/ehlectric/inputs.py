@@ -10,7 +10,7 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, ValidationError, mod
 from ehlectric import library
 from ehlectric.errors import InputError, shown
 from ehlectric.lubricant import DENSITY_LAWS, PERMITTIVITY_LAWS, VISCOSITY_LAWS
-from ehlectric.quantity import Count, Quantity
+from ehlectric.quantity import Count, Quantity, length_unit
 from ehlectric.validation import first_message, nearest
 
 
@@ -192,6 +192,7 @@ class Lubricant(Table):
 
 _Height = Annotated[float, Quantity("m", least=1e-12, most=1e-3, reason="of a surface, not of a body")]
 _Length = Annotated[float, Quantity("m", least=1e-9, most=1.0, reason="of waves and features on a surface")]
+_LengthUnit = Annotated[str, AfterValidator(length_unit)]
 _Place = Annotated[float, Quantity("m", least=-1.0, most=1.0, reason="along entrainment, 0 at the centre")]
 
 # What each generator needs, and what it may have beside that.
@@ -212,8 +213,8 @@ class Roughness(Table):
 
     surface: Literal[1, 2]
     file: str | None = None
-    x_unit: str | None = None
-    z_unit: str | None = None
+    x_unit: _LengthUnit | None = None
+    z_unit: _LengthUnit | None = None
     line: Annotated[int, Count(0, 1_000_000, "of a map, from 0")] = 0
     along: Literal["row", "column"] = "row"
     direction: Literal["x", "y"] = "x"
@@ -267,6 +268,11 @@ class Roughness(Table):
         for name in sorted(given - allowed - {"surface"}):
             what = f"the generator {self.generator!r}" if self.generator else "a file"
             raise ValueError(f"{name}: got it with {what}, which has no use for it")
+        rolloff, shortest = self.rolloff_wavelength, self.shortest_wavelength
+        if rolloff is not None and shortest is not None and shortest >= rolloff:
+            raise ValueError(
+                f"shortest_wavelength: got {shortest:g} m, takes less than rolloff_wavelength, {rolloff:g} m"
+            )
         if self.direction == "y" and not self.assume_transverse:
             raise ValueError(
                 "direction: got 'y', measured across entrainment; a line contact sees every profile as "

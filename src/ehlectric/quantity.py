@@ -85,6 +85,26 @@ def _factor(written: str, unit: str) -> float:
         raise ValueError(f"{written!r} is not a unit") from None
 
 
+def length_unit(text: str) -> str:
+    """The text, if it is a unit of length.
+
+    Raises
+    ------
+    ValueError
+        Where it is none.
+
+    Examples
+    --------
+    >>> length_unit("um")
+    'um'
+    """
+    try:
+        to_si(f"1 {text}", "m")
+    except ValueError as error:
+        raise ValueError(f"got {shown(text)} ({error}), takes a unit of length such as 'um'") from None
+    return text
+
+
 @dataclass(frozen=True)
 class Quantity:
     """Pydantic annotation: a float in SI, or a text with its unit, within bounds.

@@ -104,7 +104,9 @@ def result_table(result: Result) -> Table:
         for k in (1, 2):
             table.add_row(f"Rq of surface {k}, Hertz zone", f"{roughness[f'rq_{k}'] * 1e9:.3g}", "nm")
         if roughness["lambda_ratio"] is not None:
-            table.add_row("lambda ratio", f"{roughness['lambda_ratio']:.3g}")
+            table.add_row("lambda ratio", f"{roughness['lambda_ratio']:.3g}", "minimum film over Rq of both")
+        if roughness["lambda_ratio_smooth"] is not None:
+            table.add_row("  of the smooth film", f"{roughness['lambda_ratio_smooth']:.3g}")
         if result.smooth:
             table.add_row("minimum film, smooth", f"{result.smooth.minimum_thickness * 1e6:.4g}", "µm")
     _add_formulas(table, result)

@@ -16,7 +16,7 @@ from ehlectric.field import Field
 from ehlectric.film import Film
 from ehlectric.film_formulas import FORMULAS
 from ehlectric.nested import Scales
-from ehlectric.roughness import Profile, statistics
+from ehlectric.roughness import FLAT, Profile, statistics
 from ehlectric.typing import Array
 
 if TYPE_CHECKING:
@@ -147,16 +147,19 @@ class Result:
         inside = np.abs(film.x) <= self.conditions.half_width
         heights = self.roughness[:, inside]
         rq_1, rq_2 = (float(rq) for rq in np.std(heights, axis=1))
-        rq = math.hypot(rq_1, rq_2)
-        combined = Profile(float(film.x[1] - film.x[0]), heights.sum(axis=0))
+        # Of the sum, which alone the film feels: surfaces may be alike, or fill each other's valleys.
+        combined = statistics(Profile(float(film.x[1] - film.x[0]), heights.sum(axis=0)))
+        smooth = None if self.smooth is None else self.smooth.minimum_thickness
+        rough = combined.rq >= FLAT
         return {
             "surfaces": list(self.rough),
             "rq_1": rq_1,
             "rq_2": rq_2,
-            "rq_combined": rq,
-            "combined": vars(statistics(combined)),
-            "lambda_ratio": film.minimum_thickness / rq if rq > 0.0 else None,
-            "smooth_minimum_thickness": self.smooth and self.smooth.minimum_thickness,
+            "rq_combined": combined.rq,
+            "combined": vars(combined),
+            "lambda_ratio": film.minimum_thickness / combined.rq if rough else None,
+            "lambda_ratio_smooth": smooth / combined.rq if rough and smooth is not None else None,
+            "smooth_minimum_thickness": smooth,
         }
 
     def _field_summary(self) -> dict[str, float | str | None]:

@@ -21,6 +21,12 @@ FORM_DEGREES: dict[str, int] = {"mean": 0, "line": 1, "parabola": 2}
 # Constant of the Gaussian profile filter, for a transmission of one half at the cutoff (ISO 16610-21).
 ALPHA = float(np.sqrt(np.log(2.0) / np.pi))
 
+# Spacings in the shortest cutoff: in two of them the sampled weights pass 0.89 at the cutoff instead of 0.5.
+LEAST_CUTOFF = 4.0
+
+# Rq below which a profile is flat [m]: a hundredth of an atom, and more than rounding leaves of a constant.
+FLAT = 1e-12
+
 # Points below which a profile has no statistics worth the name.
 LEAST_POINTS = 16
 
@@ -55,9 +61,10 @@ class Statistics:
     rsk, rku : float
         Skewness and kurtosis, 0 and 3 for a Gaussian profile; 0 for a flat one.
     correlation_length : float
-        Distance at which the autocorrelation falls to 1/e [m]; the length where it does not.
+        Distance at which the autocorrelation falls to 1/e [m]; the length where it does not. The standard's
+        autocorrelation length falls to 0.2.
     rms_slope, largest_slope : float
-        Of the differences between neighbours.
+        Of the differences between neighbours; the standard takes its slopes over seven points.
     """
 
     rq: float
@@ -80,7 +87,7 @@ def statistics(profile: Profile) -> Statistics:
     Returns
     -------
     Statistics
-        As defined in ISO 21920-2, over the whole profile.
+        Rq, Ra, Rsk and Rku as defined in ISO 21920-2, but over the whole profile as one section.
 
     Examples
     --------
@@ -166,7 +173,8 @@ def waviness(profile: Profile, cutoff: float) -> Profile:
     Raises
     ------
     InputError
-        Where the cutoff is longer than the profile or shorter than two spacings.
+        Where the cutoff is longer than the profile, or shorter than the four spacings below which the
+        sampled weights are no Gaussian any more.
 
     Notes
     -----
@@ -179,10 +187,10 @@ def waviness(profile: Profile, cutoff: float) -> Profile:
     >>> round(float(np.max(waviness(profile, 8.0).heights[1000:3000])), 3)
     0.5
     """
-    if not 2.0 * profile.spacing <= cutoff <= profile.length:
+    if not LEAST_CUTOFF * profile.spacing <= cutoff <= profile.length:
         raise InputError(
-            f"cutoff: got {cutoff * 1e6:.4g} µm, takes a length between two spacings and the whole profile, "
-            f"{2e6 * profile.spacing:.4g} to {1e6 * profile.length:.4g} µm"
+            f"cutoff: got {cutoff * 1e6:.4g} µm, takes a length between four spacings and the whole profile, "
+            f"{LEAST_CUTOFF * 1e6 * profile.spacing:.4g} to {1e6 * profile.length:.4g} µm"
         )
     # Beyond one cutoff the weight is a millionth of that in the middle.
     reach = int(np.ceil(cutoff / profile.spacing))
@@ -216,8 +224,9 @@ def trimmed(profile: Profile, length: float) -> Profile:
 class Processing:
     """What is done to a profile, in this order; None leaves a step out. Lengths in m.
 
-    ``cutoff_long`` removes the waves longer than it, ``cutoff_short`` the shorter ones; ``trim`` is half of
-    the longer of the two where it is not given.
+    A form takes the mean out, again after the trim: a constant means nothing to a film, but it would to a
+    cut. ``cutoff_long`` removes the waves longer than it, ``cutoff_short`` the shorter ones; ``trim`` is half
+    of the longer of the two where it is not given.
     """
 
     form: Form = "none"
@@ -264,17 +273,19 @@ def processed(profile: Profile, steps: Processing) -> list[tuple[str, Profile]]:
         add(f"form: {steps.form}", without_form(done[-1][1], steps.form))
     if steps.cutoff_long is not None:
         before = done[-1][1]
-        rest = before.heights - waviness(before, steps.cutoff_long).heights
-        add(f"cutoff_long: {steps.cutoff_long * 1e6:.4g} µm", replace(before, heights=rest))
+        short = before.heights - waviness(before, steps.cutoff_long).heights
+        add(f"cutoff_long: {steps.cutoff_long * 1e6:.4g} µm", replace(before, heights=short))
     if steps.cutoff_short is not None:
         add(f"cutoff_short: {steps.cutoff_short * 1e6:.4g} µm", waviness(done[-1][1], steps.cutoff_short))
     cutoffs = [c for c in (steps.cutoff_long, steps.cutoff_short) if c is not None]
     trim = steps.trim if steps.trim is not None else 0.5 * max(cutoffs, default=0.0)
     if trim > 0.0:
-        add(f"trim: {trim * 1e6:.4g} µm at each end", trimmed(done[-1][1], trim))
+        rest = trimmed(done[-1][1], trim)
+        centred = rest if steps.form == "none" else without_form(rest, "mean")
+        add(f"trim: {trim * 1e6:.4g} µm at each end", centred)
     if steps.rescale_rq is not None:
         rq = statistics(done[-1][1]).rq
-        if rq == 0.0:
+        if rq < FLAT:
             raise InputError("rescale_rq: got a flat profile, takes one with some height")
         scaled = done[-1][1].heights * (steps.rescale_rq / rq)
         add(f"rescale_rq: {steps.rescale_rq * 1e9:.4g} nm", replace(done[-1][1], heights=scaled))

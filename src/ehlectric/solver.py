@@ -29,10 +29,10 @@ from ehlectric.newton import Progress
 from ehlectric.poisson import FieldProblem
 from ehlectric.result import Result, Smooth, scales_of
 from ehlectric.reynolds import Fluid, FluidLaw
-from ehlectric.roughness import statistics
 from ehlectric.typing import Array
 from ehlectric.version import __version__
 from ehlectric.walls import RoughSurface, rough_surfaces
+from ehlectric.walls import remarks as rough_remarks
 
 # Gap below which walls count as this far apart in the field [m]: the size of an atom.
 _ATOM = 1e-10
@@ -121,7 +121,7 @@ def solve(
         field=field,
         warnings=(
             *remarks(case, conditions),
-            *_profile_remarks(case, conditions, rough),
+            *rough_remarks(case, conditions, rough),
             *_film_findings(case, conditions, film),
             *_field_findings(case, film, field),
         ),
@@ -266,27 +266,6 @@ def surfaces(conditions: Conditions, film: Film, roughness: Array) -> tuple[Arra
         conditions.curvature_share * parabola + conditions.compliance_share * film.deflection + 0.5 * rigid
     )
     return lower, lower + film.thickness
-
-
-def _profile_remarks(case: Case, conditions: Conditions, rough: Sequence[RoughSurface]) -> Iterator[str]:
-    """Profiles shorter than the domain, and profiles finer than the grid."""
-    grid, b = case.grid, conditions.half_width
-    dx = b * (grid.outlet - grid.inlet) / (grid.nodes - 1)
-    for table, surface in zip(case.roughness, rough, strict=True):
-        reach = 2.0 * max(abs(b * end - table.shift) for end in (grid.inlet, grid.outlet))
-        if surface.extent < reach:
-            yield (
-                f"the profile of surface {surface.surface} is {surface.extent * 1e6:.4g} µm long and the "
-                f"domain needs {reach * 1e6:.4g} µm: it was continued by extend = {table.extend!r}"
-            )
-        if surface.steps:
-            length = statistics(surface.steps[-1][1]).correlation_length
-            if dx > 0.5 * length:
-                yield (
-                    f"the grid, {dx * 1e6:.3g} µm, does not resolve the profile of surface "
-                    f"{surface.surface}, whose correlation length is {length * 1e6:.3g} µm: its error "
-                    "estimate means nothing yet"
-                )
 
 
 def _film_findings(case: Case, conditions: Conditions, film: Film) -> Iterator[str]:

@@ -204,6 +204,27 @@ def test_check_says_what_a_case_means(ehlectric, case_file):
     assert summary["regime"] == "piezoviscous-elastic"
 
 
+def test_check_says_what_is_doubtful_about_the_roughness(ehlectric, case_file, tmp_path):
+    """All of it that needs no film, as the run does."""
+    bump = '[[roughness]]\nsurface = 1\ngenerator = "asperity"\nheight = "20 nm"\nwidth = "1 um"\n'
+    lines = [f"{k};{k % 5}" for k in range(99) if k != 50]
+    (tmp_path / "a.csv").write_text("\n".join(["x [um];z [nm]", *lines]))
+    case_file.write_text(CASE + bump + '[[roughness]]\nsurface = 2\nfile = "a.csv"\n')
+    checked = ehlectric("check", case_file)
+    assert checked.returncode == 0
+    for text in (
+        "the asperity of surface 1, whose width is 1 µm",
+        "does not resolve the profile of surface 2",
+        "it was continued by extend = 'mirror'",
+        "1 of the 97 distances are twice the others",
+    ):
+        assert text in checked.stderr
+    ran = ehlectric("run", case_file, "--no-plots")
+    assert set(checked.stderr.splitlines()) <= set(ran.stderr.splitlines())
+    shown = ehlectric("surface", "a.csv")
+    assert "warning: a.csv: positions are written in steps of their spacing" in shown.stderr
+
+
 def test_init_writes_a_case_that_solves(ehlectric, tmp_path):
     assert ehlectric("init", "new.toml").returncode == 0
     assert ehlectric("check", "new.toml").returncode == 0

@@ -93,10 +93,29 @@ def test_roughness_is_in_the_summary():
     assert steps[3]["rq"] == pytest.approx(9.0e-9, rel=0.02)
     assert summary["roughness"]["rq_2"] == 0.0
     # Only one surface is rough: combined is its own.
-    assert summary["roughness"]["rq_combined"] == summary["roughness"]["rq_1"]
+    assert summary["roughness"]["rq_combined"] == pytest.approx(summary["roughness"]["rq_1"])
     assert summary["roughness"]["combined"]["rq"] == pytest.approx(summary["roughness"]["rq_1"])
     expected = summary["film"]["minimum_thickness"] / summary["roughness"]["rq_1"]
     assert summary["roughness"]["lambda_ratio"] == pytest.approx(expected)
+    expected = summary["roughness"]["smooth_minimum_thickness"] / summary["roughness"]["rq_1"]
+    assert summary["roughness"]["lambda_ratio_smooth"] == pytest.approx(expected)
+
+
+def test_lambda_ratio_is_of_what_the_film_feels():
+    """Two equal waves on both surfaces add up to twice one, and opposite ones to nothing."""
+    wave = {"generator": "sinusoid", "amplitude": "10 nm", "wavelength": "50 um"}
+    case = rough_case(nodes=801)
+    for phase, rq in ((0.0, 2 * 10e-9 / np.sqrt(2)), (np.pi, None)):
+        pair = ({"surface": 1} | wave, {"surface": 2, "phase": phase} | wave)
+        roughness = solve(case.replace(roughness=pair)).summary()["roughness"]
+        assert roughness["rq_1"] == pytest.approx(roughness["rq_2"], rel=1e-9)
+        if rq is None:
+            assert roughness["rq_combined"] < 1e-20
+            assert (roughness["lambda_ratio"], roughness["lambda_ratio_smooth"]) == (None, None)
+        else:
+            assert roughness["rq_combined"] == pytest.approx(rq, rel=0.02)
+            smooth = roughness["smooth_minimum_thickness"]
+            assert roughness["lambda_ratio_smooth"] == pytest.approx(smooth / rq, rel=0.02)
 
 
 def test_smooth_contact_is_beside_the_rough_one():
@@ -127,7 +146,7 @@ def test_sinusoid_lies_where_it_should():
 
 def test_film_of_the_order_of_its_roughness():
     """Roughness as high as the film is raised in steps; one far higher than it leaves no film."""
-    table = {"surface": 1, "generator": "gaussian", "rq": 2e-7, "correlation_length": 5e-6, "seed": 4}
+    table = {"surface": 1, "generator": "gaussian", "rq": 2.5e-7, "correlation_length": 5e-6, "seed": 4}
     solved = solve(rough_case(nodes=801, speed=4.0).replace(roughness=(table,)))
     assert solved.film.converged
     # Reached over films of less roughness: there is no coarser film of the same surfaces to compare with.

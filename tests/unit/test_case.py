@@ -58,6 +58,10 @@ BAD = [
     (changed(roughness=[{"surface": 1, "generator": "gaussian", "rq": 1e-8}]), r"correlation_length: missing"),
     (changed(roughness=[{"surface": 1, "file": "a", "rq": 1e-8}]), r"rq: got it with a file, which has no use"),
     (changed(roughness=[{"surface": 1, "file": "a", "direction": "y"}]), r"direction: got 'y'.*assume_transverse"),
+    (changed(roughness=[{"surface": 1, "file": "a", "x_unit": "foo"}]), r"roughness\.x_unit: got 'foo' .* takes a unit of length"),
+    (changed(roughness=[{"surface": 1, "file": "a", "z_unit": "kg"}]), r"roughness\.z_unit: got 'kg' .* takes a unit of length"),
+    (changed(roughness=[{"surface": 1, "file": "a", "z_unit": 1}]), r"roughness\.z_unit: got 1, takes a text"),
+    (changed(roughness=[{"surface": 1, "generator": "self-affine", "rq": 1e-8, "hurst": 0.5, "seed": 1, "rolloff_wavelength": 1e-5, "shortest_wavelength": 1e-5}]), r"shortest_wavelength: got 1e-05 m, takes less than rolloff"),
     (changed(nodes=5), r"nodes: unknown key.*grid\.nodes"),
     (changed(extra={"a": 1}), r"extra: unknown key"),
     (changed(contact={"load_per_length": None}), r"contact\.load_per_length: missing.*max_hertz_pressure"),
@@ -258,6 +262,20 @@ def test_toml_round_trip(title, radius, speed, voltage, nodes, field_range):
     )
     case = Case.from_dict(table)
     assert Case.from_dict(tomllib.loads(case.to_toml())) == case
+
+
+def test_files_of_a_case_written_elsewhere(tmp_path, monkeypatch):
+    """A name relative to one folder means another file beside the next one."""
+    (tmp_path / "other").mkdir()
+    rough = TABLE | {"roughness": [{"surface": 1, "file": "surfaces/a.csv"}]}
+    (tmp_path / "case.toml").write_text(Case.from_dict(rough).to_toml())
+    monkeypatch.chdir(tmp_path)
+    case = Case.from_toml("case.toml")
+    assert case.roughness[0].file == str(tmp_path / "surfaces" / "a.csv")
+    (tmp_path / "other" / "case.toml").write_text(case.to_toml())
+    assert Case.from_toml("other/case.toml") == case
+    monkeypatch.chdir("other")
+    assert Case.from_toml("case.toml") == case
 
 
 def test_byte_order_mark_of_windows_editors(tmp_path):

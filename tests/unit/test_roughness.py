@@ -1,5 +1,7 @@
 """Filter, form, statistics and generators against exact values."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -64,13 +66,29 @@ def test_steps_come_in_order_and_trim_by_half_a_cutoff():
     assert np.max(np.abs(steps[6][1].heights)) == 6e-8
 
 
-def test_flat_profile_has_no_roughness_to_rescale():
-    steps = Processing("none", None, None, None, 5e-8, None)
+@pytest.mark.parametrize("form", ["none", "mean", "parabola"])
+def test_flat_profile_has_no_roughness_to_rescale(form):
+    steps = Processing(form, None, None, None, 5e-8, None)
     with pytest.raises(InputError, match="rescale_rq: got a flat profile"):
-        processed(Profile(1e-6, np.zeros(100)), steps)
+        processed(Profile(1e-6, np.full(100, 0.1)), steps)
 
 
-@pytest.mark.parametrize("cutoff", [1e-6, 1e-2])
+def test_filter_at_its_shortest_cutoff():
+    """Four spacings: the sampled Gaussian still passes one half; at two it would pass 0.89."""
+    profile = Profile(1e-6, np.cos(0.5 * np.pi * np.arange(-200, 201)))
+    assert waviness(profile, 4e-6).heights[200] == pytest.approx(0.5, abs=5e-3)
+
+
+def test_means_are_taken_out_with_any_form():
+    """Of all the points, and of what a trim leaves: a line fitted to a step is none of its parts' own."""
+    heights = np.where(np.arange(400) < 100, 3e-7, 1e-7) + 0.1
+    for form in ("mean", "line", "parabola"):
+        steps = processed(Profile(1e-6, heights), Processing(form, trim=60e-6))
+        for _, profile in steps[1:]:
+            assert np.mean(profile.heights) == pytest.approx(0.0, abs=1e-15)
+
+
+@pytest.mark.parametrize("cutoff", [1e-6, 3.9e-6, 1e-2])
 def test_cutoffs_that_cannot_be(cutoff):
     with pytest.raises(InputError, match="cutoff: got"):
         waviness(Profile(1e-6, np.zeros(200)), cutoff)
@@ -82,46 +100,83 @@ def test_trim_that_leaves_nothing():
 
 
 def test_random_profiles_are_reproducible_and_as_asked():
-    made = {"rq": 1e-8, "correlation_length": 5e-6, "length": 5e-3}
+    """Rq is that of all such profiles: one of n independent lengths is within 1/sqrt(2 n) of it.
+
+    The squared autocorrelation exp(-2 (d/l)^2) has the integral l sqrt(pi/2): that is one of these lengths.
+    """
+    made = {"rq": 1e-8, "correlation_length": 5e-6, "length": 0.5}
     one, same, other = (generators.gaussian(seed=seed, **made) for seed in (1, 1, 2))
     np.testing.assert_array_equal(one.heights, same.heights)
-    assert np.max(np.abs(one.heights - other.heights)) > 1e-8
+    assert np.corrcoef(one.heights, other.heights)[0, 1] == pytest.approx(0.0, abs=0.02)
     s = statistics(one)
-    assert s.rq == pytest.approx(1e-8, rel=1e-9)
-    assert s.correlation_length == pytest.approx(5e-6, rel=0.05)
-    assert s.rku == pytest.approx(3.0, abs=0.3)
+    spread = np.sqrt(5e-6 * np.sqrt(np.pi / 2) / 0.5 / 2)
+    assert s.rq == pytest.approx(1e-8, rel=4 * spread)
+    assert s.correlation_length == pytest.approx(5e-6, rel=0.02)
+    assert s.rku == pytest.approx(3.0, abs=0.1)
+    # The curvature of the autocorrelation at zero gives the slope, sqrt(2) rq/l.
+    assert s.rms_slope == pytest.approx(np.sqrt(2) * 1e-8 / 5e-6, rel=0.02)
 
 
 def test_self_affine_spectrum_has_its_slope():
     """The power spectrum falls as q^(-1 - 2 hurst) between roll-off and the shortest wave."""
     hurst = 0.7
     profile = generators.self_affine(
-        rq=1e-8, hurst=hurst, rolloff_wavelength=1e-4, length=2e-2, seed=3, shortest=1e-6
+        rq=1e-8, hurst=hurst, rolloff_wavelength=1e-4, length=0.5, seed=3, shortest=1e-6
     )
-    power = np.abs(np.fft.rfft(profile.heights)) ** 2
-    q = np.fft.rfftfreq(profile.heights.size, profile.spacing)
-    band = (q > 2e4) & (q < 5e5)
+    assert statistics(profile).rq == pytest.approx(1e-8, rel=0.02)
+    # Averaged over pieces, with Hann's window.
+    pieces = profile.heights[: profile.heights.size // 8192 * 8192].reshape(-1, 8192) * np.hanning(8192)
+    power = np.mean(np.abs(np.fft.rfft(pieces, axis=1)) ** 2, axis=0)
+    q = np.fft.rfftfreq(8192, profile.spacing)
+    band = (q > 3e4) & (q < 8e5)
     slope = np.polyfit(np.log(q[band]), np.log(power[band]), 1)[0]
-    # The logarithm of a single power has a spread of 1.3: some thousand waves average it.
-    assert slope == pytest.approx(-1 - 2 * hurst, abs=0.15)
-    assert np.max(power[q > 1.01e6]) < 1e-12 * np.max(power)
+    assert slope == pytest.approx(-1 - 2 * hurst, abs=0.02)
+    assert np.max(power[q > 1.05e6]) < 1e-6 * power[np.argmin(np.abs(q - 0.95e6))]
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        partial(generators.gaussian, rq=1e-8, correlation_length=5e-6, seed=7),
+        partial(generators.self_affine, rq=1e-8, hurst=0.3, rolloff_wavelength=5e-5, shortest=1e-6, seed=7),
+    ],
+)
+def test_longer_profiles_are_the_same_in_their_middle(make):
+    short, long = make(length=1e-3), make(length=3.3e-3)
+    extra = (long.heights.size - short.heights.size) // 2
+    middle = long.heights[extra : extra + short.heights.size]
+    np.testing.assert_allclose(middle, short.heights, rtol=0.0, atol=1e-20)
+    np.testing.assert_allclose(short.x, long.x[extra : extra + short.heights.size], rtol=0.0, atol=1e-15)
+
+
+def test_too_many_points_are_refused_before_they_are_made():
+    with pytest.raises(InputError, match=r"correlation_length: asks for 1.6e\+07 points"):
+        generators.gaussian(rq=1e-8, correlation_length=1e-9, length=1e-3, seed=1)
+    made = {"rq": 1e-8, "hurst": 0.5, "length": 1e-3, "seed": 1}
+    with pytest.raises(InputError, match="shortest_wavelength: asks for"):
+        generators.self_affine(rolloff_wavelength=1e-4, shortest=1e-10, **made)
+    with pytest.raises(InputError, match="shortest_wavelength: asks for"):
+        generators.self_affine(rolloff_wavelength=1.0, shortest=1e-9, **made)
 
 
 @pytest.mark.parametrize("shortest", [None, 2e-6])
 def test_self_affine_surface_of_a_case(paper_case, shortest):
-    """As rough as asked over twice the domain, and no wave below the shortest, by default a hundredth."""
+    """As rough as asked, further than the domain, and no wave below the shortest, by default a hundredth.
+
+    The variance over n roll-off wavelengths is known to some sqrt(2/n): here n is 40.
+    """
     asked = {"generator": "self-affine", "rq": 2e-8, "hurst": 0.8, "rolloff_wavelength": 1e-4, "seed": 5}
     asked |= {} if shortest is None else {"shortest_wavelength": shortest}
     case = paper_case.replace(roughness=[{"surface": 2} | asked])
     (surface,) = rough_surfaces(case, resolve(case))
     _, profile = surface.steps[-1]
     assert surface.surface == 2
-    assert profile.length == pytest.approx(2 * 6 * 499.4e-6, rel=0.01)
-    assert statistics(profile).rq == pytest.approx(2e-8, rel=1e-9)
-    power = np.abs(np.fft.rfft(profile.heights)) ** 2
+    assert 2 * 4 * 499.4e-6 < profile.length < 1.05 * 2 * 4 * 499.4e-6
+    assert statistics(profile).rq == pytest.approx(2e-8, rel=0.5 * np.sqrt(2 / 40) * 3)
+    power = np.abs(np.fft.rfft(profile.heights * np.hanning(profile.heights.size))) ** 2
     q = np.fft.rfftfreq(profile.heights.size, profile.spacing)
     cut = 1.0 / (shortest or 1e-6)
-    assert np.max(power[q > 1.01 * cut]) < 1e-12 * np.max(power)
+    assert np.max(power[q > 1.05 * cut]) < 1e-11 * np.max(power)
     assert np.max(power[(q > 0.9 * cut) & (q < cut)]) > 1e-9 * np.max(power)
 
 

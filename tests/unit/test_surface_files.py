@@ -227,26 +227,6 @@ def test_files_that_are_cut_or_wrong(tmp_path):
             read_surface(tmp_path / name)
 
 
-@pytest.mark.parametrize(
-    ("tag", "instead", "message"),
-    [
-        ("<SizeX>31</SizeX>", "", "lacks a size, an increment or a data type"),
-        (">D<", ">X<", "lacks a size, an increment or a data type"),
-        ("<SizeX>31</SizeX>", "<SizeX>32</SizeX>", "holds 4960 bytes of heights, takes 20 x 32 values"),
-        ("1.5e-7", "-1.5e-7", "holds 4960 bytes"),
-    ],
-)
-def test_x3p_that_contradicts_itself(tmp_path, tag, instead, message):
-    with zipfile.ZipFile(x3p_file(tmp_path / "whole.x3p", MAP)) as archive:
-        xml, data = archive.read("main.xml").decode(), archive.read("bindata/data.bin")
-    assert tag in xml
-    with zipfile.ZipFile(tmp_path / "a.x3p", "w") as archive:
-        archive.writestr("main.xml", xml.replace(tag, instead))
-        archive.writestr("bindata/data.bin", data)
-    with pytest.raises(InputError, match=message):
-        read_surface(tmp_path / "a.x3p")
-
-
 @pytest.mark.parametrize("tag", [b"Cols", b"PixelSizeXMeter", b"DepthImageOffset"])
 def test_al3d_without_a_tag(tmp_path, tag):
     path = al3d_file(tmp_path / "a.al3d", MAP)
