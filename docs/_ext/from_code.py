@@ -20,11 +20,11 @@ from sphinx.errors import ExtensionError
 import ehlectric
 from ehlectric import Case, inputs, lubricant, solve
 from ehlectric.cli import app as commands
+from ehlectric.drawing import style
 from ehlectric.paper import report
 from ehlectric.paper.figures import FIGURES
 from ehlectric.paper.study import Study, run_study
 from ehlectric.paper.tables import TABLES
-from ehlectric.plot import style
 from ehlectric.quantity import Count, Quantity
 
 _TABLES = {

@@ -3,82 +3,32 @@
 from __future__ import annotations
 
 import textwrap
-import warnings
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any
 
-import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
+from ehlectric.drawing import (
+    BLUE,
+    GREEN,
+    GREY,
+    ORANGE,
+    axes_or_new,
+    figure_of,
+    in_half_widths,
+    label_position,
+    style,
+    unit_for,
+)
 from ehlectric.hertz import line_pressure
 from ehlectric.result import Result
 from ehlectric.roughness import Profile, statistics
 from ehlectric.store import FIGURE_FILES, ROUGHNESS_FIGURE, whole
 from ehlectric.typing import Array
-
-MICRO = 1e6
-
-_PREFIXES = {1e9: "G", 1e6: "M", 1e3: "k", 1.0: "", 1e-3: "m", 1e-6: "µ", 1e-9: "n", 1e-12: "p"}
-
-# Colours that stay apart in print and for colour-blind readers (Okabe and Ito).
-_BLUE, _ORANGE, _GREEN, _GREY = "#0072b2", "#d55e00", "#009e73", "#555555"
-
-_STYLE: dict[str, Any] = {
-    "font.size": 9.0,
-    "axes.labelsize": 9.0,
-    "axes.titlesize": 9.0,
-    "legend.fontsize": 8.0,
-    "lines.linewidth": 1.2,
-    "axes.linewidth": 0.7,
-    "savefig.dpi": 300,
-    "figure.constrained_layout.use": True,
-}
-
-
-@contextmanager
-def style() -> Iterator[None]:
-    """Context in which figures have the package's sizes of text and lines."""
-    with mpl.rc_context(_STYLE), warnings.catch_warnings():  # type: ignore[arg-type]
-        # A title may use letters that the font does not have.
-        warnings.filterwarnings("ignore", message="Glyph .* missing")
-        yield
-
-
-def _axes(ax: Axes | None) -> Axes:
-    if ax is None:
-        figure = Figure(figsize=(6.3, 3.4))
-        FigureCanvasAgg(figure)
-        ax = figure.subplots()
-    return ax
-
-
-def _figure(ax: Axes) -> Figure:
-    figure = ax.get_figure(root=True)
-    assert figure is not None
-    return figure
-
-
-def _position(result: Result, x: Array) -> Array:
-    return x / result.conditions.half_width
-
-
-def _label_position(result: Result, ax: Axes) -> None:
-    factor, unit = _unit(result.conditions.half_width, "m", least=1.0)
-    ax.set_xlabel(f"$x/b$   ($b$ = {factor * result.conditions.half_width:.4g} {unit})")
-
-
-def _unit(largest: float, unit: str, *, least: float = 0.1) -> tuple[float, str]:
-    """Factor and prefixed unit in which ``largest`` is from ``least`` to a thousand times that."""
-    size = next((p for p in _PREFIXES if least * p <= largest), 1e-12)
-    prefixed = _PREFIXES[size] + unit
-    # Breakdown strengths are given in V/µm.
-    return 1.0 / size, "V/µm" if prefixed == "MV/m" else prefixed
 
 
 def pressure_and_film(result: Result, ax: Axes | None = None) -> Axes:
@@ -96,29 +46,29 @@ def pressure_and_film(result: Result, ax: Axes | None = None) -> Axes:
     Axes
         Those of the pressure; the film is on a twin.
     """
-    ax = _axes(ax)
+    ax = axes_or_new(ax)
     film, conditions = result.film, result.conditions
-    x = _position(result, film.x)
+    x = in_half_widths(result, film.x)
     largest = max(film.max_pressure, conditions.max_pressure)
-    factor, unit = _unit(largest, "Pa")
+    factor, unit = unit_for(largest, "Pa")
     hertz = conditions.max_pressure * line_pressure(x)
-    lines = ax.plot(x, factor * hertz, color=_GREY, ls="--", lw=0.8, label="Hertz pressure")
-    lines += ax.plot(x, factor * film.pressure, color=_BLUE, label="pressure")
+    lines = ax.plot(x, factor * hertz, color=GREY, ls="--", lw=0.8, label="Hertz pressure")
+    lines += ax.plot(x, factor * film.pressure, color=BLUE, label="pressure")
     ax.set_xlim(max(x[0], -2.0), min(x[-1], 1.5))
-    _label_position(result, ax)
-    ax.set_ylabel(f"pressure $p$ [{unit}]", color=_BLUE)
+    label_position(result, ax)
+    ax.set_ylabel(f"pressure $p$ [{unit}]", color=BLUE)
     ax.set_ylim(0.0, 1.3 * factor * largest)
     twin = ax.twinx()
     to_pressure = factor
-    factor, unit = _unit(film.central_thickness, "m")
-    lines += twin.plot(x, factor * film.thickness, color=_ORANGE, label="film thickness")
+    factor, unit = unit_for(film.central_thickness, "m")
+    lines += twin.plot(x, factor * film.thickness, color=ORANGE, label="film thickness")
     if result.smooth:
         ax.plot(x, to_pressure * result.smooth.pressure, color="black", lw=0.9, ls=":")
         smooth = factor * result.smooth.thickness
         lines += twin.plot(x, smooth, color="black", lw=0.9, ls=":", label="both, smooth surfaces")
     minimum, position = factor * film.minimum_thickness, film.minimum_position / conditions.half_width
     ax.set_title(rf"$h_\mathrm{{min}}$ = {minimum:.3g} {unit} at $x/b$ = {position:.3f}", loc="right")
-    twin.set_ylabel(f"film thickness $h$ [{unit}]", color=_ORANGE)
+    twin.set_ylabel(f"film thickness $h$ [{unit}]", color=ORANGE)
     twin.set_ylim(0.0, 5.0 * factor * film.central_thickness)
     # Under the dome of the pressure and above the film there is room in any smooth contact.
     centre = (0.0 - ax.get_xlim()[0]) / (ax.get_xlim()[1] - ax.get_xlim()[0])
@@ -178,7 +128,7 @@ def field_strength(result: Result, ax: Axes | None = None) -> Axes:
     label = r"field strength $|E|\,h_\mathrm{min}/V_{12}$"
     limits = (0.0, float(scale * np.max(field.strength)))
     ax = _map(result, scale * field.strength, ax, label=label, limits=limits, ticks=6)
-    factor, unit = _unit(1.0 / scale, "V/m")
+    factor, unit = unit_for(1.0 / scale, "V/m")
     ax.set_title(rf"$V_{{12}}/h_\mathrm{{min}}$ = {factor / scale:.3g} {unit}", loc="right")
     return ax
 
@@ -186,8 +136,8 @@ def field_strength(result: Result, ax: Axes | None = None) -> Axes:
 def _mesh(result: Result) -> tuple[Array, Array]:
     """x/b and height at the nodes of the field, the height in the unit of the film's axis."""
     field = result.field
-    factor, _ = _unit(result.film.central_thickness, "m")
-    x = np.broadcast_to(_position(result, field.x)[:, np.newaxis], field.y.shape)
+    factor, _ = unit_for(result.film.central_thickness, "m")
+    x = np.broadcast_to(in_half_widths(result, field.x)[:, np.newaxis], field.y.shape)
     return x, factor * field.y
 
 
@@ -200,9 +150,9 @@ def _map(
     limits: tuple[float, float],
     ticks: int,
 ) -> Axes:
-    ax = _axes(ax)
+    ax = axes_or_new(ax)
     x, y = _mesh(result)
-    _, unit = _unit(result.film.central_thickness, "m")
+    _, unit = unit_for(result.film.central_thickness, "m")
     levels = np.linspace(*limits, 401)
     # Rounding may put a wall beyond its own potential, and so out of the levels.
     clipped = np.clip(values, *limits)
@@ -210,14 +160,14 @@ def _map(
     for wall in (0, -1):
         ax.plot(x[:, 0], y[:, wall], color="black", lw=0.8)
     ax.set(ylabel=f"height $y$ [{unit}]", xlim=(x[0, 0], x[-1, 0]))
-    _label_position(result, ax)
+    label_position(result, ax)
     _limit_height(ax, y)
     electric = result.case.electric
     for height, surface, volts in ((0.04, 1, electric.potential_1), (0.96, 2, electric.potential_2)):
         where = "bottom" if surface == 1 else "top"
         text = f"surface {surface}, {volts:g} V".replace("-", "−")
         ax.text(0.5, height, text, transform=ax.transAxes, ha="center", va=where, fontsize=8.0)
-    bar = _figure(ax).colorbar(filled, ax=ax, label=label, pad=0.02)
+    bar = figure_of(ax).colorbar(filled, ax=ax, label=label, pad=0.02)
     nice = MaxNLocator(ticks).tick_values(*limits)
     bar.set_ticks([tick for tick in nice if limits[0] <= tick <= limits[1]])
     return ax
@@ -246,23 +196,23 @@ def field_profiles(result: Result, ax: Axes | None = None) -> Axes:
     Axes
         Dimensional on the left, dimensionless on the right.
     """
-    ax = _axes(ax)
+    ax = axes_or_new(ax)
     field = result.field
-    x = _position(result, field.x)
-    factor, unit = _unit(field.max_strength, "V/m")
-    zone = _position(result, np.array(field.high_field_zone))
-    width, length = _unit(field.high_field_width, "m", least=1.0)
+    x = in_half_widths(result, field.x)
+    factor, unit = unit_for(field.max_strength, "V/m")
+    zone = in_half_widths(result, np.array(field.high_field_zone))
+    width, length = unit_for(field.high_field_width, "m", least=1.0)
     label = f"mid-film above 95 % of its maximum: {width * field.high_field_width:.3g} {length} wide"
-    ax.axvspan(zone[0], zone[1], color=_GREEN, alpha=0.25, lw=0.0, label=label)
+    ax.axvspan(zone[0], zone[1], color=GREEN, alpha=0.25, lw=0.0, label=label)
     thin = 0.4 if result.rough else 1.0
-    ax.plot(x, factor * field.strength[:, 0], color=_BLUE, lw=2.4 * thin, label="surface 1")
-    ax.plot(x, factor * field.strength[:, -1], color=_ORANGE, ls="--", lw=1.6 * thin, label="surface 2")
+    ax.plot(x, factor * field.strength[:, 0], color=BLUE, lw=2.4 * thin, label="surface 1")
+    ax.plot(x, factor * field.strength[:, -1], color=ORANGE, ls="--", lw=1.6 * thin, label="surface 2")
     ax.plot(x, factor * field.middle_strength, color="black", lw=0.8, label="mid-film")
     if result.smooth:
         smooth = factor * result.smooth.middle_strength
-        ax.plot(x, smooth, color=_GREY, lw=1.2, ls=":", label="mid-film, smooth surfaces")
+        ax.plot(x, smooth, color=GREY, lw=1.2, ls=":", label="mid-film, smooth surfaces")
     ax.set(ylabel=rf"field strength $|E|$ [{unit}]", xlim=(x[0], x[-1]))
-    _label_position(result, ax)
+    label_position(result, ax)
     ax.set_ylim(0.0, 1.08 * factor * field.max_strength)
     scale = result.film.minimum_thickness / field.voltage / factor
     right = ax.secondary_yaxis(
@@ -288,19 +238,19 @@ def field_deviation(result: Result, ax: Axes | None = None) -> Axes:
     Axes
         In per mille of V12/h, without the ends of the range: their faces disturb the field over some gaps.
     """
-    ax = _axes(ax)
+    ax = axes_or_new(ax)
     field = result.field
-    x = _position(result, field.x)
+    x = in_half_widths(result, field.x)
     sections = (
-        ("surface 1", field.strength[:, 0], _BLUE, "-", 2.4),
-        ("surface 2", field.strength[:, -1], _ORANGE, "--", 1.6),
+        ("surface 1", field.strength[:, 0], BLUE, "-", 2.4),
+        ("surface 2", field.strength[:, -1], ORANGE, "--", 1.6),
         ("mid-film", field.middle_strength, "black", "-", 0.8),
     )
-    for label, strength, color, style, width in sections:
+    for label, strength, color, line, width in sections:
         deviation = 1e3 * (strength / field.thin_gap_strength - 1.0)
-        ax.plot(x[field.inner], deviation[field.inner], color=color, ls=style, lw=width, label=label)
+        ax.plot(x[field.inner], deviation[field.inner], color=color, ls=line, lw=width, label=label)
     ax.set(ylabel=r"$|E|\,h/V_{12} - 1$ [‰]", xlim=(x[0], x[-1]))
-    _label_position(result, ax)
+    label_position(result, ax)
     ax.margins(y=0.1)
     ax.legend(loc="best", frameon=False)
     return ax
@@ -321,13 +271,13 @@ def profile(drawn: Profile, ax: Axes | None = None) -> Axes:
     Axes
         With the unit of height that fits.
     """
-    ax = _axes(ax)
+    ax = axes_or_new(ax)
     heights = drawn.heights - np.mean(drawn.heights)
-    factor, unit = _unit(float(np.max(np.abs(heights))), "m", least=1.0)
-    along, length = _unit(drawn.length, "m")
-    ax.plot(along * drawn.x, factor * heights, color=_BLUE, lw=0.7)
+    factor, unit = unit_for(float(np.max(np.abs(heights))), "m", least=1.0)
+    along, length = unit_for(drawn.length, "m")
+    ax.plot(along * drawn.x, factor * heights, color=BLUE, lw=0.7)
     s = statistics(drawn)
-    scale, prefixed = _unit(s.rq, "m", least=1.0)
+    scale, prefixed = unit_for(s.rq, "m", least=1.0)
     amplitudes = f"Rq {scale * s.rq:.3g} {prefixed}, Ra {scale * s.ra:.3g} {prefixed}"
     ax.set_title(f"{amplitudes}, Rsk {s.rsk:.2f}, Rku {s.rku:.1f}", loc="right")
     ax.set(xlabel=f"$x$ [{length}]", ylabel=f"height [{unit}]")
@@ -362,17 +312,17 @@ def roughness(result: Result, ax: Axes | None = None) -> Axes:
     Axes
         Of the same range of X as the film's figure.
     """
-    ax = _axes(ax)
-    x = _position(result, result.film.x)
-    factor, unit = _unit(float(np.max(np.abs(result.roughness))), "m", least=1.0)
+    ax = axes_or_new(ax)
+    x = in_half_widths(result, result.film.x)
+    factor, unit = unit_for(float(np.max(np.abs(result.roughness))), "m", least=1.0)
     described = result.summary()["roughness"]
-    for k, color in ((1, _BLUE), (2, _ORANGE)):
+    for k, color in ((1, BLUE), (2, ORANGE)):
         heights, rq = result.roughness[k - 1], described[f"rq_{k}"]
         if np.any(heights):
             label = f"surface {k}, Rq = {factor * rq:.3g} {unit} within $|x/b| \\leq 1$"
             ax.plot(x, factor * heights, color=color, lw=0.7, label=label)
     ax.set_xlim(max(x[0], -2.0), min(x[-1], 1.5))
-    _label_position(result, ax)
+    label_position(result, ax)
     ax.set_ylabel(f"height [{unit}]")
     low, high = ax.get_ylim()
     ax.set_ylim(low, high + 0.25 * (high - low))
@@ -418,6 +368,6 @@ def save_figures(result: Result, folder: Path) -> list[Path]:
             else:
                 ax.set_title("NOT CONVERGED", loc="left", color="red", weight="bold")
             with whole(folder / name) as path:
-                _figure(ax).savefig(path)
+                figure_of(ax).savefig(path)
             files.append(folder / name)
     return files

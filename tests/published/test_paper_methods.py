@@ -8,7 +8,7 @@ from ehlectric import solve
 from ehlectric.conditions import resolve
 from ehlectric.field import solve_field
 from ehlectric.film import solve_film
-from ehlectric.paper import fas, sor
+from ehlectric.paper import fas, relaxation, sor
 from ehlectric.paper.solvers import PAPER
 from ehlectric.solver import field_problem, film_problem
 from tests.published.test_paper_contacts import FILMS, row_name
@@ -62,7 +62,7 @@ def test_cycles_do_not_grow_with_the_grid(paper_case, row):
 
 def test_wrong_sign_of_eq_19_does_not_balance_the_load(paper_case, monkeypatch):
     """As printed, with c > 0, the load runs away."""
-    monkeypatch.setattr(fas, "LOAD_DAMPING", 0.2)
+    monkeypatch.setattr(relaxation, "LOAD_DAMPING", 0.2)
     film = fas.solve_film(film_of(paper_contact(paper_case, FILMS[4], wedge="first-order", nodes=801)))
     assert not film.converged
 

@@ -14,7 +14,7 @@ from ehlectric.field import solve_field
 from ehlectric.film_formulas import LineContact
 from ehlectric.hertz import line_max_pressure
 from ehlectric.nested import FilmProblem
-from ehlectric.paper import fas
+from ehlectric.paper import fas, relaxation
 from ehlectric.paper.contacts import CONTACTS, LOADS, SMOOTH_NODES
 from ehlectric.paper.film_equations import FilmEquations, Iterate
 from ehlectric.paper.sor import ROWS
@@ -76,7 +76,7 @@ def _unconstrained(equations: FilmEquations, at: Iterate) -> Iterate:
         c = equations.coefficients(at)
         by_p, by_h = equations.derivatives(at, c)
         matrix = np.zeros((n + 1, n + 1))
-        matrix[:n, :n] = fas.dense(by_p) + fas.dense(by_h) @ equations.kernel_matrix
+        matrix[:n, :n] = relaxation.dense(by_p) + relaxation.dense(by_h) @ equations.kernel_matrix
         matrix[:n, n] = by_h.sum(axis=0)
         matrix[0, 0] = matrix[n - 1, n - 1] = 1.0
         matrix[n, :n] = weights
@@ -95,7 +95,7 @@ def _sign_of_c(_: Study) -> str:
     for lift in (0.0, 0.01):
         lifted = replace(at, h00=at.h00 + lift)
         for _step in range(20):
-            lifted = fas.newton_step(equations, lifted)
+            lifted = relaxation.newton_step(equations, lifted)
         loads.append(equations.carried(lifted.pressure))
     return (
         f"{CONTACTS[0].name}, 201 nodes: with H00 raised by 0.01 the film, solved again, carries "

@@ -10,7 +10,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.linalg import solve_banded
 
 from ehlectric.elastic import LINE
 from ehlectric.errors import InputError
@@ -18,38 +17,25 @@ from ehlectric.film import Film, film_status, inlet_deficit, richardson
 from ehlectric.hertz import line_pressure
 from ehlectric.nested import FIRST_GRID, NESTED_TOLERANCE, FilmProblem
 from ehlectric.newton import ROUNDING, NewtonStep, Progress, Status
-from ehlectric.paper.film_equations import NEIGHBOURS, Coefficients, FilmEquations, Iterate
+from ehlectric.paper.film_equations import FilmEquations, Iterate
+from ehlectric.paper.relaxation import relax, solve_coarsest
 from ehlectric.threads import one_blas_thread
-from ehlectric.typing import Array, Mask
 
 # Relaxations of a grid before and after its coarse-grid correction.
 BEFORE, AFTER = 3, 2
-
-# Nodes on each side whose pressures a relaxation changes together with a node's own.
-HALF_BAND = 6
 
 # No coarser grid than this: a thin film is nothing on fewer nodes.
 COARSEST = 101
 LARGEST_COARSEST = 201
 
-# Largest change of a pressure in one relaxation.
-CHANGE = 0.1
-
 # Change of ln eps between neighbours above which their residual means nothing to a coarser grid.
 UNRESOLVED = 1.5
-
-# Damping factor c of eq. (19), negative: too little load must lower H00. The load of a Hertz contact falls by
-# 4.5 when its H00 is raised by 1.
-LOAD_DAMPING = -0.2
-
-# Newton steps for P at a fixed H00, and changes of H00, on the coarsest grid of a cycle.
-COARSE_STEPS, LOAD_STEPS = 2, 3
 
 # Cycles on a grid on the way to the finest.
 FIRST_CYCLES = 5
 
-# Cycles after which a grid that is not solved is given up.
-MOST_CYCLES = 60
+# Cycles of the finest grid for every Newton step that a case allows: one gains a digit, not three.
+CYCLES_A_STEP = 2
 
 
 @dataclass(frozen=True)
@@ -105,7 +91,7 @@ def solve_film(problem: FilmProblem, *, progress: Progress | None = None) -> Fil
                 at = Iterate(np.interp(grids[k].x, grids[k + 1].x, at.pressure), at.h00)
             tolerance, limit = NESTED_TOLERANCE, FIRST_CYCLES
             if k == 0:
-                tolerance, limit = _tolerance(problem, grids[0]), MOST_CYCLES
+                tolerance, limit = _tolerance(problem, grids[0]), CYCLES_A_STEP * problem.max_iterations
             cycled = _cycles(grids[k:], at, tolerance, limit, progress if k == 0 else None)
             if cycled.diverged:
                 break
@@ -216,7 +202,7 @@ def v_cycle(grids: list[FilmEquations], at: Iterate) -> Iterate:
     """
     fine, *coarser = grids
     if not coarser:
-        return _solve_coarsest(fine, at)
+        return solve_coarsest(fine, at)
     for _ in range(BEFORE):
         at = relax(fine, at)
     coarse, injected = _coarse_equations(fine, coarser[0], at)
@@ -258,109 +244,6 @@ def _coarse_equations(
         ),
         injected,
     )
-
-
-def relax(equations: FilmEquations, at: Iterate) -> Iterate:
-    """One relaxation of the line at a fixed H00.
-
-    Where eps/dX^2 is large against 1/dX the unknowns are changes of single pressures, elsewhere of dipoles,
-    +1 at a node and -1 at the one before. The changes of a line are solved for together, coupled to six
-    neighbours on each side: point by point, the sweeps stall at the pressure spike.
-    """
-    c = equations.coefficients(at)
-    residual = equations.residual(at, c)
-    free = equations.free(at, residual)
-    dipole = free & (equations.poiseuille(c) < 1.0 / equations.dx)
-    dipole[1:] &= free[:-1]
-    band = _band(equations, equations.derivatives(at, c), free, dipole)
-    unknown = _solve_band(band, np.where(free, residual, 0.0))
-    change = unknown.copy()
-    change[:-1] -= np.where(dipole[1:], unknown[1:], 0.0)
-    return _moved(equations, at, np.clip(change, -CHANGE, CHANGE))
-
-
-def _band(equations: FilmEquations, derivatives: tuple[Array, Array], free: Mask, dipole: Mask) -> Array:
-    """Band of dL over the unknowns of a relaxation, as LAPACK stores it; ones where a node is held."""
-    n = equations.x.size
-    by_p, by_h = derivatives
-
-    def diagonal(offset: int) -> Array:
-        """dL_i/dP_(i + offset)."""
-        whole = np.zeros(n)
-        for row, node in enumerate(NEIGHBOURS):
-            whole += by_h[row] * equations.kernel[abs(offset - node)]
-            if node == offset:
-                whole += by_p[row]
-        return whole
-
-    band = np.zeros((2 * HALF_BAND + 1, n))
-    before = diagonal(-HALF_BAND - 1)
-    for offset in range(-HALF_BAND, HALF_BAND + 1):
-        rows = slice(max(0, -offset), min(n, n - offset))
-        columns = slice(max(0, offset), min(n, n + offset))
-        here = diagonal(offset)
-        entries = here[rows] - np.where(dipole[columns], before[rows], 0.0)
-        band[HALF_BAND - offset, columns] = np.where(free[rows] & free[columns], entries, 0.0)
-        before = here
-    band[HALF_BAND, ~free] = 1.0
-    return band
-
-
-def _solve_band(band: Array, right: Array) -> Array:
-    """Solution of a banded system; not a number where it has none."""
-    if not np.all(np.isfinite(band)):
-        return np.full_like(right, np.nan)
-    try:
-        solution: Array = solve_banded((HALF_BAND, HALF_BAND), band, right, check_finite=False)
-    except np.linalg.LinAlgError:
-        return np.full_like(right, np.nan)
-    return solution
-
-
-def _moved(equations: FilmEquations, at: Iterate, change: Array) -> Iterate:
-    """Pressures changed, none below ambient, the two ends held."""
-    change[0] = change[-1] = 0.0
-    return replace(at, pressure=np.maximum(at.pressure + change, equations.fluid.ambient_pressure))
-
-
-def _solve_coarsest(equations: FilmEquations, at: Iterate) -> Iterate:
-    """Pressure by Newton's method at a fixed H00, and H00 by eq. (19), in turn."""
-    for _ in range(LOAD_STEPS):
-        for _ in range(COARSE_STEPS):
-            at = newton_step(equations, at)
-        missing = equations.load - equations.carried(at.pressure)
-        at = replace(at, h00=at.h00 + LOAD_DAMPING * missing)
-    return at
-
-
-def newton_step(equations: FilmEquations, at: Iterate) -> Iterate:
-    """One step of Newton's method for the pressure at a fixed H00, dense."""
-    c = equations.coefficients(at)
-    residual = equations.residual(at, c)
-    free = equations.free(at, residual)
-    by_p, by_h = equations.derivatives(at, c)
-    jacobian = (dense(by_p) + dense(by_h) @ equations.kernel_matrix)[np.ix_(free, free)]
-    change = np.zeros_like(residual)
-    if np.all(np.isfinite(jacobian)):
-        change[free] = np.linalg.solve(jacobian, residual[free])
-    return _moved(equations, at, _limited(equations, c, change))
-
-
-def dense(rows: Array) -> Array:
-    """Rows over the nodes of NEIGHBOURS as a matrix (n, n)."""
-    n = rows.shape[1]
-    matrix = np.zeros((n, n))
-    for row, node in zip(rows, NEIGHBOURS, strict=True):
-        matrix += np.diag(row[max(0, -node) : n - max(0, node)], node)
-    return matrix
-
-
-def _limited(equations: FilmEquations, c: Coefficients, change: Array) -> Array:
-    """A step no longer than 0.3 in pressure, and of no gap to less than 0.3 of itself."""
-    gap = equations.deflection(change)
-    closing = np.max(np.maximum(-gap, 0.0) / (0.7 * c.thickness))
-    longest = max(1.0, float(np.max(np.abs(change))) / 0.3, float(closing))
-    return change / longest
 
 
 def _film(

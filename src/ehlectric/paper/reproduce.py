@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
+from ehlectric.drawing import style
 from ehlectric.errors import InputError
 from ehlectric.paper import report
 from ehlectric.paper.figures import FIGURES
 from ehlectric.paper.study import Study, run_study
 from ehlectric.paper.tables import TABLES
-from ehlectric.plot import style
 from ehlectric.store import clear, prepare, whole
 
 REPORT = "report.html"

@@ -1,0 +1,76 @@
+"""What all figures share: style, colours, axes, units of axes and labels."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import matplotlib as mpl
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+from ehlectric.result import Result
+from ehlectric.typing import Array
+
+_PREFIXES = {1e9: "G", 1e6: "M", 1e3: "k", 1.0: "", 1e-3: "m", 1e-6: "µ", 1e-9: "n", 1e-12: "p"}
+
+# Colours that stay apart in print and for colour-blind readers (Okabe and Ito).
+BLUE, ORANGE, GREEN, GREY = "#0072b2", "#d55e00", "#009e73", "#555555"
+
+_STYLE: dict[str, Any] = {
+    "font.size": 9.0,
+    "axes.labelsize": 9.0,
+    "axes.titlesize": 9.0,
+    "legend.fontsize": 8.0,
+    "lines.linewidth": 1.2,
+    "axes.linewidth": 0.7,
+    "savefig.dpi": 300,
+    "figure.constrained_layout.use": True,
+}
+
+
+@contextmanager
+def style() -> Iterator[None]:
+    """Context in which figures have the package's sizes of text and lines."""
+    with mpl.rc_context(_STYLE), warnings.catch_warnings():  # type: ignore[arg-type]
+        # A title may use letters that the font does not have.
+        warnings.filterwarnings("ignore", message="Glyph .* missing")
+        yield
+
+
+def axes_or_new(ax: Axes | None) -> Axes:
+    """The axes given, or those of a new figure."""
+    if ax is None:
+        figure = Figure(figsize=(6.3, 3.4))
+        FigureCanvasAgg(figure)
+        ax = figure.subplots()
+    return ax
+
+
+def figure_of(ax: Axes) -> Figure:
+    """The whole figure that axes are part of."""
+    figure = ax.get_figure(root=True)
+    assert figure is not None
+    return figure
+
+
+def in_half_widths(result: Result, x: Array) -> Array:
+    """Positions in half-widths."""
+    return x / result.conditions.half_width
+
+
+def label_position(result: Result, ax: Axes) -> None:
+    """Label of an axis of positions in half-widths, with the half-width."""
+    factor, unit = unit_for(result.conditions.half_width, "m", least=1.0)
+    ax.set_xlabel(f"$x/b$   ($b$ = {factor * result.conditions.half_width:.4g} {unit})")
+
+
+def unit_for(largest: float, unit: str, *, least: float = 0.1) -> tuple[float, str]:
+    """Factor and prefixed unit in which ``largest`` is from ``least`` to a thousand times that."""
+    size = next((p for p in _PREFIXES if least * p <= largest), 1e-12)
+    prefixed = _PREFIXES[size] + unit
+    # Breakdown strengths are given in V/µm.
+    return 1.0 / size, "V/µm" if prefixed == "MV/m" else prefixed
