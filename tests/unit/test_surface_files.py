@@ -3,8 +3,6 @@
 The real file is from the public repository ContactEngineering/SurfaceTopography, MIT licence.
 """
 
-import struct
-import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +11,7 @@ import pytest
 from ehlectric import InputError
 from ehlectric.roughness import Processing, processed, statistics
 from ehlectric.surface_files import _read_other, read_surface
+from tests.surface_writers import MAP, al3d, x3p
 
 DATA = Path(__file__).parents[1] / "data" / "surfaces"
 DEKTAK = Path(__file__).parents[2] / "examples" / "surfaces" / "dektak-1.csv"
@@ -152,25 +151,9 @@ def test_doubtful_text_is_refused(tmp_path, made, message):
         read_surface(text_file(tmp_path / "a.csv", **made)).line()
 
 
-def x3p_file(path, heights, *, kind="D"):
-    xml = f"""<?xml version="1.0"?><p:ISO5436_2 xmlns:p="http://www.opengps.eu/2008/ISO5436_2"><Record1><Axes>
-    <CX><AxisType>I</AxisType><Increment>1.5e-7</Increment></CX>
-    <CY><AxisType>I</AxisType><Increment>3e-7</Increment></CY>
-    <CZ><AxisType>A</AxisType><DataType>{kind}</DataType></CZ></Axes></Record1><Record3><MatrixDimension>
-    <SizeX>{heights.shape[1]}</SizeX><SizeY>{heights.shape[0]}</SizeY><SizeZ>1</SizeZ></MatrixDimension>
-    <DataLink><PointDataLink>bindata/data.bin</PointDataLink></DataLink></Record3></p:ISO5436_2>"""
-    with zipfile.ZipFile(path, "w") as archive:
-        archive.writestr("main.xml", xml)
-        archive.writestr("bindata/data.bin", heights.astype({"D": "<f8", "F": "<f4"}[kind]).tobytes())
-    return path
-
-
-MAP = 1e-8 * np.random.default_rng(0).standard_normal((20, 31))
-
-
 @pytest.mark.parametrize("kind", ["D", "F"])
 def test_x3p(tmp_path, kind):
-    surface = read_surface(x3p_file(tmp_path / "a.x3p", MAP, kind=kind))
+    surface = read_surface(x3p(tmp_path / "a.x3p", MAP, CZ_DataType=kind))
     np.testing.assert_allclose(surface.heights, MAP, rtol=1e-6)
     assert (surface.spacing_x, surface.spacing_y) == (1.5e-7, 3e-7)
     np.testing.assert_allclose(surface.line(3).heights, MAP[3], rtol=1e-6)
@@ -179,29 +162,10 @@ def test_x3p(tmp_path, kind):
     assert column.spacing == 3e-7
 
 
-def al3d_file(path, heights, *, rows=None):
-    tags = {
-        "Version": "1",
-        "Cols": str(heights.shape[1]),
-        "Rows": str(rows or heights.shape[0]),
-        "DepthImageOffset": "1000",
-        "PixelSizeXMeter": "4.4e-7",
-        "PixelSizeYMeter": "4.4e-7",
-        "InvalidPixelValue": "1e30",
-    }
-    head = b"AliconaImaging\0\r\n"
-    for name, value in tags.items():
-        head += struct.pack("20s30s2s", name.encode(), value.encode(), b"\r\n")
-    padded = np.zeros((heights.shape[0], heights.shape[1] + heights.shape[1] % 2), "<f4")
-    padded[:, : heights.shape[1]] = heights
-    path.write_bytes(head.ljust(1000, b"\0") + padded.tobytes())
-    return path
-
-
 def test_al3d_with_padding_and_voids(tmp_path):
     heights = MAP.copy()
     heights[2, 7:10] = 1e30
-    surface = read_surface(al3d_file(tmp_path / "a.al3d", heights))
+    surface = read_surface(al3d(tmp_path / "a.al3d", heights))
     assert surface.heights.shape == (20, 31)
     assert np.isnan(surface.heights[2, 7:10]).all()
     assert surface.voids == pytest.approx(3 / 620)
@@ -209,12 +173,12 @@ def test_al3d_with_padding_and_voids(tmp_path):
 
 
 def test_files_that_are_cut_or_wrong(tmp_path):
-    whole = x3p_file(tmp_path / "a.x3p", MAP).read_bytes()
+    whole = x3p(tmp_path / "a.x3p", MAP).read_bytes()
     (tmp_path / "cut.x3p").write_bytes(whole[: len(whole) // 2])
     (tmp_path / "no.x3p").write_text("no zip")
     (tmp_path / "binary.opd").write_bytes(bytes(range(256)))
     (tmp_path / "words.csv").write_text("nothing but words\n" * 20)
-    al3d_file(tmp_path / "short.al3d", MAP, rows=4000)
+    al3d(tmp_path / "short.al3d", MAP, Rows="4000")
     for name, message in (
         ("cut.x3p", "no whole X3P"),
         ("no.x3p", "no whole X3P"),
@@ -229,7 +193,7 @@ def test_files_that_are_cut_or_wrong(tmp_path):
 
 @pytest.mark.parametrize("tag", [b"Cols", b"PixelSizeXMeter", b"DepthImageOffset"])
 def test_al3d_without_a_tag(tmp_path, tag):
-    path = al3d_file(tmp_path / "a.al3d", MAP)
+    path = al3d(tmp_path / "a.al3d", MAP)
     path.write_bytes(path.read_bytes().replace(tag, b"x" * len(tag)))
     with pytest.raises(InputError, match="its header lacks a size, a spacing or an offset"):
         read_surface(path)
@@ -238,7 +202,7 @@ def test_al3d_without_a_tag(tmp_path, tag):
 def test_lines_that_are_not_there(tmp_path):
     heights = MAP.copy()
     heights[4] = 1e30
-    surface = read_surface(al3d_file(tmp_path / "a.al3d", heights))
+    surface = read_surface(al3d(tmp_path / "a.al3d", heights))
     with pytest.raises(InputError, match="got 20, takes a row from 0 to 19"):
         surface.line(20)
     with pytest.raises(InputError, match="row 4 has data at 0 of 31"):
