@@ -60,6 +60,5 @@ axes[0].set_ylabel("relative error [%]")
 
 # %%
 # The central film converges with the order of the scheme. The minimum lies beside the pressure spike, a
-# jump over two or three nodes on every grid, and converges more slowly with the second-order wedge: there
-# the estimate, which takes the order of the scheme for granted, is about half of the true error. It is an
-# estimate, and no bound.
+# jump over two or three nodes on every grid, and converges more slowly with the second-order wedge. The
+# estimate knows that, and takes order 1.25 for it. It is an estimate, and no bound.

@@ -15,6 +15,9 @@ from ehlectric.typing import Array, Mask
 # Part of the central film below which a gap that was not solved for is no film.
 COLLAPSED = 1e-2
 
+# Least observed order of the minimum film, of a scheme of second order.
+MINIMUM_ORDER = 1.25
+
 
 @dataclass(frozen=True)
 class Film:
@@ -200,16 +203,22 @@ def richardson(fine: tuple[Array, Array], coarse: tuple[Array, Array], *, order:
     float
         The larger relative error of the minimum and the central thickness.
 
+    Notes
+    -----
+    The minimum lies at the constriction, where the pressure gradient jumps: with a scheme of second order it
+    converges with observed orders from 1.25 up, and is taken to do so with the least of them.
+
     Examples
     --------
     >>> import numpy as np
     >>> x = np.linspace(-1.0, 1.0, 5)
-    >>> round(richardson((x, 0.0 * x + 1.01), (x[::2], 0.0 * x[::2] + 1.04), order=2) * 1.01, 3)
+    >>> round(richardson((x, 0.0 * x + 1.01), (x[::2], 0.0 * x[::2] + 1.02), order=1) * 1.01, 3)
     0.01
     """
-    gain = (np.ptp(coarse[0]) / (coarse[0].size - 1) * (fine[0].size - 1) / np.ptp(fine[0])) ** order - 1.0
+    ratio = np.ptp(coarse[0]) / (coarse[0].size - 1) * (fine[0].size - 1) / np.ptp(fine[0])
+    gains = ratio ** np.array([min(order, MINIMUM_ORDER), order]) - 1.0
     on_fine, on_coarse = (np.array([np.min(h), np.interp(0.0, x, h)]) for x, h in (fine, coarse))
-    return float(np.max(np.abs(on_fine - on_coarse) / (gain * on_fine)))
+    return float(np.max(np.abs(on_fine - on_coarse) / (gains * on_fine)))
 
 
 def _discretisation_error(

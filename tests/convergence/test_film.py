@@ -68,7 +68,7 @@ def test_order_of_the_elastic_film(paper_case, slope, wedge, order):
 @pytest.mark.parametrize("wedge", ["first-order", "second-order"])
 @pytest.mark.parametrize("pressure", ["1 GPa", "2 GPa"])
 def test_richardson_estimate_is_the_true_error(paper_case, wedge, pressure):
-    """Within a factor 3, against a grid sixteen times as fine."""
+    """Not below it, and within a factor 3, against a grid sixteen times as fine."""
     case = paper_case.replace(
         {"contact.max_hertz_pressure": pressure, "grid.wedge": wedge, "grid.nodes": 3201}
     )
@@ -79,7 +79,7 @@ def test_richardson_estimate_is_the_true_error(paper_case, wedge, pressure):
         abs(film.central_thickness / fine.central_thickness - 1.0),
     )
     assert film.discretisation_error is not None
-    assert true / 3.0 < film.discretisation_error < 3.0 * true
+    assert true / 1.1 < film.discretisation_error < 3.0 * true
 
 
 def krylov_iterations(film):
