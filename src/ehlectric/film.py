@@ -106,8 +106,12 @@ class Film:
 
     @property
     def cavitates(self) -> bool:
-        """Whether the film cavitates before the domain ends."""
-        return bool(self.cavitated[-2])
+        """Whether the film cavitates before the domain ends, behind its minimum and its largest pressure.
+
+        Not only at its end: waves of a rough surface refill pockets of a cavitated outlet.
+        """
+        behind = max(int(np.argmin(self.thickness)), int(np.argmax(self.pressure)))
+        return bool(np.any(self.cavitated[behind:-1]))
 
 
 def solve_film(problem: FilmProblem, *, progress: Progress | None = None) -> Film:
