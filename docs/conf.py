@@ -70,7 +70,8 @@ sphinx_gallery_conf = {
 
 html_theme = "pydata_sphinx_theme"
 html_title = f"ehlectric {release}"
-html_extra_path = ["_generated/extra"]
+html_extra_path = ["_generated/extra"]  # filled before anything is read
+(HERE / "_generated" / "extra").mkdir(parents=True, exist_ok=True)
 html_css_files = ["ehlectric.css"]
 html_show_sourcelink = False
 html_copy_source = False

@@ -12,12 +12,12 @@ import numpy as np
 from ehlectric import film_formulas, hertz
 from ehlectric.case import Case
 from ehlectric.errors import InputError
-from ehlectric.inputs import Contact, Lubricant
+from ehlectric.inputs import ROELANDS_CONSTANT, Contact, Lubricant
 from ehlectric.lubricant import DENSITY_LAWS, PERMITTIVITY_LAWS, VISCOSITY_LAWS, Law
 from ehlectric.typing import Array
 
-# Roelands' reduced form of the viscosity at zero pressure, ln(eta0) + 9.67, with eta0 in Pa s.
-_ROELANDS_CONSTANT = 9.67
+# Hertz pressure at which bearing steel deforms permanently, of line contacts (ISO 76) [Pa].
+_PERMANENT = 4e9
 
 # A rigid film builds up over some ten sqrt(2 R h), which is this over M in half-widths.
 _RIGID_INLET = 14.0
@@ -217,12 +217,18 @@ def remarks(case: Case, conditions: Conditions) -> Iterator[str]:
             f"the ambient pressure carries {100 * ambient_load:.1f} % of the load over this domain; "
             "lubricant.ambient_pressure = 0 leaves it out"
         )
+    if conditions.max_pressure > _PERMANENT:
+        yield (
+            f"the Hertz pressure is {conditions.max_pressure / 1e9:.3g} GPa: bearing steel deforms "
+            f"permanently above {_PERMANENT / 1e9:g} GPa in line contacts, and the bodies are elastic here; "
+            "are load and radii right?"
+        )
     if lubricant.viscosity_law == "barus" and conditions.max_pressure > 0.5e9:
         yield "Barus' law overstates the viscosity above some 0.5 GPa by orders of magnitude"
     if lubricant.viscosity_law == "roelands":
         alpha, p0 = lubricant.pressure_viscosity_coefficient, lubricant.roelands_pressure
         assert alpha is not None and p0 is not None and lubricant.roelands_z is not None
-        exponent = np.log(lubricant.viscosity) + _ROELANDS_CONSTANT
+        exponent = np.log(lubricant.viscosity) + ROELANDS_CONSTANT
         z = alpha * p0 / exponent if exponent > 0.0 else np.inf
         if abs(z / lubricant.roelands_z - 1.0) > 0.1:
             yield (

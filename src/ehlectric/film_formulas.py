@@ -1,7 +1,7 @@
 """Moes groups, published film-thickness formulas of line contacts, and lubrication regimes.
 
 The formulas are fits to solutions of their time; they differ from each other and from the solved film by
-up to 30 %. They stand beside a result, never in its place.
+up to 40 %. They stand beside a result, never in its place.
 """
 
 from __future__ import annotations

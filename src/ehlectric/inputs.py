@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Annotated, Any, Literal, Self
 
@@ -12,6 +13,9 @@ from ehlectric.errors import InputError, shown
 from ehlectric.lubricant import DENSITY_LAWS, PERMITTIVITY_LAWS, VISCOSITY_LAWS
 from ehlectric.quantity import Count, Quantity, length_unit
 from ehlectric.validation import first_message, nearest
+
+# Roelands' reduced form of the viscosity at zero pressure, ln(eta0) + 9.67, with eta0 in Pa s.
+ROELANDS_CONSTANT = 9.67
 
 
 class Table(BaseModel):
@@ -184,10 +188,24 @@ class Lubricant(Table):
     def _check(self) -> Self:
         for key, laws in (("viscosity_law", VISCOSITY_LAWS), ("density_law", DENSITY_LAWS)):
             law = getattr(self, key)
-            for name in laws[law].parameters:
-                if getattr(self, name) is None:
-                    raise ValueError(f"{name}: missing, {key} {law!r} takes it")
+            missing = [name for name in laws[law].parameters if getattr(self, name) is None]
+            if missing:
+                also = f" with {', '.join(missing[1:])}" if missing[1:] else ""
+                raise ValueError(
+                    f"{missing[0]}: missing, {key} {law!r} takes it{also}{self._roelands_hint()}"
+                )
         return self
+
+    def _roelands_hint(self) -> str:
+        """The exponent of Roelands' own relation, where it alone is missing."""
+        alpha, p0 = self.pressure_viscosity_coefficient, self.roelands_pressure
+        exponent = math.log(self.viscosity) + ROELANDS_CONSTANT
+        if self.roelands_z is not None or alpha is None or p0 is None or exponent <= 0.0:
+            return ""
+        return (
+            "; Roelands' relation pressure_viscosity_coefficient roelands_pressure/(ln viscosity + "
+            f"{ROELANDS_CONSTANT}) gives {alpha * p0 / exponent:.3g}"
+        )
 
 
 _Height = Annotated[float, Quantity("m", least=1e-12, most=1e-3, reason="of a surface, not of a body")]

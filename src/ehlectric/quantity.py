@@ -25,6 +25,14 @@ _EXPONENT = re.compile(r"(?<=[A-Za-zµμΩ°])(?:\*\*|\^)?([-+]?[1-9])")
 _NUMBER_AND_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*")
 
 
+# What is often given in place of a quantity, by the units of both, and what turns it into that.
+_HINTS = {
+    "Pa*s": ("m**2/s", "multiply a kinematic viscosity by the density"),
+    "m/s": ("1/s", "multiply a rotational speed, in rad/s, by the radius"),
+    "N/m": ("N", "divide a load by the length of the line"),
+}
+
+
 @cache
 def _registry() -> pint.UnitRegistry[float]:
     import pint
@@ -78,7 +86,10 @@ def _factor(written: str, unit: str) -> float:
     try:
         return float(_registry().Quantity(1.0, _registry().parse_units(expression)).to(unit).magnitude)
     except pint.DimensionalityError:
-        raise ValueError(f"{written} is not a unit of this quantity") from None
+        other, hint = _HINTS.get(unit, ("", ""))
+        mistaken = other and _registry().Quantity(1.0, expression).check(other)
+        advice = f"; {hint}" if mistaken else ""
+        raise ValueError(f"{written} is not a unit of this quantity{advice}") from None
     except pint.UndefinedUnitError:
         raise ValueError(f"{written!r} is not a unit; capital and small letters count") from None
     except pint.PintError:

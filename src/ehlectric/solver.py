@@ -40,6 +40,9 @@ _ATOM = 1e-10
 # Gap over the length of the field range above which there is no contact, but a film that was not found.
 _WIDEST = 100.0
 
+# Field above which any insulator breaks down [V/m].
+_NO_INSULATOR = 1e9
+
 # Parts into which an interval of the film is refined for the field at the most.
 _MOST_PARTS = 32
 
@@ -109,7 +112,10 @@ def solve(
     if require_convergence and not film.converged:
         raise ConvergenceError(f"film {film.status} at the residual {film.residual:.1e}")
     roughness = _heights(rough, film.x)
-    field = solvers.field(field_problem(case, conditions, film, roughness))
+    # That of a film which was not found is for looking at: the direct solver always has one.
+    field = (solvers.field if film.converged else solve_field)(
+        field_problem(case, conditions, film, roughness)
+    )
     field_done = time.perf_counter()
     return Result(
         case=case,
@@ -315,6 +321,11 @@ def _field_findings(case: Case, film: Film, field: Field) -> Iterator[str]:
         yield (
             f"grid.field_nodes is coarser than the film, which has {inside} nodes in the field range: the "
             "width of the high-field zone and the capacitance suffer"
+        )
+    if field.max_strength > _NO_INSULATOR:
+        yield (
+            f"the largest field is {field.max_strength / 1e6:.3g} V/µm: no insulator withstands more than "
+            f"some {_NO_INSULATOR / 1e6:g} V/µm, and the film breaks down long before"
         )
     if not np.any(field.inner & (field.x == field.max_strength_position)):
         yield "the largest field is at an end of grid.field_range; widen it"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import secrets
 import tempfile
 import tomllib
 import warnings
@@ -101,12 +102,11 @@ def whole(path: Path) -> Iterator[Path]:
     A link is followed, and its target replaced.
     """
     path = path.resolve()
-    handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.stem}-", suffix=path.suffix)
-    os.close(handle)
-    beside = Path(name)
+    beside = path.with_name(f".{path.stem}-{secrets.token_hex(4)}{path.suffix}")
+    # Named before it is made: a signal in between must not leave it behind.
     try:
+        beside.touch(mode=0o600, exist_ok=False)
         yield beside
-        # mkstemp makes files for the owner alone; results are as readable as any other file.
         beside.chmod(0o666 & ~_UMASK)
         beside.replace(path)
     finally:

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
-from ehlectric import Case, InputError
+from ehlectric import Case, InputError, solve
 from ehlectric.conditions import remarks, resolve
 from tests.conftest import PAPER_CONTACT
 
@@ -298,3 +298,28 @@ def test_files_that_are_no_cases(tmp_path):
         Case.from_toml(tmp_path)
     with pytest.raises(InputError, match="no such file"):
         Case.from_toml(tmp_path / "nowhere.toml")
+
+
+def test_missing_roelands_exponent_is_given_by_his_relation():
+    """alpha p0/(ln eta0 + 9.67) = 22e-9 1.98e8/(ln 0.04 + 9.67) = 0.675."""
+    lubricant = {
+        "viscosity": 0.04, "viscosity_law": "roelands", "pressure_viscosity_coefficient": 22e-9,
+        "roelands_pressure": 0.198e9, "density_law": "incompressible", "relative_permittivity": 2.4,
+    }  # fmt: skip
+    with pytest.raises(InputError, match=r"roelands_z: missing.* gives 0.675$"):
+        Case.from_dict({"contact": PAPER_CONTACT, "lubricant": lubricant})
+    del lubricant["roelands_pressure"]
+    with pytest.raises(InputError, match=r"roelands_z: missing.* takes it with roelands_pressure$"):
+        Case.from_dict({"contact": PAPER_CONTACT, "lubricant": lubricant})
+
+
+def test_contacts_that_no_bearing_has_are_said():
+    contact = PAPER_CONTACT | {"load_per_length": "7 MN/m"}
+    case = Case.from_dict({"contact": contact, "lubricant": {"base": "paper"}})
+    assert any("deforms permanently above 4 GPa" in text for text in remarks(case, resolve(case)))
+    electric = {"potential_1": 0.0, "potential_2": "2 kV"}
+    case = Case.from_dict({"contact": PAPER_CONTACT, "lubricant": {"base": "paper"}, "electric": electric})
+    assert not any("permanently" in text for text in remarks(case, resolve(case)))
+    assert any(
+        "no insulator withstands" in text for text in solve(case.replace({"grid.nodes": 801})).warnings
+    )

@@ -80,3 +80,18 @@ def test_prefixes_are_powers_of_ten(number, prefix, unit):
 def test_count_takes_whole_numbers_only(given):
     with pytest.raises(ValueError, match=r"got .* takes a whole number from 5 to 100: a test"):
         Count(5, 100, "a test").parse(given)
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "advice"),
+    [
+        ("20 cSt", "Pa*s", "multiply a kinematic viscosity by the density"),
+        ("3000 rpm", "m/s", "multiply a rotational speed, in rad/s, by the radius"),
+        ("250 kN", "N/m", "divide a load by the length of the line"),
+    ],
+)
+def test_what_is_often_given_instead(text, unit, advice):
+    with pytest.raises(ValueError, match=f"is not a unit of this quantity; {advice}"):
+        to_si(text, unit)
+    with pytest.raises(ValueError, match=r"is not a unit of this quantity$"):
+        to_si("1 kg", unit)
