@@ -259,21 +259,33 @@ def reproduce(
     output: Annotated[
         Path, typer.Option("--output", "-o", metavar="DIR", help="Folder for the results.")
     ] = Path("reproduced"),
-    figure: Annotated[int | None, typer.Option(help="Only this figure, 2 to 11.")] = None,
-    table: Annotated[int | None, typer.Option(help="Only this table, 3.")] = None,
+    figure: Annotated[str | None, typer.Option(metavar="NUMBER", help="Only this figure, 2 to 11.")] = None,
+    table: Annotated[str | None, typer.Option(metavar="NUMBER", help="Only this table, 3.")] = None,
     quiet: Quiet = False,
 ) -> None:
     """Solve the contacts of Morris, Leighton and Morris (2022); write tables, figures and a report."""
     with _user_errors():
         from ehlectric.paper.reproduce import reproduce as reproduced
+        from ehlectric.paper.reproduce import verdict
 
         with _bar(shown=not quiet) as progress:
-            files, converged = reproduced(output, figure=figure, table=table, progress=progress)
+            files, study = reproduced(
+                output, figure=_number("figure", figure), table=_number("table", table), progress=progress
+            )
     if not quiet:
-        typer.echo("written: " + ", ".join(str(path) for path in files))
-    if not converged:
+        for line in [*verdict(study), *(f"written: {path}" for path in files)]:
+            typer.echo(line)
+    if not study.converged:
         typer.echo("error: not converged: some films of the study", err=True)
         raise typer.Exit(NOT_CONVERGED)
+
+
+def _number(name: str, text: str | None) -> int | None:
+    if text is None:
+        return None
+    if not text.strip("-").isdigit():
+        raise InputError(f"--{name}: got {shown(text)}, takes a number")
+    return int(text)
 
 
 @contextmanager

@@ -19,6 +19,7 @@ _PREFIXES = {1e9: "G", 1e6: "M", 1e3: "k", 1.0: "", 1e-3: "m", 1e-6: "µ", 1e-9:
 
 # Colours that stay apart in print and for colour-blind readers (Okabe and Ito).
 BLUE, ORANGE, GREEN, GREY = "#0072b2", "#d55e00", "#009e73", "#555555"
+BODY, OIL = "#c9ced6", "#fff1cc"
 
 _STYLE: dict[str, Any] = {
     "font.size": 9.0,

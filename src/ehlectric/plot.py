@@ -14,6 +14,7 @@ from matplotlib.ticker import MaxNLocator
 
 from ehlectric.drawing import (
     BLUE,
+    BODY,
     GREEN,
     GREY,
     ORANGE,
@@ -97,14 +98,15 @@ def potential(result: Result, ax: Axes | None = None) -> Axes:
     """
     field, electric = result.field, result.case.electric
     low, high = sorted((electric.potential_1, electric.potential_2))
-    ax = _map(result, field.potential, ax, label="potential $V$ [V]", limits=(low, high), ticks=5)
+    ticks = np.linspace(low, high, 5)
+    ax = _map(result, field.potential, ax, label="potential $V$ [V]", limits=(low, high), ticks=ticks)
     x, y = _mesh(result)
     lines = np.linspace(low, high, 12)[1:-1]
     ax.contour(x, y, field.potential, lines, colors="white", linewidths=0.4, linestyles="-")
     return ax
 
 
-def field_strength(result: Result, ax: Axes | None = None) -> Axes:
+def field_strength(result: Result, ax: Axes | None = None, *, largest: float | None = None) -> Axes:
     """Map of the dimensionless field strength in the film, abs(E) h_min/V12.
 
     Parameters
@@ -113,6 +115,8 @@ def field_strength(result: Result, ax: Axes | None = None) -> Axes:
         What to draw.
     ax : Axes, optional
         Where to; new axes otherwise.
+    largest : float, optional
+        End of the colours; that of the largest field otherwise.
 
     Returns
     -------
@@ -126,8 +130,10 @@ def field_strength(result: Result, ax: Axes | None = None) -> Axes:
     field = result.field
     scale = result.film.minimum_thickness / field.voltage
     label = r"field strength $|E|\,h_\mathrm{min}/V_{12}$"
-    limits = (0.0, float(scale * np.max(field.strength)))
-    ax = _map(result, scale * field.strength, ax, label=label, limits=limits, ticks=6)
+    limits = (0.0, largest or float(scale * np.max(field.strength)))
+    nice = np.asarray(MaxNLocator(6).tick_values(*limits))
+    ticks = nice[(nice >= limits[0]) & (nice <= limits[1])]
+    ax = _map(result, scale * field.strength, ax, label=label, limits=limits, ticks=ticks)
     factor, unit = unit_for(1.0 / scale, "V/m")
     ax.set_title(rf"$V_{{12}}/h_\mathrm{{min}}$ = {factor / scale:.3g} {unit}", loc="right")
     return ax
@@ -148,7 +154,7 @@ def _map(
     *,
     label: str,
     limits: tuple[float, float],
-    ticks: int,
+    ticks: Array,
 ) -> Axes:
     ax = axes_or_new(ax)
     x, y = _mesh(result)
@@ -162,14 +168,16 @@ def _map(
     ax.set(ylabel=f"height $y$ [{unit}]", xlim=(x[0, 0], x[-1, 0]))
     label_position(result, ax)
     _limit_height(ax, y)
+    low, high = ax.get_ylim()
+    ax.fill_between(x[:, 0], low, y[:, 0], color=BODY, lw=0.0, zorder=0.5)
+    ax.fill_between(x[:, 0], y[:, -1], high, color=BODY, lw=0.0, zorder=0.5)
     electric = result.case.electric
     for height, surface, volts in ((0.04, 1, electric.potential_1), (0.96, 2, electric.potential_2)):
         where = "bottom" if surface == 1 else "top"
         text = f"surface {surface}, {volts:g} V".replace("-", "−")
         ax.text(0.5, height, text, transform=ax.transAxes, ha="center", va=where, fontsize=8.0)
     bar = figure_of(ax).colorbar(filled, ax=ax, label=label, pad=0.02)
-    nice = MaxNLocator(ticks).tick_values(*limits)
-    bar.set_ticks([tick for tick in nice if limits[0] <= tick <= limits[1]])
+    bar.set_ticks(list(ticks))
     return ax
 
 
@@ -205,9 +213,11 @@ def field_profiles(result: Result, ax: Axes | None = None) -> Axes:
     label = f"mid-film above 95 % of its maximum: {width * field.high_field_width:.3g} {length} wide"
     ax.axvspan(zone[0], zone[1], color=GREEN, alpha=0.25, lw=0.0, label=label)
     thin = 0.4 if result.rough else 1.0
-    ax.plot(x, factor * field.strength[:, 0], color=BLUE, lw=2.4 * thin, label="surface 1")
-    ax.plot(x, factor * field.strength[:, -1], color=ORANGE, ls="--", lw=1.6 * thin, label="surface 2")
-    ax.plot(x, factor * field.middle_strength, color="black", lw=0.8, label="mid-film")
+    # The end faces disturb the field over some gaps.
+    on = field.inner
+    ax.plot(x[on], factor * field.strength[on, 0], color=BLUE, lw=2.4 * thin, label="surface 1")
+    ax.plot(x[on], factor * field.strength[on, -1], color=ORANGE, ls="--", lw=1.6 * thin, label="surface 2")
+    ax.plot(x[on], factor * field.middle_strength[on], color="black", lw=0.8, label="mid-film")
     if result.smooth:
         smooth = factor * result.smooth.middle_strength
         ax.plot(x, smooth, color=GREY, lw=1.2, ls=":", label="mid-film, smooth surfaces")
@@ -246,9 +256,10 @@ def field_deviation(result: Result, ax: Axes | None = None) -> Axes:
         ("surface 2", field.strength[:, -1], ORANGE, "--", 1.6),
         ("mid-film", field.middle_strength, "black", "-", 0.8),
     )
+    thin = 0.4 if result.rough else 1.0
     for label, strength, color, line, width in sections:
         deviation = 1e3 * (strength / field.thin_gap_strength - 1.0)
-        ax.plot(x[field.inner], deviation[field.inner], color=color, ls=line, lw=width, label=label)
+        ax.plot(x[field.inner], deviation[field.inner], color=color, ls=line, lw=thin * width, label=label)
     ax.set(ylabel=r"$|E|\,h/V_{12} - 1$ [‰]", xlim=(x[0], x[-1]))
     label_position(result, ax)
     ax.margins(y=0.1)

@@ -73,16 +73,20 @@ class PaperContact:
         }
         return Case.from_dict(table | tables)
 
-    def rough_case(self, profile: Path) -> Case:
-        """The case with a profile on the lower surface, held still and cut at 50 nm as the paper's."""
+    def rough_case(self, profile: Path, *, nodes: int = ROUGH_NODES, shift: float = 0.0) -> Case:
+        """The case with a profile on the lower surface, held still and cut at 50 nm as the paper's.
+
+        A parabola and waves longer than 80 µm are taken out first; ``shift`` moves the profile along x [m].
+        """
         rough = {
             "surface": 1,
             "file": str(profile),
             "form": "parabola",
             "cutoff_long": "80 um",
             "truncate": "0.05 um",
+            "shift": shift,
         }
-        return self.case(nodes=ROUGH_NODES, roughness=[rough])
+        return self.case(nodes=nodes, roughness=[rough])
 
     def constant_case(self) -> Case:
         """The case with a permittivity that does not change with the density."""

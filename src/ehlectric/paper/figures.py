@@ -6,23 +6,25 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from ehlectric import plot
+from ehlectric.drawing import BODY
 from ehlectric.paper import schematics
 from ehlectric.paper.contacts import CONTACTS, PaperContact
-from ehlectric.paper.study import Solved, Study, largest_difference
+from ehlectric.paper.study import Study, readings_differ_by, straight_line
 from ehlectric.result import Result
 from ehlectric.typing import Array
 
-# Curves of one panel by speed, from dark to light, apart in print and for colour-blind readers.
-_COLOURS = ("#440154", "#31688e", "#35b779", "#d0a010")
+# Curves of one panel by speed, apart for colour-blind readers, and none too dark for a black line on it.
+_COLOURS = ("#0072b2", "#009e73", "#cc79a7", "#e69f00")
 _MICRO = 1e6
 
 # The straight line of mid-film over the curves of s = 1/2.
-_STRAIGHT: dict[str, Any] = {"color": "#d55e00", "lw": 0.6, "ls": (0, (3, 5))}
+_STRAIGHT: dict[str, Any] = {"color": "black", "lw": 0.6, "ls": (0, (2, 4))}
 
 
 @dataclass(frozen=True)
@@ -60,16 +62,21 @@ def potentials(study: Study) -> Figure:
     """Figure 4: potential in two smooth films."""
     figure, panels = _panels(1, 2, (10.0, 3.6))
     for ax, letter, contact in zip(panels, "ab", (CONTACTS[0], CONTACTS[3]), strict=True):
-        result = study.smooth[contact].result
+        result = study.smooth[contact]
         _title(plot.potential(result, ax), _panel_name(contact, letter, result))
     return figure
 
 
-def _strengths(solved: dict[PaperContact, Solved], gigapascal: int) -> Figure:
+def _strengths(solved: dict[PaperContact, Result], gigapascal: int) -> Figure:
+    """Four panels with one range of colours."""
     figure, panels = _panels(2, 2, (10.0, 6.8))
-    for ax, contact in zip(panels, _of(gigapascal), strict=True):
-        result = solved[contact].result
-        _title(plot.field_strength(result, ax), _panel_name(contact, contact.label, result))
+    results = {contact: solved[contact] for contact in _of(gigapascal)}
+    largest = max(
+        float(np.max(r.field.strength)) * r.film.minimum_thickness / r.field.voltage for r in results.values()
+    )
+    for ax, (contact, result) in zip(panels, results.items(), strict=True):
+        plot.field_strength(result, ax, largest=largest)
+        _title(ax, _panel_name(contact, contact.label, result))
     return figure
 
 
@@ -83,26 +90,29 @@ def rough_strengths(gigapascal: int) -> Callable[[Study], Figure]:
     return lambda study: _strengths(study.rough, gigapascal)
 
 
-def _middle(solved: dict[PaperContact, Solved], scale: Callable[[Result], float], label: str) -> Figure:
-    """Field strength at mid-film over X by both readings, one panel a pressure."""
-    figure, panels = _panels(1, 2, (10.0, 4.2))
+def _middle(solved: dict[PaperContact, Result], scale: Callable[[Result], float], label: str) -> Figure:
+    """Field strength at mid-film over X by both readings, one panel a pressure, the exit in an inset."""
+    figure, panels = _panels(1, 2, (10.0, 4.6))
     for ax, letter, gigapascal in zip(panels, "ab", (1, 2), strict=True):
-        differences = []
-        for colour, contact in zip(_COLOURS, _of(gigapascal), strict=True):
-            result = solved[contact].result
+        contacts = _of(gigapascal)
+        top = max(scale(solved[c]) * float(np.max(solved[c].field.middle_strength)) for c in contacts)
+        inset = ax.inset_axes((0.27, 0.05, 0.42, 0.36))
+        for colour, contact in zip(_COLOURS, contacts, strict=True):
+            result = solved[contact]
             x = result.field.x / result.conditions.half_width
             factor = scale(result)
-            ax.plot(x, factor * result.field.middle_strength, color=colour, label=contact.printed)
-            ax.plot(x, factor * solved[contact].straight, **_STRAIGHT)
-            differences.append(largest_difference(solved[contact]))
+            for axes in (ax, inset):
+                axes.plot(x, factor * result.field.middle_strength, color=colour, label=contact.printed)
+                axes.plot(x, factor * straight_line(result), **_STRAIGHT)
         ax.plot([], [], **_STRAIGHT, label="straight line")
+        difference = max(readings_differ_by(solved[c]) for c in contacts)
+        same = "one line" if difference < 1e-6 else f"up to {100.0 * difference:.2g} % apart"
         _title(ax, f"({letter}) {gigapascal} GPa")
-        ax.set_title(
-            f"straight line and $s = 1/2$ differ by up to {100.0 * max(differences):.2g} %", loc="right"
-        )
-        ax.set(xlabel="$x/b$", ylabel=label, xlim=(-1.25, 1.25))
-        ax.set_ylim(0.0, 1.22 * ax.get_ylim()[1])
-        ax.legend(loc="upper left", ncols=3, frameon=False)
+        ax.set_title(f"colours: $s = 1/2$; the two readings: {same}", loc="right")
+        ax.set(xlabel="$x/b$", ylabel=label, xlim=(-1.25, 1.25), ylim=(0.0, 1.22 * top))
+        inset.set(xlim=(0.8, 1.1) if gigapascal == 1 else (0.92, 1.05), ylim=(0.0, 1.05 * top))
+        inset.tick_params(labelsize=6.5)
+        ax.legend(loc="upper left", ncols=5, frameon=False, columnspacing=1.0, handlelength=1.6)
     return figure
 
 
@@ -121,23 +131,28 @@ def rough_middle(study: Study) -> Figure:
 
 
 def profile_and_pressure(study: Study) -> Figure:
-    """Figure 8: the profile, and the pressure of one contact with and without it."""
+    """Figure 8: the profile as the contact has it, and the pressure of one contact with and without it."""
     figure, (left, right) = _panels(1, 2, (10.0, 3.8))
-    result, smooth = study.rough[CONTACTS[3]].result, study.smooth[CONTACTS[3]].result
-    x = result.film.x
-    left.plot(_MICRO * x, 1e9 * result.roughness[0], color=_COLOURS[1], lw=0.5)
+    result, smooth = study.rough[CONTACTS[3]], study.smooth[CONTACTS[3]]
+    x = result.film.x / result.conditions.half_width
+    last = result.rough[0]["steps"][-1]
+    measured = 0.5 * last["points"] * last["spacing"] / result.conditions.half_width
+    left.plot(x, 1e9 * result.roughness[0], color=_COLOURS[0], lw=0.5)
+    left.axvspan(x[0], -measured, color=BODY, lw=0.0, label="beyond the scan: mirrored")
     for cut in (-50.0, 50.0):
         left.axhline(cut, color="black", lw=0.6, ls=":")
-    _title(left, "(a) profile, cut at ±50 nm")
-    left.set(xlabel="$x$ [µm]", ylabel="height [nm]", xlim=(_MICRO * x[0], _MICRO * x[-1]), ylim=(-62, 62))
+    _title(left, "(a) profile of surface 1, cut at ±50 nm")
+    label = f"$x/b$   ($b$ = {_MICRO * result.conditions.half_width:.4g} µm)"
+    left.set(xlabel=label, ylabel="height [nm]", xlim=(x[0], x[-1]), ylim=(-62, 72))
+    left.legend(loc="upper right", frameon=False)
     _pressures(right, result, smooth)
-    _title(right, _panel_name(CONTACTS[3], "b", result))
+    _title(right, _panel_name(CONTACTS[3], "b", result) + ", 1 GPa")
     return figure
 
 
 def _pressures(ax: Axes, rough: Result, smooth: Result) -> None:
     for result, colour, width, label in (
-        (rough, _COLOURS[1], 0.7, "rough"),
+        (rough, _COLOURS[0], 0.7, "rough"),
         (smooth, "black", 1.0, "smooth"),
     ):
         x: Array = result.film.x / result.conditions.half_width

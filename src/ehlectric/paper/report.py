@@ -6,6 +6,7 @@ import base64
 from collections.abc import Mapping
 from datetime import UTC, datetime
 from importlib import resources
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -16,8 +17,15 @@ from ehlectric.paper.errata import SLIPS
 from ehlectric.paper.figures import FIGURES
 from ehlectric.paper.sor import ROWS
 from ehlectric.paper.study import Study
-from ehlectric.paper.tables import TABLES, PaperTable
+from ehlectric.paper.tables import AMPLITUDE, BY_SMOOTH, OWN, TABLES, WITHIN, PaperTable
 from ehlectric.version import __version__
+
+# When the conclusions count as holding: E_max above V12/h_min by at most so many per cent in every placement;
+# width over b falling with M at both pressures, and the largest so many times the least; E_max changed by at
+# most so many per cent.
+LARGEST_EXCESS = 5.0
+LEAST_WIDTHS = 2.0
+LARGEST_CHANGE = 1.0
 
 
 def html(study: Study, figures: Mapping[int, Path]) -> str:
@@ -44,8 +52,10 @@ def html(study: Study, figures: Mapping[int, Path]) -> str:
         nodes={"smooth": SMOOTH_NODES, "rough": ROUGH_NODES},
         rows=ROWS,
         converged=study.converged,
-        number=_numbers(study, tables),
-        rows_within=sum(row[-1] == "yes" for row in tables["table_3"].rows),
+        number=numbers(study, tables),
+        verdict=verdicts(tables),
+        limits={"own": LARGEST_EXCESS, "widths": LEAST_WIDTHS, "change": LARGEST_CHANGE},
+        warnings=_warnings(study),
         tables=tables,
         figures=[
             {
@@ -59,9 +69,97 @@ def html(study: Study, figures: Mapping[int, Path]) -> str:
     )
 
 
+def verdicts(tables: Mapping[str, PaperTable]) -> dict[str, str]:
+    """Table 3 and the three conclusions, each held against its criterion.
+
+    Parameters
+    ----------
+    tables : mapping
+        Of all names in ``TABLES``.
+
+    Returns
+    -------
+    dict
+        "table_3": rows that agree; "conclusion_1" to "conclusion_3": "holds" or "does not hold".
+    """
+    printed, rough, width, constant = (
+        tables[name] for name in ("table_3", "conclusion_1", "conclusion_2", "conclusion_3")
+    )
+    excess = max(abs(v) for head in (OWN, "moved, least", "moved, largest") for v in _percent(rough, head))
+    shares = _column(width, "width/b")
+    narrower = all(later < earlier for part in (shares[:4], shares[4:]) for earlier, later in pairwise(part))
+    changes = [abs(value) / 1e4 for value in _column(constant, "change of E_max [1e-6]")]
+    within = [row[printed.heads.index(WITHIN)] for row in printed.rows]
+    return {
+        "table_3": f"{within.count('yes')} of {len(within)} rows within 4 % and the rounding of the print",
+        "conclusion_1": _word(excess <= LARGEST_EXCESS),
+        "conclusion_2": _word(narrower and max(shares) >= LEAST_WIDTHS * min(shares)),
+        "conclusion_3": _word(max(changes) <= LARGEST_CHANGE),
+    }
+
+
+def _word(holds: bool) -> str:  # noqa: FBT001
+    return "holds" if holds else "does not hold"
+
+
+def numbers(study: Study, tables: Mapping[str, PaperTable]) -> dict[str, str]:
+    """Numbers that the text of the report quotes, as text."""
+    rough, width, constant = (tables[f"conclusion_{k}"] for k in (1, 2, 3))
+    fields = {contact: result.summary()["field"] for contact, result in study.smooth.items()}
+    centre = {
+        pressure: [f["central_dimensionless"] for c, f in fields.items() if c.gigapascal == pressure]
+        for pressure in (1, 2)
+    }
+    films = list(zip(_column(rough, "h_min smooth [µm]"), _column(rough, "h_min rough [µm]"), strict=True))
+    exponents, scatter = _width_law(study)
+    steps = next(iter(study.rough.values())).rough[0]["steps"]
+    widths, shares = _column(width, "width [µm]"), _column(width, "width/b")
+    mean_pits = _column(width, "width/mean pit 1.7 µm")
+    return {
+        "largest": _range([field["max_dimensionless"] for field in fields.values()], ".4f"),
+        "centre_1": _range(centre[1], ".3f"),
+        "centre_2": _range(centre[2], ".3f"),
+        "own": _range(_percent(rough, OWN), ".1f"),
+        "own_moved": _range(_percent(rough, "moved, least") + _percent(rough, "moved, largest"), ".1f"),
+        "grid": format(
+            100.0
+            * max(
+                abs(a / b - 1.0)
+                for a, b in zip(_column(rough, "on half of the nodes"), _column(rough, OWN), strict=True)
+            ),
+            ".1f",
+        ),
+        "by_smooth": _range(_percent(rough, BY_SMOOTH), ".1f"),
+        "by_smooth_moved": _range(
+            _percent(rough, "that moved, least") + _percent(rough, "that moved, largest"), ".1f"
+        ),
+        "lowered": str(sum(b < a for a, b in films)),
+        "amplitude_1": _range(_column(rough, AMPLITUDE)[:4], ".2f"),
+        "amplitude_2": _range(_column(rough, AMPLITUDE)[4:], ".2f"),
+        "rq_before": format(1e9 * steps[-2]["rq"], ".1f"),
+        "rq_after": format(1e9 * steps[-1]["rq"], ".1f"),
+        "width": _range(widths, ".1f"),
+        "width_error": format(max(_column(width, "grid error [µm]")), ".2f"),
+        "width_share": _range([100.0 * value for value in shares], ".1f"),
+        "width_pits": _range(_column(width, "width/largest pit 4 µm"), ".1f"),
+        "width_mean_pits": _range(mean_pits, ".1f"),
+        "nearer": str(sum(pits < 1.0 / share for pits, share in zip(mean_pits, shares, strict=True))),
+        "width_m": format(exponents[0], ".2f"),
+        "width_l": format(exponents[1], ".2f"),
+        "width_scatter": format(100.0 * scatter, ".1f"),
+        "change": format(max(map(abs, _column(constant, "change of E_max [1e-6]"))), ".2g"),
+        "middle_change": format(max(_column(constant, "largest change at mid-film [1e-6]")), ".2g"),
+        "capacitance": _range(_column(constant, "capacitance ratio"), ".2f"),
+    }
+
+
 def _column(table: PaperTable, head: str) -> list[float]:
     place = table.heads.index(head)
     return [float(row[place]) for row in table.rows]
+
+
+def _percent(table: PaperTable, head: str) -> list[float]:
+    return [100.0 * (value - 1.0) for value in _column(table, head)]
 
 
 def _range(values: list[float], digits: str) -> str:
@@ -69,41 +167,22 @@ def _range(values: list[float], digits: str) -> str:
     return low if low == high else f"{low} to {high}"
 
 
-def _numbers(study: Study, tables: Mapping[str, PaperTable]) -> dict[str, str]:
-    """Numbers that the text of the report quotes."""
-    rough, width, constant = (tables[f"conclusion_{k}"] for k in (1, 2, 3))
-    fields = {contact: s.result.summary()["field"] for contact, s in study.smooth.items()}
-    centre = {
-        pressure: [f["central_dimensionless"] for c, f in fields.items() if c.gigapascal == pressure]
-        for pressure in (1, 2)
-    }
-    return {
-        "largest": _range([field["max_dimensionless"] for field in fields.values()], ".4f"),
-        "centre_1": _range(centre[1], ".3f"),
-        "centre_2": _range(centre[2], ".3f"),
-        "over_own": _range(_percent(rough, "rough: E_max h_min/V12"), ".1f"),
-        "over_smooth": _range(_percent(rough, "rough E_max, smooth h_min/V12"), ".1f"),
-        "width": _range(_column(width, "width [µm]"), ".1f"),
-        "width_error": format(max(_column(width, "grid error [µm]")), ".2f"),
-        "width_share": _range([100.0 * value for value in _column(width, "width/b")], ".1f"),
-        "width_pits": _range(_column(width, "width/largest pit 4 µm"), ".1f"),
-        "exponent": format(_exponent(study), ".2f"),
-        "change": format(max(map(abs, _column(constant, "change of E_max [1e-6]"))), ".2g"),
-        "middle_change": format(max(_column(constant, "largest change at mid-film [1e-6]")), ".2g"),
-        "capacitance": _range(_column(constant, "capacitance ratio"), ".2f"),
-    }
+def _width_law(study: Study) -> tuple[tuple[float, float], float]:
+    """Powers of M and L that the width over b goes with, and the largest relative distance from that law."""
+    results = list(study.smooth.values())
+    groups = [result.conditions.formulas for result in results]
+    logs = np.log([[1.0, g.moes_m, g.moes_l] for g in groups])
+    logs[:, 0] = 1.0
+    shares = np.log([r.field.high_field_width / r.conditions.half_width for r in results])
+    law, *_ = np.linalg.lstsq(logs, shares, rcond=None)
+    return (float(law[1]), float(law[2])), float(np.max(np.abs(np.expm1(shares - logs @ law))))
 
 
-def _percent(table: PaperTable, head: str) -> list[float]:
-    return [100.0 * (value - 1.0) for value in _column(table, head)]
-
-
-def _exponent(study: Study) -> float:
-    """Power of the minimum film that the width goes with, mean of both pressures."""
-    slopes = []
-    for gigapascal in (1, 2):
-        results = [s.result for contact, s in study.smooth.items() if contact.gigapascal == gigapascal]
-        films = np.log([result.film.minimum_thickness for result in results])
-        widths = np.log([result.field.high_field_width for result in results])
-        slopes.append(float(np.polyfit(films, widths, 1)[0]))
-    return float(np.mean(slopes))
+def _warnings(study: Study) -> list[str]:
+    """What the results warn of, each text once with the contacts it is of."""
+    said: dict[str, list[str]] = {}
+    for part, kind in ((study.smooth, "smooth"), (study.rough, "rough")):
+        for contact, result in part.items():
+            for text in result.warnings:
+                said.setdefault(text, []).append(f"{contact.name} {kind}")
+    return [f"{'; '.join(names)}: {text}" for text, names in said.items()]

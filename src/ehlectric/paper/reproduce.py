@@ -27,7 +27,7 @@ def reproduce(
     figure: int | None = None,
     table: int | None = None,
     progress: Callable[[int, int, str], None] | None = None,
-) -> tuple[list[Path], bool]:
+) -> tuple[list[Path], Study]:
     """Solve the paper's contacts and write what it shows.
 
     Parameters
@@ -43,8 +43,8 @@ def reproduce(
     -------
     files : list of Path
         The files written.
-    converged : bool
-        Whether every film is a solution.
+    study : Study
+        What was solved; its ``converged`` says whether every film is a solution.
 
     Raises
     ------
@@ -64,7 +64,7 @@ def reproduce(
     parts += [part for name in tables for part in TABLES[name][1]]
     study = run_study(parts, progress=progress) if parts else Study()
     clear(folder, names)
-    files = []
+    files: list[Path] = []
     for name in tables:
         files.append(folder / f"{name}.csv")
         TABLES[name][0](study).save(files[-1])
@@ -80,7 +80,15 @@ def reproduce(
         files.append(folder / REPORT)
         with whole(files[-1]) as beside:
             beside.write_text(report.html(study, drawn), encoding="utf-8")
-    return files, study.converged
+    return files[::-1], study
+
+
+def verdict(study: Study) -> list[str]:
+    """What a whole study says, one line each; nothing of a part of it."""
+    if not study.placed:
+        return []
+    said = report.verdicts({name: build(study) for name, (build, _) in TABLES.items()})
+    return [f"{name.replace('_', ' ').capitalize()}: {text}" for name, text in said.items()]
 
 
 def _asked_for(figure: int | None, table: int | None) -> tuple[list[int], list[str]]:

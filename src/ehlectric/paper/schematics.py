@@ -7,9 +7,10 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
+from ehlectric.drawing import BODY, OIL
 from ehlectric.typing import Array
 
-_BODY, _OIL, _INK = "#c9ced6", "#fff1cc", "black"
+_INK = "black"
 
 
 def _axes(size: tuple[float, float]) -> tuple[Figure, Axes]:
@@ -45,13 +46,13 @@ def film_model() -> Figure:
     figure, ax = _axes((8.0, 4.4))
     x = np.linspace(-4.0, 2.0, 601)
     half = _gap(x)
-    ax.fill_between(x, -half, half, color=_OIL, lw=0.0)
+    ax.fill_between(x, -half, half, color=OIL, lw=0.0)
     for sign in (-1.0, 1.0):
-        ax.fill_between(x, sign * half, sign * 2.6, color=_BODY, lw=0.0)
+        ax.fill_between(x, sign * half, sign * 2.6, color=BODY, lw=0.0)
         ax.plot(x, sign * half, color=_INK, lw=1.2)
     pressure = 0.16 + 1.3 * np.sqrt(np.maximum(0.0, 1.0 - x**2))
     ax.plot(x[np.abs(x) <= 1.0], pressure[np.abs(x) <= 1.0], color=_INK, lw=1.0, ls="--")
-    _text(ax, 0.0, 0.85, "pressure $p(x)$")
+    _text(ax, -0.25, 1.05, "pressure $p(x)$")
     for sign, k, where in ((1.0, 2, 2.0), (-1.0, 1, -2.0)):
         _text(ax, 0.0, where, f"body {k}: $E_{k}$, $\\nu_{k}$, $R_{k}$")
         _arrow(ax, (-2.3, sign * 1.35), (-1.5, sign * 1.35))
@@ -60,17 +61,18 @@ def film_model() -> Figure:
     _text(ax, 0.25, 3.05, "$w$")
     _arrow(ax, (0.0, -3.3), (0.0, -2.65))
     _text(ax, 0.25, -3.05, "$w$")
-    _arrow(ax, (0.45, -0.15), (0.45, 0.15), "<|-|>")
-    _text(ax, 0.72, 0.0, "$h(x)$", fontsize=8.0)
+    _arrow(ax, (0.35, -0.75), (0.35, -0.16))
+    _arrow(ax, (0.35, 0.75), (0.35, 0.16))
+    _text(ax, 0.35, 0.0, "$h(x)$", fontsize=8.0)
     for end, side in ((-4.0, "inlet"), (2.0, "outlet")):
         ax.plot([end, end], [-_gap(np.array([end]))[0], _gap(np.array([end]))[0]], color=_INK, lw=1.0, ls=":")
         _text(ax, end, -3.05, f"{side}, $x/b = {end:g}$\n$p = p_\\mathrm{{atm}}$")
     _text(ax, -2.6, 0.0, "lubricant: $\\eta(p)$, $\\rho(p)$")
-    _text(ax, 1.62, 0.0, "$p \\geq p_\\mathrm{atm}$", fontsize=8.0)
-    _arrow(ax, (-4.6, -2.2), (-4.0, -2.2))
-    _arrow(ax, (-4.6, -2.2), (-4.6, -1.4))
-    _text(ax, -3.85, -2.2, "$x$")
-    _text(ax, -4.6, -1.2, "$y$")
+    _text(ax, 1.62, 0.0, "cavitated", fontsize=8.0)
+    _arrow(ax, (-4.75, -0.4), (-4.25, -0.4))
+    _arrow(ax, (-4.75, -0.4), (-4.75, 0.4))
+    _text(ax, -4.15, -0.4, "$x$")
+    _text(ax, -4.75, 0.6, "$y$")
     ax.set(xlim=(-4.9, 2.9), ylim=(-3.5, 3.5))
     return figure
 
@@ -80,14 +82,14 @@ def field_model() -> Figure:
     figure, ax = _axes((8.0, 3.6))
     x = np.linspace(-1.25, 1.25, 501)
     half = _gap(x)
-    ax.fill_between(x, -half, half, color=_OIL, lw=0.0)
+    ax.fill_between(x, -half, half, color=OIL, lw=0.0)
     for level in np.linspace(-1.0, 1.0, 9)[1:-1]:
         ax.plot(x, level * half, color="#b08800", lw=0.5)
     for column in np.linspace(-1.25, 1.25, 26):
         reach = float(_gap(np.array([column]))[0])
         ax.plot([column, column], [-reach, reach], color="#b08800", lw=0.5)
     for sign, k, volts in ((-1.0, 1, "−1"), (1.0, 2, "+1")):
-        ax.fill_between(x, sign * half, sign * 0.62, color=_BODY, lw=0.0)
+        ax.fill_between(x, sign * half, sign * 0.62, color=BODY, lw=0.0)
         ax.plot(x, sign * half, color=_INK, lw=1.2)
         _text(
             ax,
@@ -95,10 +97,10 @@ def field_model() -> Figure:
             sign * 0.42,
             f"surface {k}, conductor: $V = V_{k}$ = {volts} V on $y = {'+-'[k == 1]}h/2$",
         )
-    for column in (-0.7, 0.0, 0.7):
+    for column in (-0.75, 0.05, 0.95):
         reach = float(_gap(np.array([column]))[0])
         _arrow(ax, (column, reach), (column, -reach))
-    _text(ax, 0.1, 0.0, "$E$", backgroundcolor=_OIL)
+    _text(ax, 0.13, 0.0, "$E$", backgroundcolor=OIL)
     for end, side in ((-1.25, "right"), (1.25, "left")):
         ax.text(end * 1.04, 0.0, "$\\partial V/\\partial n = 0$", ha=side, va="center")
     _text(

@@ -5,24 +5,21 @@ Smooth, rough, with a permittivity that stays constant, and by the paper's own m
 
 from __future__ import annotations
 
-import multiprocessing
-import os
 from collections.abc import Callable, Iterable
-from concurrent.futures import Future, ProcessPoolExecutor, as_completed
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
 
+from ehlectric.case import Case
 from ehlectric.conditions import resolve
 from ehlectric.field import solve_field
 from ehlectric.film import solve_film
 from ehlectric.paper import fas, sor
-from ehlectric.paper.contacts import CONTACTS, SMOOTH_NODES, PaperContact, measured_profile
-from ehlectric.poisson import FieldProblem
+from ehlectric.paper.contacts import CONTACTS, ROUGH_NODES, SMOOTH_NODES, PaperContact, measured_profile
+from ehlectric.paper.workers import run_all
 from ehlectric.result import Result
 from ehlectric.solver import field_problem, film_problem, solve
 from ehlectric.typing import Array
@@ -30,19 +27,25 @@ from ehlectric.typing import Array
 # Residual to which the paper's multigrid is counted.
 COUNTED = 1e-6
 
-# Damping factors tried for the fewest sweeps: of Young's plate, which is the slowest mode alone, downwards.
-_FACTORS = np.linspace(-0.08, 0.01, 10)
+# Damping factors tried for the fewest sweeps, from Young's for a plate as wide as the widest gap: that is the
+# slowest mode alone, and the linear start has little of it.
+_FACTORS = np.arange(-0.24, 0.021, 0.02)
+
+# Nodes of the rough contacts of other placements, and how far the profile is moved [m].
+PLACED_NODES = (ROUGH_NODES - 1) // 2 + 1
+PLACEMENTS = (0.0, 50e-6, 100e-6, 150e-6)
 
 
 @dataclass(frozen=True)
-class Solved:
-    """A result, and the field strength on the paper's straight line of mid-film.
+class Placed:
+    """A rough contact with its profile in another place, or on another grid.
 
-    ``straight`` is abs(E) [V/m] at the columns of the field, not a number where the line is outside the film.
+    ``minimum_thickness`` [m] and ``largest``, the largest field times h_min over the voltage.
     """
 
-    result: Result
-    straight: Array
+    minimum_thickness: float
+    largest: float
+    converged: bool
 
 
 @dataclass(frozen=True)
@@ -77,19 +80,20 @@ class Methods:
 class Study:
     """What was solved, by contact; empty where it was not asked for."""
 
-    smooth: dict[PaperContact, Solved] = field(default_factory=dict)
+    smooth: dict[PaperContact, Result] = field(default_factory=dict)
     first_order: dict[PaperContact, Result] = field(default_factory=dict)
     fine: dict[PaperContact, Result] = field(default_factory=dict)
-    rough: dict[PaperContact, Solved] = field(default_factory=dict)
+    rough: dict[PaperContact, Result] = field(default_factory=dict)
+    placed: dict[PaperContact, tuple[Placed, ...]] = field(default_factory=dict)
     constant: dict[PaperContact, Result] = field(default_factory=dict)
     methods: dict[PaperContact, Methods] = field(default_factory=dict)
 
     @property
     def converged(self) -> bool:
         """Whether every film is a solution."""
-        results = [*self.first_order.values(), *self.fine.values(), *self.constant.values()]
-        results += [solved.result for part in (self.smooth, self.rough) for solved in part.values()]
-        return all(result.converged for result in results)
+        parts = (self.smooth, self.first_order, self.fine, self.rough, self.constant)
+        results = all(result.converged for part in parts for result in part.values())
+        return results and all(each.converged for places in self.placed.values() for each in places)
 
 
 def run_study(parts: Iterable[str], *, progress: Callable[[int, int, str], None] | None = None) -> Study:
@@ -106,28 +110,32 @@ def run_study(parts: Iterable[str], *, progress: Callable[[int, int, str], None]
     -------
     Study
         With the parts asked for.
+
+    Raises
+    ------
+    RuntimeError
+        Where a process was killed, or a script calls this without ``if __name__ == "__main__":``.
     """
     with measured_profile() as profile:
-        tasks: dict[str, Callable[[PaperContact], object]] = {"rough": partial(_rough, profile), **_TASKS}
+        tasks: dict[str, Callable[[PaperContact], object]] = {
+            "rough": partial(_rough, profile),
+            "placed": partial(_placed, profile),
+            **_TASKS,
+        }
         work = [(part, contact, tasks[part]) for part in dict.fromkeys(parts) for contact in CONTACTS]
         # Long ones first, so that no core waits for one at the end.
-        work.sort(key=lambda item: item[0] not in ("rough", "methods"))
-        solved: dict[tuple[str, PaperContact], object] = {}
-        context = multiprocessing.get_context("spawn")
-        with ProcessPoolExecutor(_cores(), mp_context=context) as pool:
-            futures: dict[Future[object], tuple[str, PaperContact]] = {
-                pool.submit(task, contact): (part, contact) for part, contact, task in work
-            }
-            for done, future in enumerate(as_completed(futures), 1):
-                part, contact = futures[future]
-                solved[part, contact] = future.result()
-                if progress is not None:
-                    progress(done, len(work), f"{part.replace('_', ' ')}: {contact.name}")
+        work.sort(key=lambda item: item[0] not in ("rough", "placed", "methods"))
+        solved: dict[tuple[str, PaperContact], Any] = {}
+
+        def done(number: int, result: Any) -> None:
+            part, contact, _ = work[number]
+            solved[part, contact] = result
+            if progress is not None:
+                progress(len(solved), len(work), f"{part.replace('_', ' ')}: {contact.name}")
+
+        if work:
+            run_all([partial(task, contact) for _, contact, task in work], done)
     return _gathered(solved)
-
-
-def _cores() -> int:
-    return min(len(os.sched_getaffinity(0)), len(CONTACTS))
 
 
 def _gathered(solved: dict[tuple[str, PaperContact], Any]) -> Study:
@@ -141,53 +149,53 @@ def _gathered(solved: dict[tuple[str, PaperContact], Any]) -> Study:
 
 
 def straight_line(result: Result) -> Array:
-    """Field strength on the paper's other reading of mid-film: a straight line, half the average film high.
+    """Field strength on the paper's other reading of mid-film: a straight line.
 
     Parameters
     ----------
     result : Result
-        A solved contact of equal bodies.
+        A solved contact.
 
     Returns
     -------
     ndarray
-        abs(E) at the columns of its field [V/m], not a number where the line is outside the film.
+        abs(E) at the columns of its field [V/m], half of the average film above the average lower surface of
+        the Hertz zone; not a number where that is outside the film.
 
     Notes
     -----
-    Between equal bodies, at -h/2 and h/2, a straight line in the middle is s = 1/2. The reading differs
-    where the gap is drawn over a plane: the lower surface is straight but for its roughness, the upper one h
-    above it.
+    Between smooth equal bodies, at -h/2 and h/2, this is the line s = 1/2.
     """
-    film, of = result.film, result.field
-    lower = PchipInterpolator(film.x, result.roughness[0])(of.x)
-    problem = FieldProblem(
-        x=of.x,
-        lower=lower,
-        upper=lower + of.y[:, -1] - of.y[:, 0],
-        permittivity=of.permittivity[:, 0],
-        potential_1=result.case.electric.potential_1,
-        potential_2=result.case.electric.potential_2,
-        degree=result.case.grid.field_degree,
-    )
-    return solve_field(problem).strength_at(0.5 * film.mean_thickness)
+    field, b = result.field, result.conditions.half_width
+    zone = np.abs(field.x) <= b
+    lower = float(np.trapezoid(field.y[zone, 0], field.x[zone]) / np.ptp(field.x[zone]))
+    return field.strength_at(lower + 0.5 * result.film.mean_thickness)
 
 
-def largest_difference(solved: Solved) -> float:
-    """Of the two readings of mid-film, relative, where the straight line is inside the film."""
-    of = solved.result.field
-    inside = of.inner & np.isfinite(solved.straight)
-    return float(np.max(np.abs(solved.straight[inside] / of.middle_strength[inside] - 1.0)))
+def readings_differ_by(result: Result) -> float:
+    """Largest relative difference of the two readings of mid-film, where the straight line is in the film."""
+    field, straight = result.field, straight_line(result)
+    inside = field.inner & np.isfinite(straight)
+    return float(np.max(np.abs(straight[inside] / field.middle_strength[inside] - 1.0)))
 
 
-def _smooth(contact: PaperContact) -> Solved:
-    result = solve(contact.case())
-    return Solved(result, straight_line(result))
+def _smooth(contact: PaperContact) -> Result:
+    return solve(contact.case())
 
 
-def _rough(profile: Path, contact: PaperContact) -> Solved:
-    result = solve(contact.rough_case(profile))
-    return Solved(result, straight_line(result))
+def _rough(profile: Path, contact: PaperContact) -> Result:
+    return solve(contact.rough_case(profile))
+
+
+def _placed(profile: Path, contact: PaperContact) -> tuple[Placed, ...]:
+    """The rough contact on half of the nodes, with the profile where it is and moved."""
+    return tuple(_moved(contact.rough_case(profile, nodes=PLACED_NODES, shift=shift)) for shift in PLACEMENTS)
+
+
+def _moved(case: Case) -> Placed:
+    result = solve(case)
+    minimum, field = result.film.minimum_thickness, result.field
+    return Placed(minimum, field.max_strength * minimum / field.voltage, result.converged)
 
 
 def _first_order(contact: PaperContact) -> Result:
@@ -219,7 +227,7 @@ def _methods(contact: PaperContact) -> Methods:
     field, own = sor.field_from(problem, stencil, best.potential), solve_field(problem)
     return Methods(
         cycles=int(np.count_nonzero(residuals > COUNTED)),
-        factor=float((late[-1] / late[0]) ** (1.0 / (late.size - 1))),
+        factor=float((late[-1] / late[0]) ** (1.0 / max(late.size - 1, 1))),
         film_difference=float(np.max(np.abs(theirs.thickness / ours.thickness - 1.0))),
         unknowns=stencil.grid.column.size,
         sweeps=best.sweeps,
