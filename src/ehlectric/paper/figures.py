@@ -12,7 +12,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from ehlectric import plot
-from ehlectric.drawing import BODY
+from ehlectric.drawing import BODY, figure_of
 from ehlectric.paper import schematics
 from ehlectric.paper.contacts import CONTACTS, PaperContact
 from ehlectric.paper.study import Study, readings_differ_by, straight_line
@@ -90,44 +90,53 @@ def rough_strengths(gigapascal: int) -> Callable[[Study], Figure]:
     return lambda study: _strengths(study.rough, gigapascal)
 
 
-def _middle(solved: dict[PaperContact, Result], scale: Callable[[Result], float], label: str) -> Figure:
-    """Field strength at mid-film over X by both readings, one panel a pressure, the exit in an inset."""
-    figure, panels = _panels(1, 2, (10.0, 4.6))
+def _middle(solved: dict[PaperContact, Result], scale: Callable[[Result], float], label: str) -> list[Axes]:
+    """Field strength at mid-film over X by both readings, one panel a pressure."""
+    _, panels = _panels(1, 2, (10.0, 4.6))
     for ax, letter, gigapascal in zip(panels, "ab", (1, 2), strict=True):
-        contacts = _of(gigapascal)
-        top = max(scale(solved[c]) * float(np.max(solved[c].field.middle_strength)) for c in contacts)
-        inset = ax.inset_axes((0.27, 0.05, 0.42, 0.36))
-        for colour, contact in zip(_COLOURS, contacts, strict=True):
-            result = solved[contact]
-            x = result.field.x / result.conditions.half_width
-            factor = scale(result)
-            for axes in (ax, inset):
-                axes.plot(x, factor * result.field.middle_strength, color=colour, label=contact.printed)
-                axes.plot(x, factor * straight_line(result), **_STRAIGHT)
+        results = [solved[contact] for contact in _of(gigapascal)]
+        for colour, contact, result in zip(_COLOURS, _of(gigapascal), results, strict=True):
+            _both_readings(ax, result, scale(result), colour, contact.printed)
         ax.plot([], [], **_STRAIGHT, label="straight line")
-        difference = max(readings_differ_by(solved[c]) for c in contacts)
-        same = "one line" if difference < 1e-6 else f"up to {100.0 * difference:.2g} % apart"
+        difference = max(map(readings_differ_by, results))
+        apart = "are one line" if difference < 1e-6 else f"are up to {100.0 * difference:.2g} % apart"
         _title(ax, f"({letter}) {gigapascal} GPa")
-        ax.set_title(f"colours: $s = 1/2$; the two readings: {same}", loc="right")
-        ax.set(xlabel="$x/b$", ylabel=label, xlim=(-1.25, 1.25), ylim=(0.0, 1.22 * top))
-        inset.set(xlim=(0.8, 1.1) if gigapascal == 1 else (0.92, 1.05), ylim=(0.0, 1.05 * top))
-        inset.tick_params(labelsize=6.5)
-        ax.legend(loc="upper left", ncols=5, frameon=False, columnspacing=1.0, handlelength=1.6)
-    return figure
+        ax.set_title(f"the readings {apart}", loc="right")
+        top = max(scale(r) * float(np.max(r.field.middle_strength)) for r in results)
+        ax.set(xlabel="$x/b$", ylabel=label, xlim=(-1.25, 1.25), ylim=(0.0, 1.3 * top))
+        ax.legend(
+            loc="upper left", ncols=3, frameon=False, title="colours: line $s = 1/2$", title_fontsize=8.0
+        )
+    return panels
+
+
+def _both_readings(ax: Axes, result: Result, factor: float, colour: str, name: str) -> None:
+    x = result.field.x / result.conditions.half_width
+    ax.plot(x, factor * result.field.middle_strength, color=colour, label=name)
+    ax.plot(x, factor * straight_line(result), **_STRAIGHT)
 
 
 def smooth_middle(study: Study) -> Figure:
     """Figure 7: field strength at mid-film of the smooth contacts."""
-    return _middle(study.smooth, lambda _: 1.0 / _MICRO, r"mid-film $|E|$ [V/µm]")
+    return figure_of(_middle(study.smooth, lambda _: 1.0 / _MICRO, r"mid-film $|E|$ [V/µm]")[0])
 
 
 def rough_middle(study: Study) -> Figure:
-    """Figure 11: dimensionless field strength at mid-film of the rough contacts."""
-    return _middle(
-        study.rough,
-        lambda result: result.film.minimum_thickness / result.field.voltage,
-        r"mid-film $|E|\,h_\mathrm{min}/V_{12}$",
-    )
+    """Figure 11: dimensionless field strength at mid-film of the rough contacts, the exit in an inset."""
+
+    def scale(result: Result) -> float:
+        return result.film.minimum_thickness / result.field.voltage
+
+    panels = _middle(study.rough, scale, r"mid-film $|E|\,h_\mathrm{min}/V_{12}$")
+    for ax, gigapascal, exit_zone in zip(panels, (1, 2), ((0.8, 1.1), (0.92, 1.05)), strict=True):
+        inset = ax.inset_axes((0.27, 0.07, 0.42, 0.36))
+        for colour, contact in zip(_COLOURS, _of(gigapascal), strict=True):
+            result = study.rough[contact]
+            _both_readings(inset, result, scale(result), colour, contact.printed)
+        inset.set(xlim=exit_zone, ylim=(0.3, 1.05))
+        inset.set_title("exit", fontsize=7.0, pad=2.0)
+        inset.tick_params(labelsize=6.5)
+    return figure_of(panels[0])
 
 
 def profile_and_pressure(study: Study) -> Figure:

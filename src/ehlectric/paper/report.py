@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 from jinja2 import Environment, StrictUndefined
 
-from ehlectric.paper.contacts import ROUGH_NODES, SMOOTH_NODES
+from ehlectric.paper.contacts import CONTACTS, ROUGH_NODES, SMOOTH_NODES
 from ehlectric.paper.errata import SLIPS
 from ehlectric.paper.figures import FIGURES
 from ehlectric.paper.sor import ROWS
@@ -116,6 +116,8 @@ def numbers(study: Study, tables: Mapping[str, PaperTable]) -> dict[str, str]:
     widths, shares = _column(width, "width [µm]"), _column(width, "width/b")
     mean_pits = _column(width, "width/mean pit 1.7 µm")
     return {
+        "fine_2": format(1e6 * study.fine[CONTACTS[6]].film.minimum_thickness, ".3f"),
+        "fine_1": format(1e6 * study.fine[CONTACTS[7]].film.minimum_thickness, ".3f"),
         "largest": _range([field["max_dimensionless"] for field in fields.values()], ".4f"),
         "centre_1": _range(centre[1], ".3f"),
         "centre_2": _range(centre[2], ".3f"),

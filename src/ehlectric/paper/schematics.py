@@ -52,7 +52,7 @@ def film_model() -> Figure:
         ax.plot(x, sign * half, color=_INK, lw=1.2)
     pressure = 0.16 + 1.3 * np.sqrt(np.maximum(0.0, 1.0 - x**2))
     ax.plot(x[np.abs(x) <= 1.0], pressure[np.abs(x) <= 1.0], color=_INK, lw=1.0, ls="--")
-    _text(ax, -0.25, 1.05, "pressure $p(x)$")
+    _text(ax, 0.0, 1.12, "pressure $p(x)$")
     for sign, k, where in ((1.0, 2, 2.0), (-1.0, 1, -2.0)):
         _text(ax, 0.0, where, f"body {k}: $E_{k}$, $\\nu_{k}$, $R_{k}$")
         _arrow(ax, (-2.3, sign * 1.35), (-1.5, sign * 1.35))
