@@ -213,7 +213,8 @@ def _paper(app: Sphinx) -> None:
         raise ExtensionError("a film of the paper's study did not converge")
     for name, (build, _) in TABLES.items():
         table = build(study)
-        (folder / f"paper_{name}.md").write_text(_table(list(table.heads), table.shown), encoding="utf-8")
+        text = "```{rst-class} paper\n```\n\n" + _table(list(table.heads), table.shown)
+        (folder / f"paper_{name}.md").write_text(text, encoding="utf-8")
     figures = {number: folder / f"paper_figure_{number}.png" for number in FIGURES}
     with style():
         for number, path in figures.items():

@@ -351,7 +351,8 @@ def _command() -> int:
         message = getattr(error, "format_message", None)
         if message is None:
             raise
-        typer.echo(f"error: {message()}", err=True)
+        # Without a command the help has been printed, and there is nothing to say.
+        typer.echo(f"error: {message() or 'no command; they are listed above'}", err=True)
         return WRONG_INPUT
     return int(status or 0)
 

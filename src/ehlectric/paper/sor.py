@@ -31,6 +31,9 @@ TOLERANCE = 1e-10
 
 MOST_SWEEPS = 100_000
 
+# Nodes of the Cartesian grid, those in the bodies with them.
+MOST_NODES = 3e7
+
 # A node this near to a surface, in rows, is on it.
 _ON_SURFACE = 1e-9
 
@@ -66,8 +69,20 @@ class CartesianGrid:
 
     @classmethod
     def over(cls, x: Array, lower: Array, upper: Array, *, rows: int) -> CartesianGrid:
-        """Grid with so many rows in the least gap."""
+        """Grid with so many rows in the least gap.
+
+        Raises
+        ------
+        ConvergenceError
+            Where that would be too many nodes.
+        """
         dy = float(np.min(upper - lower)) / rows
+        nodes = x.size * float(np.max(upper) - np.min(lower)) / dy
+        if nodes > MOST_NODES:
+            raise ConvergenceError(
+                f"the paper's Cartesian grid would have {nodes:.2g} nodes, {rows} rows in the least gap, "
+                f"and takes at most {MOST_NODES:.0e}: narrow grid.field_range, or leave --solver paper out"
+            )
         y = np.arange(float(np.min(lower)), float(np.max(upper)) + dy, dy)
         margin = _ON_SURFACE * dy
         inside = (y > lower[:, np.newaxis] + margin) & (y < upper[:, np.newaxis] - margin)
