@@ -204,7 +204,8 @@ def _paper(app: Sphinx) -> None:
     """Tables, figures and the report of the paper's study, where the code is newer than they are."""
     folder = Path(app.srcdir) / "_generated"
     page = folder / "extra" / "report.html"
-    newest = max(path.stat().st_mtime for path in Path(ehlectric.__file__).parent.rglob("*.*"))
+    made_of = [Path(__file__), *Path(ehlectric.__file__).parent.rglob("*.*")]
+    newest = max(path.stat().st_mtime for path in made_of)
     if page.exists() and page.stat().st_mtime > newest:
         return
     page.parent.mkdir(parents=True, exist_ok=True)
