@@ -17,7 +17,7 @@ entrainment_speed = "2 m/s"
 [lubricant]
 base = "paper"
 [grid]
-nodes = 401
+nodes = 801
 """
 
 

@@ -8,7 +8,8 @@ from ehlectric.conditions import resolve
 from ehlectric.roughness import Profile
 from ehlectric.walls import measured, remarks, rough_surfaces, variance_beyond
 from tests.conftest import PAPER_CONTACT
-from tests.unit.test_surface_files import DATA, DEKTAK, MAP, al3d_file
+from tests.surface_writers import MAP, al3d
+from tests.unit.test_surface_files import DATA, DEKTAK
 
 GAUSSIAN = {"surface": 1, "generator": "gaussian", "rq": "10 nm", "correlation_length": "10 um", "seed": 3}
 SELF_AFFINE = {
@@ -120,7 +121,7 @@ def test_nothing_is_above_a_cut(extend):
 def test_voids_of_the_line_that_is_used(tmp_path):
     heights = MAP.copy()
     heights[2, 7:10] = 1e30
-    path = str(al3d_file(tmp_path / "a.al3d", heights))
+    path = str(al3d(tmp_path / "a.al3d", heights))
     (first, third) = surfaces_of({"surface": 1, "file": path}, {"surface": 2, "file": path, "line": 2})
     assert (first.describe()["voids"], first.remarks) == (0.0, ())
     assert third.describe()["voids"] == pytest.approx(3 / 31)
