@@ -52,16 +52,19 @@ def run_all(
             futures = {pool.submit(task): number for number, task in enumerate(tasks)}
         for future in as_completed(futures):
             done(futures[future], future.result())
-    except BrokenProcessPool:
-        raise RuntimeError(
-            "a process that solves contacts was killed or could not begin; a script that solves in "
-            'parallel takes its calls below if __name__ == "__main__":'
-        ) from None
-    finally:
+    except BaseException as error:
+        # Whatever stops this process, those of the pool are not waited for.
         with _interrupts(signal.SIG_IGN):
             for process in list((getattr(pool, "_processes", None) or {}).values()):
                 process.terminate()
             pool.shutdown(cancel_futures=True)
+        if isinstance(error, BrokenProcessPool):
+            raise RuntimeError(
+                "a process that solves contacts was killed or could not begin; a script that solves in "
+                'parallel takes its calls below if __name__ == "__main__":'
+            ) from None
+        raise
+    pool.shutdown()
 
 
 @contextmanager
