@@ -86,7 +86,7 @@ def result_table(result: Result) -> Table:
     table.add_row("maximum pressure", f"{film.max_pressure / 1e9:.4g}", "GPa")
     error = film.discretisation_error
     table.add_row("discretisation error", *(["unknown"] if error is None else [f"{100 * error:.2g}", "%"]))
-    steps = "V-cycles of the paper's multigrid" if result.solvers == "paper" else "Newton steps"
+    steps = "V-cycles" if result.solvers == "paper" else "Newton steps"
     table.add_row("residual", f"{film.residual:.1e}", f"{film.newton_iterations} {steps}")
     table.add_row("load residual", f"{film.load_residual:.1e}")
     table.add_row("voltage", f"{field.voltage:.4g}", "V")
