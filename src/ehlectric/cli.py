@@ -90,6 +90,10 @@ def run(
     """
     with _user_errors():
         from ehlectric.case import Case
+
+        # Before all that solving takes: what is wrong with a case is said at once.
+        case = Case.from_toml(case_file)
+
         from ehlectric.conditions import resolve
         from ehlectric.memory import check_memory
         from ehlectric.paper.solvers import SOLVERS
@@ -99,7 +103,6 @@ def run(
 
         if solver not in SOLVERS:
             raise InputError(f"--solver: got {shown(solver)}, takes one of {', '.join(SOLVERS)}")
-        case = Case.from_toml(case_file)
         rough_surfaces(case, resolve(case))
         check_memory(case)
         names = (*FILES, *FIGURE_FILES, ROUGHNESS_FIGURE)

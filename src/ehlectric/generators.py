@@ -8,10 +8,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy import fft
-from scipy.signal import fftconvolve
 
 from ehlectric.errors import InputError
-from ehlectric.roughness import Profile
+from ehlectric.roughness import Profile, convolved
 from ehlectric.typing import Array
 
 _FOUR_LN_2 = 4.0 * np.log(2.0)
@@ -209,7 +208,7 @@ def _folded(kernel: Array, spacing: float, length: float, rq: float, seed: int, 
         for side, stream in zip((1, 0), np.random.SeedSequence(seed).spawn(2), strict=True)
     )
     noise = np.concatenate([left[::-1], right])
-    heights: Array = fftconvolve(noise, kernel, mode="valid")
+    heights = convolved(noise, kernel)[kernel.size - 1 : noise.size]
     return Profile(spacing, heights * (rq / np.sqrt(np.sum(kernel**2))))
 
 

@@ -10,7 +10,6 @@ from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
 import numpy as np
-from scipy.signal import fftconvolve
 
 from ehlectric.errors import InputError
 from ehlectric.typing import Array
@@ -29,6 +28,14 @@ FLAT = 1e-12
 
 # Points below which a profile has no statistics worth the name.
 LEAST_POINTS = 16
+
+
+def convolved(values: Array, kernel: Array) -> Array:
+    """Full convolution of two sequences (n,) and (m,) by FFT, shape (n + m - 1,)."""
+    from scipy.signal import fftconvolve  # half a second to import, and smooth contacts need none
+
+    convolution: Array = fftconvolve(values, kernel)
+    return convolution
 
 
 @dataclass(frozen=True)
@@ -114,7 +121,7 @@ def statistics(profile: Profile) -> Statistics:
 
 
 def _correlation_length(z: Array, spacing: float) -> float:
-    covariance = fftconvolve(z, z[::-1])[z.size - 1 :] / np.arange(z.size, 0, -1)
+    covariance = convolved(z, z[::-1])[z.size - 1 :] / np.arange(z.size, 0, -1)
     below = np.flatnonzero(covariance < covariance[0] / np.e)
     if below.size == 0:
         return (z.size - 1) * spacing
@@ -197,8 +204,8 @@ def waviness(profile: Profile, cutoff: float) -> Profile:
     distance = np.arange(-reach, reach + 1) * profile.spacing
     weights = np.exp(-np.pi * (distance / (ALPHA * cutoff)) ** 2)
     weights /= weights.sum()
-    total = fftconvolve(profile.heights, weights, mode="full")[reach : reach + profile.heights.size]
-    share = fftconvolve(np.ones_like(profile.heights), weights, mode="full")
+    total = convolved(profile.heights, weights)[reach : reach + profile.heights.size]
+    share = convolved(np.ones_like(profile.heights), weights)
     return replace(profile, heights=total / share[reach : reach + profile.heights.size])
 
 
