@@ -20,11 +20,7 @@ from sphinx.errors import ExtensionError
 import ehlectric
 from ehlectric import Case, inputs, lubricant, solve
 from ehlectric.cli import app as commands
-from ehlectric.drawing import style
-from ehlectric.paper import report
-from ehlectric.paper.figures import FIGURES
-from ehlectric.paper.study import Study, run_study
-from ehlectric.paper.tables import TABLES
+from ehlectric.paper.reproduce import reproduce
 from ehlectric.quantity import Count, Quantity
 
 _TABLES = {
@@ -201,26 +197,19 @@ def _variables() -> str:
 
 
 def _paper(app: Sphinx) -> None:
-    """Tables, figures and the report of the paper's study, where the code is newer than they are."""
+    """The paper's study, where the code is newer than what was made of it."""
     folder = Path(app.srcdir) / "_generated"
-    page = folder / "extra" / "report.html"
+    page = folder / "extra" / "reproduced" / "report.html"
     made_of = [Path(__file__), *Path(ehlectric.__file__).parent.rglob("*.*")]
     newest = max(path.stat().st_mtime for path in made_of)
     if page.exists() and page.stat().st_mtime > newest:
         return
-    page.parent.mkdir(parents=True, exist_ok=True)
-    study = run_study(Study.__dataclass_fields__)
-    if not study.converged:
+    made = reproduce(page.parent)
+    if not made.converged:
         raise ExtensionError("a film of the paper's study did not converge")
-    for name, (build, _) in TABLES.items():
-        table = build(study)
+    for name, table in made.tables.items():
         text = "```{rst-class} paper\n```\n\n" + _table(list(table.heads), table.shown)
         (folder / f"paper_{name}.md").write_text(text, encoding="utf-8")
-    figures = {number: folder / f"paper_figure_{number}.png" for number in FIGURES}
-    with style():
-        for number, path in figures.items():
-            FIGURES[number].draw(study).savefig(path, dpi=200)
-    page.write_text(report.html(study, figures), encoding="utf-8")
 
 
 def _check_modules(app: Sphinx) -> None:

@@ -269,26 +269,26 @@ def reproduce(
     """Solve the contacts of Morris, Leighton and Morris (2022); write tables, figures and a report."""
     with _user_errors():
         from ehlectric.paper.reproduce import reproduce as reproduced
-        from ehlectric.paper.reproduce import verdict
 
         with _bar(shown=not quiet) as progress:
-            files, study = reproduced(
+            made = reproduced(
                 output, figure=_number("figure", figure), table=_number("table", table), progress=progress
             )
     if not quiet:
-        for line in [*verdict(study), *(f"written: {path}" for path in files)]:
-            typer.echo(line)
-    if not study.converged:
+        for name, text in made.verdicts.items():
+            typer.echo(f"{name.replace('_', ' ').capitalize()}: {text}")
+        for path in made.files:
+            typer.echo(f"written: {path}")
+    if not made.converged:
         typer.echo("error: not converged: some films of the study", err=True)
         raise typer.Exit(NOT_CONVERGED)
 
 
 def _number(name: str, text: str | None) -> int | None:
-    if text is None:
-        return None
-    if not text.strip("-").isdigit():
-        raise InputError(f"--{name}: got {shown(text)}, takes a number")
-    return int(text)
+    try:
+        return None if text is None else int(text)
+    except ValueError:
+        raise InputError(f"--{name}: got {shown(text)}, takes a number") from None
 
 
 @contextmanager

@@ -12,8 +12,8 @@ import numpy as np
 from ehlectric import film_formulas, hertz
 from ehlectric.case import Case
 from ehlectric.errors import InputError
-from ehlectric.inputs import ROELANDS_CONSTANT, Contact, Lubricant
-from ehlectric.lubricant import DENSITY_LAWS, PERMITTIVITY_LAWS, VISCOSITY_LAWS, Law
+from ehlectric.inputs import Contact, Lubricant
+from ehlectric.lubricant import DENSITY_LAWS, PERMITTIVITY_LAWS, VISCOSITY_LAWS, Law, roelands_exponent
 from ehlectric.typing import Array
 
 # Hertz pressure at which bearing steel deforms permanently, of line contacts (ISO 76) [Pa].
@@ -228,8 +228,7 @@ def remarks(case: Case, conditions: Conditions) -> Iterator[str]:
     if lubricant.viscosity_law == "roelands":
         alpha, p0 = lubricant.pressure_viscosity_coefficient, lubricant.roelands_pressure
         assert alpha is not None and p0 is not None and lubricant.roelands_z is not None
-        exponent = np.log(lubricant.viscosity) + ROELANDS_CONSTANT
-        z = alpha * p0 / exponent if exponent > 0.0 else np.inf
+        z = roelands_exponent(lubricant.viscosity, alpha, p0)
         if abs(z / lubricant.roelands_z - 1.0) > 0.1:
             yield (
                 f"roelands_z is {lubricant.roelands_z:g}; Roelands' own relation gives {z:.3g} for this "

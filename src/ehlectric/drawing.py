@@ -42,13 +42,16 @@ def style() -> Iterator[None]:
         yield
 
 
+def new_panels(rows: int, columns: int, size: tuple[float, float]) -> list[Axes]:
+    """Axes of a new figure of a size in inches, row by row."""
+    figure = Figure(figsize=size)
+    FigureCanvasAgg(figure)
+    return list(figure.subplots(rows, columns, squeeze=False).ravel())
+
+
 def axes_or_new(ax: Axes | None) -> Axes:
     """The axes given, or those of a new figure."""
-    if ax is None:
-        figure = Figure(figsize=(6.3, 3.4))
-        FigureCanvasAgg(figure)
-        ax = figure.subplots()
-    return ax
+    return new_panels(1, 1, (6.3, 3.4))[0] if ax is None else ax
 
 
 def figure_of(ax: Axes) -> Figure:

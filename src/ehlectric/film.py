@@ -231,7 +231,7 @@ def _discretisation_error(
     if coarse is None or fine.status != "converged" or coarse.status != "converged":
         return None
     of_fine, of_coarse = ((g.level.x, g.state.thickness[:, 0]) for g in (fine, coarse))
-    return richardson(of_fine, of_coarse, order=2 if problem.second_order else 1)
+    return richardson(of_fine, of_coarse, order=problem.order)
 
 
 def inlet_deficit(fluid: Fluid, x: Array, pressure: Array, mass: Array) -> float:

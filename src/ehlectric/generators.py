@@ -15,6 +15,9 @@ from ehlectric.typing import Array
 
 _FOUR_LN_2 = 4.0 * np.log(2.0)
 
+# Points of a made profile in a correlation length, and in the shortest wave of a self-affine one.
+POINTS_IN_CORRELATION, POINTS_IN_SHORTEST = 16, 4
+
 # Points of a made profile beyond which it is refused: some 1 GB is then in use.
 MOST_POINTS = 10_000_000
 
@@ -138,9 +141,9 @@ def gaussian(*, rq: float, correlation_length: float, length: float, seed: int) 
     >>> round(float(np.std(heights)) * 1e9, 1)
     10.0
     """
-    spacing = correlation_length / 16.0
+    spacing = correlation_length / POINTS_IN_CORRELATION
     # Two of these Gaussians folded give the autocorrelation; at four lengths they are 1e-14.
-    kernel = np.exp(-2.0 * (np.arange(-64, 65) / 16.0) ** 2)
+    kernel = np.exp(-2.0 * (np.arange(-64, 65) / POINTS_IN_CORRELATION) ** 2)
     return _folded(kernel, spacing, length, rq, seed, "correlation_length")
 
 
@@ -181,7 +184,7 @@ def self_affine(
     >>> round(float(np.std(self_affine(**made).heights)) * 1e9, 1)
     10.0
     """
-    spacing = shortest / 4.0
+    spacing = shortest / POINTS_IN_SHORTEST
     reach = int(np.ceil(_REACH * rolloff_wavelength / spacing))
     _check_points(2 * reach, spacing, 2.0 * reach * spacing, "shortest_wavelength")
     # The kernel is the inverse cosine transform of the spectrum's root, over four times what is kept of it.

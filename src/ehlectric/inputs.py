@@ -10,12 +10,15 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, ValidationError, mod
 
 from ehlectric import library
 from ehlectric.errors import InputError, shown
-from ehlectric.lubricant import DENSITY_LAWS, PERMITTIVITY_LAWS, VISCOSITY_LAWS
+from ehlectric.lubricant import (
+    DENSITY_LAWS,
+    PERMITTIVITY_LAWS,
+    ROELANDS_CONSTANT,
+    VISCOSITY_LAWS,
+    roelands_exponent,
+)
 from ehlectric.quantity import Count, Quantity, length_unit
 from ehlectric.validation import first_message, nearest
-
-# Roelands' reduced form of the viscosity at zero pressure, ln(eta0) + 9.67, with eta0 in Pa s.
-ROELANDS_CONSTANT = 9.67
 
 
 class Table(BaseModel):
@@ -199,12 +202,14 @@ class Lubricant(Table):
     def _roelands_hint(self) -> str:
         """The exponent of Roelands' own relation, where it alone is missing."""
         alpha, p0 = self.pressure_viscosity_coefficient, self.roelands_pressure
-        exponent = math.log(self.viscosity) + ROELANDS_CONSTANT
-        if self.roelands_z is not None or alpha is None or p0 is None or exponent <= 0.0:
+        if self.roelands_z is not None or alpha is None or p0 is None:
+            return ""
+        z = roelands_exponent(self.viscosity, alpha, p0)
+        if not math.isfinite(z):
             return ""
         return (
             "; Roelands' relation pressure_viscosity_coefficient roelands_pressure/(ln viscosity + "
-            f"{ROELANDS_CONSTANT}) gives {alpha * p0 / exponent:.3g}"
+            f"{ROELANDS_CONSTANT}) gives {z:.3g}"
         )
 
 

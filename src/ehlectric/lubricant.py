@@ -7,6 +7,7 @@ of the tables at the end of the file.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -16,6 +17,40 @@ from numpy.typing import ArrayLike
 
 from ehlectric.errors import InputError
 from ehlectric.typing import Array
+
+# Roelands' reduced form of the viscosity at zero pressure, ln(eta0) + 9.67, with eta0 in Pa s.
+ROELANDS_CONSTANT = 9.67
+
+
+def roelands_exponent(
+    viscosity: float, pressure_viscosity_coefficient: float, roelands_pressure: float
+) -> float:
+    """Exponent z that belongs to a viscosity and its slope, z = alpha p0/(ln eta0 + 9.67).
+
+    Parameters
+    ----------
+    viscosity : float
+        eta0 at zero pressure [Pa s].
+    pressure_viscosity_coefficient, roelands_pressure : float
+        alpha [1/Pa] and p0 [Pa].
+
+    Returns
+    -------
+    float
+        Dimensionless; infinite where the viscosity is below that of Roelands' pole, 6.3e-5 Pa s.
+
+    Notes
+    -----
+    C. J. A. Roelands, Correlational aspects of the viscosity-temperature-pressure relationship of
+    lubricating oils, thesis, Delft, 1966.
+
+    Examples
+    --------
+    >>> round(roelands_exponent(0.04, 22e-9, 0.198e9), 3)
+    0.675
+    """
+    reduced = math.log(viscosity) + ROELANDS_CONSTANT
+    return pressure_viscosity_coefficient * roelands_pressure / reduced if reduced > 0.0 else math.inf
 
 
 def roelands(

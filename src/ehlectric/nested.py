@@ -90,6 +90,11 @@ class FilmProblem:
     added_gap: Callable[[Array], Array] | None = None
     source: Callable[[Array], Array] | None = None
 
+    @property
+    def order(self) -> int:
+        """Order of the discretisation."""
+        return 2 if self.second_order else 1
+
 
 def nested_iteration(problem: FilmProblem, progress: Progress | None) -> list[GridSolution]:
     """Solutions from the coarsest grid used to the finest, which is the last.

@@ -8,8 +8,6 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from ehlectric.drawing import (
@@ -22,6 +20,7 @@ from ehlectric.drawing import (
     figure_of,
     in_half_widths,
     label_position,
+    new_panels,
     style,
     unit_for,
 )
@@ -128,7 +127,7 @@ def field_strength(result: Result, ax: Axes | None = None, *, largest: float | N
     As Figures 5 and 6 of Morris et al. (2022), doi:10.3390/lubricants10050087.
     """
     field = result.field
-    scale = result.film.minimum_thickness / field.voltage
+    scale = result.strength_scale
     label = r"field strength $|E|\,h_\mathrm{min}/V_{12}$"
     limits = (0.0, largest or float(scale * np.max(field.strength)))
     nice = np.asarray(MaxNLocator(6).tick_values(*limits))
@@ -224,7 +223,7 @@ def field_profiles(result: Result, ax: Axes | None = None) -> Axes:
     ax.set(ylabel=rf"field strength $|E|$ [{unit}]", xlim=(x[0], x[-1]))
     label_position(result, ax)
     ax.set_ylim(0.0, 1.08 * factor * field.max_strength)
-    scale = result.film.minimum_thickness / field.voltage / factor
+    scale = result.strength_scale / factor
     right = ax.secondary_yaxis(
         "right", functions=(lambda e: np.asarray(e) * scale, lambda e: np.asarray(e) / scale)
     )
@@ -299,13 +298,12 @@ def profile(drawn: Profile, ax: Axes | None = None) -> Axes:
 def save_profile(steps: Sequence[tuple[str, Profile]], path: Path) -> None:
     """Draw a profile as read and after its last step as a PNG file."""
     with style():
-        figure = Figure(figsize=(6.3, 4.2))
-        FigureCanvasAgg(figure)
         shown = [steps[0], steps[-1]] if len(steps) > 1 else [steps[0]]
-        for ax, (name, step) in zip(figure.subplots(len(shown), squeeze=False)[:, 0], shown, strict=True):
+        panels = new_panels(len(shown), 1, (6.3, 4.2))
+        for ax, (name, step) in zip(panels, shown, strict=True):
             profile(step, ax).set_title(name if step is steps[0][1] else "after the last step", loc="left")
         with whole(path) as beside:
-            figure.savefig(beside)
+            figure_of(panels[0]).savefig(beside)
 
 
 def roughness(result: Result, ax: Axes | None = None) -> Axes:

@@ -86,15 +86,14 @@ def result_table(result: Result) -> Table:
     table.add_row("maximum pressure", f"{film.max_pressure / 1e9:.4g}", "GPa")
     error = film.discretisation_error
     table.add_row("discretisation error", *(["unknown"] if error is None else [f"{100 * error:.2g}", "%"]))
-    steps = "V-cycles" if result.solvers == "paper" else "Newton steps"
+    steps = "V-cycles" if result.film_solver == "paper" else "Newton steps"
     table.add_row("residual", f"{film.residual:.1e}", f"{film.newton_iterations} {steps}")
     table.add_row("load residual", f"{film.load_residual:.1e}")
     table.add_row("voltage", f"{field.voltage:.4g}", "V")
     table.add_row("maximum field", f"{field.max_strength / 1e6:.4g}", "V/µm")
     position = field.max_strength_position / conditions.half_width
     table.add_row("  at x/b", f"{position:.4g}", field.max_strength_wall if result.rough else "")
-    scale = film.minimum_thickness / field.voltage
-    table.add_row("  times h_min/V12", f"{field.max_strength * scale:.4f}")
+    table.add_row("  times h_min/V12", f"{result.max_dimensionless:.4f}")
     table.add_row("width above 95 %", f"{field.high_field_width * 1e6:.4g}", "µm")
     table.add_row("capacitance, field range", f"{field.capacitance * 1e9:.4g}", "nF/m")
     if result.thin_gap_error is not None:

@@ -61,7 +61,7 @@ class Result:
         The contact without its roughness; None where it has none, or was not solved without.
     warnings : tuple of str
         What a user should know before using it.
-    solvers : str
+    film_solver, field_solver : str
         "ehlectric", or "paper" where the paper's own methods solved it.
     film_seconds, field_seconds : float
         Time it took [s].
@@ -77,7 +77,8 @@ class Result:
     smooth: Smooth | None
     field: Field
     warnings: tuple[str, ...]
-    solvers: str
+    film_solver: str
+    field_solver: str
     film_seconds: float
     field_seconds: float
     version: str
@@ -87,6 +88,16 @@ class Result:
     def converged(self) -> bool:
         """Whether the film is a solution; without it nothing here is one."""
         return self.film.converged
+
+    @property
+    def strength_scale(self) -> float:
+        """h_min/voltage, which makes a field strength dimensionless, eq. (18) of the paper [m/V]."""
+        return self.film.minimum_thickness / self.field.voltage
+
+    @property
+    def max_dimensionless(self) -> float:
+        """Largest field strength times h_min over the voltage."""
+        return self.field.max_strength * self.strength_scale
 
     @property
     def thin_gap_error(self) -> float | None:
@@ -131,7 +142,7 @@ class Result:
                 "residual": film.residual,
                 "newton_iterations": film.newton_iterations,
                 "discretisation_error": film.discretisation_error,
-                "solver": self.solvers,
+                "solver": self.film_solver,
             },
             "field": self._field_summary(),
             "film_formulas": {name: vars(formula(conditions.formulas)) for name, formula in FORMULAS.items()},
@@ -163,8 +174,7 @@ class Result:
         }
 
     def _field_summary(self) -> dict[str, float | str | None]:
-        field, minimum = self.field, self.film.minimum_thickness
-        scale = minimum / field.voltage
+        field, scale = self.field, self.strength_scale
         central = None
         if field.x[0] <= 0.0 <= field.x[-1]:
             central = float(np.interp(0.0, field.x, field.middle_strength)) * scale
@@ -172,14 +182,14 @@ class Result:
             "voltage": field.voltage,
             "max_strength": field.max_strength,
             "max_strength_position": field.max_strength_position,
-            "max_dimensionless": field.max_strength * scale,
+            "max_dimensionless": self.max_dimensionless,
             "central_dimensionless": central,
             "high_field_width": field.high_field_width,
             "capacitance_per_length": field.capacitance,
             "thin_gap_error": self.thin_gap_error,
             "columns": field.x.size,
             "max_strength_wall": field.max_strength_wall,
-            "solver": self.solvers,
+            "solver": self.field_solver,
         }
 
     def to_xarray(self) -> xr.Dataset:
@@ -203,7 +213,8 @@ class Result:
                     "summary": json.dumps(self.summary()),
                     "warnings": json.dumps(self.warnings),
                     "rough": json.dumps(_plain(self.rough)),
-                    "solvers": self.solvers,
+                    "film_solver": self.film_solver,
+                    "field_solver": self.field_solver,
                     "seconds": json.dumps([self.film_seconds, self.field_seconds]),
                     **attributes(self.film, self.field),
                 },

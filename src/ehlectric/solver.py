@@ -68,6 +68,7 @@ def solve(
     progress: Progress | None = None,
     require_convergence: bool = False,
     solvers: Solvers = OWN,
+    beside_smooth: bool = True,
 ) -> Result:
     """Film and electric field of a case.
 
@@ -81,6 +82,8 @@ def solve(
         Raise where the film was not solved, instead of giving back its status.
     solvers : Solvers
         The package's own, or those of ``ehlectric.paper.solvers``.
+    beside_smooth : bool
+        Solve a rough contact with smooth surfaces too, for ``Result.smooth``.
 
     Returns
     -------
@@ -112,10 +115,9 @@ def solve(
     if require_convergence and not film.converged:
         raise ConvergenceError(f"film {film.status} at the residual {film.residual:.1e}")
     roughness = _heights(rough, film.x)
-    # That of a film which was not found is for looking at: the direct solver always has one.
-    field = (solvers.field if film.converged else solve_field)(
-        field_problem(case, conditions, film, roughness)
-    )
+    # The field of a film that was not found is for looking at: the direct solver always has one.
+    of_field = solvers if film.converged else OWN
+    field = of_field.field(field_problem(case, conditions, film, roughness))
     field_done = time.perf_counter()
     return Result(
         case=case,
@@ -123,7 +125,7 @@ def solve(
         film=film,
         roughness=roughness,
         rough=tuple(surface.describe() for surface in rough),
-        smooth=_smooth(case, field, solvers) if rough else None,
+        smooth=_smooth(case, field, solvers) if rough and beside_smooth else None,
         field=field,
         warnings=(
             *remarks(case, conditions),
@@ -131,7 +133,8 @@ def solve(
             *_film_findings(case, conditions, film),
             *_field_findings(case, film, field),
         ),
-        solvers=solvers.name,
+        film_solver=solvers.name,
+        field_solver=of_field.name,
         film_seconds=film_done - started,
         field_seconds=field_done - film_done,
         version=__version__,

@@ -209,7 +209,10 @@ def _random(table: Roughness, domain: float, reach: float) -> Profile:
     trim = table.trim if table.trim is not None else max(table.cutoff_long or 0.0, table.cutoff_short or 0.0)
     common: dict[str, Any] = {"rq": table.rq, "seed": table.seed}
     shortest = table.shortest_wavelength or longest / 100.0
-    finest = longest / 16.0 if table.generator == "gaussian" else shortest / 4.0
+    if table.generator == "gaussian":
+        finest = longest / generators.POINTS_IN_CORRELATION
+    else:
+        finest = shortest / generators.POINTS_IN_SHORTEST
     common["length"] = 2.0 * (reach + trim + _MARGIN * finest)
     try:
         if table.generator == "gaussian":

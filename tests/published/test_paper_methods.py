@@ -143,4 +143,5 @@ def test_film_that_was_not_found_has_a_field_all_the_same(paper_case):
     )
     result = solve(case, solvers=PAPER)
     assert not result.converged
+    assert (result.film_solver, result.field_solver) == ("paper", "ehlectric")
     assert np.all(np.isfinite(result.field.strength))

@@ -123,6 +123,7 @@ def test_smooth_contact_is_beside_the_rough_one():
     alone = solve(result.case.replace(roughness=()))
     np.testing.assert_array_equal(result.smooth.thickness, alone.film.thickness)
     assert alone.smooth is None
+    assert solve(result.case, beside_smooth=False).smooth is None
     expected = result.summary()["roughness"]["smooth_minimum_thickness"]
     assert expected == alone.film.minimum_thickness
     at = np.isin(result.field.x, alone.field.x)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
@@ -11,17 +10,14 @@ import numpy as np
 from ehlectric.conditions import resolve
 from ehlectric.errors import ConvergenceError
 from ehlectric.field import solve_field
-from ehlectric.film_formulas import LineContact
-from ehlectric.hertz import line_max_pressure
+from ehlectric.lubricant import roelands_exponent
 from ehlectric.nested import FilmProblem
 from ehlectric.paper import fas, relaxation
-from ehlectric.paper.contacts import CONTACTS, LOADS, SMOOTH_NODES
+from ehlectric.paper.contacts import CONTACTS, SMOOTH_NODES
 from ehlectric.paper.film_equations import FilmEquations, Iterate
 from ehlectric.paper.sor import ROWS
 from ehlectric.paper.study import Study, readings_differ_by
 from ehlectric.solver import field_problem, film_problem
-
-_R, _E = 14.1e-3, 226e9
 
 
 @dataclass(frozen=True)
@@ -34,17 +30,20 @@ class Slip:
 
 
 def _viscosity(_: Study) -> str:
-    groups = [LineContact(_R, _E, LOADS[2], 4.0, eta, 22e-9) for eta in (4e-4, 0.04)]
-    z = 22e-9 * 0.198e9 / (math.log(0.04) + 9.67)
+    case = CONTACTS[4].case()
+    oil, contact = case.lubricant, resolve(case).formulas
+    misprinted = replace(contact, viscosity=4e-4)
+    assert oil.pressure_viscosity_coefficient is not None and oil.roelands_pressure is not None
+    z = roelands_exponent(oil.viscosity, oil.pressure_viscosity_coefficient, oil.roelands_pressure)
     return (
-        f"M and L of Table 3's first row are printed as 49.2 and 15.7: 4e-4 gives {groups[0].moes_m:.1f} and "
-        f"{groups[0].moes_l:.2f}, 0.04 gives {groups[1].moes_m:.1f} and {groups[1].moes_l:.1f}. Roelands' "
-        f"relation gives z = {z:.3f} for 0.04, printed 0.67"
+        "M and L of Table 3's first row are printed as 49.2 and 15.7: 4e-4 gives "
+        f"{misprinted.moes_m:.1f} and {misprinted.moes_l:.2f}, {oil.viscosity:g} gives {contact.moes_m:.1f} "
+        f"and {contact.moes_l:.1f}. Roelands' relation gives z = {z:.3f} for {oil.viscosity:g}, printed 0.67"
     )
 
 
 def _load(_: Study) -> str:
-    pressures = [line_max_pressure(LOADS[gigapascal], _R, _E) / 1e9 for gigapascal in (2, 1)]
+    pressures = [resolve(CONTACTS[k].case()).max_pressure / 1e9 for k in (4, 0)]
     return f"w = 1.57e6 N/m gives p_h = {pressures[0]:.3f} GPa, a quarter of it {pressures[1]:.3f} GPa"
 
 
@@ -74,10 +73,10 @@ def _unconstrained(equations: FilmEquations, at: Iterate) -> Iterate:
     weights[[0, -1]] *= 0.5
     for _ in range(30):
         c = equations.coefficients(at)
-        by_p, by_h = equations.derivatives(at, c)
+        derivatives = equations.derivatives(at, c)
         matrix = np.zeros((n + 1, n + 1))
-        matrix[:n, :n] = relaxation.dense(by_p) + relaxation.dense(by_h) @ equations.kernel_matrix
-        matrix[:n, n] = by_h.sum(axis=0)
+        matrix[:n, :n] = relaxation.whole_jacobian(equations, derivatives)
+        matrix[:n, n] = derivatives[1].sum(axis=0)
         matrix[0, 0] = matrix[n - 1, n - 1] = 1.0
         matrix[n, :n] = weights
         right = np.append(equations.residual(at, c), equations.load - equations.carried(at.pressure))
@@ -122,11 +121,10 @@ def _square_cells(study: Study) -> str:
     squeezed = solve_field(replace(problem, x=problem.x * dy / dx))
     # The field of that potential is still taken over the true dx.
     strength = np.hypot(squeezed.field_x * dy / dx, squeezed.field_y)
-    scale = film.minimum_thickness / squeezed.voltage
     return (
         f"{contact.name}, rough, cells of {dx * 1e9:.0f} by {dy * 1e9:.0f} nm: as printed, the coefficients "
         f"solve the gap squeezed {dx / dy:.0f} times along x, with E_max h_min/V12 "
-        f"{float(np.max(strength)) * scale:.2f} instead of {result.field.max_strength * scale:.2f}"
+        f"{float(np.max(strength)) * result.strength_scale:.2f} instead of {result.max_dimensionless:.2f}"
     )
 
 
@@ -137,7 +135,7 @@ def _m68(study: Study) -> str:
 
 def _inverse(study: Study) -> str:
     results = list(study.smooth.values())
-    products = [r.field.max_strength * r.film.minimum_thickness / r.field.voltage for r in results]
+    products = [result.max_dimensionless for result in results]
     films = [r.film.minimum_thickness * 1e6 for r in results]
     return (
         f"E_max h_min/V12 is 1 within {max(abs(product - 1.0) for product in products):.0e} for films of "

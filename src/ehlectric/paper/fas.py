@@ -162,19 +162,16 @@ def _cycles(
 ) -> _Cycled:
     """V-cycles on the first of ``grids`` until its residual is below the tolerance."""
     norms: list[float] = []
-    while True:
-        norm = residual_norm(grids[0], at)
-        if not np.isfinite(norm):
-            return _Cycled(at, tuple(norms), diverged=True)
-        if norm <= tolerance or len(norms) == limit:
-            return _Cycled(at, tuple(norms), diverged=False)
+    norm = residual_norm(grids[0], at)
+    while norm > tolerance and len(norms) < limit:
         if progress is not None:
             progress(grids[0].x.size, len(norms), norm)
         norms.append(norm)
         candidate = v_cycle(grids, at)
-        if not np.isfinite(residual_norm(grids[0], candidate)):
-            return _Cycled(at, tuple(norms), diverged=True)
-        at = candidate
+        norm = residual_norm(grids[0], candidate)
+        if np.isfinite(norm):
+            at = candidate
+    return _Cycled(at, tuple(norms), diverged=not np.isfinite(norm))
 
 
 def residual_norm(equations: FilmEquations, at: Iterate) -> float:
@@ -264,9 +261,8 @@ def _film(
         status = "diverged"
     error = None
     if coarser is not None and status == "converged":
-        order = 2 if problem.second_order else 1
         coarse = coarser[0].x, coarser[0].coefficients(coarser[1]).thickness
-        error = richardson((finest.x, c.thickness), coarse, order=order)
+        error = richardson((finest.x, c.thickness), coarse, order=problem.order)
     cavitated = at.pressure <= fluid.ambient_pressure
     pressure = np.maximum(scales.pressure * at.pressure, scales.ambient_pressure)
     return Film(

@@ -8,11 +8,10 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from ehlectric import plot
-from ehlectric.drawing import BODY, figure_of
+from ehlectric.drawing import BODY, figure_of, new_panels
 from ehlectric.paper import schematics
 from ehlectric.paper.contacts import CONTACTS, PaperContact
 from ehlectric.paper.study import Study, readings_differ_by, straight_line
@@ -36,12 +35,6 @@ class PaperFigure:
     draw: Callable[[Study], Figure]
 
 
-def _panels(rows: int, columns: int, size: tuple[float, float]) -> tuple[Figure, list[Axes]]:
-    figure = Figure(figsize=size)
-    FigureCanvasAgg(figure)
-    return figure, list(figure.subplots(rows, columns, squeeze=False).ravel())
-
-
 def _of(gigapascal: int) -> list[PaperContact]:
     return [contact for contact in CONTACTS if contact.gigapascal == gigapascal]
 
@@ -60,24 +53,22 @@ def _title(ax: Axes, text: str) -> None:
 
 def potentials(study: Study) -> Figure:
     """Figure 4: potential in two smooth films."""
-    figure, panels = _panels(1, 2, (10.0, 3.6))
+    panels = new_panels(1, 2, (10.0, 3.6))
     for ax, letter, contact in zip(panels, "ab", (CONTACTS[0], CONTACTS[3]), strict=True):
         result = study.smooth[contact]
         _title(plot.potential(result, ax), _panel_name(contact, letter, result))
-    return figure
+    return figure_of(panels[0])
 
 
 def _strengths(solved: dict[PaperContact, Result], gigapascal: int) -> Figure:
     """Four panels with one range of colours."""
-    figure, panels = _panels(2, 2, (10.0, 6.8))
+    panels = new_panels(2, 2, (10.0, 6.8))
     results = {contact: solved[contact] for contact in _of(gigapascal)}
-    largest = max(
-        float(np.max(r.field.strength)) * r.film.minimum_thickness / r.field.voltage for r in results.values()
-    )
+    largest = max(float(np.max(r.field.strength)) * r.strength_scale for r in results.values())
     for ax, (contact, result) in zip(panels, results.items(), strict=True):
         plot.field_strength(result, ax, largest=largest)
         _title(ax, _panel_name(contact, contact.label, result))
-    return figure
+    return figure_of(panels[0])
 
 
 def smooth_strengths(gigapascal: int) -> Callable[[Study], Figure]:
@@ -90,58 +81,62 @@ def rough_strengths(gigapascal: int) -> Callable[[Study], Figure]:
     return lambda study: _strengths(study.rough, gigapascal)
 
 
-def _middle(solved: dict[PaperContact, Result], scale: Callable[[Result], float], label: str) -> list[Axes]:
-    """Field strength at mid-film over X by both readings, one panel a pressure."""
-    _, panels = _panels(1, 2, (10.0, 4.6))
+def _middle(
+    solved: dict[PaperContact, Result],
+    scale: Callable[[Result], float],
+    label: str,
+    exits: dict[int, tuple[float, float]],
+) -> Figure:
+    """Field strength at mid-film over X by both readings, one panel a pressure, exits in insets."""
+    panels = new_panels(1, 2, (10.0, 4.6))
     for ax, letter, gigapascal in zip(panels, "ab", (1, 2), strict=True):
-        results = [solved[contact] for contact in _of(gigapascal)]
-        for colour, contact, result in zip(_COLOURS, _of(gigapascal), results, strict=True):
-            _both_readings(ax, result, scale(result), colour, contact.printed)
+        contacts = _of(gigapascal)
+        drawn_on = [ax, *([_exit_inset(ax, exits[gigapascal])] if gigapascal in exits else [])]
+        for colour, contact in zip(_COLOURS, contacts, strict=True):
+            result = solved[contact]
+            x, factor = result.field.x / result.conditions.half_width, scale(result)
+            straight = factor * straight_line(result)
+            for axes in drawn_on:
+                axes.plot(x, factor * result.field.middle_strength, color=colour, label=contact.printed)
+                axes.plot(x, straight, **_STRAIGHT)
         ax.plot([], [], **_STRAIGHT, label="straight line")
-        difference = max(map(readings_differ_by, results))
+        difference = max(readings_differ_by(solved[contact]) for contact in contacts)
         apart = "are one line" if difference < 1e-6 else f"are up to {100.0 * difference:.2g} % apart"
         _title(ax, f"({letter}) {gigapascal} GPa")
         ax.set_title(f"the readings {apart}", loc="right")
-        top = max(scale(r) * float(np.max(r.field.middle_strength)) for r in results)
+        top = max(
+            scale(r) * float(np.max(r.field.middle_strength)) for r in map(solved.__getitem__, contacts)
+        )
         ax.set(xlabel="$x/b$", ylabel=label, xlim=(-1.25, 1.25), ylim=(0.0, 1.3 * top))
         ax.legend(
             loc="upper left", ncols=3, frameon=False, title="colours: line $s = 1/2$", title_fontsize=8.0
         )
-    return panels
+    return figure_of(panels[0])
 
 
-def _both_readings(ax: Axes, result: Result, factor: float, colour: str, name: str) -> None:
-    x = result.field.x / result.conditions.half_width
-    ax.plot(x, factor * result.field.middle_strength, color=colour, label=name)
-    ax.plot(x, factor * straight_line(result), **_STRAIGHT)
+def _exit_inset(ax: Axes, zone: tuple[float, float]) -> Axes:
+    inset = ax.inset_axes((0.27, 0.07, 0.42, 0.36))
+    inset.set(xlim=zone, ylim=(0.3, 1.05))
+    inset.set_title("exit", fontsize=7.0, pad=2.0)
+    inset.tick_params(labelsize=6.5)
+    return inset
 
 
 def smooth_middle(study: Study) -> Figure:
     """Figure 7: field strength at mid-film of the smooth contacts."""
-    return figure_of(_middle(study.smooth, lambda _: 1.0 / _MICRO, r"mid-film $|E|$ [V/µm]")[0])
+    return _middle(study.smooth, lambda _: 1.0 / _MICRO, r"mid-film $|E|$ [V/µm]", {})
 
 
 def rough_middle(study: Study) -> Figure:
-    """Figure 11: dimensionless field strength at mid-film of the rough contacts, the exit in an inset."""
-
-    def scale(result: Result) -> float:
-        return result.film.minimum_thickness / result.field.voltage
-
-    panels = _middle(study.rough, scale, r"mid-film $|E|\,h_\mathrm{min}/V_{12}$")
-    for ax, gigapascal, exit_zone in zip(panels, (1, 2), ((0.8, 1.1), (0.92, 1.05)), strict=True):
-        inset = ax.inset_axes((0.27, 0.07, 0.42, 0.36))
-        for colour, contact in zip(_COLOURS, _of(gigapascal), strict=True):
-            result = study.rough[contact]
-            _both_readings(inset, result, scale(result), colour, contact.printed)
-        inset.set(xlim=exit_zone, ylim=(0.3, 1.05))
-        inset.set_title("exit", fontsize=7.0, pad=2.0)
-        inset.tick_params(labelsize=6.5)
-    return figure_of(panels[0])
+    """Figure 11: dimensionless field strength at mid-film of the rough contacts."""
+    label = r"mid-film $|E|\,h_\mathrm{min}/V_{12}$"
+    exits = {1: (0.8, 1.1), 2: (0.92, 1.05)}
+    return _middle(study.rough, lambda result: result.strength_scale, label, exits)
 
 
 def profile_and_pressure(study: Study) -> Figure:
     """Figure 8: the profile as the contact has it, and the pressure of one contact with and without it."""
-    figure, (left, right) = _panels(1, 2, (10.0, 3.8))
+    left, right = new_panels(1, 2, (10.0, 3.8))
     result, smooth = study.rough[CONTACTS[3]], study.smooth[CONTACTS[3]]
     x = result.film.x / result.conditions.half_width
     last = result.rough[0]["steps"][-1]
@@ -156,7 +151,7 @@ def profile_and_pressure(study: Study) -> Figure:
     left.legend(loc="upper right", frameon=False)
     _pressures(right, result, smooth)
     _title(right, _panel_name(CONTACTS[3], "b", result) + ", 1 GPa")
-    return figure
+    return figure_of(left)
 
 
 def _pressures(ax: Axes, rough: Result, smooth: Result) -> None:

@@ -106,15 +106,20 @@ def newton_step(equations: FilmEquations, at: Iterate) -> Iterate:
     c = equations.coefficients(at)
     residual = equations.residual(at, c)
     free = equations.free(at, residual)
-    by_p, by_h = equations.derivatives(at, c)
-    jacobian = (dense(by_p) + dense(by_h) @ equations.kernel_matrix)[np.ix_(free, free)]
+    jacobian = whole_jacobian(equations, equations.derivatives(at, c))[np.ix_(free, free)]
     change = np.zeros_like(residual)
     if np.all(np.isfinite(jacobian)):
         change[free] = np.linalg.solve(jacobian, residual[free])
     return _moved(equations, at, _limited(equations, c, change))
 
 
-def dense(rows: Array) -> Array:
+def whole_jacobian(equations: FilmEquations, derivatives: tuple[Array, Array]) -> Array:
+    """dL/dP with the film following the pressure, dense, (n, n); end rows zero."""
+    by_p, by_h = derivatives
+    return _dense(by_p) + _dense(by_h) @ equations.kernel_matrix
+
+
+def _dense(rows: Array) -> Array:
     """Rows over the nodes of NEIGHBOURS as a matrix (n, n)."""
     n = rows.shape[1]
     matrix = np.zeros((n, n))

@@ -17,7 +17,7 @@ from ehlectric.paper.errata import SLIPS
 from ehlectric.paper.figures import FIGURES
 from ehlectric.paper.sor import ROWS
 from ehlectric.paper.study import Study
-from ehlectric.paper.tables import AMPLITUDE, BY_SMOOTH, OWN, TABLES, WITHIN, PaperTable
+from ehlectric.paper.tables import AMPLITUDE, BY_SMOOTH, OWN, WITHIN, PaperTable
 from ehlectric.version import __version__
 
 # When the conclusions count as holding: E_max above V12/h_min by at most so many per cent in every placement;
@@ -28,13 +28,15 @@ LEAST_WIDTHS = 2.0
 LARGEST_CHANGE = 1.0
 
 
-def html(study: Study, figures: Mapping[int, Path]) -> str:
+def html(study: Study, tables: Mapping[str, PaperTable], figures: Mapping[int, Path]) -> str:
     """The report of a whole study as text.
 
     Parameters
     ----------
     study : Study
         With all its parts.
+    tables : mapping
+        Of all names in ``TABLES``.
     figures : mapping
         PNG files by number, to be embedded.
 
@@ -45,7 +47,6 @@ def html(study: Study, figures: Mapping[int, Path]) -> str:
     """
     environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True)
     template = (resources.files("ehlectric.paper") / "report.html.jinja").read_text(encoding="utf-8")
-    tables = {name: build(study) for name, (build, _) in TABLES.items()}
     return environment.from_string(template).render(
         version=__version__,
         date=datetime.now(UTC).date().isoformat(),
@@ -54,7 +55,7 @@ def html(study: Study, figures: Mapping[int, Path]) -> str:
         converged=study.converged,
         number=numbers(study, tables),
         verdict=verdicts(tables),
-        limits={"own": LARGEST_EXCESS, "widths": LEAST_WIDTHS, "change": LARGEST_CHANGE},
+        largest_excess=LARGEST_EXCESS,
         warnings=_warnings(study),
         tables=tables,
         figures=[
@@ -91,7 +92,7 @@ def verdicts(tables: Mapping[str, PaperTable]) -> dict[str, str]:
     changes = [abs(value) / 1e4 for value in _column(constant, "change of E_max [1e-6]")]
     within = [row[printed.heads.index(WITHIN)] for row in printed.rows]
     return {
-        "table_3": f"{within.count('yes')} of {len(within)} rows within 4 % and the rounding of the print",
+        "table_3": f"{within.count('yes')} of {len(within)} rows {WITHIN} and the rounding of the print",
         "conclusion_1": _word(excess <= LARGEST_EXCESS),
         "conclusion_2": _word(narrower and max(shares) >= LEAST_WIDTHS * min(shares)),
         "conclusion_3": _word(max(changes) <= LARGEST_CHANGE),
@@ -173,8 +174,7 @@ def _width_law(study: Study) -> tuple[tuple[float, float], float]:
     """Powers of M and L that the width over b goes with, and the largest relative distance from that law."""
     results = list(study.smooth.values())
     groups = [result.conditions.formulas for result in results]
-    logs = np.log([[1.0, g.moes_m, g.moes_l] for g in groups])
-    logs[:, 0] = 1.0
+    logs = np.column_stack([np.ones(len(groups)), np.log([[g.moes_m, g.moes_l] for g in groups])])
     shares = np.log([r.field.high_field_width / r.conditions.half_width for r in results])
     law, *_ = np.linalg.lstsq(logs, shares, rcond=None)
     return (float(law[1]), float(law[2])), float(np.max(np.abs(np.expm1(shares - logs @ law))))

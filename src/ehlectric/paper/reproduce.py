@@ -3,17 +3,40 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 
 from ehlectric.drawing import style
 from ehlectric.errors import InputError
 from ehlectric.paper import report
 from ehlectric.paper.figures import FIGURES
-from ehlectric.paper.study import Study, run_study
-from ehlectric.paper.tables import TABLES
+from ehlectric.paper.study import run_study
+from ehlectric.paper.tables import TABLES, PaperTable
 from ehlectric.store import clear, prepare, whole
 
 REPORT = "report.html"
+
+
+@dataclass(frozen=True)
+class Reproduced:
+    """What was written, and what it says.
+
+    Attributes
+    ----------
+    files : list of Path
+        The report first, where there is one.
+    tables : dict
+        Those written, by name.
+    verdicts : dict
+        Of ``report.verdicts``; empty where only a part was asked for.
+    converged : bool
+        Whether every film is a solution.
+    """
+
+    files: list[Path]
+    tables: dict[str, PaperTable]
+    verdicts: dict[str, str]
+    converged: bool
 
 
 def figure_file(number: int) -> str:
@@ -27,7 +50,7 @@ def reproduce(
     figure: int | None = None,
     table: int | None = None,
     progress: Callable[[int, int, str], None] | None = None,
-) -> tuple[list[Path], Study]:
+) -> Reproduced:
     """Solve the paper's contacts and write what it shows.
 
     Parameters
@@ -41,10 +64,8 @@ def reproduce(
 
     Returns
     -------
-    files : list of Path
-        The files written.
-    study : Study
-        What was solved; its ``converged`` says whether every film is a solution.
+    Reproduced
+        The files, and what they say.
 
     Raises
     ------
@@ -62,12 +83,11 @@ def reproduce(
     folder = prepare(folder, names)
     parts = [part for number in figures for part in FIGURES[number].parts]
     parts += [part for name in tables for part in TABLES[name][1]]
-    study = run_study(parts, progress=progress) if parts else Study()
+    study = run_study(parts, progress=progress)
     clear(folder, names)
-    files: list[Path] = []
-    for name in tables:
-        files.append(folder / f"{name}.csv")
-        TABLES[name][0](study).save(files[-1])
+    made = {name: TABLES[name][0](study) for name in tables}
+    for name, paper_table in made.items():
+        paper_table.save(folder / f"{name}.csv")
     drawn = {number: folder / figure_file(number) for number in figures}
     with style():
         for number, path in drawn.items():
@@ -75,20 +95,12 @@ def reproduce(
                 FIGURES[number].draw(study).savefig(beside, dpi=200)
             if progress is not None:
                 progress(number, max(figures), f"figure {number}")
-    files += drawn.values()
+    verdicts = {}
     if whole_report:
-        files.append(folder / REPORT)
-        with whole(files[-1]) as beside:
-            beside.write_text(report.html(study, drawn), encoding="utf-8")
-    return files[::-1], study
-
-
-def verdict(study: Study) -> list[str]:
-    """What a whole study says, one line each; nothing of a part of it."""
-    if not study.placed:
-        return []
-    said = report.verdicts({name: build(study) for name, (build, _) in TABLES.items()})
-    return [f"{name.replace('_', ' ').capitalize()}: {text}" for name, text in said.items()]
+        verdicts = report.verdicts(made)
+        with whole(folder / REPORT) as beside:
+            beside.write_text(report.html(study, made, drawn), encoding="utf-8")
+    return Reproduced([folder / name for name in reversed(names)], made, verdicts, study.converged)
 
 
 def _asked_for(figure: int | None, table: int | None) -> tuple[list[int], list[str]]:

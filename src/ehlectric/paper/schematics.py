@@ -4,21 +4,18 @@ from __future__ import annotations
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from ehlectric.drawing import BODY, OIL
+from ehlectric.drawing import BODY, OIL, figure_of, new_panels
 from ehlectric.typing import Array
 
 _INK = "black"
 
 
-def _axes(size: tuple[float, float]) -> tuple[Figure, Axes]:
-    figure = Figure(figsize=size)
-    FigureCanvasAgg(figure)
-    ax = figure.subplots()
+def _canvas(size: tuple[float, float]) -> Axes:
+    (ax,) = new_panels(1, 1, size)
     ax.set_axis_off()
-    return figure, ax
+    return ax
 
 
 def _arrow(ax: Axes, start: tuple[float, float], stop: tuple[float, float], style: str = "-|>") -> None:
@@ -43,7 +40,7 @@ def _gap(x: Array) -> Array:
 
 def film_model() -> Figure:
     """Figure 2: two loaded cylinders, the film between them and what holds at its ends."""
-    figure, ax = _axes((8.0, 4.4))
+    ax = _canvas((8.0, 4.4))
     x = np.linspace(-4.0, 2.0, 601)
     half = _gap(x)
     ax.fill_between(x, -half, half, color=OIL, lw=0.0)
@@ -74,12 +71,12 @@ def film_model() -> Figure:
     _text(ax, -4.15, -0.4, "$x$")
     _text(ax, -4.75, 0.6, "$y$")
     ax.set(xlim=(-4.9, 2.9), ylim=(-3.5, 3.5))
-    return figure
+    return figure_of(ax)
 
 
 def field_model() -> Figure:
     """Figure 3: the film as a dielectric between two conductors."""
-    figure, ax = _axes((8.0, 3.6))
+    ax = _canvas((8.0, 3.6))
     x = np.linspace(-1.25, 1.25, 501)
     half = _gap(x)
     ax.fill_between(x, -half, half, color=OIL, lw=0.0)
@@ -111,4 +108,4 @@ def field_model() -> Figure:
         "constriction at the exit, right",
     )
     ax.set(xlim=(-1.75, 1.75), ylim=(-0.85, 0.68))
-    return figure
+    return figure_of(ax)

@@ -116,13 +116,14 @@ def run_study(parts: Iterable[str], *, progress: Callable[[int, int, str], None]
     RuntimeError
         Where a process was killed, or a script calls this without ``if __name__ == "__main__":``.
     """
+    asked = dict.fromkeys(parts)
     with measured_profile() as profile:
         tasks: dict[str, Callable[[PaperContact], object]] = {
             "rough": partial(_rough, profile),
             "placed": partial(_placed, profile),
             **_TASKS,
         }
-        work = [(part, contact, tasks[part]) for part in dict.fromkeys(parts) for contact in CONTACTS]
+        work = [(part, contact, tasks[part]) for part in asked for contact in CONTACTS]
         # Long ones first, so that no core waits for one at the end.
         work.sort(key=lambda item: item[0] not in ("rough", "placed", "methods"))
         solved: dict[tuple[str, PaperContact], Any] = {}
@@ -135,17 +136,8 @@ def run_study(parts: Iterable[str], *, progress: Callable[[int, int, str], None]
 
         if work:
             run_all([partial(task, contact) for _, contact, task in work], done)
-    return _gathered(solved)
-
-
-def _gathered(solved: dict[tuple[str, PaperContact], Any]) -> Study:
-    """What was solved, in the order of the contacts, whatever order it was done in."""
-    parts: dict[str, dict[PaperContact, Any]] = {}
-    for contact in CONTACTS:
-        for part, of in solved:
-            if of == contact:
-                parts.setdefault(part, {})[contact] = solved[part, of]
-    return Study(**parts)
+    # In the order of the contacts, whatever order they were done in.
+    return Study(**{part: {contact: solved[part, contact] for contact in CONTACTS} for part in asked})
 
 
 def straight_line(result: Result) -> Array:
@@ -193,9 +185,8 @@ def _placed(profile: Path, contact: PaperContact) -> tuple[Placed, ...]:
 
 
 def _moved(case: Case) -> Placed:
-    result = solve(case)
-    minimum, field = result.film.minimum_thickness, result.field
-    return Placed(minimum, field.max_strength * minimum / field.voltage, result.converged)
+    result = solve(case, beside_smooth=False)
+    return Placed(result.film.minimum_thickness, result.max_dimensionless, result.converged)
 
 
 def _first_order(contact: PaperContact) -> Result:

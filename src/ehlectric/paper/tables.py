@@ -32,7 +32,6 @@ INNER = 0.9
 class PaperTable:
     """Numbers under heads with their units, and how many digits of them to show."""
 
-    name: str
     title: str
     heads: tuple[str, ...]
     formats: tuple[str, ...]
@@ -62,10 +61,10 @@ def _shown(value: str | float, form: str) -> str:
 
 
 def _table(
-    name: str, title: str, columns: Sequence[tuple[str, str]], rows: Sequence[tuple[str | float, ...]]
+    title: str, columns: Sequence[tuple[str, str]], rows: Sequence[tuple[str | float, ...]]
 ) -> PaperTable:
     heads, formats = zip(*columns, strict=True)
-    return PaperTable(name, title, heads, formats, tuple(rows))
+    return PaperTable(title, heads, formats, tuple(rows))
 
 
 def agrees(computed: float, printed: float) -> bool:
@@ -123,7 +122,7 @@ def printed_table(study: Study) -> PaperTable:
     columns += [("L printed", "g"), ("L", ".2f")]
     columns += [(head, ".2f") for head in films[:4]] + [(head, ".4f") for head in films[4:]]
     columns += [("grid error [%]", ".2f")]
-    return _table("table_3", "Table 3: films at 2 GPa", columns, rows)
+    return _table("Table 3: films at 2 GPa", columns, rows)
 
 
 def _row_head(contact: PaperContact, result: Result) -> tuple[str | float, ...]:
@@ -147,7 +146,7 @@ def rough_table(study: Study) -> PaperTable:
                 *_row_head(contact, rough),
                 h_smooth * MICRO,
                 h_rough * MICRO,
-                per_volt * h_rough,
+                rough.max_dimensionless,
                 same.largest,
                 min(placed.largest for placed in moved),
                 max(placed.largest for placed in moved),
@@ -170,7 +169,7 @@ def rough_table(study: Study) -> PaperTable:
         ("that moved, largest", ".3f"),
         (AMPLITUDE, ".2f"),
     ]
-    return _table("conclusion_1", "Largest field of the rough contacts", columns, rows)
+    return _table("Largest field of the rough contacts", columns, rows)
 
 
 OWN = "E_max h_min/V12"
@@ -215,7 +214,7 @@ def width_table(study: Study) -> PaperTable:
         ("width/mean pit 1.7 µm", ".1f"),
         ("width/largest pit 4 µm", ".1f"),
     ]
-    return _table("conclusion_2", "Width of the zone of high field", columns, rows)
+    return _table("Width of the zone of high field", columns, rows)
 
 
 def permittivity_table(study: Study) -> PaperTable:
@@ -246,7 +245,7 @@ def permittivity_table(study: Study) -> PaperTable:
         ("largest change at mid-film [1e-6]", ".0f"),
         ("capacitance ratio", ".3f"),
     ]
-    return _table("conclusion_3", "The eight contacts with a constant permittivity", columns, rows)
+    return _table("The eight contacts with a constant permittivity", columns, rows)
 
 
 def methods_table(study: Study) -> PaperTable:
@@ -276,7 +275,7 @@ def methods_table(study: Study) -> PaperTable:
         ("capacitance, difference", ".0e"),
         ("E_max, difference", ".0e"),
     ]
-    return _table("methods", "The paper's own methods beside ours", columns, rows)
+    return _table("The paper's own methods beside ours", columns, rows)
 
 
 TABLES: dict[str, tuple[Callable[[Study], PaperTable], tuple[str, ...]]] = {

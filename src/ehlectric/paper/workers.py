@@ -47,14 +47,14 @@ def run_all(
         initializer=_end_with_parent,
     )
     try:
-        with _interrupts(signal.SIG_IGN):
+        with _without_interrupts():
             # Processes begin with the first tasks, and inherit that interrupts are not for them.
             futures = {pool.submit(task): number for number, task in enumerate(tasks)}
         for future in as_completed(futures):
             done(futures[future], future.result())
     except BaseException as error:
         # Whatever stops this process, those of the pool are not waited for.
-        with _interrupts(signal.SIG_IGN):
+        with _without_interrupts():
             for process in list((getattr(pool, "_processes", None) or {}).values()):
                 process.terminate()
             pool.shutdown(cancel_futures=True)
@@ -68,12 +68,12 @@ def run_all(
 
 
 @contextmanager
-def _interrupts(handler: signal.Handlers) -> Iterator[None]:
-    """Ctrl-C handled otherwise for a moment; threads that are not the main one have no say in that."""
+def _without_interrupts() -> Iterator[None]:
+    """Ctrl-C ignored for a moment; threads that are not the main one have no say in that."""
     if threading.current_thread() is not threading.main_thread():
         yield
         return
-    before = signal.signal(signal.SIGINT, handler)
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:
         yield
     finally:
