@@ -105,6 +105,7 @@ def run(
             raise InputError(f"--solver: got {shown(solver)}, takes one of {', '.join(SOLVERS)}")
         rough_surfaces(case, resolve(case))
         check_memory(case)
+        SOLVERS[solver].check(case.grid.nodes)
         names = (*FILES, *FIGURE_FILES, ROUGHNESS_FIGURE)
         folder = prepare(output, names)
         with _progress(shown=not quiet) as stage:

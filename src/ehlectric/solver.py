@@ -52,14 +52,18 @@ _SAME_NODE = 1e-6
 
 @dataclass(frozen=True)
 class Solvers:
-    """What solves the film and the field of a case, by the name under which a result says so."""
+    """What solves the film and the field of a case, by the name under which a result says so.
+
+    ``check`` raises an InputError for numbers of nodes they do not take, before anything is solved.
+    """
 
     name: str
     film: Callable[..., Film]
     field: Callable[[FieldProblem], Field]
+    check: Callable[[int], object]
 
 
-OWN = Solvers("ehlectric", solve_film, solve_field)
+OWN = Solvers("ehlectric", solve_film, solve_field, check=lambda _nodes: None)
 
 
 def solve(

@@ -334,9 +334,10 @@ def test_unknown_solver_is_refused(ehlectric, case_file, tmp_path):
     assert not (tmp_path / "out").exists()
 
 
-def test_grid_that_the_papers_multigrid_cannot_halve(ehlectric, case_file):
+def test_grid_that_the_papers_multigrid_cannot_halve(ehlectric, case_file, tmp_path):
     case_file.write_text(case_file.read_text().replace("nodes = 801", "nodes = 1000"))
     done = ehlectric("run", case_file, "-o", "out", "--solver", "paper")
     assert done.returncode == 2
     assert done.stderr.startswith("error: grid.nodes: got 1000")
     assert len(done.stderr.splitlines()) == 1
+    assert not (tmp_path / "out").exists()
