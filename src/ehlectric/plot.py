@@ -57,7 +57,7 @@ def pressure_and_film(result: Result, ax: Axes | None = None) -> Axes:
     ax.set_xlim(max(x[0], -2.0), min(x[-1], 1.5))
     label_position(result, ax)
     ax.set_ylabel(f"pressure $p$ [{unit}]", color=BLUE)
-    ax.set_ylim(0.0, 1.3 * factor * largest)
+    ax.set_ylim(0.0, 1.6 * factor * largest)
     twin = ax.twinx()
     to_pressure = factor
     factor, unit = unit_for(film.central_thickness, "m")
@@ -70,13 +70,9 @@ def pressure_and_film(result: Result, ax: Axes | None = None) -> Axes:
     ax.set_title(rf"$h_\mathrm{{min}}$ = {minimum:.3g} {unit} at $x/b$ = {position:.3f}", loc="right")
     twin.set_ylabel(f"film thickness $h$ [{unit}]", color=ORANGE)
     twin.set_ylim(0.0, 5.0 * factor * film.central_thickness)
-    # Under the dome of the pressure and above the film there is room in any smooth contact.
+    # Over the dome of the pressure and between the flanks of the film there is room in any contact.
     centre = (0.0 - ax.get_xlim()[0]) / (ax.get_xlim()[1] - ax.get_xlim()[0])
-    height = 0.44
-    if result.rough:
-        ax.set_ylim(0.0, 1.6 * to_pressure * largest)
-        height = 0.82
-    ax.legend(handles=lines, loc="center", bbox_to_anchor=(centre, height), frameon=False)
+    ax.legend(handles=lines, loc="center", bbox_to_anchor=(centre, 0.82), frameon=False)
     return ax
 
 
