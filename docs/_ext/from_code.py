@@ -18,16 +18,16 @@ from sphinx.application import Sphinx
 from sphinx.errors import ExtensionError
 
 import ehlectric
-from ehlectric import Case, inputs, lubricant, solve
+from ehlectric import Case, contact_inputs, inputs, lubricant, roughness_inputs, solve, validation
 from ehlectric.cli import app as commands
 from ehlectric.paper.reproduce import reproduce
 from ehlectric.quantity import Count, Quantity
 
 _TABLES = {
-    "contact": inputs.Contact,
-    "contact.body": inputs.Body,
+    "contact": contact_inputs.Contact,
+    "contact.body": contact_inputs.Body,
     "lubricant": inputs.Lubricant,
-    "roughness": inputs.Roughness,
+    "roughness": roughness_inputs.Roughness,
     "electric": inputs.Electric,
     "grid": inputs.Grid,
     "solver": inputs.Solver,
@@ -72,7 +72,7 @@ def _find(annotation: Any, metadata: Iterable[Any]) -> Any:
             return item
     if get_origin(annotation) is Literal:
         return get_args(annotation)
-    if isinstance(annotation, type) and issubclass(annotation, inputs.Table):
+    if isinstance(annotation, type) and issubclass(annotation, validation.Table):
         return annotation
     for part in get_args(annotation):
         found = _find(part, getattr(part, "__metadata__", ()))
@@ -86,7 +86,7 @@ def _takes(name: str, found: Any, *, pair: bool) -> str:
     if name in _LAWS:
         return ", ".join(f'`"{law}"`' for law in _LAWS[name])
     if name == "generator":
-        return ", ".join(f'`"{name}"`' for name in inputs.GENERATORS)
+        return ", ".join(f'`"{name}"`' for name in roughness_inputs.GENERATORS)
     if isinstance(found, Quantity | Count):
         unit = f" {found.unit.replace('*', ' ')}" if isinstance(found, Quantity) and found.unit else ""
         kind = "whole, " if isinstance(found, Count) else "two, each " if pair else ""
@@ -109,7 +109,7 @@ def _default(field: Any) -> str:
     return f'`"{value}"`' if isinstance(value, str) else f"`{_number(value)}`"
 
 
-def _keys(table: str, model: type[inputs.Table], meanings: dict[str, str]) -> Iterator[list[str]]:
+def _keys(table: str, model: type[validation.Table], meanings: dict[str, str]) -> Iterator[list[str]]:
     if set(meanings) != set(model.model_fields):
         odd = ", ".join(sorted(set(meanings) ^ set(model.model_fields)))
         raise ExtensionError(f"docs/_ext/keys.toml and the keys of [{table}] differ in: {odd}")
@@ -153,12 +153,12 @@ def _write(app: Sphinx) -> None:
         ["generator", "needs", "may have"],
         [
             [f'`"{name}"`', *(", ".join(f"`{key}`" for key in keys) or "–" for keys in rows)]
-            for name, rows in inputs.GENERATORS.items()
+            for name, rows in roughness_inputs.GENERATORS.items()
         ],
     )
     pages["alternatives"] = "\n".join(
         "- " + ", or ".join(" and ".join(f"`{key}`" for key in row) for row in rows)
-        for rows in inputs.CONTACT_ALTERNATIVES
+        for rows in contact_inputs.CONTACT_ALTERNATIVES
     )
     group = typer.main.get_command(commands)
     pages["commands"] = "\n".join(

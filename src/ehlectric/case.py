@@ -14,17 +14,11 @@ from typing import Annotated, Any, Self
 
 from pydantic import AfterValidator, BaseModel
 
+from ehlectric.contact_inputs import CONTACT_ALTERNATIVES, Contact
 from ehlectric.errors import InputError, shown
-from ehlectric.inputs import (
-    CONTACT_ALTERNATIVES,
-    Contact,
-    Electric,
-    Grid,
-    Lubricant,
-    Roughness,
-    Solver,
-    Table,
-)
+from ehlectric.inputs import Electric, Grid, Lubricant, Solver
+from ehlectric.roughness_inputs import Roughness
+from ehlectric.validation import Table
 
 
 def _title(text: str) -> str:

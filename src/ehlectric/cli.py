@@ -192,8 +192,8 @@ def surface(
         "rescale_rq": rescale_rq, "truncate": truncate,
     }  # fmt: skip
     with _user_errors():
-        from ehlectric.inputs import Roughness
         from ehlectric.report import surface_table
+        from ehlectric.roughness_inputs import Roughness
         from ehlectric.store import prepare
         from ehlectric.walls import measured
 

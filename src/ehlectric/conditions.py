@@ -11,8 +11,9 @@ import numpy as np
 
 from ehlectric import film_formulas, hertz
 from ehlectric.case import Case
+from ehlectric.contact_inputs import Contact
 from ehlectric.errors import InputError
-from ehlectric.inputs import Contact, Lubricant
+from ehlectric.inputs import Lubricant
 from ehlectric.lubricant import DENSITY_LAWS, PERMITTIVITY_LAWS, VISCOSITY_LAWS, Law, roelands_exponent
 from ehlectric.typing import Array
 

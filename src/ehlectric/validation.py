@@ -1,16 +1,36 @@
-"""Validation errors as one line for the user: which key, what it got, what it takes."""
+"""Tables of a case file, and their errors as one line for the user: which key, what it got, what it takes."""
 
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from types import UnionType
-from typing import Any, Union, get_args, get_origin
+from typing import Any, Self, Union, get_args, get_origin
 
-from pydantic import BaseModel, ValidationError
+from pydantic import BaseModel, ConfigDict, ValidationError
 from pydantic_core import ErrorDetails
 
-from ehlectric.errors import shown
+from ehlectric.errors import InputError, shown
+
+
+class Table(BaseModel):
+    """A frozen table of a case file that refuses unknown keys."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    @classmethod
+    def from_dict(cls, table: Mapping[str, Any]) -> Self:
+        """Validated input of nested tables, as a TOML parser gives them.
+
+        Raises
+        ------
+        InputError
+            One line with the key, what it got and what it takes.
+        """
+        try:
+            return cls.model_validate(dict(table))
+        except ValidationError as error:
+            raise InputError(first_message(error, cls)) from None
 
 
 def nearest(name: str, known: Iterable[str]) -> str:

@@ -20,8 +20,8 @@ from ehlectric import generators
 from ehlectric.case import Case
 from ehlectric.conditions import Conditions
 from ehlectric.errors import InputError
-from ehlectric.inputs import GENERATORS, SHAPES, Roughness
 from ehlectric.roughness import LEAST_POINTS, Processing, Profile, processed, statistics
+from ehlectric.roughness_inputs import GENERATORS, SHAPES, Roughness
 from ehlectric.surface_files import Surface, read_surface
 from ehlectric.typing import Array
 

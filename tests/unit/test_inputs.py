@@ -8,8 +8,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ehlectric import Case, InputError
-from ehlectric.inputs import Body, Contact, Electric, Grid, Lubricant, Roughness, Solver
+from ehlectric.contact_inputs import Body, Contact
+from ehlectric.inputs import Electric, Grid, Lubricant, Solver
 from ehlectric.quantity import Count, Quantity
+from ehlectric.roughness_inputs import Roughness
 from tests.conftest import PAPER_CONTACT
 from tests.strategies import tables
 
