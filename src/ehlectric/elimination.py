@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import lapack, toeplitz
 
+from ehlectric.mesh import Mesh
 from ehlectric.multigrid import Level
 from ehlectric.reynolds import (
     Coefficients,
@@ -48,18 +49,19 @@ class _Window:
     influence: Array  # change of H on the strip by P in the window
     wedge: Stencil
     source: Array  # on the strip
-    dx: float
+    mesh: Mesh
 
     @classmethod
     def around(cls, level: Level, node: int, column: int) -> _Window:
-        nx = level.x.size
+        nx = level.nodes
         start, stop = max(1, node - HALF_WINDOW), min(nx - 1, node + HALF_WINDOW + 1)
         strip = slice(max(0, start - MARGIN), min(nx, stop + MARGIN))
         inner = slice(start - strip.start, stop - strip.start)
         kernel = toeplitz(level.deflection.influence[: strip.stop - strip.start, 0])
         wedge = Stencil(level.wedge.coefficients[:, strip, column : column + 1])
         source = level.source[strip, column : column + 1]
-        return cls(strip, inner, column, kernel[:, inner], wedge, source, level.dx)
+        mesh = Mesh(level.mesh.x[strip], level.mesh.y[:1])
+        return cls(strip, inner, column, kernel[:, inner], wedge, source, mesh)
 
     def cut(self, values: Array) -> Array:
         """The strip out of a whole grid, shape (n, 1)."""
@@ -67,12 +69,12 @@ class _Window:
 
     def residual(self, coefficients: Coefficients, pressure: Array, thickness: Array) -> Array:
         """Reynolds residual at the nodes of the window."""
-        r = residual(coefficients, self.wedge, pressure, thickness, self.dx) - self.source
+        r = residual(coefficients, self.wedge, pressure, thickness, self.mesh) - self.source
         return r[self.inner, 0]
 
     def jacobian(self, coefficients: Coefficients, pressure: Array, thickness: Array) -> Array:
         """dr/dP among the nodes of the window."""
-        by_p, by_h = linearise(coefficients, self.wedge, pressure, thickness, self.dx)
+        by_p, by_h = linearise(coefficients, self.wedge, pressure, thickness, self.mesh)
         whole = by_p.matrix()[:, self.inner] + by_h.matrix() @ self.influence
         return whole[self.inner]
 

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
+from ehlectric.elastic import Geometry
+from ehlectric.mesh import Mesh, at_centre
 from ehlectric.nested import FilmProblem, Scales, nested_iteration
 from ehlectric.newton import GridSolution, NewtonStep, Progress, Status
 from ehlectric.reynolds import Fluid
@@ -144,61 +149,67 @@ def solve_film(problem: FilmProblem, *, progress: Progress | None = None) -> Fil
     >>> solve_film(FilmProblem(fluid, 401, -4.0, 2.0, thickness_guess=0.1)).status
     'converged'
     """
-    # An iterate may leave the numbers on its way to a status; it must not print about it.
-    with one_blas_thread(), np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+    with quiet_solution():
         solutions = nested_iteration(problem, progress)
-        return _film(problem, solutions)
+        return Film(**found(problem, solutions, lambda values: values[:, 0]))
 
 
-def _film(problem: FilmProblem, solutions: list[GridSolution]) -> Film:
-    """The result on the finest grid, in SI units."""
+@contextmanager
+def quiet_solution() -> Iterator[None]:
+    """Context of a solution: one BLAS thread, and no word about what an iterate does on its way to a status."""
+    with one_blas_thread(), np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        yield
+
+
+def found(
+    problem: FilmProblem, solutions: list[GridSolution], shaped: Callable[[Array], Any]
+) -> dict[str, Any]:
+    """What every film has, of the finest grid, in SI units.
+
+    ``shaped`` gives nodal values (nx, ny) the shape they have in the film.
+    """
     finest, scales = solutions[-1], problem.scales
-    coarser = next((g for g in reversed(solutions) if g.level.x.size < problem.nodes), None)
-    if any(g.status == "converged" and g.level.x.size == problem.nodes for g in solutions[:-1]):
+    coarser = next((g for g in reversed(solutions) if g.level.nodes < problem.nodes), None)
+    if any(g.status == "converged" and g.level.nodes == problem.nodes for g in solutions[:-1]):
         # The way led over other films on this grid: the coarser one is not of the same surfaces.
         coarser = None
     state, final, level = finest.state, finest.final, finest.level
     pressure = np.maximum(scales.pressure * state.pressure, scales.ambient_pressure)
     steps = tuple(step for solution in solutions for step in solution.steps)
-    return Film(
-        x=scales.length * level.x,
-        pressure=np.where(final.free, pressure, scales.ambient_pressure)[:, 0],
-        thickness=scales.thickness * state.thickness[:, 0],
-        deflection=scales.thickness * level.deflection(state.pressure)[:, 0],
-        density=final.coefficients.density[:, 0],
-        cavitated=~final.free[:, 0],
-        reynolds_residual=final.scaled[:, 0],
-        scales=scales,
-        status=film_status(finest.status, level.x, state.thickness[:, 0]),
-        residual=final.norm,
-        load_residual=abs(final.load) / level.load,
-        newton_iterations=sum(step.nodes == problem.nodes for step in steps),
-        steps=steps,
-        discretisation_error=_discretisation_error(problem, finest, coarser),
-        inlet_deficit=inlet_deficit(
-            problem.fluid,
-            level.x,
-            state.pressure[:, 0],
-            (final.coefficients.density * state.thickness)[:, 0],
-        ),
-    )
+    mass = final.coefficients.density * state.thickness
+    return {
+        "x": scales.length * level.mesh.x,
+        "pressure": shaped(np.where(final.free, pressure, scales.ambient_pressure)),
+        "thickness": shaped(scales.thickness * state.thickness),
+        "deflection": shaped(scales.thickness * level.deflection(state.pressure)),
+        "density": shaped(final.coefficients.density),
+        "cavitated": shaped(~final.free),
+        "reynolds_residual": shaped(final.scaled),
+        "scales": scales,
+        "status": film_status(finest.status, level.mesh, state.thickness),
+        "residual": final.norm,
+        "load_residual": abs(final.load) / level.load,
+        "newton_iterations": sum(step.nodes == problem.nodes for step in steps),
+        "steps": steps,
+        "discretisation_error": _discretisation_error(problem, finest, coarser),
+        "inlet_deficit": inlet_deficit(problem.fluid, problem.geometry, level.mesh, state.pressure, mass),
+    }
 
 
-def film_status(status: Status, x: Array, thickness: Array) -> Status:
-    """Status, told apart where a film that was not found has a place without one; arrays (nx,)."""
-    central = float(np.interp(0.0, x, thickness))
-    if status != "converged" and float(np.min(thickness)) < COLLAPSED * central:
+def film_status(status: Status, mesh: Mesh, thickness: Array) -> Status:
+    """Status, told apart where a film that was not found has a place without one; thickness (nx, ny)."""
+    if status != "converged" and float(np.min(thickness)) < COLLAPSED * at_centre(mesh, thickness):
         return "film collapsed"
     return status
 
 
-def richardson(fine: tuple[Array, Array], coarse: tuple[Array, Array], *, order: int) -> float:
+def richardson(fine: tuple[Mesh, Array], coarse: tuple[Mesh, Array], *, order: int) -> float:
     """Richardson's estimate of the discretisation error of a film.
 
     Parameters
     ----------
-    fine, coarse : pair of ndarray
-        Equidistant nodes and film thickness on two grids over one domain, in any unit.
+    fine, coarse : pair of Mesh and ndarray
+        Nodes and film thickness (nx, ny) on two grids over one domain, in any unit.
     order : int
         Of the discretisation.
 
@@ -215,13 +226,12 @@ def richardson(fine: tuple[Array, Array], coarse: tuple[Array, Array], *, order:
     Examples
     --------
     >>> import numpy as np
-    >>> x = np.linspace(-1.0, 1.0, 5)
-    >>> round(richardson((x, 0.0 * x + 1.01), (x[::2], 0.0 * x[::2] + 1.02), order=1) * 1.01, 3)
+    >>> fine, coarse = Mesh.over(5, -1.0, 1.0), Mesh.over(3, -1.0, 1.0)
+    >>> round(richardson((fine, np.full((5, 1), 1.01)), (coarse, np.full((3, 1), 1.02)), order=1) * 1.01, 3)
     0.01
     """
-    ratio = np.ptp(coarse[0]) / (coarse[0].size - 1) * (fine[0].size - 1) / np.ptp(fine[0])
-    gains = ratio ** np.array([min(order, MINIMUM_ORDER), order]) - 1.0
-    on_fine, on_coarse = (np.array([np.min(h), np.interp(0.0, x, h)]) for x, h in (fine, coarse))
+    gains = (coarse[0].dx / fine[0].dx) ** np.array([min(order, MINIMUM_ORDER), order]) - 1.0
+    on_fine, on_coarse = (np.array([np.min(h), at_centre(mesh, h)]) for mesh, h in (fine, coarse))
     return float(np.max(np.abs(on_fine - on_coarse) / (gains * on_fine)))
 
 
@@ -230,19 +240,23 @@ def _discretisation_error(
 ) -> float | None:
     if coarse is None or fine.status != "converged" or coarse.status != "converged":
         return None
-    of_fine, of_coarse = ((g.level.x, g.state.thickness[:, 0]) for g in (fine, coarse))
+    of_fine, of_coarse = ((g.level.mesh, g.state.thickness) for g in (fine, coarse))
     return richardson(of_fine, of_coarse, order=problem.order)
 
 
-def inlet_deficit(fluid: Fluid, x: Array, pressure: Array, mass: Array) -> float:
+def inlet_deficit(fluid: Fluid, geometry: Geometry, mesh: Mesh, pressure: Array, mass: Array) -> float:
     """Share of the reduced pressure that would be built up before the domain begins.
 
-    Of nodes X, pressure P and mass rho H, each (nx,), dimensionless. The Reynolds equation integrated
+    On the line Y = 0, of pressure P and mass rho H (nx, ny), dimensionless. The Reynolds equation integrated
     once, dP/dX = eta lambda (rho H - q)/(rho H^3) with the flow q, builds up the reduced pressure, the
-    integral of dP/eta. Before the inlet P is about ambient and H about a parabola.
+    integral of dP/eta. Before the inlet P is about ambient and H about a parabola. Where oil also flows off to
+    the sides, between H = X^2/2 + (Rx/Ry) Y^2/2 the pressure is that of a line contact over 1 + (2/3) Rx/Ry
+    (P. Kapitza, Zh. Tekh. Fiz. 25 (1955) 747).
     """
     if not (np.all(np.isfinite(pressure)) and np.all(mass > 0.0)):
         return 0.0
+    middle = int(np.argmin(np.abs(mesh.y)))
+    x, pressure, mass = mesh.x, pressure[:, middle], mass[:, middle]
     flow = float(mass[np.argmax(pressure)])
     fluidity = np.exp(-fluid.log_viscosity(np.maximum(pressure, fluid.ambient_pressure))[0])
     increments = 0.5 * (fluidity[1:] + fluidity[:-1]) * np.diff(pressure)
@@ -253,4 +267,5 @@ def inlet_deficit(fluid: Fluid, x: Array, pressure: Array, mass: Array) -> float
     gap = float(mass[0]) + 0.5 * float(x[0]) ** 2 * (1.0 / t**2 - 1.0)
     gradient = fluid.velocity_parameter * (gap - flow) / gap**3
     before = float(np.sum(0.5 * weights * gradient * abs(float(x[0])) / t**2))
+    before /= 1.0 + 2.0 * geometry.radius_ratio / 3.0
     return before / (before + inside) if before > 0.0 else 0.0

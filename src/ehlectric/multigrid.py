@@ -7,7 +7,7 @@ is solved there by a dense factorisation, and each finer grid adds one line rela
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -15,7 +15,9 @@ from scipy import sparse
 from scipy.linalg import lapack
 
 from ehlectric.elastic import Deflection, Geometry
+from ehlectric.mesh import Mesh, Width
 from ehlectric.reynolds import (
+    ALONG,
     OFFSETS,
     Coefficients,
     Fluid,
@@ -31,9 +33,10 @@ from ehlectric.typing import Array, Mask
 # a V-cycle reduces the error three- to twelvefold, and 10 gains little.
 HALF_BAND = 6
 
-# The hierarchy ends at the first grid of at most this many nodes: the dense solve there costs less
-# than one more grid.
+# The hierarchy ends at the first grid of at most this many nodes, of line and of point contacts: the dense
+# solve there costs less than one more grid.
 COARSEST = 101
+COARSEST_POINT = 1100
 
 # Change of ln eps between neighbours above which a coarser grid cannot represent the nodes.
 UNRESOLVED = 1.5
@@ -53,34 +56,55 @@ def interpolation(coarse: int, fine: int) -> sparse.csr_array:
 
 
 @dataclass(frozen=True)
+class Transfer:
+    """Linear interpolation between two grids, along and across entrainment."""
+
+    along: sparse.csr_array
+    across: sparse.csr_array | None
+
+    @classmethod
+    def between(cls, coarse: Mesh, fine: Mesh) -> Transfer:
+        """From a coarse mesh to a fine one, or back, over one domain."""
+        across = None if coarse.y.size == 1 else interpolation(coarse.y.size, fine.y.size)
+        return cls(interpolation(coarse.x.size, fine.x.size), across)
+
+    def __call__(self, values: Array) -> Array:
+        """Values (nx, ny) on the other mesh."""
+        moved: Array = self.along @ values
+        return moved if self.across is None else (self.across @ moved.T).T
+
+
+@dataclass(frozen=True)
 class Level:
     """One grid: nodes, quadrature weights, operators, and the transfers to and from the next finer.
 
     The finest grid has no finer one, and no transfers.
     """
 
-    x: Array  # (nx,)
-    dx: float
-    weights: Array  # (nx, 1), trapezoidal
+    mesh: Mesh
+    weights: Array  # (nx, ny), trapezoidal
     deflection: Deflection
     dry_gap: Array  # (nx, ny)
     load: float
     wedge: Stencil
-    source: Array  # (nx, ny), right side of the Reynolds equation, zero in the end rows
-    to_finer: sparse.csr_array | None
-    from_finer: sparse.csr_array | None
+    source: Array  # (nx, ny), right side of the Reynolds equation, zero on the edges
+    to_finer: Transfer | None
+    from_finer: Transfer | None
+
+    @property
+    def nodes(self) -> int:
+        """Number of nodes along x."""
+        return self.mesh.x.size
 
     def inject(self, values: Array) -> Array:
         """Values of the next finer grid at the nodes of this one."""
         assert self.from_finer is not None
-        injected: Array = self.from_finer @ values
-        return injected
+        return self.from_finer(values)
 
     def prolong(self, values: Array) -> Array:
         """Values of this grid, linearly interpolated to the next finer one."""
         assert self.to_finer is not None
-        prolonged: Array = self.to_finer @ values
-        return prolonged
+        return self.to_finer(values)
 
     @cached_property
     def deflection_matrix(self) -> Array:
@@ -95,40 +119,52 @@ def hierarchy(
     outlet: float,
     geometry: Geometry,
     second_order: bool,
-    source: Callable[[Array], Array] | None = None,
+    width: Width | None = None,
+    source: Callable[[Array, Array], Array] | None = None,
 ) -> list[Level]:
     """Grids from the finest to the coarsest, each with half the intervals of the one before.
 
     An odd number of intervals is halved upwards; such grids share only their end nodes, and the
     transfers interpolate. There are always two grids at least, for the error estimate.
     """
-    sizes = [nodes]
-    while sizes[-1] > COARSEST or len(sizes) < 2:
-        sizes.append(sizes[-1] // 2 + 1)
+    meshes = _meshes(nodes, inlet, outlet, width)
     levels = []
-    for k, n in enumerate(sizes):
-        dx = (outlet - inlet) / (n - 1)
-        weights = np.full((n, 1), dx)
-        weights[0] = weights[-1] = 0.5 * dx
-        x = np.linspace(inlet, outlet, n)
-        right = np.zeros((n, 1))
+    for k, mesh in enumerate(meshes):
+        right = np.zeros(mesh.shape)
         if source is not None:
-            right[1:-1] = source(x)[1:-1]
+            right[mesh.inner] = source(mesh.x, mesh.y)[mesh.inner]
         levels.append(
             Level(
-                x=x,
-                dx=dx,
-                weights=weights,
-                deflection=Deflection.from_influence(geometry.influence(n, dx)),
-                dry_gap=geometry.dry_gap(x),
+                mesh=mesh,
+                weights=mesh.weights,
+                deflection=Deflection.on(mesh, geometry),
+                dry_gap=geometry.dry_gap(mesh.x, mesh.y),
                 load=geometry.load,
-                wedge=wedge_stencil((n, 1), dx, second_order=second_order),
+                wedge=wedge_stencil(mesh.shape, mesh.dx, second_order=second_order),
                 source=right,
-                to_finer=interpolation(n, sizes[k - 1]) if k else None,
-                from_finer=interpolation(sizes[k - 1], n) if k else None,
+                to_finer=Transfer.between(mesh, meshes[k - 1]) if k else None,
+                from_finer=Transfer.between(meshes[k - 1], mesh) if k else None,
             )
         )
     return levels
+
+
+def _meshes(nodes: int, inlet: float, outlet: float, width: Width | None) -> list[Mesh]:
+    meshes = [Mesh.over(nodes, inlet, outlet, width)]
+    coarsest = COARSEST if width is None else COARSEST_POINT
+    while meshes[-1].weights.size > coarsest or len(meshes) < 2:
+        nodes = nodes // 2 + 1
+        if width is not None:
+            width = replace(width, nodes=_halved(width))
+        meshes.append(Mesh.over(nodes, inlet, outlet, width))
+    return meshes
+
+
+def _halved(width: Width) -> int:
+    """Nodes across the next coarser grid, which keeps the line of symmetry."""
+    if width.y[0] == 0.0:
+        return 2 * (width.y.size // 2) + 1
+    return width.nodes // 2 + 1
 
 
 class Linearised:
@@ -148,13 +184,13 @@ class Linearised:
     ) -> None:
         self.level = level
         self.free = free
-        self.by_p, self.by_h = linearise(coefficients, level.wedge, pressure, thickness, level.dx)
+        self.by_p, self.by_h = linearise(coefficients, level.wedge, pressure, thickness, level.mesh)
         self.by_p.coefficients[:, ~free] = 0.0
         self.by_h.coefficients[:, ~free] = 0.0
         # Nodes whose unknown is distributed, +1 to P_j and -1 to P_(j-1). Where eps/dX^2 is small
         # against 1/dX the equation is the first difference of the deflection and acts like
         # 1/(i - j - 1/2); on dipoles it acts like 1/(i - j)^2 and is diagonally dominant.
-        self.dipole = free & (poiseuille_weight(coefficients, level.dx) < 1.0 / level.dx)
+        self.dipole = free & (poiseuille_weight(coefficients, level.mesh) < 1.0 / level.mesh.dx)
         self.dipole[1:] &= free[:-1]
         # Nodes whose residual the coarser grids are given. Beside the pressure spike eps changes by orders
         # of magnitude from node to node: there the relaxation, almost exact, is left alone.
@@ -172,7 +208,7 @@ class Linearised:
         """Entries J_(i, i+offset) of the Jacobian along x, shape (nx, ny)."""
         influence = self.level.deflection.influence[:, 0]
         diagonal = np.zeros(self.free.shape)
-        for row, shift in enumerate(OFFSETS):
+        for row, (shift, _) in enumerate(OFFSETS[:ALONG]):
             diagonal += self.by_h.coefficients[row] * influence[abs(shift - offset)]
             if shift == offset:
                 diagonal += self.by_p.coefficients[row]

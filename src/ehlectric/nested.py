@@ -13,7 +13,7 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from ehlectric.elastic import LINE, Geometry
-from ehlectric.hertz import line_pressure
+from ehlectric.mesh import Width, at_centre
 from ehlectric.multigrid import Level, hierarchy
 from ehlectric.newton import GridSolution, Progress, State, newton
 from ehlectric.reynolds import Fluid, wedge_stencil
@@ -25,6 +25,7 @@ NESTED_TOLERANCE = 1e-6
 # The nested iteration starts from the Hertz pressure on the coarsest grid of at least this many nodes:
 # a quarter of them do not resolve a thin film.
 FIRST_GRID = 201
+FIRST_GRID_POINT = 33
 
 # Parts of the roughness it is raised by, first and least, and the residual on the way.
 FIRST_RISE = 0.2
@@ -47,7 +48,9 @@ class Scales:
 
 @dataclass(frozen=True)
 class FilmProblem:
-    """A line contact in dimensionless form, X = x/b, P = p/p_h, H = h R/b^2.
+    """A contact in dimensionless form, X = x/b, Y = y/b, P = p/p_h, H = h R/b^2.
+
+    Of a point contact b is the semi-axis along entrainment and R the reduced radius along it.
 
     Parameters
     ----------
@@ -70,10 +73,12 @@ class FilmProblem:
         Length b [m], pressure p_h [Pa] and thickness b^2/R [m] of the result, and its ambient pressure [Pa].
     geometry : Geometry
         Kernel, dry gap and load of the contact.
+    width : Width, optional
+        The domain across entrainment, of point contacts.
     added_gap : callable, optional
-        Gap that roughness adds, X (nx,) -> G (nx, ny); a peak adds a negative one.
+        Gap that roughness adds, X (nx,), Y (ny,) -> G (nx, ny); a peak adds a negative one.
     source : callable, optional
-        Right side of the Reynolds equation in place of zero, X (nx,) -> (nx, ny): what a manufactured
+        Right side of the Reynolds equation in place of zero, X (nx,), Y (ny,) -> (nx, ny): what a manufactured
         solution, or a surface that takes oil up or gives it off, adds to it.
     """
 
@@ -87,8 +92,9 @@ class FilmProblem:
     max_iterations: int = 30
     scales: Scales = Scales()
     geometry: Geometry = LINE
-    added_gap: Callable[[Array], Array] | None = None
-    source: Callable[[Array], Array] | None = None
+    width: Width | None = None
+    added_gap: Callable[[Array, Array], Array] | None = None
+    source: Callable[[Array, Array], Array] | None = None
 
     @property
     def order(self) -> int:
@@ -102,7 +108,8 @@ def nested_iteration(problem: FilmProblem, progress: Progress | None) -> list[Gr
     Where a grid is not solved, it and the next finer one start from the Hertz pressure.
     """
     levels = _levels(problem, roughness=1.0)
-    first = max((k for k, level in enumerate(levels) if level.x.size >= FIRST_GRID), default=1)
+    least = FIRST_GRID if problem.width is None else FIRST_GRID_POINT
+    first = max((k for k, level in enumerate(levels) if level.nodes >= least), default=1)
     solutions: list[GridSolution] = []
     for k in range(max(first, 1), -1, -1):
         best = None
@@ -127,13 +134,14 @@ def _levels(problem: FilmProblem, *, roughness: float) -> list[Level]:
     added, geometry = problem.added_gap, problem.geometry
     if added is not None:
         smooth = geometry.dry_gap
-        geometry = replace(geometry, dry_gap=lambda x: smooth(x) + roughness * added(x))
+        geometry = replace(geometry, dry_gap=lambda x, y: smooth(x, y) + roughness * added(x, y))
     return hierarchy(
         problem.nodes,
         inlet=problem.inlet,
         outlet=problem.outlet,
         geometry=geometry,
         second_order=problem.second_order,
+        width=problem.width,
         source=problem.source,
     )
 
@@ -176,7 +184,7 @@ def _solve_grid(
     *,
     spike: bool,
 ) -> GridSolution:
-    finest = levels[0].x.size == problem.nodes
+    finest = levels[0].nodes == problem.nodes
     return newton(
         problem.fluid,
         levels,
@@ -184,7 +192,8 @@ def _solve_grid(
         tolerance=problem.tolerance if finest else max(problem.tolerance, NESTED_TOLERANCE),
         max_iterations=problem.max_iterations,
         progress=progress,
-        eliminate_spike=spike,
+        # The spike of a point contact is a ridge, and no single line of it can be solved by itself.
+        eliminate_spike=spike and problem.width is None,
     )
 
 
@@ -192,8 +201,10 @@ def _from_coarser(
     problem: FilmProblem, levels: list[Level], coarse: GridSolution, progress: Progress | None
 ) -> GridSolution:
     """Start from the next coarser grid: a monotone cubic is smooth and does not overshoot."""
-    level = levels[0]
-    pressure = PchipInterpolator(coarse.level.x, coarse.state.pressure, axis=0)(level.x)
+    level, of = levels[0], coarse.level.mesh
+    pressure = PchipInterpolator(of.x, coarse.state.pressure, axis=0)(level.mesh.x)
+    if of.y.size > 1:
+        pressure = PchipInterpolator(of.whole_y, of.mirrored(pressure), axis=1)(level.mesh.y)
     state = State.of(level, pressure, coarse.state.h00)
     state = state.lifted(0.5 * float(coarse.state.thickness.min()))
     return _solve_grid(problem, levels, state, progress, spike=True)
@@ -207,14 +218,14 @@ def _from_hertz(
     The first-order scheme is monotone and converges from further away.
     """
     level = levels[0]
-    hertz = line_pressure(level.x)[:, np.newaxis]
+    hertz = problem.geometry.dry_pressure(level.mesh.x, level.mesh.y)
     state = State.of(level, np.maximum(hertz, problem.fluid.ambient_pressure), 0.0)
-    centre = float(np.interp(0.0, level.x, state.thickness[:, 0]))
+    centre = at_centre(level.mesh, state.thickness)
     state = State.of(level, state.pressure, problem.thickness_guess - centre)
     state = state.lifted(0.5 * problem.thickness_guess)
     if problem.second_order:
         monotone = [
-            replace(level, wedge=wedge_stencil(level.weights.shape, level.dx, second_order=False))
+            replace(level, wedge=wedge_stencil(level.mesh.shape, level.mesh.dx, second_order=False))
             for level in levels
         ]
         start = _solve_grid(problem, monotone, state, progress, spike=False)

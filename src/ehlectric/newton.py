@@ -137,18 +137,18 @@ def newton(
     """
     level = levels[0]
     # A row takes the difference of films over dX: what rounding leaves of it is no residual.
-    tolerance = max(tolerance, ROUNDING / level.dx)
+    tolerance = max(tolerance, ROUNDING / level.mesh.dx)
     steps: list[NewtonStep] = []
     now = _assess(fluid, level, state)
     while now.norm > tolerance and len(steps) < max_iterations:
         if progress is not None:
-            progress(level.x.size, len(steps), now.norm)
+            progress(level.nodes, len(steps), now.norm)
         if eliminate_spike:
             state, now = _without_spike(fluid, level, state, now)
         dp, dh00, krylov = _direction(fluid, levels, state, now)
         dh = level.deflection(dp) + dh00
         length = step_length(state.thickness, dp, dh, pressure_step=PRESSURE_STEP, gap_step=GAP_STEP)
-        steps.append(NewtonStep(level.x.size, now.norm, krylov))
+        steps.append(NewtonStep(level.nodes, now.norm, krylov))
         candidate = State.of(level, state.pressure + length * dp, state.h00 + length * dh00)
         assessed = _assess(fluid, level, candidate)
         if not (np.isfinite(assessed.norm) and np.min(candidate.thickness) > SMALLEST_GAP):
@@ -165,16 +165,15 @@ def _assess(fluid: Fluid, level: Level, state: State) -> Residual:
     inside the Hertz zone, where eps vanishes. Rows are scaled by their local coefficients, so that the
     residual is a pressure.
     """
-    dx, influence = level.dx, level.deflection.influence
+    mesh, influence = level.mesh, level.deflection.influence
     coefficients = evaluate(fluid, state.pressure, state.thickness)
-    r = residual(coefficients, level.wedge, state.pressure, state.thickness, dx) - level.source
-    poiseuille = poiseuille_weight(coefficients, dx)
+    r = residual(coefficients, level.wedge, state.pressure, state.thickness, mesh) - level.source
+    poiseuille = poiseuille_weight(coefficients, mesh)
     excess = state.pressure - fluid.ambient_pressure
-    c = 1.0 / np.maximum(20.0 * state.thickness / dx, poiseuille)
-    free = excess - c * r >= 0.0
-    free[0] = free[-1] = False
+    c = 1.0 / np.maximum(20.0 * state.thickness / mesh.dx, poiseuille)
+    free = (excess - c * r >= 0.0) & mesh.inner
 
-    local = coefficients.density * (influence[0, 0] - influence[1, 0]) / dx
+    local = coefficients.density * (influence[0, 0] - influence[1, 0]) / mesh.dx
     load = level.load - float(np.vdot(level.weights, state.pressure))
     unnormed = Residual(coefficients, r, poiseuille + local, free, load, np.nan)
     rows = np.where(free, unnormed.scaled, excess)

@@ -190,11 +190,11 @@ def _smooth(case: Case, field: Field, solvers: Solvers) -> Smooth | None:
     return Smooth(result.film.pressure, result.film.thickness, middle)
 
 
-def _added_gap(conditions: Conditions, rough: Sequence[RoughSurface]) -> Callable[[Array], Array]:
+def _added_gap(conditions: Conditions, rough: Sequence[RoughSurface]) -> Callable[[Array, Array], Array]:
     """The gap that both surfaces' roughness adds, dimensionless: peaks narrow it."""
     b, scale = conditions.half_width, conditions.thickness_scale
 
-    def added_gap(x: Array) -> Array:
+    def added_gap(x: Array, _y: Array) -> Array:
         gap: Array = -_heights(rough, b * x).sum(axis=0)[:, np.newaxis] / scale
         return gap
 

@@ -88,6 +88,6 @@ def problem(nodes, *, second_order):
         outlet=OUTLET,
         thickness_guess=0.15,
         second_order=second_order,
-        added_gap=lambda x: column(thickness(x) - H00 - 0.5 * x**2 - deflection(x)),
-        source=lambda x: column(_source(_inside(x))),
+        added_gap=lambda x, _: column(thickness(x) - H00 - 0.5 * x**2 - deflection(x)),
+        source=lambda x, _: column(_source(_inside(x))),
     )

@@ -23,8 +23,8 @@ def relaxed(dent):
     change[400:405] = dent
     pressure, gap = solved + change, thickness + level.deflection(change)
     coefficients = evaluate(problem.fluid, pressure, gap)
-    r = residual(coefficients, level.wedge, pressure, gap, level.dx) - level.source
-    diagonal = poiseuille_weight(coefficients, level.dx) + 1.0
+    r = residual(coefficients, level.wedge, pressure, gap, level.mesh) - level.source
+    diagonal = poiseuille_weight(coefficients, level.mesh) + 1.0
     return solved, relax_spike(
         problem.fluid,
         level,

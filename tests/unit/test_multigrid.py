@@ -26,7 +26,7 @@ def test_interpolation_is_exact_for_straight_lines(coarse, fine):
 @pytest.mark.parametrize("nodes", [65, 101, 102, 1000, 3200, 3201])
 def test_hierarchy_halves_down_to_the_coarsest(nodes):
     levels = multigrid.hierarchy(nodes, inlet=-4.0, outlet=2.0, geometry=LINE, second_order=True)
-    sizes = [level.x.size for level in levels]
+    sizes = [level.nodes for level in levels]
     assert sizes[0] == nodes
     assert len(sizes) >= 2
     assert sizes[-1] <= multigrid.COARSEST
@@ -85,7 +85,7 @@ def at_solution(problem):
 def three_lines(jacobian):
     """The same grid with three identical lines along x that do not feel each other."""
     level = jacobian.level
-    nx = level.x.size
+    nx = level.nodes
     apart = np.zeros((nx, 3))
     apart[:, :1] = level.deflection.influence
     wide = dataclasses.replace(

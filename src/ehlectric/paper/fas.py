@@ -15,6 +15,7 @@ from ehlectric.elastic import LINE
 from ehlectric.errors import InputError
 from ehlectric.film import Film, film_status, inlet_deficit, richardson
 from ehlectric.hertz import line_pressure
+from ehlectric.mesh import Mesh
 from ehlectric.nested import FIRST_GRID, NESTED_TOLERANCE, FilmProblem
 from ehlectric.newton import ROUNDING, NewtonStep, Progress, Status
 from ehlectric.paper.film_equations import FilmEquations, Iterate
@@ -129,11 +130,11 @@ def grid_sizes(nodes: int) -> list[int]:
 def equations_of(problem: FilmProblem, nodes: int) -> FilmEquations:
     """The film equations of a problem on a grid of so many nodes, without right sides."""
     x = np.linspace(problem.inlet, problem.outlet, nodes)
-    added = 0.0 if problem.added_gap is None else problem.added_gap(x)[:, 0]
+    added = 0.0 if problem.added_gap is None else problem.added_gap(x, np.zeros(1))[:, 0]
     source = np.zeros(nodes)
     if problem.source is not None:
         # Eq. (7) has the opposite sign of the residual that the problem gives the source of.
-        source[1:-1] = -problem.source(x)[1:-1, 0]
+        source[1:-1] = -problem.source(x, np.zeros(1))[1:-1, 0]
     return FilmEquations(
         fluid=problem.fluid,
         x=x,
@@ -261,8 +262,9 @@ def _film(
         status = "diverged"
     error = None
     if coarser is not None and status == "converged":
-        coarse = coarser[0].x, coarser[0].coefficients(coarser[1]).thickness
-        error = richardson((finest.x, c.thickness), coarse, order=problem.order)
+        films = ((finest, c), (coarser[0], coarser[0].coefficients(coarser[1])))
+        of_fine, of_coarse = ((_mesh(of), c.thickness[:, np.newaxis]) for of, c in films)
+        error = richardson(of_fine, of_coarse, order=problem.order)
     cavitated = at.pressure <= fluid.ambient_pressure
     pressure = np.maximum(scales.pressure * at.pressure, scales.ambient_pressure)
     return Film(
@@ -274,11 +276,21 @@ def _film(
         cavitated=cavitated,
         reynolds_residual=finest.scaled(at, c),
         scales=scales,
-        status=film_status(status, finest.x, c.thickness),
+        status=film_status(status, _mesh(finest), c.thickness[:, np.newaxis]),
         residual=norm,
         load_residual=abs(finest.carried(at.pressure) / finest.load - 1.0),
         newton_iterations=len(cycled.norms),
         steps=tuple(NewtonStep(problem.nodes, value, 0) for value in cycled.norms),
         discretisation_error=error,
-        inlet_deficit=inlet_deficit(fluid, finest.x, at.pressure, c.density * c.thickness),
+        inlet_deficit=inlet_deficit(
+            fluid,
+            LINE,
+            _mesh(finest),
+            at.pressure[:, np.newaxis],
+            (c.density * c.thickness)[:, np.newaxis],
+        ),
     )
+
+
+def _mesh(equations: FilmEquations) -> Mesh:
+    return Mesh(equations.x, np.zeros(1))
