@@ -15,8 +15,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import lapack, toeplitz
 
+from ehlectric.levels import Level
 from ehlectric.mesh import Mesh
-from ehlectric.multigrid import Level
 from ehlectric.reynolds import (
     Coefficients,
     Fluid,

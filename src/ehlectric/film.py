@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ehlectric.elastic import Geometry
 from ehlectric.mesh import Mesh, at_centre
@@ -143,6 +144,7 @@ def solve_film(problem: FilmProblem, *, progress: Progress | None = None) -> Fil
     Examples
     --------
     >>> import numpy as np
+    from numpy.typing import NDArray
     >>> incompressible = lambda p: (np.ones_like(p), np.zeros_like(p))
     >>> isoviscous = lambda p: (np.zeros_like(p), np.zeros_like(p))
     >>> fluid = Fluid(incompressible, isoviscous, velocity_parameter=0.01, ambient_pressure=0.0)
@@ -156,13 +158,13 @@ def solve_film(problem: FilmProblem, *, progress: Progress | None = None) -> Fil
 
 @contextmanager
 def quiet_solution() -> Iterator[None]:
-    """Context of a solution: one BLAS thread, and no word about what an iterate does on its way to a status."""
+    """Context of a solution: one BLAS thread, and no word about numbers an iterate leaves on its way."""
     with one_blas_thread(), np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         yield
 
 
 def found(
-    problem: FilmProblem, solutions: list[GridSolution], shaped: Callable[[Array], Any]
+    problem: FilmProblem, solutions: list[GridSolution], shaped: Callable[[NDArray[Any]], NDArray[Any]]
 ) -> dict[str, Any]:
     """What every film has, of the finest grid, in SI units.
 
@@ -226,6 +228,7 @@ def richardson(fine: tuple[Mesh, Array], coarse: tuple[Mesh, Array], *, order: i
     Examples
     --------
     >>> import numpy as np
+    from numpy.typing import NDArray
     >>> fine, coarse = Mesh.over(5, -1.0, 1.0), Mesh.over(3, -1.0, 1.0)
     >>> round(richardson((fine, np.full((5, 1), 1.01)), (coarse, np.full((3, 1), 1.02)), order=1) * 1.01, 3)
     0.01
@@ -249,9 +252,9 @@ def inlet_deficit(fluid: Fluid, geometry: Geometry, mesh: Mesh, pressure: Array,
 
     On the line Y = 0, of pressure P and mass rho H (nx, ny), dimensionless. The Reynolds equation integrated
     once, dP/dX = eta lambda (rho H - q)/(rho H^3) with the flow q, builds up the reduced pressure, the
-    integral of dP/eta. Before the inlet P is about ambient and H about a parabola. Where oil also flows off to
-    the sides, between H = X^2/2 + (Rx/Ry) Y^2/2 the pressure is that of a line contact over 1 + (2/3) Rx/Ry
-    (P. Kapitza, Zh. Tekh. Fiz. 25 (1955) 747).
+    integral of dP/eta. Before the inlet P is about ambient and H about a parabola. Where oil also flows off
+    to the sides, between H = X^2/2 + (Rx/Ry) Y^2/2, the pressure is that of a line contact over
+    1 + (2/3) Rx/Ry (P. Kapitza, Zh. Tekh. Fiz. 25 (1955) 747).
     """
     if not (np.all(np.isfinite(pressure)) and np.all(mass > 0.0)):
         return 0.0

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ehlectric.typing import Array, Mask
 
@@ -68,15 +70,25 @@ class Mesh:
         return None if self.y.size == 1 else float(self.y[-1] - self.y[0]) / (self.y.size - 1)
 
     @property
-    def weights(self) -> Array:
-        """Trapezoidal weights of the integral over the contact, both halves of it, shape (nx, ny)."""
-        along = np.full((self.x.size, 1), self.dx)
-        along[[0, -1]] *= 0.5
+    def weights_along(self) -> Array:
+        """Trapezoidal weights of the integral over x, shape (nx,)."""
+        weights = np.full(self.x.size, self.dx)
+        weights[[0, -1]] *= 0.5
+        return weights
+
+    @property
+    def weights_across(self) -> Array:
+        """Those of the integral over y, of both halves of a symmetric contact; one for a line contact."""
         if self.dy is None:
-            return along
-        across = np.full(self.y.size, self.dy)
-        across[[0, -1]] *= 0.5
-        return along * (2.0 * across if self.symmetric else across)
+            return np.ones(1)
+        weights = np.full(self.y.size, 2.0 * self.dy if self.symmetric else self.dy)
+        weights[[0, -1]] *= 0.5
+        return weights
+
+    @property
+    def weights(self) -> Array:
+        """Weights of the integral over the contact, shape (nx, ny)."""
+        return self.weights_along[:, np.newaxis] * self.weights_across
 
     @property
     def inner(self) -> Mask:
@@ -88,7 +100,7 @@ class Mesh:
             inner[:, 0] &= self.symmetric
         return inner
 
-    def mirrored(self, values: Array) -> Array:
+    def mirrored(self, values: NDArray[Any]) -> NDArray[Any]:
         """Values (nx, ny) on the whole domain, the part that symmetry leaves out added."""
         return np.concatenate([values[:, :0:-1], values], axis=1) if self.symmetric else values
 

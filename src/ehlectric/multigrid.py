@@ -6,26 +6,20 @@ is solved there by a dense factorisation, and each finer grid adds one line rela
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from scipy import sparse
 from scipy.linalg import lapack
 
-from ehlectric.elastic import Deflection, Geometry
-from ehlectric.mesh import Mesh, Width
+from ehlectric.levels import Level
 from ehlectric.reynolds import (
     ALONG,
     OFFSETS,
     Coefficients,
     Fluid,
-    Stencil,
     evaluate,
     linearise,
     poiseuille_weight,
-    wedge_stencil,
 )
 from ehlectric.typing import Array, Mask
 
@@ -33,138 +27,11 @@ from ehlectric.typing import Array, Mask
 # a V-cycle reduces the error three- to twelvefold, and 10 gains little.
 HALF_BAND = 6
 
-# The hierarchy ends at the first grid of at most this many nodes, of line and of point contacts: the dense
-# solve there costs less than one more grid.
-COARSEST = 101
-COARSEST_POINT = 1100
-
 # Change of ln eps between neighbours above which a coarser grid cannot represent the nodes.
 UNRESOLVED = 1.5
 
-
-def interpolation(coarse: int, fine: int) -> sparse.csr_array:
-    """Linear interpolation between two uniform grids over one interval, shape (fine, coarse)."""
-    numerator = np.arange(fine) * (coarse - 1)
-    left = np.minimum(numerator // (fine - 1), coarse - 2)
-    weight = numerator / (fine - 1) - left
-    rows = np.repeat(np.arange(fine), 2)
-    columns = np.stack([left, left + 1], axis=1).ravel()
-    values = np.stack([1.0 - weight, weight], axis=1).ravel()
-    matrix = sparse.csr_array((values, (rows, columns)), shape=(fine, coarse))
-    matrix.eliminate_zeros()
-    return matrix
-
-
-@dataclass(frozen=True)
-class Transfer:
-    """Linear interpolation between two grids, along and across entrainment."""
-
-    along: sparse.csr_array
-    across: sparse.csr_array | None
-
-    @classmethod
-    def between(cls, coarse: Mesh, fine: Mesh) -> Transfer:
-        """From a coarse mesh to a fine one, or back, over one domain."""
-        across = None if coarse.y.size == 1 else interpolation(coarse.y.size, fine.y.size)
-        return cls(interpolation(coarse.x.size, fine.x.size), across)
-
-    def __call__(self, values: Array) -> Array:
-        """Values (nx, ny) on the other mesh."""
-        moved: Array = self.along @ values
-        return moved if self.across is None else (self.across @ moved.T).T
-
-
-@dataclass(frozen=True)
-class Level:
-    """One grid: nodes, quadrature weights, operators, and the transfers to and from the next finer.
-
-    The finest grid has no finer one, and no transfers.
-    """
-
-    mesh: Mesh
-    weights: Array  # (nx, ny), trapezoidal
-    deflection: Deflection
-    dry_gap: Array  # (nx, ny)
-    load: float
-    wedge: Stencil
-    source: Array  # (nx, ny), right side of the Reynolds equation, zero on the edges
-    to_finer: Transfer | None
-    from_finer: Transfer | None
-
-    @property
-    def nodes(self) -> int:
-        """Number of nodes along x."""
-        return self.mesh.x.size
-
-    def inject(self, values: Array) -> Array:
-        """Values of the next finer grid at the nodes of this one."""
-        assert self.from_finer is not None
-        return self.from_finer(values)
-
-    def prolong(self, values: Array) -> Array:
-        """Values of this grid, linearly interpolated to the next finer one."""
-        assert self.to_finer is not None
-        return self.to_finer(values)
-
-    @cached_property
-    def deflection_matrix(self) -> Array:
-        """The dense deflection operator, for the coarsest grid alone."""
-        return self.deflection.matrix()
-
-
-def hierarchy(
-    nodes: int,
-    *,
-    inlet: float,
-    outlet: float,
-    geometry: Geometry,
-    second_order: bool,
-    width: Width | None = None,
-    source: Callable[[Array, Array], Array] | None = None,
-) -> list[Level]:
-    """Grids from the finest to the coarsest, each with half the intervals of the one before.
-
-    An odd number of intervals is halved upwards; such grids share only their end nodes, and the
-    transfers interpolate. There are always two grids at least, for the error estimate.
-    """
-    meshes = _meshes(nodes, inlet, outlet, width)
-    levels = []
-    for k, mesh in enumerate(meshes):
-        right = np.zeros(mesh.shape)
-        if source is not None:
-            right[mesh.inner] = source(mesh.x, mesh.y)[mesh.inner]
-        levels.append(
-            Level(
-                mesh=mesh,
-                weights=mesh.weights,
-                deflection=Deflection.on(mesh, geometry),
-                dry_gap=geometry.dry_gap(mesh.x, mesh.y),
-                load=geometry.load,
-                wedge=wedge_stencil(mesh.shape, mesh.dx, second_order=second_order),
-                source=right,
-                to_finer=Transfer.between(mesh, meshes[k - 1]) if k else None,
-                from_finer=Transfer.between(meshes[k - 1], mesh) if k else None,
-            )
-        )
-    return levels
-
-
-def _meshes(nodes: int, inlet: float, outlet: float, width: Width | None) -> list[Mesh]:
-    meshes = [Mesh.over(nodes, inlet, outlet, width)]
-    coarsest = COARSEST if width is None else COARSEST_POINT
-    while meshes[-1].weights.size > coarsest or len(meshes) < 2:
-        nodes = nodes // 2 + 1
-        if width is not None:
-            width = replace(width, nodes=_halved(width))
-        meshes.append(Mesh.over(nodes, inlet, outlet, width))
-    return meshes
-
-
-def _halved(width: Width) -> int:
-    """Nodes across the next coarser grid, which keeps the line of symmetry."""
-    if width.y[0] == 0.0:
-        return 2 * (width.y.size // 2) + 1
-    return width.nodes // 2 + 1
+# Part of the residual that one cycle on a coarser grid may leave without a second.
+ENOUGH = 0.1
 
 
 class Linearised:
@@ -190,7 +57,8 @@ class Linearised:
         # Nodes whose unknown is distributed, +1 to P_j and -1 to P_(j-1). Where eps/dX^2 is small
         # against 1/dX the equation is the first difference of the deflection and acts like
         # 1/(i - j - 1/2); on dipoles it acts like 1/(i - j)^2 and is diagonally dominant.
-        self.dipole = free & (poiseuille_weight(coefficients, level.mesh) < 1.0 / level.mesh.dx)
+        poiseuille = poiseuille_weight(coefficients, level.mesh)
+        self.dipole = free & (poiseuille < 1.0 / level.mesh.dx)
         self.dipole[1:] &= free[:-1]
         # Nodes whose residual the coarser grids are given. Beside the pressure spike eps changes by orders
         # of magnitude from node to node: there the relaxation, almost exact, is left alone.
@@ -198,11 +66,19 @@ class Linearised:
         self.resolved = free.copy()
         self.resolved[1:] &= ~steep
         self.resolved[:-1] &= ~steep
+        diagonal = poiseuille + elastic_weight(coefficients, level)
+        self.scale = np.divide(1.0, diagonal, out=np.zeros(free.shape), where=free)
+        self.unscale = np.where(free, diagonal, 0.0)
 
     def __call__(self, dp: Array, dh00: float) -> tuple[Array, float]:
         """Change of the Reynolds residual and of the load integral."""
         dh = self.level.deflection(dp) + dh00
         return self.by_p(dp) + self.by_h(dh), float(np.vdot(self.level.weights, dp))
+
+    def image(self, change: Array) -> Array:
+        """Scaled residual and load of a change of P and H00, all in one vector."""
+        r, load = self(change[:-1].reshape(self.free.shape), float(change[-1]))
+        return np.append(self.scale * r, load)
 
     def _diagonal(self, offset: int) -> Array:
         """Entries J_(i, i+offset) of the Jacobian along x, shape (nx, ny)."""
@@ -215,8 +91,8 @@ class Linearised:
         return diagonal
 
     @cached_property
-    def _line_factors(self) -> tuple[Array, Array]:
-        """Banded LU in the distributed unknowns, all lines along x in one matrix."""
+    def _line_factors(self) -> list[tuple[slice, Array, Array]]:
+        """Banded LU in the distributed unknowns, every second line along x in one matrix, then the others."""
         nx, ny = self.free.shape
         matrix = np.zeros((3 * HALF_BAND + 1, ny, nx))
         left = self._diagonal(-HALF_BAND - 1)
@@ -228,20 +104,27 @@ class Linearised:
             matrix[2 * HALF_BAND - offset, :, columns] = entry.T
             left = here
         matrix[2 * HALF_BAND][~self.free.T] = 1.0
-        factors, pivots, _ = lapack.dgbtrf(
-            matrix.reshape(3 * HALF_BAND + 1, nx * ny), HALF_BAND, HALF_BAND, overwrite_ab=1
-        )
-        return factors, pivots
+        factors = []
+        for lines in (slice(0, ny, 2), slice(1, ny, 2))[:ny]:
+            part = matrix[:, lines].reshape(3 * HALF_BAND + 1, -1)
+            lu, pivots, _ = lapack.dgbtrf(part, HALF_BAND, HALF_BAND, overwrite_ab=1)
+            factors.append((lines, lu, pivots))
+        return factors
 
     def relax(self, r: Array) -> Array:
-        """One line relaxation: dP with (band of J) dP = r on the free nodes."""
-        nx, ny = r.shape
-        factors, pivots = self._line_factors
-        solution, _ = lapack.dgbtrs(factors, HALF_BAND, HALF_BAND, r.T.reshape(-1), pivots)
-        unknown = solution.reshape(ny, nx).T
-        dp: Array = unknown.copy()
-        dp[:-1] -= np.where(self.dipole[1:], unknown[1:], 0.0)
-        dp[~self.free] = 0.0
+        """One line relaxation: dP with (band of J) dP = r on the free nodes.
+
+        The second half of the lines knows what flows to it from the first.
+        """
+        dp = np.zeros_like(r)
+        for lines, lu, pivots in self._line_factors:
+            if lines.start:
+                r = r - self.by_p.add_across(dp, np.zeros_like(r))
+            solution, _ = lapack.dgbtrs(lu, HALF_BAND, HALF_BAND, r[:, lines].T.reshape(-1), pivots)
+            unknown = solution.reshape(-1, r.shape[0]).T
+            dp[:, lines] = unknown
+            dp[:-1, lines] -= np.where(self.dipole[1:, lines], unknown[1:], 0.0)
+            dp[~self.free] = 0.0
         return dp
 
     @cached_property
@@ -262,6 +145,13 @@ class Linearised:
         right = np.append(np.where(self.free, r, 0.0), load)
         solution, _ = lapack.dgetrs(*self._dense_factors, right)
         return np.where(self.free, solution[:-1].reshape(r.shape), 0.0), float(solution[-1])
+
+
+def elastic_weight(coefficients: Coefficients, level: Level) -> Array:
+    """The elastic part of a row's own coefficient: what a dipole opens where it is, over dX."""
+    influence = level.deflection.influence
+    weight: Array = coefficients.density * ((influence[0, 0] - influence[1, 0]) / level.mesh.dx)
+    return weight
 
 
 def linearise_levels(
@@ -286,17 +176,45 @@ def linearise_levels(
 
 
 def v_cycle(jacobians: list[Linearised], r: Array, load: float) -> tuple[Array, float]:
-    """Approximate (dP, dH00) with J (dP, dH00) = (r, load) on the free nodes of the finest grid.
-
-    The residual is injected, not averaged: beside the pressure spike neighbouring rows differ by orders
-    of magnitude, and an average hands the small ones the error of the large.
-    """
+    """Approximate (dP, dH00) with J (dP, dH00) = (r, load) on the free nodes of the finest grid."""
     finest, *coarser = jacobians
     if not coarser:
         return finest.solve_dense(r, load)
     level = coarser[0].level
-    resolved = np.where(finest.resolved, r, 0.0)
-    coarse_dp, dh00 = v_cycle(coarser, level.inject(resolved), load)
+    restricted = level.restrict(np.where(finest.resolved, r, 0.0))
+    if len(coarser) == 1 or level.mesh.dy is None:
+        coarse_dp, dh00 = v_cycle(coarser, restricted, load)
+    else:
+        coarse_dp, dh00 = _two_cycles(coarser, restricted, load)
     dp = np.where(finest.free, level.prolong(coarse_dp), 0.0)
     change, _ = finest(dp, dh00)
     return dp + finest.relax(r - change), dh00
+
+
+def cycled(jacobians: list[Linearised], image: Array) -> Array:
+    """One V-cycle from a scaled residual and load to a change of P and H00, all in one vector."""
+    finest = jacobians[0]
+    dp, dh00 = v_cycle(jacobians, finest.unscale * image[:-1].reshape(finest.free.shape), float(image[-1]))
+    return np.append(dp, dh00)
+
+
+def _two_cycles(jacobians: list[Linearised], r: Array, load: float) -> tuple[Array, float]:
+    """Two V-cycles, combined so that the least scaled residual is left.
+
+    Along the ridge of pressure at the exit of a point contact a coarser grid overshoots, by factors that
+    grow from grid to grid; the best multiple does not. The K-cycle of Y. Notay and P. S. Vassilevski, Numer.
+    Linear Algebra Appl. 15 (2008) 473, doi:10.1002/nla.542.
+    """
+    finest = jacobians[0]
+    right = np.append(finest.scale * r, load)
+    changes, images = [], []
+    left = right
+    for _ in range(2):
+        changes.append(cycled(jacobians, left))
+        images.append(finest.image(changes[-1]))
+        parts = np.linalg.lstsq(np.stack(images, axis=1), right)[0]
+        left = right - parts @ images
+        if np.linalg.norm(left) <= ENOUGH * np.linalg.norm(right):
+            break
+    change = parts @ changes
+    return change[:-1].reshape(r.shape), float(change[-1])

@@ -13,8 +13,8 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from ehlectric.elastic import LINE, Geometry
+from ehlectric.levels import Level, hierarchy
 from ehlectric.mesh import Width, at_centre
-from ehlectric.multigrid import Level, hierarchy
 from ehlectric.newton import GridSolution, Progress, State, newton
 from ehlectric.reynolds import Fluid, wedge_stencil
 from ehlectric.typing import Array
@@ -78,8 +78,8 @@ class FilmProblem:
     added_gap : callable, optional
         Gap that roughness adds, X (nx,), Y (ny,) -> G (nx, ny); a peak adds a negative one.
     source : callable, optional
-        Right side of the Reynolds equation in place of zero, X (nx,), Y (ny,) -> (nx, ny): what a manufactured
-        solution, or a surface that takes oil up or gives it off, adds to it.
+        Right side of the Reynolds equation in place of zero, X (nx,), Y (ny,) -> (nx, ny): what a
+        manufactured solution, or a surface that takes oil up or gives it off, adds to it.
     """
 
     fluid: Fluid

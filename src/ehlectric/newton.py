@@ -11,10 +11,11 @@ from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
 import numpy as np
-from scipy.sparse.linalg import LinearOperator, gmres
+from scipy.sparse.linalg import LinearOperator, gcrotmk
 
 from ehlectric.elimination import relax_spike, step_length
-from ehlectric.multigrid import Level, linearise_levels, v_cycle
+from ehlectric.levels import Level
+from ehlectric.multigrid import cycled, elastic_weight, linearise_levels
 from ehlectric.reynolds import Coefficients, Fluid, evaluate, poiseuille_weight, residual
 from ehlectric.typing import Array, Mask
 
@@ -165,7 +166,7 @@ def _assess(fluid: Fluid, level: Level, state: State) -> Residual:
     inside the Hertz zone, where eps vanishes. Rows are scaled by their local coefficients, so that the
     residual is a pressure.
     """
-    mesh, influence = level.mesh, level.deflection.influence
+    mesh = level.mesh
     coefficients = evaluate(fluid, state.pressure, state.thickness)
     r = residual(coefficients, level.wedge, state.pressure, state.thickness, mesh) - level.source
     poiseuille = poiseuille_weight(coefficients, mesh)
@@ -173,9 +174,8 @@ def _assess(fluid: Fluid, level: Level, state: State) -> Residual:
     c = 1.0 / np.maximum(20.0 * state.thickness / mesh.dx, poiseuille)
     free = (excess - c * r >= 0.0) & mesh.inner
 
-    local = coefficients.density * (influence[0, 0] - influence[1, 0]) / mesh.dx
     load = level.load - float(np.vdot(level.weights, state.pressure))
-    unnormed = Residual(coefficients, r, poiseuille + local, free, load, np.nan)
+    unnormed = Residual(coefficients, r, poiseuille + elastic_weight(coefficients, level), free, load, np.nan)
     rows = np.where(free, unnormed.scaled, excess)
     norm = float(np.max(np.abs(np.append(rows, LOAD_WEIGHT * load / level.load))))
     return replace(unnormed, norm=norm)
@@ -207,7 +207,7 @@ def _direction(fluid: Fluid, levels: list[Level], state: State, now: Residual) -
     The nodes that are not free go to the ambient pressure; the rest follows from the linear system,
     preconditioned from the right so that GMRES minimises the residual itself.
     """
-    free, shape = now.free, state.pressure.shape
+    free = now.free
     jacobians = linearise_levels(
         levels,
         fluid,
@@ -218,26 +218,23 @@ def _direction(fluid: Fluid, levels: list[Level], state: State, now: Residual) -
     )
     held = np.where(free, 0.0, fluid.ambient_pressure - state.pressure)
     change, load_change = jacobians[0](held, 0.0)
-    scale = np.divide(1.0, now.diagonal, out=np.zeros(shape), where=free)
-    unscale = np.where(free, now.diagonal, 0.0)
-    right = np.append(-scale * (now.reynolds + change), now.load - load_change)
+    finest = jacobians[0]
+    right = np.append(-finest.scale * (now.reynolds + change), now.load - load_change)
+    cycles = 0
 
-    def precondition(v: Array) -> tuple[Array, float]:
-        return v_cycle(jacobians, unscale * v[:-1].reshape(shape), float(v[-1]))
+    def precondition(image: Array) -> Array:
+        nonlocal cycles
+        cycles += 1
+        return cycled(jacobians, image)
 
-    def preconditioned(v: Array) -> Array:
-        r, load = jacobians[0](*precondition(v))
-        return np.append(scale * r, load)
-
-    norms: list[float] = []
-    solution, _ = gmres(
-        LinearOperator((right.size, right.size), matvec=preconditioned, dtype=right.dtype),
+    # Flexible, as no two cycles are the same operator: those on coarser grids adapt to what they are given.
+    solution, _ = gcrotmk(
+        LinearOperator((right.size, right.size), matvec=finest.image, dtype=right.dtype),
         right,
         rtol=LINEAR_TOLERANCE,
-        restart=KRYLOV_LIMIT,
+        M=LinearOperator((right.size, right.size), matvec=precondition, dtype=right.dtype),
+        m=KRYLOV_LIMIT,
+        k=0,
         maxiter=1,
-        callback=norms.append,
-        callback_type="pr_norm",
     )
-    dp, dh00 = precondition(solution)
-    return held + dp, dh00, len(norms)
+    return held + solution[:-1].reshape(state.pressure.shape), float(solution[-1]), cycles

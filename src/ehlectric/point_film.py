@@ -73,7 +73,7 @@ class PointFilm(Film):
 
     @property
     def cavitates(self) -> bool:
-        """Whether the film cavitates on the line y = 0 before the domain ends, behind its largest pressure."""
+        """Whether the film cavitates on the line y = 0 before the domain ends, behind the pressure."""
         middle = int(np.argmin(np.abs(self.y)))
         behind = int(np.argmax(self.pressure[:, middle]))
         return bool(np.any(self.cavitated[behind:-1, middle]))
@@ -96,8 +96,8 @@ def solve_point_film(problem: FilmProblem, *, progress: Progress | None = None) 
 
     Notes
     -----
-    As ``solve_film``, with the flow across entrainment and the deflection of a half-space under a load that is
-    bounded across it too (Love 1929, doi:10.1098/rsta.1929.0009).
+    As ``solve_film``, with the flow across entrainment and the deflection of a half-space under a load that
+    is bounded across it too (Love 1929, doi:10.1098/rsta.1929.0009).
 
     Examples
     --------

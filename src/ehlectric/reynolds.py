@@ -4,8 +4,9 @@ Dimensionless, with X = x/b, Y = y/b, P = p/p_h and H = h R/b^2:
 
     r = d(rho H)/dX - d/dX(eps dP/dX) - d/dY(eps dP/dY) = 0,   eps = rho H^3/(eta lambda)
 
-A line contact has no Y. Arrays are (nx, ny), x along entrainment. The Poiseuille term is second-order central, the wedge term
-is upstream of first order (eq. 7 of the paper, doi:10.3390/lubricants10050087) or of second order.
+A line contact has no Y. Arrays are (nx, ny), x along entrainment. The Poiseuille term is second-order
+central, the wedge term upstream of first order (eq. 7 of the paper, doi:10.3390/lubricants10050087) or of
+second order.
 """
 
 from __future__ import annotations

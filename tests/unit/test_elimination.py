@@ -4,7 +4,7 @@ import numpy as np
 
 from ehlectric.elimination import relax_spike
 from ehlectric.film import solve_film
-from ehlectric.multigrid import hierarchy
+from ehlectric.levels import hierarchy
 from ehlectric.newton import GAP_STEP, PRESSURE_STEP
 from ehlectric.reynolds import evaluate, poiseuille_weight, residual
 from tests.reference import film as exact

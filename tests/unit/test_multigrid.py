@@ -10,6 +10,7 @@ from ehlectric import multigrid, reynolds
 from ehlectric.conditions import resolve
 from ehlectric.elastic import LINE, Deflection
 from ehlectric.film import solve_film
+from ehlectric.levels import COARSEST, hierarchy, interpolation
 from ehlectric.lubricant import barus, incompressible
 from ehlectric.nested import FilmProblem
 from ehlectric.reynolds import Fluid, evaluate
@@ -18,18 +19,18 @@ from ehlectric.solver import film_problem
 
 @pytest.mark.parametrize(("coarse", "fine"), [(5, 9), (6, 10), (51, 100), (33, 64), (7, 7)])
 def test_interpolation_is_exact_for_straight_lines(coarse, fine):
-    matrix = multigrid.interpolation(coarse, fine)
+    matrix = interpolation(coarse, fine)
     line = np.linspace(-1.0, 3.0, coarse)
     np.testing.assert_allclose(matrix @ line, np.linspace(-1.0, 3.0, fine), atol=1e-13)
 
 
 @pytest.mark.parametrize("nodes", [65, 101, 102, 1000, 3200, 3201])
 def test_hierarchy_halves_down_to_the_coarsest(nodes):
-    levels = multigrid.hierarchy(nodes, inlet=-4.0, outlet=2.0, geometry=LINE, second_order=True)
+    levels = hierarchy(nodes, inlet=-4.0, outlet=2.0, geometry=LINE, second_order=True)
     sizes = [level.nodes for level in levels]
     assert sizes[0] == nodes
     assert len(sizes) >= 2
-    assert sizes[-1] <= multigrid.COARSEST
+    assert sizes[-1] <= COARSEST
     assert all(coarse - 1 == (fine - 1 + 1) // 2 for fine, coarse in itertools.pairwise(sizes))
     for level in levels:
         assert level.weights.sum() == pytest.approx(6.0)
@@ -73,7 +74,7 @@ def at_solution(problem):
     pressure = (film.pressure / film.scales.pressure)[:, np.newaxis]
     thickness = (film.thickness / film.scales.thickness)[:, np.newaxis]
     return multigrid.linearise_levels(
-        multigrid.hierarchy(problem.nodes, inlet=-4.0, outlet=2.0, geometry=LINE, second_order=True),
+        hierarchy(problem.nodes, inlet=-4.0, outlet=2.0, geometry=LINE, second_order=True),
         problem.fluid,
         coefficients=evaluate(problem.fluid, pressure, thickness),
         pressure=pressure,
