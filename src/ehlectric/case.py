@@ -139,7 +139,7 @@ class Case(Table):
         """
         flat = {**_flattened(tables), **(changes or {})}
         table = self.to_dict()
-        geometry = flat.get("contact.geometry", self.contact.geometry)
+        geometry = _flattened(flat).get("contact.geometry", self.contact.geometry)
         if geometry != self.contact.geometry:
             _drop_geometry(table, self.contact.geometry)
         _displace(table, flat, geometry)

@@ -26,8 +26,8 @@ class Body(Table):
     radius_y: _SignedRadius | None = None
 
 
-# Alternatives of each geometry: exactly one row of each group is given, whole. A line takes its bodies whole, a
-# point their radii and their elastic constants each for itself.
+# Alternatives of each geometry: exactly one row of each group is given, whole. A line takes its bodies
+# whole, a point their radii and their elastic constants each for itself.
 Alternatives = tuple[tuple[tuple[str, ...], ...], ...]
 _SPEEDS = (("entrainment_speed",), ("speed_1", "speed_2"))
 _BODIES = ("body_1", "body_2")
@@ -75,7 +75,9 @@ class Contact(Table):
     reduced_modulus: _Modulus | None = None
     body_1: Body | None = None
     body_2: Body | None = None
-    load: Annotated[float, Quantity("N", least=1e-6, most=1e9, reason="a contact carries some load")] | None = None
+    load: (
+        Annotated[float, Quantity("N", least=1e-6, most=1e9, reason="a contact carries some load")] | None
+    ) = None
     load_per_length: (
         Annotated[float, Quantity("N/m", least=1e-2, most=1e9, reason="a contact carries some load")] | None
     ) = None

@@ -1,7 +1,7 @@
 """The dry contact of two bodies over an ellipse: semi-axes, pressure and approach, exactly.
 
-All functions use the convention 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2, with the factor two. The axes are those of
-the surfaces, x along entrainment and y across; either may be the longer one.
+All functions use the convention 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2, with the factor two. x runs
+along entrainment and y across; either may be the longer axis of the ellipse.
 
 The pressure p_h sqrt(1 - (x/b)^2 - (y/a)^2) over the ellipse of semi-axes b along x and a along y lifts both
 surfaces together by (2/(pi E')) times the integral of p/r, which is (Johnson, section 3.5)
@@ -9,7 +9,8 @@ surfaces together by (2/(pi E')) times the integral of p/r, which is (Johnson, s
     (p_h a b/E') I,    I = int_0^inf (1 - x^2/(b^2 + w) - y^2/(a^2 + w)) dw/sqrt(w (a^2 + w) (b^2 + w)).
 
 Its three integrals are complete elliptic ones in Carlson's symmetric form, 2 R_F(0, a^2, b^2) and
-(2/3) R_D(0, a^2, b^2) with its arguments in either order: no case for either long axis, and no cancellation at the circle.
+(2/3) R_D(0, a^2, b^2) with a and b in either order: no case for either long axis, and no
+cancellation at the circle.
 """
 
 from __future__ import annotations
@@ -23,8 +24,8 @@ from scipy.special import elliprd, elliprf
 
 from ehlectric.typing import Array
 
-# Logarithm of the ratio of the radii below which the semi-axes are in its power 2/3, to the last digit: the next
-# term is of third order.
+# Logarithm of the ratio of the radii below which the semi-axes are in its power 2/3, to the last digit: the
+# next term is of third order.
 _CIRCLE = 1e-6
 
 

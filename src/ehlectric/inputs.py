@@ -139,8 +139,8 @@ _MOST_AXIS = 4097
 class Grid(Table):
     """Discretisation of the film and of the field.
 
-    Lengths are in half-widths of a line contact; of a point contact in the semi-axis along entrainment, but those
-    of ``side`` and ``field_side`` in the semi-axis across.
+    Lengths are in half-widths of a line contact; of a point contact in the semi-axis along entrainment, but
+    those of ``side`` and ``field_side`` in the semi-axis across.
     """
 
     nodes: Annotated[
@@ -148,17 +148,17 @@ class Grid(Table):
         Count(65, 10_000_001, "fewer do not resolve the Hertz zone, more are atoms apart"),
     ] = 3201
     nodes_y: (
-        Annotated[int, Count(33, _MOST_AXIS, "fewer do not resolve the Hertz zone, more fill the memory")] | None
+        Annotated[int, Count(33, _MOST_AXIS, "fewer do not resolve the Hertz zone, more fill the memory")]
+        | None
     ) = None
     inlet: Annotated[float, Quantity("", least=-100.0, below=-1.0, reason="ahead of the Hertz zone")] = -4.0
     outlet: Annotated[float, Quantity("", above=1.0, most=100.0, reason="behind the Hertz zone")] = 2.0
-    side: (
-        Annotated[float, Quantity("", above=1.0, most=100.0, reason="beside the Hertz zone")] | None
-    ) = None
+    side: Annotated[float, Quantity("", above=1.0, most=100.0, reason="beside the Hertz zone")] | None = None
     wedge: Literal["second-order", "first-order"] = "second-order"
     field_range: tuple[_FieldEnd, _FieldEnd] = (-1.25, 1.25)
     field_side: (
-        Annotated[float, Quantity("", least=1e-3, most=100.0, reason="in semi-axes across entrainment")] | None
+        Annotated[float, Quantity("", least=1e-3, most=100.0, reason="in semi-axes across entrainment")]
+        | None
     ) = None
     field_nodes: (
         Annotated[
@@ -220,8 +220,8 @@ class Grid(Table):
             nodes = getattr(self, key)
             if nodes is not None and nodes > _MOST_AXIS:
                 raise ValueError(
-                    f"{key}: got {nodes} in a point contact, takes at most {_MOST_AXIS} along an axis: more fill "
-                    "the memory"
+                    f"{key}: got {nodes} in a point contact, takes at most {_MOST_AXIS} along an axis: more "
+                    "fill the memory"
                 )
         if self.side is not None:
             assert self.field_side is not None
@@ -246,8 +246,8 @@ class Grid(Table):
         least = math.ceil(LEAST_ACROSS * side) + 1
         if nodes < least:
             raise ValueError(
-                f"{key}: got {nodes} across {2.0 * side:g} semi-axes, takes at least {least} there: sixteen in "
-                "the Hertz zone"
+                f"{key}: got {nodes} across {2.0 * side:g} semi-axes, takes at least {least} there: sixteen "
+                "in the Hertz zone"
             )
 
 

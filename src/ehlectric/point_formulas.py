@@ -86,9 +86,10 @@ def hamrock_dowson(contact: PointContact) -> Thickness:
 
     Notes
     -----
-    B. J. Hamrock and D. Dowson, J. Lubr. Technol. 99 (1977) 264-275, doi:10.1115/1.3453074. From solutions of k
-    from 1 to 8, entrainment along the minor axis, and U, W and G of hard contacts: steel and oil. Beyond its
-    range where Ry is below Rx. The exact k stands in place of their fit 1.03 (Ry/Rx)^0.64, 3 % off for a circle.
+    B. J. Hamrock and D. Dowson, J. Lubr. Technol. 99 (1977) 264-275, doi:10.1115/1.3453074. From solutions of
+    k from 1 to 8, entrainment along the minor axis, and U, W and G of hard contacts: steel and oil. Beyond
+    its range where Ry is below Rx. The exact k stands in place of their fit 1.03 (Ry/Rx)^0.64, 3 % off for a
+    circle.
 
     Examples
     --------
@@ -125,8 +126,8 @@ def chittenden(contact: PointContact) -> Thickness:
     Notes
     -----
     R. J. Chittenden, D. Dowson, J. F. Dunn and C. M. Taylor, Proc. R. Soc. Lond. A 397 (1985) 245-294,
-    doi:10.1098/rspa.1985.0014 and the paper that follows it there. From solutions of hard contacts, Ry/Rx from
-    about 0.1 to 10.
+    doi:10.1098/rspa.1985.0014 and the paper that follows it there. From solutions of hard contacts,
+    entrainment along either axis.
 
     Examples
     --------
@@ -178,9 +179,10 @@ def nijenbanning_venner_moes(contact: PointContact) -> Thickness:
 
     Notes
     -----
-    G. Nijenbanning, C. H. Venner and H. Moes, Wear 176 (1994) 217-229, doi:10.1016/0043-1648(94)90150-3. For D up
-    to 1, entrainment along the minor axis, and all M and L; for D towards 0 each limit is that of ``film_formulas.moes`` at
-    the middle of the long ellipse, where the load per length is 3 F/4 over its semi-axis.
+    G. Nijenbanning, C. H. Venner and H. Moes, Wear 176 (1994) 217-229, doi:10.1016/0043-1648(94)90150-3. For
+    D up to 1, entrainment along the minor axis, and all M and L. For D towards 0 each limit is that of
+    ``film_formulas.moes`` at the middle of the long ellipse, where the load per length is 3 F/4 over its
+    semi-axis. H_00 bounds the film of bodies that hardly touch.
 
     Examples
     --------
