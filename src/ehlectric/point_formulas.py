@@ -182,7 +182,8 @@ def nijenbanning_venner_moes(contact: PointContact) -> Thickness:
     G. Nijenbanning, C. H. Venner and H. Moes, Wear 176 (1994) 217-229, doi:10.1016/0043-1648(94)90150-3. For
     D up to 1, entrainment along the minor axis, and all M and L. For D towards 0 each limit is that of
     ``film_formulas.moes`` at the middle of the long ellipse, where the load per length is 3 F/4 over its
-    semi-axis. H_00 bounds the film of bodies that hardly touch.
+    semi-axis. As there, the film of a rigid isoviscous contact is the one where the pressure gradient
+    vanishes, 1.226 of that at the centre. H_00 bounds the film of bodies that hardly touch.
 
     Examples
     --------

@@ -15,16 +15,16 @@ from ehlectric.result import SCHEMA
 FORMULA_NAMES = {
     "hamrock_dowson": "Hamrock-Dowson",
     "chittenden": "Chittenden et al.",
-    "nijenbanning_venner_moes": "Nijenbanning-Venner-Moes",
+    "nijenbanning_venner_moes": "Nijenbanning et al.",
 }
 
 
 def add_point_conditions(table: Table, conditions: PointConditions) -> None:
     """Rows of the dry contact and the groups, that a case and its solution share."""
     table.add_row("Hertz pressure", f"{conditions.max_pressure / 1e9:.4g}", "GPa")
-    table.add_row("semi-axis along entrainment", f"{conditions.semi_axis_x * 1e6:.4g}", "µm")
-    table.add_row("semi-axis across", f"{conditions.semi_axis_y * 1e6:.4g}", "µm")
-    table.add_row("ratio, across over along", f"{conditions.ratio:.4g}")
+    table.add_row("semi-axis, along", f"{conditions.semi_axis_x * 1e6:.4g}", "µm")
+    table.add_row("semi-axis, across", f"{conditions.semi_axis_y * 1e6:.4g}", "µm")
+    table.add_row("  across over along", f"{conditions.ratio:.4g}")
     table.add_row("Moes M", f"{conditions.formulas.moes_m:.4g}")
     table.add_row("Moes L", f"{conditions.formulas.moes_l:.4g}")
     table.add_row("regime", regime(conditions.formulas))
@@ -33,8 +33,8 @@ def add_point_conditions(table: Table, conditions: PointConditions) -> None:
 def point_table(case: Case, conditions: PointConditions) -> Table:
     """What a case of a point contact means, before it is solved."""
     table = plain_table(case.title)
-    table.add_row("reduced radius along entrainment", f"{conditions.radius_x * 1e3:.4g}", "mm")
-    table.add_row("reduced radius across", f"{conditions.radius_y * 1e3:.4g}", "mm")
+    table.add_row("reduced radius, along", f"{conditions.radius_x * 1e3:.4g}", "mm")
+    table.add_row("reduced radius, across", f"{conditions.radius_y * 1e3:.4g}", "mm")
     table.add_row("reduced modulus", f"{conditions.reduced_modulus / 1e9:.4g}", "GPa")
     table.add_row("load", f"{conditions.load:.4g}", "N")
     table.add_row("entrainment speed", f"{conditions.entrainment_speed:.4g}", "m/s")
