@@ -18,6 +18,10 @@ def merged(*parts):
     return st.tuples(*parts).map(lambda tables: {k: v for table in tables for k, v in table.items()})
 
 
+speeds = either(
+    ({"entrainment_speed": st.floats(1e-9, 1e4)}, {"slide_to_roll_ratio": st.floats(-1e3, 1e3)}),
+    ({"speed_1": st.floats(1.0, 1e4), "speed_2": st.floats(-0.9, 1e4)}, {}),
+)
 contacts = merged(
     either(
         ({"reduced_radius": radius}, {}),
@@ -27,11 +31,29 @@ contacts = merged(
     either(
         ({"load_per_length": st.floats(1e-2, 1e9)}, {}), ({"max_hertz_pressure": st.floats(1e4, 2e10)}, {})
     ),
-    either(
-        ({"entrainment_speed": st.floats(1e-9, 1e4)}, {"slide_to_roll_ratio": st.floats(-1e3, 1e3)}),
-        ({"speed_1": st.floats(1.0, 1e4), "speed_2": st.floats(-0.9, 1e4)}, {}),
-    ),
+    speeds,
 )
+radii = st.fixed_dictionaries({"radius_x": radius, "radius_y": radius})
+groove = st.fixed_dictionaries({"radius_x": radius, "radius_y": radius.map(lambda r: -r)})
+
+
+def with_bodies(table):
+    """Both bodies in one table each, of what their radii and their elastic constants give."""
+    kept = {key: value for key, value in table.items() if not isinstance(value, tuple)}
+    for k, name in enumerate(("body_1", "body_2")):
+        parts = [value[k] for value in table.values() if isinstance(value, tuple)]
+        if parts:
+            kept[name] = {key: value for part in parts for key, value in part.items()}
+    return kept
+
+
+point_contacts = merged(
+    st.just({"geometry": "point"}),
+    st.one_of(radii, st.fixed_dictionaries({"both_radii": st.tuples(groove, radii)})),
+    either(({"reduced_modulus": modulus}, {}), ({"both_bodies": st.tuples(body, body)}, {})),
+    either(({"load": st.floats(1e-6, 1e9)}, {}), ({"max_hertz_pressure": st.floats(1e4, 2e10)}, {})),
+    speeds,
+).map(with_bodies)
 permittivity = {"relative_permittivity": st.floats(1.0, 1e3)}
 more = {
     "ambient_pressure": st.floats(0.0, 1e8),
@@ -105,6 +127,23 @@ grids = either(
         },
     ),
 )
+point_grids = st.fixed_dictionaries(
+    {},
+    optional={
+        "nodes": st.integers(1000, 4097),
+        "nodes_y": st.integers(1000, 4097),
+        "inlet": st.floats(-50.0, -2.0),
+        "outlet": st.floats(2.0, 50.0),
+        "side": st.floats(1.3, 60.0),
+        "wedge": st.sampled_from(["first-order", "second-order"]),
+        "field_range": st.tuples(st.floats(-2.0, -0.1), st.floats(0.1, 2.0)).map(list),
+        "field_side": st.floats(1e-3, 1.3),
+        "field_nodes": st.integers(17, 4097),
+        "field_nodes_y": st.integers(17, 4097),
+        "field_degree": st.integers(2, 20),
+        "refine": st.floats(1e-4, 0.5),
+    },
+).map(lambda grid: {"nodes": 1000, "field_nodes": 100} | grid)
 volts = st.floats(-1e7, 0.0), st.floats(1.0, 1e7)
 tables = st.fixed_dictionaries(
     {"contact": contacts, "lubricant": lubricants},
@@ -115,4 +154,8 @@ tables = st.fixed_dictionaries(
         "grid": grids,
         "solver": st.fixed_dictionaries({"tolerance": st.floats(1e-11, 1e-3)}),
     },
+)
+point_tables = st.fixed_dictionaries(
+    {"contact": point_contacts, "lubricant": lubricants},
+    optional={"title": st.text(NO_CONTROL, max_size=200), "grid": point_grids},
 )

@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 import tomllib
 from collections.abc import Iterable, Iterator
+from itertools import chain
 from pathlib import Path
 from typing import Any, Literal, get_args, get_origin
 
@@ -158,7 +159,7 @@ def _write(app: Sphinx) -> None:
     )
     pages["alternatives"] = "\n".join(
         "- " + ", or ".join(" and ".join(f"`{key}`" for key in row) for row in rows)
-        for rows in contact_inputs.CONTACT_ALTERNATIVES
+        for rows in dict.fromkeys(chain(*contact_inputs.CONTACT_ALTERNATIVES.values()))
     )
     group = typer.main.get_command(commands)
     pages["commands"] = "\n".join(

@@ -12,11 +12,11 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any, Self
 
-from pydantic import AfterValidator, BaseModel
+from pydantic import AfterValidator, BaseModel, model_validator
 
-from ehlectric.contact_inputs import CONTACT_ALTERNATIVES, Contact
+from ehlectric.contact_inputs import CONTACT_ALTERNATIVES, ONLY, Contact
 from ehlectric.errors import InputError, shown
-from ehlectric.inputs import Electric, Grid, Lubricant, Solver
+from ehlectric.inputs import POINT_GRID, POINT_GRID_KEYS, Electric, Grid, Lubricant, Solver
 from ehlectric.roughness_inputs import Roughness
 from ehlectric.validation import Table
 
@@ -28,7 +28,7 @@ def _title(text: str) -> str:
 
 
 class Case(Table):
-    """A charged line contact: everything a solution depends on.
+    """A charged line or point contact: everything a solution depends on.
 
     Examples
     --------
@@ -54,6 +54,28 @@ class Case(Table):
     electric: Electric = Electric()
     grid: Grid = Grid()
     solver: Solver = Solver()
+
+    @model_validator(mode="before")
+    @classmethod
+    def _point_grid(cls, table: Any) -> Any:
+        """The grid of a point contact, with its own defaults where the case gives none."""
+        if not isinstance(table, Mapping) or _geometry(table.get("contact")) != "point":
+            return table
+        grid = table.get("grid", {})
+        if isinstance(grid, Grid):
+            grid = grid.model_dump(exclude_unset=True)
+        return {**table, "grid": {**POINT_GRID, **grid}} if isinstance(grid, Mapping) else table
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if self.contact.geometry != "point":
+            for key in POINT_GRID_KEYS:
+                if getattr(self.grid, key) is not None:
+                    raise ValueError(
+                        f"grid.{key}: got it in a line contact, which has no use for it; takes it where "
+                        "contact.geometry is 'point'"
+                    )
+        return self
 
     @classmethod
     def from_toml(cls, path: str | Path) -> Self:
@@ -107,7 +129,8 @@ class Case(Table):
         -------
         Case
             A new key displaces its alternative: a Hertz pressure the load, two radii the reduced one, a
-            lubricant base all that was given of the old lubricant.
+            lubricant base all that was given of the old lubricant. A new geometry drops what only the old one
+            has, and the lengths and nodes of its grid.
 
         Raises
         ------
@@ -116,7 +139,10 @@ class Case(Table):
         """
         flat = {**_flattened(tables), **(changes or {})}
         table = self.to_dict()
-        _displace(table, flat)
+        geometry = _flattened(flat).get("contact.geometry", self.contact.geometry)
+        if geometry != self.contact.geometry:
+            _drop_geometry(table, self.contact.geometry)
+        _displace(table, flat, geometry)
         for key, value in flat.items():
             *parents, leaf = key.split(".")
             target = table
@@ -152,17 +178,49 @@ def _flattened(tables: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
     return flat
 
 
-def _displace(table: dict[str, Any], changes: Mapping[str, Any]) -> None:
+def _geometry(contact: Any) -> Any:
+    if isinstance(contact, Mapping):
+        return contact.get("geometry")
+    return getattr(contact, "geometry", None)
+
+
+# What a grid keeps where the geometry changes: no lengths, which are in other units there, and no nodes.
+_GRID_OF_ANY = ("wedge", "field_degree", "refine")
+
+
+def _drop_geometry(table: dict[str, Any], geometry: str) -> None:
+    """Drop what only contacts of this geometry have."""
+    for key in ONLY[geometry]:
+        _drop(table["contact"], key)
+    table["grid"] = {key: value for key, value in table["grid"].items() if key in _GRID_OF_ANY}
+
+
+def _displace(table: dict[str, Any], changes: Mapping[str, Any], geometry: object) -> None:
     """Drop from ``table`` what the changes are alternatives to."""
     if "lubricant.base" in changes:
         table["lubricant"] = {}
-    names = {key.split(".")[1] for key in changes if key.startswith("contact.")}
-    groups: list[tuple[tuple[str, ...], ...]] = list(CONTACT_ALTERNATIVES)
+    names = {key.removeprefix("contact.") for key in _flattened(changes) if key.startswith("contact.")}
+    groups: list[tuple[tuple[str, ...], ...]] = list(CONTACT_ALTERNATIVES.get(str(geometry), ()))
     groups.append((("slide_to_roll_ratio",), ("speed_1", "speed_2")))
     for group in groups:
         for row in group:
-            if names & set(row):
-                for other in group:
-                    if other is not row:
-                        for name in set(other) - names:
-                            table["contact"].pop(name, None)
+            if any(_within(name, key) for name in names for key in row):
+                for key in {key for other in group if other is not row for key in other}:
+                    if not any(_within(name, key) for name in names):
+                        _drop(table["contact"], key)
+
+
+def _within(name: str, key: str) -> bool:
+    """Whether a dotted name is the key, or lies in the table of that name."""
+    return name == key or name.startswith(f"{key}.")
+
+
+def _drop(table: dict[str, Any], key: str) -> None:
+    """Drop a dotted key, and its table where that leaves it empty."""
+    first, _, leaf = key.partition(".")
+    if not leaf:
+        table.pop(first, None)
+    elif isinstance(table.get(first), dict):
+        table[first].pop(leaf, None)
+        if not table[first]:
+            del table[first]

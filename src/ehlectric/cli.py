@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from importlib import resources
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -20,8 +20,11 @@ from ehlectric.version import __version__
 if TYPE_CHECKING:
     from rich.table import Table
 
+    from ehlectric.case import Case
+
 WRONG_INPUT = 2
 NOT_CONVERGED = 3
+_TEMPLATES = {"line": "template.toml", "point": "template_point.toml"}
 SIGNALLED = 128  # plus the number of the signal, as shells count
 
 app = typer.Typer(
@@ -146,22 +149,47 @@ def check(case_file: CaseFile, quiet: Quiet = False, as_json: Json = False) -> N
     """Validate a case and say what it means: Hertz contact, groups, regime, film formulas."""
     with _user_errors():
         from ehlectric.case import Case
-        from ehlectric.conditions import remarks, resolve
-        from ehlectric.memory import check_memory
-        from ehlectric.report import conditions_summary, conditions_table
-        from ehlectric.walls import remarks as rough_remarks
-        from ehlectric.walls import rough_surfaces
 
         case = Case.from_toml(case_file)
-        conditions = resolve(case)
-        rough = rough_surfaces(case, conditions)
-        check_memory(case)
+        meaning = _point_meaning(case) if case.contact.geometry == "point" else _line_meaning(case)
+    table, summary, texts = meaning
     if as_json:
-        typer.echo(json.dumps(conditions_summary(case, conditions), indent=2))
+        typer.echo(json.dumps(summary, indent=2))
     elif not quiet:
-        _print(conditions_table(case, conditions))
+        _print(table)
     if not quiet:
-        _warn([*remarks(case, conditions), *rough_remarks(case, conditions, rough)])
+        _warn(texts)
+
+
+# Table, JSON and warnings of what a case means.
+_Meaning = tuple["Table", dict[str, Any], list[str]]
+
+
+def _line_meaning(case: Case) -> _Meaning:
+    from ehlectric.conditions import remarks, resolve
+    from ehlectric.memory import check_memory
+    from ehlectric.report import conditions_summary, conditions_table
+    from ehlectric.walls import remarks as rough_remarks
+    from ehlectric.walls import rough_surfaces
+
+    conditions = resolve(case)
+    rough = rough_surfaces(case, conditions)
+    check_memory(case)
+    texts = [*remarks(case, conditions), *rough_remarks(case, conditions, rough)]
+    return conditions_table(case, conditions), conditions_summary(case, conditions), texts
+
+
+def _point_meaning(case: Case) -> _Meaning:
+    from ehlectric.memory import check_memory
+    from ehlectric.point_conditions import point_remarks, resolve_point
+    from ehlectric.point_report import point_summary, point_table
+
+    if case.roughness:
+        raise InputError("roughness: got it in a point contact, takes a line contact so far")
+    conditions = resolve_point(case)
+    check_memory(case)
+    texts = list(point_remarks(case, conditions))
+    return point_table(case, conditions), point_summary(case, conditions), texts
 
 
 @app.command()
@@ -217,6 +245,7 @@ def surface(
 @app.command()
 def init(
     path: Annotated[Path, typer.Argument(help="File to write.")] = Path("case.toml"),
+    geometry: Annotated[str, typer.Option(metavar="NAME", help="Of the contact: line or point.")] = "line",
     force: Annotated[bool, typer.Option("--force", help="Overwrite a file.")] = False,
     quiet: Quiet = False,
 ) -> None:
@@ -224,11 +253,13 @@ def init(
     with _user_errors():
         from ehlectric.store import prepare, refuse_special, whole
 
+        if geometry not in _TEMPLATES:
+            raise InputError(f"--geometry: got {shown(geometry)}, takes one of {', '.join(_TEMPLATES)}")
         refuse_special(path)
         if path.exists() and not force:
             raise InputError(f"{path}: is there already, takes a new file or --force")
         prepare(path.parent)
-        template = resources.files("ehlectric.library") / "template.toml"
+        template = resources.files("ehlectric.library") / _TEMPLATES[geometry]
         with whole(path) as beside:
             beside.write_text(template.read_text(encoding="utf-8"), encoding="utf-8")
     if not quiet:

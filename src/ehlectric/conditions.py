@@ -11,7 +11,7 @@ import numpy as np
 
 from ehlectric import film_formulas, hertz
 from ehlectric.case import Case
-from ehlectric.contact_inputs import Contact
+from ehlectric.contact_inputs import Body, Contact
 from ehlectric.errors import InputError
 from ehlectric.inputs import Lubricant
 from ehlectric.lubricant import DENSITY_LAWS, PERMITTIVITY_LAWS, VISCOSITY_LAWS, Law, roelands_exponent
@@ -93,9 +93,13 @@ def resolve(case: Case) -> Conditions:
     (0.01, 2.0, 1.0)
     """
     contact, lubricant = case.contact, case.lubricant
+    if contact.geometry != "line":
+        raise InputError(
+            f"contact.geometry: got {contact.geometry!r}, takes 'line' for a line contact's conditions"
+        )
     radius, curvature_share = _radius(contact)
-    modulus, compliance_share = _modulus(contact)
-    speed, ratio = _speeds(contact)
+    modulus, compliance_share = modulus_of(contact)
+    speed, ratio = speeds_of(contact)
     load = contact.load_per_length
     if load is None:
         assert contact.max_hertz_pressure is not None
@@ -103,17 +107,9 @@ def resolve(case: Case) -> Conditions:
     half_width = hertz.line_half_width(load, radius, modulus)
     max_pressure = hertz.line_max_pressure(load, radius, modulus)
     bodies = [abs(r) for r in (contact.radius_1, contact.radius_2) if r is not None]
-    _check_dry_contact(half_width, min([radius, *bodies]), max_pressure, lubricant.ambient_pressure)
-
-    # A permittivity law that fails at the Hertz pressure does so here; one that fails at the pressure spike
-    # alone can only do so when the film is there.
-    permittivity_law(lubricant)(density_law(lubricant)(np.array([max_pressure]))[0])
-
-    alpha = 0.0
-    if lubricant.viscosity_law != "constant":
-        assert lubricant.pressure_viscosity_coefficient is not None
-        alpha = lubricant.pressure_viscosity_coefficient
-    eta0 = lubricant.viscosity
+    check_width(half_width, min([radius, *bodies]))
+    check_pressure(max_pressure, lubricant)
+    eta0, alpha = lubricant.viscosity, effective_alpha(lubricant)
     return Conditions(
         reduced_radius=radius,
         reduced_modulus=modulus,
@@ -144,19 +140,21 @@ def _radius(contact: Contact) -> tuple[float, float]:
     return radius, radius / r1
 
 
-def _modulus(contact: Contact) -> tuple[float, float]:
+def modulus_of(contact: Contact) -> tuple[float, float]:
     """Reduced modulus, and the part of 2/E' that is surface 1's: a half where only E' is known."""
     if contact.reduced_modulus is not None:
         return contact.reduced_modulus, 0.5
     assert contact.body_1 is not None and contact.body_2 is not None
-    first, second = (
-        hertz.body_compliance(body.youngs_modulus, body.poissons_ratio)
-        for body in (contact.body_1, contact.body_2)
-    )
+    first, second = (_compliance(body) for body in (contact.body_1, contact.body_2))
     return hertz.reduced_modulus(first, second), first / (first + second)
 
 
-def _speeds(contact: Contact) -> tuple[float, float]:
+def _compliance(body: Body) -> float:
+    assert body.youngs_modulus is not None and body.poissons_ratio is not None
+    return hertz.body_compliance(body.youngs_modulus, body.poissons_ratio)
+
+
+def speeds_of(contact: Contact) -> tuple[float, float]:
     """Entrainment speed and slide-to-roll ratio."""
     if contact.entrainment_speed is not None:
         return contact.entrainment_speed, contact.slide_to_roll_ratio or 0.0
@@ -165,18 +163,34 @@ def _speeds(contact: Contact) -> tuple[float, float]:
     return mean, (contact.speed_1 - contact.speed_2) / mean
 
 
-def _check_dry_contact(half_width: float, radius: float, pressure: float, ambient: float) -> None:
+def check_width(half_width: float, radius: float) -> None:
+    """Refuse a dry contact as wide as its bodies, which no half-space or parabola describes."""
     if half_width > 0.5 * radius:
         raise InputError(
             f"contact: the dry contact would be {half_width:.3g} m wide on each side, more than half of the "
             f"smallest radius {radius:.3g} m; takes less load, a larger modulus or less conforming bodies"
         )
-    least = max(1e4, 10.0 * ambient)
+
+
+def check_pressure(pressure: float, lubricant: Lubricant) -> None:
+    """Refuse a Hertz pressure near the ambient one, or one at which the permittivity has no value."""
+    least = max(1e4, 10.0 * lubricant.ambient_pressure)
     if pressure < least:
         raise InputError(
             f"contact: the Hertz pressure would be {pressure:.3g} Pa, takes a load that gives at least "
-            f"{least:.3g} Pa, well above the ambient {ambient:.3g} Pa"
+            f"{least:.3g} Pa, well above the ambient {lubricant.ambient_pressure:.3g} Pa"
         )
+    # A permittivity law that fails at the Hertz pressure does so here; one that fails at the pressure spike
+    # alone can only do so when the film is there.
+    permittivity_law(lubricant)(density_law(lubricant)(np.array([pressure]))[0])
+
+
+def effective_alpha(lubricant: Lubricant) -> float:
+    """Pressure-viscosity coefficient [1/Pa] that the film formulas see: zero for a constant viscosity."""
+    if lubricant.viscosity_law == "constant":
+        return 0.0
+    assert lubricant.pressure_viscosity_coefficient is not None
+    return lubricant.pressure_viscosity_coefficient
 
 
 def _bound(law: Law, lubricant: Lubricant) -> Callable[..., Any]:
@@ -201,30 +215,45 @@ def permittivity_law(lubricant: Lubricant) -> Callable[[Array], Array]:
 
 def remarks(case: Case, conditions: Conditions) -> Iterator[str]:
     """What a user should know about a case before it is solved, one text each."""
-    lubricant = case.lubricant
     regime = film_formulas.regime(conditions.formulas)
     if regime == "isoviscous-rigid":
-        reach = _RIGID_INLET / conditions.formulas.moes_m
-        yield (
-            "isoviscous-rigid regime: the bodies hardly deform, and half-width and Hertz pressure scale "
-            f"nothing; the film builds up over about {reach:.2g} half-widths, which grid.inlet must hold"
-        )
+        yield rigid_remark("half-width", "half-widths", _RIGID_INLET / conditions.formulas.moes_m)
     elif regime != "piezoviscous-elastic":
         yield f"{regime} regime: the film formulas but Moes' are for piezoviscous-elastic contacts"
-    ambient_load = lubricant.ambient_pressure / conditions.max_pressure
-    ambient_load *= (case.grid.outlet - case.grid.inlet) / (0.5 * np.pi)
+    width = (case.grid.outlet - case.grid.inlet) / (0.5 * np.pi)
+    yield from pressure_remarks(case.lubricant, conditions.max_pressure, width, "line", _PERMANENT)
+
+
+def rigid_remark(length: str, lengths: str, reach: float) -> str:
+    """What to know of a film of rigid bodies, which builds up over ``reach`` of those lengths."""
+    return (
+        f"isoviscous-rigid regime: the bodies hardly deform, and {length} and Hertz pressure scale "
+        f"nothing; the film builds up over about {reach:.2g} {lengths}, which grid.inlet must hold"
+    )
+
+
+def pressure_remarks(
+    lubricant: Lubricant, pressure: float, domain: float, kind: str, permanent: float
+) -> Iterator[str]:
+    """What to know of a contact of that Hertz pressure [Pa], one text each.
+
+    ``domain`` is the load of a unit pressure over the whole domain, in that of the dry contact at a unit
+    Hertz pressure; ``permanent`` the Hertz pressure above which bearing steel deforms permanently in contacts
+    of that ``kind`` [Pa].
+    """
+    ambient_load = lubricant.ambient_pressure / pressure * domain
     if ambient_load > 0.01:
         yield (
             f"the ambient pressure carries {100 * ambient_load:.1f} % of the load over this domain; "
             "lubricant.ambient_pressure = 0 leaves it out"
         )
-    if conditions.max_pressure > _PERMANENT:
+    if pressure > permanent:
         yield (
-            f"the Hertz pressure is {conditions.max_pressure / 1e9:.3g} GPa: bearing steel deforms "
-            f"permanently above {_PERMANENT / 1e9:g} GPa in line contacts, and the bodies are elastic here; "
+            f"the Hertz pressure is {pressure / 1e9:.3g} GPa: bearing steel deforms "
+            f"permanently above {permanent / 1e9:g} GPa in {kind} contacts, and the bodies are elastic here; "
             "are load and radii right?"
         )
-    if lubricant.viscosity_law == "barus" and conditions.max_pressure > 0.5e9:
+    if lubricant.viscosity_law == "barus" and pressure > 0.5e9:
         yield "Barus' law overstates the viscosity above some 0.5 GPa by orders of magnitude"
     if lubricant.viscosity_law == "roelands":
         alpha, p0 = lubricant.pressure_viscosity_coefficient, lubricant.roelands_pressure

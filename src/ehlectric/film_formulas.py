@@ -6,6 +6,7 @@ up to 40 %. They stand beside a result, never in its place.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -248,7 +249,18 @@ def regime(contact: LineContact) -> str:
     >>> regime(LineContact(14.1e-3, 226e9, 1e3, 4.0, 0.04, 0.0))
     'isoviscous-rigid'
     """
-    films = _moes_asymptotes(contact)
+    return dominant(_moes_asymptotes(contact))
+
+
+def dominant(films: Mapping[str, float]) -> str:
+    """Regime of the four limits of a film, by name: of its own pair the one that rules, then the thicker.
+
+    Examples
+    --------
+    >>> names = "isoviscous-rigid", "isoviscous-elastic", "piezoviscous-rigid", "piezoviscous-elastic"
+    >>> dominant(dict(zip(names, (0.1, 2.0, 9.0, 5.0), strict=True)))
+    'piezoviscous-elastic'
+    """
     isoviscous = max(("isoviscous-rigid", "isoviscous-elastic"), key=films.__getitem__)
     piezoviscous = min(("piezoviscous-rigid", "piezoviscous-elastic"), key=films.__getitem__)
     return max((isoviscous, piezoviscous), key=films.__getitem__)

@@ -124,18 +124,42 @@ _LEAST_COLUMNS = 16
 
 _FieldEnd = Annotated[float, Quantity("", least=-100.0, most=100.0, reason="in half-widths")]
 
+# What a grid of a point contact has where the case does not say; lengths in its semi-axes.
+POINT_GRID: dict[str, Any] = {"nodes": 257, "inlet": -4.5, "outlet": 1.5, "field_side": 1.25}
+
+# Keys of a point contact alone.
+POINT_GRID_KEYS = ("nodes_y", "side", "field_side", "field_nodes_y")
+
+# Nodes across a point contact's Hertz zone below which its film has no shape, and along an axis above which a
+# film takes more memory than a workstation has.
+LEAST_ACROSS = 16
+_MOST_AXIS = 4097
+
 
 class Grid(Table):
-    """Discretisation of the film and of the field; lengths in half-widths."""
+    """Discretisation of the film and of the field.
+
+    Lengths are in half-widths of a line contact; of a point contact in the semi-axis along entrainment, but
+    those of ``side`` and ``field_side`` in the semi-axis across.
+    """
 
     nodes: Annotated[
         int,
         Count(65, 10_000_001, "fewer do not resolve the Hertz zone, more are atoms apart"),
     ] = 3201
+    nodes_y: (
+        Annotated[int, Count(33, _MOST_AXIS, "fewer do not resolve the Hertz zone, more fill the memory")]
+        | None
+    ) = None
     inlet: Annotated[float, Quantity("", least=-100.0, below=-1.0, reason="ahead of the Hertz zone")] = -4.0
     outlet: Annotated[float, Quantity("", above=1.0, most=100.0, reason="behind the Hertz zone")] = 2.0
+    side: Annotated[float, Quantity("", above=1.0, most=100.0, reason="beside the Hertz zone")] | None = None
     wedge: Literal["second-order", "first-order"] = "second-order"
     field_range: tuple[_FieldEnd, _FieldEnd] = (-1.25, 1.25)
+    field_side: (
+        Annotated[float, Quantity("", least=1e-3, most=100.0, reason="in semi-axes across entrainment")]
+        | None
+    ) = None
     field_nodes: (
         Annotated[
             int,
@@ -143,16 +167,38 @@ class Grid(Table):
         ]
         | None
     ) = None
+    field_nodes_y: (
+        Annotated[int, Count(17, _MOST_AXIS, "fewer do not resolve the sides, more fill the memory")] | None
+    ) = None
     field_degree: Annotated[int, Count(2, 20, "the potential is nearly linear across the film")] = 6
+    refine: (
+        Annotated[
+            float,
+            Quantity("", least=1e-4, most=0.5, reason="error of the film to refine to", fraction=True),
+        ]
+        | None
+    ) = None
+
+    @property
+    def of_point(self) -> bool:
+        """Whether this is a point contact's grid: a case gives each of them a ``field_side``."""
+        return self.field_side is not None
 
     @model_validator(mode="after")
     def _check(self) -> Self:
         domain = self.outlet - self.inlet
         if self.nodes < 8.0 * domain:
+            lengths = "semi-axes" if self.of_point else "half-widths"
             raise ValueError(
-                f"nodes: got {self.nodes} over {domain:g} half-widths, takes at least "
+                f"nodes: got {self.nodes} over {domain:g} {lengths}, takes at least "
                 f"{int(8.0 * domain) + 1} there: sixteen in the Hertz zone"
             )
+        self._check_field_range(domain)
+        if self.of_point:
+            self._check_point()
+        return self
+
+    def _check_field_range(self, domain: float) -> None:
         start, stop = self.field_range
         default = "" if "field_range" in self.model_fields_set else ", its default"
         if not self.inlet <= start < stop <= self.outlet:
@@ -168,7 +214,41 @@ class Grid(Table):
             )
         if stop - start < 1e-3:
             raise ValueError(f"field_range: got [{start:g}, {stop:g}], takes a range of at least 0.001")
-        return self
+
+    def _check_point(self) -> None:
+        for key in ("nodes", "field_nodes"):
+            nodes = getattr(self, key)
+            if nodes is not None and nodes > _MOST_AXIS:
+                raise ValueError(
+                    f"{key}: got {nodes} in a point contact, takes at most {_MOST_AXIS} along an axis: more "
+                    "fill the memory"
+                )
+        if self.side is not None:
+            assert self.field_side is not None
+            if self.field_side > self.side:
+                raise ValueError(f"field_side: got {self.field_side:g}, takes at most side, {self.side:g}")
+            self.check_across(self.side)
+
+    def check_across(self, side: float) -> None:
+        """Refuse a point contact's grid that is too coarse across entrainment.
+
+        Parameters
+        ----------
+        side : float
+            Half of the domain's width, in semi-axes across.
+
+        Raises
+        ------
+        ValueError
+            With the key, what it got and what it takes.
+        """
+        nodes, key = (self.nodes, "nodes") if self.nodes_y is None else (self.nodes_y, "nodes_y")
+        least = math.ceil(LEAST_ACROSS * side) + 1
+        if nodes < least:
+            raise ValueError(
+                f"{key}: got {nodes} across {2.0 * side:g} semi-axes, takes at least {least} there: sixteen "
+                "in the Hertz zone"
+            )
 
 
 class Solver(Table):

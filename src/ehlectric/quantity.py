@@ -96,6 +96,36 @@ def _factor(written: str, unit: str) -> float:
         raise ValueError(f"{written!r} is not a unit") from None
 
 
+def to_fraction(text: str) -> float:
+    """Part of one that a text in percent says.
+
+    Parameters
+    ----------
+    text : str
+        A number and a percent sign, or the word.
+
+    Returns
+    -------
+    float
+        The fraction, dimensionless.
+
+    Raises
+    ------
+    ValueError
+        Where the text is not a number in percent: no other unit is a part of something, though an angle is
+        dimensionless too.
+
+    Examples
+    --------
+    >>> to_fraction("3 %")
+    0.03
+    """
+    match = _NUMBER_AND_UNIT.fullmatch(text)
+    if match is None or match[2] not in ("%", "percent"):
+        raise ValueError("it is not a number in percent")
+    return float(f"{float(match[1]) / 100.0:.15g}")
+
+
 def length_unit(text: str) -> str:
     """The text, if it is a unit of length.
 
@@ -120,7 +150,7 @@ def length_unit(text: str) -> str:
 class Quantity:
     """Pydantic annotation: a float in SI, or a text with its unit, within bounds.
 
-    ``reason`` says why the bounds are there.
+    ``reason`` says why the bounds are there; a ``fraction`` may be a text in percent.
     """
 
     unit: str
@@ -129,6 +159,7 @@ class Quantity:
     least: float = -math.inf
     most: float = math.inf
     reason: str = ""
+    fraction: bool = False
 
     def __get_pydantic_core_schema__(self, _: Any, __: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.no_info_plain_validator_function(self.parse)
@@ -155,6 +186,8 @@ class Quantity:
     def _number(self, given: object) -> float:
         if isinstance(given, str) and self.unit:
             return to_si(given, self.unit)
+        if isinstance(given, str) and self.fraction:
+            return to_fraction(given)
         if isinstance(given, bool) or not isinstance(given, numbers.Real):
             raise ValueError("it is not a number")
         try:
@@ -166,6 +199,7 @@ class Quantity:
     def takes(self) -> str:
         """What the quantity takes, for messages."""
         text = f"a number in {self.unit} or a text with its unit" if self.unit else "a number"
+        text += " or a text in percent" if self.fraction else ""
         bounds = [
             f"{word} {bound:g}"
             for word, bound in (

@@ -20,7 +20,8 @@ _FORMULA_NAMES = {
 }
 
 
-def _table(title: str) -> Table:
+def plain_table(title: str) -> Table:
+    """A table of names, numbers and units, without lines."""
     table = Table(title=Text(title) if title else None, show_header=False, title_justify="left", box=None)
     table.add_column(style="bold")
     table.add_column(justify="right")
@@ -38,7 +39,7 @@ def _add_conditions(table: Table, conditions: Conditions) -> None:
 
 def conditions_table(case: Case, conditions: Conditions) -> Table:
     """What a case means, before it is solved."""
-    table = _table(case.title)
+    table = plain_table(case.title)
     table.add_row("reduced radius", f"{conditions.reduced_radius * 1e3:.4g}", "mm")
     table.add_row("reduced modulus", f"{conditions.reduced_modulus / 1e9:.4g}", "GPa")
     table.add_row("load per length", f"{conditions.load_per_length / 1e6:.4g}", "MN/m")
@@ -74,7 +75,7 @@ def conditions_summary(case: Case, conditions: Conditions) -> dict[str, Any]:
 def result_table(result: Result) -> Table:
     """The key figures of a solution, with the film formulas and their difference from it."""
     film, field, conditions = result.film, result.field, result.conditions
-    table = _table(result.case.title)
+    table = plain_table(result.case.title)
     if not result.converged:
         table.add_row("NOT CONVERGED", "", f"{film.status}: do not use these numbers", style="red")
     _add_conditions(table, conditions)

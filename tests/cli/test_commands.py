@@ -235,6 +235,34 @@ def test_init_writes_a_case_that_solves(ehlectric, tmp_path):
     assert ehlectric("init", "new.toml", "--force").returncode == 0
 
 
+def test_point_contacts_are_begun_and_checked(ehlectric, tmp_path):
+    assert ehlectric("init", "ball.toml", "--geometry", "point").returncode == 0
+    assert Case.from_toml(tmp_path / "ball.toml").contact.geometry == "point"
+    for path in ("ball.toml", EXAMPLES / "ball_contact.toml", EXAMPLES / "ball_bearing.toml"):
+        done = ehlectric("check", path)
+        assert (done.returncode, done.stderr) == (0, "")
+        for text in ("semi-axis, across", "Hamrock-Dowson, central", "Chittenden et al., minimum"):
+            assert text in done.stdout
+        assert all(len(line.rstrip()) <= 80 for line in done.stdout.splitlines())
+    wrong = ehlectric("init", "other.toml", "--geometry", "ball")
+    assert wrong.returncode == 2
+    assert wrong.stderr == "error: --geometry: got 'ball', takes one of line, point\n"
+
+
+def test_check_of_a_point_contact_as_json(ehlectric):
+    summary = json.loads(ehlectric("check", EXAMPLES / "ball_bearing.toml", "--json").stdout)
+    assert set(summary["groups"]) == {"moes_m", "moes_l"}
+    assert set(summary["hertz"]) == {"semi_axis_x", "semi_axis_y", "max_pressure"}
+    assert set(summary["film_formulas"]) == {"hamrock_dowson", "chittenden", "nijenbanning_venner_moes"}
+    contact = summary["inputs"]["contact"]
+    assert set(contact) == {
+        "geometry", "radius_x", "radius_y", "reduced_modulus", "load", "entrainment_speed",
+        "slide_to_roll_ratio",
+    }  # fmt: skip
+    # Of the bodies: 1/Rx = 1/24 + 1/5.953 per mm.
+    assert contact["radius_x"] == pytest.approx(4.7699e-3, rel=1e-4)
+
+
 def test_version(ehlectric):
     done = ehlectric("--version")
     assert done.returncode == 0
