@@ -16,7 +16,7 @@ from scipy import sparse
 from scipy.linalg import eigh, lapack
 
 from ehlectric.poisson import Across
-from ehlectric.typing import Array, Mask
+from ehlectric.typing import Array, IntArray, Mask
 
 # A direction of at most this many nodes is not coarsened: three are the fewest whose couplings are distinct.
 COARSEST = 4
@@ -25,9 +25,10 @@ COARSEST = 4
 NEIGHBOURS = tuple(product((-1, 0, 1), repeat=2))
 
 
-def neighbour_offsets(ny: int) -> list[int]:
-    """Distances of the neighbours in the order of the columns, y fastest."""
-    return [i * ny + j for i, j in NEIGHBOURS]
+def neighbour_offsets(ny: int) -> IntArray:
+    """Distances of the neighbours in the order of the columns, y fastest, shape (9,)."""
+    offsets: IntArray = np.array(NEIGHBOURS) @ np.array([ny, 1])
+    return offsets
 
 
 def gap_modes(across: Across) -> tuple[Array, Array]:
@@ -162,10 +163,10 @@ def _with_identity(matrix: sparse.csr_array, free: Mask) -> sparse.csr_array:
     return sparse.csr_array(matrix + sparse.diags_array((~free).astype(float)))
 
 
-def _diagonals(matrix: sparse.csr_array, offsets: list[int]) -> Array:
+def _diagonals(matrix: sparse.csr_array, offsets: IntArray) -> Array:
     """Diagonals of a square matrix as scipy stores them: an entry stands at its column."""
-    data = np.zeros((len(offsets), matrix.shape[0]))
-    for row, offset in zip(data, offsets, strict=True):
+    data = np.zeros((offsets.size, matrix.shape[0]))
+    for row, offset in zip(data, offsets.tolist(), strict=True):
         diagonal = matrix.diagonal(offset)
         start = max(offset, 0)
         row[start : start + diagonal.size] = diagonal

@@ -189,7 +189,7 @@ class Quadrature:
             for block, (k, m) in zip(blocks, _CORNERS, strict=True):
                 diagonal = data[NEIGHBOURS.index((k - i, m - j))]
                 diagonal[k : k + nx - 1, m : m + ny - 1] += block
-        offsets = [ns * offset for offset in neighbour_offsets(ny)]
+        offsets = ns * neighbour_offsets(ny)
         return sparse.dia_array((data.reshape(9, -1), offsets), shape=(nx * ny * ns, nx * ny * ns))
 
     def charge(self, density: Array) -> Array:
