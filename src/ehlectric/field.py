@@ -10,9 +10,7 @@ from scipy.constants import epsilon_0
 from ehlectric.poisson import Across, BandedSolver, Elements, FieldProblem, Quadrature, nodal_values
 from ehlectric.threads import one_blas_thread
 from ehlectric.typing import Array, Mask
-
-# The zone of high field is where the field is at least this part of its maximum.
-HIGH_FIELD = 0.95
+from ehlectric.zones import HIGH_FIELD
 
 
 @dataclass(frozen=True)

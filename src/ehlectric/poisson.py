@@ -18,7 +18,7 @@ from scipy.special import eval_legendre, roots_jacobi
 from ehlectric.typing import Array
 
 # Two Gauss points along an element: more would not raise the order of linear elements.
-_GAUSS = np.array([0.5 - 0.5 / np.sqrt(3.0), 0.5 + 0.5 / np.sqrt(3.0)])
+GAUSS = np.array([0.5 - 0.5 / np.sqrt(3.0), 0.5 + 0.5 / np.sqrt(3.0)])
 
 
 def lobatto_nodes(degree: int) -> Array:
@@ -147,7 +147,7 @@ class Quadrature:
         slope = (np.diff(problem.lower)[:, np.newaxis] + np.diff(gap)[:, np.newaxis] * across.nodes) / dx[
             :, np.newaxis
         ]
-        shapes = np.stack([1.0 - _GAUSS, _GAUSS])
+        shapes = np.stack([1.0 - GAUSS, GAUSS])
         nodal = nodal_values(problem.permittivity, across.nodes.size)
         return cls(
             across=across,
@@ -204,7 +204,7 @@ class Quadrature:
         derivative = v @ self.across.derivative.T
         total = 0.0
         along = np.diff(v, axis=0) / self.dx[:, np.newaxis]
-        for g in range(_GAUSS.size):
+        for g in range(GAUSS.size):
             h = self.gap[:, g, np.newaxis]
             ds = self.shapes[0, g] * derivative[:-1] + self.shapes[1, g] * derivative[1:]
             square = (along - self.slope / h * ds) ** 2 + (ds / h) ** 2

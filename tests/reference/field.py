@@ -41,9 +41,10 @@ def sphere_images(radius, gap):
 
 
 def sphere_potential(rho, y, radius, gap):
-    """Potential between a grounded plane y = 0 and a sphere at 1 V, at the heights y (n,)."""
+    """Potential between a grounded plane y = 0 and a sphere at 1 V, at distances and heights of one shape."""
     heights, charges = sphere_images(radius, gap)
-    above, below = (np.hypot(rho, y[:, np.newaxis] + sign * heights) for sign in (-1, 1))
+    rho, y = np.broadcast_arrays(rho, y)
+    above, below = (np.hypot(rho[..., np.newaxis], y[..., np.newaxis] + sign * heights) for sign in (-1, 1))
     return (1 / above - 1 / below) @ charges / (4 * np.pi * epsilon_0)
 
 
@@ -51,3 +52,24 @@ def sphere_plane_charge(rho, radius, gap):
     """Charge of the plane within ``rho`` of the axis [C] at 1 V, in vacuum."""
     heights, charges = sphere_images(radius, gap)
     return np.sum(charges * (1 - heights / np.hypot(heights, rho)))
+
+
+def sphere_plane_capacitance(radius, gap):
+    """Of a sphere over a plane [F]: 4 pi eps0 r sinh(a) sum 1/sinh(n a), cosh(a) = 1 + h/r."""
+    a = np.arccosh(1 + gap / radius)
+    n = np.arange(1, int(np.ceil(40 / a)) + 1)
+    return 4 * np.pi * epsilon_0 * radius * np.sinh(a) * np.sum(1 / np.sinh(n * a))
+
+
+def egg_crate_wall(amplitude, qx, qy, gap):
+    """As ``sinusoidal_wall`` for the wall y = h - A cos(qx x) cos(qy y), at its crest x = y = 0.
+
+    Its square is (1 + cos 2 qx x)(1 + cos 2 qy y)/4: four waves of second order in place of two.
+    """
+    q, a = np.hypot(qx, qy), amplitude
+    coth = 1 / np.tanh(q * gap)
+    waves = 2 * np.array([qx, qy, q])
+    square = q * coth / 4
+    crest = 1 + a * q * coth + a**2 * (square * (1 / gap + np.sum(waves / np.tanh(waves * gap))) - q**2)
+    flat = 1 + a * q / np.sinh(q * gap) + a**2 * square * (1 / gap + np.sum(waves / np.sinh(waves * gap)))
+    return crest, flat, 1 + a**2 * q * coth / (4 * gap)
