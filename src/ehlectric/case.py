@@ -12,12 +12,12 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any, Self
 
-from pydantic import AfterValidator, BaseModel
+from pydantic import AfterValidator, BaseModel, model_validator
 
 from ehlectric.contact_inputs import CONTACT_ALTERNATIVES, Contact
 from ehlectric.errors import InputError, shown
 from ehlectric.inputs import Electric, Grid, Lubricant, Solver
-from ehlectric.roughness_inputs import Roughness
+from ehlectric.roughness_inputs import Roughness, check_geometry
 from ehlectric.validation import Table
 
 
@@ -54,6 +54,11 @@ class Case(Table):
     electric: Electric = Electric()
     grid: Grid = Grid()
     solver: Solver = Solver()
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        check_geometry(self.roughness, self.contact.geometry)
+        return self
 
     @classmethod
     def from_toml(cls, path: str | Path) -> Self:

@@ -27,6 +27,9 @@ LEAST_CUTOFF = 4.0
 # Rq below which a profile is flat [m]: a hundredth of an atom, and more than rounding leaves of a constant.
 FLAT = 1e-12
 
+# Part of a profile over which its ends are blended or faded where it is continued.
+TAPER = 0.05
+
 # Points below which a profile has no statistics worth the name.
 LEAST_POINTS = 16
 
@@ -127,9 +130,14 @@ def statistics(profile: Profile) -> Statistics:
 
 def _correlation_length(z: Array, spacing: float) -> float:
     covariance = convolved(z, z[::-1])[z.size - 1 :] / np.arange(z.size, 0, -1)
+    return first_below(covariance, spacing)
+
+
+def first_below(covariance: Array, spacing: float) -> float:
+    """Where an autocovariance falls to 1/e of its first value [m]; its whole length where it does not."""
     below = np.flatnonzero(covariance < covariance[0] / np.e)
     if below.size == 0:
-        return (z.size - 1) * spacing
+        return float((covariance.size - 1) * spacing)
     k = int(below[0])
     step = (covariance[k - 1] - covariance[0] / np.e) / (covariance[k - 1] - covariance[k])
     return float((k - 1 + step) * spacing)
