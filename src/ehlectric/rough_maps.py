@@ -181,10 +181,26 @@ def measured_map(table: Roughness) -> RoughMap:
     read = read_surface(table.file, x_unit=table.x_unit, z_unit=table.z_unit)
     if read.spacing_y is None or table.line is not None:
         return _extended(table)
+    return whole_map(table, read)
+
+
+def whole_map(table: Roughness, read: Surface | None = None) -> RoughMap:
+    """The rough surface of all that a file holds, whatever has been read of it already.
+
+    Raises
+    ------
+    InputError
+        Where the file is no map, or the table asks for a line of it.
+    """
+    assert table.file is not None
+    if table.line is not None:
+        raise InputError(f"line: got {table.line} for a whole map, takes one or the other")
     if table.direction == "y":
         raise InputError(
             "roughness.direction: got 'y' for a whole map, takes along = 'column' to turn it, or a line of it"
         )
+    if read is None:
+        read = read_surface(table.file, x_unit=table.x_unit, z_unit=table.z_unit)
     return _of_map(table, read.map(along=table.along), read)
 
 
