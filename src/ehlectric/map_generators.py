@@ -27,8 +27,7 @@ MOST_POINTS = 20_000_000
 # Correlation lengths after which the kernel of a Gaussian map is cut: it is 1e-14 there.
 _GAUSSIAN_REACH = 4
 
-# Roll-off wavelengths after which the kernel of a self-affine map is cut: less than a hundredth of Rq is
-# beyond.
+# Roll-off wavelengths after which the kernel of a self-affine map is cut: some hundredth of Rq is beyond.
 _REACH = 4.0
 
 # The shortest wavelength of a self-affine map, in parts of the roll-off, where it is not given.
