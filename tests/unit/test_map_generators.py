@@ -1,6 +1,7 @@
 """Made maps: their variance, correlation, spectrum and shapes against theory, and one seed one surface."""
 
 from functools import partial
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -12,9 +13,7 @@ X = np.linspace(-4e-5, 3e-5, 71)
 
 GAUSSIAN = partial(map_generators.gaussian, rq=1e-8, correlation_length=5e-6)
 RIDGES = partial(GAUSSIAN, correlation_length_y=2e-5)
-SELF_AFFINE = partial(
-    map_generators.self_affine, rq=1e-8, hurst=0.6, rolloff_wavelength=2e-5, shortest=2e-6
-)
+SELF_AFFINE = partial(map_generators.self_affine, rq=1e-8, hurst=0.6, rolloff_wavelength=2e-5, shortest=2e-6)
 
 
 @pytest.mark.parametrize(("make", "across"), [(GAUSSIAN, 5e-6), (RIDGES, 2e-5)], ids=["round", "ridges"])
@@ -55,7 +54,7 @@ def test_self_affine_spectrum_has_its_slope(hurst):
     edges = np.geomspace(1.2 / 2e-5, 0.95 / 2e-6, 9)
     steep = np.abs(qx[:, np.newaxis]) > np.abs(qy) + 0 * q
     for part in (q > 0, steep, ~steep):
-        mean = [np.mean(power[part & (q >= a) & (q < b)]) for a, b in zip(edges, edges[1:], strict=False)]
+        mean = [np.mean(power[part & (q >= a) & (q < b)]) for a, b in pairwise(edges)]
         slope = np.polyfit(np.log(np.sqrt(edges[1:] * edges[:-1])), np.log(mean), 1)[0]
         assert slope == pytest.approx(-2 - 2 * hurst, abs=0.1)
     # Flat below the roll-off: as much power an area of the (qx, qy) plane in either half of it.
@@ -95,7 +94,7 @@ def test_shapes_cut_through_their_middle_are_those_of_profiles():
 
 
 def test_a_sinusoid_runs_along_its_orientation():
-    """Counter-clockwise from the x axis: at 30 degrees the crests lie on x cos 30 + y sin 30 = wavelength/4."""
+    """Counter-clockwise from the x axis: the crests lie on x cos 30 + y sin 30 = wavelength/4."""
     wave = partial(map_generators.sinusoid, amplitude=1e-8, wavelength=2e-5)
     np.testing.assert_array_equal(
         wave(X, 3e-6, phase=0.4), generators.sinusoid(X, amplitude=1e-8, wavelength=2e-5, phase=0.4)
