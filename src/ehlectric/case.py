@@ -17,7 +17,7 @@ from pydantic import AfterValidator, BaseModel, model_validator
 from ehlectric.contact_inputs import CONTACT_ALTERNATIVES, ONLY, Contact
 from ehlectric.errors import InputError, shown
 from ehlectric.inputs import POINT_GRID, POINT_GRID_KEYS, Electric, Grid, Lubricant, Solver
-from ehlectric.roughness_inputs import Roughness
+from ehlectric.roughness_inputs import Roughness, check_geometry
 from ehlectric.validation import Table
 
 
@@ -75,6 +75,7 @@ class Case(Table):
                         f"grid.{key}: got it in a line contact, which has no use for it; takes it where "
                         "contact.geometry is 'point'"
                     )
+        check_geometry(self.roughness, self.contact.geometry)
         return self
 
     @classmethod

@@ -197,8 +197,11 @@ def surface(
     file: Annotated[Path, typer.Argument(help="File of an instrument.", show_default=False)],
     x_unit: Annotated[str | None, typer.Option(help="Where the file does not say.")] = None,
     z_unit: Annotated[str | None, typer.Option(help="Where the file does not say.")] = None,
-    line: Annotated[int, typer.Option(help="Line of a map, from 0.")] = 0,
+    line: Annotated[int | None, typer.Option(help="Line of a map, from 0; 0 if not given.")] = None,
     along: Annotated[str, typer.Option(help="row or column.")] = "row",
+    whole: Annotated[
+        bool, typer.Option("--map", help="The whole map, as point contacts use it, not one line of it.")
+    ] = False,
     form: Annotated[str, typer.Option(help="none, mean, line or parabola.")] = "none",
     cutoff_long: Annotated[str | None, typer.Option(help="Removes longer waves.")] = None,
     cutoff_short: Annotated[str | None, typer.Option(help="Removes shorter waves.")] = None,
@@ -206,7 +209,7 @@ def surface(
     rescale_rq: Annotated[str | None, typer.Option(help="Rq to scale to.")] = None,
     truncate: Annotated[str | None, typer.Option(help="Height to cut at.")] = None,
     output: Annotated[
-        Path | None, typer.Option("--output", "-o", metavar="PNG", help="Draw the profile.")
+        Path | None, typer.Option("--output", "-o", metavar="PNG", help="Draw the profile or map.")
     ] = None,
     as_json: Json = False,
 ) -> None:
@@ -221,17 +224,19 @@ def surface(
     }  # fmt: skip
     with _user_errors():
         from ehlectric.report import surface_table
+        from ehlectric.rough_maps import whole_map
         from ehlectric.roughness_inputs import Roughness
         from ehlectric.store import prepare
         from ehlectric.walls import measured
 
         given = {key: value for key, value in table.items() if value is not None}
-        rough = measured(Roughness.from_dict({"surface": 1, "file": str(file)} | given))
+        asked = Roughness.from_dict({"surface": 1, "file": str(file)} | given)
+        rough = whole_map(asked) if whole else measured(asked)
         if output is not None:
             prepare(output.parent, [output.name])
-            from ehlectric.plot import save_profile
+            from ehlectric.surface_plot import save_surface
 
-            save_profile(rough.steps, output)
+            save_surface(rough.steps, output)
     described = rough.describe()
     if as_json:
         typer.echo(json.dumps(described, indent=2))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -20,13 +20,11 @@ from ehlectric.drawing import (
     figure_of,
     in_half_widths,
     label_position,
-    new_panels,
     style,
     unit_for,
 )
 from ehlectric.hertz import line_pressure
 from ehlectric.result import Result
-from ehlectric.roughness import Profile, statistics
 from ehlectric.store import FIGURE_FILES, ROUGHNESS_FIGURE, whole
 from ehlectric.typing import Array
 
@@ -260,46 +258,6 @@ def field_deviation(result: Result, ax: Axes | None = None) -> Axes:
     ax.margins(y=0.1)
     ax.legend(loc="best", frameon=False)
     return ax
-
-
-def profile(drawn: Profile, ax: Axes | None = None) -> Axes:
-    """Heights of a profile about their mean, with its Rq.
-
-    Parameters
-    ----------
-    drawn : Profile
-        What to draw.
-    ax : Axes, optional
-        Where to; new axes otherwise.
-
-    Returns
-    -------
-    Axes
-        With the unit of height that fits.
-    """
-    ax = axes_or_new(ax)
-    heights = drawn.heights - np.mean(drawn.heights)
-    factor, unit = unit_for(float(np.max(np.abs(heights))), "m", least=1.0)
-    along, length = unit_for(drawn.length, "m")
-    ax.plot(along * drawn.x, factor * heights, color=BLUE, lw=0.7)
-    s = statistics(drawn)
-    scale, prefixed = unit_for(s.rq, "m", least=1.0)
-    amplitudes = f"Rq {scale * s.rq:.3g} {prefixed}, Ra {scale * s.ra:.3g} {prefixed}"
-    ax.set_title(f"{amplitudes}, Rsk {s.rsk:.2f}, Rku {s.rku:.1f}", loc="right")
-    ax.set(xlabel=f"$x$ [{length}]", ylabel=f"height [{unit}]")
-    ax.set_xlim(along * drawn.x[0], along * drawn.x[-1])
-    return ax
-
-
-def save_profile(steps: Sequence[tuple[str, Profile]], path: Path) -> None:
-    """Draw a profile as read and after its last step as a PNG file."""
-    with style():
-        shown = [steps[0], steps[-1]] if len(steps) > 1 else [steps[0]]
-        panels = new_panels(len(shown), 1, (6.3, 4.2))
-        for ax, (name, step) in zip(panels, shown, strict=True):
-            profile(step, ax).set_title(name if step is steps[0][1] else "after the last step", loc="left")
-        with whole(path) as beside:
-            figure_of(panels[0]).savefig(beside)
 
 
 def roughness(result: Result, ax: Axes | None = None) -> Axes:

@@ -1,13 +1,14 @@
 """Roughness profiles: form removal, Gaussian filter, cutting, and statistics.
 
 Heights are positive out of the body, so that a peak narrows the gap. A profile is equally spaced, and its
-midpoint lies at x = 0.
+midpoint lies at x = 0. Maps, in ``ehlectric.topography``, go through the same steps.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Literal, TypeAlias
+from typing import Generic, Literal, Protocol, Self, TypeAlias, TypeVar
 
 import numpy as np
 
@@ -26,12 +27,15 @@ LEAST_CUTOFF = 4.0
 # Rq below which a profile is flat [m]: a hundredth of an atom, and more than rounding leaves of a constant.
 FLAT = 1e-12
 
+# Part of a profile over which its ends are blended or faded where it is continued.
+TAPER = 0.05
+
 # Points below which a profile has no statistics worth the name.
 LEAST_POINTS = 16
 
 
 def convolved(values: Array, kernel: Array) -> Array:
-    """Full convolution of two sequences (n,) and (m,) by FFT, shape (n + m - 1,)."""
+    """Full convolution of two arrays of n and m points along each axis by FFT, n + m - 1 points long."""
     from scipy.signal import fftconvolve  # half a second to import, and smooth contacts need none
 
     convolution: Array = fftconvolve(values, kernel)
@@ -55,6 +59,10 @@ class Profile:
     def length(self) -> float:
         """Distance of the last point from the first [m]."""
         return (self.heights.size - 1) * self.spacing
+
+    def with_heights(self, heights: Array) -> Self:
+        """The profile with other heights at its points [m]."""
+        return replace(self, heights=heights)
 
 
 @dataclass(frozen=True)
@@ -122,9 +130,14 @@ def statistics(profile: Profile) -> Statistics:
 
 def _correlation_length(z: Array, spacing: float) -> float:
     covariance = convolved(z, z[::-1])[z.size - 1 :] / np.arange(z.size, 0, -1)
+    return first_below(covariance, spacing)
+
+
+def first_below(covariance: Array, spacing: float) -> float:
+    """Where an autocovariance falls to 1/e of its first value [m]; its whole length where it does not."""
     below = np.flatnonzero(covariance < covariance[0] / np.e)
     if below.size == 0:
-        return (z.size - 1) * spacing
+        return float((covariance.size - 1) * spacing)
     k = int(below[0])
     step = (covariance[k - 1] - covariance[0] / np.e) / (covariance[k - 1] - covariance[k])
     return float((k - 1 + step) * spacing)
@@ -157,6 +170,44 @@ def without_form(profile: Profile, form: Form) -> Profile:
     t = profile.x / max(profile.length, profile.spacing)
     fit = np.polynomial.Polynomial.fit(t, profile.heights, FORM_DEGREES[form])
     return replace(profile, heights=profile.heights - fit(t))
+
+
+def gaussian_weights(spacing: float, cutoff: float, length: float) -> Array:
+    """Weights of the Gaussian filter at the distances -reach to reach, their sum one.
+
+    Parameters
+    ----------
+    spacing, cutoff : float
+        Of the points, and the cutoff wavelength [m].
+    length : float
+        Of what is filtered [m].
+
+    Returns
+    -------
+    ndarray, shape (2 reach + 1,)
+        Beyond a distance of one cutoff the weight is a millionth of that in the middle.
+
+    Raises
+    ------
+    InputError
+        As ``waviness`` does.
+
+    Examples
+    --------
+    >>> weights = gaussian_weights(1.0, 8.0, 100.0)
+    >>> weights.size, round(float(weights.sum()), 12)
+    (17, 1.0)
+    """
+    if not LEAST_CUTOFF * spacing <= cutoff <= length:
+        raise InputError(
+            f"cutoff: got {cutoff * 1e6:.4g} µm, takes a length between four spacings and the whole surface, "
+            f"{LEAST_CUTOFF * 1e6 * spacing:.4g} to {1e6 * length:.4g} µm"
+        )
+    reach = int(np.ceil(cutoff / spacing))
+    distance = np.arange(-reach, reach + 1) * spacing
+    weights = np.exp(-np.pi * (distance / (ALPHA * cutoff)) ** 2)
+    normalised: Array = weights / weights.sum()
+    return normalised
 
 
 def waviness(profile: Profile, cutoff: float) -> Profile:
@@ -194,16 +245,8 @@ def waviness(profile: Profile, cutoff: float) -> Profile:
     >>> round(float(np.max(waviness(profile, 8.0).heights[1000:3000])), 3)
     0.5
     """
-    if not LEAST_CUTOFF * profile.spacing <= cutoff <= profile.length:
-        raise InputError(
-            f"cutoff: got {cutoff * 1e6:.4g} µm, takes a length between four spacings and the whole profile, "
-            f"{LEAST_CUTOFF * 1e6 * profile.spacing:.4g} to {1e6 * profile.length:.4g} µm"
-        )
-    # Beyond one cutoff the weight is a millionth of that in the middle.
-    reach = int(np.ceil(cutoff / profile.spacing))
-    distance = np.arange(-reach, reach + 1) * profile.spacing
-    weights = np.exp(-np.pi * (distance / (ALPHA * cutoff)) ** 2)
-    weights /= weights.sum()
+    weights = gaussian_weights(profile.spacing, cutoff, profile.length)
+    reach = weights.size // 2
     total = convolved(profile.heights, weights)[reach : reach + profile.heights.size]
     share = convolved(np.ones_like(profile.heights), weights)
     return replace(profile, heights=total / share[reach : reach + profile.heights.size])
@@ -244,6 +287,67 @@ class Processing:
     truncate: float | None = None
 
 
+class Points(Protocol):
+    """Heights over equally spaced points: a profile or a map."""
+
+    @property
+    def heights(self) -> Array:
+        """Heights [m]."""
+
+    def with_heights(self, heights: Array) -> Self:
+        """The same points with other heights [m]."""
+
+
+S = TypeVar("S", bound=Points)
+
+
+@dataclass(frozen=True)
+class Operations(Generic[S]):
+    """What the steps do to profiles or to maps: form removal, Gaussian filter, trim."""
+
+    without_form: Callable[[S, Form], S]
+    waviness: Callable[[S, float], S]
+    trimmed: Callable[[S, float], S]
+
+
+def rms(heights: Array) -> float:
+    """Root mean square of heights about their mean [m]: Rq of a profile, Sq of a map."""
+    return float(np.sqrt(np.mean((heights - np.mean(heights)) ** 2)))
+
+
+def in_order(first: S, steps: Processing, do: Operations[S]) -> list[tuple[str, S]]:
+    """A profile or map after every step of ``processed``, by the operations that fit it."""
+    done = [("as read", first)]
+
+    def add(name: str, after: S) -> None:
+        done.append((name, after))
+
+    if steps.form != "none":
+        add(f"form: {steps.form}", do.without_form(done[-1][1], steps.form))
+    if steps.cutoff_long is not None:
+        before = done[-1][1]
+        short = before.heights - do.waviness(before, steps.cutoff_long).heights
+        add(f"cutoff_long: {steps.cutoff_long * 1e6:.4g} µm", before.with_heights(short))
+    if steps.cutoff_short is not None:
+        add(f"cutoff_short: {steps.cutoff_short * 1e6:.4g} µm", do.waviness(done[-1][1], steps.cutoff_short))
+    cutoffs = [c for c in (steps.cutoff_long, steps.cutoff_short) if c is not None]
+    trim = steps.trim if steps.trim is not None else 0.5 * max(cutoffs, default=0.0)
+    if trim > 0.0:
+        rest = do.trimmed(done[-1][1], trim)
+        centred = rest if steps.form == "none" else do.without_form(rest, "mean")
+        add(f"trim: {trim * 1e6:.4g} µm at each end", centred)
+    if steps.rescale_rq is not None:
+        rq = rms(done[-1][1].heights)
+        if rq < FLAT:
+            raise InputError("rescale_rq: got a flat surface, takes one with some height")
+        scaled = done[-1][1].heights * (steps.rescale_rq / rq)
+        add(f"rescale_rq: {steps.rescale_rq * 1e9:.4g} nm", done[-1][1].with_heights(scaled))
+    if steps.truncate is not None:
+        cut = np.clip(done[-1][1].heights, -steps.truncate, steps.truncate)
+        add(f"truncate: {steps.truncate * 1e9:.4g} nm", done[-1][1].with_heights(cut))
+    return done
+
+
 def processed(profile: Profile, steps: Processing) -> list[tuple[str, Profile]]:
     """A profile after every step, with what the step was; the first is the profile as it came.
 
@@ -271,32 +375,4 @@ def processed(profile: Profile, steps: Processing) -> list[tuple[str, Profile]]:
     >>> [name for name, _ in processed(profile, Processing(form="line"))]
     ['as read', 'form: line']
     """
-    done = [("as read", profile)]
-
-    def add(name: str, after: Profile) -> None:
-        done.append((name, after))
-
-    if steps.form != "none":
-        add(f"form: {steps.form}", without_form(done[-1][1], steps.form))
-    if steps.cutoff_long is not None:
-        before = done[-1][1]
-        short = before.heights - waviness(before, steps.cutoff_long).heights
-        add(f"cutoff_long: {steps.cutoff_long * 1e6:.4g} µm", replace(before, heights=short))
-    if steps.cutoff_short is not None:
-        add(f"cutoff_short: {steps.cutoff_short * 1e6:.4g} µm", waviness(done[-1][1], steps.cutoff_short))
-    cutoffs = [c for c in (steps.cutoff_long, steps.cutoff_short) if c is not None]
-    trim = steps.trim if steps.trim is not None else 0.5 * max(cutoffs, default=0.0)
-    if trim > 0.0:
-        rest = trimmed(done[-1][1], trim)
-        centred = rest if steps.form == "none" else without_form(rest, "mean")
-        add(f"trim: {trim * 1e6:.4g} µm at each end", centred)
-    if steps.rescale_rq is not None:
-        rq = statistics(done[-1][1]).rq
-        if rq < FLAT:
-            raise InputError("rescale_rq: got a flat profile, takes one with some height")
-        scaled = done[-1][1].heights * (steps.rescale_rq / rq)
-        add(f"rescale_rq: {steps.rescale_rq * 1e9:.4g} nm", replace(done[-1][1], heights=scaled))
-    if steps.truncate is not None:
-        cut = np.clip(done[-1][1].heights, -steps.truncate, steps.truncate)
-        add(f"truncate: {steps.truncate * 1e9:.4g} nm", replace(done[-1][1], heights=cut))
-    return done
+    return in_order(profile, steps, Operations(without_form, waviness, trimmed))

@@ -15,13 +15,21 @@ from ehlectric.errors import InputError
 from ehlectric.instrument_files import HeightMap, read_al3d, read_x3p
 from ehlectric.roughness import LEAST_POINTS, Profile
 from ehlectric.text_files import is_text, read_text
+from ehlectric.topography import Map
 from ehlectric.typing import Array
+from ehlectric.voids import filled, without_void_borders
 
 # Largest believable slope between neighbours: beyond 5 (79 degrees) no instrument sees a flank.
 STEEPEST = 5.0
 
-# Part of a line that may be void and is then filled by straight lines.
+# Part of a line or map that may be void and is then filled.
 MOST_VOID = 0.2
+
+# Points of a map beyond which it is not processed: each step of many keeps a copy of it.
+MOST_MAP_POINTS = 20_000_000
+
+# Part of the slopes of a map that may be steeper than any: a few pixels of dust or noise.
+_MOST_STEEP = 0.01
 
 # Spacings and heights between which something is a measured surface [m].
 FINEST, COARSEST = 1e-12, 1e-3
@@ -97,8 +105,47 @@ class Surface:
         x = np.arange(z.size)
         # Voids at the ends hold nothing to go on: they are left out.
         first, last = x[there][[0, -1]]
-        filled = np.interp(x, x[there], z[there])[first : last + 1]
-        return _checked(Profile(spacing, filled), self.source)
+        whole = np.interp(x, x[there], z[there])[first : last + 1]
+        return _checked(Profile(spacing, whole), self.source)
+
+    def map(self, *, along: str = "row") -> Map:
+        """The whole surface as a map, its voids filled by a harmonic function.
+
+        Parameters
+        ----------
+        along : str
+            What lies along x: "row", and then y runs with the number of the row; or "column", and then y runs
+            against that of the column: the surface is turned, not mirrored.
+
+        Returns
+        -------
+        Map
+            Less the borders that are void throughout, ready to be processed.
+
+        Raises
+        ------
+        InputError
+            Where it is a single line, has too many points, or too much of it is void.
+        """
+        if self.spacing_y is None:
+            raise InputError(f"{self.source}: is a profile, takes a map of several rows")
+        if self.heights.size > MOST_MAP_POINTS:
+            raise InputError(
+                f"{self.source}: has {self.heights.size:.3g} points, takes a map of at most "
+                f"{MOST_MAP_POINTS:.0e}; cut it where it was measured, or take a line of it"
+            )
+        rows = without_void_borders(self.heights)
+        there = int(np.isfinite(rows).sum())
+        if min(rows.shape) < LEAST_POINTS or there < (1.0 - MOST_VOID) * rows.size:
+            raise InputError(
+                f"{self.source}: has data at {there} of {rows.shape[0]} x {rows.shape[1]} points, takes a "
+                f"map with at least {LEAST_POINTS} each way and {100 * (1 - MOST_VOID):.0f} %"
+            )
+        if along == "row":
+            dx, dy, heights = self.spacing_x, self.spacing_y, rows.T
+        else:
+            dx, dy, heights = self.spacing_y, self.spacing_x, rows[:, ::-1]
+        return _checked_map(Map(dx, dy, filled(np.ascontiguousarray(heights), dx, dy)), self.source)
 
 
 def _checked(profile: Profile, source: str) -> Profile:
@@ -116,6 +163,25 @@ def _checked(profile: Profile, source: str) -> Profile:
             "a surface, whose heights range over less than its length; are x_unit and z_unit right?"
         )
     return profile
+
+
+def _checked_map(surface: Map, source: str) -> Map:
+    """The map, unless its heights cannot be those of a surface."""
+    z = surface.heights
+    slopes = [np.abs(np.diff(z, axis=0)) / surface.spacing_x, np.abs(np.diff(z, axis=1)) / surface.spacing_y]
+    steep = max(float(np.mean(slope > STEEPEST)) for slope in slopes)
+    if steep > _MOST_STEEP:
+        raise InputError(
+            f"{source}: {100 * steep:.2g} % of the slopes between neighbours are above {STEEPEST:g}, takes "
+            f"a map with up to {100 * _MOST_STEEP:g} %; are its units right?"
+        )
+    height, length = float(np.ptp(z)), max(surface.length_x, surface.length_y)
+    if height > length:
+        raise InputError(
+            f"{source}: the heights range over {height:.3g} m, the map over {length:.3g} m, takes a surface, "
+            "whose heights range over less than its length; are its units right?"
+        )
+    return surface
 
 
 def read_surface(path: str | Path, *, x_unit: str | None = None, z_unit: str | None = None) -> Surface:

@@ -7,7 +7,7 @@ What is doubtful about all this before any film is solved, ``remarks`` says.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import partial
 from itertools import chain
@@ -20,13 +20,11 @@ from ehlectric import generators
 from ehlectric.case import Case
 from ehlectric.conditions import Conditions
 from ehlectric.errors import InputError
-from ehlectric.roughness import LEAST_POINTS, Processing, Profile, processed, statistics
+from ehlectric.roughness import LEAST_POINTS, TAPER, Points, Processing, Profile, processed, rms, statistics
 from ehlectric.roughness_inputs import GENERATORS, SHAPES, Roughness
 from ehlectric.surface_files import Surface, read_surface
+from ehlectric.topography import Map
 from ehlectric.typing import Array
-
-# Part of a profile over which its ends are blended or faded where it is continued.
-TAPER = 0.05
 
 # Part of the domain that one correlation length or roll-off wavelength may take: with fewer than ten of them
 # its statistics are those of chance.
@@ -37,9 +35,9 @@ _MARGIN = 64
 
 # Grid spacings in a correlation length, and in a wavelength or the width of a feature, below which they are
 # not resolved, and the part of a profile's variance that a grid may miss.
-_LEAST_IN_CORRELATION = 2.0
-_LEAST_IN_SHAPE = 8.0
-_MOST_MISSED = 0.01
+LEAST_IN_CORRELATION = 2.0
+LEAST_IN_SHAPE = 8.0
+MOST_MISSED = 0.01
 
 # Part of a profile's points that may be cut off without a word.
 _MOST_CUT = 0.05
@@ -140,15 +138,15 @@ def measured(table: Roughness) -> RoughSurface:
     """
     assert table.file is not None
     surface = read_surface(table.file, x_unit=table.x_unit, z_unit=table.z_unit)
-    return _of_profile(table, surface.line(table.line, along=table.along), surface)
+    return _of_profile(table, surface.line(table.line or 0, along=table.along), surface)
 
 
 def _of_profile(table: Roughness, profile: Profile, read: Surface | None) -> RoughSurface:
     steps = processed(profile, processing_of(table))
     last = steps[-1][1]
     height = _shifted(_cut(continued(last, table.extend), table.truncate), table.shift)
-    voids = None if read is None else read.line_voids(table.line, along=table.along)
-    doubts = (*(read.remarks if read else ()), *_step_remarks(table, steps, voids))
+    voids = None if read is None else read.line_voids(table.line or 0, along=table.along)
+    doubts = (*(read.remarks if read else ()), *step_remarks(table, steps, voids))
     return RoughSurface(table.surface, height, read, steps, last.length, voids, doubts)
 
 
@@ -163,20 +161,20 @@ def _cut(height: Height, limit: float | None) -> Height:
     return height if limit is None else lambda x: np.clip(height(x), -limit, limit)
 
 
-def _step_remarks(
-    table: Roughness, steps: Sequence[tuple[str, Profile]], voids: float | None
-) -> Iterator[str]:
+def step_remarks(table: Roughness, steps: Sequence[tuple[str, Points]], voids: float | None) -> Iterator[str]:
+    """What is doubtful about the steps of a profile or map."""
     if voids:
+        of_map = isinstance(steps[0][1], Map)
         yield (
-            f"{100 * voids:.2g} % of the line of surface {table.surface} is void; voids within it were "
-            "filled by straight lines"
+            f"{100 * voids:.2g} % of the {'map' if of_map else 'line'} of surface {table.surface} is void; "
+            f"voids within it were filled {'as a soap film hangs in them' if of_map else 'by straight lines'}"
         )
     if table.truncate is not None:
         share = float(np.mean(np.abs(steps[-2][1].heights) > table.truncate))
         if share > _MOST_CUT:
             yield (
                 f"truncate cuts {100 * share:.2g} % of the points of surface {table.surface}, whose Rq is "
-                f"{statistics(steps[-2][1]).rq * 1e9:.3g} nm before it: what is left is another surface"
+                f"{rms(steps[-2][1].heights) * 1e9:.3g} nm before it: what is left is another surface"
             )
 
 
@@ -239,10 +237,15 @@ def remarks(case: Case, conditions: Conditions, rough: Sequence[RoughSurface]) -
                 f"domain needs {reach * 1e6:.4g} µm: it was continued by extend = {table.extend!r}"
             )
         if surface.steps:
-            yield from _profile_remarks(surface, dx, ends)
+            yield from profile_remarks(surface.surface, surface.steps[-1][1], dx, ends)
         else:
             yield from _shape_remarks(table, dx, ends)
-    for seed, times in Counter(table.seed for table in case.roughness if table.seed is not None).items():
+    yield from same_seeds(case.roughness)
+
+
+def same_seeds(tables: Iterable[Roughness]) -> Iterator[str]:
+    """Made surfaces that are not independent of each other."""
+    for seed, times in Counter(table.seed for table in tables if table.seed is not None).items():
         if times > 1:
             yield (
                 f"{times} rough surfaces have the seed {seed}: they are made of the same random numbers and "
@@ -250,7 +253,8 @@ def remarks(case: Case, conditions: Conditions, rough: Sequence[RoughSurface]) -
             )
 
 
-def _unresolved(dx: float, what: str, length: float) -> str:
+def unresolved(dx: float, what: str, length: float) -> str:
+    """That a grid is too coarse for something; the text before its length is ``what``."""
     return (
         f"the grid, {dx * 1e6:.3g} µm, does not resolve {what} is {length * 1e6:.3g} µm: its error estimate "
         "means nothing yet"
@@ -266,23 +270,22 @@ def _shape_remarks(table: Roughness, dx: float, ends: tuple[float, float]) -> It
         return
     # The rim of a pit is half as wide as the pit.
     finest = 0.5 * length if table.rim else length
-    if dx > finest / _LEAST_IN_SHAPE:
+    if dx > finest / LEAST_IN_SHAPE:
         whose = f"the {'rim of the ' if table.rim else ''}{table.generator} of surface {table.surface}"
-        yield _unresolved(dx, f"{whose}, whose {name}", finest)
+        yield unresolved(dx, f"{whose}, whose {name}", finest)
 
 
-def _profile_remarks(surface: RoughSurface, dx: float, ends: tuple[float, float]) -> Iterator[str]:
-    """Profiles finer than the grid."""
-    last = surface.steps[-1][1]
+def profile_remarks(surface: int, last: Profile, dx: float, ends: tuple[float, float]) -> Iterator[str]:
+    """A surface whose profile, after the last step, is finer than the grid."""
     length = statistics(last).correlation_length
-    if dx > length / _LEAST_IN_CORRELATION:
-        whose = f"the profile of surface {surface.surface}, whose correlation length"
-        yield _unresolved(dx, whose, length)
+    if dx > length / LEAST_IN_CORRELATION:
+        whose = f"the profile of surface {surface}, whose correlation length"
+        yield unresolved(dx, whose, length)
     missed = variance_beyond(last, 0.5 / dx, ends)
-    if missed > _MOST_MISSED:
+    if missed > MOST_MISSED:
         yield (
             f"the grid, {dx * 1e6:.3g} µm, misses {100 * missed:.2g} % of the variance of surface "
-            f"{surface.surface}, in waves shorter than two spacings; take more grid.nodes, or a cutoff_short "
+            f"{surface}, in waves shorter than two spacings; take more grid.nodes, or a cutoff_short "
             f"of {4e6 * dx:.3g} µm or more"
         )
 

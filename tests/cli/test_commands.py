@@ -9,7 +9,7 @@ import time
 import pytest
 
 from ehlectric import Case, load
-from tests.cli.conftest import CASE, COMMAND, EXAMPLES
+from tests.cli.conftest import CASE, COMMAND, EXAMPLES, SURFACES
 
 FIGURES = {"film.png", "potential.png", "field_strength.png", "field_profiles.png", "field_deviation.png"}
 DATA = {"summary.json", "result.nc", "film.csv"}
@@ -179,6 +179,23 @@ def test_surface_shows_every_step(ehlectric, tmp_path):
     for text in ("form: parabola", "cutoff_long: 80", "trim: 40", "truncate: 50", "9600", "0.156245"):
         assert text in done.stdout
     assert (tmp_path / "profile.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_surface_shows_the_whole_map(ehlectric, tmp_path):
+    """Sq 290 nm after a plane is recorded with the file; without --map its first row is shown."""
+    words = ["surface", SURFACES / "al3d-1.al3d", "--form", "line", "--cutoff-long", "30 um"]
+    done = ehlectric(*words, "--map", "-o", "map.png")
+    assert done.returncode == 0, done.stderr
+    for text in ("Sq", "200x296", "289.8", "cutoff_long: 30", "132x228", "0.438027 x 0.438027"):
+        assert text in done.stdout
+    assert (tmp_path / "map.png").read_bytes().startswith(b"\x89PNG")
+    (as_read, *_) = json.loads(ehlectric(*words, "--map", "--json").stdout)["steps"]
+    assert (as_read["points_x"], as_read["points_y"]) == (200, 296)
+    (as_read, *_) = json.loads(ehlectric(*words, "--json").stdout)["steps"]
+    assert as_read["points"] == 200
+    assert "line: got 3 for a whole map" in one_line(ehlectric(*words, "--map", "--line", "3"))
+    hfm = SURFACES / "hfm-1.hfm"
+    assert "is a profile, takes a map" in one_line(ehlectric("surface", hfm, "--map"))
 
 
 def test_surfaces_that_cannot_be_used(ehlectric, case_file, tmp_path):

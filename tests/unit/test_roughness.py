@@ -69,7 +69,7 @@ def test_steps_come_in_order_and_trim_by_half_a_cutoff():
 @pytest.mark.parametrize("form", ["none", "mean", "parabola"])
 def test_flat_profile_has_no_roughness_to_rescale(form):
     steps = Processing(form, None, None, None, 5e-8, None)
-    with pytest.raises(InputError, match="rescale_rq: got a flat profile"):
+    with pytest.raises(InputError, match="rescale_rq: got a flat surface"):
         processed(Profile(1e-6, np.full(100, 0.1)), steps)
 
 
