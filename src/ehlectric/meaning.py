@@ -1,4 +1,4 @@
-"""What a case means before it is solved, whichever its geometry: as a table, as JSON, and what is doubtful."""
+"""What a case means before it is solved, line or point: as a table, as JSON, and what is doubtful."""
 
 from __future__ import annotations
 
