@@ -136,7 +136,7 @@ point_grids = st.fixed_dictionaries(
         "outlet": st.floats(2.0, 50.0),
         "side": st.floats(1.3, 60.0),
         "wedge": st.sampled_from(["first-order", "second-order"]),
-        "field_range": st.tuples(st.floats(-2.0, -0.1), st.floats(0.1, 2.0)).map(list),
+        "field_range": st.tuples(st.floats(-2.0, -0.1), st.floats(0.1, 1.5)).map(list),
         "field_side": st.floats(1e-3, 1.3),
         "field_nodes": st.integers(17, 4097),
         "field_nodes_y": st.integers(17, 4097),

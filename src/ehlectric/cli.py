@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from importlib import resources
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -19,8 +19,6 @@ from ehlectric.version import __version__
 
 if TYPE_CHECKING:
     from rich.table import Table
-
-    from ehlectric.case import Case
 
 WRONG_INPUT = 2
 NOT_CONVERGED = 3
@@ -151,45 +149,16 @@ def check(case_file: CaseFile, quiet: Quiet = False, as_json: Json = False) -> N
         from ehlectric.case import Case
 
         case = Case.from_toml(case_file)
-        meaning = _point_meaning(case) if case.contact.geometry == "point" else _line_meaning(case)
-    table, summary, texts = meaning
+
+        from ehlectric.meaning import meaning
+
+        table, summary, texts = meaning(case)
     if as_json:
         typer.echo(json.dumps(summary, indent=2))
     elif not quiet:
         _print(table)
     if not quiet:
         _warn(texts)
-
-
-# Table, JSON and warnings of what a case means.
-_Meaning = tuple["Table", dict[str, Any], list[str]]
-
-
-def _line_meaning(case: Case) -> _Meaning:
-    from ehlectric.conditions import remarks, resolve
-    from ehlectric.memory import check_memory
-    from ehlectric.report import conditions_summary, conditions_table
-    from ehlectric.walls import remarks as rough_remarks
-    from ehlectric.walls import rough_surfaces
-
-    conditions = resolve(case)
-    rough = rough_surfaces(case, conditions)
-    check_memory(case)
-    texts = [*remarks(case, conditions), *rough_remarks(case, conditions, rough)]
-    return conditions_table(case, conditions), conditions_summary(case, conditions), texts
-
-
-def _point_meaning(case: Case) -> _Meaning:
-    from ehlectric.memory import check_memory
-    from ehlectric.point_conditions import point_remarks, resolve_point
-    from ehlectric.point_report import point_summary, point_table
-
-    if case.roughness:
-        raise InputError("roughness: got it in a point contact, takes a line contact so far")
-    conditions = resolve_point(case)
-    check_memory(case)
-    texts = list(point_remarks(case, conditions))
-    return point_table(case, conditions), point_summary(case, conditions), texts
 
 
 @app.command()

@@ -116,10 +116,8 @@ class Contact(Table):
         """Refuse keys of the other geometry, and bodies of a line with a part missing."""
         for key in ONLY[OTHER[self.geometry]]:
             if self.value(key) is not None:
-                takes = ", and ".join(
-                    " or ".join(" and ".join(row) for row in group)
-                    for group in CONTACT_ALTERNATIVES[self.geometry][::2][:2]
-                )
+                radii, _, load, _ = CONTACT_ALTERNATIVES[self.geometry]
+                takes = " or ".join(" and ".join(row) for row in (load if "load" in key else radii))
                 raise ValueError(
                     f"{key}: got it in a {self.geometry} contact, which has no use for it; takes {takes}"
                 )
