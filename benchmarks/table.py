@@ -27,7 +27,7 @@ from ehlectric.field import solve_field
 from ehlectric.film import solve_film
 from ehlectric.paper import fas, sor
 from ehlectric.paper.contacts import CONTACTS
-from ehlectric.solver import field_problem, film_problem
+from ehlectric.problems import field_problem, film_problem
 
 EHLECTRIC = Path(sys.executable).with_name("ehlectric")
 

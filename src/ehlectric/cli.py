@@ -95,19 +95,16 @@ def run(
         # Before all that solving takes: what is wrong with a case is said at once.
         case = Case.from_toml(case_file)
 
-        from ehlectric.conditions import resolve
-        from ehlectric.memory import check_memory
+        from ehlectric.meaning import check_case
         from ehlectric.paper.solvers import SOLVERS
         from ehlectric.solver import solve
-        from ehlectric.store import FIGURE_FILES, FILES, ROUGHNESS_FIGURE, clear, prepare, save
-        from ehlectric.walls import rough_surfaces
+        from ehlectric.store import ALL_FIGURES, FILES, clear, prepare, save
 
         if solver not in SOLVERS:
             raise InputError(f"--solver: got {shown(solver)}, takes one of {', '.join(SOLVERS)}")
-        rough_surfaces(case, resolve(case))
-        check_memory(case)
-        SOLVERS[solver].check(case.grid.nodes)
-        names = (*FILES, *FIGURE_FILES, ROUGHNESS_FIGURE)
+        check_case(case)
+        SOLVERS[solver].check(case)
+        names = (*FILES, *ALL_FIGURES)
         folder = prepare(output, names)
         with _progress(shown=not quiet) as stage:
             result = solve(
@@ -121,14 +118,15 @@ def run(
             clear(folder, names)
             files = save(result, folder)
             if plots:
-                from ehlectric.plot import save_figures
+                from ehlectric.figures import save_figures
 
                 stage("drawing figures")
                 files += save_figures(result, folder)
     if as_json:
         typer.echo(json.dumps(result.summary(), indent=2))
     elif not quiet:
-        from ehlectric.report import result_table, surface_table
+        from ehlectric.meaning import result_table
+        from ehlectric.report import surface_table
 
         for rough in result.rough:
             if rough["steps"]:
@@ -251,11 +249,11 @@ def plot(
 ) -> None:
     """Draw the figures of a result again."""
     with _user_errors():
-        from ehlectric.store import FIGURE_FILES, load, prepare
+        from ehlectric.store import ALL_FIGURES, load, prepare
 
         result = load(result_file)
-        folder = prepare(result_file.parent if output is None else output, FIGURE_FILES)
-        from ehlectric.plot import save_figures
+        folder = prepare(result_file.parent if output is None else output, ALL_FIGURES)
+        from ehlectric.figures import save_figures
 
         files = save_figures(result, folder)
     if not quiet:

@@ -1,4 +1,4 @@
-"""What a case means before it is solved, line or point: as a table, as JSON, and what is doubtful."""
+"""What a case of any contact means, as a table, as JSON and with its doubts; and its solution as a table."""
 
 from __future__ import annotations
 
@@ -8,11 +8,15 @@ from rich.table import Table
 
 from ehlectric.case import Case
 from ehlectric.conditions import remarks, resolve
-from ehlectric.errors import InputError
+from ehlectric.map_remarks import remarks as map_remarks
 from ehlectric.memory import check_memory
 from ehlectric.point_conditions import point_remarks, resolve_point
-from ehlectric.point_report import point_summary, point_table
-from ehlectric.report import conditions_summary, conditions_table
+from ehlectric.point_problems import domain_of, spacings
+from ehlectric.point_report import point_result_table, point_summary, point_table
+from ehlectric.point_result import PointResult
+from ehlectric.report import conditions_summary, conditions_table, line_result_table
+from ehlectric.result import Result
+from ehlectric.rough_maps import rough_maps
 from ehlectric.walls import remarks as rough_remarks
 from ehlectric.walls import rough_surfaces
 
@@ -52,9 +56,33 @@ def meaning(case: Case) -> tuple[Table, dict[str, Any], list[str]]:
     return conditions_table(case, conditions), conditions_summary(case, conditions), texts
 
 
+def check_case(case: Case) -> None:
+    """Refuse, before a folder is made for its results, a case that cannot be solved.
+
+    Raises
+    ------
+    InputError
+        As ``meaning`` does.
+    """
+    if case.contact.geometry == "point":
+        rough_maps(case.roughness, domain_of(case, resolve_point(case)))
+    else:
+        rough_surfaces(case, resolve(case))
+    check_memory(case)
+
+
+def result_table(result: Result | PointResult) -> Table:
+    """The key figures of a solution of any contact."""
+    return point_result_table(result) if isinstance(result, PointResult) else line_result_table(result)
+
+
 def _of_point(case: Case) -> tuple[Table, dict[str, Any], list[str]]:
-    if case.roughness:
-        raise InputError("roughness: got it in a point contact, takes a line contact so far")
     conditions = resolve_point(case)
     check_memory(case)
-    return point_table(case, conditions), point_summary(case, conditions), [*point_remarks(case, conditions)]
+    domain = domain_of(case, conditions)
+    rough = rough_maps(case.roughness, domain)
+    texts = [
+        *point_remarks(case, conditions),
+        *map_remarks(case.roughness, rough, domain, *spacings(case, conditions)),
+    ]
+    return point_table(case, conditions), point_summary(case, conditions), texts

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import textwrap
 from collections.abc import Callable
-from pathlib import Path
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -20,12 +18,11 @@ from ehlectric.drawing import (
     figure_of,
     in_half_widths,
     label_position,
-    style,
     unit_for,
 )
 from ehlectric.hertz import line_pressure
 from ehlectric.result import Result
-from ehlectric.store import FIGURE_FILES, ROUGHNESS_FIGURE, whole
+from ehlectric.store import FIGURE_FILES, ROUGHNESS_FIGURE
 from ehlectric.typing import Array
 
 
@@ -302,35 +299,6 @@ FIGURES: dict[str, Callable[..., Axes]] = dict(
 )
 
 
-def _figures_of(result: Result) -> dict[str, Callable[..., Axes]]:
+def figures_of(result: Result) -> dict[str, Callable[..., Axes]]:
+    """The figures of a result by the names of their files."""
     return FIGURES | ({ROUGHNESS_FIGURE: roughness} if np.any(result.roughness) else {})
-
-
-def save_figures(result: Result, folder: Path) -> list[Path]:
-    """Draw all figures as PNG files.
-
-    Parameters
-    ----------
-    result : Result
-        What to draw.
-    folder : Path
-        Where to; it must be there.
-
-    Returns
-    -------
-    list of Path
-        The files written.
-    """
-    title = textwrap.shorten(result.case.title, 45, placeholder=" ...")
-    files = []
-    with style():
-        for name, draw in _figures_of(result).items():
-            ax = draw(result)
-            if result.converged:
-                ax.set_title(title, loc="left", parse_math=False)
-            else:
-                ax.set_title("NOT CONVERGED", loc="left", color="red", weight="bold")
-            with whole(folder / name) as path:
-                figure_of(ax).savefig(path)
-            files.append(folder / name)
-    return files

@@ -1,4 +1,4 @@
-"""Tables for the terminal and JSON of a point contact: what its case means."""
+"""Tables for the terminal and JSON of a point contact: what its case means and what its solution is."""
 
 from __future__ import annotations
 
@@ -9,8 +9,17 @@ from rich.table import Table
 from ehlectric.case import Case
 from ehlectric.point_conditions import PointConditions
 from ehlectric.point_formulas import FORMULAS, regime
-from ehlectric.report import plain_table
-from ehlectric.result import SCHEMA
+from ehlectric.point_result import PointResult, point_hertz, point_inputs
+from ehlectric.report import (
+    add_field,
+    add_film,
+    add_formulas,
+    add_roughness,
+    add_status,
+    add_thin_gap,
+    plain_table,
+)
+from ehlectric.solution import SCHEMA
 
 FORMULA_NAMES = {
     "hamrock_dowson": "Hamrock-Dowson",
@@ -54,29 +63,6 @@ def point_table(case: Case, conditions: PointConditions) -> Table:
     return table
 
 
-def point_inputs(case: Case, conditions: PointConditions) -> dict[str, Any]:
-    """The case as nested tables, its alternatives resolved."""
-    inputs = case.to_dict()
-    names = ("radius_x", "radius_y", "reduced_modulus", "load", "entrainment_speed", "slide_to_roll_ratio")
-    inputs["contact"] = {"geometry": case.contact.geometry} | {
-        name: getattr(conditions, name) for name in names
-    }
-    inputs["grid"] |= {"side": conditions.side}
-    return inputs
-
-
-def point_groups(conditions: PointConditions) -> dict[str, Any]:
-    """Groups and dry contact, with the keys of summary.json."""
-    return {
-        "groups": {"moes_m": conditions.formulas.moes_m, "moes_l": conditions.formulas.moes_l},
-        "hertz": {
-            "semi_axis_x": conditions.semi_axis_x,
-            "semi_axis_y": conditions.semi_axis_y,
-            "max_pressure": conditions.max_pressure,
-        },
-    }
-
-
 def point_summary(case: Case, conditions: PointConditions) -> dict[str, Any]:
     """What a point contact's case means, SI units, with the keys of summary.json where they are the same."""
     formulas = conditions.formulas
@@ -84,8 +70,34 @@ def point_summary(case: Case, conditions: PointConditions) -> dict[str, Any]:
         "schema": SCHEMA.replace("summary", "check"),
         "title": case.title,
         "inputs": point_inputs(case, conditions),
-        **point_groups(conditions),
+        "groups": {"moes_m": formulas.moes_m, "moes_l": formulas.moes_l},
+        "hertz": point_hertz(conditions),
         "velocity_parameter": conditions.velocity_parameter,
         "regime": regime(formulas),
         "film_formulas": {name: vars(formula(formulas)) for name, formula in FORMULAS.items()},
     }
+
+
+def point_result_table(result: PointResult) -> Table:
+    """The key figures of a solution, with the film formulas and their difference from it."""
+    field, conditions = result.field, result.conditions
+    table = plain_table(result.case.title)
+    add_status(table, result)
+    add_point_conditions(table, conditions)
+    add_film(table, result, ("x/b, y/b", _in_semi_axes(result, result.film.minimum_position)))
+    nx, ny = result.film.thickness.shape
+    table.add_row("grid", f"{nx} x {ny}", "nodes")
+    add_field(table, result, ("x/b, y/b", _in_semi_axes(result, field.max_strength_position)))
+    table.add_row("area above 95 %", f"{field.high_field_area * 1e12:.4g}", "µm²")
+    table.add_row("capacitance, field range", f"{field.capacitance * 1e12:.4g}", "pF")
+    for name, zone in result.zones.items():
+        table.add_row(f"  {name}", f"{field.capacitance_of(zone) * 1e12:.4g}", "pF")
+    add_thin_gap(table, result)
+    if result.rough:
+        add_roughness(table, result)
+    add_formulas(table, result, FORMULA_NAMES)
+    return table
+
+
+def _in_semi_axes(result: PointResult, position: tuple[float, float]) -> str:
+    return ", ".join(f"{at / result.conditions.semi_axis_x:.3g}" for at in position)

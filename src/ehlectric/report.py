@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from rich.table import Table
@@ -10,7 +11,9 @@ from rich.text import Text
 from ehlectric.case import Case
 from ehlectric.conditions import Conditions
 from ehlectric.film_formulas import FORMULAS, regime
-from ehlectric.result import SCHEMA, Result, resolved_inputs
+from ehlectric.point_result import PointResult
+from ehlectric.result import Result, resolved_inputs
+from ehlectric.solution import SCHEMA
 
 _FORMULA_NAMES = {
     "dowson_higginson": "Dowson-Higginson",
@@ -72,16 +75,36 @@ def conditions_summary(case: Case, conditions: Conditions) -> dict[str, Any]:
     }
 
 
-def result_table(result: Result) -> Table:
+def line_result_table(result: Result) -> Table:
     """The key figures of a solution, with the film formulas and their difference from it."""
-    film, field, conditions = result.film, result.field, result.conditions
+    field, conditions = result.field, result.conditions
     table = plain_table(result.case.title)
-    if not result.converged:
-        table.add_row("NOT CONVERGED", "", f"{film.status}: do not use these numbers", style="red")
+    add_status(table, result)
     _add_conditions(table, conditions)
+    add_film(table, result, ("x/b", f"{result.film.minimum_position / conditions.half_width:.4g}"))
+    add_field(table, result, ("x/b", f"{field.max_strength_position / conditions.half_width:.4g}"))
+    table.add_row("width above 95 %", f"{field.high_field_width * 1e6:.4g}", "µm")
+    table.add_row("capacitance, field range", f"{field.capacitance * 1e9:.4g}", "nF/m")
+    add_thin_gap(table, result)
+    if result.rough:
+        table.add_row("field solved on", f"{field.x.size}", "columns")
+        add_roughness(table, result)
+    add_formulas(table, result, _FORMULA_NAMES)
+    return table
+
+
+def add_status(table: Table, result: Result | PointResult) -> None:
+    """A red row where a film is no solution."""
+    if not result.converged:
+        status = f"{result.film.status}: do not use these numbers"
+        table.add_row("NOT CONVERGED", "", status, style="red")
+
+
+def add_film(table: Table, result: Result | PointResult, minimum_at: tuple[str, str]) -> None:
+    """Rows of the film; where its minimum is, by name and value."""
+    film = result.film
     table.add_row("minimum film", f"{film.minimum_thickness * 1e6:.4g}", "µm")
-    position = film.minimum_position / conditions.half_width
-    table.add_row("  at x/b", f"{position:.4g}")
+    table.add_row(f"  at {minimum_at[0]}", minimum_at[1])
     table.add_row("central film", f"{film.central_thickness * 1e6:.4g}", "µm")
     table.add_row("mean film, Hertz zone", f"{film.mean_thickness * 1e6:.4g}", "µm")
     table.add_row("maximum pressure", f"{film.max_pressure / 1e9:.4g}", "GPa")
@@ -90,29 +113,34 @@ def result_table(result: Result) -> Table:
     steps = "V-cycles" if result.film_solver == "paper" else "Newton steps"
     table.add_row("residual", f"{film.residual:.1e}", f"{film.newton_iterations} {steps}")
     table.add_row("load residual", f"{film.load_residual:.1e}")
+
+
+def add_field(table: Table, result: Result | PointResult, maximum_at: tuple[str, str]) -> None:
+    """Rows of the field; where its maximum is, by name and value."""
+    field = result.field
     table.add_row("voltage", f"{field.voltage:.4g}", "V")
     table.add_row("maximum field", f"{field.max_strength / 1e6:.4g}", "V/µm")
-    position = field.max_strength_position / conditions.half_width
-    table.add_row("  at x/b", f"{position:.4g}", field.max_strength_wall if result.rough else "")
+    table.add_row(f"  at {maximum_at[0]}", maximum_at[1], field.max_strength_wall if result.rough else "")
     table.add_row("  times h_min/V12", f"{result.max_dimensionless:.4f}")
-    table.add_row("width above 95 %", f"{field.high_field_width * 1e6:.4g}", "µm")
-    table.add_row("capacitance, field range", f"{field.capacitance * 1e9:.4g}", "nF/m")
+
+
+def add_thin_gap(table: Table, result: Result | PointResult) -> None:
+    """A row of what the voltage over the minimum film misses."""
     if result.thin_gap_error is not None:
         table.add_row("V12/h_min below it by", f"{100 * result.thin_gap_error:.2g}", "%")
-    if result.rough:
-        roughness = result.summary()["roughness"]
-        table.add_row("field solved on", f"{field.x.size}", "columns")
-        for k in (1, 2):
-            table.add_row(f"Rq of surface {k}, Hertz zone", f"{roughness[f'rq_{k}'] * 1e9:.3g}", "nm")
-        if roughness["lambda_ratio"] is not None:
-            table.add_row("lambda ratio", f"{roughness['lambda_ratio']:.3g}", "minimum film over Rq of both")
-        if roughness["lambda_ratio_smooth"] is not None:
-            table.add_row("  of the smooth film", f"{roughness['lambda_ratio_smooth']:.3g}")
-        if result.smooth:
-            table.add_row("minimum film, smooth", f"{result.smooth.minimum_thickness * 1e6:.4g}", "µm")
-    _add_formulas(table, result)
-    table.add_row("time", f"{result.film_seconds + result.field_seconds:.2g}", "s")
-    return table
+
+
+def add_roughness(table: Table, result: Result | PointResult) -> None:
+    """Rows of a rough contact."""
+    roughness = result.summary()["roughness"]
+    for k in (1, 2):
+        table.add_row(f"Rq of surface {k}, Hertz zone", f"{roughness[f'rq_{k}'] * 1e9:.3g}", "nm")
+    if roughness["lambda_ratio"] is not None:
+        table.add_row("lambda ratio", f"{roughness['lambda_ratio']:.3g}", "minimum film over Rq of both")
+    if roughness["lambda_ratio_smooth"] is not None:
+        table.add_row("  of the smooth film", f"{roughness['lambda_ratio_smooth']:.3g}")
+    if result.smooth:
+        table.add_row("minimum film, smooth", f"{result.smooth.minimum_thickness * 1e6:.4g}", "µm")
 
 
 # Columns of the statistics of a profile and of a map: head, key, and how the number is written.
@@ -167,17 +195,18 @@ def _statistic(value: float, how: str) -> str:
     return format(value, how)
 
 
-def _add_formulas(table: Table, result: Result) -> None:
-    """Film formulas, each with its difference from the solved film of the same name."""
+def add_formulas(table: Table, result: Result | PointResult, names: Mapping[str, str]) -> None:
+    """Film formulas, each with its difference from the solved film of the same name, and the time."""
     table.add_section()
     table.add_row("film formulas", "", "difference from the solved film, up to 40 % is usual")
-    for name, formula in FORMULAS.items():
-        for key, value in vars(formula(result.conditions.formulas)).items():
+    for name, thickness in result.formulas().items():
+        for key, value in vars(thickness).items():
             if value is not None:
                 solved = getattr(result.film, key)
                 film = key.removesuffix("_thickness")
                 table.add_row(
-                    f"  {_FORMULA_NAMES[name]}, {film}",
+                    f"  {names[name]}, {film}",
                     f"{value * 1e6:.4g}",
                     f"µm, {100 * (value / solved - 1):+.0f} %",
                 )
+    table.add_row("time", f"{result.film_seconds + result.field_seconds:.2g}", "s")

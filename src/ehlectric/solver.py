@@ -3,67 +3,61 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from datetime import UTC, datetime
+from typing import Any, Generic, TypeVar
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
+from scipy.interpolate import RegularGridInterpolator
 
 from ehlectric.case import Case
-from ehlectric.conditions import (
-    Conditions,
-    density_law,
-    permittivity_law,
-    remarks,
-    resolve,
-    viscosity_law,
-)
-from ehlectric.errors import ConvergenceError
+from ehlectric.conditions import remarks, resolve
+from ehlectric.errors import ConvergenceError, InputError
 from ehlectric.field import Field, solve_field
 from ehlectric.film import Film, solve_film
-from ehlectric.film_formulas import moes
+from ehlectric.findings import field_findings, film_findings, line_findings, point_findings
+from ehlectric.map_remarks import remarks as map_remarks
 from ehlectric.memory import check_memory
-from ehlectric.nested import FilmProblem
 from ehlectric.newton import Progress
+from ehlectric.point_conditions import point_remarks, resolve_point
+from ehlectric.point_field import solve_point_field
+from ehlectric.point_film import PointFilm, solve_point_film
+from ehlectric.point_problems import (
+    domain_of,
+    point_field_problem,
+    point_film_problem,
+    spacings,
+)
+from ehlectric.point_problems import heights_of as map_heights_of
+from ehlectric.point_result import PointResult
 from ehlectric.poisson import FieldProblem
-from ehlectric.result import Result, Smooth, scales_of
-from ehlectric.reynolds import Fluid, FluidLaw
+from ehlectric.problems import field_problem, film_problem, heights_of
+from ehlectric.result import Result
+from ehlectric.rough_maps import rough_maps
+from ehlectric.solution import Smooth
 from ehlectric.typing import Array
 from ehlectric.version import __version__
-from ehlectric.walls import RoughSurface, rough_surfaces
 from ehlectric.walls import remarks as rough_remarks
+from ehlectric.walls import rough_surfaces
 
-# Gap below which walls count as this far apart in the field [m]: the size of an atom.
-_ATOM = 1e-10
-
-# Gap over the length of the field range above which there is no contact, but a film that was not found.
-_WIDEST = 100.0
-
-# Field above which any insulator breaks down [V/m].
-_NO_INSULATOR = 1e9
-
-# Parts into which an interval of the film is refined for the field at the most.
-_MOST_PARTS = 32
-
-# A film node this near to an end of the field range, in grid spacings, is that end.
-_SAME_NODE = 1e-6
+_Film = TypeVar("_Film", Film, PointFilm)
 
 
 @dataclass(frozen=True)
 class Solvers:
     """What solves the film and the field of a case, by the name under which a result says so.
 
-    ``check`` raises an InputError for numbers of nodes they do not take, before anything is solved.
+    ``check`` raises an InputError for cases they do not take, before anything is solved.
     """
 
     name: str
     film: Callable[..., Film]
     field: Callable[[FieldProblem], Field]
-    check: Callable[[int], object]
+    check: Callable[[Case], object]
 
 
-OWN = Solvers("ehlectric", solve_film, solve_field, check=lambda _nodes: None)
+OWN = Solvers("ehlectric", solve_film, solve_field, check=lambda _case: None)
 
 
 def solve(
@@ -73,7 +67,7 @@ def solve(
     require_convergence: bool = False,
     solvers: Solvers = OWN,
     beside_smooth: bool = True,
-) -> Result:
+) -> Result | PointResult:
     """Film and electric field of a case.
 
     Parameters
@@ -91,15 +85,16 @@ def solve(
 
     Returns
     -------
-    Result
-        With ``converged`` false where the film was not solved; its field is then that of the last film.
+    Result or PointResult
+        By the geometry of the contact, with ``converged`` false where the film was not solved; its field is
+        then that of the last film.
 
     Raises
     ------
     InputError
         Where the values of the case contradict each other.
     ConvergenceError
-        Where the film was not solved and ``require_convergence`` is set.
+        Where the film was not solved and ``require_convergence`` is set, or its field was not.
 
     Examples
     --------
@@ -110,229 +105,161 @@ def solve(
     >>> round(solve(case).film.minimum_thickness * 1e6, 2)
     0.74
     """
+    solvers.check(case)
+    if case.contact.geometry == "point":
+        return _solve_point(case, progress, demand=require_convergence, beside_smooth=beside_smooth)
+    return solve_line(
+        case,
+        progress=progress,
+        require_convergence=require_convergence,
+        solvers=solvers,
+        beside_smooth=beside_smooth,
+    )
+
+
+def solve_line(
+    case: Case,
+    *,
+    progress: Progress | None = None,
+    require_convergence: bool = False,
+    solvers: Solvers = OWN,
+    beside_smooth: bool = True,
+) -> Result:
+    """``solve`` for a line contact alone; an InputError for others."""
     conditions = resolve(case)
     check_memory(case)
     rough = rough_surfaces(case, conditions)
-    started = time.perf_counter()
-    film = solvers.film(film_problem(case, conditions, rough), progress=progress)
-    film_done = time.perf_counter()
-    if require_convergence and not film.converged:
-        raise ConvergenceError(f"film {film.status} at the residual {film.residual:.1e}")
-    roughness = _heights(rough, film.x)
+    refined = _refined(
+        case,
+        lambda grid: solvers.film(film_problem(grid, conditions, rough), progress=progress),
+        demand=require_convergence,
+    )
+    film, on_grid = refined.film, refined.case
+    roughness = heights_of(rough, film.x)
     # The field of a film that was not found is for looking at: the direct solver always has one.
     of_field = solvers if film.converged else OWN
+    started = time.perf_counter()
     field = of_field.field(field_problem(case, conditions, film, roughness))
-    field_done = time.perf_counter()
     return Result(
         case=case,
         conditions=conditions,
         film=film,
         roughness=roughness,
         rough=tuple(surface.describe() for surface in rough),
-        smooth=_smooth(case, field, solvers) if rough and beside_smooth else None,
+        smooth=_smooth(on_grid, (field.x,), solvers) if rough and beside_smooth else None,
         field=field,
         warnings=(
             *remarks(case, conditions),
-            *rough_remarks(case, conditions, rough),
-            *_film_findings(case, conditions, film),
-            *_field_findings(case, film, field),
+            *rough_remarks(on_grid, conditions, rough),
+            *refined.remarks,
+            *film_findings(case, film),
+            *line_findings(case, film, field),
+            *field_findings(field.max_strength),
         ),
         film_solver=solvers.name,
         field_solver=of_field.name,
-        film_seconds=film_done - started,
-        field_seconds=field_done - film_done,
-        version=__version__,
-        date=datetime.now(UTC).isoformat(timespec="seconds"),
+        **_provenance(refined.seconds, started),
     )
 
 
-def _dimensionless(law: Callable[[Array], tuple[Array, Array]], scale: float) -> FluidLaw:
-    """A law of the pressure in Pa as one of P = p/scale."""
-
-    def of_dimensionless(pressure: Array) -> tuple[Array, Array]:
-        value, slope = law(scale * pressure)
-        return value, scale * slope
-
-    return of_dimensionless
-
-
-def film_problem(case: Case, conditions: Conditions, rough: Sequence[RoughSurface] = ()) -> FilmProblem:
-    """The film equations of a case; of rough surfaces only the sum of their heights enters them."""
-    lubricant, grid = case.lubricant, case.grid
-    p_h = conditions.max_pressure
-    guess = moes(conditions.formulas).central_thickness
-    assert guess is not None
-    return FilmProblem(
-        fluid=Fluid(
-            density=_dimensionless(density_law(lubricant), p_h),
-            log_viscosity=_dimensionless(viscosity_law(lubricant), p_h),
-            velocity_parameter=conditions.velocity_parameter,
-            ambient_pressure=lubricant.ambient_pressure / p_h,
+def _solve_point(case: Case, progress: Progress | None, *, demand: bool, beside_smooth: bool) -> PointResult:
+    conditions = resolve_point(case)
+    check_memory(case)
+    domain = domain_of(case, conditions)
+    rough = rough_maps(case.roughness, domain)
+    refined = _refined(
+        case,
+        lambda grid: solve_point_film(point_film_problem(grid, conditions, rough), progress=progress),
+        demand=demand,
+    )
+    film, on_grid = refined.film, refined.case
+    roughness = map_heights_of(rough, film.x, film.y)
+    started = time.perf_counter()
+    field = solve_point_field(point_field_problem(case, conditions, film, roughness))
+    if field.y[0] == 0.0:
+        field = field.mirrored()
+    return PointResult(
+        case=case,
+        conditions=conditions,
+        film=film,
+        roughness=roughness,
+        rough=tuple(surface.describe() for surface in rough),
+        smooth=_smooth(on_grid, (field.x, field.y), OWN) if rough and beside_smooth else None,
+        field=field,
+        warnings=(
+            *point_remarks(case, conditions),
+            *map_remarks(case.roughness, rough, domain, *spacings(on_grid, conditions)),
+            *refined.remarks,
+            *film_findings(case, film),
+            *point_findings(case, film, field),
+            *field_findings(field.max_strength),
         ),
-        nodes=grid.nodes,
-        inlet=grid.inlet,
-        outlet=grid.outlet,
-        thickness_guess=guess / conditions.thickness_scale,
-        second_order=grid.wedge == "second-order",
-        tolerance=case.solver.tolerance,
-        max_iterations=case.solver.max_iterations,
-        scales=scales_of(case, conditions),
-        added_gap=_added_gap(conditions, rough) if rough else None,
+        film_solver=OWN.name,
+        field_solver=OWN.name,
+        **_provenance(refined.seconds, started),
     )
 
 
-def _smooth(case: Case, field: Field, solvers: Solvers) -> Smooth | None:
+def _provenance(film_seconds: float, field_started: float) -> dict[str, Any]:
+    """How long it took, when and by what."""
+    return {
+        "film_seconds": film_seconds,
+        "field_seconds": time.perf_counter() - field_started,
+        "version": __version__,
+        "date": datetime.now(UTC).isoformat(timespec="seconds"),
+    }
+
+
+@dataclass(frozen=True)
+class _Refined(Generic[_Film]):
+    """A film, the case with the grid it was solved on, the time it took [s], and what is to be said of it."""
+
+    film: _Film
+    case: Case
+    seconds: float
+    remarks: tuple[str, ...]
+
+
+def _refined(case: Case, solved: Callable[[Case], _Film], *, demand: bool) -> _Refined[_Film]:
+    """The film on the grid of the case, or on the first of twice as many intervals that is fine enough."""
+    started, target = time.perf_counter(), case.grid.refine
+    remarks: tuple[str, ...] = ()
+    grid = case if target is None else case.replace({"grid.refine": None})
+    film = solved(grid)
+    while target is not None and not _within(film, target):
+        try:
+            finer = _doubled(grid)
+            check_memory(finer)
+        except InputError as error:
+            reached = f"{100 * target:g} % was not reached with {grid.grid.nodes} nodes"
+            remarks = (f"grid.refine: {reached}; {error}",)
+            break
+        grid = finer
+        film = solved(grid)
+    if demand and not film.converged:
+        raise ConvergenceError(f"film {film.status} at the residual {film.residual:.1e}")
+    return _Refined(film, grid, time.perf_counter() - started, remarks)
+
+
+def _doubled(case: Case) -> Case:
+    """The case with twice as many intervals."""
+    changes = {"grid.nodes": 2 * case.grid.nodes - 1}
+    if case.grid.nodes_y is not None:
+        changes["grid.nodes_y"] = 2 * case.grid.nodes_y - 1
+    return case.replace(changes)
+
+
+def _within(film: Film, target: float) -> bool:
+    """Whether a film's discretisation error is known to be below a target."""
+    return film.discretisation_error is not None and film.discretisation_error <= target
+
+
+def _smooth(case: Case, columns: tuple[Array, ...], solvers: Solvers) -> Smooth | None:
     """The case without its roughness, on the same grids; None where that is not solved."""
     result = solve(case.replace(roughness=()), solvers=solvers)
     if not result.converged:
         return None
-    middle = np.interp(field.x, result.field.x, result.field.middle_strength)
-    return Smooth(result.film.pressure, result.film.thickness, middle)
-
-
-def _added_gap(conditions: Conditions, rough: Sequence[RoughSurface]) -> Callable[[Array, Array], Array]:
-    """The gap that both surfaces' roughness adds, dimensionless: peaks narrow it."""
-    b, scale = conditions.half_width, conditions.thickness_scale
-
-    def added_gap(x: Array, _y: Array) -> Array:
-        gap: Array = -_heights(rough, b * x).sum(axis=0)[:, np.newaxis] / scale
-        return gap
-
-    return added_gap
-
-
-def _heights(rough: Sequence[RoughSurface], x: Array) -> Array:
-    """Roughness of both surfaces at given positions [m], shape (2, n)."""
-    heights = np.zeros((2, x.size))
-    for surface in rough:
-        heights[surface.surface - 1] += surface.height(x)
-    return heights
-
-
-def field_problem(case: Case, conditions: Conditions, film: Film, roughness: Array) -> FieldProblem:
-    """The Poisson problem in a solved film; a cavitated gap counts as filled with oil.
-
-    Parameters
-    ----------
-    case, conditions : Case, Conditions
-        What was solved.
-    film : Film
-        Its film.
-    roughness : ndarray, shape (2, nx)
-        Heights of both surfaces at the film's nodes [m].
-
-    Returns
-    -------
-    FieldProblem
-        On the columns that ``grid`` asks for.
-    """
-    x = _field_nodes(case, conditions, film, refine=bool(np.any(roughness)))
-    lower, upper = surfaces(conditions, film, roughness)
-    # Middle and gap, not the two walls: between two nodes walls of their own might cross.
-    middle = _resampled(film.x, 0.5 * (lower + upper), x)
-    gap = np.clip(_resampled(film.x, film.thickness, x), _ATOM, _WIDEST * np.ptp(x))
-    return FieldProblem(
-        x=x,
-        lower=middle - 0.5 * gap,
-        upper=middle + 0.5 * gap,
-        permittivity=_resampled(film.x, permittivity_law(case.lubricant)(film.density), x),
-        potential_1=case.electric.potential_1,
-        potential_2=case.electric.potential_2,
-        degree=case.grid.field_degree,
-    )
-
-
-def _field_nodes(case: Case, conditions: Conditions, film: Film, *, refine: bool) -> Array:
-    """Columns of the field: the film's own nodes and the two ends of the range, unless a number is given.
-
-    Rough walls turn within the distance of the other wall: there each interval is parted until half of the
-    least gap is resolved.
-    """
-    start, stop = (conditions.half_width * end for end in case.grid.field_range)
-    if case.grid.field_nodes is not None:
-        return np.linspace(start, stop, case.grid.field_nodes)
-    dx = film.x[1] - film.x[0]
-    inside = film.x[(film.x > start + _SAME_NODE * dx) & (film.x < stop - _SAME_NODE * dx)]
-    nodes = np.concatenate([[start], inside, [stop]])
-    parts = int(np.ceil(dx / max(0.5 * film.minimum_thickness, dx / _MOST_PARTS))) if refine else 1
-    if parts == 1:
-        return nodes
-    fractions = np.arange(parts) / parts
-    return np.append((nodes[:-1, np.newaxis] + np.diff(nodes)[:, np.newaxis] * fractions).ravel(), stop)
-
-
-def _resampled(x: Array, values: Array, at: Array) -> Array:
-    """Monotone cubic interpolation: exact at the nodes, and no film thinner than the solved one."""
-    resampled: Array = PchipInterpolator(x, values)(at)
-    return resampled
-
-
-def surfaces(conditions: Conditions, film: Film, roughness: Array) -> tuple[Array, Array]:
-    """Heights of the two surfaces over the film's nodes [m].
-
-    Each body keeps its own part of the curvature and of the deflection, and its own roughness; smooth equal
-    bodies, and those of which only the reduced values are known, lie at -h/2 and h/2.
-    """
-    parabola = 0.5 * film.x**2 / conditions.reduced_radius
-    rigid = film.thickness - parabola - film.deflection + roughness.sum(axis=0)
-    lower = roughness[0] - (
-        conditions.curvature_share * parabola + conditions.compliance_share * film.deflection + 0.5 * rigid
-    )
-    return lower, lower + film.thickness
-
-
-def _film_findings(case: Case, conditions: Conditions, film: Film) -> Iterator[str]:
-    """What the film shows that a user should know, one text each."""
-    if not film.converged:
-        yield (
-            f"do not use this film, it is no solution: {film.status} at the residual {film.residual:.1e}; "
-            "try more grid.nodes, a lower grid.inlet, or more solver.max_iterations"
-        )
-    places = film.collapsed_positions / conditions.half_width
-    if places.size:
-        yield (
-            "the surfaces would touch at x/b = "
-            + ", ".join(f"{place:.3f}" for place in places[:8])
-            + (f" and {places.size - 8} more nodes" if places.size > 8 else "")
-        )
-    if film.minimum_thickness < _ATOM:
-        yield "the film is thinner than an atom in places; the field is that of a gap of 0.1 nm there"
-    error = film.discretisation_error
-    if film.converged and error is None and case.roughness:
-        yield (
-            "nothing is known of the discretisation error, as the roughness had to be raised in steps; "
-            "compare with more grid.nodes"
-        )
-    elif film.converged and error is None:
-        yield (
-            "do not use this film: the next coarser grid was not solved, so that nothing is known of its "
-            "discretisation error, which is large; take more grid.nodes"
-        )
-    elif error is not None and error > 0.01:
-        advice = "do not use it" if error > 0.1 else "take more grid.nodes"
-        yield f"the film may be {100 * error:.2g} % off or more on this grid; {advice}"
-    if film.inlet_deficit > 0.01:
-        effect = "do not use this film" if film.inlet_deficit > 0.2 else "the film is about that much off"
-        yield (
-            f"the inlet is too short: {100 * film.inlet_deficit:.2g} % of the pressure is built up before "
-            f"it, {effect}; lower grid.inlet"
-        )
-    if not film.cavitates:
-        yield "the film does not cavitate before the domain ends; raise grid.outlet"
-
-
-def _field_findings(case: Case, film: Film, field: Field) -> Iterator[str]:
-    """What the field shows that a user should know, one text each."""
-    inside = int(np.count_nonzero((film.x >= field.x[0]) & (film.x <= field.x[-1])))
-    if case.grid.field_nodes is not None and case.grid.field_nodes < inside:
-        yield (
-            f"grid.field_nodes is coarser than the film, which has {inside} nodes in the field range: the "
-            "width of the high-field zone and the capacitance suffer"
-        )
-    if field.max_strength > _NO_INSULATOR:
-        yield (
-            f"the largest field is {field.max_strength / 1e6:.3g} V/µm: no insulator withstands more than "
-            f"some {_NO_INSULATOR / 1e6:g} V/µm, and the film breaks down long before"
-        )
-    if not np.any(field.inner & (field.x == field.max_strength_position)):
-        yield "the largest field is at an end of grid.field_range; widen it"
+    axes = (result.field.x,) if isinstance(result, Result) else (result.field.x, result.field.y)
+    middle = RegularGridInterpolator(axes, result.field.middle_strength)
+    at = np.stack(np.meshgrid(*columns, indexing="ij"), axis=-1)
+    return Smooth(result.film.pressure, result.film.thickness, middle(at))

@@ -11,15 +11,32 @@ import warnings
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ehlectric.case import Case
 from ehlectric.conditions import resolve
-from ehlectric.dataset import field_of, film_of, roughness_of, smooth_of
+from ehlectric.dataset import (
+    LINE_LAYOUT,
+    POINT_LAYOUT,
+    field_parts,
+    film_parts,
+    roughness_of,
+    smooth_of,
+)
 from ehlectric.errors import InputError
-from ehlectric.result import Result, Smooth, scales_of
+from ehlectric.field import Field
+from ehlectric.film import Film
+from ehlectric.point_conditions import resolve_point
+from ehlectric.point_field import PointField
+from ehlectric.point_film import PointFilm
+from ehlectric.point_problems import point_scales
+from ehlectric.point_result import PointResult
+from ehlectric.problems import scales_of
+from ehlectric.result import Result
+from ehlectric.solution import Smooth
+from ehlectric.typing import Array
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -40,6 +57,9 @@ FIGURE_FILES = (
     "field_deviation.png",
 )
 ROUGHNESS_FIGURE = "roughness.png"  # of rough contacts alone
+POINT_FIGURE_FILES = ("film_map.png", "pressure_map.png", "field_map.png", "cuts.png")
+# A folder holds one result: what another one left of these goes.
+ALL_FIGURES = (*FIGURE_FILES, *POINT_FIGURE_FILES, ROUGHNESS_FIGURE)
 
 
 def prepare(folder: str | Path, names: Iterable[str] = ()) -> Path:
@@ -113,7 +133,7 @@ def whole(path: Path) -> Iterator[Path]:
         beside.unlink(missing_ok=True)
 
 
-def save(result: Result, folder: str | Path) -> list[Path]:
+def save(result: Result | PointResult, folder: str | Path) -> list[Path]:
     """Write summary.json, result.nc and film.csv.
 
     Parameters
@@ -141,14 +161,24 @@ def save(result: Result, folder: str | Path) -> list[Path]:
     with whole(files[1]) as path:
         result.to_xarray().to_netcdf(path, engine="h5netcdf")
     with whole(files[2]) as path:
-        film = result.film
-        columns = np.column_stack([film.x, film.pressure, film.thickness, film.density])
-        header = "x [m],pressure [Pa],thickness [m],density ratio [-]"
+        columns, names = _film_columns(result)
+        header = ",".join([*names, "pressure [Pa]", "thickness [m]", "density ratio [-]"])
         np.savetxt(path, columns, delimiter=",", header=header, comments="", fmt="%.12g")
     return files
 
 
-def load(path: str | Path) -> Result:
+def _film_columns(result: Result | PointResult) -> tuple[Array, list[str]]:
+    """The film as a table, one line a node, and the names of its positions."""
+    film, names = result.film, ["x [m]"]
+    positions = [film.x]
+    if isinstance(result, PointResult):
+        names.append("y [m]")
+        positions = [at.ravel() for at in np.meshgrid(film.x, result.film.y, indexing="ij")]
+    values = (film.pressure, film.thickness, film.density)
+    return np.column_stack([*positions, *(value.ravel() for value in values)]), names
+
+
+def load(path: str | Path) -> Result | PointResult:
     """Read a result back from its NetCDF file.
 
     Parameters
@@ -158,7 +188,7 @@ def load(path: str | Path) -> Result:
 
     Returns
     -------
-    Result
+    Result or PointResult
         As it was saved.
 
     Raises
@@ -186,29 +216,47 @@ def load(path: str | Path) -> Result:
         raise InputError(f"{path}: is not a result of ehlectric, or damaged") from None
 
 
-def _result_of(dataset: xr.Dataset) -> Result:
+def _result_of(dataset: xr.Dataset) -> Result | PointResult:
+    case = Case.from_dict(tomllib.loads(dataset.attrs["case"]))
+    point = case.contact.geometry == "point"
+    layout = POINT_LAYOUT if point else LINE_LAYOUT
     if not all(np.all(np.isfinite(variable.values)) for variable in dataset.variables.values()):
         raise ValueError("a value is not finite")
-    if min(dataset.sizes[name] for name in ("x", "x_field", "s")) < 2:
+    if min(dataset.sizes[name] for name in {*layout.film_grid, *layout.field_grid, "s"}) < 2:
         raise ValueError("an array is empty")
-    attributes = dataset.attrs
-    case = Case.from_dict(tomllib.loads(attributes["case"]))
-    conditions = resolve(case)
-    scales = scales_of(case, conditions)
-    film_seconds, field_seconds = json.loads(attributes["seconds"])
+    film, field = film_parts(layout, dataset), field_parts(layout, dataset)
+    if point:
+        conditions = resolve_point(case)
+        return PointResult(
+            case=case,
+            conditions=conditions,
+            film=PointFilm(**film, scales=point_scales(case, conditions)),
+            field=PointField(**field),
+            **_provenance(dataset),
+        )
+    of_line = resolve(case)
     return Result(
         case=case,
-        conditions=conditions,
-        film=film_of(dataset, scales),
-        roughness=roughness_of(dataset),
-        rough=tuple(json.loads(attributes["rough"])),
-        smooth=Smooth(**smooth) if (smooth := smooth_of(dataset)) else None,
-        field=field_of(dataset),
-        warnings=tuple(json.loads(attributes["warnings"])),
-        film_solver=str(attributes["film_solver"]),
-        field_solver=str(attributes["field_solver"]),
-        film_seconds=film_seconds,
-        field_seconds=field_seconds,
-        version=str(attributes["version"]),
-        date=str(attributes["date"]),
+        conditions=of_line,
+        film=Film(**film, scales=scales_of(case, of_line)),
+        field=Field(**field),
+        **_provenance(dataset),
     )
+
+
+def _provenance(dataset: xr.Dataset) -> dict[str, Any]:
+    """What all solutions have beside their case, film and field."""
+    attributes, smooth = dataset.attrs, smooth_of(dataset)
+    film_seconds, field_seconds = json.loads(attributes["seconds"])
+    return {
+        "roughness": roughness_of(dataset),
+        "rough": tuple(json.loads(attributes["rough"])),
+        "smooth": Smooth(**smooth) if smooth else None,
+        "warnings": tuple(json.loads(attributes["warnings"])),
+        "film_solver": str(attributes["film_solver"]),
+        "field_solver": str(attributes["field_solver"]),
+        "film_seconds": film_seconds,
+        "field_seconds": field_seconds,
+        "version": str(attributes["version"]),
+        "date": str(attributes["date"]),
+    }

@@ -10,7 +10,7 @@ from ehlectric.field import solve_field
 from ehlectric.film import solve_film
 from ehlectric.paper import fas, relaxation, sor
 from ehlectric.paper.solvers import PAPER
-from ehlectric.solver import field_problem, film_problem
+from ehlectric.problems import field_problem, film_problem
 from tests.published.test_paper_contacts import FILMS, row_name
 
 

@@ -13,8 +13,8 @@ from ehlectric.film import solve_film
 from ehlectric.levels import COARSEST, hierarchy, interpolation
 from ehlectric.lubricant import barus, incompressible
 from ehlectric.nested import FilmProblem
+from ehlectric.problems import film_problem
 from ehlectric.reynolds import Fluid, evaluate
-from ehlectric.solver import film_problem
 
 
 @pytest.mark.parametrize(("coarse", "fine"), [(5, 9), (6, 10), (51, 100), (33, 64), (7, 7)])

@@ -17,7 +17,7 @@ from ehlectric.paper.contacts import CONTACTS, SMOOTH_NODES
 from ehlectric.paper.film_equations import FilmEquations, Iterate
 from ehlectric.paper.sor import ROWS
 from ehlectric.paper.study import Study, readings_differ_by
-from ehlectric.solver import field_problem, film_problem
+from ehlectric.problems import field_problem, film_problem
 
 
 @dataclass(frozen=True)

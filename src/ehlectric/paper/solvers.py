@@ -2,9 +2,22 @@
 
 from __future__ import annotations
 
+from ehlectric.case import Case
+from ehlectric.errors import InputError
 from ehlectric.paper import fas, sor
 from ehlectric.solver import OWN, Solvers
 
-PAPER = Solvers("paper", fas.solve_film, sor.solve_field, check=fas.grid_sizes)
+
+def _check(case: Case) -> None:
+    """Refuse what the paper's methods are not made for."""
+    if case.contact.geometry != "line":
+        raise InputError(
+            f"contact.geometry: got {case.contact.geometry!r}, the solver 'paper' takes 'line': its methods "
+            "are those of line contacts"
+        )
+    fas.grid_sizes(case.grid.nodes)
+
+
+PAPER = Solvers("paper", fas.solve_film, sor.solve_field, check=_check)
 
 SOLVERS = {solvers.name: solvers for solvers in (OWN, PAPER)}

@@ -20,8 +20,9 @@ from ehlectric.film import solve_film
 from ehlectric.paper import fas, sor
 from ehlectric.paper.contacts import CONTACTS, ROUGH_NODES, SMOOTH_NODES, PaperContact, measured_profile
 from ehlectric.paper.workers import run_all
+from ehlectric.problems import field_problem, film_problem
 from ehlectric.result import Result
-from ehlectric.solver import field_problem, film_problem, solve
+from ehlectric.solver import solve_line
 from ehlectric.typing import Array
 
 # Residual to which the paper's multigrid is counted.
@@ -172,11 +173,11 @@ def readings_differ_by(result: Result) -> float:
 
 
 def _smooth(contact: PaperContact) -> Result:
-    return solve(contact.case())
+    return solve_line(contact.case())
 
 
 def _rough(profile: Path, contact: PaperContact) -> Result:
-    return solve(contact.rough_case(profile))
+    return solve_line(contact.rough_case(profile))
 
 
 def _placed(profile: Path, contact: PaperContact) -> tuple[Placed, ...]:
@@ -185,20 +186,20 @@ def _placed(profile: Path, contact: PaperContact) -> tuple[Placed, ...]:
 
 
 def _moved(case: Case) -> Placed:
-    result = solve(case, beside_smooth=False)
+    result = solve_line(case, beside_smooth=False)
     return Placed(result.film.minimum_thickness, result.max_dimensionless, result.converged)
 
 
 def _first_order(contact: PaperContact) -> Result:
-    return solve(contact.case(wedge="first-order"))
+    return solve_line(contact.case(wedge="first-order"))
 
 
 def _fine(contact: PaperContact) -> Result:
-    return solve(contact.case(nodes=2 * SMOOTH_NODES - 1))
+    return solve_line(contact.case(nodes=2 * SMOOTH_NODES - 1))
 
 
 def _constant(contact: PaperContact) -> Result:
-    return solve(contact.constant_case())
+    return solve_line(contact.constant_case())
 
 
 def _methods(contact: PaperContact) -> Methods:
