@@ -296,7 +296,7 @@ SHAPES = [
     (PIT | {"width": "5 um", "position_y": "0.32 mm"}, None),
     (PIT | {"width": "5 um", "position_y": "0.32 mm", "shift_y": "-50 um"}, "the pit of surface 1"),
     (GAUSSIAN | {"correlation_length": "6.2 um"}, None),
-    (GAUSSIAN | {"correlation_length": "5.5 um"}, "map of surface 1, whose correlation length along x is 5"),
+    (GAUSSIAN | {"correlation_length": "5.5 um"}, "whose correlation length along x is 5"),
     (
         GAUSSIAN | {"correlation_length": "10 um", "correlation_length_y": "3 um"},
         "the map of surface 1, whose correlation length along y is 3",
