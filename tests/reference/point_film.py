@@ -24,8 +24,8 @@ MIDDLE, HALF = 0.5 * (INLET + OUTLET), 0.5 * (OUTLET - INLET)
 H00 = -0.35
 VELOCITY_PARAMETER = 0.05
 SKEW_ALONG = 0.25
-COMPLIANCE = 0.18
-GEOMETRY = point_geometry(radius_ratio=0.6, ellipse_ratio=1.3, compliance=COMPLIANCE)
+RADIUS_RATIO, ELLIPSE_RATIO, COMPLIANCE = 0.6, 1.3, 0.18
+LOAD = 2.0 * np.pi / 3.0 * ELLIPSE_RATIO
 
 # The paper's lubricant at the Hertz pressure 0.7 GPa.
 _P_H = 0.7e9
@@ -37,7 +37,7 @@ VISCOSITY = {
 DENSITY = {"density_c1": 0.59e9 / _P_H, "density_c2": 1.34}
 
 # The skew parts are odd and carry no load; (1 - t^2)^2 integrates to 16/15.
-SCALE = GEOMETRY.load / (HALF * SIDE * (16.0 / 15.0) ** 2)
+SCALE = LOAD / (HALF * SIDE * (16.0 / 15.0) ** 2)
 
 # Enough for the tenth power of p, and for e^(10 q) as far as the flattest triangle of 513 nodes asks.
 _P_POINTS, _Q_POINTS = 8, 32
@@ -109,7 +109,8 @@ class ManufacturedFilm:
         return total[:, 0, 0]
 
     def _added_gap(self, x, y):
-        return self.thickness(x, y) - H00 - GEOMETRY.dry_gap(x, y) - self.deflection(x, y)
+        dry = 0.5 * x[:, np.newaxis] ** 2 + 0.5 * RADIUS_RATIO * y**2
+        return self.thickness(x, y) - H00 - dry - self.deflection(x, y)
 
     def problem(self, nodes, nodes_y, *, second_order, symmetric=None):
         """The film problem whose exact solution this is, on the half that is solved for or on the whole."""
@@ -125,7 +126,9 @@ class ManufacturedFilm:
             outlet=OUTLET,
             thickness_guess=0.15,
             second_order=second_order,
-            geometry=GEOMETRY,
+            geometry=point_geometry(
+                radius_ratio=RADIUS_RATIO, ellipse_ratio=ELLIPSE_RATIO, compliance=COMPLIANCE
+            ),
             width=Width(nodes_y, SIDE, symmetric=self.skew == 0.0 if symmetric is None else symmetric),
             added_gap=self._added_gap,
             source=self.source,

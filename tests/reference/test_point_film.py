@@ -19,7 +19,7 @@ def pressure(film, x, y):
 @pytest.mark.parametrize("film", FILMS)
 def test_pressure_carries_the_load(film):
     load, _ = dblquad(lambda y, x: pressure(film, x, y), INLET, OUTLET, -SIDE, SIDE, epsabs=1e-10)
-    assert load == pytest.approx(point_film.GEOMETRY.load, rel=1e-10)
+    assert load == pytest.approx(point_film.LOAD, rel=1e-10)
 
 
 @pytest.mark.parametrize("film", FILMS)
