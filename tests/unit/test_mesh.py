@@ -144,7 +144,7 @@ def test_averaging_on_half_of_a_contact_is_that_on_the_whole():
 @pytest.mark.parametrize(("shape", "symmetric"), [*((s, False) for s in SHAPES), ((33, 17, 17, 9), True)])
 def test_averaging_keeps_constants(shape, symmetric):
     """Exactly where every second node is a coarse one, else within the shift of the nodes."""
-    coarse, fine, _, down = transfer(*shape, symmetric=symmetric)
+    _, fine, _, down = transfer(*shape, symmetric=symmetric)
     nested = shape == (33, 17, 17, 9)
     averaged = down(np.ones(fine.shape))
     assert np.max(np.abs(averaged - 1.0)) < (1e-13 if nested else 0.3)
