@@ -68,7 +68,7 @@ def test_long_ellipses_tend_to_the_line_contact():
 
 @pytest.mark.slow
 def test_very_long_ellipses():
-    """On from there, to 64 semi-axes: 0.02 %, of two discretisations that share their grid along entrainment."""
+    """On from there, to 64 semi-axes: 0.02 %, of two solvers that share their grid along entrainment."""
     off = np.array([beside_line(ratio)[0] for ratio in (16.0, 32.0, 64.0)])
     assert np.all(np.abs(off[-1]) < 4e-4)
     assert np.all(off[:-1] / off[1:] > 2.7)
