@@ -198,15 +198,13 @@ def _statistic(value: float, how: str) -> str:
 def add_formulas(table: Table, result: Result | PointResult, names: Mapping[str, str]) -> None:
     """Film formulas, each with its difference from the solved film of the same name, and the time."""
     table.add_section()
-    table.add_row("film formulas", "", "difference from the solved film, up to 40 % is usual")
+    about = "difference from the solved film, up to 40 % is usual" if result.converged else ""
+    table.add_row("film formulas", "", about)
     for name, thickness in result.formulas().items():
         for key, value in vars(thickness).items():
             if value is not None:
-                solved = getattr(result.film, key)
+                difference = 100.0 * (value / getattr(result.film, key) - 1.0)
+                beside = f", {difference:+.0f} %" if result.converged else ""
                 film = key.removesuffix("_thickness")
-                table.add_row(
-                    f"  {names[name]}, {film}",
-                    f"{value * 1e6:.4g}",
-                    f"µm, {100 * (value / solved - 1):+.0f} %",
-                )
+                table.add_row(f"  {names[name]}, {film}", f"{value * 1e6:.4g}", f"µm{beside}")
     table.add_row("time", f"{result.film_seconds + result.field_seconds:.2g}", "s")
