@@ -64,7 +64,7 @@ def test_cylinder_over_plane(slope):
     errors = []
     for n in columns:
         charge, exact = cylinder_over_plane(n)
-        assert exact == pytest.approx(2.7109e-9, rel=2e-5)
+        assert exact == pytest.approx(2.7109e-9, rel=2e-5, abs=0.0)
         errors.append(abs(charge / exact - 1))
     assert errors[-1] < 2e-6
     assert slope(1 / (columns - 1), errors) == pytest.approx(2.0, abs=0.2)
@@ -91,7 +91,7 @@ def test_sphere_over_plane(slope, gap, printed):
     errors = []
     for n in columns:
         charge, exact = sphere_over_plane(n, gap=gap)
-        assert exact == pytest.approx(printed, rel=5e-5)
+        assert exact == pytest.approx(printed, rel=5e-5, abs=0.0)
         errors.append(abs(charge / exact - 1))
     assert errors[-1] < 1e-5
     assert slope(1 / (columns - 1), errors) == pytest.approx(2.0, abs=0.2)
@@ -99,19 +99,19 @@ def test_sphere_over_plane(slope, gap, printed):
 
 def test_energy_and_charge_agree(paper_result):
     field = paper_result.field
-    assert field.capacitance_by_charge == pytest.approx(field.capacitance, rel=1e-8)
+    assert field.capacitance_by_charge == pytest.approx(field.capacitance, rel=1e-8, abs=0.0)
     # The charge integrated over the wall, as a second reckoning: eps0 eps E_n dx with its slope.
     lower = field.y[:, 0]
     line = np.hypot(1.0, np.gradient(lower, field.x))
     charge = np.trapezoid(epsilon_0 * field.permittivity[:, 0] * field.strength[:, 0] * line, field.x)
-    assert charge / field.voltage == pytest.approx(field.capacitance, rel=1e-4)
+    assert charge / field.voltage == pytest.approx(field.capacitance, rel=1e-4, abs=0.0)
 
 
 def test_capacitance_does_not_depend_on_the_degree(paper_case):
     from ehlectric import solve
 
     low, high = (solve(paper_case.replace({"grid.field_degree": p})).field.capacitance for p in (5, 8))
-    assert low == pytest.approx(high, rel=1e-8)
+    assert low == pytest.approx(high, rel=1e-8, abs=0.0)
 
 
 def manufactured():

@@ -10,8 +10,6 @@ from tests.reference.hertz_point import radii_ratio
 
 COUNT = 60
 TOO_COARSE = "the next coarser grid was not solved|off or more on this grid; do not use it"
-    "do not use this film: the next coarser grid was not solved|off or more on this grid; do not use it"
-)
 MODULUS, RADIUS, VISCOSITY, ALPHA = 226e9, 10e-3, 0.04, 22e-9
 
 

@@ -45,7 +45,7 @@ def test_film_does_not_tell_which_surface_is_rough():
     # The peak of a rough wall is where the field is largest, and it is that wall.
     walls = (first.field.max_strength_wall, second.field.max_strength_wall)
     assert walls == ("surface 1", "surface 2")
-    assert second.field.max_strength == pytest.approx(first.field.max_strength, rel=1e-8)
+    assert second.field.max_strength == pytest.approx(first.field.max_strength, rel=1e-8, abs=0.0)
     np.testing.assert_allclose(second.field.strength[:, ::-1], first.field.strength, rtol=1e-6)
 
 
@@ -90,7 +90,7 @@ def test_roughness_is_in_the_summary():
         "trim",
         "truncate",
     ]
-    assert steps[3]["rq"] == pytest.approx(9.0e-9, rel=0.02)
+    assert steps[3]["rq"] == pytest.approx(9.0e-9, rel=0.02, abs=0.0)
     assert summary["roughness"]["rq_2"] == 0.0
     # Only one surface is rough: combined is its own.
     assert summary["roughness"]["rq_combined"] == pytest.approx(summary["roughness"]["rq_1"])
@@ -108,14 +108,14 @@ def test_lambda_ratio_is_of_what_the_film_feels():
     for phase, rq in ((0.0, 2 * 10e-9 / np.sqrt(2)), (np.pi, None)):
         pair = ({"surface": 1} | wave, {"surface": 2, "phase": phase} | wave)
         roughness = solve(case.replace(roughness=pair)).summary()["roughness"]
-        assert roughness["rq_1"] == pytest.approx(roughness["rq_2"], rel=1e-9)
+        assert roughness["rq_1"] == pytest.approx(roughness["rq_2"], rel=1e-9, abs=0.0)
         if rq is None:
             assert roughness["rq_combined"] < 1e-20
             assert (roughness["lambda_ratio"], roughness["lambda_ratio_smooth"]) == (None, None)
         else:
-            assert roughness["rq_combined"] == pytest.approx(rq, rel=0.02)
+            assert roughness["rq_combined"] == pytest.approx(rq, rel=0.02, abs=0.0)
             smooth = roughness["smooth_minimum_thickness"]
-            assert roughness["lambda_ratio_smooth"] == pytest.approx(smooth / rq, rel=0.02)
+            assert roughness["lambda_ratio_smooth"] == pytest.approx(smooth / rq, rel=0.02, abs=0.0)
 
 
 def test_smooth_contact_is_beside_the_rough_one():

@@ -1,7 +1,15 @@
 """Exact electric fields between conductors."""
 
 import numpy as np
+import pytest
 from scipy.constants import epsilon_0
+
+
+def near(value, rel):
+    """Approximately, by the relative difference alone: capacitances in farads and areas in square metres are
+    below the absolute one that ``pytest.approx`` allows.
+    """
+    return pytest.approx(value, rel=rel, abs=0.0)
 
 
 def sinusoidal_wall(amplitude, wavenumber, gap):

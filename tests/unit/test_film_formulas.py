@@ -47,7 +47,7 @@ def contact_of(moes_m, moes_l):
 )
 def test_moes_limits(moes_m, moes_l, expected, regime):
     contact = contact_of(moes_m, moes_l)
-    assert dimensionless(contact) == pytest.approx(expected, rel=0.02)
+    assert dimensionless(contact) == pytest.approx(expected, rel=0.02, abs=0.0)
     assert film_formulas.regime(contact) == regime
 
 
@@ -56,7 +56,7 @@ def test_formulas_are_within_thirty_percent_of_the_solved_film(paper_result):
     for formula in film_formulas.FORMULAS.values():
         for name, value in vars(formula(PAPER)).items():
             if value is not None:
-                assert value == pytest.approx(getattr(film, name), rel=0.3)
+                assert value == pytest.approx(getattr(film, name), rel=0.3, abs=0.0)
 
 
 # U = 1e-11, G = 1e4, W = 1e-4: powers of ten, so that the formulas can be done by hand.
@@ -78,7 +78,7 @@ ROUND = LineContact(1.0, 1e11, 1e7, 1.0, 1.0, 1e-7)
 def test_power_laws_by_hand(name, minimum, central):
     thickness = film_formulas.FORMULAS[name](ROUND)
     for value, expected in ((thickness.minimum_thickness, minimum), (thickness.central_thickness, central)):
-        assert value == (None if expected is None else pytest.approx(expected, rel=1e-9))
+        assert value == (None if expected is None else pytest.approx(expected, rel=1e-9, abs=0.0))
 
 
 def test_moes_between_its_limits_by_hand():
@@ -88,7 +88,7 @@ def test_moes_between_its_limits_by_hand():
     isoviscous = (12.980 + 9.470) ** (3 * s / 7)  # 3^(7/3), 2.621^(7/3)
     piezoviscous = (0.41358 + 0.38769) ** (-2 * s / 7)  # 1.287^(-7/2), 1.311^(-7/2)
     assert dimensionless(contact_of(1.0, 1.0)) == pytest.approx(
-        (isoviscous + piezoviscous) ** (1 / s), rel=1e-3
+        (isoviscous + piezoviscous) ** (1 / s), rel=1e-3, abs=0.0
     )
 
 

@@ -70,7 +70,7 @@ def test_the_film_depends_on_m_and_l_alone(radius, modulus, load, viscosity):
     result = solve(scaled(radius=radius, modulus=modulus, load=load, viscosity=viscosity))
     for group in ("moes_m", "moes_l"):
         expected = getattr(unscaled().conditions.formulas, group)
-        assert getattr(result.conditions.formulas, group) == pytest.approx(expected, rel=1e-12)
+        assert getattr(result.conditions.formulas, group) == pytest.approx(expected, rel=1e-12, abs=0.0)
     for values, expected in zip(dimensionless(result), dimensionless(unscaled()), strict=True):
         np.testing.assert_allclose(values, expected, rtol=1e-10)
 
@@ -82,8 +82,8 @@ def test_the_field_of_similar_contacts_is_similar(radius, modulus, viscosity):
     result = solve(scaled(radius=radius, modulus=modulus, viscosity=viscosity))
     ours, theirs = result.summary()["field"], unscaled().summary()["field"]
     for name in ("max_dimensionless", "central_dimensionless", "capacitance_per_length", "thin_gap_error"):
-        assert ours[name] == pytest.approx(theirs[name], rel=1e-9)
-    assert ours["high_field_width"] == pytest.approx(radius * theirs["high_field_width"], rel=1e-9)
+        assert ours[name] == pytest.approx(theirs[name], rel=1e-9, abs=0.0)
+    assert ours["high_field_width"] == pytest.approx(radius * theirs["high_field_width"], rel=1e-9, abs=0.0)
 
 
 @settings(deadline=None, max_examples=10)
@@ -97,7 +97,7 @@ def test_the_field_of_a_contact_is_linear_in_the_voltage(voltage, common, sign):
     np.testing.assert_allclose(result.field.strength, scale * unscaled().field.strength, rtol=1e-9)
     ours, theirs = result.summary()["field"], unscaled().summary()["field"]
     for name in ("max_dimensionless", "high_field_width", "capacitance_per_length", "thin_gap_error"):
-        assert ours[name] == pytest.approx(theirs[name], rel=1e-9)
+        assert ours[name] == pytest.approx(theirs[name], rel=1e-9, abs=0.0)
     assert ours["max_strength_position"] == theirs["max_strength_position"]
 
 
@@ -138,5 +138,5 @@ def test_exchange_of_the_surfaces_turns_the_contact_upside_down():
     np.testing.assert_allclose(mirrored.potential, field.potential[:, ::-1], atol=1e-10)
     np.testing.assert_allclose(mirrored.strength, field.strength[:, ::-1], rtol=1e-9)
     for name in ("capacitance", "capacitance_by_charge", "max_strength", "high_field_width"):
-        assert getattr(mirrored, name) == pytest.approx(getattr(field, name), rel=1e-9)
+        assert getattr(mirrored, name) == pytest.approx(getattr(field, name), rel=1e-9, abs=0.0)
     assert {field.max_strength_wall, mirrored.max_strength_wall} == {"surface 1", "surface 2"}

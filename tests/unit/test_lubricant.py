@@ -85,7 +85,7 @@ def test_roelands_is_barus_at_low_pressure_and_for_z_one():
     exponent, slope = lubricant.roelands(np.array([0.0, 1e3]), **ROELANDS)
     assert exponent[0] == 0.0
     assert slope[0] == ROELANDS["pressure_viscosity_coefficient"]
-    assert exponent[1] == pytest.approx(22e-9 * 1e3, rel=1e-5)
+    assert exponent[1] == pytest.approx(22e-9 * 1e3, rel=1e-5, abs=0.0)
     linear, _ = lubricant.roelands(2e9, **(ROELANDS | {"roelands_z": 1.0}))
     assert linear == pytest.approx(lubricant.barus(2e9, pressure_viscosity_coefficient=22e-9)[0])
 
@@ -119,7 +119,7 @@ def test_clausius_mossotti_limits(ratio, more, reference):
     )
     assert eps[0] == 1.0
     assert 1.0 <= eps[1] <= eps[2] * (1 + 1e-15)
-    assert eps[3] == pytest.approx(reference, rel=1e-14)
+    assert eps[3] == pytest.approx(reference, rel=1e-14, abs=0.0)
 
 
 def test_clausius_mossotti_refuses_its_pole():

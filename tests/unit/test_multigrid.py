@@ -95,7 +95,7 @@ def three_lines(jacobian):
         deflection=Deflection.from_influence(apart),
     )
     copy = multigrid.Linearised.__new__(multigrid.Linearised)
-    copy.level = wide
+    copy.level, copy.half_band = wide, jacobian.half_band
     for name in ("free", "dipole", "resolved"):
         setattr(copy, name, np.repeat(getattr(jacobian, name), 3, axis=1))
     for name in ("by_p", "by_h"):

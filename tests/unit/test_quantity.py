@@ -32,7 +32,7 @@ from ehlectric.quantity import Count, Quantity, to_si
     ],
 )
 def test_units(text, unit, expected):
-    assert to_si(text, unit) == pytest.approx(expected, rel=1e-14)
+    assert to_si(text, unit) == pytest.approx(expected, rel=1e-14, abs=0.0)
 
 
 @pytest.mark.parametrize(
@@ -58,8 +58,8 @@ def test_quantity_says_what_it_got_and_takes(given):
 @given(st.floats(1e-6, 9.0))
 def test_number_and_text_are_the_same(value):
     assert LENGTH.parse(value) == value
-    assert LENGTH.parse(f"{value!r} m") == pytest.approx(value, rel=1e-14)
-    assert LENGTH.parse(f"{1e3 * value!r} mm") == pytest.approx(value, rel=1e-13)
+    assert LENGTH.parse(f"{value!r} m") == pytest.approx(value, rel=1e-14, abs=0.0)
+    assert LENGTH.parse(f"{1e3 * value!r} mm") == pytest.approx(value, rel=1e-13, abs=0.0)
 
 
 PREFIXES = {"": 0, "k": 3, "M": 6, "G": 9, "m": -3, "µ": -6, "u": -6, "n": -9}

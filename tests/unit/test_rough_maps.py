@@ -69,12 +69,12 @@ def test_ridges_lie_across_their_orientation(table):
     z = surface.height(x, x)
     found = statistics(Map(2e-6, 2e-6, z))
     spread = 4 / np.sqrt(2 * 2.4e-3**2 / (np.pi / 2 * 10e-6 * 50e-6))
-    assert found.sq == pytest.approx(1e-8, rel=spread)
-    assert found.correlation_length_x == pytest.approx((c * c * u + s * s * v) ** -0.5, rel=0.04)
-    assert found.correlation_length_y == pytest.approx((s * s * u + c * c * v) ** -0.5, rel=0.04)
-    assert found.correlation_length == pytest.approx(10e-6, rel=0.04)
+    assert found.sq == pytest.approx(1e-8, rel=spread, abs=0.0)
+    assert found.correlation_length_x == pytest.approx((c * c * u + s * s * v) ** -0.5, rel=0.04, abs=0.0)
+    assert found.correlation_length_y == pytest.approx((s * s * u + c * c * v) ** -0.5, rel=0.04, abs=0.0)
+    assert found.correlation_length == pytest.approx(10e-6, rel=0.04, abs=0.0)
     gx, gy = np.gradient(z, 2e-6)
-    assert np.mean(gx * gy) == pytest.approx(2 * 1e-16 * c * s * (u - v), rel=2 * spread + 0.03)
+    assert np.mean(gx * gy) == pytest.approx(2 * 1e-16 * c * s * (u - v), rel=2 * spread + 0.03, abs=0.0)
 
 
 def test_ridges_of_any_length_are_a_profile():
@@ -106,8 +106,8 @@ def test_real_maps_are_used_whole(path, size, spacing):
     assert [step["step"] for step in told["steps"]] == ["as read", "form: line"]
     last = told["steps"][-1]
     assert (last["points_x"], last["points_y"]) == size
-    assert (last["spacing_x"], last["spacing_y"]) == pytest.approx(spacing, rel=1e-5)
-    assert last["sq"] == pytest.approx(np.sqrt(np.mean(left**2)), rel=1e-6)
+    assert (last["spacing_x"], last["spacing_y"]) == pytest.approx(spacing, rel=1e-5, abs=0.0)
+    assert last["sq"] == pytest.approx(np.sqrt(np.mean(left**2)), rel=1e-6, abs=0.0)
     # The heights are where they were: x along a row, y with the number of the row.
     x = (np.arange(raw.shape[1]) - 0.5 * (raw.shape[1] - 1)) * last["spacing_x"]
     y = (np.arange(raw.shape[0]) - 0.5 * (raw.shape[0] - 1)) * last["spacing_y"]
@@ -325,9 +325,9 @@ def test_variance_that_the_grid_misses_is_measured(orientation):
     fx, fy = 8e5 * abs(np.cos(turn)), 8e5 * abs(np.sin(turn))
     assert variance_beyond(surface, 1.1 * fx + 1e5, 1.1 * fy + 1e5, orientation) < 1e-5
     if fx > 1e5:
-        assert variance_beyond(surface, 0.9 * fx, 1e7, orientation) == pytest.approx(0.1, rel=2e-2)
+        assert variance_beyond(surface, 0.9 * fx, 1e7, orientation) == pytest.approx(0.1, rel=2e-2, abs=0.0)
     if fy > 1e5:
-        assert variance_beyond(surface, 1e7, 0.9 * fy, orientation) == pytest.approx(0.1, rel=2e-2)
+        assert variance_beyond(surface, 1e7, 0.9 * fy, orientation) == pytest.approx(0.1, rel=2e-2, abs=0.0)
 
 
 def test_variance_that_the_grid_misses_is_said():

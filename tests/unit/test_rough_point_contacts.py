@@ -35,7 +35,7 @@ def test_a_pit_and_its_mirror_image():
     assert mirrored.minimum_position == pytest.approx((x, -y), abs=1e-12)
     # Solvers of fields stop at a relative 1e-10 or so of their charge.
     np.testing.assert_allclose(right.field.middle_strength[:, ::-1], left.field.middle_strength, rtol=1e-6)
-    assert right.field.capacitance == pytest.approx(left.field.capacitance, rel=1e-8)
+    assert right.field.capacitance == pytest.approx(left.field.capacitance, rel=1e-8, abs=0.0)
     # The smooth contact beside it is symmetric.
     assert np.array_equal(left.smooth.thickness, left.smooth.thickness[:, ::-1])
 
@@ -60,7 +60,7 @@ def test_film_does_not_tell_which_surface_is_rough():
     # Equal bodies: the field is turned upside down.
     strength = second.field.strength[:, :, ::-1]
     np.testing.assert_allclose(strength, first.field.strength, rtol=1e-6)
-    assert second.field.capacitance == pytest.approx(first.field.capacitance, rel=1e-8)
+    assert second.field.capacitance == pytest.approx(first.field.capacitance, rel=1e-8, abs=0.0)
 
 
 def test_waves_along_the_lay_stay_so(tmp_path):
@@ -109,8 +109,8 @@ def test_rough_summary_and_smooth_companion():
     inside = np.hypot(film.x[:, np.newaxis], film.y) <= a
     rq = np.std(result.roughness[1][inside])
     assert roughness["rq_1"] == 0.0
-    assert roughness["rq_2"] == roughness["rq_combined"] == pytest.approx(rq, rel=1e-12)
-    assert roughness["lambda_ratio"] == pytest.approx(film.minimum_thickness / rq, rel=1e-12)
+    assert roughness["rq_2"] == roughness["rq_combined"] == pytest.approx(rq, rel=1e-12, abs=0.0)
+    assert roughness["lambda_ratio"] == pytest.approx(film.minimum_thickness / rq, rel=1e-12, abs=0.0)
 
 
 def test_roughness_higher_than_the_film_leaves_none():

@@ -46,13 +46,13 @@ def test_statistics_of_a_sine():
     spacing, wavelength, amplitude = 1e-7, 1e-4, 1e-7
     x = spacing * np.arange(10_000)
     s = statistics(Profile(spacing, amplitude * np.sin(2 * np.pi * x / wavelength)))
-    assert s.rq == pytest.approx(amplitude / np.sqrt(2), rel=1e-6)
-    assert s.ra == pytest.approx(2 * amplitude / np.pi, rel=1e-4)
+    assert s.rq == pytest.approx(amplitude / np.sqrt(2), rel=1e-6, abs=0.0)
+    assert s.ra == pytest.approx(2 * amplitude / np.pi, rel=1e-4, abs=0.0)
     assert s.rsk == pytest.approx(0.0, abs=1e-9)
-    assert s.rku == pytest.approx(1.5, rel=1e-6)
+    assert s.rku == pytest.approx(1.5, rel=1e-6, abs=0.0)
     slope = 2 * np.pi * amplitude / wavelength
-    assert s.rms_slope == pytest.approx(slope / np.sqrt(2), rel=1e-3)
-    assert s.largest_slope == pytest.approx(slope, rel=1e-3)
+    assert s.rms_slope == pytest.approx(slope / np.sqrt(2), rel=1e-3, abs=0.0)
+    assert s.largest_slope == pytest.approx(slope, rel=1e-3, abs=0.0)
 
 
 def test_steps_come_in_order_and_trim_by_half_a_cutoff():
@@ -62,7 +62,7 @@ def test_steps_come_in_order_and_trim_by_half_a_cutoff():
         "as read", "form", "cutoff_long", "cutoff_short", "trim", "rescale_rq", "truncate",
     ]  # fmt: skip
     assert steps[4][1].heights.size == 2000 - 2 * 40
-    assert statistics(steps[5][1]).rq == pytest.approx(5e-8, rel=1e-9)
+    assert statistics(steps[5][1]).rq == pytest.approx(5e-8, rel=1e-9, abs=0.0)
     assert np.max(np.abs(steps[6][1].heights)) == 6e-8
 
 
@@ -110,11 +110,11 @@ def test_random_profiles_are_reproducible_and_as_asked():
     assert np.corrcoef(one.heights, other.heights)[0, 1] == pytest.approx(0.0, abs=0.02)
     s = statistics(one)
     spread = np.sqrt(5e-6 * np.sqrt(np.pi / 2) / 0.5 / 2)
-    assert s.rq == pytest.approx(1e-8, rel=4 * spread)
-    assert s.correlation_length == pytest.approx(5e-6, rel=0.02)
+    assert s.rq == pytest.approx(1e-8, rel=4 * spread, abs=0.0)
+    assert s.correlation_length == pytest.approx(5e-6, rel=0.02, abs=0.0)
     assert s.rku == pytest.approx(3.0, abs=0.1)
     # The curvature of the autocorrelation at zero gives the slope, sqrt(2) rq/l.
-    assert s.rms_slope == pytest.approx(np.sqrt(2) * 1e-8 / 5e-6, rel=0.02)
+    assert s.rms_slope == pytest.approx(np.sqrt(2) * 1e-8 / 5e-6, rel=0.02, abs=0.0)
 
 
 def test_self_affine_spectrum_has_its_slope():
@@ -123,7 +123,7 @@ def test_self_affine_spectrum_has_its_slope():
     profile = generators.self_affine(
         rq=1e-8, hurst=hurst, rolloff_wavelength=1e-4, length=0.5, seed=3, shortest=1e-6
     )
-    assert statistics(profile).rq == pytest.approx(1e-8, rel=0.02)
+    assert statistics(profile).rq == pytest.approx(1e-8, rel=0.02, abs=0.0)
     # Averaged over pieces, with Hann's window.
     pieces = profile.heights[: profile.heights.size // 8192 * 8192].reshape(-1, 8192) * np.hanning(8192)
     power = np.mean(np.abs(np.fft.rfft(pieces, axis=1)) ** 2, axis=0)

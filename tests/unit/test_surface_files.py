@@ -25,7 +25,7 @@ def test_dektak_spacing_is_that_of_the_whole_length():
     """Its positions are rounded to 0.1 um: neighbours are 0.1 or 0.2 um apart, the truth is 0.15625."""
     surface = read_surface(DEKTAK)
     assert surface.heights.shape == (1, 9600)
-    assert surface.spacing_x == pytest.approx(0.15625e-6, rel=1e-3)
+    assert surface.spacing_x == pytest.approx(0.15625e-6, rel=1e-3, abs=0.0)
     assert surface.voids == 0.0
     assert surface.height_step is None or surface.height_step < 1e-10
 
@@ -41,7 +41,7 @@ def test_dektak_spacing_is_that_of_the_whole_length():
     ],
 )
 def test_dektak_roughness(steps, rq):
-    assert rq_after(read_surface(DEKTAK), **steps) * 1e9 == pytest.approx(rq, rel=0.02)
+    assert rq_after(read_surface(DEKTAK), **steps) * 1e9 == pytest.approx(rq, rel=0.02, abs=0.0)
 
 
 def rq_of_line(surface, index, along, form="parabola"):
@@ -62,8 +62,8 @@ def rq_of_line(surface, index, along, form="parabola"):
 def test_contour_file(steps, rq):
     surface = read_surface(DATA / "hfm-1.hfm")
     assert surface.heights.shape == (1, 9600)
-    assert surface.spacing_x == pytest.approx(0.5e-6, rel=1e-6)
-    assert rq_after(surface, **steps) * 1e9 == pytest.approx(rq, rel=0.02)
+    assert surface.spacing_x == pytest.approx(0.5e-6, rel=1e-6, abs=0.0)
+    assert rq_after(surface, **steps) * 1e9 == pytest.approx(rq, rel=0.02, abs=0.0)
     # Heights in steps of 2 to 3 nm.
     assert 1.9e-9 < surface.height_step < 3.1e-9
 
@@ -71,20 +71,24 @@ def test_contour_file(steps, rq):
 def test_real_x3p():
     surface = read_surface(DATA / "x3p-2-half.x3p")
     assert surface.heights.shape == (325, 650)
-    assert (surface.spacing_x, surface.spacing_y) == pytest.approx((0.127657e-6, 0.314582e-6), rel=1e-5)
-    assert rq_of_line(surface, 162, "row") == pytest.approx(86.0, rel=0.02)
-    assert rq_of_line(surface, 325, "column") == pytest.approx(17.0, rel=0.02)
+    assert (surface.spacing_x, surface.spacing_y) == pytest.approx(
+        (0.127657e-6, 0.314582e-6), rel=1e-5, abs=0.0
+    )
+    assert rq_of_line(surface, 162, "row") == pytest.approx(86.0, rel=0.02, abs=0.0)
+    assert rq_of_line(surface, 325, "column") == pytest.approx(17.0, rel=0.02, abs=0.0)
 
 
 def test_real_al3d():
     surface = read_surface(DATA / "al3d-1.al3d")
     assert surface.heights.shape == (296, 200)
-    assert (surface.spacing_x, surface.spacing_y) == pytest.approx((0.438027e-6, 0.438027e-6), rel=1e-6)
+    assert (surface.spacing_x, surface.spacing_y) == pytest.approx(
+        (0.438027e-6, 0.438027e-6), rel=1e-6, abs=0.0
+    )
     rows, columns = np.indices(surface.heights.shape).reshape(2, -1)
     plane = np.stack([np.ones(rows.size), rows, columns], axis=1)
     z = surface.heights.ravel()
     rest = z - plane @ np.linalg.lstsq(plane, z, rcond=None)[0]
-    assert np.std(rest) == pytest.approx(290e-9, rel=0.02)
+    assert np.std(rest) == pytest.approx(290e-9, rel=0.02, abs=0.0)
 
 
 @pytest.mark.parametrize("name", ["x3p-2-half.x3p", "al3d-1.al3d"])
@@ -106,8 +110,8 @@ def text_file(path, *, header="x [um];z [nm]", rows=40, separator=";", change=la
 def test_text_with_units_in_its_header(tmp_path, separator):
     header = separator.join(["x[um]", "z[nm]"])
     surface = read_surface(text_file(tmp_path / "a.txt", header=header, separator=separator))
-    assert surface.spacing_x == pytest.approx(0.5e-6, rel=1e-12)
-    assert surface.heights[0, 1] == pytest.approx(10e-9 * np.sin(1), rel=1e-4)
+    assert surface.spacing_x == pytest.approx(0.5e-6, rel=1e-12, abs=0.0)
+    assert surface.heights[0, 1] == pytest.approx(10e-9 * np.sin(1), rel=1e-4, abs=0.0)
 
 
 def test_units_may_be_given_and_must_not_contradict(tmp_path):

@@ -18,7 +18,7 @@ def written(path, header, rows, code="utf-8"):
 
 
 def assert_read(surface):
-    assert surface.spacing_x == pytest.approx(0.5e-6, rel=1e-12)
+    assert surface.spacing_x == pytest.approx(0.5e-6, rel=1e-12, abs=0.0)
     np.testing.assert_allclose(surface.heights[0], 1e-9 * Z, rtol=0.0, atol=1e-13)
 
 

@@ -82,16 +82,16 @@ def test_statistics_of_crossed_waves():
     p, q = 2 * np.pi / (40 * DX), 2 * np.pi / (50 * DY)
     x, y = DX * np.arange(nx)[:, np.newaxis], DY * np.arange(ny)
     s = statistics(Map(DX, DY, a * np.sin(p * x) * np.sin(q * y)))
-    assert s.sq == pytest.approx(a / 2, rel=1e-9)
-    assert s.sa == pytest.approx((2 / np.pi) ** 2 * a, rel=5e-3)
+    assert s.sq == pytest.approx(a / 2, rel=1e-9, abs=0.0)
+    assert s.sa == pytest.approx((2 / np.pi) ** 2 * a, rel=5e-3, abs=0.0)
     assert s.ssk == pytest.approx(0.0, abs=1e-9)
-    assert s.sku == pytest.approx(2.25, rel=1e-9)
+    assert s.sku == pytest.approx(2.25, rel=1e-9, abs=0.0)
     seen = 2 * np.sin(p * DX / 2) / DX, 2 * np.sin(q * DY / 2) / DY
-    assert s.rms_slope == pytest.approx(a * np.hypot(*seen) / 2, rel=2e-3)
-    assert s.largest_slope == pytest.approx(a * max(seen), rel=5e-3)
+    assert s.rms_slope == pytest.approx(a * np.hypot(*seen) / 2, rel=2e-3, abs=0.0)
+    assert s.largest_slope == pytest.approx(a * max(seen), rel=5e-3, abs=0.0)
     # The autocorrelation cos(p d) falls to 1/e at acos(1/e)/p; a lag leaves some thirty periods, not whole.
-    assert s.correlation_length_x == pytest.approx(np.arccos(1 / np.e) / p, rel=0.02)
-    assert s.correlation_length_y == pytest.approx(np.arccos(1 / np.e) / q, rel=0.02)
+    assert s.correlation_length_x == pytest.approx(np.arccos(1 / np.e) / p, rel=0.02, abs=0.0)
+    assert s.correlation_length_y == pytest.approx(np.arccos(1 / np.e) / q, rel=0.02, abs=0.0)
 
 
 @pytest.mark.parametrize("direction", [0.0, 30.0, 90.0, 135.0])
@@ -101,10 +101,10 @@ def test_the_shortest_correlation_length_lies_across_the_ridges(direction):
     c, s = np.cos(np.deg2rad(direction)), np.sin(np.deg2rad(direction))
     found = statistics(mapped(lambda x, y: np.sin(q * (c * x + s * y)), 600, 500))
     across = np.arccos(1 / np.e) / q
-    assert found.correlation_length == pytest.approx(across, rel=0.02)
+    assert found.correlation_length == pytest.approx(across, rel=0.02, abs=0.0)
     if abs(c * s) > 1e-9:
-        assert found.correlation_length_x == pytest.approx(across / abs(c), rel=0.03)
-        assert found.correlation_length_y == pytest.approx(across / abs(s), rel=0.03)
+        assert found.correlation_length_x == pytest.approx(across / abs(c), rel=0.03, abs=0.0)
+        assert found.correlation_length_y == pytest.approx(across / abs(s), rel=0.03, abs=0.0)
 
 
 def test_a_flat_map_has_no_roughness():
