@@ -61,7 +61,8 @@ def test_estimates_over_the_grids():
             assert (true - slack) / 3.0 < error * found.minimum_thickness / exact < 3.0 * (true + slack)
         unusable = any("do not use" in text for text in result.warnings)
         assert unusable == (error is None or error > 0.1)
-        # The films of such a contact: 0.050, 0.100 and 0.111 um.
-        assert unusable == (nodes < 257) or error > 0.1
     assert np.all(np.diff([*minima, fine.minimum_thickness]) > 0.0)
-    np.testing.assert_allclose(minima, [0.050e-6, 0.100e-6, 0.111e-6], rtol=[0.4, 0.1, 0.1])
+    # An independent solver had 0.050, 0.100 and 0.111 um for a contact of such a bearing: a film as thin, on
+    # grids as much too coarse for it.
+    for ours, theirs, part in zip(minima, (0.050e-6, 0.100e-6, 0.111e-6), (0.4, 0.1, 0.1), strict=True):
+        assert ours == pytest.approx(theirs, rel=part, abs=0.0)
