@@ -37,7 +37,7 @@ def test_a_pit_and_its_mirror_image():
     # Solvers of fields stop at a relative 1e-10 or so of their charge.
     np.testing.assert_allclose(right.field.middle_strength[:, ::-1], left.field.middle_strength, rtol=1e-6)
     assert right.field.capacitance == pytest.approx(left.field.capacitance, rel=1e-8, abs=0.0)
-    # Its gap is that of bodies with a pit in one: but for a rigid distance, parabolas, deflection and heights.
+    # Its gap is that of bodies with a pit in one: parabolas, deflection, heights and a rigid distance.
     conditions = left.conditions
     parabolas = 0.5 * film.x[:, np.newaxis] ** 2 / conditions.radius_x + 0.5 * film.y**2 / conditions.radius_y
     rigid = film.thickness - parabolas - film.deflection + left.roughness.sum(axis=0)
