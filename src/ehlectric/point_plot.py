@@ -2,13 +2,292 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
+import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 
+from ehlectric.drawing import GREY, unit_for
+from ehlectric.point_cuts import cuts, field_sections
+from ehlectric.point_drawing import (
+    colour_bar,
+    draw_map,
+    entrainment,
+    extreme_positions,
+    field_window,
+    film_window,
+    hertz_ellipse,
+    legend_above,
+    map_panels,
+    mark,
+    on_page,
+    panel_name,
+    round_levels,
+    turned,
+)
 from ehlectric.point_result import PointResult
+from ehlectric.store import POINT_FIGURE_FILES, ROUGHNESS_FIGURE
+from ehlectric.typing import Array
+from ehlectric.zones import HIGH_FIELD
+
+SECTIONS = ("surface 1", "mid-film", "surface 2")
+
+# Part of the film in the Hertz ellipse that may be thicker than the colours reach: the edge of the inlet.
+_THICKER = 2.0
+
+# Part of the columns at which the field may be further from the thin-gap estimate than the colours reach.
+_FURTHER = 1.0
+
+# Part of the largest pressure above which there are no lines: across the ridge they would be a tangle.
+_BELOW_RIDGE = 0.75
+
+# Part of the range of the field in which it is shown beside the thin-gap estimate: the elements next to its
+# faces overshoot.
+_KEPT = 0.92
 
 
-def point_figures_of(_result: PointResult) -> dict[str, Callable[..., Axes]]:
+def film_map(result: PointResult, ax: Axes | None = None) -> Axes:
+    """Map of the film thickness with lines of equal thickness, as an interferogram has them.
+
+    Parameters
+    ----------
+    result : PointResult
+        What to draw.
+    ax : Axes, optional
+        Where to; new axes otherwise.
+
+    Returns
+    -------
+    Axes
+        With a colour bar of the films in the Hertz ellipse: those around it are thicker than it reaches.
+        Rough films have no lines.
+    """
+    film, window = result.film, film_window(result)
+    ax = map_panels(result, 1, window)[0] if ax is None else ax
+    factor, unit = unit_for(film.central_thickness, "m", least=1.0)
+    thickness = factor * film.thickness
+    inside = result.zones["hertz"](film.x[:, np.newaxis], film.y)
+    highest = float(np.percentile(thickness[inside], 100.0 - _THICKER))
+    levels = round_levels(factor * film.minimum_thickness, highest, 12)
+    limits = (float(levels[0]), float(levels[-1]))
+    at = (film.x, film.y)
+    mesh = draw_map(result, ax, at, thickness, colours="viridis", limits=limits, window=window)
+    bar = colour_bar(result, mesh, [ax], f"film thickness $h$ [{unit}]", extend="max", ticks=levels)
+    if not result.rough:
+        lines = ax.contour(*on_page(result, *at), thickness, levels, colors="black", linewidths=0.5)
+        bar.add_lines(lines)
+    minimum = f"minimum, {factor * film.minimum_thickness:.3g} {unit}"
+    lowest = mark(result, ax, extreme_positions(*at, -film.thickness), minimum, "v")
+    legend_above(ax, [hertz_ellipse(result, ax), lowest])
+    entrainment(result, ax)
+    return ax
+
+
+def pressure_map(result: PointResult, ax: Axes | None = None) -> Axes:
+    """Map of the pressure with lines of equal pressure, and where the film cavitates.
+
+    Parameters
+    ----------
+    result : PointResult
+        What to draw.
+    ax : Axes, optional
+        Where to; new axes otherwise.
+
+    Returns
+    -------
+    Axes
+        With a colour bar beside them.
+    """
+    film, window = result.film, film_window(result)
+    ax = map_panels(result, 1, window)[0] if ax is None else ax
+    factor, unit = unit_for(film.max_pressure, "Pa")
+    pressure = factor * film.pressure
+    at = (film.x, film.y)
+    limits = (0.0, factor * film.max_pressure)
+    mesh = draw_map(result, ax, at, pressure, colours="magma", limits=limits, window=window)
+    levels = round_levels(*limits, 10)
+    bar = colour_bar(result, mesh, [ax], f"pressure $p$ [{unit}]", ticks=levels[levels <= limits[1]])
+    if not result.rough:
+        inner = levels[(levels > 0.0) & (levels < _BELOW_RIDGE * limits[1])]
+        bar.add_lines(
+            ax.contour(*on_page(result, *at), pressure, inner, colors="white", linewidths=0.4, alpha=0.6)
+        )
+    cavitated = _cavitated(result, ax)
+    highest = f"maximum, {factor * film.max_pressure:.3g} {unit}"
+    peak = mark(result, ax, extreme_positions(*at, film.pressure), highest, "x")
+    legend_above(
+        ax, [hertz_ellipse(result, ax, "white"), peak, cavitated], columns=4 if turned(result) else 2
+    )
+    entrainment(result, ax, ink="white")
+    return ax
+
+
+def _cavitated(result: PointResult, ax: Axes) -> Patch:
+    """Hatch where the pressure is held at ambient, without the edges of the domain."""
+    film = result.film
+    x, y = on_page(result, film.x[1:-1], film.y[1:-1])
+    held = film.cavitated[1:-1, 1:-1].astype(float)
+    look = {"hatch": "////", "facecolor": "#e3e6ea", "edgecolor": GREY, "linewidth": 0.0}
+    if np.any(held):
+        area = ax.contourf(x, y, held, [0.5, 1.5], colors=[look["facecolor"]], hatches=[look["hatch"]])
+        area.set(edgecolor=GREY, linewidth=0.0)
+    return Patch(label="cavitated", **look)
+
+
+def field_map(result: PointResult, ax: Axes | None = None, *, section: str = "mid-film") -> Axes:
+    """Map of the field strength on a wall or at mid-film, with the zone of high field and the maximum.
+
+    Parameters
+    ----------
+    result : PointResult
+        What to draw.
+    ax : Axes, optional
+        Where to; new axes otherwise.
+    section : str
+        "mid-film", "surface 1" or "surface 2".
+
+    Returns
+    -------
+    Axes
+        With a colour bar beside them, to the largest field of all three.
+    """
+    field, window = result.field, field_window(result)
+    ax = map_panels(result, 1, window)[0] if ax is None else ax
+    factor, unit = unit_for(field.max_strength, "V/m")
+    strength = _strength(result, section)
+    at = (field.x, field.y)
+    limits = (0.0, factor * field.max_strength)
+    mesh = draw_map(result, ax, at, factor * strength, colours="inferno", limits=limits, window=window)
+    colour_bar(result, mesh, [ax], rf"field strength $|E|$, {section} [{unit}]")
+    level = HIGH_FIELD * float(np.max(strength))
+    ax.contour(*on_page(result, *at), strength, [level], colors="#00e5ff", linewidths=0.9)
+    handles = [
+        hertz_ellipse(result, ax, "white"),
+        Line2D([], [], color="#00b8d4", lw=0.9, label=f"{100.0 * HIGH_FIELD:g} % of the maximum, {section}"),
+    ]
+    where = f" on {field.max_strength_wall}" if result.rough and field.max_strength_wall in SECTIONS else ""
+    largest = f"largest, {factor * field.max_strength:.3g} {unit}{where}"
+    legend_above(
+        ax, [*handles, mark(result, ax, _largest(result), largest, "x")], columns=4 if turned(result) else 2
+    )
+    entrainment(result, ax, ink="white")
+    return ax
+
+
+def _strength(result: PointResult, section: str) -> Array:
+    """abs(E) on a wall or at mid-film [V/m]."""
+    field = result.field
+    strengths = (field.surface_1_strength, field.middle_strength, field.surface_2_strength)
+    return strengths[SECTIONS.index(section)]
+
+
+def _largest(result: PointResult) -> Array:
+    """Positions of the largest field of the walls and mid-film, (n, 2) [m]."""
+    field = result.field
+    return extreme_positions(field.x, field.y, _strength(result, field.max_strength_wall))
+
+
+def field_deviation(result: PointResult, axes: Sequence[Axes] | None = None) -> Axes:
+    """Deviation of the field strength from the thin-gap estimate V12/h, on both walls and at mid-film.
+
+    Parameters
+    ----------
+    result : PointResult
+        What to draw.
+    axes : sequence of Axes, optional
+        Where to, three of them; new axes otherwise.
+
+    Returns
+    -------
+    Axes
+        The first. In per mille of V12/h, without the edges of the range: their faces disturb the field over
+        some gaps.
+    """
+    field, window = result.field, field_window(result, _KEPT)
+    axes = map_panels(result, len(SECTIONS), window) if axes is None else axes
+    deviations = [1e3 * (_strength(result, name) / field.thin_gap_strength - 1.0) for name in SECTIONS]
+    reach = max(np.percentile(np.abs(values[field.inner]), 100.0 - _FURTHER) for values in deviations)
+    end = float(round_levels(0.0, float(reach), 4)[-1])
+    for ax, name, values in zip(axes, SECTIONS, deviations, strict=True):
+        mesh = draw_map(
+            result,
+            ax,
+            (field.x, field.y),
+            np.ma.masked_where(~field.inner, values),
+            colours="RdBu_r",
+            limits=(-end, end),
+            window=window,
+        )
+        hertz_ellipse(result, ax)
+        panel_name(ax, name)
+        ax.label_outer()
+    colour_bar(result, mesh, axes, r"$|E|\,h/V_{12} - 1$ [‰]", extend="both")
+    entrainment(result, axes[0])
+    return axes[0]
+
+
+def roughness(result: PointResult, axes: Sequence[Axes] | None = None) -> Axes:
+    """Heights of the roughness of both surfaces together, and what they change in the film.
+
+    Parameters
+    ----------
+    result : PointResult
+        What to draw.
+    axes : sequence of Axes, optional
+        Where to, two of them; new axes otherwise.
+
+    Returns
+    -------
+    Axes
+        The first, with the heights, peaks up for either surface. The second has the film less that between
+        smooth surfaces, to the same scale: where it is the heights with their sign changed, nothing is
+        flattened. It is the film itself where there is none between smooth surfaces.
+    """
+    window = film_window(result)
+    axes = map_panels(result, 2, window) if axes is None else axes
+    film, heights = result.film, result.roughness.sum(axis=0)
+    shown = _within(result, window)
+    largest = float(np.percentile(np.abs(heights[shown]), 99.5)) or float(np.max(np.abs(heights)))
+    factor, unit = unit_for(largest, "m", least=1.0)
+    end = factor * largest
+    changed = film.thickness - (film.central_thickness if result.smooth is None else result.smooth.thickness)
+    names = ("roughness $z_1 + z_2$", "change of the film, $h - h_\\mathrm{smooth}$")
+    for ax, name, values in zip(axes, names, (heights, changed), strict=True):
+        mesh = draw_map(
+            result,
+            ax,
+            (film.x, film.y),
+            factor * values,
+            colours="RdBu_r",
+            limits=(-end, end),
+            window=window,
+        )
+        hertz_ellipse(result, ax)
+        panel_name(ax, name)
+        ax.label_outer()
+    colour_bar(result, mesh, axes, f"height, change of the film [{unit}]", extend="both")
+    entrainment(result, axes[0])
+    return axes[0]
+
+
+def _within(result: PointResult, window: tuple[tuple[float, float], tuple[float, float]]) -> Array:
+    """Which of the film's nodes are within a window."""
+    x, y = result.film.x / result.conditions.semi_axis_x, result.film.y / result.conditions.semi_axis_x
+    (left, right), (low, high) = window
+    return np.outer((x >= left) & (x <= right), (y >= low) & (y <= high))
+
+
+POINT_FIGURES: dict[str, Callable[..., Axes]] = dict(
+    zip(
+        POINT_FIGURE_FILES,
+        (film_map, pressure_map, field_map, field_deviation, field_sections, cuts),
+        strict=True,
+    )
+)
+
+
+def point_figures_of(result: PointResult) -> dict[str, Callable[..., Axes]]:
     """The figures of a result by the names of their files."""
-    return {}
+    return POINT_FIGURES | ({ROUGHNESS_FIGURE: roughness} if np.any(result.roughness) else {})
