@@ -1,16 +1,18 @@
-"""Figures of cuts through a point contact: pressure, film and field over x and y, and sections of the film."""
+"""Figures of cuts through a point contact: pressure, film and field over x and y, sections of the film."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
+from numpy.typing import NDArray
 
 from ehlectric.drawing import BLUE, GREY, ORANGE, figure_of, label_position, new_panels, unit_for
-from ehlectric.point_drawing import film_window, legend_above, round_levels
+from ehlectric.point_drawing import film_unit, film_window, legend_above, round_levels
 from ehlectric.point_result import PointResult
 from ehlectric.section_plot import draw_section
 from ehlectric.typing import Array
@@ -34,7 +36,7 @@ class Cut:
         index = int(np.argmin(np.abs(axis - position)))
         return cls(along, index, float(axis[index]))
 
-    def of(self, values: Array) -> Array:
+    def of(self, values: NDArray[Any]) -> NDArray[Any]:
         """Values (nx, ny, ...) on the line."""
         return values[:, self.index] if self.along == "x" else values[self.index]
 
@@ -69,9 +71,11 @@ def pressure_cut(result: PointResult, ax: Axes, along: str = "x") -> Axes:
     """
     film, conditions = result.film, result.conditions
     factor, unit = unit_for(film.max_pressure, "Pa")
-    at, dry = _axis(result, along), _semi_axis(result, along)
-    hertz = factor * conditions.max_pressure * np.sqrt(np.maximum(1.0 - (at / dry) ** 2, 0.0))
-    lines = ax.plot(at, hertz, color=GREY, ls=":", lw=0.9, label="Hertz pressure, centre")
+    across = np.linspace(-1.0, 1.0, 401)
+    hertz = factor * conditions.max_pressure * np.sqrt(1.0 - across**2)
+    lines = ax.plot(
+        _semi_axis(result, along) * across, hertz, color=GREY, ls=":", lw=0.9, label="Hertz pressure, centre"
+    )
     lines += _film_lines(result, ax, along, factor * film.pressure)
     ax.set_ylabel(f"pressure $p$ [{unit}]")
     ax.set_ylim(0.0, 1.05 * factor * max(film.max_pressure, conditions.max_pressure))
@@ -97,13 +101,12 @@ def film_cut(result: PointResult, ax: Axes, along: str = "x") -> Axes:
         Up to twice the thickest film of the dry contact's middle; smooth surfaces dotted beside rough ones.
     """
     film = result.film
-    factor, unit = unit_for(film.central_thickness, "m", least=1.0)
+    factor, unit = film_unit(result)
     if result.smooth is not None:
         for cut in _film_cuts(result, along):
             smooth = factor * cut.of(result.smooth.thickness)
-            (line,) = ax.plot(
-                _axis(result, along), smooth, color="black", lw=0.9, ls=":", label="smooth surfaces"
-            )
+            (line,) = ax.plot(_axis(result, along), smooth, color="black", lw=0.9, ls=":")
+        line.set_label("smooth surfaces")
         legend_above(ax, [line])
     _film_lines(result, ax, along, factor * film.thickness)
     ax.set_ylabel(f"film thickness $h$ [{unit}]")
@@ -136,13 +139,11 @@ def field_cut(result: PointResult, ax: Axes, along: str = "x") -> Axes:
         cut = Cut.near(along, place, field.x, field.y)
         on = cut.of(field.inner)
         ax.plot(at[on], factor * cut.of(field.thin_gap_strength)[on], color=color, lw=4.0, alpha=0.25)
-        label = f"largest field, {cut.name(result)}"
-        (last,) = ax.plot(
-            at[on], factor * cut.of(field.middle_strength)[on], color=color, ls=line, label=label
-        )
-    band = Line2D([], [], color=GREY, lw=4.0, alpha=0.4, label="$V_{12}/h$ of either, behind it")
+        (last,) = ax.plot(at[on], factor * cut.of(field.middle_strength)[on], color=color, ls=line)
+    last.set_label(f"largest field, {cut.name(result)}")
+    band = Line2D([], [], color=GREY, lw=4.0, alpha=0.4, label="$V_{12}/h$, behind the lines")
     legend_above(ax, [last, band], 1)
-    ax.set_ylabel(f"field strength $|E|$ [{unit}]")
+    ax.set_ylabel(f"mid-film field $|E|$ [{unit}]")
     ax.set_ylim(0.0, 1.08 * factor * field.max_strength)
     return ax
 
@@ -167,8 +168,8 @@ def _film_cuts(result: PointResult, along: str) -> list[Cut]:
     return [Cut.near(along, at, film.x, film.y) for at in ((0.0, 0.0), film.minimum_position)]
 
 
-def _film_lines(result: PointResult, ax: Axes, along: str, values: Array) -> list:
-    lines = []
+def _film_lines(result: PointResult, ax: Axes, along: str, values: Array) -> list[Line2D]:
+    lines: list[Line2D] = []
     for cut, name, (color, line) in zip(
         _film_cuts(result, along), ("centre", "least film"), _LOOKS, strict=True
     ):
@@ -203,7 +204,7 @@ def cuts(result: PointResult, axes: Sequence[Axes] | None = None) -> Axes:
 
 
 def field_section(result: PointResult, ax: Axes, along: str = "x") -> Axes:
-    """Section of the film through the largest field, coloured by the field strength, with equipotential lines.
+    """Section of the film through the largest field, coloured by the field strength, with equipotentials.
 
     Parameters
     ----------
@@ -223,7 +224,7 @@ def field_section(result: PointResult, ax: Axes, along: str = "x") -> Axes:
     cut = Cut.near(along, field.max_strength_position, field.x, field.y)
     on = cut.of(field.inner)
     at = (field.x if along == "x" else field.y)[on] / result.conditions.semi_axis_x
-    factor, unit = unit_for(result.film.central_thickness, "m", least=1.0)
+    factor, unit = film_unit(result)
     strength_factor, strength_unit = unit_for(field.max_strength, "V/m")
     heights = factor * _levelled(result, cut)[on]
     filled = draw_section(
@@ -234,13 +235,12 @@ def field_section(result: PointResult, ax: Axes, along: str = "x") -> Axes:
         limits=(0.0, strength_factor * field.max_strength),
         potentials=(electric.potential_1, electric.potential_2),
     )
-    lines = np.linspace(*sorted((electric.potential_1, electric.potential_2)), 12)[1:-1]
-    along_nodes = np.broadcast_to(at[:, np.newaxis], heights.shape)
+    low, high = sorted((electric.potential_1, electric.potential_2))
     ax.contour(
-        along_nodes,
+        np.broadcast_to(at[:, np.newaxis], heights.shape),
         heights,
         cut.of(field.potential)[on],
-        lines,
+        np.linspace(low, high, 12)[1:-1],
         colors="black",
         linewidths=0.4,
         alpha=0.6,

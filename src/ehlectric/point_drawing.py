@@ -1,9 +1,9 @@
-"""What the figures of point contacts share: how a contact lies on the page, maps, and what is marked on them."""
+"""What the figures of point contacts share: how a contact lies on the page, maps, marks on them."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from matplotlib import patheffects
@@ -12,25 +12,28 @@ from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import QuadMesh
 from matplotlib.lines import Line2D
+from matplotlib.patches import Ellipse
 from matplotlib.ticker import MaxNLocator
 from matplotlib.transforms import Transform, offset_copy
 
-from ehlectric.drawing import figure_of, label_position, new_panels
+from ehlectric.drawing import figure_of, label_position, new_panels, unit_for
 from ehlectric.point_result import PointResult
 from ehlectric.typing import Array
 
 # An ellipse longer than this across entrainment lies along the page: entrainment then points down.
 _TURNED = 1.2
 
-# Maps are drawn at least so high by their width: where that takes more than one scale, the axis says so.
-_LEAST_HEIGHT = 0.42
+# Maps are at least about so high by their width, one alone and several: where that takes more than one scale,
+# the axis says so.
+_LEAST_HEIGHT, _LEAST_OF_SEVERAL = 0.42, 0.25
 
 # Widths of a figure of maps: of one as entrainment lies, for every further one beside it, and with
 # entrainment pointing down [inches].
 _WIDTH, _FURTHER, _WIDE = 5.8, 1.6, 7.2
 
-# Beside the maps: labels and a colour bar; above and below: title, legend and labels, and such a bar [inches].
-_BESIDE, _ABOVE, _BAR = 1.6, 1.1, 0.45
+# Beside the maps: labels and a colour bar; above and below them: title, legend and labels, and such a bar
+# [inches].
+_BESIDE, _ABOVE, _BAR = 1.6, 1.0, 0.4
 
 # Around the Hertz ellipse: before and behind it in semi-axes along entrainment, as in the line contact.
 _BEFORE, _BEHIND = -2.0, 1.5
@@ -64,7 +67,7 @@ def field_window(result: PointResult, part: float = 1.0) -> tuple[Range, Range]:
 def map_panels(result: PointResult, number: int, window: tuple[Range, Range]) -> list[Axes]:
     """Axes of a new figure for maps of one window, of a size that they fill: beside or below each other."""
     width, height = _on_page(result, *(high - low for low, high in window))
-    shape = height / width * _stretch(result, window)
+    shape = height / width * _stretch(result, window, number)
     if turned(result):
         high = number * ((_WIDE - 0.7) * shape + 0.3)
         panels = new_panels(number, 1, (_WIDE, high + _ABOVE + _BAR))
@@ -76,10 +79,11 @@ def map_panels(result: PointResult, number: int, window: tuple[Range, Range]) ->
     return panels
 
 
-def _stretch(result: PointResult, window: tuple[Range, Range]) -> float:
+def _stretch(result: PointResult, window: tuple[Range, Range], number: int) -> float:
     """Scale of the vertical axis of a map by that of the horizontal one: 1, or more in steps of a half."""
     width, height = _on_page(result, *(high - low for low, high in window))
-    return max(1.0, 0.5 * float(np.ceil(2.0 * _LEAST_HEIGHT * width / height - 0.5)))
+    least = _LEAST_HEIGHT if number == 1 else _LEAST_OF_SEVERAL
+    return max(1.0, 0.5 * round(2.0 * least * float(width / height)))
 
 
 def _on_page(result: PointResult, along: Any, across: Any) -> tuple[Any, Any]:
@@ -96,8 +100,11 @@ def draw_map(
     colours: str,
     limits: Range,
     window: tuple[Range, Range],
+    number: int = 1,
 ) -> QuadMesh:
-    """Values (nx, ny) at positions x, y [m] as colours, both axes to one scale, in semi-axes b.
+    """Values (nx, ny) at positions x, y [m] as colours, one of so many maps, its axes in semi-axes b.
+
+    Both are to one scale, but for long ellipses: their narrow axis is stretched, and its label says so.
 
     Returns
     -------
@@ -115,10 +122,15 @@ def draw_map(
     )
     horizontal, vertical = _on_page(result, *window)
     ax.set(xlim=horizontal, ylim=vertical[::-1] if turned(result) else vertical)
-    stretch = _stretch(result, window)
+    stretch = _stretch(result, window, number)
     ax.set_aspect(stretch)
     _label_map(result, ax, stretch)
     return mesh
+
+
+def film_unit(result: PointResult) -> tuple[float, str]:
+    """Factor and unit of film thicknesses: those of interferograms are in nanometres."""
+    return unit_for(max(result.film.central_thickness, result.film.mean_thickness), "m", least=1.0)
 
 
 def on_page(result: PointResult, x: Array, y: Array) -> tuple[Array, Array]:
@@ -136,26 +148,33 @@ def _label_map(result: PointResult, ax: Axes, stretch: float) -> None:
 
 
 def colour_bar(
-    result: PointResult, mappable: ScalarMappable, axes: Sequence[Axes], label: str, **how: object
-):
+    result: PointResult, mappable: ScalarMappable, axes: Sequence[Axes], label: str, **how: Any
+) -> Colorbar:
     """Colour bar of the maps on ``axes``: beside them, or below where they are low and wide."""
-    place = {"location": "bottom", "aspect": 60, "pad": 0.03} if turned(result) else {"pad": 0.02}
+    place: dict[str, Any] = (
+        {"location": "bottom", "aspect": 60, "pad": 0.03} if turned(result) else {"pad": 0.02}
+    )
     return figure_of(axes[0]).colorbar(mappable, ax=list(axes), label=label, **place, **how)
 
 
-def hertz_ellipse(result: PointResult, ax: Axes, ink: str = "black") -> Line2D:
+def hertz_ellipse(result: PointResult, ax: Axes, ink: str = "black") -> Ellipse:
     """The edge of the dry contact, dashed."""
-    angle = np.linspace(0.0, 2.0 * np.pi, 361)
-    x, y = np.cos(angle), result.conditions.ratio * np.sin(angle)
-    (line,) = ax.plot(
-        *_on_page(result, x, y),
-        color=ink,
-        ls=(0, (6.0, 3.0)),
-        lw=0.8,
-        path_effects=_outlined(ink, 1.8),
+    edge = Ellipse(
+        (0.0, 0.0),
+        *_on_page(result, 2.0, 2.0 * result.conditions.ratio),
+        fill=False,
+        edgecolor=ink,
+        linestyle=(0, (6.0, 3.0)),
+        linewidth=0.8,
+        path_effects=_outlined(ink, 2.0),
         label="Hertz ellipse",
     )
-    return line
+    return cast("Ellipse", ax.add_patch(edge))
+
+
+def legend_line(patch: Ellipse) -> Line2D:
+    """How a dashed edge is shown in a legend."""
+    return Line2D([], [], color="black", ls=patch.get_linestyle(), lw=0.8, label=str(patch.get_label()))
 
 
 def _outlined(ink: str, width: float) -> list[patheffects.AbstractPathEffect]:
@@ -164,17 +183,16 @@ def _outlined(ink: str, width: float) -> list[patheffects.AbstractPathEffect]:
     return [patheffects.withStroke(linewidth=width, foreground=edge)]
 
 
-def mark(result: PointResult, ax: Axes, at: Array, label: str, marker: str) -> Line2D:
+def mark(result: PointResult, ax: Axes, at: Array, label: str) -> Line2D:
     """Marker at positions x, y [m], shape (n, 2)."""
     along, across = (at / result.conditions.semi_axis_x).T
     (line,) = ax.plot(
         *_on_page(result, along, across),
         ls="none",
-        marker=marker,
-        ms=5.5,
+        marker="x",
+        ms=5.0,
         mew=1.1,
-        mec="black",
-        mfc="none" if marker == "o" else "black",
+        color="black",
         path_effects=_outlined("black", 2.4),
         label=label,
     )
@@ -196,17 +214,25 @@ def entrainment(result: PointResult, ax: Axes, ink: str = "black") -> None:
         return offset_copy(ax.transAxes, figure_of(ax), x=x, y=y, units="points")
 
     tail, tip = ((8.0, -5.0), (8.0, -27.0)) if down else ((6.0, 8.0), (32.0, 8.0))
-    arrow = {"arrowstyle": "-|>", "color": ink, "lw": 1.0, "shrinkA": 0.0, "shrinkB": 0.0}
+    arrow: dict[str, Any] = {"arrowstyle": "-|>", "color": ink, "lw": 1.0, "shrinkA": 0.0, "shrinkB": 0.0}
     ax.annotate(
         "",
         corner,
         xycoords=off(*tip),
         xytext=corner,
         textcoords=off(*tail),
-        arrowprops=arrow,
+        arrowprops=arrow | {"path_effects": _outlined(ink, 1.8)},
     )
     where, va = ((14.0, -5.0), "top") if down else ((6.0, 12.0), "bottom")
-    ax.text(*corner, "entrainment", color=ink, fontsize=8.0, va=va, transform=off(*where))
+    ax.text(
+        *corner,
+        "entrainment",
+        color=ink,
+        fontsize=8.0,
+        va=va,
+        transform=off(*where),
+        path_effects=_outlined(ink, 1.8),
+    )
 
 
 def legend_above(ax: Axes, handles: Sequence[Artist], columns: int = 2) -> None:
@@ -247,5 +273,5 @@ def panel_name(ax: Axes, name: str) -> None:
         ha="right",
         va="top",
         fontsize=8.0,
-        bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 1.5},
+        bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.9, "pad": 1.5},
     )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -12,14 +12,17 @@ from matplotlib.patches import Patch
 from ehlectric.drawing import GREY, unit_for
 from ehlectric.point_cuts import cuts, field_sections
 from ehlectric.point_drawing import (
+    Range,
     colour_bar,
     draw_map,
     entrainment,
     extreme_positions,
     field_window,
+    film_unit,
     film_window,
     hertz_ellipse,
     legend_above,
+    legend_line,
     map_panels,
     mark,
     on_page,
@@ -34,14 +37,17 @@ from ehlectric.zones import HIGH_FIELD
 
 SECTIONS = ("surface 1", "mid-film", "surface 2")
 
-# Part of the film in the Hertz ellipse that may be thicker than the colours reach: the edge of the inlet.
+# Part of the Hertz ellipse, in per cent, whose film may be thicker than the colours reach: at the inlet.
 _THICKER = 2.0
 
-# Part of the columns at which the field may be further from the thin-gap estimate than the colours reach.
-_FURTHER = 1.0
+# Part of the nodes, in per cent, whose deviations from the thin-gap estimate and whose heights may be beyond
+# either end of the colours.
+_DEVIATIONS_BEYOND, _HEIGHTS_BEYOND = 0.5, 0.1
 
 # Part of the largest pressure above which there are no lines: across the ridge they would be a tangle.
 _BELOW_RIDGE = 0.75
+
+_CAVITATED = "#e3e6ea"
 
 # Part of the range of the field in which it is shown beside the thin-gap estimate: the elements next to its
 # faces overshoot.
@@ -66,7 +72,7 @@ def film_map(result: PointResult, ax: Axes | None = None) -> Axes:
     """
     film, window = result.film, film_window(result)
     ax = map_panels(result, 1, window)[0] if ax is None else ax
-    factor, unit = unit_for(film.central_thickness, "m", least=1.0)
+    factor, unit = film_unit(result)
     thickness = factor * film.thickness
     inside = result.zones["hertz"](film.x[:, np.newaxis], film.y)
     highest = float(np.percentile(thickness[inside], 100.0 - _THICKER))
@@ -75,12 +81,15 @@ def film_map(result: PointResult, ax: Axes | None = None) -> Axes:
     at = (film.x, film.y)
     mesh = draw_map(result, ax, at, thickness, colours="viridis", limits=limits, window=window)
     bar = colour_bar(result, mesh, [ax], f"film thickness $h$ [{unit}]", extend="max", ticks=levels)
+    ellipse = hertz_ellipse(result, ax)
     if not result.rough:
         lines = ax.contour(*on_page(result, *at), thickness, levels, colors="black", linewidths=0.5)
+        # Around it the film is that of the dry gap, and the lines would be a black band.
+        lines.set_clip_path(ellipse)
         bar.add_lines(lines)
     minimum = f"minimum, {factor * film.minimum_thickness:.3g} {unit}"
-    lowest = mark(result, ax, extreme_positions(*at, -film.thickness), minimum, "v")
-    legend_above(ax, [hertz_ellipse(result, ax), lowest])
+    lowest = mark(result, ax, extreme_positions(*at, -film.thickness), minimum)
+    legend_above(ax, [legend_line(ellipse), lowest])
     entrainment(result, ax)
     return ax
 
@@ -116,24 +125,21 @@ def pressure_map(result: PointResult, ax: Axes | None = None) -> Axes:
         )
     cavitated = _cavitated(result, ax)
     highest = f"maximum, {factor * film.max_pressure:.3g} {unit}"
-    peak = mark(result, ax, extreme_positions(*at, film.pressure), highest, "x")
-    legend_above(
-        ax, [hertz_ellipse(result, ax, "white"), peak, cavitated], columns=4 if turned(result) else 2
-    )
+    peak = mark(result, ax, extreme_positions(*at, film.pressure), highest)
+    legend_above(ax, [legend_line(hertz_ellipse(result, ax, "white")), peak, cavitated], 3)
     entrainment(result, ax, ink="white")
     return ax
 
 
 def _cavitated(result: PointResult, ax: Axes) -> Patch:
-    """Hatch where the pressure is held at ambient, without the edges of the domain."""
+    """Hatch where the pressure is held at ambient; at the edges of the domain, where the nodes beside are."""
     film = result.film
-    x, y = on_page(result, film.x[1:-1], film.y[1:-1])
-    held = film.cavitated[1:-1, 1:-1].astype(float)
-    look = {"hatch": "////", "facecolor": "#e3e6ea", "edgecolor": GREY, "linewidth": 0.0}
+    held = np.pad(film.cavitated[1:-1, 1:-1], 1, mode="edge").astype(float)
     if np.any(held):
-        area = ax.contourf(x, y, held, [0.5, 1.5], colors=[look["facecolor"]], hatches=[look["hatch"]])
+        where = on_page(result, film.x, film.y)
+        area = ax.contourf(*where, held, [0.5, 1.5], colors=[_CAVITATED], hatches=["////"])
         area.set(edgecolor=GREY, linewidth=0.0)
-    return Patch(label="cavitated", **look)
+    return Patch(label="cavitated", hatch="////", facecolor=_CAVITATED, edgecolor=GREY, linewidth=0.0)
 
 
 def field_map(result: PointResult, ax: Axes | None = None, *, section: str = "mid-film") -> Axes:
@@ -160,18 +166,17 @@ def field_map(result: PointResult, ax: Axes | None = None, *, section: str = "mi
     at = (field.x, field.y)
     limits = (0.0, factor * field.max_strength)
     mesh = draw_map(result, ax, at, factor * strength, colours="inferno", limits=limits, window=window)
-    colour_bar(result, mesh, [ax], rf"field strength $|E|$, {section} [{unit}]")
+    colour_bar(result, mesh, [ax], rf"$|E|$, {section} [{unit}]")
     level = HIGH_FIELD * float(np.max(strength))
     ax.contour(*on_page(result, *at), strength, [level], colors="#00e5ff", linewidths=0.9)
     handles = [
-        hertz_ellipse(result, ax, "white"),
-        Line2D([], [], color="#00b8d4", lw=0.9, label=f"{100.0 * HIGH_FIELD:g} % of the maximum, {section}"),
+        legend_line(hertz_ellipse(result, ax, "white")),
+        Line2D([], [], color="#00b8d4", lw=0.9, label=f"{100.0 * HIGH_FIELD:g} % of the maximum"),
     ]
-    where = f" on {field.max_strength_wall}" if result.rough and field.max_strength_wall in SECTIONS else ""
+    where = f", {field.max_strength_wall}" if result.rough else ""
     largest = f"largest, {factor * field.max_strength:.3g} {unit}{where}"
-    legend_above(
-        ax, [*handles, mark(result, ax, _largest(result), largest, "x")], columns=4 if turned(result) else 2
-    )
+    handles.append(mark(result, ax, _largest(result), largest))
+    legend_above(ax, handles, 3 if turned(result) else 2)
     entrainment(result, ax, ink="white")
     return ax
 
@@ -206,26 +211,13 @@ def field_deviation(result: PointResult, axes: Sequence[Axes] | None = None) -> 
         some gaps.
     """
     field, window = result.field, field_window(result, _KEPT)
-    axes = map_panels(result, len(SECTIONS), window) if axes is None else axes
-    deviations = [1e3 * (_strength(result, name) / field.thin_gap_strength - 1.0) for name in SECTIONS]
-    reach = max(np.percentile(np.abs(values[field.inner]), 100.0 - _FURTHER) for values in deviations)
-    end = float(round_levels(0.0, float(reach), 4)[-1])
-    for ax, name, values in zip(axes, SECTIONS, deviations, strict=True):
-        mesh = draw_map(
-            result,
-            ax,
-            (field.x, field.y),
-            np.ma.masked_where(~field.inner, values),
-            colours="RdBu_r",
-            limits=(-end, end),
-            window=window,
-        )
-        hertz_ellipse(result, ax)
-        panel_name(ax, name)
-        ax.label_outer()
-    colour_bar(result, mesh, axes, r"$|E|\,h/V_{12} - 1$ [‰]", extend="both")
-    entrainment(result, axes[0])
-    return axes[0]
+    panels = {}
+    for name in SECTIONS:
+        deviation = 1e3 * (_strength(result, name) / field.thin_gap_strength - 1.0)
+        panels[name] = np.ma.masked_where(~field.inner, deviation)
+    label = r"$|E|\,h/V_{12} - 1$ [‰]"
+    at = (field.x, field.y)
+    return _compared(result, axes, at, panels, window=window, label=label, beyond=_DEVIATIONS_BEYOND)
 
 
 def roughness(result: PointResult, axes: Sequence[Axes] | None = None) -> Axes:
@@ -242,41 +234,60 @@ def roughness(result: PointResult, axes: Sequence[Axes] | None = None) -> Axes:
     -------
     Axes
         The first, with the heights, peaks up for either surface. The second has the film less that between
-        smooth surfaces, to the same scale: where it is the heights with their sign changed, nothing is
-        flattened. It is the film itself where there is none between smooth surfaces.
+        smooth surfaces, on the same scale: where it is the heights with their sign changed, nothing is
+        flattened. Where the smooth contact was not solved, it is less the film at the centre.
     """
-    window = film_window(result)
-    axes = map_panels(result, 2, window) if axes is None else axes
-    film, heights = result.film, result.roughness.sum(axis=0)
-    shown = _within(result, window)
-    largest = float(np.percentile(np.abs(heights[shown]), 99.5)) or float(np.max(np.abs(heights)))
-    factor, unit = unit_for(largest, "m", least=1.0)
-    end = factor * largest
-    changed = film.thickness - (film.central_thickness if result.smooth is None else result.smooth.thickness)
-    names = ("roughness $z_1 + z_2$", "change of the film, $h - h_\\mathrm{smooth}$")
-    for ax, name, values in zip(axes, names, (heights, changed), strict=True):
+    window, film, heights = film_window(result), result.film, result.roughness.sum(axis=0)
+    factor, unit = unit_for(float(np.max(np.abs(heights))), "m", least=1.0)
+    if result.smooth is None:
+        name, without = "central", np.array(film.central_thickness)
+    else:
+        name, without = "smooth", result.smooth.thickness
+    panels = {
+        "roughness $z_1 + z_2$": factor * heights,
+        rf"change of the film, $h - h_\mathrm{{{name}}}$": factor * (film.thickness - without),
+    }
+    label = f"height, change of the film [{unit}]"
+    at = (film.x, film.y)
+    first = _compared(result, axes, at, panels, window=window, label=label, beyond=_HEIGHTS_BEYOND)
+    entrainment(result, first)
+    return first
+
+
+def _compared(
+    result: PointResult,
+    axes: Sequence[Axes] | None,
+    position: tuple[Array, Array],
+    panels: Mapping[str, Array],
+    *,
+    window: tuple[Range, Range],
+    label: str,
+    beyond: float,
+) -> Axes:
+    """Maps with one colour bar, whose ends leave out a part of what the window shows."""
+    axes = map_panels(result, len(panels), window) if axes is None else axes
+    inside = [
+        (at / result.conditions.semi_axis_x >= low) & (at / result.conditions.semi_axis_x <= high)
+        for at, (low, high) in zip(position, window, strict=True)
+    ]
+    shown = np.ma.concatenate([values[np.ix_(*inside)].ravel() for values in panels.values()])
+    low, high = np.percentile(np.ma.compressed(shown), [beyond, 100.0 - beyond])
+    for ax, (name, values) in zip(axes, panels.items(), strict=True):
         mesh = draw_map(
             result,
             ax,
-            (film.x, film.y),
-            factor * values,
-            colours="RdBu_r",
-            limits=(-end, end),
+            position,
+            values,
+            colours="viridis",
+            limits=(float(low), float(high)),
             window=window,
+            number=len(panels),
         )
         hertz_ellipse(result, ax)
         panel_name(ax, name)
         ax.label_outer()
-    colour_bar(result, mesh, axes, f"height, change of the film [{unit}]", extend="both")
-    entrainment(result, axes[0])
+    colour_bar(result, mesh, axes, label, extend="both")
     return axes[0]
-
-
-def _within(result: PointResult, window: tuple[tuple[float, float], tuple[float, float]]) -> Array:
-    """Which of the film's nodes are within a window."""
-    x, y = result.film.x / result.conditions.semi_axis_x, result.film.y / result.conditions.semi_axis_x
-    (left, right), (low, high) = window
-    return np.outer((x >= left) & (x <= right), (y >= low) & (y <= high))
 
 
 POINT_FIGURES: dict[str, Callable[..., Axes]] = dict(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.contour import ContourSet
+from matplotlib.patheffects import withStroke
 
 from ehlectric.drawing import BODY
 from ehlectric.typing import Array
@@ -58,7 +59,16 @@ def draw_section(
         zip((0.04, 0.96), ("bottom", "top"), potentials, strict=True), 1
     ):
         text = f"surface {surface}, {volts:g} V".replace("-", "−")
-        ax.text(0.5, height, text, transform=ax.transAxes, ha="center", va=where, fontsize=8.0)
+        ax.text(
+            0.5,
+            height,
+            text,
+            transform=ax.transAxes,
+            ha="center",
+            va=where,
+            fontsize=8.0,
+            path_effects=[withStroke(linewidth=2.0, foreground=BODY)],
+        )
     return filled
 
 
