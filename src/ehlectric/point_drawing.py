@@ -11,6 +11,7 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import QuadMesh
+from matplotlib.colorbar import Colorbar
 from matplotlib.lines import Line2D
 from matplotlib.patches import Ellipse
 from matplotlib.ticker import MaxNLocator
@@ -33,7 +34,7 @@ _WIDTH, _FURTHER, _WIDE = 5.8, 1.6, 7.2
 
 # Beside the maps: labels and a colour bar; above and below them: title, legend and labels, and such a bar
 # [inches].
-_BESIDE, _ABOVE, _BAR = 1.6, 1.0, 0.4
+_BESIDE, _ABOVE, _BAR = 1.6, 1.2, 0.25
 
 # Around the Hertz ellipse: before and behind it in semi-axes along entrainment, as in the line contact.
 _BEFORE, _BEHIND = -2.0, 1.5

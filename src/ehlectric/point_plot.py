@@ -51,7 +51,7 @@ _CAVITATED = "#e3e6ea"
 
 # Part of the range of the field in which it is shown beside the thin-gap estimate: the elements next to its
 # faces overshoot.
-_KEPT = 0.92
+_KEPT = 0.86
 
 
 def film_map(result: PointResult, ax: Axes | None = None) -> Axes:
@@ -270,8 +270,8 @@ def _compared(
         (at / result.conditions.semi_axis_x >= low) & (at / result.conditions.semi_axis_x <= high)
         for at, (low, high) in zip(position, window, strict=True)
     ]
-    shown = np.ma.concatenate([values[np.ix_(*inside)].ravel() for values in panels.values()])
-    low, high = np.percentile(np.ma.compressed(shown), [beyond, 100.0 - beyond])
+    shown = [np.ma.compressed(values[np.ix_(*inside)]) for values in panels.values()]
+    low, high = np.percentile(np.concatenate(shown), [beyond, 100.0 - beyond])
     for ax, (name, values) in zip(axes, panels.items(), strict=True):
         mesh = draw_map(
             result,
