@@ -36,7 +36,7 @@ _WIDTH, _FURTHER, _WIDE = 5.8, 1.6, 7.2
 
 # Beside the maps: labels and a colour bar; above and below them: title, legend and labels, and such a bar
 # [inches].
-_BESIDE, _ABOVE, _BAR = 1.6, 1.2, 0.25
+_BESIDE, _ABOVE, _BAR = 1.6, 1.2, 0.3
 
 # Around the Hertz ellipse: before and behind it in semi-axes along entrainment, as in the line contact.
 _BEFORE, _BEHIND = -2.0, 1.5
@@ -66,7 +66,7 @@ def field_window(result: PointResult) -> tuple[Range, Range]:
 def map_panels(result: PointResult, number: int, window: tuple[Range, Range]) -> list[Axes]:
     """Axes of a new figure for maps of one window, of a size that they fill: beside or below each other."""
     shape, _ = _shape(result, number, window)
-    if shape < _LOW:
+    if on_low_page(result, number, window):
         high = number * ((_WIDE - 0.7) * shape + 0.3)
         panels = new_panels(number, 1, (_WIDE, high + _ABOVE + _BAR))
     else:
@@ -75,6 +75,11 @@ def map_panels(result: PointResult, number: int, window: tuple[Range, Range]) ->
     # Colour bars as high as their maps, whose axes shrink to keep their scale.
     figure_of(panels[0]).set_layout_engine("compressed")
     return panels
+
+
+def on_low_page(result: PointResult, number: int, window: tuple[Range, Range]) -> bool:
+    """Whether maps of one window take the width of the page, with their colour bar below them."""
+    return _shape(result, number, window)[0] < _LOW
 
 
 def _shape(result: PointResult, number: int, window: tuple[Range, Range]) -> tuple[float, float]:
@@ -161,10 +166,11 @@ def colour_bar(
     extend: str = "neither",
 ) -> Colorbar:
     """Colour bar of the maps of one window on ``axes``: beside them, or below low ones."""
-    low = _shape(result, len(axes), window)[0] < _LOW
-    place: dict[str, Any] = {"location": "bottom", "aspect": 60, "pad": 0.03} if low else {"pad": 0.02}
+    place: dict[str, Any] = {"pad": 0.02}
+    if on_low_page(result, len(axes), window):
+        place = {"location": "bottom", "aspect": 60, "pad": 0.03}
     # Given, not found: those found change with the height of the bar, after room was made for them.
-    first, last = cast("Range", mappable.get_clim())
+    first, last = mappable.get_clim()
     shown = ticks[(ticks >= first) & (ticks <= last)]
     figure = figure_of(axes[0])
     return figure.colorbar(mappable, ax=list(axes), label=label, ticks=shown, extend=extend, **place)

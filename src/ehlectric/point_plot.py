@@ -26,6 +26,7 @@ from ehlectric.point_drawing import (
     legend_line,
     map_panels,
     mark,
+    on_low_page,
     on_page,
     panel_name,
     round_levels,
@@ -174,7 +175,7 @@ def field_map(result: PointResult, ax: Axes | None = None, *, section: str = "mi
     where = f", {field.max_strength_wall}" if result.rough else ""
     largest = f"largest, {factor * field.max_strength:.3g} {unit}{where}"
     handles.append(mark(result, ax, _largest(result), largest))
-    legend_above(ax, handles, 2)
+    legend_above(ax, handles, 3 if on_low_page(result, 1, window) else 2)
     entrainment(result, ax, ink="white")
     return ax
 
@@ -278,7 +279,7 @@ def _compared(
             mesh.set_clip_path(ellipse)
         panel_name(ax, name)
         ax.label_outer()
-    colour_bar(result, mesh, axes, label, window=window, ticks=round_levels(*ends, 6), extend="both")
+    colour_bar(result, mesh, axes, label, window=window, ticks=round_levels(*ends, 8), extend="both")
     return axes[0]
 
 
