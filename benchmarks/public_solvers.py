@@ -43,9 +43,9 @@ ITERATIONS = 1_000_000
 class Package:
     """A package of the registry, and what it needs where it cannot be installed as it is.
 
-    ``lacks`` says what of the contact it cannot take. ``grids`` are those it is given, and ``relaxations`` the
-    under-relaxation factors, from the one it has by itself to smaller ones, of which the first that converges
-    counts.
+    ``lacks`` says what of the contact it cannot take. ``grids`` are those it is given, and ``relaxations``
+    the under-relaxation factors, from the one it has by itself to smaller ones, of which the first that
+    converges counts.
     """
 
     name: str

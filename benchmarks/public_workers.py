@@ -21,8 +21,8 @@ Contact = dict[str, Any]
 def slippy(contact: Contact) -> dict[str, Any]:
     """IterSemiSystem with UnifiedReynoldsSolver: line relaxation in distributed changes, first-order wedge.
 
-    As in the example of IterSemiSystem, but for the domain, which begins where ours does, and the limit of the
-    iterations, in place of which there is one of the time. Its own initial guess is left out: 0.5.2 always
+    As in the example of IterSemiSystem, but for the domain, which begins where ours does, and the limit of
+    the iterations, in place of which there is one of the time. Its own initial guess is left out: 0.5.2 always
     starts from no pressure.
     """
     _slippy(contact | {"nodes": 17, "iterations": 2})  # compiles
@@ -90,7 +90,7 @@ def _slippy(contact: Contact) -> tuple[dict[str, Any], str]:
     model.add_step(step)
     said = io.StringIO()
     with contextlib.redirect_stdout(said):
-        state = model.solve()
+        state = model.solve(verbose=True)
     return state, said.getvalue()
 
 
