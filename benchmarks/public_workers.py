@@ -22,8 +22,8 @@ def slippy(contact: Contact) -> dict[str, Any]:
     """IterSemiSystem with UnifiedReynoldsSolver: line relaxation in distributed changes, first-order wedge.
 
     As in the example of IterSemiSystem, but for the domain, which begins where ours does, and the limit of
-    the iterations, in place of which there is one of the time. Its own initial guess is left out: 0.5.2 always
-    starts from no pressure.
+    the iterations, in place of which there is one of the time. Its own initial guess is left out: 0.5.2
+    always starts from no pressure.
     """
     _slippy(contact | {"nodes": 17, "iterations": 2})  # compiles
     started = time.perf_counter()
