@@ -10,7 +10,7 @@ from ehlectric.memory import KRYLOV_VECTORS, check_memory, physical_memory, poin
 from ehlectric.newton import KRYLOV_LIMIT
 
 POINT = {"geometry": "point", "radius_x": 0.01, "radius_y": 0.01, "load": 20.0, "reduced_modulus": 226e9}
-PIT = {"surface": 1, "generate": "pit", "depth": 1e-7, "width": 4e-5, "position_y": 3e-5}
+PIT = {"surface": 1, "generator": "pit", "depth": 1e-7, "width": 4e-5, "position_y": 3e-5}
 
 
 def point(*roughness, **grid):
