@@ -1,0 +1,277 @@
+"""What the figures of point contacts share: how a contact lies on the page, maps, marks on them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, cast
+
+import numpy as np
+from matplotlib import patheffects
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.collections import QuadMesh
+from matplotlib.lines import Line2D
+from matplotlib.patches import Ellipse
+from matplotlib.ticker import MaxNLocator
+from matplotlib.transforms import Transform, offset_copy
+
+from ehlectric.drawing import figure_of, label_position, new_panels, unit_for
+from ehlectric.point_result import PointResult
+from ehlectric.typing import Array
+
+# An ellipse longer than this across entrainment lies along the page: entrainment then points down.
+_TURNED = 1.2
+
+# Maps are at least about so high by their width, one alone and several: where that takes more than one scale,
+# the axis says so.
+_LEAST_HEIGHT, _LEAST_OF_SEVERAL = 0.42, 0.25
+
+# Widths of a figure of maps: of one as entrainment lies, for every further one beside it, and with
+# entrainment pointing down [inches].
+_WIDTH, _FURTHER, _WIDE = 5.8, 1.6, 7.2
+
+# Beside the maps: labels and a colour bar; above and below them: title, legend and labels, and such a bar
+# [inches].
+_BESIDE, _ABOVE, _BAR = 1.6, 1.0, 0.4
+
+# Around the Hertz ellipse: before and behind it in semi-axes along entrainment, as in the line contact.
+_BEFORE, _BEHIND = -2.0, 1.5
+
+Range = tuple[float, float]
+
+
+def turned(result: PointResult) -> bool:
+    """Whether a contact is drawn with entrainment pointing down, y to the right."""
+    return result.conditions.ratio > _TURNED
+
+
+def film_window(result: PointResult) -> tuple[Range, Range]:
+    """Ranges of x/b and y/b around the contact, within the domain."""
+    b, film, ratio = result.conditions.semi_axis_x, result.film, result.conditions.ratio
+    side = min(ratio + 0.6 * float(np.sqrt(ratio)), float(film.y[-1]) / b)
+    return (max(float(film.x[0]) / b, _BEFORE), min(float(film.x[-1]) / b, _BEHIND)), (-side, side)
+
+
+def field_window(result: PointResult, part: float = 1.0) -> tuple[Range, Range]:
+    """Ranges of x/b and y/b in which the field was solved, or the middle part of them."""
+
+    def middle(at: Array) -> Range:
+        centre, half = 0.5 * (at[0] + at[-1]), 0.5 * part * (at[-1] - at[0])
+        return float(centre - half), float(centre + half)
+
+    b, field = result.conditions.semi_axis_x, result.field
+    return middle(field.x / b), middle(field.y / b)
+
+
+def map_panels(result: PointResult, number: int, window: tuple[Range, Range]) -> list[Axes]:
+    """Axes of a new figure for maps of one window, of a size that they fill: beside or below each other."""
+    width, height = _on_page(result, *(high - low for low, high in window))
+    shape = height / width * _stretch(result, window, number)
+    if turned(result):
+        high = number * ((_WIDE - 0.7) * shape + 0.3)
+        panels = new_panels(number, 1, (_WIDE, high + _ABOVE + _BAR))
+    else:
+        wide = _WIDTH + _FURTHER * (number - 1)
+        panels = new_panels(1, number, (wide, (wide - _BESIDE) / number * shape + _ABOVE))
+    # Colour bars as high as their maps, whose axes shrink to keep their scale.
+    figure_of(panels[0]).set_layout_engine("compressed")
+    return panels
+
+
+def _stretch(result: PointResult, window: tuple[Range, Range], number: int) -> float:
+    """Scale of the vertical axis of a map by that of the horizontal one: 1, or more in steps of a half."""
+    width, height = _on_page(result, *(high - low for low, high in window))
+    least = _LEAST_HEIGHT if number == 1 else _LEAST_OF_SEVERAL
+    return max(1.0, 0.5 * round(2.0 * least * float(width / height)))
+
+
+def _on_page(result: PointResult, along: Any, across: Any) -> tuple[Any, Any]:
+    """What goes with the horizontal axis of a map and what with the vertical one."""
+    return (across, along) if turned(result) else (along, across)
+
+
+def draw_map(
+    result: PointResult,
+    ax: Axes,
+    position: tuple[Array, Array],
+    values: Array,
+    *,
+    colours: str,
+    limits: Range,
+    window: tuple[Range, Range],
+    number: int = 1,
+) -> QuadMesh:
+    """Values (nx, ny) at positions x, y [m] as colours, one of so many maps, its axes in semi-axes b.
+
+    Both are to one scale, but for long ellipses: their narrow axis is stretched, and its label says so.
+
+    Returns
+    -------
+    QuadMesh
+        For a colour bar.
+    """
+    mesh = ax.pcolormesh(
+        *on_page(result, *position),
+        values,
+        shading="gouraud",
+        cmap=colours,
+        vmin=limits[0],
+        vmax=limits[1],
+        rasterized=True,
+    )
+    horizontal, vertical = _on_page(result, *window)
+    ax.set(xlim=horizontal, ylim=vertical[::-1] if turned(result) else vertical)
+    stretch = _stretch(result, window, number)
+    ax.set_aspect(stretch)
+    _label_map(result, ax, stretch)
+    return mesh
+
+
+def film_unit(result: PointResult) -> tuple[float, str]:
+    """Factor and unit of film thicknesses: those of interferograms are in nanometres."""
+    return unit_for(max(result.film.central_thickness, result.film.mean_thickness), "m", least=1.0)
+
+
+def on_page(result: PointResult, x: Array, y: Array) -> tuple[Array, Array]:
+    """Positions x, y [m] of the nodes of a grid on the page, in semi-axes b, shape (nx, ny)."""
+    b = result.conditions.semi_axis_x
+    along, across = np.meshgrid(x / b, y / b, indexing="ij")
+    return _on_page(result, along, across)
+
+
+def _label_map(result: PointResult, ax: Axes, stretch: float) -> None:
+    """Labels of the axes of a map."""
+    horizontal, vertical = _on_page(result, "x", "y")
+    label_position(result, ax, horizontal)
+    ax.set_ylabel(f"${vertical}/b$" + ("" if stretch == 1.0 else f", stretched {stretch:g} times"))
+
+
+def colour_bar(
+    result: PointResult, mappable: ScalarMappable, axes: Sequence[Axes], label: str, **how: Any
+) -> Colorbar:
+    """Colour bar of the maps on ``axes``: beside them, or below where they are low and wide."""
+    place: dict[str, Any] = (
+        {"location": "bottom", "aspect": 60, "pad": 0.03} if turned(result) else {"pad": 0.02}
+    )
+    return figure_of(axes[0]).colorbar(mappable, ax=list(axes), label=label, **place, **how)
+
+
+def hertz_ellipse(result: PointResult, ax: Axes, ink: str = "black") -> Ellipse:
+    """The edge of the dry contact, dashed."""
+    edge = Ellipse(
+        (0.0, 0.0),
+        *_on_page(result, 2.0, 2.0 * result.conditions.ratio),
+        fill=False,
+        edgecolor=ink,
+        linestyle=(0, (6.0, 3.0)),
+        linewidth=0.8,
+        path_effects=_outlined(ink, 2.0),
+        label="Hertz ellipse",
+    )
+    return cast("Ellipse", ax.add_patch(edge))
+
+
+def legend_line(patch: Ellipse) -> Line2D:
+    """How a dashed edge is shown in a legend."""
+    return Line2D([], [], color="black", ls=patch.get_linestyle(), lw=0.8, label=str(patch.get_label()))
+
+
+def _outlined(ink: str, width: float) -> list[patheffects.AbstractPathEffect]:
+    """An edge that keeps black or white ink apart from what is under it, of so many points."""
+    edge = "white" if ink == "black" else "black"
+    return [patheffects.withStroke(linewidth=width, foreground=edge)]
+
+
+def mark(result: PointResult, ax: Axes, at: Array, label: str) -> Line2D:
+    """Marker at positions x, y [m], shape (n, 2)."""
+    along, across = (at / result.conditions.semi_axis_x).T
+    (line,) = ax.plot(
+        *_on_page(result, along, across),
+        ls="none",
+        marker="x",
+        ms=5.0,
+        mew=1.1,
+        color="black",
+        path_effects=_outlined("black", 2.4),
+        label=label,
+    )
+    return line
+
+
+def extreme_positions(x: Array, y: Array, values: Array) -> Array:
+    """Positions of the largest of values (nx, ny): one, or the two of a map that is its own mirror image."""
+    i, j = np.nonzero(values == np.max(values))
+    return np.column_stack([x[i], y[j]])[[0, -1][: min(i.size, 2)]]
+
+
+def entrainment(result: PointResult, ax: Axes, ink: str = "black") -> None:
+    """Arrow along entrainment in a corner of the inlet."""
+    down = turned(result)
+    corner = (0.0, 1.0) if down else (0.0, 0.0)
+
+    def off(x: float, y: float) -> Transform:
+        return offset_copy(ax.transAxes, figure_of(ax), x=x, y=y, units="points")
+
+    tail, tip = ((8.0, -5.0), (8.0, -27.0)) if down else ((6.0, 8.0), (32.0, 8.0))
+    arrow: dict[str, Any] = {"arrowstyle": "-|>", "color": ink, "lw": 1.0, "shrinkA": 0.0, "shrinkB": 0.0}
+    ax.annotate(
+        "",
+        corner,
+        xycoords=off(*tip),
+        xytext=corner,
+        textcoords=off(*tail),
+        arrowprops=arrow | {"path_effects": _outlined(ink, 1.8)},
+    )
+    where, va = ((14.0, -5.0), "top") if down else ((6.0, 12.0), "bottom")
+    ax.text(
+        *corner,
+        "entrainment",
+        color=ink,
+        fontsize=8.0,
+        va=va,
+        transform=off(*where),
+        path_effects=_outlined(ink, 1.8),
+    )
+
+
+def legend_above(ax: Axes, handles: Sequence[Artist], columns: int = 2) -> None:
+    """Legend above the axes, where no data are."""
+    ax.legend(
+        handles=list(handles),
+        loc="lower left",
+        bbox_to_anchor=(0.0, 1.0),
+        borderaxespad=0.3,
+        borderpad=0.2,
+        ncols=columns,
+        frameon=False,
+        handlelength=2.2,
+        columnspacing=1.4,
+    )
+
+
+def round_levels(low: float, high: float, number: int) -> Array:
+    """About ``number`` values at steps of 1, 2 or 5 times a power of ten, from ``low`` or below to ``high``
+    or above.
+
+    Examples
+    --------
+    >>> round_levels(271.0, 455.0, 10)
+    array([260., 280., 300., 320., 340., 360., 380., 400., 420., 440., 460.])
+    """
+    levels = MaxNLocator(number, steps=[1, 2, 5, 10]).tick_values(low, high)
+    return np.asarray(levels, dtype=float)
+
+
+def panel_name(ax: Axes, name: str) -> None:
+    """Name of one of several panels, in a corner of it."""
+    ax.text(
+        0.98,
+        0.97,
+        name,
+        transform=ax.transAxes,
+        ha="right",
+        va="top",
+        fontsize=8.0,
+        bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.9, "pad": 1.5},
+    )
