@@ -144,7 +144,6 @@ def solve_film(problem: FilmProblem, *, progress: Progress | None = None) -> Fil
     Examples
     --------
     >>> import numpy as np
-
     >>> incompressible = lambda p: (np.ones_like(p), np.zeros_like(p))
     >>> isoviscous = lambda p: (np.zeros_like(p), np.zeros_like(p))
     >>> fluid = Fluid(incompressible, isoviscous, velocity_parameter=0.01, ambient_pressure=0.0)
@@ -228,7 +227,6 @@ def richardson(fine: tuple[Mesh, Array], coarse: tuple[Mesh, Array], *, order: i
     Examples
     --------
     >>> import numpy as np
-
     >>> fine, coarse = Mesh.over(5, -1.0, 1.0), Mesh.over(3, -1.0, 1.0)
     >>> round(richardson((fine, np.full((5, 1), 1.01)), (coarse, np.full((3, 1), 1.02)), order=1) * 1.01, 3)
     0.01

@@ -158,13 +158,14 @@ def _meshes(nodes: int, inlet: float, outlet: float, width: Width | None) -> lis
     while meshes[-1].weights.size > coarsest or len(meshes) < 2:
         nodes = nodes // 2 + 1
         if width is not None:
-            width = replace(width, nodes=_halved(width))
+            # Of an even number of nodes across the whole domain is solved for, on every grid.
+            width = replace(width, nodes=_coarser(width), symmetric=width.halved)
         meshes.append(Mesh.over(nodes, inlet, outlet, width))
     return meshes
 
 
-def _halved(width: Width) -> int:
+def _coarser(width: Width) -> int:
     """Nodes across the next coarser grid, which keeps the line of symmetry."""
-    if width.y[0] == 0.0:
+    if width.halved:
         return 2 * (width.y.size // 2) + 1
     return width.nodes // 2 + 1

@@ -24,9 +24,14 @@ class Width:
     symmetric: bool = True
 
     @property
+    def halved(self) -> bool:
+        """Whether Y >= 0 alone is solved for."""
+        return self.symmetric and self.nodes % 2 == 1
+
+    @property
     def y(self) -> Array:
         """Nodes that are solved for: from 0 or from -side to side, shape (ny,)."""
-        if self.symmetric and self.nodes % 2 == 1:
+        if self.halved:
             return np.linspace(0.0, self.side, self.nodes // 2 + 1)
         return np.linspace(-self.side, self.side, self.nodes)
 
@@ -52,7 +57,7 @@ class Mesh:
         """The mesh of a domain with so many nodes along entrainment; without a width, of a line contact."""
         x = np.linspace(inlet, outlet, nodes)
         y = np.zeros(1) if width is None else width.y
-        return cls(x, y, symmetric=width is not None and y[0] == 0.0)
+        return cls(x, y, symmetric=width is not None and width.halved)
 
     @property
     def shape(self) -> tuple[int, int]:
