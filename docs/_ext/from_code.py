@@ -10,7 +10,6 @@ from __future__ import annotations
 import re
 import tomllib
 from collections.abc import Iterable, Iterator
-from itertools import chain
 from pathlib import Path
 from typing import Any, Literal, get_args, get_origin
 
@@ -39,6 +38,9 @@ _LAWS = {
     "density_law": lubricant.DENSITY_LAWS,
     "permittivity_law": lubricant.PERMITTIVITY_LAWS,
 }
+# What a small contact of each kind has of its own, and units as they are printed.
+_CONTACTS = {"line": {"reduced_radius": 0.01}, "point": {"radius_x": 0.01, "radius_y": 0.01}}
+_UNITS = {"1": "\N{EN DASH}", "F/m^2": "F/m\N{SUPERSCRIPT TWO}"}
 
 
 def _row(cells: Iterable[str]) -> str:
@@ -157,31 +159,30 @@ def _write(app: Sphinx) -> None:
             for name, rows in roughness_inputs.GENERATORS.items()
         ],
     )
-    pages["alternatives"] = "\n".join(
-        "- " + ", or ".join(" and ".join(f"`{key}`" for key in row) for row in rows)
-        for rows in dict.fromkeys(chain(*contact_inputs.CONTACT_ALTERNATIVES.values()))
-    )
+    for geometry, alternatives in contact_inputs.CONTACT_ALTERNATIVES.items():
+        pages[f"alternatives_{geometry}"] = "\n".join(
+            "- " + ", or ".join(" and ".join(f"`{key}`" for key in row) for row in rows)
+            for rows in alternatives
+        )
     group = typer.main.get_command(commands)
     pages["commands"] = "\n".join(
         text for name, command in group.commands.items() for text in _command(name, command)
     )
-    pages["variables"] = _variables()
+    for geometry in _CONTACTS:
+        pages[f"variables_{geometry}"] = _variables(geometry)
     for name, text in pages.items():
         path = folder / f"{name}.md"
         if not path.exists() or path.read_text(encoding="utf-8") != text:
             path.write_text(text, encoding="utf-8")
 
 
-def _variables() -> str:
+def _variables(geometry: str) -> str:
     """Variables of result.nc, from a small rough contact."""
-    contact = {
-        "reduced_radius": 0.01,
-        "reduced_modulus": 2e11,
-        "max_hertz_pressure": 1e9,
-        "entrainment_speed": 2.0,
-    }
+    contact = {"geometry": geometry, "reduced_modulus": 2e11, "max_hertz_pressure": 1e9}
+    contact |= {"entrainment_speed": 2.0} | _CONTACTS[geometry]
     rough = {"surface": 1, "generator": "sinusoid", "amplitude": 1e-9, "wavelength": 1e-4}
-    case = {"contact": contact, "lubricant": {"base": "paper"}, "roughness": [rough], "grid": {"nodes": 401}}
+    grid = {"nodes": 401 if geometry == "line" else 65}
+    case = {"contact": contact, "lubricant": {"base": "paper"}, "roughness": [rough], "grid": grid}
     dataset = solve(Case.from_dict(case)).to_xarray()
     return _table(
         ["variable", "over", "meaning", "unit"],
@@ -190,7 +191,7 @@ def _variables() -> str:
                 f"`{name}`",
                 ", ".join(f"`{d}`" for d in v.dims),
                 v.attrs["long_name"],
-                v.attrs["units"].replace("1", "–"),
+                _UNITS.get(v.attrs["units"], v.attrs["units"]),
             ]
             for name, v in dataset.variables.items()
         ],
