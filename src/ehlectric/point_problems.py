@@ -11,12 +11,12 @@ from ehlectric.case import Case
 from ehlectric.conditions import permittivity_law
 from ehlectric.elastic import Geometry, point_geometry
 from ehlectric.mesh import Width
-from ehlectric.nested import FilmProblem, Scales
+from ehlectric.nested import FilmProblem
 from ehlectric.point_conditions import PointConditions
 from ehlectric.point_film import PointFilm
 from ehlectric.point_formulas import nijenbanning_venner_moes
 from ehlectric.poisson_3d import PointFieldProblem
-from ehlectric.problems import ATOM, WIDEST, columns_within, fluid_of
+from ehlectric.problems import ATOM, WIDEST, columns_within, fluid_of, scales_of
 from ehlectric.rough_maps import Domain, RoughMap
 from ehlectric.typing import Array
 
@@ -35,16 +35,6 @@ def spacings(case: Case, conditions: PointConditions) -> tuple[float, float]:
     domain, grid = domain_of(case, conditions), case.grid
     nodes_y = grid.nodes if grid.nodes_y is None else grid.nodes_y
     return (domain.outlet - domain.inlet) / (grid.nodes - 1), 2.0 * domain.side / (nodes_y - 1)
-
-
-def point_scales(case: Case, conditions: PointConditions) -> Scales:
-    """What turns the dimensionless film of a case into SI units."""
-    return Scales(
-        length=conditions.semi_axis_x,
-        pressure=conditions.max_pressure,
-        thickness=conditions.thickness_scale,
-        ambient_pressure=case.lubricant.ambient_pressure,
-    )
 
 
 def geometry_of(conditions: PointConditions) -> Geometry:
@@ -87,7 +77,7 @@ def point_film_problem(
         second_order=grid.wedge == "second-order",
         tolerance=case.solver.tolerance,
         max_iterations=case.solver.max_iterations,
-        scales=point_scales(case, conditions),
+        scales=scales_of(case, conditions),
         geometry=geometry_of(conditions),
         width=width,
         added_gap=added_gap if rough else None,

@@ -11,6 +11,7 @@ from ehlectric.point_conditions import PointConditions
 from ehlectric.point_formulas import FORMULAS, regime
 from ehlectric.point_result import PointResult, point_hertz, point_inputs
 from ehlectric.report import (
+    add_expected,
     add_field,
     add_film,
     add_formulas,
@@ -50,12 +51,8 @@ def point_table(case: Case, conditions: PointConditions) -> Table:
     table.add_row("slide-to-roll ratio", f"{conditions.slide_to_roll_ratio:.4g}")
     add_point_conditions(table, conditions)
     table.add_row("velocity parameter lambda", f"{conditions.velocity_parameter:.4g}")
-    table.add_row("voltage", f"{abs(case.electric.potential_2 - case.electric.potential_1):.4g}", "V")
-    for name, formula in FORMULAS.items():
-        for key, value in vars(formula(conditions.formulas)).items():
-            if value is not None:
-                film = key.removesuffix("_thickness")
-                table.add_row(f"{FORMULA_NAMES[name]}, {film}", f"{value * 1e6:.4g}", "µm")
+    films = {name: formula(conditions.formulas) for name, formula in FORMULAS.items()}
+    add_expected(table, case, films, FORMULA_NAMES)
     grid = case.grid
     nodes_y = grid.nodes if grid.nodes_y is None else grid.nodes_y
     table.add_row("grid", f"{grid.nodes} x {nodes_y}", f"nodes, {grid.wedge} wedge")

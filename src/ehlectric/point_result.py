@@ -77,6 +77,7 @@ class PointResult(Solution[PointConditions, PointFilm, PointField]):
             "central_dimensionless": central,
             "high_field_area": field.high_field_area,
             "capacitance": field.capacitance,
+            "capacitance_by_charge": field.capacitance_by_charge,
             "capacitance_by_zone": {name: field.capacitance_of(zone) for name, zone in self.zones.items()},
             "columns": list(field.middle_strength.shape),
         }

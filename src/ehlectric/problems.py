@@ -13,6 +13,7 @@ from ehlectric.film import Film
 from ehlectric.film_formulas import moes
 from ehlectric.inputs import Lubricant
 from ehlectric.nested import FilmProblem, Scales
+from ehlectric.point_conditions import PointConditions
 from ehlectric.poisson import FieldProblem
 from ehlectric.reynolds import Fluid, FluidLaw
 from ehlectric.typing import Array
@@ -170,7 +171,7 @@ def surfaces(conditions: Conditions, film: Film, roughness: Array) -> tuple[Arra
     return lower, lower + film.thickness
 
 
-def scales_of(case: Case, conditions: Conditions) -> Scales:
+def scales_of(case: Case, conditions: Conditions | PointConditions) -> Scales:
     """What turns the dimensionless film of a case into SI units."""
     return Scales(
         length=conditions.half_width,

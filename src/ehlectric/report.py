@@ -10,7 +10,7 @@ from rich.text import Text
 
 from ehlectric.case import Case
 from ehlectric.conditions import Conditions
-from ehlectric.film_formulas import FORMULAS, regime
+from ehlectric.film_formulas import FORMULAS, Thickness, regime
 from ehlectric.point_result import PointResult
 from ehlectric.result import Result, resolved_inputs
 from ehlectric.solution import SCHEMA
@@ -50,14 +50,20 @@ def conditions_table(case: Case, conditions: Conditions) -> Table:
     table.add_row("slide-to-roll ratio", f"{conditions.slide_to_roll_ratio:.4g}")
     _add_conditions(table, conditions)
     table.add_row("velocity parameter lambda", f"{conditions.velocity_parameter:.4g}")
-    table.add_row("voltage", f"{abs(case.electric.potential_2 - case.electric.potential_1):.4g}", "V")
-    for name, formula in FORMULAS.items():
-        for key, value in vars(formula(conditions.formulas)).items():
-            if value is not None:
-                film = key.removesuffix("_thickness")
-                table.add_row(f"{_FORMULA_NAMES[name]}, {film}", f"{value * 1e6:.4g}", "µm")
+    films = {name: formula(conditions.formulas) for name, formula in FORMULAS.items()}
+    add_expected(table, case, films, _FORMULA_NAMES)
     table.add_row("grid", f"{case.grid.nodes}", f"nodes, {case.grid.wedge} wedge")
     return table
+
+
+def add_expected(table: Table, case: Case, films: Mapping[str, Thickness], names: Mapping[str, str]) -> None:
+    """Rows of the voltage and of the films that the formulas give, before anything is solved."""
+    table.add_row("voltage", f"{abs(case.electric.potential_2 - case.electric.potential_1):.4g}", "V")
+    for name, thickness in films.items():
+        for key, value in vars(thickness).items():
+            if value is not None:
+                film = key.removesuffix("_thickness")
+                table.add_row(f"{names[name]}, {film}", f"{value * 1e6:.4g}", "µm")
 
 
 def conditions_summary(case: Case, conditions: Conditions) -> dict[str, Any]:

@@ -31,7 +31,6 @@ from ehlectric.film import Film
 from ehlectric.point_conditions import resolve_point
 from ehlectric.point_field import PointField
 from ehlectric.point_film import PointFilm
-from ehlectric.point_problems import point_scales
 from ehlectric.point_result import PointResult
 from ehlectric.problems import scales_of
 from ehlectric.result import Result
@@ -237,7 +236,7 @@ def _result_of(dataset: xr.Dataset) -> Result | PointResult:
         return PointResult(
             case=case,
             conditions=conditions,
-            film=PointFilm(**film, scales=point_scales(case, conditions)),
+            film=PointFilm(**film, scales=scales_of(case, conditions)),
             field=PointField(**field),
             **_provenance(dataset),
         )

@@ -37,10 +37,12 @@ def test_weights_integrate_what_is_linear(nodes_y, symmetric):
     mesh = mesh_of(20, nodes_y, symmetric=symmetric)
     x, y = mesh.x[:, np.newaxis], mesh.y
     area, mean_x = 6.0 * 2.0 * SIDE, 0.5 * (INLET + OUTLET)
-    assert mesh.weights.sum() == pytest.approx(area, rel=1e-13)
-    assert np.sum(mesh.weights * (1.0 + 2.0 * x)) == pytest.approx(area * (1.0 + 2.0 * mean_x), rel=1e-13)
+    assert mesh.weights.sum() == pytest.approx(area, rel=1e-13, abs=0.0)
+    assert np.sum(mesh.weights * (1.0 + 2.0 * x)) == pytest.approx(
+        area * (1.0 + 2.0 * mean_x), rel=1e-13, abs=0.0
+    )
     if mesh.symmetric:
-        assert np.sum(mesh.weights * y) == pytest.approx(area * 0.5 * SIDE, rel=1e-13)
+        assert np.sum(mesh.weights * y) == pytest.approx(area * 0.5 * SIDE, rel=1e-13, abs=0.0)
     else:
         assert abs(np.sum(mesh.weights * y * (3.0 + x))) < 1e-12
 
@@ -49,7 +51,7 @@ def test_weights_of_a_half_are_those_of_the_whole():
     half, whole = (mesh_of(11, 9, symmetric=s) for s in (True, False))
     values = np.random.default_rng(1).random(half.shape)
     expected = np.sum(whole.weights * half.mirrored(values))
-    assert np.sum(half.weights * values) == pytest.approx(expected, rel=1e-13)
+    assert np.sum(half.weights * values) == pytest.approx(expected, rel=1e-13, abs=0.0)
     assert mesh_of(11, 9, symmetric=True).weights_across[[0, -1]] == pytest.approx([half.dy, half.dy])
     line = Mesh.over(11, INLET, OUTLET)
     assert (line.weights.shape, line.dy, line.inner.sum()) == ((11, 1), None, 9)
@@ -82,7 +84,7 @@ def test_value_at_the_centre(nodes_y, symmetric):
     mesh = mesh_of(8, nodes_y, symmetric=symmetric)
     slope = 1.0 if nodes_y % 2 else 0.0
     values = 3.0 + 2.0 * mesh.x[:, np.newaxis] + slope * np.abs(mesh.y)
-    assert at_centre(mesh, values) == pytest.approx(3.0, rel=1e-13)
+    assert at_centre(mesh, values) == pytest.approx(3.0, rel=1e-13, abs=0.0)
 
 
 @pytest.mark.parametrize("nodes", [65, 66, 100, 129])
@@ -99,7 +101,7 @@ def test_every_grid_covers_the_same_domain(nodes, nodes_y, symmetric):
         assert (mesh.x[0], mesh.x[-1], mesh.y[-1]) == (INLET, OUTLET, SIDE)
         assert mesh.y[0] == levels[0].mesh.y[0]
         assert mesh.symmetric == levels[0].mesh.symmetric
-        assert level.weights.sum() == pytest.approx(36.0, rel=1e-12)
+        assert level.weights.sum() == pytest.approx(36.0, rel=1e-12, abs=0.0)
     for fine, coarse in itertools.pairwise(levels):
         assert coarse.nodes - 1 == fine.nodes // 2
         assert coarse.mesh.y.size - 1 == fine.mesh.y.size // 2
@@ -127,9 +129,9 @@ def test_averaging_is_the_adjoint_of_interpolation(shape):
     random = np.random.default_rng(4)
     on_fine, on_coarse = random.random(fine.shape), random.random(coarse.shape)
     expected = np.sum(fine.weights * on_fine * up(on_coarse))
-    assert np.sum(coarse.weights * down(on_fine) * on_coarse) == pytest.approx(expected, rel=1e-12)
+    assert np.sum(coarse.weights * down(on_fine) * on_coarse) == pytest.approx(expected, rel=1e-12, abs=0.0)
     kept = np.sum(fine.weights * on_fine)
-    assert np.sum(coarse.weights * down(on_fine)) == pytest.approx(kept, rel=1e-12)
+    assert np.sum(coarse.weights * down(on_fine)) == pytest.approx(kept, rel=1e-12, abs=0.0)
 
 
 def test_averaging_on_half_of_a_contact_is_that_on_the_whole():
