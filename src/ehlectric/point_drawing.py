@@ -11,6 +11,7 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import QuadMesh
+from matplotlib.colorbar import Colorbar
 from matplotlib.lines import Line2D
 from matplotlib.patches import Ellipse
 from matplotlib.ticker import MaxNLocator
@@ -27,13 +28,15 @@ _TURNED = 1.2
 # the axis says so.
 _LEAST_HEIGHT, _LEAST_OF_SEVERAL = 0.42, 0.25
 
-# Widths of a figure of maps: of one as entrainment lies, for every further one beside it, and with
-# entrainment pointing down [inches].
+# Maps lower than this by their width take the page's: below each other, their colour bar below them.
+_LOW = 0.5
+
+# Widths of a figure of maps: of one, for every further one beside it, and of low ones [inches].
 _WIDTH, _FURTHER, _WIDE = 5.8, 1.6, 7.2
 
 # Beside the maps: labels and a colour bar; above and below them: title, legend and labels, and such a bar
 # [inches].
-_BESIDE, _ABOVE, _BAR = 1.6, 1.0, 0.4
+_BESIDE, _ABOVE, _BAR = 1.6, 1.2, 0.3
 
 # Around the Hertz ellipse: before and behind it in semi-axes along entrainment, as in the line contact.
 _BEFORE, _BEHIND = -2.0, 1.5
@@ -53,22 +56,17 @@ def film_window(result: PointResult) -> tuple[Range, Range]:
     return (max(float(film.x[0]) / b, _BEFORE), min(float(film.x[-1]) / b, _BEHIND)), (-side, side)
 
 
-def field_window(result: PointResult, part: float = 1.0) -> tuple[Range, Range]:
-    """Ranges of x/b and y/b in which the field was solved, or the middle part of them."""
-
-    def middle(at: Array) -> Range:
-        centre, half = 0.5 * (at[0] + at[-1]), 0.5 * part * (at[-1] - at[0])
-        return float(centre - half), float(centre + half)
-
+def field_window(result: PointResult) -> tuple[Range, Range]:
+    """Ranges of x/b and y/b in which the field was solved."""
     b, field = result.conditions.semi_axis_x, result.field
-    return middle(field.x / b), middle(field.y / b)
+    x, y = field.x / b, field.y / b
+    return (float(x[0]), float(x[-1])), (float(y[0]), float(y[-1]))
 
 
 def map_panels(result: PointResult, number: int, window: tuple[Range, Range]) -> list[Axes]:
     """Axes of a new figure for maps of one window, of a size that they fill: beside or below each other."""
-    width, height = _on_page(result, *(high - low for low, high in window))
-    shape = height / width * _stretch(result, window, number)
-    if turned(result):
+    shape, _ = _shape(result, number, window)
+    if on_low_page(result, number, window):
         high = number * ((_WIDE - 0.7) * shape + 0.3)
         panels = new_panels(number, 1, (_WIDE, high + _ABOVE + _BAR))
     else:
@@ -79,11 +77,21 @@ def map_panels(result: PointResult, number: int, window: tuple[Range, Range]) ->
     return panels
 
 
-def _stretch(result: PointResult, window: tuple[Range, Range], number: int) -> float:
-    """Scale of the vertical axis of a map by that of the horizontal one: 1, or more in steps of a half."""
+def on_low_page(result: PointResult, number: int, window: tuple[Range, Range]) -> bool:
+    """Whether maps of one window take the width of the page, with their colour bar below them."""
+    return _shape(result, number, window)[0] < _LOW
+
+
+def _shape(result: PointResult, number: int, window: tuple[Range, Range]) -> tuple[float, float]:
+    """Height of each of several maps over its width, and the scale of its vertical axis.
+
+    The scale is that by which it is stretched: 1, or more in steps of a half.
+    """
     width, height = _on_page(result, *(high - low for low, high in window))
+    shape = float(height / width)
     least = _LEAST_HEIGHT if number == 1 else _LEAST_OF_SEVERAL
-    return max(1.0, 0.5 * round(2.0 * least * float(width / height)))
+    stretch = max(1.0, 0.5 * round(2.0 * least / shape))
+    return stretch * shape, stretch
 
 
 def _on_page(result: PointResult, along: Any, across: Any) -> tuple[Any, Any]:
@@ -122,7 +130,7 @@ def draw_map(
     )
     horizontal, vertical = _on_page(result, *window)
     ax.set(xlim=horizontal, ylim=vertical[::-1] if turned(result) else vertical)
-    stretch = _stretch(result, window, number)
+    _, stretch = _shape(result, number, window)
     ax.set_aspect(stretch)
     _label_map(result, ax, stretch)
     return mesh
@@ -144,17 +152,28 @@ def _label_map(result: PointResult, ax: Axes, stretch: float) -> None:
     """Labels of the axes of a map."""
     horizontal, vertical = _on_page(result, "x", "y")
     label_position(result, ax, horizontal)
-    ax.set_ylabel(f"${vertical}/b$" + ("" if stretch == 1.0 else f", stretched {stretch:g} times"))
+    ax.set_ylabel(f"${vertical}/b$" + ("" if stretch == 1.0 else f", scale {stretch:g}:1"))
 
 
 def colour_bar(
-    result: PointResult, mappable: ScalarMappable, axes: Sequence[Axes], label: str, **how: Any
+    result: PointResult,
+    mappable: ScalarMappable,
+    axes: Sequence[Axes],
+    label: str,
+    *,
+    window: tuple[Range, Range],
+    ticks: Array,
+    extend: str = "neither",
 ) -> Colorbar:
-    """Colour bar of the maps on ``axes``: beside them, or below where they are low and wide."""
-    place: dict[str, Any] = (
-        {"location": "bottom", "aspect": 60, "pad": 0.03} if turned(result) else {"pad": 0.02}
-    )
-    return figure_of(axes[0]).colorbar(mappable, ax=list(axes), label=label, **place, **how)
+    """Colour bar of the maps of one window on ``axes``: beside them, or below low ones."""
+    place: dict[str, Any] = {"pad": 0.02}
+    if on_low_page(result, len(axes), window):
+        place = {"location": "bottom", "aspect": 60, "pad": 0.03}
+    # Given, not found: those found change with the height of the bar, after room was made for them.
+    first, last = mappable.get_clim()
+    shown = ticks[(ticks >= first) & (ticks <= last)]
+    figure = figure_of(axes[0])
+    return figure.colorbar(mappable, ax=list(axes), label=label, ticks=shown, extend=extend, **place)
 
 
 def hertz_ellipse(result: PointResult, ax: Axes, ink: str = "black") -> Ellipse:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -25,14 +26,14 @@ from ehlectric.point_drawing import (
     legend_line,
     map_panels,
     mark,
+    on_low_page,
     on_page,
     panel_name,
     round_levels,
-    turned,
 )
 from ehlectric.point_result import PointResult
 from ehlectric.store import POINT_FIGURE_FILES, ROUGHNESS_FIGURE
-from ehlectric.typing import Array
+from ehlectric.typing import Array, Mask
 from ehlectric.zones import HIGH_FIELD
 
 SECTIONS = ("surface 1", "mid-film", "surface 2")
@@ -48,10 +49,6 @@ _DEVIATIONS_BEYOND, _HEIGHTS_BEYOND = 0.5, 0.1
 _BELOW_RIDGE = 0.75
 
 _CAVITATED = "#e3e6ea"
-
-# Part of the range of the field in which it is shown beside the thin-gap estimate: the elements next to its
-# faces overshoot.
-_KEPT = 0.92
 
 
 def film_map(result: PointResult, ax: Axes | None = None) -> Axes:
@@ -80,7 +77,8 @@ def film_map(result: PointResult, ax: Axes | None = None) -> Axes:
     limits = (float(levels[0]), float(levels[-1]))
     at = (film.x, film.y)
     mesh = draw_map(result, ax, at, thickness, colours="viridis", limits=limits, window=window)
-    bar = colour_bar(result, mesh, [ax], f"film thickness $h$ [{unit}]", extend="max", ticks=levels)
+    label = f"film thickness $h$ [{unit}]"
+    bar = colour_bar(result, mesh, [ax], label, window=window, ticks=levels, extend="max")
     ellipse = hertz_ellipse(result, ax)
     if not result.rough:
         lines = ax.contour(*on_page(result, *at), thickness, levels, colors="black", linewidths=0.5)
@@ -117,7 +115,7 @@ def pressure_map(result: PointResult, ax: Axes | None = None) -> Axes:
     limits = (0.0, factor * film.max_pressure)
     mesh = draw_map(result, ax, at, pressure, colours="magma", limits=limits, window=window)
     levels = round_levels(*limits, 10)
-    bar = colour_bar(result, mesh, [ax], f"pressure $p$ [{unit}]", ticks=levels[levels <= limits[1]])
+    bar = colour_bar(result, mesh, [ax], f"pressure $p$ [{unit}]", window=window, ticks=levels)
     if not result.rough:
         inner = levels[(levels > 0.0) & (levels < _BELOW_RIDGE * limits[1])]
         bar.add_lines(
@@ -166,7 +164,8 @@ def field_map(result: PointResult, ax: Axes | None = None, *, section: str = "mi
     at = (field.x, field.y)
     limits = (0.0, factor * field.max_strength)
     mesh = draw_map(result, ax, at, factor * strength, colours="inferno", limits=limits, window=window)
-    colour_bar(result, mesh, [ax], rf"$|E|$, {section} [{unit}]")
+    label = rf"$|E|$, {section} [{unit}]"
+    colour_bar(result, mesh, [ax], label, window=window, ticks=round_levels(*limits, 8))
     level = HIGH_FIELD * float(np.max(strength))
     ax.contour(*on_page(result, *at), strength, [level], colors="#00e5ff", linewidths=0.9)
     handles = [
@@ -176,7 +175,7 @@ def field_map(result: PointResult, ax: Axes | None = None, *, section: str = "mi
     where = f", {field.max_strength_wall}" if result.rough else ""
     largest = f"largest, {factor * field.max_strength:.3g} {unit}{where}"
     handles.append(mark(result, ax, _largest(result), largest))
-    legend_above(ax, handles, 3 if turned(result) else 2)
+    legend_above(ax, handles, 3 if on_low_page(result, 1, window) else 2)
     entrainment(result, ax, ink="white")
     return ax
 
@@ -207,17 +206,16 @@ def field_deviation(result: PointResult, axes: Sequence[Axes] | None = None) -> 
     Returns
     -------
     Axes
-        The first. In per mille of V12/h, without the edges of the range: their faces disturb the field over
-        some gaps.
+        The first. In per mille of V12/h, over the Hertz ellipse alone: the edges of the range disturb the
+        field near them.
     """
-    field, window = result.field, field_window(result, _KEPT)
-    panels = {}
-    for name in SECTIONS:
-        deviation = 1e3 * (_strength(result, name) / field.thin_gap_strength - 1.0)
-        panels[name] = np.ma.masked_where(~field.inner, deviation)
+    field, window = result.field, field_window(result)
+    panels = {name: 1e3 * (_strength(result, name) / field.thin_gap_strength - 1.0) for name in SECTIONS}
+    inside = result.zones["hertz"](field.x[:, np.newaxis], field.y)
+    ends = _ends(panels, field.inner & inside, _DEVIATIONS_BEYOND)
     label = r"$|E|\,h/V_{12} - 1$ [‰]"
     at = (field.x, field.y)
-    return _compared(result, axes, at, panels, window=window, label=label, beyond=_DEVIATIONS_BEYOND)
+    return _compared(result, axes, at, panels, window=window, ends=ends, label=label, clipped=True)
 
 
 def roughness(result: PointResult, axes: Sequence[Axes] | None = None) -> Axes:
@@ -235,23 +233,28 @@ def roughness(result: PointResult, axes: Sequence[Axes] | None = None) -> Axes:
     Axes
         The first, with the heights, peaks up for either surface. The second has the film less that between
         smooth surfaces, on the same scale: where it is the heights with their sign changed, nothing is
-        flattened. Where the smooth contact was not solved, it is less the film at the centre.
+        flattened. It is not there where the smooth contact was not solved.
     """
     window, film, heights = film_window(result), result.film, result.roughness.sum(axis=0)
     factor, unit = unit_for(float(np.max(np.abs(heights))), "m", least=1.0)
-    if result.smooth is None:
-        name, without = "central", np.array(film.central_thickness)
-    else:
-        name, without = "smooth", result.smooth.thickness
-    panels = {
-        "roughness $z_1 + z_2$": factor * heights,
-        rf"change of the film, $h - h_\mathrm{{{name}}}$": factor * (film.thickness - without),
-    }
-    label = f"height, change of the film [{unit}]"
-    at = (film.x, film.y)
-    first = _compared(result, axes, at, panels, window=window, label=label, beyond=_HEIGHTS_BEYOND)
+    panels = {"roughness $z_1 + z_2$": factor * heights}
+    if result.smooth is not None:
+        change = factor * (film.thickness - result.smooth.thickness)
+        panels[r"change of the film, $h - h_\mathrm{smooth}$"] = change
+    b, at = result.conditions.semi_axis_x, (film.x, film.y)
+    along, across = ((x / b >= low) & (x / b <= high) for x, (low, high) in zip(at, window, strict=True))
+    ends = _ends(panels, np.outer(along, across), _HEIGHTS_BEYOND)
+    label = f"height, change of the film [{unit}]" if len(panels) == 2 else f"height [{unit}]"
+    first = _compared(result, axes, at, panels, window=window, ends=ends, label=label)
     entrainment(result, first)
     return first
+
+
+def _ends(panels: Mapping[str, Array], shown: Mask, beyond: float) -> Range:
+    """Ends of the colours of several maps, which leave out so many per cent of what is shown."""
+    values = np.concatenate([panel[shown] for panel in panels.values()])
+    low, high = np.percentile(values, [beyond, 100.0 - beyond])
+    return float(low), float(high)
 
 
 def _compared(
@@ -261,32 +264,22 @@ def _compared(
     panels: Mapping[str, Array],
     *,
     window: tuple[Range, Range],
+    ends: Range,
     label: str,
-    beyond: float,
+    clipped: bool = False,
 ) -> Axes:
-    """Maps with one colour bar, whose ends leave out a part of what the window shows."""
-    axes = map_panels(result, len(panels), window) if axes is None else axes
-    inside = [
-        (at / result.conditions.semi_axis_x >= low) & (at / result.conditions.semi_axis_x <= high)
-        for at, (low, high) in zip(position, window, strict=True)
-    ]
-    shown = np.ma.concatenate([values[np.ix_(*inside)].ravel() for values in panels.values()])
-    low, high = np.percentile(np.ma.compressed(shown), [beyond, 100.0 - beyond])
+    """Maps of one scale with one colour bar, the whole window or the Hertz ellipse alone."""
+    number = len(panels)
+    axes = map_panels(result, number, window) if axes is None else axes
+    look: dict[str, Any] = {"colours": "viridis", "limits": ends, "window": window, "number": number}
     for ax, (name, values) in zip(axes, panels.items(), strict=True):
-        mesh = draw_map(
-            result,
-            ax,
-            position,
-            values,
-            colours="viridis",
-            limits=(float(low), float(high)),
-            window=window,
-            number=len(panels),
-        )
-        hertz_ellipse(result, ax)
+        mesh = draw_map(result, ax, position, values, **look)
+        ellipse = hertz_ellipse(result, ax)
+        if clipped:
+            mesh.set_clip_path(ellipse)
         panel_name(ax, name)
         ax.label_outer()
-    colour_bar(result, mesh, axes, label, extend="both")
+    colour_bar(result, mesh, axes, label, window=window, ticks=round_levels(*ends, 8), extend="both")
     return axes[0]
 
 
