@@ -49,9 +49,9 @@ case = ehlectric.Case.from_dict(
 )
 
 # %%
-# The grid is doubled from 65 x 65 nodes on. The estimate of the error, from the two finest grids of each solution, is
-# large as long as the constriction is narrower than a few nodes, and says so.
-nodes = np.array([65, 129, 257, 513])
+# The grid is doubled from 129 x 129 nodes on. The estimate of the error, from the two finest grids of each solution, is
+# large as long as the film at the exit is narrower than a few nodes.
+nodes = np.array([129, 257, 513])
 results = {
     n: ehlectric.solve(case.replace({"grid.nodes": int(n)}), require_convergence=True) for n in nodes
 }
