@@ -35,9 +35,9 @@ def axes_of_map():
 
 
 # %%
-# The film, with lines of equal thickness as in an interferogram. Oil enters from the left. The constriction runs
-# around the exit like a horseshoe, and the film is thinnest in its two side lobes, where oil flows off to
-# the sides.
+# The film, with lines of equal thickness as in an interferogram. Oil enters from the left. The
+# constriction runs around the exit like a horseshoe, and the film is thinnest in its two side lobes,
+# where oil flows off to the sides.
 point_plot.film_map(result, axes_of_map())
 
 # %%
@@ -45,17 +45,18 @@ point_plot.film_map(result, axes_of_map())
 point_plot.pressure_map(result, axes_of_map())
 
 # %%
-# The field follows the film: it is largest in the side lobes, and not at the exit as that of a line contact
-# is. The line around each lobe is at 95 % of the maximum.
+# The field follows the film: it is largest in the side lobes, and not at the exit as that of a line
+# contact is. The line around each lobe is at 95 % of the maximum.
 point_plot.field_map(result, axes_of_map())
 
 # %%
-# Pressure, film and field on lines along and across entrainment, through the centre and through the least film.
+# Pressure, film and field on lines along and across entrainment, through the centre and through the
+# least film.
 point_cuts.cuts(result, plt.subplots(3, 2, figsize=(7.0, 6.6))[1].ravel())
 
 # %%
-# The key figures. The capacitance over the range of the field is divided into the Hertz ellipse, the strips before
-# and behind it, and what lies beside them.
+# The key figures. The capacitance over the range of the field is divided into the Hertz ellipse, the
+# strips before and behind it, and what lies beside them.
 film, field = result.film, result.field
 print(f"minimum film      {1e6 * film.minimum_thickness:.3f} µm")
 print(f"central film      {1e6 * film.central_thickness:.3f} µm")

@@ -2,9 +2,9 @@
 A ball bearing, and how fine its grid must be
 =============================================
 
-The ball of a deep groove ball bearing 6208 on its inner ring, 600 N, mineral oil of ISO VG 68 at 70 °C, 5 V
-across the film. The groove hugs the ball, so that the dry contact is a long ellipse across entrainment; the film is
-thin against it. Both make it harder to solve than a ball on a plane.
+The ball of a deep groove ball bearing 6208 on its inner ring, 600 N, mineral oil of ISO VG 68 at 70 °C,
+5 V across the film. The groove hugs the ball, so that the dry contact is a long ellipse across
+entrainment; the film is thin against it. Both make it harder to solve than a ball on a plane.
 """
 
 import matplotlib.pyplot as plt
@@ -49,12 +49,10 @@ case = ehlectric.Case.from_dict(
 )
 
 # %%
-# The grid is doubled from 129 x 129 nodes on. The estimate of the error, from the two finest grids of each solution, is
-# large as long as the film at the exit is narrower than a few nodes.
+# The grid is doubled from 129 x 129 nodes on. The estimate of the error, from the two finest grids of
+# each solution, is large as long as the film at the exit is narrower than a few nodes.
 nodes = np.array([129, 257, 513])
-results = {
-    n: ehlectric.solve(case.replace({"grid.nodes": int(n)}), require_convergence=True) for n in nodes
-}
+results = {n: ehlectric.solve(case.replace({"grid.nodes": int(n)}), require_convergence=True) for n in nodes}
 for n, result in results.items():
     film = result.film
     print(
@@ -71,14 +69,16 @@ for label, thickness in films.items():
 left.set(xlabel="nodes either way", ylabel="film thickness [µm]", ylim=(0, None))
 left.legend(loc="lower right")
 right.loglog(nodes, [100 * r.film.discretisation_error for r in results.values()], "x-", color="black", ms=6)
-right.set(xlabel="nodes either way", ylabel="estimated error [%]")
+right.set(xlabel="nodes either way", ylabel="estimated error [%]", ylim=(1, 40))
+right.set_yticks([1, 3, 10, 30], ["1", "3", "10", "30"])
 for ax in (left, right):
     ax.set_xticks(nodes, [str(n) for n in nodes])
     ax.minorticks_off()
 
 # %%
-# ``grid.refine`` does the same by itself: with ``refine = "3 %"`` the grid is doubled until the estimate is below 3 %.
-# Here that is the last of these grids. The ellipse, and the formulas beside the solved film:
+# ``grid.refine`` does the same by itself: with ``refine = "3 %"`` the grid is doubled until the estimate
+# is below 3 %. Here that is the last of these grids. The ellipse, and the formulas beside the solved
+# film:
 result = results[513]
 conditions, film = result.conditions, result.film
 print(f"semi-axes         {1e6 * conditions.semi_axis_x:.0f} and {1e6 * conditions.semi_axis_y:.0f} µm")
@@ -90,8 +90,8 @@ for name, formula in result.formulas().items():
             print(f"{name:<26}{quantity:<19}{1e6 * thickness:.3f} µm, {off:+.0f} %")
 
 # %%
-# A long ellipse is drawn with entrainment pointing down; its narrow axis is stretched. The film in its middle is that
-# of a line contact, thinnest along the exit.
+# A long ellipse is drawn with entrainment pointing down; its narrow axis is stretched. The film in its
+# middle is that of a line contact, thinnest along the exit.
 point_plot.film_map(result, plt.subplots(figsize=(7.0, 4.2), layout="compressed")[1])
 
 # %%
@@ -99,7 +99,8 @@ point_plot.film_map(result, plt.subplots(figsize=(7.0, 4.2), layout="compressed"
 point_plot.field_map(result, plt.subplots(figsize=(7.0, 4.2), layout="compressed")[1])
 
 # %%
-# Its key figures. A bearing has as many such contacts in parallel as it has loaded balls on either ring.
+# Its key figures. In a bearing this contact is in series with that of the ball on the outer ring, and
+# the balls are in parallel.
 field = result.field
 print(f"largest field     {1e-6 * field.max_strength:.1f} V/µm")
 print(f"V12/h_min         {1e-6 * field.voltage / film.minimum_thickness:.1f} V/µm")
