@@ -7,6 +7,7 @@ from ehlectric.point_film import solve_point_film
 from tests.reference.point_film import INLET, OUTLET, ManufacturedFilm
 
 SKEWS = pytest.mark.parametrize("skew", [0.0, 0.5], ids=["symmetric", "whole"])
+SLOW = pytest.param(0.5, marks=pytest.mark.slow)
 SPAN = OUTLET - INLET
 
 
@@ -22,7 +23,7 @@ def errors(exact, nodes, *, second_order):
     return [np.max(np.abs(pressure)), np.max(np.abs(thickness)), abs(h00[0, 0])]
 
 
-@SKEWS
+@pytest.mark.parametrize("skew", [0.0, SLOW], ids=["symmetric", "whole"])
 def test_second_order(slope, skew):
     """Errors fall with dX^2, to at most five times that of P, twice of H and half of H00."""
     nodes = np.array([65, 129])

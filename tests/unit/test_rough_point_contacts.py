@@ -40,6 +40,7 @@ def test_a_pit_and_its_mirror_image():
     assert np.array_equal(left.smooth.thickness, left.smooth.thickness[:, ::-1])
 
 
+@pytest.mark.slow
 def test_a_pit_in_the_middle_is_solved_by_half():
     """With the same film as one a nanometre off, which is not."""
     middle, beside = rough(PIT | {"position_y": 0.0}), rough(PIT | {"position_y": "1 nm"})
@@ -54,6 +55,7 @@ def test_a_pit_in_the_middle_is_solved_by_half():
     assert 0.02e-6 < np.max(depth) < 0.2e-6
 
 
+@pytest.mark.slow
 def test_film_does_not_tell_which_surface_is_rough():
     first, second = (rough(PIT | {"surface": surface, "position_y": "40 um"}) for surface in (1, 2))
     np.testing.assert_allclose(second.film.thickness, first.film.thickness, rtol=1e-9)
@@ -86,6 +88,7 @@ def test_waves_along_the_lay_stay_so(tmp_path):
     assert 0.5e-9 < np.std(middle[inside]) < 20e-9 / np.sqrt(2.0)
 
 
+@pytest.mark.slow
 def test_waves_across_are_not_uniform():
     wave = {"surface": 2, "generator": "sinusoid", "amplitude": "10 nm", "wavelength": "60 um"}
     result = rough(wave | {"orientation": "90 deg", "phase": 0.4})
@@ -113,6 +116,7 @@ def test_rough_summary_and_smooth_companion():
     assert roughness["lambda_ratio"] == pytest.approx(film.minimum_thickness / rq, rel=1e-12, abs=0.0)
 
 
+@pytest.mark.slow
 def test_roughness_higher_than_the_film_leaves_none():
     table = {"surface": 1, "generator": "gaussian", "rq": "0.3 um", "correlation_length": "20 um", "seed": 1}
     result = rough(table, contact={"entrainment_speed": "0.2 m/s"})
