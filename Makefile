@@ -3,6 +3,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 RESULTS := results/line_contact
+POINT_RESULTS := results/ball_contact
 
 export PIP_CONSTRAINT := $(CURDIR)/requirements.lock
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
@@ -70,6 +71,8 @@ docs: $(VENV)/.docs
 figures: $(VENV)/.run
 	$(BIN)/ehlectric run examples/line_contact.toml -o $(RESULTS) --quiet
 	cp $(RESULTS)/film.png $(RESULTS)/field_strength.png docs/figures
+	$(BIN)/ehlectric run examples/ball_contact.toml -o $(POINT_RESULTS) --quiet
+	cp $(POINT_RESULTS)/field_map.png docs/figures
 
 bench: $(VENV)/.dev
 	$(BIN)/python benchmarks/table.py
