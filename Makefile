@@ -9,7 +9,7 @@ export PIP_CONSTRAINT := $(CURDIR)/requirements.lock
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
 .DEFAULT_GOAL := help
-.PHONY: help run test slow check format docs figures bench lock clean
+.PHONY: help run test slow check format docs figures bench bench-public lock clean
 
 help:
 	@echo "make run     install and solve the example, with figures"
@@ -19,7 +19,8 @@ help:
 	@echo "make format  format the code"
 	@echo "make docs    build the documentation, run its gallery; warnings are errors"
 	@echo "make figures draw the figures of the README again"
-	@echo "make bench   run the benchmarks and print their table"
+	@echo "make bench   run the benchmarks and print their tables"
+	@echo "make bench-public  solve a point contact with public packages too; takes them from the registry"
 
 $(BIN)/python:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
@@ -75,6 +76,9 @@ figures: $(VENV)/.run
 
 bench: $(VENV)/.dev
 	$(BIN)/python benchmarks/table.py
+
+bench-public: $(VENV)/.dev
+	$(BIN)/python benchmarks/public_solvers.py
 
 lock:
 	uv pip compile pyproject.toml --extra dev --extra docs --extra instruments --universal --python-version 3.11 --no-header --quiet --output-file requirements.lock

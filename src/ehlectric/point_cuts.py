@@ -11,18 +11,22 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
-from ehlectric.drawing import BLUE, GREY, ORANGE, figure_of, label_position, new_panels, unit_for
+from ehlectric.drawing import BLUE, GREY, ORANGE, axes_or_new, figure_of, label_position, new_panels, unit_for
 from ehlectric.point_drawing import film_unit, film_window, legend_above, round_levels
+from ehlectric.point_field import PointField
 from ehlectric.point_result import PointResult
 from ehlectric.section_plot import draw_section
-from ehlectric.typing import Array
+from ehlectric.typing import Array, Mask
+
+# Of the lines through the centre and through the least film or the largest field.
+_LOOKS = ((BLUE, "-"), (ORANGE, (0, (4.0, 1.2))))
 
 
 @dataclass(frozen=True)
 class Cut:
     """A straight cut along the axis "x" or "y" of a map: its line is at the node nearest to a position.
 
-    ``across`` and ``index`` are the axis that it stays at and the node on it, ``position`` [m] where that is.
+    ``index`` is that of the node on the other axis, ``position`` [m] where it is there.
     """
 
     along: str
@@ -40,27 +44,27 @@ class Cut:
         """Values (nx, ny, ...) on the line."""
         return values[:, self.index] if self.along == "x" else values[self.index]
 
+    def away(self, field: PointField) -> Mask:
+        """Which of the columns on the line are away from the side faces; all, where the line is along one."""
+        on: Mask = self.of(field.inner)
+        return on if np.count_nonzero(on) > 2 else np.ones_like(on)
+
     def name(self, result: PointResult) -> str:
         """Where it is."""
         axis = "y" if self.along == "x" else "x"
-        at = f"{self.position / result.conditions.semi_axis_x + 0.0:.3g}".replace("-", "−")
-        return f"${axis}/b$ = {at}"
+        at = round(self.position / result.conditions.semi_axis_x, 6) + 0.0  # no 1e-17 at the centre, no -0
+        return f"${axis}/b$ = {at:.3g}".replace("-", "−")
 
 
-def label_along(result: PointResult, ax: Axes, along: str) -> None:
-    """Label of the horizontal axis of a cut."""
-    label_position(result, ax, along)
-
-
-def pressure_cut(result: PointResult, ax: Axes, along: str = "x") -> Axes:
+def pressure_cut(result: PointResult, ax: Axes | None = None, *, along: str = "x") -> Axes:
     """Pressure on the line through the centre and on that through the least film, with the Hertz pressure.
 
     Parameters
     ----------
     result : PointResult
         What to draw.
-    ax : Axes
-        Where to.
+    ax : Axes, optional
+        Where to; new axes otherwise.
     along : str
         "x", along entrainment, or "y", across it.
 
@@ -69,6 +73,7 @@ def pressure_cut(result: PointResult, ax: Axes, along: str = "x") -> Axes:
     Axes
         With a legend above them.
     """
+    ax = axes_or_new(ax)
     film, conditions = result.film, result.conditions
     factor, unit = unit_for(film.max_pressure, "Pa")
     across = np.linspace(-1.0, 1.0, 401)
@@ -83,24 +88,24 @@ def pressure_cut(result: PointResult, ax: Axes, along: str = "x") -> Axes:
     return ax
 
 
-def film_cut(result: PointResult, ax: Axes, along: str = "x") -> Axes:
+def film_cut(result: PointResult, ax: Axes | None = None, *, along: str = "x") -> Axes:
     """Film thickness on the line through the centre and on that through the least film.
 
     Parameters
     ----------
     result : PointResult
         What to draw.
-    ax : Axes
-        Where to.
+    ax : Axes, optional
+        Where to; new axes otherwise.
     along : str
         "x", along entrainment, or "y", across it.
 
     Returns
     -------
     Axes
-        Up to twice the thickest film of the dry contact's middle; smooth surfaces dotted beside rough ones.
+        Up to twice the central or the mean film; smooth surfaces dotted beside rough ones.
     """
-    film = result.film
+    ax, film = axes_or_new(ax), result.film
     factor, unit = film_unit(result)
     if result.smooth is not None:
         for cut in _film_cuts(result, along):
@@ -114,15 +119,15 @@ def film_cut(result: PointResult, ax: Axes, along: str = "x") -> Axes:
     return ax
 
 
-def field_cut(result: PointResult, ax: Axes, along: str = "x") -> Axes:
+def field_cut(result: PointResult, ax: Axes | None = None, *, along: str = "x") -> Axes:
     """Field strength at mid-film on the lines through the centre and the largest field, with V12/h behind it.
 
     Parameters
     ----------
     result : PointResult
         What to draw.
-    ax : Axes
-        Where to.
+    ax : Axes, optional
+        Where to; new axes otherwise.
     along : str
         "x", along entrainment, or "y", across it.
 
@@ -131,13 +136,13 @@ def field_cut(result: PointResult, ax: Axes, along: str = "x") -> Axes:
     Axes
         Without the edges of the range of the field, whose faces disturb it.
     """
-    field = result.field
+    ax, field = axes_or_new(ax), result.field
     factor, unit = unit_for(field.max_strength, "V/m")
     places = ((0.0, 0.0), field.max_strength_position)
     at = (field.x if along == "x" else field.y) / result.conditions.semi_axis_x
     for place, (color, line) in zip(places, _LOOKS, strict=True):
         cut = Cut.near(along, place, field.x, field.y)
-        on = cut.of(field.inner)
+        on = cut.away(field)
         ax.plot(at[on], factor * cut.of(field.thin_gap_strength)[on], color=color, lw=4.0, alpha=0.25)
         (last,) = ax.plot(at[on], factor * cut.of(field.middle_strength)[on], color=color, ls=line)
     last.set_label(f"largest field, {cut.name(result)}")
@@ -146,9 +151,6 @@ def field_cut(result: PointResult, ax: Axes, along: str = "x") -> Axes:
     ax.set_ylabel(f"mid-film field $|E|$ [{unit}]")
     ax.set_ylim(0.0, 1.08 * factor * field.max_strength)
     return ax
-
-
-_LOOKS = ((BLUE, "-"), (ORANGE, (0, (4.0, 1.2))))
 
 
 def _axis(result: PointResult, along: str) -> Array:
@@ -196,22 +198,22 @@ def cuts(result: PointResult, axes: Sequence[Axes] | None = None) -> Axes:
     axes = new_panels(3, 2, (7.0, 6.6)) if axes is None else axes
     for number, draw in enumerate((pressure_cut, film_cut, field_cut)):
         for along, ax, window in zip("xy", axes[2 * number :], film_window(result), strict=False):
-            draw(result, ax, along)
+            draw(result, ax, along=along)
             ax.set_xlim(*window)
-            label_along(result, ax, along)
+            label_position(result, ax, along)
             ax.label_outer()
     return axes[0]
 
 
-def field_section(result: PointResult, ax: Axes, along: str = "x") -> Axes:
+def field_section(result: PointResult, ax: Axes | None = None, *, along: str = "x") -> Axes:
     """Section of the film through the largest field, coloured by the field strength, with equipotentials.
 
     Parameters
     ----------
     result : PointResult
         What to draw.
-    ax : Axes
-        Where to.
+    ax : Axes, optional
+        Where to; new axes otherwise.
     along : str
         "x", along entrainment, or "y", across it.
 
@@ -220,9 +222,9 @@ def field_section(result: PointResult, ax: Axes, along: str = "x") -> Axes:
     Axes
         Heights are those above the middle between the smooth surfaces: that of unequal bodies is bent.
     """
-    field, electric = result.field, result.case.electric
+    ax, field, electric = axes_or_new(ax), result.field, result.case.electric
     cut = Cut.near(along, field.max_strength_position, field.x, field.y)
-    on = cut.of(field.inner)
+    on = cut.away(field)
     at = (field.x if along == "x" else field.y)[on] / result.conditions.semi_axis_x
     factor, unit = film_unit(result)
     strength_factor, strength_unit = unit_for(field.max_strength, "V/m")
@@ -247,7 +249,7 @@ def field_section(result: PointResult, ax: Axes, along: str = "x") -> Axes:
         linestyles="-",
     )
     ax.set_ylabel(f"height $z$ [{unit}]")
-    label_along(result, ax, along)
+    label_position(result, ax, along)
     ax.set_title(cut.name(result), loc="right")
     bar = figure_of(ax).colorbar(filled, ax=ax, label=f"$|E|$ [{strength_unit}]", pad=0.02)
     ticks = round_levels(0.0, strength_factor * field.max_strength, 6)
@@ -286,5 +288,5 @@ def field_sections(result: PointResult, axes: Sequence[Axes] | None = None) -> A
     """
     axes = new_panels(2, 1, (6.3, 5.6)) if axes is None else axes
     for ax, along in zip(axes, "xy", strict=True):
-        field_section(result, ax, along)
+        field_section(result, ax, along=along)
     return axes[0]

@@ -34,9 +34,9 @@ _LOW = 0.5
 # Widths of a figure of maps: of one, for every further one beside it, and of low ones [inches].
 _WIDTH, _FURTHER, _WIDE = 5.8, 1.6, 7.2
 
-# Beside the maps: labels and a colour bar; above and below them: title, legend and labels, and such a bar
-# [inches].
-_BESIDE, _ABOVE, _BAR = 1.6, 1.2, 0.3
+# Beside the maps: labels and a colour bar; above and below them: title and labels, a row of a legend, such a
+# bar [inches].
+_BESIDE, _ABOVE, _ROW, _BAR = 1.6, 0.85, 0.2, 0.45
 
 # Around the Hertz ellipse: before and behind it in semi-axes along entrainment, as in the line contact.
 _BEFORE, _BEHIND = -2.0, 1.5
@@ -63,15 +63,19 @@ def field_window(result: PointResult) -> tuple[Range, Range]:
     return (float(x[0]), float(x[-1])), (float(y[0]), float(y[-1]))
 
 
-def map_panels(result: PointResult, number: int, window: tuple[Range, Range]) -> list[Axes]:
-    """Axes of a new figure for maps of one window, of a size that they fill: beside or below each other."""
+def map_panels(result: PointResult, number: int, window: tuple[Range, Range], *, rows: int = 0) -> list[Axes]:
+    """Axes of a new figure for maps of one window, of a size that they fill: beside or below each other.
+
+    ``rows`` are those of a legend above them.
+    """
     shape, _ = _shape(result, number, window)
+    more = _ABOVE + _ROW * rows
     if on_low_page(result, number, window):
         high = number * ((_WIDE - 0.7) * shape + 0.3)
-        panels = new_panels(number, 1, (_WIDE, high + _ABOVE + _BAR))
+        panels = new_panels(number, 1, (_WIDE, high + more + _BAR))
     else:
         wide = _WIDTH + _FURTHER * (number - 1)
-        panels = new_panels(1, number, (wide, (wide - _BESIDE) / number * shape + _ABOVE))
+        panels = new_panels(1, number, (wide, (wide - _BESIDE) / number * shape + more))
     # Colour bars as high as their maps, whose axes shrink to keep their scale.
     figure_of(panels[0]).set_layout_engine("compressed")
     return panels

@@ -68,7 +68,7 @@ def film_map(result: PointResult, ax: Axes | None = None) -> Axes:
         Rough films have no lines.
     """
     film, window = result.film, film_window(result)
-    ax = map_panels(result, 1, window)[0] if ax is None else ax
+    ax = map_panels(result, 1, window, rows=1)[0] if ax is None else ax
     factor, unit = film_unit(result)
     thickness = factor * film.thickness
     inside = result.zones["hertz"](film.x[:, np.newaxis], film.y)
@@ -108,7 +108,7 @@ def pressure_map(result: PointResult, ax: Axes | None = None) -> Axes:
         With a colour bar beside them.
     """
     film, window = result.film, film_window(result)
-    ax = map_panels(result, 1, window)[0] if ax is None else ax
+    ax = map_panels(result, 1, window, rows=1)[0] if ax is None else ax
     factor, unit = unit_for(film.max_pressure, "Pa")
     pressure = factor * film.pressure
     at = (film.x, film.y)
@@ -158,7 +158,8 @@ def field_map(result: PointResult, ax: Axes | None = None, *, section: str = "mi
         With a colour bar beside them, to the largest field of all three.
     """
     field, window = result.field, field_window(result)
-    ax = map_panels(result, 1, window)[0] if ax is None else ax
+    columns = 3 if on_low_page(result, 1, window) else 2
+    ax = map_panels(result, 1, window, rows=4 - columns)[0] if ax is None else ax
     factor, unit = unit_for(field.max_strength, "V/m")
     strength = _strength(result, section)
     at = (field.x, field.y)
@@ -167,7 +168,8 @@ def field_map(result: PointResult, ax: Axes | None = None, *, section: str = "mi
     label = rf"$|E|$, {section} [{unit}]"
     colour_bar(result, mesh, [ax], label, window=window, ticks=round_levels(*limits, 8))
     level = HIGH_FIELD * float(np.max(strength))
-    ax.contour(*on_page(result, *at), strength, [level], colors="#00e5ff", linewidths=0.9)
+    if np.min(strength) < level:
+        ax.contour(*on_page(result, *at), strength, [level], colors="#00e5ff", linewidths=0.9)
     handles = [
         legend_line(hertz_ellipse(result, ax, "white")),
         Line2D([], [], color="#00b8d4", lw=0.9, label=f"{100.0 * HIGH_FIELD:g} % of the maximum"),
@@ -175,7 +177,7 @@ def field_map(result: PointResult, ax: Axes | None = None, *, section: str = "mi
     where = f", {field.max_strength_wall}" if result.rough else ""
     largest = f"largest, {factor * field.max_strength:.3g} {unit}{where}"
     handles.append(mark(result, ax, _largest(result), largest))
-    legend_above(ax, handles, 3 if on_low_page(result, 1, window) else 2)
+    legend_above(ax, handles, columns)
     entrainment(result, ax, ink="white")
     return ax
 
@@ -251,7 +253,8 @@ def roughness(result: PointResult, axes: Sequence[Axes] | None = None) -> Axes:
 
 
 def _ends(panels: Mapping[str, Array], shown: Mask, beyond: float) -> Range:
-    """Ends of the colours of several maps, which leave out so many per cent of what is shown."""
+    """Ends of the colours of several maps, which leave out so many per cent of what is shown, if anything."""
+    shown = shown if np.any(shown) else np.ones_like(shown)
     values = np.concatenate([panel[shown] for panel in panels.values()])
     low, high = np.percentile(values, [beyond, 100.0 - beyond])
     return float(low), float(high)

@@ -43,6 +43,10 @@ from ehlectric.walls import rough_surfaces
 
 _Film = TypeVar("_Film", Film, PointFilm)
 
+# Grids in succession on which nothing becomes known of the error, after which refining is given up: each
+# takes several times as long as the one before.
+_UNKNOWN = 3
+
 
 @dataclass(frozen=True)
 class Solvers:
@@ -225,20 +229,29 @@ def _refined(case: Case, solved: Callable[[Case], _Film], *, demand: bool) -> _R
     started, target = time.perf_counter(), case.grid.refine
     remarks: tuple[str, ...] = ()
     grid = case if target is None else case.replace({"grid.refine": None})
+    errors: list[float | None] = []
     film = solved(grid)
     while target is not None and not _within(film, target):
+        errors.append(film.discretisation_error)
+        if len(errors) >= _UNKNOWN and not any(errors[-_UNKNOWN:]):
+            unknown = f"nothing is known of its error on {_UNKNOWN} grids in succession"
+            remarks = (f"{_not_reached(target, grid)}; {unknown}",)
+            break
         try:
             finer = _doubled(grid)
             check_memory(finer)
         except InputError as error:
-            reached = f"{100 * target:g} % was not reached with {grid.grid.nodes} nodes"
-            remarks = (f"grid.refine: {reached}; {error}",)
+            remarks = (f"{_not_reached(target, grid)}; {error}",)
             break
         grid = finer
         film = solved(grid)
     if demand and not film.converged:
         raise ConvergenceError(f"film {film.status} at the residual {film.residual:.1e}")
     return _Refined(film, grid, time.perf_counter() - started, remarks)
+
+
+def _not_reached(target: float, case: Case) -> str:
+    return f"grid.refine: {100 * target:g} % was not reached with {case.grid.nodes} nodes"
 
 
 def _doubled(case: Case) -> Case:

@@ -304,6 +304,16 @@ def test_refined_results_survive_the_disk(tmp_path):
     assert_equal(load(tmp_path / "result.nc"), result)
 
 
+@pytest.mark.parametrize("kind", ["line", SLOW("point")])
+def test_refinement_of_what_has_no_film_ends(kind):
+    """Not at the memory of the machine, after hours, but after three grids without a film."""
+    case = STARTS[kind][0].replace({"contact.entrainment_speed": 1e-6, "grid.refine": 0.01})
+    result = solve(case)
+    assert not result.converged
+    assert result.film.x.size == 4 * case.grid.nodes - 3
+    assert any("nothing is known of its error on 3 grids in succession" in text for text in result.warnings)
+
+
 @pytest.mark.parametrize("kind", ["line", "point"])
 def test_refinement_that_does_not_get_there_is_said(kind, monkeypatch):
     """On a machine that holds the first two grids alone."""

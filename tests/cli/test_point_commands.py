@@ -1,0 +1,125 @@
+"""Point contacts as a user runs them: output, files and exit status."""
+
+import json
+
+import numpy as np
+import pytest
+
+from ehlectric import load
+from ehlectric.store import POINT_FIGURE_FILES, ROUGHNESS_FIGURE
+from tests.cli.test_commands import DATA, one_line
+
+POINT = """\
+title = "A ball"
+[contact]
+geometry = "point"
+load = "20 N"
+radius_x = "10 mm"
+radius_y = "12 mm"
+reduced_modulus = "226 GPa"
+entrainment_speed = "4 m/s"
+[lubricant]
+base = "paper"
+[grid]
+nodes = 65
+"""
+PIT = '[[roughness]]\nsurface = 1\ngenerator = "pit"\ndepth = "0.1 um"\nwidth = "60 um"\n'
+FIGURES = {*POINT_FIGURE_FILES, ROUGHNESS_FIGURE}
+
+
+@pytest.fixture
+def point_file(tmp_path):
+    path = tmp_path / "ball.toml"
+    path.write_text(POINT)
+    return path
+
+
+def names_in(folder):
+    return {path.name for path in folder.iterdir()}
+
+
+def test_run_writes_everything(ehlectric, point_file, tmp_path):
+    done = ehlectric("run", point_file, "-o", "out")
+    assert done.returncode == 0, done.stderr
+    assert names_in(tmp_path / "out") >= DATA
+    assert names_in(tmp_path / "out") - DATA <= FIGURES
+    for text in ("minimum film", "semi-axis, across", "maximum field", "Hamrock-Dowson", "65 x 65", "pF"):
+        assert text in done.stdout
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text(), parse_constant=pytest.fail)
+    assert (summary["converged"], summary["status"], summary["title"]) == (True, "converged", "A ball")
+    result = load(tmp_path / "out" / "result.nc")
+    assert result.summary() == summary
+    table = np.loadtxt(tmp_path / "out" / "film.csv", delimiter=",", skiprows=1)
+    assert table[:, 3].min() == pytest.approx(summary["film"]["minimum_thickness"], rel=1e-11, abs=0.0)
+    assert len(table) == 65 * 65
+    said = [line.removeprefix("warning: ") for line in done.stderr.splitlines()]
+    assert said == summary["warnings"]
+
+
+@pytest.mark.slow
+def test_plot_redraws(ehlectric, point_file, tmp_path):
+    assert ehlectric("run", point_file, "-o", "out", "--no-plots", "-q").returncode == 0
+    assert names_in(tmp_path / "out") == DATA
+    done = ehlectric("plot", "out/result.nc", "-o", "figures")
+    assert done.returncode == 0, done.stderr
+    assert names_in(tmp_path / "figures") <= FIGURES
+
+
+@pytest.mark.slow
+def test_json_is_the_summary_alone(ehlectric, point_file, tmp_path):
+    done = ehlectric("run", point_file, "-o", "out", "--no-plots", "--json")
+    assert json.loads(done.stdout) == json.loads((tmp_path / "out" / "summary.json").read_text())
+
+
+@pytest.mark.slow
+def test_rough_run(ehlectric, point_file, tmp_path):
+    point_file.write_text(POINT + PIT)
+    done = ehlectric("run", point_file, "-o", "out")
+    assert done.returncode == 0, done.stderr
+    assert names_in(tmp_path / "out") >= DATA
+    roughness = json.loads((tmp_path / "out" / "summary.json").read_text())["roughness"]
+    assert roughness["rq_1"] > 0.0
+    assert roughness["rq_2"] == 0.0
+
+
+@pytest.mark.parametrize(
+    ("change", "status"),
+    [
+        (("nodes = 65", "nodes = 65\n[solver]\nmax_iterations = 1"), "stalled"),
+        pytest.param(('"4 m/s"', '"1e-4 m/s"'), "film collapsed", marks=pytest.mark.slow),
+    ],
+)
+def test_not_converged_is_exit_3_with_all_files(ehlectric, point_file, tmp_path, change, status):
+    point_file.write_text(POINT.replace(*change))
+    done = ehlectric("run", point_file, "-o", "out")
+    assert done.returncode == 3
+    assert names_in(tmp_path / "out") >= DATA
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text(), parse_constant=pytest.fail)
+    assert summary["converged"] is False
+    assert f"error: not converged: {summary['status']}" in done.stderr
+    assert all(line.startswith(("warning: ", "error: ")) for line in done.stderr.splitlines())
+    assert "NOT CONVERGED" in done.stdout
+    assert summary["status"] == status
+
+
+BAD = [
+    ('load = "20 N"', 'load = "20 N/m"', "contact.load: got '20 N/m'"),
+    ('radius_y = "12 mm"', "", "contact.radius_y: missing"),
+    ("nodes = 65", "nodes = 65\nside = 9.0", "grid.nodes: got 65 across 18 semi-axes"),
+    ("nodes = 65", "nodes = 9999", "grid.nodes: got 9999 in a point contact"),
+    ('base = "paper"', 'base = "oil"', "lubricant.base"),
+    ('geometry = "point"', 'geometry = "line"', "got it in a line contact"),
+]
+
+
+@pytest.mark.parametrize(("old", "new", "message"), BAD)
+def test_bad_case_is_one_line_and_nothing_is_written(ehlectric, point_file, tmp_path, old, new, message):
+    point_file.write_text(POINT.replace(old, new))
+    assert message in one_line(ehlectric("run", point_file, "-o", "out"))
+    assert not (tmp_path / "out").exists()
+
+
+def test_the_papers_solver_is_for_line_contacts(ehlectric, point_file, tmp_path):
+    said = one_line(ehlectric("run", point_file, "-o", "out", "--solver", "paper"))
+    assert "contact.geometry: got 'point', the solver 'paper' takes 'line'" in said
+    assert not (tmp_path / "out").exists()
