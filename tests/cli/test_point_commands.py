@@ -103,11 +103,8 @@ def test_not_converged_is_exit_3_with_all_files(ehlectric, point_file, tmp_path,
 
 
 BAD = [
-    ('load = "20 N"', 'load = "20 N/m"', "contact.load: got '20 N/m'"),
     ('radius_y = "12 mm"', "", "contact.radius_y: missing"),
     ("nodes = 65", "nodes = 65\nside = 9.0", "grid.nodes: got 65 across 18 semi-axes"),
-    ("nodes = 65", "nodes = 9999", "grid.nodes: got 9999 in a point contact"),
-    ('base = "paper"', 'base = "oil"', "lubricant.base"),
     ('geometry = "point"', 'geometry = "line"', "got it in a line contact"),
 ]
 

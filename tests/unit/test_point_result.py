@@ -314,7 +314,7 @@ def test_refinement_of_what_has_no_film_ends(kind):
     assert any("nothing is known of its error on 3 grids in succession" in text for text in result.warnings)
 
 
-@pytest.mark.parametrize("kind", ["line", "point"])
+@pytest.mark.parametrize("kind", ["line", SLOW("point")])
 def test_refinement_that_does_not_get_there_is_said(kind, monkeypatch):
     """On a machine that holds the first two grids alone."""
     case, _ = STARTS[kind]
