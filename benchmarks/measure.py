@@ -39,13 +39,13 @@ def peak_memory(problem: str, solver: str) -> tuple[float, float]:
     code = f"""
 from benchmarks import cases
 from ehlectric.{module} import {function}
-def peak():
+def resident(key):
     with open("/proc/self/status") as status:
-        return next(int(line.split()[1]) for line in status if line.startswith("VmHWM"))
+        return next(int(line.split()[1]) for line in status if line.startswith(key))
 problem = cases.{problem}
-before = peak()
+before = resident("VmRSS")
 {function}(problem)
-print(peak(), peak() - before)
+print(resident("VmHWM"), resident("VmHWM") - before)
 """
     done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
     whole, added = done.stdout.split()
