@@ -83,15 +83,15 @@ def test_rough_run(ehlectric, point_file, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("change", "status"),
+    ("change", "status", "words"),
     [
-        (("nodes = 65", "nodes = 65\n[solver]\nmax_iterations = 1"), "stalled"),
-        pytest.param(('"4 m/s"', '"1e-4 m/s"'), "film collapsed", marks=pytest.mark.slow),
+        (("nodes = 65", "nodes = 65\n[solver]\nmax_iterations = 1"), "stalled", ["--no-plots"]),
+        pytest.param(('"4 m/s"', '"1e-4 m/s"'), "film collapsed", [], marks=pytest.mark.slow),
     ],
 )
-def test_not_converged_is_exit_3_with_all_files(ehlectric, point_file, tmp_path, change, status):
+def test_not_converged_is_exit_3_with_all_files(ehlectric, point_file, tmp_path, change, status, words):
     point_file.write_text(POINT.replace(*change))
-    done = ehlectric("run", point_file, "-o", "out")
+    done = ehlectric("run", point_file, "-o", "out", *words)
     assert done.returncode == 3
     assert names_in(tmp_path / "out") >= DATA
     summary = json.loads((tmp_path / "out" / "summary.json").read_text(), parse_constant=pytest.fail)

@@ -40,7 +40,7 @@ def grids(most):
     return [pytest.param(int(n), marks=[pytest.mark.slow] if int(n) > most else []) for n in FILMS]
 
 
-@pytest.mark.parametrize("nodes", grids(257))
+@pytest.mark.parametrize("nodes", grids(129))
 def test_first_order_film_agrees_with_independent_computation(solved, nodes):
     film = solved(nodes, "first-order").film
     assert film.converged
@@ -52,7 +52,7 @@ def test_second_order_film_is_near_the_extrapolated_one(solved):
 
 
 @pytest.mark.parametrize("wedge", ["first-order", "second-order"])
-@pytest.mark.parametrize("nodes", grids(257))
+@pytest.mark.parametrize("nodes", grids(129))
 def test_error_estimate_is_the_true_error(solved, nodes, wedge):
     """Within a factor 3 of the distance from the extrapolated film, which is rounded to 0.001 um."""
     film = solved(nodes, wedge).film
@@ -71,7 +71,7 @@ def test_film_formulas(solved):
 
 
 @pytest.mark.parametrize("wedge", ["first-order", "second-order"])
-@pytest.mark.parametrize("nodes", [129, 257])
+@pytest.mark.parametrize("nodes", [129])
 def test_solution_meets_its_equations(solved, nodes, wedge):
     film = solved(nodes, wedge).film
     assert film.load_residual < 1e-10

@@ -66,6 +66,7 @@ def test_film_does_not_tell_which_surface_is_rough():
     assert second.field.capacitance == pytest.approx(first.field.capacitance, rel=1e-8, abs=0.0)
 
 
+@pytest.mark.slow
 def test_waves_along_the_lay_stay_so(tmp_path):
     """A profile that lies across entrainment is the same at all y: as the sinusoid it was measured from."""
     length, points = 1.2e-3, 1201
@@ -99,6 +100,7 @@ def test_waves_across_are_not_uniform():
     assert np.max(np.abs(result.film.thickness - result.film.thickness[:, ::-1])) > 1e-9
 
 
+@pytest.mark.slow
 def test_rough_summary_and_smooth_companion():
     bump = {"surface": 2, "generator": "asperity", "height": "50 nm", "width": "80 um"}
     result = rough(bump)
