@@ -3,12 +3,13 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 RESULTS := results/line_contact
+POINT_RESULTS := results/ball_contact
 
 export PIP_CONSTRAINT := $(CURDIR)/requirements.lock
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
 .DEFAULT_GOAL := help
-.PHONY: help run test slow check format docs figures bench lock clean
+.PHONY: help run test slow check format docs figures bench bench-public lock clean
 
 help:
 	@echo "make run     install and solve the example, with figures"
@@ -18,7 +19,8 @@ help:
 	@echo "make format  format the code"
 	@echo "make docs    build the documentation, run its gallery; warnings are errors"
 	@echo "make figures draw the figures of the README again"
-	@echo "make bench   run the benchmarks and print their table"
+	@echo "make bench   run the benchmarks and print their tables"
+	@echo "make bench-public  solve a point contact with public packages too; takes them from the registry"
 
 $(BIN)/python:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
@@ -69,9 +71,14 @@ docs: $(VENV)/.docs
 figures: $(VENV)/.run
 	$(BIN)/ehlectric run examples/line_contact.toml -o $(RESULTS) --quiet
 	cp $(RESULTS)/film.png $(RESULTS)/field_strength.png docs/figures
+	$(BIN)/ehlectric run examples/ball_contact.toml -o $(POINT_RESULTS) --quiet
+	cp $(POINT_RESULTS)/field_map.png docs/figures
 
 bench: $(VENV)/.dev
 	$(BIN)/python benchmarks/table.py
+
+bench-public: $(VENV)/.dev
+	$(BIN)/python benchmarks/public_solvers.py
 
 lock:
 	uv pip compile pyproject.toml --extra dev --extra docs --extra instruments --universal --python-version 3.11 --no-header --quiet --output-file requirements.lock

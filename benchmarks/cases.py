@@ -4,14 +4,20 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ehlectric import solver
+import numpy as np
+
+from ehlectric import point_problems, solver
 from ehlectric.case import Case
 from ehlectric.conditions import resolve
 from ehlectric.nested import FilmProblem
+from ehlectric.point_conditions import resolve_point
+from ehlectric.point_film import solve_point_film
 from ehlectric.poisson import FieldProblem
+from ehlectric.poisson_3d import PointFieldProblem
 from ehlectric.walls import rough_surfaces
 
-EXAMPLE = Path(__file__).parents[1] / "examples" / "line_contact.toml"
+EXAMPLES = Path(__file__).parents[1] / "examples"
+EXAMPLE = EXAMPLES / "line_contact.toml"
 
 
 def film_problem(nodes: int) -> FilmProblem:
@@ -32,3 +38,19 @@ def field_problem(columns: int) -> FieldProblem:
     case = Case.from_toml(EXAMPLE).replace({"grid.field_nodes": columns})
     result = solver.solve(case)
     return solver.field_problem(case, result.conditions, result.film, result.roughness)
+
+
+def point_film_problem(example: str, nodes: int, wedge: str) -> FilmProblem:
+    """The film of an example of a point contact on so many nodes along and across entrainment."""
+    case = Case.from_toml(EXAMPLES / f"{example}.toml").replace({"grid.nodes": nodes, "grid.wedge": wedge})
+    return point_problems.point_film_problem(case, resolve_point(case))
+
+
+def point_field_problem(example: str, columns: int) -> PointFieldProblem:
+    """The field of such an example on so many columns along and across, in the film on as many nodes."""
+    grid = {"grid.nodes": columns, "grid.field_nodes": columns, "grid.field_nodes_y": columns}
+    case = Case.from_toml(EXAMPLES / f"{example}.toml").replace(grid)
+    conditions = resolve_point(case)
+    film = solve_point_film(point_problems.point_film_problem(case, conditions))
+    smooth = np.zeros((2, *film.thickness.shape))
+    return point_problems.point_field_problem(case, conditions, film, smooth)

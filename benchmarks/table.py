@@ -1,4 +1,4 @@
-"""Measure the solvers beside their baselines in one run and print docs/performance.md's table.
+"""Measure the solvers beside their baselines in one run and print the tables of docs/performance.md.
 
 python benchmarks/table.py
 """
@@ -7,52 +7,24 @@ from __future__ import annotations
 
 import os
 import platform
-import subprocess
 import sys
 import tempfile
-import time
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import scipy
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
-from benchmarks import baselines, cases
+from benchmarks import baselines, cases, point_contacts
+from benchmarks.measure import best, command, peak_memory, processor
 from ehlectric.conditions import resolve
 from ehlectric.field import solve_field
 from ehlectric.film import solve_film
 from ehlectric.paper import fas, sor
 from ehlectric.paper.contacts import CONTACTS
 from ehlectric.problems import field_problem, film_problem
-
-EHLECTRIC = Path(sys.executable).with_name("ehlectric")
-
-
-def best(call: Callable[[], Any], repeats: int = 7) -> float:
-    """Shortest wall time of a call [s], after one that warms up: these machines are shared."""
-    times = []
-    for _ in range(repeats + (repeats > 1)):
-        started = time.perf_counter()
-        call()
-        times.append(time.perf_counter() - started)
-    return min(times)
-
-
-def peak_memory(nodes: int) -> float:
-    """Peak resident memory of a process that solves the film [GB]."""
-    code = (
-        "from benchmarks.cases import film_problem; from ehlectric.film import solve_film; "
-        f"solve_film(film_problem({nodes})); print(open('/proc/self/status').read())"
-    )
-    root = Path(__file__).parents[1]
-    done = subprocess.run([sys.executable, "-c", code], cwd=root, capture_output=True, text=True, check=True)
-    # Not ru_maxrss: a child begins with its parent's.
-    line = next(line for line in done.stdout.splitlines() if line.startswith("VmHWM"))
-    return int(line.split()[1]) / 1e6
 
 
 def paper_methods() -> list[tuple[str, ...]]:
@@ -82,21 +54,8 @@ def _row(what: str, ours: float, against: str, theirs: float) -> tuple[str, ...]
     return (what, f"{ours:.4f}", against, f"{theirs:.3f}", f"{theirs / ours:.0f}")
 
 
-def command(*arguments: str, repeats: int = 5) -> float:
-    """Wall time of the command [s]."""
-    return best(lambda: subprocess.run([EHLECTRIC, *arguments], capture_output=True, check=True), repeats)
-
-
-def processor() -> str:
-    """Name of the processor."""
-    for line in Path("/proc/cpuinfo").read_text().splitlines():
-        if line.startswith("model name"):
-            return line.split(":")[1].strip()
-    return platform.machine()
-
-
 def main() -> None:
-    """Print the table."""
+    """Print the tables."""
     rows = []
     film = {n: best(lambda n=n: solve_film(cases.film_problem(n))) for n in (801, 3201)}
     film |= {n: best(lambda n=n: solve_film(cases.film_problem(n)), 3) for n in (25_601, 102_401)}
@@ -132,7 +91,9 @@ def main() -> None:
     print("| --- | ---: | --- | ---: | ---: |")
     for row in rows:
         print("| " + " | ".join(row) + " |")
-    print(f"\nPeak memory, film of 102 401 nodes: {peak_memory(102_401):.2f} GB")
+    memory, _ = peak_memory("film_problem(102_401)", "film.solve_film")
+    print(f"\nPeak memory, film of 102 401 nodes: {memory:.2f} GB\n")
+    point_contacts.print_tables()
 
 
 if __name__ == "__main__":

@@ -1,8 +1,8 @@
 """Tables written from the code before every build: keys of a case, commands, variables of a result.
 
 What the code knows (units, bounds, defaults, options) is read from it. What a key is for stands in
-``keys.toml``; a key without a line there, or a line without a key, ends the build. So does a page that names
-a test that is not there.
+``keys.toml``; a key without a line there, or a line without a key, ends the build. So do a key of
+summary.json that the nomenclature does not have, and a page that names a test that is not there.
 """
 
 from __future__ import annotations
@@ -10,7 +10,6 @@ from __future__ import annotations
 import re
 import tomllib
 from collections.abc import Iterable, Iterator
-from itertools import chain
 from pathlib import Path
 from typing import Any, Literal, get_args, get_origin
 
@@ -39,6 +38,9 @@ _LAWS = {
     "density_law": lubricant.DENSITY_LAWS,
     "permittivity_law": lubricant.PERMITTIVITY_LAWS,
 }
+# What a small contact of each kind has of its own, and units as they are printed.
+_CONTACTS = {"line": {"reduced_radius": 0.01}, "point": {"radius_x": 0.01, "radius_y": 0.01}}
+_UNITS = {"1": "\N{EN DASH}", "F/m^2": "F/m\N{SUPERSCRIPT TWO}"}
 
 
 def _row(cells: Iterable[str]) -> str:
@@ -157,32 +159,37 @@ def _write(app: Sphinx) -> None:
             for name, rows in roughness_inputs.GENERATORS.items()
         ],
     )
-    pages["alternatives"] = "\n".join(
-        "- " + ", or ".join(" and ".join(f"`{key}`" for key in row) for row in rows)
-        for rows in dict.fromkeys(chain(*contact_inputs.CONTACT_ALTERNATIVES.values()))
-    )
+    for geometry, alternatives in contact_inputs.CONTACT_ALTERNATIVES.items():
+        pages[f"alternatives_{geometry}"] = "\n".join(
+            "- " + ", or ".join(" and ".join(f"`{key}`" for key in row) for row in rows)
+            for rows in alternatives
+        )
     group = typer.main.get_command(commands)
     pages["commands"] = "\n".join(
         text for name, command in group.commands.items() for text in _command(name, command)
     )
-    pages["variables"] = _variables()
+    for geometry in _CONTACTS:
+        result = _small(geometry)
+        _check_summary(app, result.summary())
+        pages[f"variables_{geometry}"] = _variables(result)
     for name, text in pages.items():
         path = folder / f"{name}.md"
         if not path.exists() or path.read_text(encoding="utf-8") != text:
             path.write_text(text, encoding="utf-8")
 
 
-def _variables() -> str:
-    """Variables of result.nc, from a small rough contact."""
-    contact = {
-        "reduced_radius": 0.01,
-        "reduced_modulus": 2e11,
-        "max_hertz_pressure": 1e9,
-        "entrainment_speed": 2.0,
-    }
+def _small(geometry: str) -> Any:
+    """The result of a small rough contact."""
+    contact = {"geometry": geometry, "reduced_modulus": 2e11, "max_hertz_pressure": 1e9}
+    contact |= {"entrainment_speed": 2.0} | _CONTACTS[geometry]
     rough = {"surface": 1, "generator": "sinusoid", "amplitude": 1e-9, "wavelength": 1e-4}
-    case = {"contact": contact, "lubricant": {"base": "paper"}, "roughness": [rough], "grid": {"nodes": 401}}
-    dataset = solve(Case.from_dict(case)).to_xarray()
+    grid = {"nodes": 401 if geometry == "line" else 65}
+    case = {"contact": contact, "lubricant": {"base": "paper"}, "roughness": [rough], "grid": grid}
+    return solve(Case.from_dict(case))
+
+
+def _variables(result: Any) -> str:
+    """Variables of result.nc."""
     return _table(
         ["variable", "over", "meaning", "unit"],
         [
@@ -190,11 +197,22 @@ def _variables() -> str:
                 f"`{name}`",
                 ", ".join(f"`{d}`" for d in v.dims),
                 v.attrs["long_name"],
-                v.attrs["units"].replace("1", "–"),
+                _UNITS.get(v.attrs["units"], v.attrs["units"]),
             ]
-            for name, v in dataset.variables.items()
+            for name, v in result.to_xarray().variables.items()
         ],
     )
+
+
+def _check_summary(app: Sphinx, summary: dict[str, Any]) -> None:
+    """Every key of summary.json stands in the nomenclature; those of the case are in the guide."""
+    page = (Path(app.srcdir) / "nomenclature.md").read_text(encoding="utf-8")
+    listed = {part for code in re.findall(r"`([\w.]+)`", page) for part in code.split(".")}
+    for name, part in summary.items():
+        within = part if isinstance(part, dict) and name != "inputs" else {}
+        for key in (name, *within):
+            if key not in listed:
+                raise ExtensionError(f"docs/nomenclature.md does not have {name}: {key}")
 
 
 def _paper(app: Sphinx) -> None:

@@ -12,6 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
+from ehlectric.point_result import PointResult
 from ehlectric.result import Result
 from ehlectric.typing import Array
 
@@ -61,15 +62,15 @@ def figure_of(ax: Axes) -> Figure:
     return figure
 
 
-def in_half_widths(result: Result, x: Array) -> Array:
+def in_half_widths(result: Result | PointResult, x: Array) -> Array:
     """Positions in half-widths."""
     return x / result.conditions.half_width
 
 
-def label_position(result: Result, ax: Axes) -> None:
-    """Label of an axis of positions in half-widths, with the half-width."""
+def label_position(result: Result | PointResult, ax: Axes, axis: str = "x") -> None:
+    """Label of a horizontal axis of positions in half-widths, with the half-width."""
     factor, unit = unit_for(result.conditions.half_width, "m", least=1.0)
-    ax.set_xlabel(f"$x/b$   ($b$ = {factor * result.conditions.half_width:.4g} {unit})")
+    ax.set_xlabel(f"${axis}/b$   ($b$ = {factor * result.conditions.half_width:.4g} {unit})")
 
 
 def unit_for(largest: float, unit: str, *, least: float = 0.1) -> tuple[float, str]:

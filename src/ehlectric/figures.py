@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import textwrap
 from pathlib import Path
+from typing import Any
+
+from matplotlib.axes import Axes
 
 from ehlectric.drawing import figure_of, style
 from ehlectric.plot import figures_of
@@ -34,11 +37,19 @@ def save_figures(result: Result | PointResult, folder: Path) -> list[Path]:
     with style():
         for name, draw in drawn.items():
             ax = draw(result)
-            if result.converged:
-                ax.set_title(title, loc="left", parse_math=False)
-            else:
-                ax.set_title("NOT CONVERGED", loc="left", color="red", weight="bold")
+            _name(ax, result, title)
             with whole(folder / name) as path:
                 figure_of(ax).savefig(path)
             files.append(folder / name)
     return files
+
+
+def _name(ax: Axes, result: Result | PointResult, title: str) -> None:
+    """Title of a figure: over its axes, or over all of its panels."""
+    converged = result.converged
+    text = title if converged else "NOT CONVERGED"
+    how: dict[str, Any] = {} if converged else {"color": "red", "weight": "bold"}
+    if isinstance(result, PointResult):
+        figure_of(ax).suptitle(text, x=0.01, ha="left", size=9.0, parse_math=False, **how)
+    else:
+        ax.set_title(text, loc="left", parse_math=False, **how)

@@ -17,7 +17,7 @@ from ehlectric.typing import Array
 # The hierarchy ends at the first grid of at most this many nodes, of line and of point contacts: the dense
 # solve there costs less than one more grid.
 COARSEST = 101
-COARSEST_POINT = 1100
+COARSEST_POINT = 600
 
 
 def interpolation(coarse: int, fine: int) -> sparse.csr_array:

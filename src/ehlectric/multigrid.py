@@ -65,7 +65,8 @@ class Linearised:
         self.dipole = free & (poiseuille < 1.0 / level.mesh.dx)
         self.dipole[1:] &= free[:-1]
         line_contact = level.mesh.dy is None
-        self.half_band = HALF_BAND if line_contact else HALF_BAND_POINT
+        # No wider than the grid: one contact may have many times more nodes across than along.
+        self.half_band = min(HALF_BAND if line_contact else HALF_BAND_POINT, level.nodes - 3)
         # Nodes whose residual the coarser grids are given. Beside the pressure spike of a line contact eps
         # changes by orders of magnitude from node to node: there the relaxation, almost exact, is left alone.
         self.resolved = free.copy()

@@ -10,7 +10,6 @@ from matplotlib.ticker import MaxNLocator
 
 from ehlectric.drawing import (
     BLUE,
-    BODY,
     GREEN,
     GREY,
     ORANGE,
@@ -22,6 +21,7 @@ from ehlectric.drawing import (
 )
 from ehlectric.hertz import line_pressure
 from ehlectric.result import Result
+from ehlectric.section_plot import draw_section
 from ehlectric.store import FIGURE_FILES, ROUGHNESS_FIGURE
 from ehlectric.typing import Array
 
@@ -149,34 +149,14 @@ def _map(
     ax = axes_or_new(ax)
     x, y = _mesh(result)
     _, unit = unit_for(result.film.central_thickness, "m")
-    levels = np.linspace(*limits, 401)
-    # Rounding may put a wall beyond its own potential, and so out of the levels.
-    clipped = np.clip(values, *limits)
-    filled = ax.contourf(x, y, clipped, levels, cmap="viridis", antialiased=False)
-    for wall in (0, -1):
-        ax.plot(x[:, 0], y[:, wall], color="black", lw=0.8)
-    ax.set(ylabel=f"height $y$ [{unit}]", xlim=(x[0, 0], x[-1, 0]))
-    label_position(result, ax)
-    _limit_height(ax, y)
-    low, high = ax.get_ylim()
-    ax.fill_between(x[:, 0], low, y[:, 0], color=BODY, lw=0.0, zorder=0.5)
-    ax.fill_between(x[:, 0], y[:, -1], high, color=BODY, lw=0.0, zorder=0.5)
     electric = result.case.electric
-    for height, surface, volts in ((0.04, 1, electric.potential_1), (0.96, 2, electric.potential_2)):
-        where = "bottom" if surface == 1 else "top"
-        text = f"surface {surface}, {volts:g} V".replace("-", "−")
-        ax.text(0.5, height, text, transform=ax.transAxes, ha="center", va=where, fontsize=8.0)
+    potentials = (electric.potential_1, electric.potential_2)
+    filled = draw_section(ax, x[:, 0], y, values, limits=limits, potentials=potentials)
+    ax.set_ylabel(f"height $y$ [{unit}]")
+    label_position(result, ax)
     bar = figure_of(ax).colorbar(filled, ax=ax, label=label, pad=0.02)
     bar.set_ticks(list(ticks))
     return ax
-
-
-def _limit_height(ax: Axes, y: Array) -> None:
-    """Show the film, not the wide gap beside it: heights where the gap is up to six times the least."""
-    gap = y[:, -1] - y[:, 0]
-    near = gap <= 6.0 * np.min(gap)
-    margin = 0.35 * float(np.max(gap[near]))
-    ax.set_ylim(float(np.min(y[near])) - margin, float(np.max(y[near])) + margin)
 
 
 def field_profiles(result: Result, ax: Axes | None = None) -> Axes:

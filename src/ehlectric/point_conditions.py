@@ -49,8 +49,8 @@ class PointConditions:
         b, a [m] and p_h [Pa] of the dry contact.
     velocity_parameter : float
         lambda = 6 eta0 u_s Rx^2/(b^3 p_h) with u_s = u1 + u2.
-    curvature_share_x, curvature_share_y, compliance_share : float
-        Parts of 1/Rx, 1/Ry and 2/E' that are surface 1's; a half where only the reduced value is known.
+    compliance_share : float
+        Part of 2/E' that is surface 1's; a half where only the reduced value is known.
     side : float
         Half of the domain's width, in semi-axes across.
     formulas : point_formulas.PointContact
@@ -67,8 +67,6 @@ class PointConditions:
     semi_axis_y: float
     max_pressure: float
     velocity_parameter: float
-    curvature_share_x: float
-    curvature_share_y: float
     compliance_share: float
     side: float
     formulas: point_formulas.PointContact
@@ -124,7 +122,7 @@ def resolve_point(case: Case) -> PointConditions:
         raise InputError(
             f"contact.geometry: got {contact.geometry!r}, takes 'point' for a point contact's conditions"
         )
-    (radius_x, share_x), (radius_y, share_y) = _radius(contact, "radius_x"), _radius(contact, "radius_y")
+    radius_x, radius_y = _radius(contact, "radius_x"), _radius(contact, "radius_y")
     modulus, compliance_share = modulus_of(contact)
     speed, slide_to_roll = speeds_of(contact)
     load = contact.load
@@ -147,8 +145,6 @@ def resolve_point(case: Case) -> PointConditions:
         semi_axis_y=dry.semi_axis_y,
         max_pressure=dry.max_pressure,
         velocity_parameter=12.0 * eta0 * speed * radius_x**2 / (dry.semi_axis_x**3 * dry.max_pressure),
-        curvature_share_x=share_x,
-        curvature_share_y=share_y,
         compliance_share=compliance_share,
         side=_side(case, dry.semi_axis_y / dry.semi_axis_x),
         formulas=point_formulas.PointContact(radius_x, radius_y, modulus, load, speed, eta0, alpha),
@@ -161,19 +157,18 @@ def _bodies(contact: Contact, key: str) -> list[float]:
     return [abs(radius) for radius in radii if radius is not None]
 
 
-def _radius(contact: Contact, key: str) -> tuple[float, float]:
-    """Reduced radius of one plane, and the part of its curvature that is surface 1's."""
+def _radius(contact: Contact, key: str) -> float:
+    """Reduced radius of one plane."""
     reduced: float | None = contact.value(key)
     if reduced is not None:
-        return reduced, 0.5
+        return reduced
     r1, r2 = (contact.value(f"{body}.{key}") for body in ("body_1", "body_2"))
     if not 1.0 / r1 + 1.0 / r2 > 0.0:
         raise InputError(
             f"contact.body_1.{key}: got {r1:g} m with {r2:g} m of body_2, takes radii with "
             "1/radius of body_1 + 1/radius of body_2 above 0: a concave body must be wider than the other"
         )
-    radius = hertz.reduced_radius(r1, r2)
-    return radius, radius / r1
+    return hertz.reduced_radius(r1, r2)
 
 
 def _side(case: Case, ratio: float) -> float:

@@ -165,16 +165,12 @@ def _resampled(film: PointFilm, values: Array, x: Array, y: Array) -> Array:
 def point_surfaces(conditions: PointConditions, film: PointFilm, roughness: Array) -> tuple[Array, Array]:
     """Heights of the two surfaces over the film's nodes [m], shape (nx, ny).
 
-    Each body keeps its own part of the curvatures and of the deflection, and its own roughness; smooth equal
-    bodies, and those of which only the reduced values are known, lie at -h/2 and h/2.
+    The gap as the film knows it, measured across: a groove and its ball bend it as a whole, by more than ten
+    degrees at the ends of the ellipse, which the field in a gap a ten-thousandth as thick as their radii does
+    not feel. Each body keeps its own part of the deflection and its own roughness; smooth equal bodies lie at
+    -h/2 and h/2.
     """
-    along = 0.5 * film.x[:, np.newaxis] ** 2 / conditions.radius_x
-    across = 0.5 * film.y**2 / conditions.radius_y
-    rigid = film.thickness - along - across - film.deflection + roughness.sum(axis=0)
-    lower = roughness[0] - (
-        conditions.curvature_share_x * along
-        + conditions.curvature_share_y * across
-        + conditions.compliance_share * film.deflection
-        + 0.5 * rigid
-    )
+    dry = 0.5 * (film.x[:, np.newaxis] ** 2 / conditions.radius_x + film.y**2 / conditions.radius_y)
+    rigid = film.thickness - dry - film.deflection + roughness.sum(axis=0)
+    lower = roughness[0] - 0.5 * (dry + rigid) - conditions.compliance_share * film.deflection
     return lower, lower + film.thickness

@@ -56,9 +56,16 @@ FIGURE_FILES = (
     "field_deviation.png",
 )
 ROUGHNESS_FIGURE = "roughness.png"  # of rough contacts alone
-POINT_FIGURE_FILES = ("film_map.png", "pressure_map.png", "field_map.png", "cuts.png")
+POINT_FIGURE_FILES = (
+    "film_map.png",
+    "pressure_map.png",
+    "field_map.png",
+    "field_deviation.png",
+    "field_sections.png",
+    "cuts.png",
+)
 # A folder holds one result: what another one left of these goes.
-ALL_FIGURES = (*FIGURE_FILES, *POINT_FIGURE_FILES, ROUGHNESS_FIGURE)
+ALL_FIGURES = tuple(dict.fromkeys((*FIGURE_FILES, *POINT_FIGURE_FILES, ROUGHNESS_FIGURE)))
 
 
 def prepare(folder: str | Path, names: Iterable[str] = ()) -> Path:

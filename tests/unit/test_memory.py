@@ -1,9 +1,22 @@
 """Grids that fit, and grids that do not."""
 
+import subprocess
+import sys
+
 import pytest
 
-from ehlectric import InputError
-from ehlectric.memory import check_memory, physical_memory
+from ehlectric import Case, InputError
+from ehlectric.memory import KRYLOV_VECTORS, check_memory, physical_memory, point_memory
+from ehlectric.newton import KRYLOV_LIMIT
+
+POINT = {"geometry": "point", "radius_x": 0.01, "radius_y": 0.01, "load": 20.0, "reduced_modulus": 226e9}
+PIT = {"surface": 1, "generator": "pit", "depth": 1e-7, "width": 4e-5, "position_y": 3e-5}
+
+
+def point(*roughness, **grid):
+    contact = POINT | {"entrainment_speed": 2.0}
+    oil = {"base": "paper"}
+    return Case.from_dict({"contact": contact, "lubricant": oil, "grid": grid, "roughness": list(roughness)})
 
 
 def test_grids_that_do_not_fit_into_memory(monkeypatch, paper_case):
@@ -17,3 +30,49 @@ def test_grids_that_do_not_fit_into_memory(monkeypatch, paper_case):
 
 def test_machine_has_memory():
     assert physical_memory() > 1e8
+
+
+def test_contacts_that_are_no_mirror_image_of_themselves_take_twice_as_much(monkeypatch):
+    whole, half = (sum(point_memory(point(nodes=513).grid, rough=rough)) for rough in (True, False))
+    assert whole == pytest.approx(2.0 * half, rel=0.01)  # but for the line they share
+    assert sum(point_memory(point(nodes=512).grid, rough=False)) == pytest.approx(whole, rel=0.01)
+    monkeypatch.setattr("ehlectric.memory.physical_memory", lambda: 0.7 * whole)
+    check_memory(point(nodes=513))
+    with pytest.raises(InputError, match=r"grid\.nodes: got 513 x 513"):
+        check_memory(point(PIT, nodes=513))
+
+
+def test_krylov_space_that_is_reckoned_with():
+    # Flexible GMRES keeps every direction and its preconditioned one, and the first residual.
+    assert KRYLOV_VECTORS == 2 * KRYLOV_LIMIT + 1
+
+
+# Solves in a fresh process; what the system counts as its highest memory, before and after.
+MEASURED = """
+from ehlectric import Case
+from ehlectric.point_conditions import resolve_point
+from ehlectric.point_film import solve_point_film
+from ehlectric.point_problems import point_film_problem
+
+def highest():
+    with open("/proc/self/status") as status:
+        return next(1024 * int(line.split()[1]) for line in status if line.startswith("VmHWM"))
+
+case = Case.from_dict({table})
+problem = point_film_problem(case, resolve_point(case))
+before = highest()
+solve_point_film(problem)
+print(highest() - before)
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="reads /proc")
+@pytest.mark.parametrize("nodes_y", [513, 512])
+def test_film_of_a_point_contact_takes_what_is_reckoned_with(nodes_y):
+    case = point(nodes=513, nodes_y=nodes_y)
+    code = MEASURED.replace("{table}", repr(case.model_dump(exclude_unset=True)))
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    reckoned, _ = point_memory(case.grid, rough=False)
+    # Twenty iterations, where up to sixty are reckoned with: some half of it.
+    assert reckoned / 3.0 < int(done.stdout) < reckoned

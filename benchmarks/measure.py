@@ -1,0 +1,60 @@
+"""Wall time and memory of a call, a command, a process."""
+
+from __future__ import annotations
+
+import platform
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+ROOT = Path(__file__).parents[1]
+EHLECTRIC = Path(sys.executable).with_name("ehlectric")
+
+
+def best(call: Callable[[], Any], repeats: int = 7) -> float:
+    """Shortest wall time of a call [s], after one that warms up: these machines are shared."""
+    times = []
+    for _ in range(repeats + (repeats > 1)):
+        started = time.perf_counter()
+        call()
+        times.append(time.perf_counter() - started)
+    return min(times)
+
+
+def command(*arguments: str, repeats: int = 5) -> float:
+    """Wall time of the command [s]."""
+    return best(lambda: subprocess.run([EHLECTRIC, *arguments], capture_output=True, check=True), repeats)
+
+
+def peak_memory(problem: str, solver: str) -> tuple[float, float]:
+    """Peak resident memory of a fresh process that solves a problem, and the part that solving it adds [GB].
+
+    Of the problem, an expression on ``benchmarks.cases``, and its solver, "module.function" of the package.
+    """
+    module, function = solver.split(".")
+    # Not ru_maxrss: a child begins with its parent's.
+    code = f"""
+from benchmarks import cases
+from ehlectric.{module} import {function}
+def resident(key):
+    with open("/proc/self/status") as status:
+        return next(int(line.split()[1]) for line in status if line.startswith(key))
+problem = cases.{problem}
+before = resident("VmRSS")
+{function}(problem)
+print(resident("VmHWM"), resident("VmHWM") - before)
+"""
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
+    whole, added = done.stdout.split()
+    return int(whole) * 1024 / 1e9, int(added) * 1024 / 1e9
+
+
+def processor() -> str:
+    """Name of the processor."""
+    for line in Path("/proc/cpuinfo").read_text().splitlines():
+        if line.startswith("model name"):
+            return line.split(":")[1].strip()
+    return platform.machine()

@@ -1,0 +1,77 @@
+"""
+A ball on a plane
+=================
+
+A steel ball of 10 mm radius on a steel plane, 20 N, rolling at 2 m/s, one volt on either side of earth: a
+point contact, whose dry contact is a circle. Film and field are maps over the plane.
+"""
+
+import matplotlib.pyplot as plt
+
+import ehlectric
+from ehlectric import point_cuts, point_plot
+
+case = ehlectric.Case.from_dict(
+    {
+        "contact": {
+            "geometry": "point",
+            "radius_x": "10 mm",
+            "radius_y": "10 mm",
+            "reduced_modulus": "226 GPa",
+            "load": "20 N",
+            "entrainment_speed": "2 m/s",
+        },
+        "lubricant": {"base": "paper"},
+        "electric": {"potential_1": "-1 V", "potential_2": "1 V"},
+        "grid": {"nodes": 257},
+    }
+)
+result = ehlectric.solve(case)
+
+
+def axes_of_map():
+    """Axes as high as a map of a round contact, with its colour bar beside it."""
+    return plt.subplots(figsize=(5.8, 4.9), layout="compressed")[1]
+
+
+# %%
+# The film, with lines of equal thickness as in an interferogram. Oil enters from the left. The
+# constriction runs around the exit like a horseshoe, and the film is thinnest in its two side lobes,
+# where oil flows off to the sides.
+point_plot.film_map(result, axes_of_map())
+
+# %%
+# The pressure has its ridge along the inner side of the horseshoe.
+point_plot.pressure_map(result, axes_of_map())
+
+# %%
+# The field follows the film: it is largest in the side lobes, and not at the exit as that of a line
+# contact is. The line around each lobe is at 95 % of the maximum.
+point_plot.field_map(result, axes_of_map())
+
+# %%
+# Pressure, film and field on lines along and across entrainment, through the centre and through the
+# least film.
+point_cuts.cuts(result, plt.subplots(3, 2, figsize=(7.0, 6.6))[1].ravel())
+
+# %%
+# The key figures. The capacitance over the range of the field is divided into the Hertz ellipse, the
+# strips before and behind it, and what lies beside them.
+film, field = result.film, result.field
+print(f"minimum film      {1e6 * film.minimum_thickness:.3f} µm")
+print(f"central film      {1e6 * film.central_thickness:.3f} µm")
+print(f"estimated error   {100 * film.discretisation_error:.2f} %")
+print(f"largest field     {1e-6 * field.max_strength:.2f} V/µm")
+print(f"V12/h_min         {1e-6 * field.voltage / film.minimum_thickness:.2f} V/µm")
+print(f"area above 95 %   {1e12 * field.high_field_area:.0f} µm² of one lobe")
+print(f"capacitance       {1e12 * field.capacitance:.2f} pF")
+for name, zone in result.zones.items():
+    print(f"  {name:<15} {1e12 * field.capacitance_of(zone):.2f} pF")
+
+# %%
+# Beside it the film formulas, which are fits to solutions like this one:
+for name, formula in result.formulas().items():
+    for quantity, thickness in vars(formula).items():
+        if thickness is not None:
+            off = 100 * (thickness / getattr(film, quantity) - 1)
+            print(f"{name:<26}{quantity:<19}{1e6 * thickness:.3f} µm, {off:+.0f} %")
