@@ -63,7 +63,7 @@ print(f"central film      {1e6 * film.central_thickness:.3f} µm")
 print(f"estimated error   {100 * film.discretisation_error:.2f} %")
 print(f"largest field     {1e-6 * field.max_strength:.2f} V/µm")
 print(f"V12/h_min         {1e-6 * field.voltage / film.minimum_thickness:.2f} V/µm")
-print(f"area above 95 %   {1e12 * field.high_field_area:.0f} µm² of one lobe")
+print(f"area above 95 %   {1e12 * field.high_field_area:.0f} µm², both lobes")
 print(f"capacitance       {1e12 * field.capacitance:.2f} pF")
 for name, zone in result.zones.items():
     print(f"  {name:<15} {1e12 * field.capacitance_of(zone):.2f} pF")

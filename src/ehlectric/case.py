@@ -171,7 +171,7 @@ def _flattened(tables: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
     flat: dict[str, Any] = {}
     for key, value in tables.items():
         if isinstance(value, BaseModel):
-            value = value.model_dump(mode="json", exclude_none=True)
+            value = value.model_dump(mode="json", exclude_none=True, exclude_unset=True)
         if isinstance(value, Mapping):
             flat |= _flattened(value, f"{prefix}{key}.")
         else:

@@ -20,8 +20,8 @@ _NO_INSULATOR = 1e9
 _NAMED = 8
 
 # Part of its film that a point contact may lose to the edges of its domain without a word: the default domain
-# costs a circle about 0.01.
-_LOSS = 0.015
+# costs about 0.01.
+_LOSS = 0.02
 
 
 def film_findings(case: Case, film: Film) -> Iterator[str]:
@@ -53,7 +53,7 @@ def film_findings(case: Case, film: Film) -> Iterator[str]:
             "do not use this film: the next coarser grid was not solved, so that nothing is known of its "
             "discretisation error, which is large; take more grid.nodes"
         )
-    elif error is not None and error > 0.01:
+    elif error is not None and error > max(0.01, case.grid.refine or 0.0):
         advice = "do not use it" if error > 0.1 else "take more grid.nodes"
         yield f"the film may be {100 * error:.2g} % off or more on this grid; {advice}"
     if not film.cavitates:

@@ -224,13 +224,10 @@ class Grid(Table):
                     "fill the memory"
                 )
         if self.side is not None:
-            assert self.field_side is not None
-            if self.field_side > self.side:
-                raise ValueError(f"field_side: got {self.field_side:g}, takes at most side, {self.side:g}")
             self.check_across(self.side)
 
     def check_across(self, side: float) -> None:
-        """Refuse a point contact's grid that is too coarse across entrainment.
+        """Refuse a point contact's grid that is too coarse across entrainment, or less wide than its field.
 
         Parameters
         ----------
@@ -242,6 +239,9 @@ class Grid(Table):
         ValueError
             With the key, what it got and what it takes.
         """
+        assert self.field_side is not None
+        if self.field_side > side:
+            raise ValueError(f"field_side: got {self.field_side:g}, takes at most side, {side:g}")
         nodes, key = (self.nodes, "nodes") if self.nodes_y is None else (self.nodes_y, "nodes_y")
         least = math.ceil(LEAST_ACROSS * side) + 1
         if nodes < least:

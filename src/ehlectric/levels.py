@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -18,6 +18,10 @@ from ehlectric.typing import Array
 # solve there costs less than one more grid.
 COARSEST = 101
 COARSEST_POINT = 600
+
+# Distance of neighbours along entrainment over that across above which the next coarser grid has fewer lines
+# alone.
+NEARER = 1.5
 
 
 def interpolation(coarse: int, fine: int) -> sparse.csr_array:
@@ -126,7 +130,7 @@ def hierarchy(
     """Grids from the finest to the coarsest, each with half the intervals of the one before.
 
     An odd number of intervals is halved upwards; such grids share only their end nodes, and the
-    transfers interpolate. There are always two grids at least, for the error estimate.
+    transfers interpolate. There are always two grids at least.
     """
     meshes = _meshes(nodes, inlet, outlet, width)
     levels = []
@@ -156,16 +160,11 @@ def _meshes(nodes: int, inlet: float, outlet: float, width: Width | None) -> lis
     meshes = [Mesh.over(nodes, inlet, outlet, width)]
     coarsest = COARSEST if width is None else COARSEST_POINT
     while meshes[-1].weights.size > coarsest or len(meshes) < 2:
-        nodes = nodes // 2 + 1
+        mesh = meshes[-1]
+        # Relaxed along x alone, nodes much nearer to each other across come first.
+        if mesh.dy is None or mesh.dx <= NEARER * mesh.dy:
+            nodes = nodes // 2 + 1
         if width is not None:
-            # Of an even number of nodes across the whole domain is solved for, on every grid.
-            width = replace(width, nodes=_coarser(width), symmetric=width.halved)
+            width = width.coarser()
         meshes.append(Mesh.over(nodes, inlet, outlet, width))
     return meshes
-
-
-def _coarser(width: Width) -> int:
-    """Nodes across the next coarser grid, which keeps the line of symmetry."""
-    if width.halved:
-        return 2 * (width.y.size // 2) + 1
-    return width.nodes // 2 + 1

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -34,6 +34,12 @@ class Width:
         if self.halved:
             return np.linspace(0.0, self.side, self.nodes // 2 + 1)
         return np.linspace(-self.side, self.side, self.nodes)
+
+    def coarser(self) -> Width:
+        """The same domain with half the intervals, and as much of it solved for."""
+        nodes = 2 * (self.y.size // 2) + 1 if self.halved else self.nodes // 2 + 1
+        # Of an even number of nodes the whole domain is solved for, on every grid.
+        return replace(self, nodes=nodes, symmetric=self.halved)
 
 
 @dataclass(frozen=True)

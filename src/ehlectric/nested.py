@@ -14,7 +14,7 @@ from scipy.interpolate import PchipInterpolator
 
 from ehlectric.elastic import LINE, Geometry
 from ehlectric.levels import Level, hierarchy
-from ehlectric.mesh import Width, at_centre
+from ehlectric.mesh import Mesh, Width, at_centre
 from ehlectric.newton import GridSolution, Progress, State, newton
 from ehlectric.reynolds import Fluid, wedge_stencil
 from ehlectric.typing import Array
@@ -107,17 +107,14 @@ def nested_iteration(problem: FilmProblem, progress: Progress | None) -> list[Gr
 
     Where a grid is not solved, it and the next finer one start from the Hertz pressure.
     """
-    levels = _levels(problem, roughness=1.0)
-    least = FIRST_GRID if problem.width is None else FIRST_GRID_POINT
-    first = max((k for k, level in enumerate(levels) if level.nodes >= least), default=1)
     solutions: list[GridSolution] = []
-    for k in range(max(first, 1), -1, -1):
+    for levels in reversed(_grids(problem)):
         best = None
         if solutions and solutions[-1].status == "converged":
-            best = _from_coarser(problem, levels[k:], solutions[-1], progress)
+            best = _from_coarser(problem, levels, solutions[-1], progress)
         # What is nearly solved is not worth starting again.
         if best is None or best.final.norm > NESTED_TOLERANCE:
-            *warm_up, restarted = _from_hertz(problem, levels[k:], progress)
+            *warm_up, restarted = _from_hertz(problem, levels, progress)
             solutions.extend(warm_up)
             attempts = [restarted] if best is None else [restarted, best]
             *others, best = sorted(attempts, key=lambda solution: -solution.final.norm)
@@ -127,6 +124,24 @@ def nested_iteration(problem: FilmProblem, progress: Progress | None) -> list[Gr
         smooth = nested_iteration(replace(problem, added_gap=None), progress)
         solutions += [*smooth, *_raise_roughness(problem, smooth[-1], progress)]
     return solutions
+
+
+def _grids(problem: FilmProblem) -> list[list[Level]]:
+    """The grids to solve on, from the finest, each with the coarser ones of its preconditioner.
+
+    Two at least, for the error estimate. Each has half the intervals of the one before along both axes, which
+    those of a preconditioner need not have.
+    """
+    least = FIRST_GRID if problem.width is None else FIRST_GRID_POINT
+    grids = [_levels(problem, roughness=1.0)]
+    while len(grids) < 2 or problem.nodes // 2 + 1 >= least:
+        width = None if problem.width is None else problem.width.coarser()
+        problem = replace(problem, nodes=problem.nodes // 2 + 1, width=width)
+        coarser = grids[-1][1:]
+        shape = Mesh.over(problem.nodes, problem.inlet, problem.outlet, width).shape
+        known = len(coarser) > 0 and coarser[0].mesh.shape == shape
+        grids.append(coarser if known else _levels(problem, roughness=1.0))
+    return grids
 
 
 def _levels(problem: FilmProblem, *, roughness: float) -> list[Level]:

@@ -105,8 +105,8 @@ class PointField:
 
     @property
     def high_field_area(self) -> float:
-        """Area of the connected region around its maximum where the mid-film abs(E) is at least 95 % of that
-        maximum [m^2], finer than the cells.
+        """Area where the mid-film abs(E) is at least 95 % of its maximum, all lobes together, finer than the
+        cells [m^2].
         """
         level = HIGH_FIELD * float(np.max(self.middle_strength))
         return area_above(self.x, self.y, self.middle_strength, level)

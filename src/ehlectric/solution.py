@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
@@ -50,7 +51,7 @@ class Smooth:
 
 
 @dataclass(frozen=True)
-class Solution(Generic[_Conditions, _Film, _Field]):
+class Solution(ABC, Generic[_Conditions, _Film, _Field]):
     """Film and field of one case.
 
     Attributes
@@ -114,33 +115,33 @@ class Solution(Generic[_Conditions, _Film, _Field]):
             return None
         return 1.0 - self.field.voltage / self.film.minimum_thickness / self.field.max_strength
 
+    @abstractmethod
     def _holds(self, position: Any) -> bool:
         """Whether the field was solved at a position."""
-        raise NotImplementedError
 
+    @abstractmethod
     def _inputs(self) -> dict[str, Any]:
         """The case as nested tables, its alternatives resolved."""
-        raise NotImplementedError
 
+    @abstractmethod
     def _hertz(self) -> dict[str, float]:
         """The dry contact."""
-        raise NotImplementedError
 
+    @abstractmethod
     def _own_film(self) -> dict[str, Any]:
         """Key figures of the film that this kind of contact alone has."""
-        raise NotImplementedError
 
+    @abstractmethod
     def _own_field(self) -> dict[str, Any]:
         """Those of its field."""
-        raise NotImplementedError
 
+    @abstractmethod
     def formulas(self) -> Mapping[str, Thickness]:
         """Films of the published formulas."""
-        raise NotImplementedError
 
+    @abstractmethod
     def _own_roughness(self) -> dict[str, Any]:
         """Statistics of the roughness over the Hertz zone."""
-        raise NotImplementedError
 
     def summary(self) -> dict[str, Any]:
         """Key figures in SI units, nested as summary.json.
@@ -194,9 +195,9 @@ class Solution(Generic[_Conditions, _Film, _Field]):
         return {key: plain(value) for key, value in summary.items()}
 
     @property
+    @abstractmethod
     def layout(self) -> Layout:
         """How its arrays lie in a file."""
-        raise NotImplementedError
 
     def to_xarray(self) -> xr.Dataset:
         """All arrays with their units, and the case, summary and solver history as attributes."""

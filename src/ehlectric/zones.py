@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import ndimage
 
 from ehlectric.typing import Array, Mask
 
@@ -81,7 +80,7 @@ def zone_areas(x: Array, y: Array, zone: Zone) -> Array:
 
 
 def area_above(x: Array, y: Array, values: Array, level: float) -> float:
-    """Area of the connected region around a map's maximum where it is at least a level.
+    """Area where a map is at least a level.
 
     Parameters
     ----------
@@ -96,8 +95,7 @@ def area_above(x: Array, y: Array, values: Array, level: float) -> float:
     -------
     float
         Area [m^2]. The map is taken as linear over the four triangles between the corners of a cell and its
-        middle, so that the area converges with the square of the spacing. Nodes that touch along a
-        side or at a corner of their cells are connected.
+        middle, so that the area converges with the square of the spacing.
 
     Examples
     --------
@@ -108,11 +106,10 @@ def area_above(x: Array, y: Array, values: Array, level: float) -> float:
     >>> round(area_above(x, x, cone, 0.5) / np.pi, 4)
     0.25
     """
-    labels, _ = ndimage.label(values >= level, structure=np.ones((3, 3)))
-    region: Mask = labels == labels.flat[np.argmax(values)]
+    region: Mask = values >= level
     above = values - level
     corners = [slice(None, -1), slice(1, None)]
-    # Counted around the cell. Two nodes of a cell above the level are connected: it has part in one region.
+    # Counted around the cell.
     ring = [(corners[i], corners[j]) for i, j in ((0, 0), (1, 0), (1, 1), (0, 1))]
     touched = np.any([region[corner] for corner in ring], axis=0)
     cells = np.outer(np.diff(x), np.diff(y))[touched]

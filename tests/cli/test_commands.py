@@ -103,6 +103,7 @@ def test_surfaces_that_touch_are_said(ehlectric, case_file, tmp_path):
     assert (summary["converged"], summary["status"]) == (False, "film collapsed")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("title", ["[bold]x[/red] [/foo]", "a $\\\\bad{$ b", "油膜 ⚡", "w " * 90])
 def test_any_title_is_printed_and_drawn(ehlectric, case_file, tmp_path, title):
     case_file.write_text(CASE.replace('"Test"', f'"{title}"'), encoding="utf-8")
@@ -198,6 +199,7 @@ def test_surface_shows_the_whole_map(ehlectric, tmp_path):
     assert "is a profile, takes a map" in one_line(ehlectric("surface", hfm, "--map"))
 
 
+@pytest.mark.slow
 def test_surfaces_that_cannot_be_used(ehlectric, case_file, tmp_path):
     assert "no such file" in one_line(ehlectric("surface", "nowhere.csv"))
     dektak = EXAMPLES / "surfaces" / "dektak-1.csv"
@@ -221,6 +223,7 @@ def test_check_says_what_a_case_means(ehlectric, case_file):
     assert summary["regime"] == "piezoviscous-elastic"
 
 
+@pytest.mark.slow
 def test_check_says_what_is_doubtful_about_the_roughness(ehlectric, case_file, tmp_path):
     """All of it that needs no film, as the run does."""
     bump = '[[roughness]]\nsurface = 1\ngenerator = "asperity"\nheight = "20 nm"\nwidth = "1 um"\n'
@@ -332,6 +335,7 @@ def test_bad_case_is_one_line_and_nothing_is_written(ehlectric, case_file, tmp_p
     assert [path.read_text() for path in (tmp_path / "out").iterdir()] == ["kept"]
 
 
+@pytest.mark.slow
 def test_files_that_cannot_be_used(ehlectric, case_file, tmp_path):
     assert "no such file" in one_line(ehlectric("run", "nowhere.toml"))
     assert "is a directory" in one_line(ehlectric("run", tmp_path))

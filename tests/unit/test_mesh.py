@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from ehlectric.elastic import LINE, point_geometry
-from ehlectric.levels import COARSEST_POINT, Transfer, hierarchy
+from ehlectric.levels import COARSEST_POINT, NEARER, Transfer, hierarchy
 from ehlectric.mesh import Mesh, Width, at_centre
 
 CIRCLE = point_geometry(radius_ratio=1.0, ellipse_ratio=1.0, compliance=2.0 / np.pi**2)
@@ -103,12 +103,27 @@ def test_every_grid_covers_the_same_domain(nodes, nodes_y, symmetric):
         assert mesh.symmetric == levels[0].mesh.symmetric
         assert level.weights.sum() == pytest.approx(36.0, rel=1e-12, abs=0.0)
     for fine, coarse in itertools.pairwise(levels):
-        assert coarse.nodes - 1 == fine.nodes // 2
+        # Where the lines are much nearer to each other than the nodes on them, there are fewer lines alone.
+        lines_alone = fine.mesh.dx > NEARER * fine.mesh.dy
+        assert coarse.nodes == (fine.nodes if lines_alone else fine.nodes // 2 + 1)
         assert coarse.mesh.y.size - 1 == fine.mesh.y.size // 2
         for one, other, move in ((coarse, fine, coarse.prolong), (fine, coarse, coarse.inject)):
             of, onto = one.mesh, other.mesh
             moved = move(of.x[:, np.newaxis] * (1.0 + 0.0 * of.y) + 10.0 * of.y)
             np.testing.assert_allclose(moved, onto.x[:, np.newaxis] + 10.0 * onto.y, atol=1e-12)
+
+
+def test_narrow_domains_keep_their_nodes_along_entrainment_at_first():
+    """Six long, 0.6 wide and as many nodes either way: dX is ten dY, five, 2.5 and 1.25 of them."""
+    width = Width(257, 0.3)
+    levels = hierarchy(257, inlet=-4.5, outlet=1.5, geometry=CIRCLE, second_order=True, width=width)
+    assert [level.mesh.shape for level in levels[:5]] == [
+        (257, 129),
+        (257, 65),
+        (257, 33),
+        (257, 17),
+        (129, 9),
+    ]
 
 
 SHAPES = [(33, 17, 17, 9), (34, 17, 18, 9), (33, 18, 17, 10), (40, 31, 21, 17)]

@@ -240,8 +240,8 @@ def two_peaks(columns):
 
 
 def test_area_above_a_level_converges_with_the_square_of_the_spacing():
-    """An ellipse, cos r >= 0.8 with r^2 = x^2 + (1.3 y)^2; the second peak is not connected to it."""
-    exact = np.pi * np.arccos(0.8) ** 2 / 1.3
+    """An ellipse, cos r >= 0.8 with r^2 = x^2 + (1.3 y)^2, and a circle, 0.9 cos r >= 0.8."""
+    exact = np.pi * (np.arccos(0.8) ** 2 / 1.3 + np.arccos(0.8 / 0.9) ** 2)
     columns = np.array([20, 40, 80, 160, 320])
     errors = [abs(area_above(*two_peaks(n), 0.8) / exact - 1) for n in columns]
     assert errors[-1] < 1e-4
