@@ -9,13 +9,14 @@ export PIP_CONSTRAINT := $(CURDIR)/requirements.lock
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
 .DEFAULT_GOAL := help
-.PHONY: help run test slow check format docs figures bench bench-public lock clean
+.PHONY: help run test slow lint check format docs figures bench bench-public lock clean
 
 help:
 	@echo "make run     install and solve the example, with figures"
 	@echo "make test    install and run the tests"
 	@echo "make slow    run the long tests, and add to the coverage that make check measured"
 	@echo "make check   format, lint, types, import contract and tests"
+	@echo "make lint    the same without the tests"
 	@echo "make format  format the code"
 	@echo "make docs    build the documentation, run its gallery; warnings are errors"
 	@echo "make figures draw the figures of the README again"
@@ -53,11 +54,13 @@ test: $(VENV)/.test
 slow: $(VENV)/.test
 	$(BIN)/python -m pytest -m slow --cov --cov-append --cov-report=term
 
-check: $(VENV)/.dev
+lint: $(VENV)/.dev
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
+
+check: lint
 	$(BIN)/python -m pytest --cov --cov-report=term
 
 format: $(VENV)/.dev

@@ -182,6 +182,7 @@ def test_surface_shows_every_step(ehlectric, tmp_path):
     assert (tmp_path / "profile.png").read_bytes().startswith(b"\x89PNG")
 
 
+@pytest.mark.slow
 def test_surface_shows_the_whole_map(ehlectric, tmp_path):
     """Sq 290 nm after a plane is recorded with the file; without --map its first row is shown."""
     words = ["surface", SURFACES / "al3d-1.al3d", "--form", "line", "--cutoff-long", "30 um"]
