@@ -184,6 +184,11 @@ class Grid(Table):
         """Whether this is a point contact's grid: a case gives each of them a ``field_side``."""
         return self.field_side is not None
 
+    @property
+    def nodes_across(self) -> int:
+        """Nodes across a point contact, as many as along it where the case does not say."""
+        return self.nodes if self.nodes_y is None else self.nodes_y
+
     @model_validator(mode="after")
     def _check(self) -> Self:
         domain = self.outlet - self.inlet
@@ -242,7 +247,7 @@ class Grid(Table):
         assert self.field_side is not None
         if self.field_side > side:
             raise ValueError(f"field_side: got {self.field_side:g}, takes at most side, {side:g}")
-        nodes, key = (self.nodes, "nodes") if self.nodes_y is None else (self.nodes_y, "nodes_y")
+        nodes, key = self.nodes_across, "nodes" if self.nodes_y is None else "nodes_y"
         least = math.ceil(LEAST_ACROSS * side) + 1
         if nodes < least:
             raise ValueError(

@@ -41,35 +41,37 @@ def check_memory(case: Case) -> None:
         _check_point(case)
         return
     grid = case.grid
-    columns = grid.field_nodes
-    if columns is None:
-        start, stop = grid.field_range
-        columns = int(grid.nodes * (stop - start) / (grid.outlet - grid.inlet))
+    columns = _columns_along(grid)
     film = FILM_BYTES * grid.nodes
-    needed = film + FIELD_BYTES * columns * (grid.field_degree + 1) ** 2
-    available = physical_memory()
-    if needed > available:
-        key = "nodes" if grid.field_nodes is None or film > 0.5 * needed else "field_nodes"
-        raise InputError(
-            f"grid.{key}: got {getattr(grid, key)} with field_degree {grid.field_degree}, about "
-            f"{needed / 1e9:.0f} GB; takes a grid that fits into the {available / 1e9:.0f} GB of this machine"
-        )
+    field = FIELD_BYTES * columns * (grid.field_degree + 1) ** 2
+    _refuse_beyond(grid, (film, field), (f"{grid.nodes}", f"{columns}"))
 
 
 def _check_point(case: Case) -> None:
     """The same for a point contact."""
     grid = case.grid
     nodes_y, columns, columns_y = _point_sizes(grid)
-    film, field = point_memory(grid, rough=bool(case.roughness))
-    available = physical_memory()
+    needed = point_memory(grid, rough=bool(case.roughness))
+    _refuse_beyond(grid, needed, (f"{grid.nodes} x {nodes_y}", f"{columns} x {columns_y}"))
+
+
+def _refuse_beyond(grid: Grid, needed: tuple[float, float], sizes: tuple[str, str]) -> None:
+    """Refuse what film and field need [bytes] of their nodes and columns, beyond the memory that there is."""
+    available, (film, field) = physical_memory(), needed
     if film + field > available:
-        key = "nodes" if grid.field_nodes is None or film > field else "field_nodes"
-        size = f"{grid.nodes} x {nodes_y}" if key == "nodes" else f"{columns} x {columns_y}"
-        needed = f"{(film + field) / 1e9:.0f} GB"
+        of_film = grid.field_nodes is None or film > field
+        key, size = ("nodes", sizes[0]) if of_film else ("field_nodes", sizes[1])
         raise InputError(
-            f"grid.{key}: got {size} with field_degree {grid.field_degree}, about {needed}; takes a grid "
-            f"that fits into the {available / 1e9:.0f} GB of this machine"
+            f"grid.{key}: got {size} with field_degree {grid.field_degree}, about "
+            f"{(film + field) / 1e9:.0f} GB; takes a grid that fits into the {available / 1e9:.0f} GB of "
+            "this machine"
         )
+
+
+def _columns_along(grid: Grid) -> int:
+    """Columns of the field along entrainment."""
+    start, stop = grid.field_range
+    return grid.field_nodes or int(grid.nodes * (stop - start) / (grid.outlet - grid.inlet))
 
 
 def point_memory(grid: Grid, *, rough: bool) -> tuple[float, float]:
@@ -111,11 +113,9 @@ def _point_sizes(grid: Grid) -> tuple[int, int, int]:
     assert grid.field_side is not None
     # The narrowest domain a point contact has: more columns of the field lie in its range than in any other.
     side = 1.6 if grid.side is None else grid.side
-    nodes_y = grid.nodes if grid.nodes_y is None else grid.nodes_y
-    start, stop = grid.field_range
-    columns = grid.field_nodes or int(grid.nodes * (stop - start) / (grid.outlet - grid.inlet))
+    nodes_y = grid.nodes_across
     columns_y = grid.field_nodes_y or int(nodes_y * min(1.0, grid.field_side / side))
-    return nodes_y, columns, columns_y
+    return nodes_y, _columns_along(grid), columns_y
 
 
 def physical_memory() -> float:

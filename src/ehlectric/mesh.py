@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -101,7 +102,7 @@ class Mesh:
         """Weights of the integral over the contact, shape (nx, ny)."""
         return self.weights_along[:, np.newaxis] * self.weights_across
 
-    @property
+    @cached_property
     def inner(self) -> Mask:
         """Nodes that are on no edge of the domain, shape (nx, ny); a line of symmetry is no edge."""
         inner = np.ones(self.shape, dtype=bool)

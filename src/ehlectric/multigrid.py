@@ -1,4 +1,4 @@
-"""Grid hierarchy and the V-cycle that preconditions the film's Newton steps.
+"""The V-cycle over all grids that preconditions the film's Newton steps.
 
 One V-cycle solves J (dP, dH00) = (r, load) approximately: the residual goes down to the coarsest grid,
 is solved there by a dense factorisation, and each finer grid adds one line relaxation on the way up.

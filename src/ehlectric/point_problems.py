@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
 
 from ehlectric.case import Case
 from ehlectric.conditions import permittivity_law
@@ -16,7 +16,7 @@ from ehlectric.point_conditions import PointConditions
 from ehlectric.point_film import PointFilm
 from ehlectric.point_formulas import nijenbanning_venner_moes
 from ehlectric.poisson_3d import PointFieldProblem
-from ehlectric.problems import ATOM, WIDEST, columns_within, fluid_of, scales_of
+from ehlectric.problems import ATOM, WIDEST, columns_within, heights_of, resampled, smooth_problem
 from ehlectric.rough_maps import Domain, RoughMap
 from ehlectric.typing import Array
 
@@ -33,8 +33,8 @@ def domain_of(case: Case, conditions: PointConditions) -> Domain:
 def spacings(case: Case, conditions: PointConditions) -> tuple[float, float]:
     """Distances of the film's nodes along and across entrainment [m]."""
     domain, grid = domain_of(case, conditions), case.grid
-    nodes_y = grid.nodes if grid.nodes_y is None else grid.nodes_y
-    return (domain.outlet - domain.inlet) / (grid.nodes - 1), 2.0 * domain.side / (nodes_y - 1)
+    along, across = domain.outlet - domain.inlet, 2.0 * domain.side
+    return along / (grid.nodes - 1), across / (grid.nodes_across - 1)
 
 
 def geometry_of(conditions: PointConditions) -> Geometry:
@@ -54,32 +54,20 @@ def point_film_problem(
 
     Half of the contact is solved where both halves are alike.
     """
-    grid = case.grid
-    guess = nijenbanning_venner_moes(conditions.formulas).central_thickness
-    assert guess is not None
     b, scale = conditions.semi_axis_x, conditions.thickness_scale
 
     def added_gap(x: Array, y: Array) -> Array:
         gap: Array = -heights_of(rough, b * x, b * y).sum(axis=0) / scale
         return gap
 
-    width = Width(
-        nodes=grid.nodes if grid.nodes_y is None else grid.nodes_y,
-        side=conditions.side * conditions.ratio,
-        symmetric=_symmetric(case, conditions, rough),
-    )
-    return FilmProblem(
-        fluid=fluid_of(case.lubricant, conditions.max_pressure, conditions.velocity_parameter),
-        nodes=grid.nodes,
-        inlet=grid.inlet,
-        outlet=grid.outlet,
-        thickness_guess=guess / scale,
-        second_order=grid.wedge == "second-order",
-        tolerance=case.solver.tolerance,
-        max_iterations=case.solver.max_iterations,
-        scales=scales_of(case, conditions),
+    return replace(
+        smooth_problem(case, conditions, nijenbanning_venner_moes(conditions.formulas)),
         geometry=geometry_of(conditions),
-        width=width,
+        width=Width(
+            nodes=case.grid.nodes_across,
+            side=conditions.side * conditions.ratio,
+            symmetric=_symmetric(case, conditions, rough),
+        ),
         added_gap=added_gap if rough else None,
     )
 
@@ -90,18 +78,10 @@ def _symmetric(case: Case, conditions: PointConditions, rough: Sequence[RoughMap
         return True
     domain, grid = domain_of(case, conditions), case.grid
     x = np.linspace(domain.inlet, domain.outlet, grid.nodes)
-    y = np.linspace(-domain.side, domain.side, grid.nodes if grid.nodes_y is None else grid.nodes_y)
+    y = np.linspace(-domain.side, domain.side, grid.nodes_across)
     heights = heights_of(rough, x, y)
     difference = np.max(np.abs(heights - heights[:, :, ::-1]))
     return bool(difference <= _ROUNDING * np.max(np.abs(heights)))
-
-
-def heights_of(rough: Sequence[RoughMap], x: Array, y: Array) -> Array:
-    """Roughness of both surfaces at the nodes of a grid [m], shape (2, nx, ny)."""
-    heights = np.zeros((2, x.size, y.size))
-    for surface in rough:
-        heights[surface.surface - 1] += surface.height(x, y)
-    return heights
 
 
 def point_field_problem(
@@ -156,10 +136,8 @@ def halves_alike(film: PointFilm, roughness: Array) -> bool:
 
 
 def _resampled(film: PointFilm, values: Array, x: Array, y: Array) -> Array:
-    """Monotone cubic interpolation: exact at the nodes, and no film thinner than the solved one."""
-    along = PchipInterpolator(film.x, values, axis=0)(x)
-    resampled: Array = PchipInterpolator(film.y, along, axis=1)(y)
-    return resampled
+    """Values at the film's nodes between them, along one axis after the other."""
+    return resampled(film.y, resampled(film.x, values, x), y, axis=1)
 
 
 def point_surfaces(conditions: PointConditions, film: PointFilm, roughness: Array) -> tuple[Array, Array]:

@@ -54,8 +54,7 @@ def point_table(case: Case, conditions: PointConditions) -> Table:
     films = {name: formula(conditions.formulas) for name, formula in FORMULAS.items()}
     add_expected(table, case, films, FORMULA_NAMES)
     grid = case.grid
-    nodes_y = grid.nodes if grid.nodes_y is None else grid.nodes_y
-    table.add_row("grid", f"{grid.nodes} x {nodes_y}", f"nodes, {grid.wedge} wedge")
+    table.add_row("grid", f"{grid.nodes} x {grid.nodes_across}", f"nodes, {grid.wedge} wedge")
     table.add_row("  sides", f"{conditions.side:.4g}", "semi-axes across")
     return table
 
@@ -87,8 +86,8 @@ def point_result_table(result: PointResult) -> Table:
     add_field(table, result, ("x/b, y/b", _in_semi_axes(result, field.max_strength_position)))
     table.add_row("area above 95 %", f"{field.high_field_area * 1e12:.4g}", "µm²")
     table.add_row("capacitance, field range", f"{field.capacitance * 1e12:.4g}", "pF")
-    for name, zone in result.zones.items():
-        table.add_row(f"  {name}", f"{field.capacitance_of(zone) * 1e12:.4g}", "pF")
+    for name, capacitance in result.capacitance_by_zone.items():
+        table.add_row(f"  {name}", f"{capacitance * 1e12:.4g}", "pF")
     add_thin_gap(table, result)
     if result.rough:
         add_roughness(table, result)

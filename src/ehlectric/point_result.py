@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -50,6 +51,11 @@ class PointResult(Solution[PointConditions, PointFilm, PointField]):
             "sides": lambda x, y: ~hertz(x, y) & (np.abs(y) > a),
         }
 
+    @cached_property
+    def capacitance_by_zone(self) -> dict[str, float]:
+        """Capacitance of each of the ``zones`` [F]; kept, as summary, dataset and table all ask for it."""
+        return {name: self.field.capacitance_of(zone) for name, zone in self.zones.items()}
+
     def _holds(self, position: tuple[float, float]) -> bool:
         axes = (self.field.x, self.field.y)
         return all(bool(axis[0] <= at <= axis[-1]) for at, axis in zip(position, axes, strict=True))
@@ -78,7 +84,7 @@ class PointResult(Solution[PointConditions, PointFilm, PointField]):
             "high_field_area": field.high_field_area,
             "capacitance": field.capacitance,
             "capacitance_by_charge": field.capacitance_by_charge,
-            "capacitance_by_zone": {name: field.capacitance_of(zone) for name, zone in self.zones.items()},
+            "capacitance_by_zone": self.capacitance_by_zone,
             "columns": list(field.middle_strength.shape),
         }
 

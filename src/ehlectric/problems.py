@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
@@ -10,12 +11,13 @@ from scipy.interpolate import PchipInterpolator
 from ehlectric.case import Case
 from ehlectric.conditions import Conditions, density_law, permittivity_law, viscosity_law
 from ehlectric.film import Film
-from ehlectric.film_formulas import moes
+from ehlectric.film_formulas import Thickness, moes
 from ehlectric.inputs import Lubricant
 from ehlectric.nested import FilmProblem, Scales
 from ehlectric.point_conditions import PointConditions
 from ehlectric.poisson import FieldProblem
 from ehlectric.reynolds import Fluid, FluidLaw
+from ehlectric.rough_maps import RoughMap
 from ehlectric.typing import Array
 from ehlectric.walls import RoughSurface
 
@@ -54,8 +56,13 @@ def fluid_of(lubricant: Lubricant, max_pressure: float, velocity_parameter: floa
 
 def film_problem(case: Case, conditions: Conditions, rough: Sequence[RoughSurface] = ()) -> FilmProblem:
     """The film equations of a case; of rough surfaces only the sum of their heights enters them."""
-    grid = case.grid
-    guess = moes(conditions.formulas).central_thickness
+    smooth = smooth_problem(case, conditions, moes(conditions.formulas))
+    return replace(smooth, added_gap=_added_gap(conditions, rough) if rough else None)
+
+
+def smooth_problem(case: Case, conditions: Conditions | PointConditions, expected: Thickness) -> FilmProblem:
+    """What the film equations of all contacts share, with the central film that a formula expects."""
+    grid, guess = case.grid, expected.central_thickness
     assert guess is not None
     return FilmProblem(
         fluid=fluid_of(case.lubricant, conditions.max_pressure, conditions.velocity_parameter),
@@ -67,7 +74,6 @@ def film_problem(case: Case, conditions: Conditions, rough: Sequence[RoughSurfac
         tolerance=case.solver.tolerance,
         max_iterations=case.solver.max_iterations,
         scales=scales_of(case, conditions),
-        added_gap=_added_gap(conditions, rough) if rough else None,
     )
 
 
@@ -82,11 +88,11 @@ def _added_gap(conditions: Conditions, rough: Sequence[RoughSurface]) -> Callabl
     return added_gap
 
 
-def heights_of(rough: Sequence[RoughSurface], x: Array) -> Array:
-    """Roughness of both surfaces at given positions [m], shape (2, n)."""
-    heights = np.zeros((2, x.size))
+def heights_of(rough: Sequence[RoughSurface] | Sequence[RoughMap], *axes: Array) -> Array:
+    """Roughness of both surfaces at the nodes of a grid [m], shape (2, nx) or (2, nx, ny)."""
+    heights = np.zeros((2, *(axis.size for axis in axes)))
     for surface in rough:
-        heights[surface.surface - 1] += surface.height(x)
+        heights[surface.surface - 1] += surface.height(*axes)
     return heights
 
 
@@ -151,9 +157,9 @@ def columns_within(nodes: Array, ends: Sequence[float], number: int | None) -> A
     return np.concatenate([[start], inside, [stop]])
 
 
-def resampled(x: Array, values: Array, at: Array) -> Array:
+def resampled(x: Array, values: Array, at: Array, *, axis: int = 0) -> Array:
     """Monotone cubic interpolation: exact at the nodes, and no film thinner than the solved one."""
-    resampled: Array = PchipInterpolator(x, values)(at)
+    resampled: Array = PchipInterpolator(x, values, axis=axis)(at)
     return resampled
 
 

@@ -29,7 +29,6 @@ from ehlectric.point_problems import (
     point_film_problem,
     spacings,
 )
-from ehlectric.point_problems import heights_of as map_heights_of
 from ehlectric.point_result import PointResult
 from ehlectric.poisson import FieldProblem
 from ehlectric.problems import field_problem, film_problem, heights_of
@@ -177,7 +176,7 @@ def _solve_point(case: Case, progress: Progress | None, *, demand: bool, beside_
         demand=demand,
     )
     film, on_grid = refined.film, refined.case
-    roughness = map_heights_of(rough, film.x, film.y)
+    roughness = heights_of(rough, film.x, film.y)
     started = time.perf_counter()
     field = solve_point_field(point_field_problem(case, conditions, film, roughness))
     if field.y[0] == 0.0:
