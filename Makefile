@@ -84,7 +84,7 @@ bench-public: $(VENV)/.dev
 	$(BIN)/python benchmarks/public_solvers.py
 
 lock:
-	uv pip compile pyproject.toml --extra dev --extra docs --extra instruments --universal --python-version 3.11 --no-header --quiet --output-file requirements.lock
+	uv pip compile pyproject.toml --extra dev --extra docs --extra instruments --extra parquet --extra cluster --universal --python-version 3.11 --no-header --quiet --output-file requirements.lock
 
 clean:
 	rm -rf $(VENV) results docs/_build docs/_generated docs/auto_gallery docs/api/generated .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .coverage

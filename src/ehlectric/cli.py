@@ -6,22 +6,24 @@ import json
 import os
 import signal
 import sys
-from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
 from importlib import resources
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
-from ehlectric.errors import ConvergenceError, InputError, shown
+from ehlectric.errors import InputError, shown
+from ehlectric.terminal import (
+    NOT_CONVERGED,
+    WRONG_INPUT,
+    print_table,
+    progress_bar,
+    progress_line,
+    user_errors,
+    warn,
+)
 from ehlectric.version import __version__
 
-if TYPE_CHECKING:
-    from rich.table import Table
-
-WRONG_INPUT = 2
-NOT_CONVERGED = 3
 _TEMPLATES = {"line": "template.toml", "point": "template_point.toml"}
 SIGNALLED = 128  # plus the number of the signal, as shells count
 
@@ -35,26 +37,6 @@ app = typer.Typer(
 CaseFile = Annotated[Path, typer.Argument(help="Case file, TOML.", show_default=False)]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No table, progress or warnings.")]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")]
-
-
-@contextmanager
-def _user_errors() -> Iterator[None]:
-    """Wrong input as one line on stderr and exit status 2."""
-    try:
-        yield
-    except InputError as error:
-        text = str(error)
-    except ConvergenceError as error:
-        typer.echo(f"error: not converged: {error}", err=True)
-        raise typer.Exit(NOT_CONVERGED) from None
-    except BrokenPipeError:
-        raise
-    except OSError as error:
-        text = f"{error.filename}: cannot be used, {(error.strerror or str(error)).lower()}"
-    else:
-        return
-    typer.echo(f"error: {text}", err=True)
-    raise typer.Exit(WRONG_INPUT)
 
 
 def _version(wanted: bool) -> None:
@@ -89,7 +71,7 @@ def run(
 
     Exit status 0: solved. 2: the input is wrong. 3: not converged, everything is written all the same.
     """
-    with _user_errors():
+    with user_errors():
         from ehlectric.case import Case
 
         # Before all that solving takes: what is wrong with a case is said at once.
@@ -106,7 +88,7 @@ def run(
         SOLVERS[solver].check(case)
         names = (*FILES, *ALL_FIGURES)
         folder = prepare(output, names)
-        with _progress(shown=not quiet) as stage:
+        with progress_line(shown=not quiet) as stage:
             result = solve(
                 case,
                 progress=lambda nodes, step, residual: stage(
@@ -130,11 +112,11 @@ def run(
 
         for rough in result.rough:
             if rough["steps"]:
-                _print(surface_table(rough))
-        _print(result_table(result))
+                print_table(surface_table(rough))
+        print_table(result_table(result))
         typer.echo("written: " + ", ".join(str(path) for path in files))
     if not quiet:
-        _warn(result.warnings)
+        warn(result.warnings)
     if not result.converged:
         typer.echo(f"error: not converged: {result.film.status}", err=True)
         raise typer.Exit(NOT_CONVERGED)
@@ -143,7 +125,7 @@ def run(
 @app.command()
 def check(case_file: CaseFile, quiet: Quiet = False, as_json: Json = False) -> None:
     """Validate a case and say what it means: Hertz contact, groups, regime, film formulas."""
-    with _user_errors():
+    with user_errors():
         from ehlectric.case import Case
 
         case = Case.from_toml(case_file)
@@ -154,9 +136,9 @@ def check(case_file: CaseFile, quiet: Quiet = False, as_json: Json = False) -> N
     if as_json:
         typer.echo(json.dumps(summary, indent=2))
     elif not quiet:
-        _print(table)
+        print_table(table)
     if not quiet:
-        _warn(texts)
+        warn(texts)
 
 
 @app.command()
@@ -189,7 +171,7 @@ def surface(
         "cutoff_long": cutoff_long, "cutoff_short": cutoff_short, "trim": trim,
         "rescale_rq": rescale_rq, "truncate": truncate,
     }  # fmt: skip
-    with _user_errors():
+    with user_errors():
         from ehlectric.report import surface_table
         from ehlectric.rough_maps import whole_map
         from ehlectric.roughness_inputs import Roughness
@@ -208,8 +190,8 @@ def surface(
     if as_json:
         typer.echo(json.dumps(described, indent=2))
     else:
-        _print(surface_table(described))
-        _warn(rough.remarks)
+        print_table(surface_table(described))
+        warn(rough.remarks)
         if output is not None:
             typer.echo(f"written: {output}")
 
@@ -222,7 +204,7 @@ def init(
     quiet: Quiet = False,
 ) -> None:
     """Write a commented case to start from."""
-    with _user_errors():
+    with user_errors():
         from ehlectric.store import prepare, refuse_special, whole
 
         if geometry not in _TEMPLATES:
@@ -248,7 +230,7 @@ def plot(
     quiet: Quiet = False,
 ) -> None:
     """Draw the figures of a result again."""
-    with _user_errors():
+    with user_errors():
         from ehlectric.store import ALL_FIGURES, load, prepare
 
         result = load(result_file)
@@ -258,7 +240,7 @@ def plot(
         files = save_figures(result, folder)
     if not quiet:
         typer.echo("written: " + ", ".join(str(path) for path in files))
-        _warn(result.warnings)
+        warn(result.warnings)
 
 
 @app.command()
@@ -271,10 +253,10 @@ def reproduce(
     quiet: Quiet = False,
 ) -> None:
     """Solve the contacts of Morris, Leighton and Morris (2022); write tables, figures and a report."""
-    with _user_errors():
+    with user_errors():
         from ehlectric.paper.reproduce import reproduce as reproduced
 
-        with _bar(shown=not quiet) as progress:
+        with progress_bar(shown=not quiet) as progress:
             made = reproduced(
                 output, figure=_number("figure", figure), table=_number("table", table), progress=progress
             )
@@ -293,46 +275,6 @@ def _number(name: str, text: str | None) -> int | None:
         return None if text is None else int(text)
     except ValueError:
         raise InputError(f"--{name}: got {shown(text)}, takes a number") from None
-
-
-@contextmanager
-def _bar(*, shown: bool) -> Iterator[Callable[[int, int, str], None]]:
-    """A progress bar on stderr, where somebody can see it."""
-    if not (shown and sys.stderr.isatty()):
-        yield lambda _done, _of, _text: None
-        return
-    from rich.console import Console
-    from rich.progress import Progress
-
-    with Progress(console=Console(stderr=True)) as bar:
-        task = bar.add_task("starting", total=None)
-        yield lambda done, of, text: bar.update(task, completed=done, total=of, description=text)
-
-
-@contextmanager
-def _progress(*, shown: bool) -> Iterator[Callable[[str], None]]:
-    """A line on stderr that says what is being done, where somebody can see it."""
-    if not (shown and sys.stderr.isatty()):
-        yield lambda _: None
-        return
-    from rich.console import Console
-
-    with Console(stderr=True).status("starting") as status:
-        yield status.update
-
-
-def _print(table: Table) -> None:
-    from rich.console import Console
-
-    console = Console(highlight=False)
-    with console.capture() as captured:
-        console.print(table)
-    typer.echo(captured.get(), nl=False)
-
-
-def _warn(texts: Iterable[str]) -> None:
-    for text in texts:
-        typer.echo(f"warning: {text}", err=True)
 
 
 def _stop(number: int, _: object) -> None:

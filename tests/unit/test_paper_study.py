@@ -16,8 +16,8 @@ from ehlectric.paper.contacts import CONTACTS, LOADS, measured_profile
 from ehlectric.paper.figures import FIGURES
 from ehlectric.paper.study import Placed, Study, readings_differ_by, straight_line
 from ehlectric.paper.tables import TABLES, agrees, amplitude, printed_table
-from ehlectric.paper.workers import cores, run_all
 from ehlectric.poisson import FieldProblem, lobatto_nodes
+from ehlectric.workers import cores, run_all
 from tests.reference.field import cylinder_potential
 
 

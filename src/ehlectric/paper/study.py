@@ -19,11 +19,11 @@ from ehlectric.field import solve_field
 from ehlectric.film import solve_film
 from ehlectric.paper import fas, sor
 from ehlectric.paper.contacts import CONTACTS, ROUGH_NODES, SMOOTH_NODES, PaperContact, measured_profile
-from ehlectric.paper.workers import run_all
 from ehlectric.problems import field_problem, film_problem
 from ehlectric.result import Result
 from ehlectric.solver import solve_line
 from ehlectric.typing import Array
+from ehlectric.workers import run_all
 
 # Residual to which the paper's multigrid is counted.
 COUNTED = 1e-6
