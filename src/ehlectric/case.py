@@ -14,7 +14,8 @@ from typing import Annotated, Any, Self
 
 from pydantic import AfterValidator, BaseModel, model_validator
 
-from ehlectric.contact_inputs import CONTACT_ALTERNATIVES, ONLY, Contact
+from ehlectric.contact_inputs import CONTACT_ALTERNATIVES, ONLY, Alternatives, Contact
+from ehlectric.discharge_inputs import STRENGTHS, Discharge
 from ehlectric.errors import InputError, shown
 from ehlectric.inputs import POINT_GRID, POINT_GRID_KEYS, Electric, Grid, Lubricant, Solver
 from ehlectric.roughness_inputs import Roughness, check_geometry
@@ -52,6 +53,7 @@ class Case(Table):
     lubricant: Lubricant
     roughness: tuple[Roughness, ...] = ()
     electric: Electric = Electric()
+    discharge: Discharge | None = None
     grid: Grid = Grid()
     solver: Solver = Solver()
 
@@ -76,6 +78,8 @@ class Case(Table):
                         "contact.geometry is 'point'"
                     )
         check_geometry(self.roughness, self.contact.geometry)
+        if self.discharge is not None:
+            self.discharge.check_geometry(self.contact.geometry)
         return self
 
     @classmethod
@@ -193,6 +197,7 @@ def _drop_geometry(table: dict[str, Any], geometry: str) -> None:
     """Drop what only contacts of this geometry have."""
     for key in ONLY[geometry]:
         _drop(table["contact"], key)
+    _drop(table, "discharge.length")
     table["grid"] = {key: value for key, value in table["grid"].items() if key in _GRID_OF_ANY}
 
 
@@ -200,15 +205,30 @@ def _displace(table: dict[str, Any], changes: Mapping[str, Any], geometry: objec
     """Drop from ``table`` what the changes are alternatives to."""
     if "lubricant.base" in changes:
         table["lubricant"] = {}
-    names = {key.removeprefix("contact.") for key in _flattened(changes) if key.startswith("contact.")}
-    groups: list[tuple[tuple[str, ...], ...]] = list(CONTACT_ALTERNATIVES.get(str(geometry), ()))
-    groups.append((("slide_to_roll_ratio",), ("speed_1", "speed_2")))
+    alternatives: dict[str, Alternatives] = {
+        "contact": (
+            *CONTACT_ALTERNATIVES.get(str(geometry), ()),
+            (("slide_to_roll_ratio",), ("speed_1", "speed_2")),
+        ),
+        "discharge": (STRENGTHS,),
+    }
+    for name, groups in alternatives.items():
+        _displace_in(table.get(name, {}), _names_in(name, changes), groups)
+
+
+def _names_in(table: str, changes: Mapping[str, Any]) -> set[str]:
+    """Keys of one table that change, without its name."""
+    return {key.removeprefix(f"{table}.") for key in _flattened(changes) if key.startswith(f"{table}.")}
+
+
+def _displace_in(table: dict[str, Any], names: set[str], groups: Alternatives) -> None:
+    """Drop from one table what is an alternative to the keys that change."""
     for group in groups:
         for row in group:
             if any(_within(name, key) for name in names for key in row):
                 for key in {key for other in group if other is not row for key in other}:
                     if not any(_within(name, key) for name in names):
-                        _drop(table["contact"], key)
+                        _drop(table, key)
 
 
 def _within(name: str, key: str) -> bool:

@@ -83,7 +83,18 @@ FIELD_NUMBERS = ("voltage", "capacitance", "capacitance_by_charge", "thin_gap_ca
 LINE_LAYOUT = Layout(
     title="Film and electric field of a line contact",
     film={**X, **on_nodes("x")},
-    field={**X_FIELD, **S, "y": ("y", ("x_field", "s"), "height", "m"), **on_columns("x_field")},
+    field={
+        **X_FIELD,
+        **S,
+        "y": ("y", ("x_field", "s"), "height", "m"),
+        **on_columns("x_field"),
+        "capacitance_density": (
+            "capacitance_density",
+            ("x_field",),
+            "charge of a surface by voltage, length and width",
+            "F/m^2",
+        ),
+    },
     film_grid=("x",),
     field_grid=("x_field",),
     film_numbers=FILM_NUMBERS,

@@ -7,10 +7,18 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.constants import epsilon_0
 
-from ehlectric.poisson import Across, BandedSolver, Elements, FieldProblem, Quadrature, nodal_values
+from ehlectric.poisson import (
+    Across,
+    BandedSolver,
+    Elements,
+    FieldProblem,
+    Quadrature,
+    mean_permittivity,
+    nodal_values,
+)
 from ehlectric.threads import one_blas_thread
 from ehlectric.typing import Array, Mask
-from ehlectric.zones import HIGH_FIELD
+from ehlectric.zones import HIGH_FIELD, interval_above, part_widths
 
 
 @dataclass(frozen=True)
@@ -32,6 +40,9 @@ class Field:
         They agree unless the end faces have given potentials.
     thin_gap_capacitance : float
         Integral of eps0 eps/h [F/m].
+    capacitance_density : ndarray, shape (nx,)
+        Charge of a wall by voltage, length and width [F/m^2]; its integral by the trapezoidal rule is
+        ``capacitance_by_charge``.
     """
 
     x: Array
@@ -48,6 +59,21 @@ class Field:
     capacitance: float
     capacitance_by_charge: float
     thin_gap_capacitance: float
+    capacitance_density: Array
+
+    @property
+    def thin_gap_density(self) -> Array:
+        """eps0 eps/h [F/m^2], shape (nx,)."""
+        density: Array = (
+            epsilon_0 * mean_permittivity(self.permittivity) * self.thin_gap_strength / self.voltage
+        )
+        return density
+
+    @property
+    def column_strength(self) -> Array:
+        """Largest abs(E) of each column, on either wall or mid-film [V/m], shape (nx,)."""
+        strength: Array = np.max(self._sections, axis=0)
+        return strength
 
     @property
     def max_strength(self) -> float:
@@ -57,7 +83,7 @@ class Field:
     @property
     def max_strength_position(self) -> float:
         """Position of the largest abs(E) [m]."""
-        return float(self.x[np.argmax(np.max(self._sections, axis=0))])
+        return float(self.x[np.argmax(self.column_strength)])
 
     @property
     def max_strength_wall(self) -> str:
@@ -82,17 +108,7 @@ class Field:
         95 % of that maximum [m], interpolated between nodes.
         """
         level = HIGH_FIELD * float(np.max(self.middle_strength))
-        peak = int(np.argmax(self.middle_strength))
-        below = np.flatnonzero(self.middle_strength < level)
-        left, right = below[below < peak], below[below > peak]
-        start = self._crossing(left[-1], left[-1] + 1, level) if left.size else self.x[0]
-        stop = self._crossing(right[0], right[0] - 1, level) if right.size else self.x[-1]
-        return float(start), float(stop)
-
-    def _crossing(self, outside: int, inside: int, level: float) -> float:
-        e, x = self.middle_strength, self.x
-        share = (level - e[outside]) / (e[inside] - e[outside])
-        return float(x[outside] + share * (x[inside] - x[outside]))
+        return interval_above(self.x, self.middle_strength, level)
 
     @property
     def high_field_width(self) -> float:
@@ -163,12 +179,12 @@ def solve_field(problem: FieldProblem) -> Field:
         if problem.charge_density is not None:
             load = quadrature.charge(problem.charge_density)
             potential = _solve(solver, elements, lifted, load)
-    charge = epsilon_0 * float(np.sum(elements.apply(free)[:, -1]))
+    charges = epsilon_0 * elements.apply(free)[:, -1]
     return field_from_potential(
         problem,
         potential,
         capacitance=epsilon_0 * quadrature.energy(free) / voltage**2,
-        capacitance_by_charge=charge / voltage,
+        capacitance_density=charges / voltage / part_widths(problem.x, -np.inf, np.inf),
     )
 
 
@@ -191,7 +207,7 @@ def _solve(solver: BandedSolver, elements: Elements, lifted: Array, load: Array)
 
 
 def field_from_potential(
-    problem: FieldProblem, potential: Array, *, capacitance: float, capacitance_by_charge: float
+    problem: FieldProblem, potential: Array, *, capacitance: float, capacitance_density: Array
 ) -> Field:
     """Field strength by differentiation of a potential, and the thin-gap estimates.
 
@@ -201,8 +217,10 @@ def field_from_potential(
         What was solved.
     potential : ndarray, shape (nx, degree + 1)
         Potential above wall 1 at the nodes [V].
-    capacitance, capacitance_by_charge : float
-        Per length [F/m].
+    capacitance : float
+        Per length, from the energy [F/m].
+    capacitance_density : ndarray, shape (nx,)
+        Charge of a wall by voltage, length and width [F/m^2].
 
     Returns
     -------
@@ -221,8 +239,6 @@ def field_from_potential(
     voltage = abs(problem.potential_2 - problem.potential_1)
     middle = np.hypot(field_x @ across.at_middle, field_y @ across.at_middle)
     permittivity = nodal_values(problem.permittivity, s.size)
-    # Layers of different permittivity are in series: their reciprocals average across the gap.
-    mean = 1.0 / ((1.0 / permittivity) @ across.weights)
     return Field(
         x=x,
         s=s,
@@ -236,6 +252,7 @@ def field_from_potential(
         thin_gap_strength=voltage / gap,
         voltage=voltage,
         capacitance=capacitance,
-        capacitance_by_charge=capacitance_by_charge,
-        thin_gap_capacitance=float(np.trapezoid(epsilon_0 * mean / gap, x)),
+        capacitance_by_charge=float(np.trapezoid(capacitance_density, x)),
+        thin_gap_capacitance=float(np.trapezoid(epsilon_0 * mean_permittivity(permittivity) / gap, x)),
+        capacitance_density=capacitance_density,
     )

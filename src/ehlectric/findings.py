@@ -11,7 +11,7 @@ from ehlectric.field import Field
 from ehlectric.film import Film
 from ehlectric.point_field import PointField
 from ehlectric.point_film import PointFilm
-from ehlectric.problems import ATOM
+from ehlectric.poisson import ATOM
 
 # Field above which any insulator breaks down [V/m].
 _NO_INSULATOR = 1e9

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.constants import epsilon_0
 
 from ehlectric.errors import InputError
-from ehlectric.poisson import Across
+from ehlectric.poisson import Across, mean_permittivity
 from ehlectric.poisson_3d import PointFieldProblem, PotentialSolver, by_node
 from ehlectric.threads import one_blas_thread
 from ehlectric.typing import Array, Mask
@@ -71,6 +71,20 @@ class PointField:
     def surface_2_strength(self) -> Array:
         """abs(E) on the upper wall [V/m], shape (nx, ny)."""
         return self.strength[:, :, -1]
+
+    @property
+    def thin_gap_density(self) -> Array:
+        """eps0 eps/h [F/m^2], shape (nx, ny)."""
+        density: Array = (
+            epsilon_0 * mean_permittivity(self.permittivity) * self.thin_gap_strength / self.voltage
+        )
+        return density
+
+    @property
+    def column_strength(self) -> Array:
+        """Largest abs(E) of each column, on either wall or mid-film [V/m], shape (nx, ny)."""
+        strength: Array = np.max(self._sections, axis=0)
+        return strength
 
     @property
     def max_strength(self) -> float:
@@ -250,8 +264,6 @@ def _field(
         components.append(slope * by_s - np.gradient(potential, at, axis=axis, edge_order=2))
     field_x, field_y = components
     permittivity = np.broadcast_to(by_node(problem.permittivity), potential.shape).copy()
-    # Layers of different permittivity are in series: their reciprocals average across the gap.
-    mean = 1.0 / ((1.0 / permittivity) @ across.weights)
     voltage = abs(problem.potential_2 - problem.potential_1)
     areas = node_areas(x, y)
     return PointField(
@@ -270,7 +282,7 @@ def _field(
         voltage=voltage,
         capacitance=capacitance,
         capacitance_by_charge=float(np.sum(charges)),
-        thin_gap_capacitance=float(np.vdot(epsilon_0 * mean / gap, areas)),
+        thin_gap_capacitance=float(np.vdot(epsilon_0 * mean_permittivity(permittivity) / gap, areas)),
         capacitance_density=charges / areas,
         iterations=iterations,
     )

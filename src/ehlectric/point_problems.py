@@ -15,8 +15,9 @@ from ehlectric.nested import FilmProblem
 from ehlectric.point_conditions import PointConditions
 from ehlectric.point_film import PointFilm
 from ehlectric.point_formulas import nijenbanning_venner_moes
+from ehlectric.poisson import ATOM
 from ehlectric.poisson_3d import PointFieldProblem
-from ehlectric.problems import ATOM, WIDEST, columns_within, heights_of, resampled, smooth_problem
+from ehlectric.problems import WIDEST, columns_within, heights_of, resampled, smooth_problem
 from ehlectric.rough_maps import Domain, RoughMap
 from ehlectric.typing import Array
 

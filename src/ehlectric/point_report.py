@@ -7,6 +7,7 @@ from typing import Any
 from rich.table import Table
 
 from ehlectric.case import Case
+from ehlectric.discharge_report import add_discharge
 from ehlectric.point_conditions import PointConditions
 from ehlectric.point_formulas import FORMULAS, regime
 from ehlectric.point_result import PointResult, point_hertz, point_inputs
@@ -91,6 +92,7 @@ def point_result_table(result: PointResult) -> Table:
     add_thin_gap(table, result)
     if result.rough:
         add_roughness(table, result)
+    add_discharge(table, result)
     add_formulas(table, result, FORMULA_NAMES)
     return table
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from ehlectric.case import Case
 from ehlectric.dataset import POINT_LAYOUT, Layout
+from ehlectric.domain import contact_zones
 from ehlectric.film_formulas import Thickness
 from ehlectric.point_conditions import PointConditions
 from ehlectric.point_field import PointField
@@ -19,7 +20,6 @@ from ehlectric.point_formulas import FORMULAS
 from ehlectric.roughness import FLAT
 from ehlectric.solution import Solution
 from ehlectric.topography import Map, statistics
-from ehlectric.typing import Array
 from ehlectric.zones import Zone
 
 
@@ -34,22 +34,8 @@ class PointResult(Solution[PointConditions, PointFilm, PointField]):
 
     @property
     def zones(self) -> dict[str, Zone]:
-        """Parts of the contact whose capacitances add up to the whole.
-
-        The Hertz ellipse; before it and behind it the strip as wide as the ellipse, its inlet and its outlet;
-        and the sides beyond that strip.
-        """
-        b, a = self.conditions.semi_axis_x, self.conditions.semi_axis_y
-
-        def hertz(x: Array, y: Array) -> Any:
-            return (x / b) ** 2 + (y / a) ** 2 <= 1.0
-
-        return {
-            "hertz": hertz,
-            "inlet": lambda x, y: ~hertz(x, y) & (np.abs(y) <= a) & (x < 0.0),
-            "outlet": lambda x, y: ~hertz(x, y) & (np.abs(y) <= a) & (x >= 0.0),
-            "sides": lambda x, y: ~hertz(x, y) & (np.abs(y) > a),
-        }
+        """Parts of the contact whose capacitances add up to the whole: ``contact_zones``."""
+        return contact_zones(self.conditions.semi_axis_x, self.conditions.semi_axis_y)
 
     @cached_property
     def capacitance_by_zone(self) -> dict[str, float]:

@@ -20,6 +20,9 @@ from ehlectric.typing import Array
 # Two Gauss points along an element: more would not raise the order of linear elements.
 GAUSS = np.array([0.5 - 0.5 / np.sqrt(3.0), 0.5 + 0.5 / np.sqrt(3.0)])
 
+# Gap below which walls count as this far apart [m]: the size of an atom.
+ATOM = 1e-10
+
 
 def lobatto_nodes(degree: int) -> Array:
     """Gauss-Lobatto-Legendre nodes on [0, 1], ascending, shape (degree + 1,).
@@ -216,6 +219,15 @@ class Quadrature:
 def nodal_values(values: Array, ns: int) -> Array:
     """Values at the nodes (nx, ns), of values by column or by node."""
     return values if values.ndim == 2 else np.repeat(values[:, np.newaxis], ns, axis=1)
+
+
+def mean_permittivity(permittivity: Array) -> Array:
+    """Relative permittivity of a gap, of that at its nodes across (..., ns).
+
+    Layers of different permittivity are in series: their reciprocals average across the gap.
+    """
+    mean: Array = 1.0 / ((1.0 / permittivity) @ Across.of_degree(permittivity.shape[-1] - 1).weights)
+    return mean
 
 
 class BandedSolver:

@@ -15,14 +15,11 @@ from ehlectric.film_formulas import Thickness, moes
 from ehlectric.inputs import Lubricant
 from ehlectric.nested import FilmProblem, Scales
 from ehlectric.point_conditions import PointConditions
-from ehlectric.poisson import FieldProblem
+from ehlectric.poisson import ATOM, FieldProblem
 from ehlectric.reynolds import Fluid, FluidLaw
 from ehlectric.rough_maps import RoughMap
 from ehlectric.typing import Array
 from ehlectric.walls import RoughSurface
-
-# Gap below which walls count as this far apart in the field [m]: the size of an atom.
-ATOM = 1e-10
 
 # Gap over the length of the field range above which there is no contact, but a film that was not found.
 WIDEST = 100.0

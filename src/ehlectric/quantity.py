@@ -71,8 +71,21 @@ def to_si(text: str, unit: str) -> float:
     number, written = match.groups()
     if not written:
         raise ValueError("it has no unit")
+    if unit == "K":
+        return _absolute(float(number), written)
     # Fifteen digits undo the rounding of factors such as 1e-3, which are no binary numbers.
     return float(f"{float(number) * _factor(written, unit):.15g}")
+
+
+# Units of an absolute temperature, with the zero of each in kelvin.
+_ZEROS = {"K": 0.0, "degC": 273.15, "°C": 273.15}
+
+
+def _absolute(number: float, written: str) -> float:
+    """Absolute temperature [K]: 70 degC is 343.15 K, not a difference of 70 K."""
+    if written not in _ZEROS:
+        raise ValueError(f"{shown(written)} is not a unit of an absolute temperature: {', '.join(_ZEROS)}")
+    return float(f"{number + _ZEROS[written]:.15g}")
 
 
 def _factor(written: str, unit: str) -> float:
@@ -213,6 +226,31 @@ class Quantity:
         if bounds:
             text += ", " + " and ".join(bounds)
         return text + (f": {self.reason}" if self.reason else "")
+
+
+@dataclass(frozen=True)
+class Quantities:
+    """Pydantic annotation: a list of quantities of one kind, as a tuple of floats in SI."""
+
+    each: Quantity
+    least: int = 1
+
+    def __get_pydantic_core_schema__(self, _: Any, __: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.no_info_plain_validator_function(self.parse)
+
+    def parse(self, given: object) -> tuple[float, ...]:
+        """SI values of what the case gives.
+
+        Raises
+        ------
+        ValueError
+            With what it got and what each quantity takes.
+        """
+        if not isinstance(given, list | tuple) or len(given) < self.least:
+            raise ValueError(
+                f"got {shown(given)}, takes a list of {self.least} or more, each {self.each.takes}"
+            )
+        return tuple(self.each.parse(item) for item in given)
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@ from rich.text import Text
 
 from ehlectric.case import Case
 from ehlectric.conditions import Conditions
+from ehlectric.discharge_report import add_discharge
 from ehlectric.film_formulas import FORMULAS, Thickness, regime
 from ehlectric.point_result import PointResult
 from ehlectric.result import Result, resolved_inputs
@@ -95,6 +96,7 @@ def line_result_table(result: Result) -> Table:
     if result.rough:
         table.add_row("field solved on", f"{field.x.size}", "columns")
         add_roughness(table, result)
+    add_discharge(table, result)
     add_formulas(table, result, _FORMULA_NAMES)
     return table
 

@@ -7,10 +7,12 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import numpy as np
 
+from ehlectric.assessment import Assessment, assess
 from ehlectric.case import Case
 from ehlectric.conditions import Conditions
 from ehlectric.dataset import Layout, attributes, variables
@@ -115,6 +117,11 @@ class Solution(ABC, Generic[_Conditions, _Film, _Field]):
             return None
         return 1.0 - self.field.voltage / self.film.minimum_thickness / self.field.max_strength
 
+    @cached_property
+    def discharge(self) -> Assessment | None:
+        """Breakdown voltage, capacitance by zone, energy; None where the case has no ``[discharge]``."""
+        return assess(self.case, self.conditions, self.film, self.field)
+
     @abstractmethod
     def _holds(self, position: Any) -> bool:
         """Whether the field was solved at a position."""
@@ -190,6 +197,8 @@ class Solution(ABC, Generic[_Conditions, _Film, _Field]):
             "film_formulas": {name: vars(thickness) for name, thickness in self.formulas().items()},
             "seconds": {"film": self.film_seconds, "field": self.field_seconds},
         }
+        if self.discharge is not None:
+            summary["discharge"] = self.discharge.summary()
         if self.rough:
             summary["roughness"] = {"surfaces": list(self.rough)} | self._own_roughness()
         return {key: plain(value) for key, value in summary.items()}

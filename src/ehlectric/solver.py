@@ -11,6 +11,7 @@ from typing import Any, Generic, TypeVar
 import numpy as np
 from scipy.interpolate import RegularGridInterpolator
 
+from ehlectric.assessment import discharge_findings
 from ehlectric.case import Case
 from ehlectric.conditions import remarks, resolve
 from ehlectric.errors import ConvergenceError, InputError
@@ -157,6 +158,7 @@ def solve_line(
             *refined.remarks,
             *film_findings(case, film),
             *line_findings(case, film, field),
+            *discharge_findings(case, film),
             *field_findings(field.max_strength),
         ),
         film_solver=solvers.name,
@@ -195,6 +197,7 @@ def _solve_point(case: Case, progress: Progress | None, *, demand: bool, beside_
             *refined.remarks,
             *film_findings(case, film),
             *point_findings(case, film, field),
+            *discharge_findings(case, film),
             *field_findings(field.max_strength),
         ),
         film_solver=OWN.name,

@@ -1,4 +1,4 @@
-"""Areas of parts of a map over (x, y), finer than its cells: above a level, and inside a zone."""
+"""Parts of a line or a map, finer than its cells: above a level, and inside a zone."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import label
 
 from ehlectric.typing import Array, Mask
 
@@ -18,6 +19,67 @@ SAMPLES = 8
 
 # Whether points (x, y) [m] are inside.
 Zone = Callable[[Array, Array], NDArray[Any]]
+
+
+def part_widths(x: Array, start: float, stop: float) -> Array:
+    """Width of each node's part of a line that is between two places.
+
+    Parameters
+    ----------
+    x : ndarray, shape (nx,)
+        Nodes, increasing [m].
+    start, stop : float
+        Places; beyond the nodes there is nothing [m].
+
+    Returns
+    -------
+    ndarray, shape (nx,)
+        Times nodal values they give the integral of the linear interpolant from ``start`` to ``stop``.
+
+    Examples
+    --------
+    >>> part_widths(np.array([0.0, 1.0, 2.0]), 0.5, np.inf)
+    array([0.125, 0.875, 0.5  ])
+    """
+    dx = np.diff(x)
+    left, right = np.clip(x[:-1], start, stop), np.clip(x[1:], start, stop)
+    to_right = (right - left) * (0.5 * (left + right) - x[:-1]) / dx
+    widths = np.append(right - left - to_right, 0.0)
+    widths[1:] += to_right
+    return widths
+
+
+def interval_above(x: Array, values: Array, level: float) -> tuple[float, float]:
+    """Ends of the contiguous interval around the maximum where values are at least a level.
+
+    Parameters
+    ----------
+    x, values : ndarray, shape (nx,)
+        Positions [m] and values, linear in between.
+    level : float
+        Not above the maximum.
+
+    Returns
+    -------
+    start, stop : float
+        Interpolated between nodes [m].
+
+    Examples
+    --------
+    >>> interval_above(np.array([0.0, 1.0, 2.0]), np.array([0.0, 1.0, 0.0]), 0.5)
+    (0.5, 1.5)
+    """
+    peak = int(np.argmax(values))
+    below = np.flatnonzero(values < level)
+    left, right = below[below < peak], below[below > peak]
+
+    def crossing(outside: int, inside: int) -> float:
+        share = (level - values[outside]) / (values[inside] - values[outside])
+        return float(x[outside] + share * (x[inside] - x[outside]))
+
+    start = crossing(left[-1], left[-1] + 1) if left.size else float(x[0])
+    stop = crossing(right[0], right[0] - 1) if right.size else float(x[-1])
+    return start, stop
 
 
 def node_areas(x: Array, y: Array) -> Array:
@@ -117,6 +179,35 @@ def area_above(x: Array, y: Array, values: Array, level: float) -> float:
     middle = np.mean(ends, axis=0)
     parts = [_positive_part(ends[k - 1], ends[k], middle) for k in range(4)]
     return float(np.sum(0.25 * cells * np.sum(parts, axis=0)))
+
+
+def lobe_above(x: Array, y: Array, values: Array, level: float) -> float:
+    """Area of the one connected part around the maximum of a map where it is at least a level.
+
+    Parameters
+    ----------
+    x, y, values, level
+        As of ``area_above``.
+
+    Returns
+    -------
+    float
+        Area [m^2].
+
+    Examples
+    --------
+    Of two cones with a unit base, the higher one above half of its height:
+
+    >>> x = np.linspace(-1.0, 1.0, 201)
+    >>> lower = 0.9 - np.hypot(x[:, np.newaxis], x)
+    >>> cones = np.concatenate([lower + 0.1, lower])
+    >>> wide = np.concatenate([x, x + 2.01])
+    >>> round(lobe_above(wide, x, cones, 0.5) / np.pi, 4)
+    0.25
+    """
+    parts, _ = label(values >= level, structure=np.ones((3, 3)))
+    others = (parts > 0) & (parts != parts.flat[np.argmax(values)])
+    return area_above(x, y, np.where(others, 2.0 * level - values, values), level)
 
 
 def _positive_part(a: Array, b: Array, c: Array) -> Array:

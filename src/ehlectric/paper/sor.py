@@ -344,7 +344,7 @@ def field_from(problem: FieldProblem, equations: Stencil, potential: Array) -> F
         problem,
         v[:, :-1] - problem.potential_1,
         capacitance=epsilon_0 * _energy(equations, potential) / voltage**2,
-        capacitance_by_charge=epsilon_0 * float(np.trapezoid(charge, problem.x)) / abs(voltage),
+        capacitance_density=epsilon_0 * charge / abs(voltage),
     )
     return replace(
         field,
