@@ -15,6 +15,7 @@ from ehlectric.discharge import (
     CURRENT_DENSITY_LIMITS,
     LARGEST_PIT,
     MEAN_PIT,
+    SOURCES,
     TUNNELLING,
     WeakestLink,
     breakdown_voltage,
@@ -116,8 +117,9 @@ class Assessment:
     corner_frequency: float | None
 
     def summary(self) -> dict[str, Any]:
-        """All of it, as ``discharge`` in summary.json."""
-        return asdict(self)
+        """All of it, as ``discharge`` in summary.json, with the sources of what is not computed."""
+        found = asdict(self)
+        return found | {"sources": {key: text for key, text in SOURCES.items() if found[key] is not None}}
 
 
 def assess(

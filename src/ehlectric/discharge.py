@@ -12,17 +12,31 @@ from scipy.constants import epsilon_0
 
 from ehlectric.typing import Array
 
-# Lateral size of pits from discharges in a bearing, the largest and the mean [m]: Plazenet et al., ref. 46 of
-# Morris et al. (2022), doi:10.3390/lubricants10050087.
+# Lateral size of pits from discharges in bearings, the largest and the mean [m].
 LARGEST_PIT, MEAN_PIT = 4.0e-6, 1.7e-6
 
 # Film thickness below which electrons tunnel through it in numbers [m].
 TUNNELLING = 2e-9
 
-# Apparent current density above which bearings suffer, peak current over Hertz area [A/m^2]: 0.1 to 0.3
-# A/mm^2, Lubricants 12 (2024) 148, doi:10.3390/lubricants12050148; 0.8 A/mm^2, Busse et al. (1997), as quoted
-# by Morris et al. (2022), who print it in A/m^2.
+# Apparent current density above which bearings suffer, peak current over Hertz area [A/m^2].
 CURRENT_DENSITY_LIMITS = (1e5, 3e5, 8e5)
+
+_PITS = "Plazenet et al., as quoted by Morris et al. (2022), doi:10.3390/lubricants10050087"
+# Where the numbers come from that neither the case nor the solution gives, by the key they stand under.
+SOURCES = {
+    "zone_size": "assumption: where the strength is used to 95 % of the most",
+    "zone_over_largest_pit": f"4 um: {_PITS}",
+    "zone_over_mean_pit": f"1.7 um: {_PITS}",
+    "capacitance_outlet_fingers": "assumption: oil from wall to wall beside gas; its mass is conserved",
+    "capacitance_outlet_layers": "assumption: oil on the walls and gas between; its mass is conserved",
+    "pit_volume": "assumption: the energy at the voltage of the case, efficiency and melting energy as given",
+    "pit_diameter": "assumption: a hemisphere",
+    "current_density_limits": (
+        "0.1 to 0.3 A/mm^2: Lubricants 12 (2024) 148, doi:10.3390/lubricants12050148; 0.8 A/mm^2: Busse et "
+        "al. (1997), as quoted by Morris et al. (2022), who print it in A/m^2"
+    ),
+    "relaxation_time": "assumption: permittivity at ambient pressure, conductivity as given, at any pressure",
+}
 
 # The zone that breaks first is where the strength is used to at least this part of the most.
 BREAKING = 0.95

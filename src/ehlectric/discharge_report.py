@@ -43,7 +43,7 @@ def _add_zone(table: Table, found: Assessment, half_width: float) -> None:
     places = position if isinstance(position, tuple) else (position,)
     at = ", ".join(f"{place / half_width:.3g}" for place in places)
     table.add_row("zone that breaks first, at", at, "x/b, y/b" if len(places) > 1 else "x/b")
-    pits = f"pits have {MEAN_PIT * 1e6:g}, at most {LARGEST_PIT * 1e6:g}"
+    pits = f"pits {MEAN_PIT * 1e6:g}, at most {LARGEST_PIT * 1e6:g}"
     table.add_row("  across", f"{found.zone_size * 1e6:.4g}", f"µm, {pits}")
 
 
