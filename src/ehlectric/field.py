@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.constants import epsilon_0
 
+from ehlectric.gap_field import GapField
 from ehlectric.poisson import (
     Across,
     BandedSolver,
@@ -22,7 +23,7 @@ from ehlectric.zones import HIGH_FIELD, interval_above, part_widths
 
 
 @dataclass(frozen=True)
-class Field:
+class Field(GapField):
     """Potential and field strength between the walls, SI units.
 
     Attributes
@@ -62,38 +63,9 @@ class Field:
     capacitance_density: Array
 
     @property
-    def thin_gap_density(self) -> Array:
-        """eps0 eps/h [F/m^2], shape (nx,)."""
-        density: Array = (
-            epsilon_0 * mean_permittivity(self.permittivity) * self.thin_gap_strength / self.voltage
-        )
-        return density
-
-    @property
-    def column_strength(self) -> Array:
-        """Largest abs(E) of each column, on either wall or mid-film [V/m], shape (nx,)."""
-        strength: Array = np.max(self._sections, axis=0)
-        return strength
-
-    @property
-    def max_strength(self) -> float:
-        """Largest abs(E) on either wall or mid-film [V/m]."""
-        return float(np.max(self._sections))
-
-    @property
     def max_strength_position(self) -> float:
         """Position of the largest abs(E) [m]."""
         return float(self.x[np.argmax(self.column_strength)])
-
-    @property
-    def max_strength_wall(self) -> str:
-        """Where across the film the largest abs(E) is: "surface 1", "mid-film" or "surface 2"."""
-        section = int(np.argmax(np.max(self._sections, axis=1)))
-        return ("surface 1", "mid-film", "surface 2")[section]
-
-    @property
-    def _sections(self) -> Array:
-        return np.stack([self.strength[:, 0], self.middle_strength, self.strength[:, -1]])
 
     @property
     def inner(self) -> Mask:

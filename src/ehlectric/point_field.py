@@ -8,6 +8,7 @@ import numpy as np
 from scipy.constants import epsilon_0
 
 from ehlectric.errors import InputError
+from ehlectric.gap_field import GapField
 from ehlectric.poisson import Across, mean_permittivity
 from ehlectric.poisson_3d import PointFieldProblem, PotentialSolver, by_node
 from ehlectric.threads import one_blas_thread
@@ -16,7 +17,7 @@ from ehlectric.zones import HIGH_FIELD, Zone, area_above, node_areas, zone_areas
 
 
 @dataclass(frozen=True)
-class PointField:
+class PointField(GapField):
     """Potential and field strength between the walls in three dimensions, SI units.
 
     Attributes
@@ -73,39 +74,10 @@ class PointField:
         return self.strength[:, :, -1]
 
     @property
-    def thin_gap_density(self) -> Array:
-        """eps0 eps/h [F/m^2], shape (nx, ny)."""
-        density: Array = (
-            epsilon_0 * mean_permittivity(self.permittivity) * self.thin_gap_strength / self.voltage
-        )
-        return density
-
-    @property
-    def column_strength(self) -> Array:
-        """Largest abs(E) of each column, on either wall or mid-film [V/m], shape (nx, ny)."""
-        strength: Array = np.max(self._sections, axis=0)
-        return strength
-
-    @property
-    def max_strength(self) -> float:
-        """Largest abs(E) on either wall or mid-film [V/m]."""
-        return float(np.max(self._sections))
-
-    @property
     def max_strength_position(self) -> tuple[float, float]:
         """Position x, y of the largest abs(E) [m]."""
         _, i, j = np.unravel_index(np.argmax(self._sections), self._sections.shape)
         return float(self.x[i]), float(self.y[j])
-
-    @property
-    def max_strength_wall(self) -> str:
-        """Where across the film the largest abs(E) is: "surface 1", "mid-film" or "surface 2"."""
-        section = int(np.argmax(np.max(self._sections, axis=(1, 2))))
-        return ("surface 1", "mid-film", "surface 2")[section]
-
-    @property
-    def _sections(self) -> Array:
-        return np.stack([self.surface_1_strength, self.middle_strength, self.surface_2_strength])
 
     @property
     def inner(self) -> Mask:
