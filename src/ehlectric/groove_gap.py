@@ -259,7 +259,8 @@ def outside_capacitance(
         angles, weights = _across(race, first, last, scale)
         radius = _race_radius(race, contact.offset, angles)
         both = [
-            _along(race, contact.offset, angles, start / radius, obliquity, contact.opening) for start in starts
+            _along(race, contact.offset, angles, start / radius, obliquity, contact.opening)
+            for start in starts
         ]
         return float(np.vdot(weights, both[0] + both[1]))
 
@@ -297,9 +298,10 @@ def match_film(
     weights = thickness**-2.0 / np.sum(thickness**-2.0)
     offset = 0.0
     # The gap rises with the offset as the cosine of an angle that is small over the film's domain.
-    for _ in range(6):
+    for _ in range(12):
         missing = thickness - opened - groove_gap(race, offset, x, y)
         offset += float(weights @ missing)
+    missing = thickness - opened - groove_gap(race, offset, x, y)
     return LoadedContact(dry, modulus, offset, float(np.max(np.abs(missing) / thickness)))
 
 
@@ -357,9 +359,7 @@ def _across(race: Raceway, first: float, last: float, scale: float) -> tuple[Arr
     return race.contact_angle + u, weights
 
 
-def _along(
-    race: Raceway, gap: float, psi: Array, start: Array, obliquity: float, opening: Opening
-) -> Array:
+def _along(race: Raceway, gap: float, psi: Array, start: Array, obliquity: float, opening: Opening) -> Array:
     """Integral of the charge density over one side of the race, from an azimuth on, by angle psi [m]."""
     radius, y = _race_radius(race, gap, psi), race.groove_radius * (psi - race.contact_angle)
     middle = _distances(race, gap, psi, np.zeros_like(psi))[0] + opening(np.zeros_like(y), y)

@@ -218,9 +218,8 @@ def point_deflection(x: ArrayLike, y: ArrayLike, contact: DryContact, modulus: f
     with np.errstate(divide="ignore", invalid="ignore"):
         w = np.where(p > 0.0, 0.5 * (p + root), 2.0 * c / (root - p))
     w = np.maximum(0.0, w)
-    integral = (
-        2.0 * elliprf(w, a2 + w, b2 + w)
-        - 2.0 / 3.0 * (x2 * elliprd(w, a2 + w, b2 + w) + y2 * elliprd(w, b2 + w, a2 + w))
+    integral = 2.0 * elliprf(w, a2 + w, b2 + w) - 2.0 / 3.0 * (
+        x2 * elliprd(w, a2 + w, b2 + w) + y2 * elliprd(w, b2 + w, a2 + w)
     )
     area = contact.semi_axis_x * contact.semi_axis_y
     deflection: Array = contact.max_pressure * area / modulus * integral

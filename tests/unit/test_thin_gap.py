@@ -39,7 +39,10 @@ def test_stretched_nodes(scale, ends):
     """The integrals of 1/(s^2 + x^2) and of its root are atan(x/s)/s and asinh(x/s)."""
     x, weights = stretched(*ends, scale, 100)
     assert np.sum(weights) == pytest.approx(ends[1] - ends[0], rel=1e-12, abs=0.0)
-    for power, exact in ((1.0, np.arctan(np.divide(ends, scale)) / scale), (0.5, np.arcsinh(np.divide(ends, scale)))):
+    for power, exact in (
+        (1.0, np.arctan(np.divide(ends, scale)) / scale),
+        (0.5, np.arcsinh(np.divide(ends, scale))),
+    ):
         found = np.sum(weights / (scale**2 + x**2) ** power)
         # Of the difference of two angles some digits are lost.
         lost = 1e-15 * np.max(np.abs(exact)) / abs(exact[1] - exact[0])
