@@ -16,7 +16,7 @@ only grazes the ball, and the tangent planes part by 90 degrees.
 
 What is beyond is not in it: field lines from the lands beside the groove, from the race before and behind
 the ball, which it shares with the next one, and those to cage and shields. Over an endless plane that would
-be 29 % of the whole at h0/r = 1e-3; a groove closes around the ball, and leaves less.
+be 30 % of the whole at h0/r = 1e-3; a groove closes around the ball, and leaves less.
 """
 
 from __future__ import annotations
@@ -34,6 +34,9 @@ from ehlectric.typing import Array
 
 # Nodes along rolling and across the groove; tests hold the integral they give to 1e-8.
 _ALONG, _ACROSS = 40, 64
+
+# In each of the parts around a film, where the gap is less steep and the deflection takes most of the time.
+_ALONG_PART, _ACROSS_PART = 24, 32
 
 # A half of the ball faces the race.
 _HALF = 0.5 * np.pi
@@ -208,14 +211,15 @@ def groove_capacitance(
 
     >>> race = Raceway.of(11.906e-3, 60e-3, 0.52, 0.2, outer=False)
     >>> whole = groove_capacitance(race, 5e-6, 2.4)
-    >>> round(whole * 1e12, 1), round(1.0 - groove_capacitance(race, 5e-6, 2.4, obliquity=np.pi / 4) / whole, 2)
+    >>> middle = groove_capacitance(race, 5e-6, 2.4, obliquity=np.pi / 4)
+    >>> round(whole * 1e12, 1), round(1.0 - middle / whole, 2)
     (15.3, 0.02)
     """
     steepness = abs(_offset_centre(race, gap)) * race.groove_radius / race.ball_radius
     # Where the gap is twice that at the contact.
     scale = np.sqrt(2.0 * gap / max(steepness, 2.0 * gap))
-    angles, weights = _across(race, -np.inf, np.inf, scale)
-    along = _along(race, gap, angles, np.zeros(_ACROSS), obliquity, _closed)
+    angles, weights = _across(race, -np.inf, np.inf, scale, _ACROSS)
+    along = _along(race, gap, angles, np.zeros(_ACROSS), obliquity, _closed, _ALONG)
     return float(2.0 * epsilon_0 * relative_permittivity * np.vdot(weights, along))
 
 
@@ -230,8 +234,10 @@ def outside_capacitance(
     """Capacitance between a loaded ball and its raceway outside the domain of the solved film.
 
     The gap is that of rigid bodies ``contact.offset`` apart, opened by the deflection under the Hertz
-    pressure, exact for half-spaces. Off the Hertz ellipse the film's pressure differs from Hertz's by a
-    load that adds up to nothing, and ``match_film`` has taken what is left at the edge of the domain.
+    pressure, exact for half-spaces. The film's pressure differs from Hertz's by a load that adds up to
+    nothing, of which little is felt around the ellipse, and ``match_film`` takes what is left at the edge of
+    the domain. The whole contact of ``examples/ball_bearing.toml``, inside and outside, changes by 0.1 %
+    when the domain is cut from 1.75 to 1.4 semi-axes across, which moves 5 pF of 76 from one to the other.
 
     Parameters
     ----------
@@ -241,7 +247,7 @@ def outside_capacitance(
         As ``match_film`` gives it.
     domain : tuple of float
         Inlet, outlet and side of the film's domain [m], inlet <= x <= outlet and abs(y) <= side; the inlet
-        is negative.
+        is negative, and the Hertz ellipse within.
     relative_permittivity : float
         Of what fills the gap.
     obliquity : float
@@ -255,17 +261,14 @@ def outside_capacitance(
     inlet, outlet, side = domain
     edge = side / race.groove_radius
 
-    def part(first: float, last: float, scale: float, starts: tuple[float, float]) -> float:
-        angles, weights = _across(race, first, last, scale)
-        radius = _race_radius(race, contact.offset, angles)
-        both = [
-            _along(race, contact.offset, angles, start / radius, obliquity, contact.opening)
-            for start in starts
-        ]
-        return float(np.vdot(weights, both[0] + both[1]))
+    def part(first: float, last: float, scale: float, start: float) -> float:
+        angles, weights = _across(race, first, last, scale, _ACROSS_PART)
+        starts = start / _race_radius(race, contact.offset, angles)
+        along = _along(race, contact.offset, angles, starts, obliquity, contact.opening, _ALONG_PART)
+        return float(np.vdot(weights, along))
 
-    sides = part(-np.inf, -edge, 0.5 * edge, (0.0, 0.0)) + part(edge, np.inf, 0.5 * edge, (0.0, 0.0))
-    tails = part(-edge, edge, edge, (-inlet, outlet))
+    sides = 2.0 * (part(-np.inf, -edge, 0.5 * edge, 0.0) + part(edge, np.inf, 0.5 * edge, 0.0))
+    tails = part(-edge, edge, edge, -inlet) + part(-edge, edge, edge, outlet)
     return epsilon_0 * relative_permittivity * (sides + tails)
 
 
@@ -317,7 +320,8 @@ def _offset_centre(race: Raceway, gap: float) -> float:
 def _race_radius(race: Raceway, gap: float, psi: Array) -> Array:
     # R, from the axis of the bearing to the race.
     inwards = race.groove_radius * np.cos(psi) - _offset_centre(race, gap) * np.cos(race.contact_angle)
-    return race.pitch_radius + (inwards if race.outer else -inwards)
+    radius: Array = race.pitch_radius + (inwards if race.outer else -inwards)
+    return radius
 
 
 def _distances(race: Raceway, gap: float, psi: Array, phi: Array) -> tuple[Array, Array]:
@@ -352,14 +356,22 @@ def _reach(race: Raceway, gap: float, psi: Array, obliquity: float) -> Array:
     return reach
 
 
-def _across(race: Raceway, first: float, last: float, scale: float) -> tuple[Array, Array]:
+def _across(race: Raceway, first: float, last: float, scale: float, nodes: int) -> tuple[Array, Array]:
     """Angles psi and weights between two angles from the contact, as far as the groove goes."""
     ends = np.clip([first, last], *(np.array([-1.0, 1.0]) * race.shoulder_angle - race.contact_angle))
-    u, weights = stretched(ends[0], ends[1], scale, _ACROSS)
+    u, weights = stretched(ends[0], ends[1], scale, nodes)
     return race.contact_angle + u, weights
 
 
-def _along(race: Raceway, gap: float, psi: Array, start: Array, obliquity: float, opening: Opening) -> Array:
+def _along(
+    race: Raceway,
+    gap: float,
+    psi: Array,
+    start: Array,
+    obliquity: float,
+    opening: Opening,
+    nodes: int,
+) -> Array:
     """Integral of the charge density over one side of the race, from an azimuth on, by angle psi [m]."""
     radius, y = _race_radius(race, gap, psi), race.groove_radius * (psi - race.contact_angle)
     middle = _distances(race, gap, psi, np.zeros_like(psi))[0] + opening(np.zeros_like(y), y)
@@ -367,10 +379,9 @@ def _along(race: Raceway, gap: float, psi: Array, start: Array, obliquity: float
     scale = np.sqrt(2.0 * race.ball_radius * np.abs(middle) / (radius * race.pitch_radius))
     scale = np.where(start > 0.0, start, scale)
     end = _reach(race, gap, psi, obliquity)
-    phi, weights = stretched(np.minimum(start, end), end, scale, _ALONG)
+    phi, weights = stretched(np.minimum(start, end), end, scale, nodes)
     psi, radius, y = psi[:, np.newaxis], radius[:, np.newaxis], y[:, np.newaxis]
     distance, tilt = _distances(race, gap, psi, phi)
     curvature = np.cos(psi) / radius * (1.0 if race.outer else -1.0) + 1.0 / race.groove_radius
     density = charge_density(distance + opening(radius * phi, y), tilt, 2.0 / race.ball_radius, curvature)
-    total: Array = race.groove_radius * radius[:, 0] * np.sum(density * weights, axis=1)
-    return total
+    return np.asarray(race.groove_radius * radius[:, 0] * np.sum(density * weights, axis=1), dtype=float)

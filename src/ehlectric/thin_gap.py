@@ -50,8 +50,8 @@ def charge_density(gap: ArrayLike, tilt: ArrayLike, far: ArrayLike, near: ArrayL
     >>> abs(float(charge_density(1e-4, 0.0, 2 / 10e-3, 2 / 10.1e-3)) / exact - 1.0) < 1e-4
     True
     """
-    thin = np.sinc(np.asarray(tilt) / np.pi) / gap
-    density: Array = thin - np.asarray(far) / 6.0 - np.asarray(near) / 3.0
+    delta, beta, outer, own = (np.asarray(given, dtype=float) for given in (gap, tilt, far, near))
+    density: Array = np.sinc(beta / np.pi) / delta - outer / 6.0 - own / 3.0
     return density
 
 

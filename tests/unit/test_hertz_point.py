@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.integrate import quad
 from scipy.special import ellipe, ellipk
 
 from ehlectric import hertz, hertz_point
-from ehlectric.hertz_point import axis_ratio, dry_contact, point_load, point_pressure
+from ehlectric.hertz_point import axis_ratio, dry_contact, point_deflection, point_load, point_pressure
 
 E = 226e9
 ratios = st.floats(1e-3, 1e3)
@@ -130,3 +131,44 @@ def test_pressure_carries_the_load():
     p = point_pressure(x[:, None], y, 3.0)
     assert np.trapezoid(np.trapezoid(p, y), x) == pytest.approx(2.0 * np.pi, rel=1e-4, abs=0.0)
     assert hertz_point.point_pressure(1.0, 1.0, 3.0) == 0.0
+
+
+def test_deflection_around_the_ellipse():
+    """(2/(pi E')) int p/r outside the ellipse by quadrature over it; radii sin(t) take the root's end out."""
+    contact = dry_contact(600.0, 5e-3, 0.15, E)
+    b, a = contact.semi_axis_x, contact.semi_axis_y
+
+    def lifted(x, y):
+        def inner(angle):
+            def part(t):
+                rho = np.sin(t)
+                away = np.hypot(x - b * rho * np.cos(angle), y - a * rho * np.sin(angle))
+                return np.cos(t) ** 2 * rho / away
+
+            return quad(part, 0.0, 0.5 * np.pi, epsrel=1e-8)[0]
+
+        angles = 2.0 * np.pi * (np.arange(400) + 0.5) / 400
+        return (
+            2.0
+            / (np.pi * E)
+            * contact.max_pressure
+            * a
+            * b
+            * 2.0
+            * np.pi
+            * np.mean([inner(t) for t in angles])
+        )
+
+    for x, y in ((1.5 * b, 0.0), (0.0, 1.3 * a), (-4.0 * b, 1.6 * a)):
+        assert point_deflection(x, y, contact, E) == pytest.approx(lifted(x, y), rel=1e-6, abs=0.0)
+
+
+def test_deflection_has_no_step_at_the_rim():
+    """Inside, deflection and parabolas add up to the approach; just outside the gap grows from nothing."""
+    contact = dry_contact(600.0, 5e-3, 0.15, E)
+    b, a = contact.semi_axis_x, contact.semi_axis_y
+    for angle in (0.0, 0.3, 1.2, 0.5 * np.pi):
+        for part, below in ((0.0, 1e-12), (0.7, 1e-12), (1.0, 1e-12), (1.0 + 1e-6, 1e-6)):
+            x, y = part * b * np.cos(angle), part * a * np.sin(angle)
+            gap = point_deflection(x, y, contact, E) + x**2 / 0.01 + y**2 / 0.3 - contact.approach
+            assert abs(gap) < below * contact.approach

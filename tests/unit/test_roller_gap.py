@@ -104,7 +104,7 @@ def tails_by_quadrature(race, b, x0, film):
 
 @pytest.mark.parametrize("race", RACES)
 def test_tails_of_a_loaded_contact(race):
-    """The thin gap of the heights up to 0.2 r, where the next order adds less than 1 %, and the rest rigid."""
+    """The thin gap of the heights up to 0.2 r, where the next order adds less than 1 %."""
     b, film = 1.5e-4, 2.1e-5
     for x0, found in zip((6e-4, 4e-4), roller_tails(race, b, (-6e-4, 4e-4), (film, film)), strict=True):
         near = found - rest(race, b, x0, film)
