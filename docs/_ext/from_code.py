@@ -269,7 +269,8 @@ def _capacitances() -> str:
         result = solve(case, require_convergence=True)
         found = result.discharge
         steady = solve(case.replace({"lubricant.permittivity_law": "constant"})).discharge
-        assert found is not None and steady is not None
+        assert found is not None
+        assert steady is not None
         filled = (found.capacitance_outlet_fingers, found.capacitance_outlet_layers)
         poorer = [found.capacitance - found.capacitance_outlet_full + outlet for outlet in filled]
         ratios = [c / found.capacitance_plate for c in (found.capacitance, *poorer)]

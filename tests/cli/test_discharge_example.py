@@ -35,7 +35,8 @@ def test_templates_show_a_discharge_that_can_be_taken(ehlectric, tmp_path, geome
     path = tmp_path / "new.toml"
     before, start, after = path.read_text().partition("# [discharge]")
     table, stop, rest = after.partition("\n[grid]")
-    assert start and stop
+    assert start
+    assert stop
     path.write_text(before + start[2:] + table.replace("\n# ", "\n") + stop + rest)
     given = Case.from_toml(path).discharge
     assert (given.dielectric_strength, given.pit.efficiency) == (15e6, 0.183)
