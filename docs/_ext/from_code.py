@@ -276,7 +276,13 @@ def _capacitances() -> str:
         ratios = [c / found.capacitance_plate for c in (found.capacitance, *poorer)]
         ratios += [steady.capacitance_ratio, found.capacitance_ratio / steady.capacitance_ratio]
         ratios.append(found.capacitance_hertz / _uniform_film(result))
-        rows.append([contact.name, f"{found.capacitance * 1e9:.2f}", *(f"{r:.3f}" for r in ratios)])
+        rows.append(
+            [
+                contact.name.replace(" ", "\N{NO-BREAK SPACE}"),
+                f"{found.capacitance * 1e9:.2f}",
+                *(f"{r:.3f}" for r in ratios),
+            ]
+        )
     head = ["contact", "C [nF/m]", "C over plates", "fingers", "layers", "ε_r everywhere"]
     head += ["pressure's part", "Hertz zone over uniform film"]
     return _table(head, rows)
