@@ -1,4 +1,4 @@
-"""Tables written from the code before every build: keys of a case, commands, variables of a result.
+"""Tables written from the code before every build: keys of a case, commands, variables, the paper's contacts.
 
 What the code knows (units, bounds, defaults, options) is read from it. What a key is for stands in
 ``keys.toml``; a key without a line there, or a line without a key, ends the build. So do a key of
@@ -13,15 +13,28 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any, Literal, get_args, get_origin
 
+import numpy as np
 import typer
+from scipy.constants import epsilon_0
 from sphinx.application import Sphinx
 from sphinx.errors import ExtensionError
 
 import ehlectric
-from ehlectric import Case, contact_inputs, inputs, lubricant, roughness_inputs, solve, validation
+from ehlectric import (
+    Case,
+    contact_inputs,
+    discharge_inputs,
+    inputs,
+    lubricant,
+    roughness_inputs,
+    solve,
+    validation,
+)
 from ehlectric.cli import app as commands
+from ehlectric.conditions import density_law, permittivity_law
+from ehlectric.paper.contacts import CONTACTS
 from ehlectric.paper.reproduce import reproduce
-from ehlectric.quantity import Count, Quantity
+from ehlectric.quantity import Count, Quantities, Quantity
 
 _TABLES = {
     "contact": contact_inputs.Contact,
@@ -29,6 +42,10 @@ _TABLES = {
     "lubricant": inputs.Lubricant,
     "roughness": roughness_inputs.Roughness,
     "electric": inputs.Electric,
+    "discharge": discharge_inputs.Discharge,
+    "discharge.strength_table": discharge_inputs.StrengthTable,
+    "discharge.weibull": discharge_inputs.Weibull,
+    "discharge.pit": discharge_inputs.Pit,
     "grid": inputs.Grid,
     "solver": inputs.Solver,
 }
@@ -40,6 +57,10 @@ _LAWS = {
 }
 # What a small contact of each kind has of its own, and units as they are printed.
 _CONTACTS = {"line": {"reduced_radius": 0.01}, "point": {"radius_x": 0.01, "radius_y": 0.01}}
+# A discharge whose summary has every source, and the length that only a line has.
+_EVERYTHING = {"conductivity": 1e-12, "external_capacitance": 1e-9, "peak_current": 0.1}
+_EVERYTHING |= {"pit": {"efficiency": 0.1, "melting_energy": 1e10}}
+_LENGTHS = {"line": {"length": 0.01}, "point": {}}
 _UNITS = {"1": "\N{EN DASH}", "F/m^2": "F/m\N{SUPERSCRIPT TWO}"}
 
 
@@ -69,9 +90,9 @@ def _bounds(given: Quantity | Count) -> str:
 
 
 def _find(annotation: Any, metadata: Iterable[Any]) -> Any:
-    """The Quantity, Count, literal texts or table behind an annotation."""
+    """The Quantity, Quantities, Count, literal texts or table behind an annotation."""
     for item in metadata:
-        if isinstance(item, Quantity | Count):
+        if isinstance(item, Quantity | Quantities | Count):
             return item
     if get_origin(annotation) is Literal:
         return get_args(annotation)
@@ -84,14 +105,22 @@ def _find(annotation: Any, metadata: Iterable[Any]) -> Any:
     return None
 
 
+def _unit(written: str) -> str:
+    """A unit as it is printed: m**2 as m², N*s as N s."""
+    squared, cubed = "\N{SUPERSCRIPT TWO}", "\N{SUPERSCRIPT THREE}"
+    return written.replace("**2", squared).replace("**3", cubed).replace("*", " ")
+
+
 def _takes(name: str, found: Any, *, pair: bool) -> str:
     """What the key takes, with its unit, and why."""
     if name in _LAWS:
         return ", ".join(f'`"{law}"`' for law in _LAWS[name])
     if name == "generator":
         return ", ".join(f'`"{name}"`' for name in roughness_inputs.GENERATORS)
+    if isinstance(found, Quantities):
+        return f"a list of {found.least} or more, each {_takes(name, found.each, pair=False)}"
     if isinstance(found, Quantity | Count):
-        unit = f" {found.unit.replace('*', ' ')}" if isinstance(found, Quantity) and found.unit else ""
+        unit = f" {_unit(found.unit)}" if isinstance(found, Quantity) and found.unit else ""
         kind = "whole, " if isinstance(found, Count) else "two, each " if pair else ""
         return f"{kind}{_bounds(found)}{unit}: {found.reason}"
     if isinstance(found, tuple):
@@ -185,7 +214,7 @@ def _small(geometry: str) -> Any:
     rough = {"surface": 1, "generator": "sinusoid", "amplitude": 1e-9, "wavelength": 1e-4}
     grid = {"nodes": 401 if geometry == "line" else 65}
     case = {"contact": contact, "lubricant": {"base": "paper"}, "roughness": [rough], "grid": grid}
-    return solve(Case.from_dict(case))
+    return solve(Case.from_dict(case | {"discharge": _EVERYTHING | _LENGTHS[geometry]}))
 
 
 def _variables(result: Any) -> str:
@@ -226,9 +255,49 @@ def _paper(app: Sphinx) -> None:
     made = reproduce(page.parent)
     if not made.converged:
         raise ExtensionError("a film of the paper's study did not converge")
-    for name, table in made.tables.items():
-        text = "```{rst-class} paper\n```\n\n" + _table(list(table.heads), table.shown)
-        (folder / f"paper_{name}.md").write_text(text, encoding="utf-8")
+    tables = {f"paper_{name}": _table(list(table.heads), table.shown) for name, table in made.tables.items()}
+    for name, text in (tables | {"capacitances": _capacitances()}).items():
+        page = folder / f"{name}.md"
+        page.write_text("```{rst-class} paper\n```\n\n" + text, encoding="utf-8")
+
+
+def _capacitances() -> str:
+    """Capacitance of the paper's eight contacts over that of plates, and what it is made of."""
+    rows = []
+    for contact in CONTACTS:
+        case = contact.case(discharge={})
+        result = solve(case, require_convergence=True)
+        found = result.discharge
+        steady = solve(case.replace({"lubricant.permittivity_law": "constant"})).discharge
+        assert found is not None
+        assert steady is not None
+        filled = (found.capacitance_outlet_fingers, found.capacitance_outlet_layers)
+        poorer = [found.capacitance - found.capacitance_outlet_full + outlet for outlet in filled]
+        ratios = [c / found.capacitance_plate for c in (found.capacitance, *poorer)]
+        ratios += [steady.capacitance_ratio, found.capacitance_ratio / steady.capacitance_ratio]
+        ratios.append(found.capacitance_hertz / _uniform_film(result))
+        rows.append(
+            [
+                contact.name.replace(" ", "\N{NO-BREAK SPACE}"),
+                f"{found.capacitance * 1e9:.2f}",
+                *(f"{r:.3f}" for r in ratios),
+            ]
+        )
+    head = ["contact", "C [nF/m]", "C over plates", "fingers", "layers", "ε_r everywhere"]
+    head += ["pressure's part", "Hertz zone over uniform film"]
+    return _table(head, rows)
+
+
+def _uniform_film(result: Any) -> float:
+    """Capacitance of a film of h(0) under the Hertz pressure, over the Hertz zone [F/m].
+
+    By the midpoint rule over t, with X = cos(t) and p = p_h sin(t).
+    """
+    sines = np.sin(np.pi * (np.arange(1000) + 0.5) / 1000)
+    oil, b = result.case.lubricant, result.conditions.half_width
+    density, _ = density_law(oil)(result.conditions.max_pressure * sines)
+    width = np.pi * b * float(np.mean(permittivity_law(oil)(density) * sines))
+    return float(epsilon_0 * width / result.film.central_thickness)
 
 
 def _check_modules(app: Sphinx) -> None:

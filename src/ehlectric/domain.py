@@ -95,7 +95,7 @@ def contact_zones(semi_axis_x: float, semi_axis_y: float) -> dict[str, Zone]:
 
 
 def line_zone_areas(axes: Axes, half_width: float) -> dict[str, Array]:
-    """Width of each node's part of a line contact's zones: "hertz", |x| <= b, "inlet" and "outlet" [m]."""
+    """Width of each node's part of a line contact's zones [m]: "hertz", abs(x) <= b, "inlet" and "outlet"."""
     (x,) = axes
     return {
         "hertz": part_widths(x, -half_width, half_width),
