@@ -73,14 +73,6 @@ class PointField:
         return self.strength[:, :, -1]
 
     @property
-    def thin_gap_density(self) -> Array:
-        """eps0 eps/h [F/m^2], shape (nx, ny)."""
-        density: Array = (
-            epsilon_0 * mean_permittivity(self.permittivity) * self.thin_gap_strength / self.voltage
-        )
-        return density
-
-    @property
     def column_strength(self) -> Array:
         """Largest abs(E) of each column, on either wall or mid-film [V/m], shape (nx, ny)."""
         strength: Array = np.max(self._sections, axis=0)
