@@ -56,7 +56,7 @@ def test_small_probabilities_keep_their_digits():
 
 @pytest.mark.parametrize("shape", [2.5, 9.2, 17.6])
 def test_linear_field(shape):
-    """E = E0 x/L over 0 < x < L: the exponent at 1 V is 1/(m + 1); the trapezoidal rule is of second order."""
+    """E = E0 x/L over 0 < x < L: the exponent at 1 V is 1/(m + 1); the sum is of second order."""
     errors = []
     for cells in (64, 128, 256, 512):
         x = np.linspace(0.0, 1.0, cells + 1)
@@ -124,7 +124,7 @@ parts = st.lists(st.tuples(st.floats(1e5, 1e8), st.floats(1e-12, 1e-6)), min_siz
 
 @given(parts=parts, shape=st.floats(0.5, 200.0), more=st.floats(1.01, 100.0))
 def test_what_makes_a_breakdown_more_likely(parts, shape, more):
-    """A larger voltage, area and field; a smaller scale and reference area. Here by V0 or P at one voltage."""
+    """A larger voltage, area and field; a smaller scale and reference area."""
     strength, areas = np.transpose(parts)
     keys = {"shape": shape, "scale": 3e6, "reference_area": 1e-9}
     law = link(strength, areas, **keys)

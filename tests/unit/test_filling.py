@@ -1,5 +1,7 @@
 """Oil and gas behind the exit: conservation of mass, bounds of mixtures, and the capacitance of an outlet."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -26,7 +28,7 @@ def test_mixtures_are_between_gas_and_oil(permittivity, fraction):
     """Layers are the least of all arrangements, fingers the most (Wiener), and oil alone is more still."""
     rounding = 1.0 + 1e-12
     values = [1.0, *(filled(name, permittivity, fraction) for name in ("layers", "fingers", "full"))]
-    assert all(less <= rounding * more for less, more in zip(values, values[1:], strict=False))
+    assert all(less <= rounding * more for less, more in pairwise(values))
     assert values[-1] == permittivity
 
 
