@@ -107,7 +107,7 @@ def test_other_temperatures_are_refused(text):
 def test_lists_of_quantities():
     lengths = Quantities(LENGTH, least=2)
     assert lengths.parse(["1 mm", 2.0]) == (0.001, 2.0)
-    for given, message in (
+    for wrong, message in (
         ([1.0], r"got \[1\.0\], takes a list of 2 or more, each a number in m"),
         (1.0, r"got 1\.0, takes a list"),
         ("1 mm", r"got '1 mm', takes a list"),
@@ -115,4 +115,4 @@ def test_lists_of_quantities():
         ([1.0, None], r"got None \(it is not a number\)"),
     ):
         with pytest.raises(ValueError, match=message):
-            lengths.parse(given)
+            lengths.parse(wrong)
