@@ -73,7 +73,7 @@ def at_voltage(case, voltage, *, common=0.0):
 
 KINDS = [("line", law) for law in LAWS]
 KINDS += [("rough line", "table over pressure"), ("rough line", "weibull")]
-KINDS += [("point", "constant"), ("point", "weibull")]
+KINDS += [("point", "weibull")]
 KINDS += [
     pytest.param(kind, law, marks=pytest.mark.slow)
     for kind in ("rough line", "point")
@@ -110,7 +110,12 @@ def test_band_of_one_solve_is_that_of_solves_at_it(solved):
 
 @pytest.mark.parametrize(
     ("kind", "voltage", "common"),
-    [("line", -2.0, 1.0), ("line", 2.0, 500.0), ("line", -2.0, -70.0), ("point", -2.0, 500.0)],
+    [
+        ("line", -2.0, 1.0),
+        ("line", 2.0, 500.0),
+        ("line", -2.0, -70.0),
+        pytest.param("point", -2.0, 500.0, marks=pytest.mark.slow),
+    ],
 )
 def test_sign_and_common_potential_do_not_matter(solved, kind, voltage, common):
     given = LAWS["constant"] | {"external_capacitance": 1e-9}
@@ -220,15 +225,6 @@ def test_outlet_is_that_of_a_field_solved_anew(outlet):
     assert found.capacitance_outlet_layers < found.capacitance_outlet_fingers
     # Gas takes away a good part of it: no comparison of what is the same anyway.
     assert found.capacitance_outlet < 0.8 * found.capacitance_outlet_full
-
-
-def test_rough_walls_turn_the_field():
-    """The breakdown voltage of walls with a wave is not that of the thin gap, E h_min."""
-    steep = solve(line(LAWS["constant"], roughness=[WAVES | {"amplitude": "50 nm", "wavelength": "5 um"}],
-                       grid={"nodes": 3201}), beside_smooth=False)  # fmt: skip
-    thin = 15e6 * steep.film.minimum_thickness
-    assert steep.discharge.breakdown_voltage < 0.995 * thin
-    assert steep.discharge.breakdown_voltage == near(15e6 * 2.0 / steep.field.max_strength, 1e-12)
 
 
 def test_the_papers_solvers_agree():
