@@ -110,8 +110,8 @@ def stored_energy(capacitance: float, voltage: float) -> float:
 
     Examples
     --------
-    >>> stored_energy(1e-9, 20.0)
-    2e-07
+    >>> round(stored_energy(1e-9, 20.0) * 1e9, 9)
+    200.0
     """
     return 0.5 * capacitance * voltage**2
 
@@ -135,8 +135,8 @@ def melted_volume(energy: float, efficiency: float, melting_energy: float) -> fl
 
     Examples
     --------
-    >>> melted_volume(1e-6, 0.2, 1e10)
-    2e-17
+    >>> round(melted_volume(1e-6, 0.2, 1e10) * 1e18, 9)
+    20.0
     """
     return efficiency * energy / melting_energy
 
