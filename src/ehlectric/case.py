@@ -15,7 +15,7 @@ from typing import Annotated, Any, Self
 from pydantic import AfterValidator, BaseModel, model_validator
 
 from ehlectric.contact_inputs import CONTACT_ALTERNATIVES, ONLY, Alternatives, Contact
-from ehlectric.discharge_inputs import STRENGTHS, Discharge
+from ehlectric.discharge_inputs import STRENGTHS, TABLES, Discharge
 from ehlectric.errors import InputError, shown
 from ehlectric.inputs import POINT_GRID, POINT_GRID_KEYS, Electric, Grid, Lubricant, Solver
 from ehlectric.roughness_inputs import Roughness, check_geometry
@@ -210,7 +210,7 @@ def _displace(table: dict[str, Any], changes: Mapping[str, Any], geometry: objec
             *CONTACT_ALTERNATIVES.get(str(geometry), ()),
             (("slide_to_roll_ratio",), ("speed_1", "speed_2")),
         ),
-        "discharge": (STRENGTHS,),
+        "discharge": (STRENGTHS, TABLES),
     }
     for name, groups in alternatives.items():
         _displace_in(table.get(name, {}), _names_in(name, changes), groups)
