@@ -192,7 +192,7 @@ def results_table(results: SweepResults) -> Table:
     from ehlectric.report import plain_table
 
     counts = Counter(point.status for point in results.points)
-    table = plain_table(results.case.title)
+    table = plain_table("")
     for status in ("solved", "not converged", "failed"):
         table.add_row(
             status, str(counts[status]), f"of {len(results.points)} points" if status == "solved" else ""

@@ -95,10 +95,7 @@ class Sweep(Table):
             case dict(inner):
                 find_files(inner, folder)
         if isinstance(table.get("vary"), dict):
-            table["vary"] = {
-                key: _found(value, folder) if _names_files(key) else value
-                for key, value in _flattened(table["vary"]).items()
-            }
+            _locate(table["vary"], folder)
         return cls.from_dict(table)
 
     @classmethod
@@ -215,20 +212,19 @@ def _flattened(tables: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
             else {f"{prefix}{key}": value}
         )
         for name in inner.keys() & flat.keys():
-            raise InputError(f"vary.{name}: got it twice, takes it once")
+            raise ValueError(f"{name}: got it twice, takes it once")
         flat |= inner
     return flat
 
 
-def _names_files(key: str) -> bool:
-    names = key.split(".")
-    return names[0] == "roughness" and names[-1] == "file"
-
-
-def _found(values: Any, folder: Path) -> Any:
-    if not isinstance(values, list):
-        return values
-    return [str((folder / name).absolute()) if isinstance(name, str) else name for name in values]
+def _locate(tables: dict[str, Any], folder: Path, prefix: str = "") -> None:
+    """Files among the values lie relative to the sweep, wherever it is written to."""
+    for name, value in tables.items():
+        key = prefix + name
+        if isinstance(value, dict):
+            _locate(value, folder, f"{key}.")
+        elif isinstance(value, list) and key.startswith("roughness.") and key.endswith(".file"):
+            tables[name] = [str((folder / v).absolute()) if isinstance(v, str) else v for v in value]
 
 
 def _axis(key: str, given: Any, design: str) -> tuple[Any, ...] | Range:
