@@ -10,6 +10,7 @@ from ehlectric.sweep_inputs import Sweep
 from tests.conftest import PAPER_CONTACT
 
 SPEED, LOAD, NODES = "contact.entrainment_speed", "contact.load_per_length", "grid.nodes"
+PRESSURE = "contact.max_hertz_pressure"
 
 # On 129 nodes a point takes some hundredths of a second; the film is rough and right.
 TABLE = {"contact": PAPER_CONTACT, "lubricant": {"base": "paper"}, "grid": {"nodes": 129}}

@@ -6,7 +6,7 @@ import hashlib
 import json
 import sqlite3
 import tomllib
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import asdict, dataclass
 from datetime import UTC, datetime
@@ -271,7 +271,7 @@ def read_sweep(folder: str | Path) -> SweepResults:
             file.execute("BEGIN")
             asked = file.execute("SELECT name, value FROM sweep").fetchall()
             rows = file.execute(
-                "SELECT number, inputs, refused, status, reason, summary, seconds, version "
+                "SELECT number, inputs, refused, status, reason, seconds, version, summary "
                 "FROM points LEFT JOIN results USING (key) ORDER BY number"
             ).fetchall()
         finally:
@@ -282,7 +282,7 @@ def read_sweep(folder: str | Path) -> SweepResults:
         raise InputError(f"{path}: is not a sweep of ehlectric, or damaged") from None
 
 
-def _results(asked: Mapping[str, Any], rows: Iterable[tuple[Any, ...]]) -> SweepResults:
+def _results(asked: Mapping[str, Any], rows: Sequence[tuple[Any, ...]]) -> SweepResults:
     case = Case.from_dict(tomllib.loads(asked["case"]))
     return SweepResults(
         case=case,
@@ -290,21 +290,36 @@ def _results(asked: Mapping[str, Any], rows: Iterable[tuple[Any, ...]]) -> Sweep
         axes={key: tuple(values) for key, values in asked["axes"].items()},
         ranges={key: Range(**over) for key, over in asked["ranges"].items()},
         samples=asked["samples"],
-        points=tuple(_point(case, *row) for row in rows),
+        points=tuple(_point(case, *row) for row in _parsed(rows)),
         seed=asked["seed"],
     )
 
 
-def _point(case: Case, number: int, inputs: str, refused: str, status: str | None, *found: Any) -> Point:
-    varied = json.loads(inputs)
-    if refused:
-        return Point(number, varied, "failed", refused)
-    if status is None:
-        return Point(number, varied, "open")
-    reason, summary, seconds, version = found
-    # A title is no part of the key: rows of another sweep may have come with theirs.
-    whole = None if summary is None else json.loads(summary) | {"title": case.title}
-    return Point(number, varied, status, reason, whole, seconds, version)  # type: ignore[arg-type]
+def _parsed(rows: Sequence[tuple[Any, ...]]) -> Iterator[tuple[Any, ...]]:
+    """Rows with their JSON read, many at a time: so they share their keys, which else fill the memory."""
+    for start in range(0, len(rows), 1000):
+        some = rows[start : start + 1000]
+        texts = ",".join(f"[{inputs},{summary or 'null'}]" for _, inputs, *_, summary in some)
+        for (number, _, *others, _), (inputs, summary) in zip(some, json.loads(f"[{texts}]"), strict=True):
+            yield number, inputs, summary, *others
+
+
+def _point(
+    case: Case,
+    number: int,
+    inputs: dict[str, Any],
+    summary: dict[str, Any] | None,
+    refused: str,
+    status: Status | None,
+    *found: Any,
+) -> Point:
+    if refused or status is None:
+        return Point(number, inputs, "failed" if refused else "open", refused)
+    reason, seconds, version = found
+    if summary is not None:
+        # A title is no part of the key: rows of another sweep may have come with theirs.
+        summary["title"] = case.title
+    return Point(number, inputs, status, reason, summary, seconds, version)
 
 
 def _opened(path: Path, mode: str) -> sqlite3.Connection:
