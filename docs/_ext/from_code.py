@@ -18,7 +18,16 @@ from sphinx.application import Sphinx
 from sphinx.errors import ExtensionError
 
 import ehlectric
-from ehlectric import Case, contact_inputs, inputs, lubricant, roughness_inputs, solve, validation
+from ehlectric import (
+    Case,
+    contact_inputs,
+    inputs,
+    lubricant,
+    roughness_inputs,
+    solve,
+    sweep_inputs,
+    validation,
+)
 from ehlectric.cli import app as commands
 from ehlectric.paper.reproduce import reproduce
 from ehlectric.quantity import Count, Quantity
@@ -31,6 +40,7 @@ _TABLES = {
     "electric": inputs.Electric,
     "grid": inputs.Grid,
     "solver": inputs.Solver,
+    "sweep": sweep_inputs.Sweep,
 }
 _UNLISTED = ("cli", "typing", "version")  # the guide shows the commands
 _LAWS = {

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import re
 import sys
 import time
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -26,6 +27,9 @@ _EVERY = 15.0
 
 # Reasons that are printed; all of them are in the tables.
 _REASONS = 5
+
+# What reasons that are alike differ in.
+_NUMBER = re.compile(r"\d[\d.e+-]*")
 
 # More processes than any machine has cores.
 _MOST_WORKERS = 1024
@@ -191,19 +195,25 @@ def results_table(results: SweepResults) -> Table:
     """How many points were solved, and why the others were not."""
     from ehlectric.report import plain_table
 
-    counts = Counter(point.status for point in results.points)
     table = plain_table("")
     for status in ("solved", "not converged", "failed"):
-        table.add_row(
-            status, str(counts[status]), f"of {len(results.points)} points" if status == "solved" else ""
-        )
-        reasons = Counter(point.reason for point in results.points if point.status == status and point.reason)
-        for reason, count in reasons.most_common(_REASONS):
+        reasons = [point.reason for point in results.points if point.status == status]
+        table.add_row(status, str(len(reasons)), f"of {len(results.points)} points" * (status == "solved"))
+        for count, reason in _alike(reasons):
             table.add_row("", str(count), reason)
-        others = sum(reasons.values()) - sum(count for _, count in reasons.most_common(_REASONS))
-        if others:
-            table.add_row("", str(others), "for other reasons, which are in sweep.csv")
     return table
+
+
+def _alike(reasons: Iterable[str]) -> Iterator[tuple[int, str]]:
+    """How many reasons are alike but for their numbers, with the first of them; the most frequent ones."""
+    kinds: dict[str, list[str]] = {}
+    for reason in filter(None, reasons):
+        kinds.setdefault(_NUMBER.sub("", reason), []).append(reason)
+    found = sorted(kinds.values(), key=len, reverse=True)
+    for alike in found[:_REASONS]:
+        yield len(alike), alike[0] if len(set(alike)) == 1 else f"such as: {alike[0]}"
+    if others := sum(map(len, found[_REASONS:])):
+        yield others, "for other reasons, which are in sweep.csv"
 
 
 def _remarks(results: SweepResults) -> Iterator[str]:

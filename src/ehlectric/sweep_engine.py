@@ -94,7 +94,9 @@ def _attempt(table: Mapping[str, Any]) -> tuple[Status, str, bool, dict[str, Any
         return "failed", f"unexpected: {type(error).__name__}: {error}", False, None
     if result.converged:
         return "solved", "", False, summary
-    return "not converged", ": ".join([result.film.status, *result.warnings[-1:]]), False, summary
+    # The warning that says how far it came and what to try.
+    status = result.film.status
+    return "not converged", next((text for text in result.warnings if status in text), status), False, summary
 
 
 def run_points(
