@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any, Literal, get_args, get_origin
 
@@ -85,6 +85,8 @@ def _find(annotation: Any, metadata: Iterable[Any]) -> Any:
             return item
     if get_origin(annotation) is Literal:
         return get_args(annotation)
+    if get_origin(annotation) is Mapping:
+        return validation.Table
     if isinstance(annotation, type) and issubclass(annotation, validation.Table):
         return annotation
     for part in get_args(annotation):

@@ -9,7 +9,7 @@ from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 from typing import Any
 
-from ehlectric.errors import InputError
+from ehlectric.errors import InputError, LostError
 from ehlectric.store import clear, prepare
 from ehlectric.sweep_engine import Crew, Task, crew_of, processes, run_points
 from ehlectric.sweep_inputs import Sweep
@@ -55,15 +55,21 @@ def run_sweep(
     InputError
         Where no point is a case, or the folder cannot be used.
     LostError
-        Where the executor is gone; what is solved is saved, and the same call goes on.
+        Where the executor is gone; what is solved is saved, and the same call goes on. Also where a script
+        calls this without ``if __name__ == "__main__":``, as processes import it again.
 
     Notes
     -----
     Each point is committed as it finishes. Points that the folder has are not solved again, but those whose
     process was killed or whose memory did not do.
     """
-    with crew(executor, workers) as solvers:
-        return run_with(sweep, folder, solvers, progress)
+    try:
+        with crew(executor, workers) as solvers:
+            return run_with(sweep, folder, solvers, progress)
+    except LostError as error:
+        if executor is not None:
+            raise
+        raise LostError(f'{error}; a script takes this call below if __name__ == "__main__":') from None
 
 
 def crew(executor: Executor | None, workers: int | None) -> AbstractContextManager[Crew]:

@@ -149,7 +149,7 @@ def _fill(flying: dict[Future[Outcome], Task], remaining: Iterator[Task], crew: 
             flying[crew.submit(solve_point, task[1])] = task
         except BrokenExecutor:
             return [task]
-        except RuntimeError as error:
+        except Exception as error:  # of the executor
             raise LostError(f"no more points are taken: {error}") from None
     return []
 
