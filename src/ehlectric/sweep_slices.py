@@ -74,6 +74,17 @@ class Slice:
         """Whether ``y`` is a number in all points."""
         return self.y is not None and all(map(_is_number, self.across))
 
+    def check_numeric(self) -> None:
+        """Refuse a second key whose values are no numbers, as a map takes them.
+
+        Raises
+        ------
+        InputError
+            In one line.
+        """
+        if not self.numeric:
+            raise InputError(f"y: got {shown(self.y)}, whose values are texts or lists, a map takes numbers")
+
     def grid(self) -> tuple[Array, Array, IntArray] | None:
         """The points as a full grid.
 
