@@ -34,7 +34,7 @@ WIDE = 20.0
 
 # How points are shown by what became of them: in maps, and in legends.
 _MARKS: dict[str, dict[str, Any]] = {
-    "solved": {"marker": "o", "ms": 2.4, "color": "black", "mew": 0.0},
+    "solved": {"marker": "o", "ms": 2.6, "color": "black", "mew": 0.0},
     "without this value": {"marker": "s", "ms": 4.0, "color": GREY, "mfc": "none", "mew": 0.8},
     "not converged": {"marker": "+", "ms": 7.0, "color": "black", "mew": 1.3},
     "failed": {"marker": "x", "ms": 5.5, "color": ORANGE, "mew": 1.6},
@@ -59,11 +59,16 @@ def kinds(taken: Slice) -> dict[str, Mask]:
     return {kind: mask for kind, mask in masks.items() if np.any(mask)}
 
 
+def dot_size(taken: Slice, largest: float) -> float:
+    """Size of the dots of solved points [pt]: where there are many, they leave room between them."""
+    return largest * min(1.0, max(0.3, math.sqrt(400.0 / len(taken.points))))
+
+
 def mark(ax: Axes, kind: str, x: Array, y: Array, **look: Any) -> None:
     """Mark points of a kind, over everything else."""
-    plain: dict[str, Any] = {"ls": "none", "zorder": 5.0, "clip_on": False} | _MARKS[kind]
     edge = [] if kind == "solved" else [withStroke(linewidth=2.6, foreground="white")]
-    ax.plot(x, y, path_effects=edge, **(plain | look))
+    plain: dict[str, Any] = {"ls": "none", "zorder": 5.0, "clip_on": False, "path_effects": edge}
+    ax.plot(x, y, **(plain | _MARKS[kind] | look))
 
 
 def kind_handles(taken: Slice, **look: Any) -> list[Line2D]:
@@ -218,7 +223,7 @@ def held_text(results: SweepResults, taken: Slice) -> str:
     for key, value in taken.at.items():
         numbers = np.array([value]) if isinstance(value, int | float) else np.empty(0)
         label, scale = labelled(results, key, numbers)
-        texts.append(f"{label.name} {scale.text(value)}")
+        texts.append(f"{label.name} = {scale.text(value)}")
     if taken.free:
         names = ", ".join(label_of(key, results.case).name for key in taken.free)
         texts.append(f"at any {names}")

@@ -18,6 +18,7 @@ from ehlectric.drawing import BLUE, GREEN, GREY, ORANGE, axes_or_new
 from ehlectric.sweep_drawing import (
     DARK_COLOURS,
     colour_bar,
+    dot_size,
     is_wide,
     kind_handles,
     kinds,
@@ -42,8 +43,8 @@ _TEXTS = (BLUE, ORANGE, GREEN, "#cc79a7", "#e69f00", "#56b4e9", "black", GREY)
 _NAMED = 8
 
 # Below the values is a strip for points that have none: its least height, and the height of each of those of
-# one x, in parts of the height of the axes.
-_STRIP, _ROW = 0.09, 0.035
+# one x, in parts of the height of the axes; and its largest, in which they may overlap.
+_STRIP, _ROW, _MOST = 0.09, 0.035, 0.28
 
 # Crosses side by side in the width of the axes.
 _COLUMNS = 50
@@ -113,7 +114,8 @@ def value_lines(
         if joined:
             ax.plot(along[line.numbers], heights, color=line.colour)
         dots = solved[line.numbers]
-        mark(ax, "solved", along[line.numbers[dots]], heights[dots], color=line.colour, ms=3.5)
+        look = {"color": line.colour, "ms": dot_size(taken, 3.5)}
+        mark(ax, "solved", along[line.numbers[dots]], heights[dots], **look)
     scale_axis(ax.xaxis, name_x.axis(scale_x), values=along, log=spaced_log(results, x, taken.along))
     scale_axis(ax.yaxis, name.axis(scale), values=scale.factor * shown, log=is_wide(taken.values))
     ax.margins(x=0.03)
@@ -157,9 +159,11 @@ def _norm(values: Array, *, log: bool) -> Normalize:
 def _applied(taken: Slice, ax: Axes, scale: Scale, lines: list[_Line], along: Array) -> list[Artist]:
     """What the value is at the applied voltage, with its legend."""
     volts = taken.voltage[np.isfinite(taken.voltage)]
-    if taken.value not in (BREAKDOWN, MARGIN) or not volts.size:
+    if not (taken.value.startswith("discharge.") and volts.size):
         return []
     text = f"applied voltage {voltage_text(taken)}"
+    if taken.value not in (BREAKDOWN, MARGIN):
+        return [Line2D([], [], ls="none", label=f"at the {text}")]
     if taken.value == MARGIN:
         level = scale.factor
     elif np.ptp(volts) <= 1e-9 * volts[0]:
@@ -208,9 +212,9 @@ def _strip(taken: Slice, ax: Axes, lines: list[_Line], along: Array) -> None:
                     ranks[column] += 1
                     found.append((kind, number, ranks[column], line.colour))
     rows = max(ranks.values()) + 1
-    part = max(_STRIP, _ROW * rows)
+    part = min(max(_STRIP, _ROW * rows), _MOST)
     for kind, number, rank, colour in found:
-        own = {} if taken.y is None else {"color": colour}
+        own = {"path_effects": []} | ({} if taken.y is None else {"color": colour})
         place = (along[[number]], np.array([part * rank / rows]))
         mark(ax, kind, *place, transform=ax.get_xaxis_transform(), **own)
     low, high = ax.get_ylim()
@@ -260,6 +264,7 @@ def _name_lines(results: SweepResults, taken: Slice, ax: Axes, lines: list[_Line
         title_fontsize=8.0,
     )
     ax.add_artist(named)
+    named.set_clip_on(False)  # it lies outside of the axes
 
 
 def _line_name(value: Any, scale: Scale) -> str:

@@ -17,6 +17,7 @@ from ehlectric.drawing import axes_or_new
 from ehlectric.sweep_drawing import (
     COLOURS,
     colour_bar,
+    dot_size,
     is_wide,
     kind_handles,
     kinds,
@@ -91,7 +92,8 @@ def value_map(
         if value.startswith("discharge."):
             handles += _breakdown(taken, surface, ax, factors)
         for kind, mask in kinds(taken).items():
-            mark(ax, kind, along[mask], up[mask])
+            look = {"ms": dot_size(taken, 2.6)} if kind == "solved" else {}
+            mark(ax, kind, along[mask], up[mask], **look)
     ax.use_sticky_edges = False  # points on the edge of the sweep lie clear of the frame
     ax.margins(0.03)
     legend_above(ax, handles)
@@ -122,8 +124,13 @@ def _fill(
     norm = norm_of(levels, log=log)
     drawn = _triangles(surface, factors, values, log=log)
     if drawn is not None:
-        ax.tricontourf(*drawn, levels=levels, norm=norm, cmap=COLOURS)
+        # A value on the last level, as a probability of 1, is not below it, and so would have no colour.
+        bounds = [*levels[:-1], levels[-1] + 1e-9 * (levels[-1] - levels[0])]
+        ax.tricontourf(*drawn, levels=bounds, norm=norm, cmap=COLOURS)
         ax.tricontour(*drawn, levels=levels, colors="white", linewidths=0.4, linestyles="-")
+    alone = surface.alone(taken.values)
+    at = (factors[0] * taken.along[alone], factors[1] * np.array(taken.across)[alone])
+    ax.scatter(*at, c=values[alone], s=40.0, cmap=COLOURS, norm=norm, zorder=4.0)
     colour_bar(ax, norm, label.axis(scale), levels)
 
 

@@ -169,7 +169,7 @@ def take(
         first = free[0]
         raise InputError(
             f"at: missing, {', '.join(free)} var{'ies' if len(free) == 1 else 'y'} too; takes "
-            f"{first}=VALUE, one of {_listed(_axis(results, first))}"
+            f"{first}=VALUE, one of {_listed(_axis(results, first))}{_si(first)}"
         )
     chosen = [
         k for k, p in enumerate(results.points) if all(p.inputs.get(key) == v for key, v in held.items())

@@ -29,12 +29,15 @@ class Surface:
         Numbers of their nodes.
     weights : sparse array, shape (nodes, points)
         What each point of the slice counts at a node; the weights of a node add up to one.
+    corners : ndarray, shape (triangles, 3 or 4)
+        Numbers of the points around the cell that a triangle is a part of.
     """
 
     x: Array
     y: Array
     triangles: IntArray
     weights: csr_array
+    corners: IntArray
 
     def at_nodes(self, values: Array, *, log: bool = False) -> tuple[Array, Mask]:
         """A value of the points between them.
@@ -49,16 +52,31 @@ class Surface:
         Returns
         -------
         values : ndarray, shape (nodes,)
-            0 where a point that counts has none.
+            Finite, but of no meaning where no cell around is whole.
         whole : ndarray, shape (triangles,)
-            Which triangles have a value at all of their nodes.
+            Which triangles are part of a cell that has the value at all of its corners.
         """
         known = np.isfinite(values)
-        there = np.where(known, values, 1.0)
-        nodes = self.weights @ (np.log(there) if log else there)
-        here = (abs(self.weights) @ (~known).astype(float)) == 0.0
-        found = np.where(here, np.exp(nodes) if log else nodes, 0.0)
-        return found, np.all(here[self.triangles], axis=1)
+        there = np.where(known, values, values[known][0] if np.any(known) else 1.0)
+        nodes = np.asarray(self.weights @ (np.log(there) if log else there))
+        # No further than the points themselves: rounding would take a probability of 1 out of its colours.
+        ends = (float(np.min(there)), float(np.max(there)))
+        return np.clip(np.exp(nodes) if log else nodes, *ends), self._whole(known)
+
+    def alone(self, values: Array) -> Mask:
+        """Which points have a value, but no cell around them has it at all of its corners.
+
+        Parameters
+        ----------
+        values : ndarray, shape (points,)
+            Not a number where there is none.
+        """
+        left = np.isfinite(values)
+        left[self.corners[self._whole(left)]] = False
+        return left
+
+    def _whole(self, known: Mask) -> Mask:
+        return np.asarray(np.all(known[self.corners], axis=1))
 
 
 def surface_of(taken: Slice, *, log_x: bool, log_y: bool) -> Surface | None:
@@ -85,26 +103,32 @@ def surface_of(taken: Slice, *, log_x: bool, log_y: bool) -> Surface | None:
     xs, ys, numbers = grid
     if xs.size < 2 or ys.size < 2:
         return None
-    x, left = _between(xs, log=log_x)
-    y, lower = _between(ys, log=log_y)
+    x, cell_x, part_x = _between(xs, log=log_x)
+    y, cell_y, part_y = _between(ys, log=log_y)
     i, j = np.divmod(np.arange(x.size * y.size), y.size)
-    weights = csr_array((i.size, len(taken.points)))
-    for end_x in (0, 1):
-        for end_y in (0, 1):
-            (cell_x, part_x), (cell_y, part_y) = left, lower
-            weight = np.where(end_x, part_x, 1.0 - part_x)[i] * np.where(end_y, part_y, 1.0 - part_y)[j]
-            point = numbers[(cell_x + end_x)[i], (cell_y + end_y)[j]]
-            weights = weights + csr_array((weight, (np.arange(i.size), point)), shape=weights.shape)
-    weights.eliminate_zeros()
-    corner = np.arange(x.size * y.size).reshape(x.size, y.size)
-    a, b, c, d = (
-        part.ravel() for part in (corner[:-1, :-1], corner[1:, :-1], corner[:-1, 1:], corner[1:, 1:])
+    ends = ((0, 0), (1, 0), (0, 1), (1, 1))
+    corners = np.column_stack([numbers[cell_x[i] + p, cell_y[j] + q] for p, q in ends])
+    shares = [(part_x if p else 1.0 - part_x)[i] * (part_y if q else 1.0 - part_y)[j] for p, q in ends]
+    node = np.arange(i.size).reshape(x.size, y.size)
+    a, b, c, d = (part.ravel() for part in (node[:-1, :-1], node[1:, :-1], node[:-1, 1:], node[1:, 1:]))
+    return Surface(
+        x=x[i],
+        y=y[j],
+        triangles=np.concatenate([np.column_stack([a, b, d]), np.column_stack([a, d, c])]),
+        weights=_weights(np.column_stack(shares), corners, len(taken.points)),
+        corners=np.concatenate([corners[a], corners[a]]),
     )
-    triangles = np.concatenate([np.column_stack([a, b, d]), np.column_stack([a, d, c])])
-    return Surface(x=x[i], y=y[j], triangles=triangles, weights=weights)
 
 
-def _between(values: Array, *, log: bool) -> tuple[Array, tuple[IntArray, Array]]:
+def _weights(shares: Array, corners: IntArray, points: int) -> csr_array:
+    """What each point counts at each node: shares of the corners of its cell, shape (nodes, corners) both."""
+    rows = np.repeat(np.arange(len(corners)), corners.shape[1])
+    weights = csr_array((shares.ravel(), (rows, corners.ravel())), shape=(len(corners), points))
+    weights.eliminate_zeros()
+    return weights
+
+
+def _between(values: Array, *, log: bool) -> tuple[Array, IntArray, Array]:
     """Nodes at and between increasing values, with the cell of each and its part of it from 0 to 1."""
     parts = max(1, _NODES // values.size)
     cell, step = np.divmod(np.arange((values.size - 1) * parts + 1), parts)
@@ -112,7 +136,7 @@ def _between(values: Array, *, log: bool) -> tuple[Array, tuple[IntArray, Array]
     cell, part = np.where(last, cell - 1, cell), np.where(last, 1.0, step / parts)
     places = _onto(values, log=log)
     nodes = _back((1.0 - part) * places[cell] + part * places[cell + 1], log=log)
-    return nodes, (cell, part)
+    return nodes, cell, part
 
 
 def _between_points(taken: Slice, *, log_x: bool, log_y: bool) -> Surface | None:
@@ -135,19 +159,16 @@ def _between_points(taken: Slice, *, log_x: bool, log_y: bool) -> Surface | None
         (number[a + 1, b], number[a + 1, b + 1], number[a, b + 1]) for a, b in steps if a + b < _PARTS - 1
     ]
     first = len(steps) * np.arange(len(corners))
-    rows = np.repeat(np.arange(len(corners) * len(steps)), 3)
-    points = np.repeat(corners[:, np.newaxis], len(steps), axis=1)
-    weights = csr_array(
-        (np.tile(share, (len(corners), 1)).ravel(), (rows, points.ravel())),
-        shape=(len(corners) * len(steps), len(taken.points)),
+    weights = _weights(
+        np.tile(share, (len(corners), 1)), np.repeat(corners, len(steps), axis=0), len(taken.points)
     )
-    weights.eliminate_zeros()
     nodes = np.asarray(weights @ places)
     return Surface(
         x=_back(nodes[:, 0], log=log_x),
         y=_back(nodes[:, 1], log=log_y),
         triangles=(first[:, np.newaxis, np.newaxis] + np.array(small)).reshape(-1, 3),
         weights=weights,
+        corners=np.repeat(corners, len(small), axis=0),
     )
 
 
