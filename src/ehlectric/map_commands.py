@@ -155,6 +155,6 @@ def _remarks(found: Sensitivity) -> list[str]:
     widest = max(0.5 * (high - low) for low, high in ends)
     if widest > _WIDE:
         remarks.append(
-            f"indices are known to about {widest:.1g} either way; four times the samples halve that"
+            f"confidence intervals reach up to {widest:.1g} either way; four times the samples halve that"
         )
     return remarks

@@ -167,8 +167,8 @@ def sensitivity(results: SweepResults, value: str, *, resamples: int = 1000, see
     mean((y_B - m)(y_ABi - y_A))/V (Saltelli et al. 2010, doi:10.1016/j.cpc.2009.09.018, Table 2 (b)), total
     mean((y_A - y_ABi)^2)/(2 V) (Jansen 1999, doi:10.1016/S0010-4655(98)00154-4). Intervals are those between
     the 2.5 and 97.5 % quantiles of rows drawn with replacement (Archer, Saltelli and Sobol 1997,
-    doi:10.1080/00949659708811825): for rows that are independent, thus rather too wide for those of a Sobol
-    sequence.
+    doi:10.1080/00949659708811825): for rows that are independent, thus too wide for smooth values at those of
+    a Sobol sequence.
     """
     if results.design != "sobol":
         raise InputError(f'design: got "{results.design}", sensitivity takes a sweep of the design "sobol"')

@@ -143,8 +143,8 @@ def levels_of(values: Array, *, log: bool) -> Array:
     Examples
     --------
     >>> levels_of(np.array([3.0, 9.5]), log=False)
-    array([ 3. ,  3.5,  4. ,  4.5,  5. ,  5.5,  6. ,  6.5,  7. ,  7.5,  8. ,
-            8.5,  9. ,  9.5, 10. ])
+    array([3. , 3.5, 4. , 4.5, 5. , 5.5, 6. , 6.5, 7. , 7.5, 8. , 8.5, 9. ,
+           9.5])
     >>> levels_of(np.array([0.03, 20.0]), log=True)
     array([ 0.02,  0.05,  0.1 ,  0.2 ,  0.5 ,  1.  ,  2.  ,  5.  , 10.  ,
            20.  ])

@@ -137,7 +137,8 @@ def _fill(
 def _breakdown(taken: Slice, surface: Surface, ax: Axes, factors: tuple[float, float]) -> list[Artist]:
     """The line on which the film breaks down at the applied voltage, the side where it does, their legend."""
     margin = np.where(taken.margin > 0.0, taken.margin, np.nan)
-    drawn = _triangles(surface, factors, margin, log=True)
+    # As the colours of a breakdown voltage go between the points, so that the line is one of their levels.
+    drawn = _triangles(surface, factors, margin, log=is_wide(margin))
     if drawn is None:
         return []
     volts = voltage_text(taken)

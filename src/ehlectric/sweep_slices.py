@@ -172,7 +172,9 @@ def take(
             f"{first}=VALUE, one of {_listed(_axis(results, first))}{_si(first)}"
         )
     chosen = [
-        k for k, p in enumerate(results.points) if all(p.inputs.get(key) == v for key, v in held.items())
+        k
+        for k, p in enumerate(results.points)
+        if all(_hashable(p.inputs.get(key)) == v for key, v in held.items())
     ]
     if not chosen:
         raise InputError(f"at: no point of the sweep has {', '.join(f'{k} = {v}' for k, v in held.items())}")

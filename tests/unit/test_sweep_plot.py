@@ -82,18 +82,23 @@ def test_map_is_drawn_up_to_its_largest_value():
 
 
 def test_line_of_breakdown_is_where_it_is():
-    """10 V (u/(4 m/s))^0.7 (w/(1 MN/m))^-0.1 is 5 V at u = 4 (0.5 (w/(1 MN/m))^0.1)^(1/0.7) m/s."""
-    for value in (VALUE, "discharge.margin", "discharge.contact_energy"):
-        ax = value_map(grid({SPEED: SPEEDS, LOAD: LOADS}), SPEED, LOAD, value)
+    """10 V (u/(4 m/s))^0.7 (w/(1 MN/m))^-0.1 is 5 V at u = 4 (0.5 (w/(1 MN/m))^0.1)^(1/0.7) m/s.
+
+    Five speeds that are wide apart, as the logarithms of the model are linear then, or many.
+    """
+    wide, many = np.geomspace(0.05, 8.0, 5), np.geomspace(0.5, 8.0, 60)
+    for value, speeds in ((VALUE, wide), (VALUE, many), ("discharge.contact_energy", wide)):
+        ax = value_map(grid({SPEED: list(speeds), LOAD: LOADS}), SPEED, LOAD, value)
         x, y = line_of_breakdown(ax).T
-        np.testing.assert_allclose(x, 4.0 * (0.5 * y**0.1) ** (1.0 / 0.7), rtol=1e-3)
+        np.testing.assert_allclose(x, 4.0 * (0.5 * y**0.1) ** (1.0 / 0.7), rtol=2e-3)
         assert (y.min(), y.max()) == pytest.approx((0.2, 2.0))
         assert legend(ax)[1:] == ["breakdown voltage = applied 5 V", "breakdown voltage below it"]
 
 
 def test_voltage_of_every_point_counts():
     """Where the voltage varies, V = V_2 + 1 V, so does the line: V_b(u) = V; for V_2 = 1 V, u is 0.4 m/s."""
-    ax = value_map(grid({SPEED: SPEEDS, POTENTIAL: (1.0, 2.0, 4.0, 8.0)}), SPEED, POTENTIAL, VALUE)
+    speeds = list(np.geomspace(0.5, 8.0, 60))
+    ax = value_map(grid({SPEED: speeds, POTENTIAL: (1.0, 2.0, 4.0, 8.0)}), SPEED, POTENTIAL, VALUE)
     assert "breakdown voltage = applied 2 to 9 V" in legend(ax)
     on_nodes = [
         (x, y) for x, y in line_of_breakdown(ax) if any(abs(y - v) < 1e-9 for v in (1.0, 2.0, 4.0, 8.0))
@@ -150,11 +155,11 @@ def test_points_of_a_design_that_holds_nothing_are_coloured_by_themselves():
 def test_scattered_points_of_two_keys_are_a_map():
     """Both axes are logarithmic, on which the logarithm of the model is linear."""
     loads = np.random.default_rng(2).permutation(np.geomspace(2e5, 2e6, 60))
-    axes = {SPEED: list(np.geomspace(0.5, 8.0, 60)), LOAD: list(loads)}
+    axes = {SPEED: list(np.geomspace(0.05, 8.0, 60)), LOAD: list(loads)}
     ax = value_map(paired(axes), SPEED, LOAD, VALUE)
     assert filled(ax, 4.0, 1.0)
     x, y = line_of_breakdown(ax).T
-    np.testing.assert_allclose(10.0 * (x / 4.0) ** 0.7 * y**-0.1, 5.0, rtol=2e-3)
+    np.testing.assert_allclose(10.0 * (x / 4.0) ** 0.7 * y**-0.1, 5.0, rtol=5e-3)
 
 
 def curves(ax):
@@ -314,3 +319,16 @@ def test_bars_are_the_indices_with_their_intervals(uncertain):
 def test_sensitivity_is_saved(tmp_path, uncertain):
     save_sensitivity(*uncertain, tmp_path / "sensitivity.png")
     assert (tmp_path / "sensitivity.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_line_of_breakdown_is_a_level_of_the_colours():
+    """At one applied voltage: 6 V is a level here, and its line is where the margin is 1."""
+    ax = value_map(grid({SPEED: SPEEDS, LOAD: LOADS, POTENTIAL: (5.0,)}), SPEED, LOAD, VALUE)
+    (levels,) = [
+        c for c in ax.collections if isinstance(c, TriContourSet) and not c.filled and len(c.levels) > 1
+    ]
+    (path,) = [p for p, level in zip(levels.get_paths(), levels.levels, strict=True) if level == 6.0]
+    line = line_of_breakdown(ax)
+    np.testing.assert_allclose(
+        path.vertices[np.argsort(path.vertices[:, 1])], line[np.argsort(line[:, 1])], rtol=1e-9
+    )

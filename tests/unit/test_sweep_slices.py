@@ -39,6 +39,8 @@ def test_a_key_of_one_value_is_held_by_itself():
     taken = take(grid({SPEED: SPEEDS, LOAD: LOADS, POTENTIAL: (3.0,)}), SPEED, LOAD, VALUE)
     assert taken.at == {POTENTIAL: 3.0}
     assert take(grid({SPEED: SPEEDS, LOAD: (1e6,)}), SPEED, None, VALUE).at == {LOAD: 1e6}
+    ends = grid({SPEED: SPEEDS, "grid.field_range": ([-1.0, 1.0],)})
+    assert take(ends, SPEED, None, VALUE).at == {"grid.field_range": "[-1.0, 1.0]"}
 
 
 def test_a_design_that_holds_nothing_says_so():
