@@ -1,4 +1,4 @@
-"""The command line: run, check, surface, init, plot, reproduce and sweep."""
+"""The command line: run, check, surface, init, plot, reproduce, sweep, map, sensitivity."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from typing import Annotated
 import typer
 
 from ehlectric.errors import InputError, shown
+from ehlectric.map_commands import draw_maps, sensitivity
 from ehlectric.sweep_commands import sweep
 from ehlectric.terminal import (
     NOT_CONVERGED,
@@ -272,6 +273,8 @@ def reproduce(
 
 
 app.command()(sweep)
+app.command("map")(draw_maps)
+app.command()(sensitivity)
 
 
 def _number(name: str, text: str | None) -> int | None:

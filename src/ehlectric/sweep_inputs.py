@@ -6,7 +6,7 @@ import json
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Annotated, Any, Literal, Self, get_args, get_origin
+from typing import Annotated, Any, Literal, Self
 
 import numpy as np
 from pydantic import ValidationInfo, create_model, field_validator, model_validator
@@ -14,10 +14,11 @@ from pydantic.fields import FieldInfo
 
 from ehlectric import sweep_design
 from ehlectric.case import Case, find_files
+from ehlectric.case_keys import input_field, number_of
 from ehlectric.errors import InputError, shown
 from ehlectric.quantity import Count, Quantity
 from ehlectric.sweep_results import Range
-from ehlectric.validation import Table, nearest, nearest_key, read_toml, table_of
+from ehlectric.validation import Table, nearest, read_toml
 
 # With their summaries and tables so many take some 4 GB, 20 kB each.
 MOST_POINTS = 200_000
@@ -140,66 +141,6 @@ class Sweep(Table):
             whole = [key for key in self.vary if isinstance(number_of(input_field(key)), Count)]
             return sweep_design.sobol(self.ranges, self.samples or 0, self.seed, whole)
         return {"grid": sweep_design.grid, "paired": sweep_design.paired}[self.design](self.axes)
-
-
-def input_field(key: str) -> FieldInfo:
-    """What the case says of an input.
-
-    Parameters
-    ----------
-    key : str
-        Dotted key of the case, rough surfaces with their number, as "roughness.1.rescale_rq".
-
-    Raises
-    ------
-    InputError
-        Where there is no such key, or it is a table; with the nearest known one.
-
-    Examples
-    --------
-    >>> input_field("contact.entrainment_speed").is_required()
-    False
-    """
-    names, model = key.split("."), Case
-    within: list[str] = []
-    if names[0] == "roughness":
-        if len(names) < 3 or not names[1].isdecimal():
-            raise InputError(
-                f"{key}: is a list of tables, takes a key of one of them, as roughness.1.rescale_rq"
-            )
-        within, names = names[1:2], [names[0], *names[2:]]
-    field: FieldInfo | None = None
-    inner: Any = model
-    for name in names:
-        field = None if inner is None else inner.model_fields.get(name)
-        if field is None:
-            known = nearest_key(".".join(names), model).split(".")
-            known[1:1] = within if known[0] == "roughness" and len(known) > 1 else []
-            raise InputError(f"{key}: unknown key; the nearest known one is {'.'.join(known)}")
-        inner = table_of(field.annotation)
-    if field is None or inner is not None:
-        raise InputError(
-            f"{key}: is a table, takes one of its keys, as {key}.{next(iter(inner.model_fields))}"
-        )
-    return field
-
-
-def number_of(field: FieldInfo) -> Quantity | Count | None:
-    """What a key takes that is a number; None of a text, a list or a choice.
-
-    Examples
-    --------
-    >>> number_of(input_field("contact.entrainment_speed")).unit
-    'm/s'
-    """
-    if get_origin(field.annotation) is tuple:
-        return None
-    parts = [field, *(part for part in get_args(field.annotation) if hasattr(part, "__metadata__"))]
-    for part in parts:
-        for item in getattr(part, "__metadata__", ()) or getattr(part, "metadata", ()):
-            if isinstance(item, Quantity | Count):
-                return item
-    return None
 
 
 def _flattened(tables: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:

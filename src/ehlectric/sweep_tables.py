@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ehlectric.case_keys import input_field, number_of
 from ehlectric.quantity import Quantity
 from ehlectric.store import clear, prepare, whole
-from ehlectric.sweep_inputs import input_field, number_of
 from ehlectric.sweep_results import SweepResults, flat
 from ehlectric.version import __version__
 

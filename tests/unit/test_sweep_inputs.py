@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ehlectric import Case, InputError, Sweep
+from ehlectric.case_keys import input_field, number_of
 from ehlectric.conditions import resolve
-from ehlectric.sweep_inputs import input_field, number_of
 from ehlectric.sweep_results import Range
 from tests.cli.conftest import CASE as CASE_FILE
 from tests.cli.conftest import EXAMPLES
@@ -255,7 +255,7 @@ BAD_KEYS = [
         r"\.count: got it in a sobol design",
     ),
     (
-        {"design": "sobol", "samples": 2**16, "vary": dict.fromkeys((SPEED, LOAD), {"from": 1, "to": 2})},
+        {"design": "sobol", "samples": 2**16, "vary": {k: {"from": 1, "to": 2} for k in (SPEED, LOAD)}},
         r"^vary: got 262144 points, takes at most 200000",
     ),
     (
