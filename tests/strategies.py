@@ -144,6 +144,54 @@ point_grids = st.fixed_dictionaries(
         "refine": st.floats(1e-4, 0.5),
     },
 ).map(lambda grid: {"nodes": 1000, "field_nodes": 100} | grid)
+strength = st.floats(1e4, 1e10)
+table_of = {"strength": st.tuples(strength, strength).map(list)}
+costs = {
+    "conductivity": st.floats(1e-20, 1e2),
+    "external_capacitance": st.floats(0.0, 1.0),
+    "peak_current": st.floats(0.0, 1e6),
+    "outlet": st.sampled_from(["full", "fingers", "layers"]),
+}
+discharges = merged(
+    st.fixed_dictionaries({"length": st.floats(1e-6, 1e2)}, optional=costs),
+    either(
+        ({"dielectric_strength": strength}, {}),
+        (
+            {
+                "strength_table": st.fixed_dictionaries({"temperature": st.just([250.0, 400.0]), **table_of}),
+                "temperature": st.floats(250.0, 400.0),
+            },
+            {},
+        ),
+        (
+            {
+                "strength_table": st.fixed_dictionaries({"pressure": st.just([0.0, 2e9]), **table_of}),
+            },
+            {},
+        ),
+        (
+            {
+                "weibull": st.fixed_dictionaries(
+                    {
+                        "scale": strength,
+                        "shape": st.floats(0.5, 200.0),
+                        "reference_area": st.floats(1e-18, 1.0),
+                    }
+                )
+            },
+            {},
+        ),
+        (
+            {
+                "pit": st.fixed_dictionaries(
+                    {"efficiency": st.floats(1e-3, 1.0), "melting_energy": st.floats(1e8, 1e12)}
+                ),
+                "external_capacitance": st.floats(0.0, 1.0),
+            },
+            {},
+        ),
+    ),
+)
 volts = st.floats(-1e7, 0.0), st.floats(1.0, 1e7)
 tables = st.fixed_dictionaries(
     {"contact": contacts, "lubricant": lubricants},
@@ -151,11 +199,16 @@ tables = st.fixed_dictionaries(
         "title": st.text(NO_CONTROL, max_size=200),
         "roughness": st.lists(roughness, max_size=2),
         "electric": st.fixed_dictionaries({"potential_1": volts[0], "potential_2": volts[1]}),
+        "discharge": discharges,
         "grid": grids,
         "solver": st.fixed_dictionaries({"tolerance": st.floats(1e-11, 1e-3)}),
     },
 )
 point_tables = st.fixed_dictionaries(
     {"contact": point_contacts, "lubricant": lubricants},
-    optional={"title": st.text(NO_CONTROL, max_size=200), "grid": point_grids},
+    optional={
+        "title": st.text(NO_CONTROL, max_size=200),
+        "discharge": discharges.map(lambda table: {k: v for k, v in table.items() if k != "length"}),
+        "grid": point_grids,
+    },
 )

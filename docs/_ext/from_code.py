@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any, Literal, get_args, get_origin
 
@@ -28,6 +28,7 @@ from ehlectric import (
     lubricant,
     roughness_inputs,
     solve,
+    sweep_inputs,
     validation,
 )
 from ehlectric.cli import app as commands
@@ -48,6 +49,7 @@ _TABLES = {
     "discharge.pit": discharge_inputs.Pit,
     "grid": inputs.Grid,
     "solver": inputs.Solver,
+    "sweep": sweep_inputs.Sweep,
 }
 _UNLISTED = ("cli", "typing", "version")  # the guide shows the commands
 _LAWS = {
@@ -96,6 +98,8 @@ def _find(annotation: Any, metadata: Iterable[Any]) -> Any:
             return item
     if get_origin(annotation) is Literal:
         return get_args(annotation)
+    if get_origin(annotation) is Mapping:
+        return validation.Table
     if isinstance(annotation, type) and issubclass(annotation, validation.Table):
         return annotation
     for part in get_args(annotation):

@@ -16,14 +16,20 @@ if TYPE_CHECKING:
     from ehlectric.result import Result
     from ehlectric.solver import solve
     from ehlectric.store import load, save
+    from ehlectric.sweep import run_sweep
+    from ehlectric.sweep_inputs import Sweep
+    from ehlectric.sweep_store import read_sweep
 
 __all__ = [
     "Case",
     "ConvergenceError",
     "InputError",
     "Result",
+    "Sweep",
     "__version__",
     "load",
+    "read_sweep",
+    "run_sweep",
     "save",
     "solve",
 ]
@@ -33,7 +39,10 @@ _HOMES = {
     "ConvergenceError": "errors",
     "InputError": "errors",
     "Result": "result",
+    "Sweep": "sweep_inputs",
     "load": "store",
+    "read_sweep": "sweep_store",
+    "run_sweep": "sweep",
     "save": "store",
     "solve": "solver",
 }

@@ -6,7 +6,6 @@ entrainment speed or two speeds) stay as they were given; ``ehlectric.conditions
 
 from __future__ import annotations
 
-import tomllib
 import unicodedata
 from collections.abc import Mapping
 from pathlib import Path
@@ -15,11 +14,11 @@ from typing import Annotated, Any, Self
 from pydantic import AfterValidator, BaseModel, model_validator
 
 from ehlectric.contact_inputs import CONTACT_ALTERNATIVES, ONLY, Alternatives, Contact
-from ehlectric.discharge_inputs import STRENGTHS, Discharge
+from ehlectric.discharge_inputs import STRENGTHS, TABLES, Discharge
 from ehlectric.errors import InputError, shown
 from ehlectric.inputs import POINT_GRID, POINT_GRID_KEYS, Electric, Grid, Lubricant, Solver
 from ehlectric.roughness_inputs import Roughness, check_geometry
-from ehlectric.validation import Table
+from ehlectric.validation import Table, read_toml
 
 
 def _title(text: str) -> str:
@@ -91,22 +90,8 @@ class Case(Table):
         InputError
             Where the file cannot be read, is not TOML, or is not a case.
         """
-        path = Path(path)
-        try:
-            text = path.read_text(encoding="utf-8-sig")
-        except OSError as error:
-            raise InputError(f"{path}: cannot be read, {_reason(error)}") from None
-        except UnicodeDecodeError:
-            raise InputError(f"{path}: is not a text file in UTF-8") from None
-        try:
-            table = tomllib.loads(text)
-        except tomllib.TOMLDecodeError as error:
-            raise InputError(f"{path}: is not TOML, {error}") from None
-        except (ValueError, RecursionError):
-            raise InputError(
-                f"{path}: is not TOML that can be read, some value is too long or too deep"
-            ) from None
-        _find_files(table, path.parent)
+        table = read_toml(path)
+        find_files(table, Path(path).parent)
         return cls.from_dict(table)
 
     def to_dict(self) -> dict[str, Any]:
@@ -125,7 +110,8 @@ class Case(Table):
         Parameters
         ----------
         changes : mapping, optional
-            New values by dotted key, as in ``{"contact.entrainment_speed": "2 m/s"}``.
+            New values by dotted key, as in ``{"contact.entrainment_speed": "2 m/s"}``; of rough surfaces with
+            their number from 1, as in ``{"roughness.1.rescale_rq": "50 nm"}``.
         **tables
             Whole keys of the case, or tables of what changes in them, as in
             ``contact={"entrainment_speed": "2 m/s"}``.
@@ -150,16 +136,16 @@ class Case(Table):
         _displace(table, flat, geometry)
         for key, value in flat.items():
             *parents, leaf = key.split(".")
-            target = table
+            target: Any = table
             for parent in parents:
-                target = target.setdefault(parent, {})
-                if not isinstance(target, dict):
-                    raise InputError(f"{key}: unknown key, {parent} is not a table")
+                target = _part(target, parent, key)
+            if isinstance(target, list):
+                raise InputError(f"{key}: is a table, takes one of its keys, as {key}.surface")
             target[leaf] = value
         return self.from_dict(table)
 
 
-def _find_files(table: dict[str, Any], folder: Path) -> None:
+def find_files(table: dict[str, Any], folder: Path) -> None:
     """Files named in a case lie relative to it; their names hold wherever the case is written to."""
     rough = table.get("roughness")
     for surface in rough if isinstance(rough, list) else []:
@@ -167,8 +153,17 @@ def _find_files(table: dict[str, Any], folder: Path) -> None:
             surface["file"] = str((folder / surface["file"]).absolute())
 
 
-def _reason(error: OSError) -> str:
-    return (error.strerror or str(error)).lower()
+def _part(table: Any, name: str, key: str) -> Any:
+    """The table of this name within another, or of this number, from 1, within a list."""
+    if isinstance(table, list):
+        if not (name.isdecimal() and 1 <= int(name) <= len(table)):
+            there = f"a number from 1 to {len(table)}" if table else "none, as there are no tables"
+            raise InputError(f"{key}: got {shown(name)} for the table of a list, takes {there}")
+        return table[int(name) - 1]
+    part = table.setdefault(name, {})
+    if not isinstance(part, dict | list):
+        raise InputError(f"{key}: unknown key, {name} is not a table")
+    return part
 
 
 def _flattened(tables: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
@@ -210,7 +205,7 @@ def _displace(table: dict[str, Any], changes: Mapping[str, Any], geometry: objec
             *CONTACT_ALTERNATIVES.get(str(geometry), ()),
             (("slide_to_roll_ratio",), ("speed_1", "speed_2")),
         ),
-        "discharge": (STRENGTHS,),
+        "discharge": (STRENGTHS, TABLES),
     }
     for name, groups in alternatives.items():
         _displace_in(table.get(name, {}), _names_in(name, changes), groups)

@@ -1,4 +1,4 @@
-"""The command line: run, check, surface, init, plot and reproduce."""
+"""The command line: run, check, surface, init, plot, reproduce, sweep, map, sensitivity."""
 
 from __future__ import annotations
 
@@ -13,6 +13,8 @@ from typing import Annotated
 import typer
 
 from ehlectric.errors import InputError, shown
+from ehlectric.map_commands import draw_maps, sensitivity
+from ehlectric.sweep_commands import sweep
 from ehlectric.terminal import (
     NOT_CONVERGED,
     WRONG_INPUT,
@@ -268,6 +270,11 @@ def reproduce(
     if not made.converged:
         typer.echo("error: not converged: some films of the study", err=True)
         raise typer.Exit(NOT_CONVERGED)
+
+
+app.command()(sweep)
+app.command("map")(draw_maps)
+app.command()(sensitivity)
 
 
 def _number(name: str, text: str | None) -> int | None:

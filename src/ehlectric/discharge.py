@@ -27,6 +27,7 @@ SOURCES = {
     "zone_size": "assumption: where the strength is used to 95 % of the most",
     "zone_over_largest_pit": f"4 um: {_PITS}",
     "zone_over_mean_pit": f"1.7 um: {_PITS}",
+    "capacitance": "of the domain of the film alone: that of a point contact grows with its logarithm",
     "capacitance_outlet_fingers": "assumption: oil from wall to wall beside gas; its mass is conserved",
     "capacitance_outlet_layers": "assumption: oil on the walls and gas between; its mass is conserved",
     "pit_volume": "assumption: the energy at the voltage of the case, efficiency and melting energy as given",
@@ -124,8 +125,8 @@ def stored_energy(capacitance: float, voltage: float) -> float:
 
     Examples
     --------
-    >>> stored_energy(1e-9, 20.0)
-    2e-07
+    >>> round(stored_energy(1e-9, 20.0) * 1e9, 9)
+    200.0
     """
     return 0.5 * capacitance * voltage**2
 
@@ -149,8 +150,8 @@ def melted_volume(energy: float, efficiency: float, melting_energy: float) -> fl
 
     Examples
     --------
-    >>> melted_volume(1e-6, 0.2, 1e10)
-    2e-17
+    >>> round(melted_volume(1e-6, 0.2, 1e10) * 1e18, 9)
+    20.0
     """
     return efficiency * energy / melting_energy
 

@@ -13,8 +13,9 @@ _STRENGTH = Quantity("V/m", least=1e4, most=1e10, reason="of the film, not of th
 _PRESSURE = Quantity("Pa", least=0.0, most=2e10, reason="in the film")
 _TEMPERATURE = Quantity("K", least=100.0, most=1000.0, reason="absolute, of the film")
 
-# Alternatives of the strength: keys of at the most one of them are given.
+# Alternatives of the strength, and of what a table of it is over: keys of at the most one of them are given.
 STRENGTHS = (("dielectric_strength",), ("strength_table", "temperature"), ("weibull",))
+TABLES = (("strength_table.pressure",), ("strength_table.temperature", "temperature"))
 
 # Keys for which a line contact must know its length.
 _OF_LENGTH = ("weibull", "external_capacitance", "peak_current", "pit")

@@ -1,29 +1,17 @@
-"""What a field in a gap has in two and three dimensions: its largest strength, the thin gap beside it."""
+"""What a field in a gap has in two and in three dimensions: where and how strong it is at the most."""
 
 from __future__ import annotations
 
 import numpy as np
-from scipy.constants import epsilon_0
 
-from ehlectric.poisson import mean_permittivity
 from ehlectric.typing import Array
 
 
 class GapField:
     """A field between two walls, its arrays by column and, the last axis, by node across the gap."""
 
-    permittivity: Array
     strength: Array
     middle_strength: Array
-    thin_gap_strength: Array
-    voltage: float
-
-    @property
-    def thin_gap_density(self) -> Array:
-        """eps0 eps/h of every column [F/m^2]."""
-        mean = mean_permittivity(self.permittivity)
-        density: Array = epsilon_0 * mean * self.thin_gap_strength / self.voltage
-        return density
 
     @property
     def column_strength(self) -> Array:

@@ -7,7 +7,7 @@ import os
 import numpy as np
 
 from ehlectric.case import Case
-from ehlectric.errors import InputError
+from ehlectric.errors import MemoryLimitError
 from ehlectric.inputs import Grid
 
 # Peak memory [bytes], measured up to a million nodes: of the film by node, of the field by column and by the
@@ -34,7 +34,7 @@ def check_memory(case: Case) -> None:
 
     Raises
     ------
-    InputError
+    MemoryLimitError
         Where film and field would take more than the physical memory.
     """
     if case.contact.geometry == "point":
@@ -61,7 +61,7 @@ def _refuse_beyond(grid: Grid, needed: tuple[float, float], sizes: tuple[str, st
     if film + field > available:
         of_film = grid.field_nodes is None or film > field
         key, size = ("nodes", sizes[0]) if of_film else ("field_nodes", sizes[1])
-        raise InputError(
+        raise MemoryLimitError(
             f"grid.{key}: got {size} with field_degree {grid.field_degree}, about "
             f"{(film + field) / 1e9:.0f} GB; takes a grid that fits into the {available / 1e9:.0f} GB of "
             "this machine"

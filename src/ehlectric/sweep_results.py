@@ -81,6 +81,8 @@ class SweepResults:
         B for each varied key k, n each. 0 otherwise.
     points : tuple of Point
         All points of the design, in its order; of a "grid" the last varied key runs fastest.
+    seed : int
+        Of a "sobol" design's random numbers.
     """
 
     case: Case
@@ -89,6 +91,7 @@ class SweepResults:
     ranges: Mapping[str, Range]
     samples: int
     points: tuple[Point, ...]
+    seed: int = 0
 
     @property
     def varied(self) -> tuple[str, ...]:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import difflib
+import tomllib
 from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
 from types import UnionType
 from typing import Any, Self, Union, get_args, get_origin
 
@@ -33,6 +35,29 @@ class Table(BaseModel):
             raise InputError(first_message(error, cls)) from None
 
 
+def read_toml(path: str | Path) -> dict[str, Any]:
+    """Nested tables of a TOML file.
+
+    Raises
+    ------
+    InputError
+        Where the file cannot be read or is not TOML.
+    """
+    path = Path(path)
+    try:
+        return tomllib.loads(path.read_text(encoding="utf-8-sig"))
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read, {(error.strerror or str(error)).lower()}") from None
+    except UnicodeDecodeError:
+        raise InputError(f"{path}: is not a text file in UTF-8") from None
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(f"{path}: is not TOML, {error}") from None
+    except (ValueError, RecursionError):
+        raise InputError(
+            f"{path}: is not TOML that can be read, some value is too long or too deep"
+        ) from None
+
+
 def nearest(name: str, known: Iterable[str]) -> str:
     """The known name that is most like ``name``."""
     return difflib.get_close_matches(name, list(known), n=1, cutoff=0.0)[0]
@@ -57,7 +82,7 @@ def _message(detail: ErrorDetails, model: type[BaseModel]) -> str:
     given = shown(detail["input"])
     match detail["type"]:
         case "extra_forbidden":
-            return f"{key}: unknown key; the nearest known one is {_nearest_key(key, model)}"
+            return f"{key}: unknown key; the nearest known one is {nearest_key(key, model)}"
         case "missing" if isinstance(detail["loc"][-1], str):
             return f"{key}: missing, takes a {_kind(key, model)}"
         case "value_error":
@@ -83,7 +108,7 @@ def _shown_key(key: str) -> str:
     return key if key and key.isprintable() and len(key) <= 60 else shown(key)
 
 
-def _nearest_key(key: str, model: type[BaseModel]) -> str:
+def nearest_key(key: str, model: type[BaseModel]) -> str:
     """The known key nearest to an unknown one: in its own table, or of the same name elsewhere."""
     table, _, leaf = key.rpartition(".")
     known = list(_keys(model))
@@ -96,7 +121,7 @@ def _nearest_key(key: str, model: type[BaseModel]) -> str:
 def _keys(model: type[BaseModel], prefix: str = "") -> Iterator[str]:
     for name, field in model.model_fields.items():
         yield prefix + name
-        inner = _table_of(field.annotation)
+        inner = table_of(field.annotation)
         if inner is not None:
             yield from _keys(inner, f"{prefix}{name}.")
 
@@ -106,7 +131,8 @@ def _kind(key: str, model: type[BaseModel]) -> str:
     return "table" if any(name.startswith(key + ".") for name in _keys(model)) else "value"
 
 
-def _table_of(annotation: Any) -> type[BaseModel] | None:
+def table_of(annotation: Any) -> type[BaseModel] | None:
+    """The table that an annotation holds, alone, as an alternative or in a list; None where it holds none."""
     candidates = get_args(annotation) if get_origin(annotation) in (Union, UnionType, tuple) else [annotation]
     for candidate in candidates:
         if isinstance(candidate, type) and issubclass(candidate, BaseModel):

@@ -44,20 +44,16 @@ def run_all(
     pool = ProcessPoolExecutor(
         min(processes or cores(), len(tasks)),
         mp_context=multiprocessing.get_context("spawn"),
-        initializer=_end_with_parent,
+        initializer=end_with_parent,
     )
     try:
-        with _without_interrupts():
+        with without_interrupts():
             # Processes begin with the first tasks, and inherit that interrupts are not for them.
             futures = {pool.submit(task): number for number, task in enumerate(tasks)}
         for future in as_completed(futures):
             done(futures[future], future.result())
     except BaseException as error:
-        # Whatever stops this process, those of the pool are not waited for.
-        with _without_interrupts():
-            for process in list((getattr(pool, "_processes", None) or {}).values()):
-                process.terminate()
-            pool.shutdown(cancel_futures=True)
+        end_now(pool)
         if isinstance(error, BrokenProcessPool):
             raise RuntimeError(
                 "a process that solves contacts was killed or could not begin; a script that solves in "
@@ -67,8 +63,16 @@ def run_all(
     pool.shutdown()
 
 
+def end_now(pool: ProcessPoolExecutor) -> None:
+    """End a pool and its processes, whatever they are at: nobody waits for what they would still find."""
+    with without_interrupts():
+        for process in list((getattr(pool, "_processes", None) or {}).values()):
+            process.terminate()
+        pool.shutdown(cancel_futures=True)
+
+
 @contextmanager
-def _without_interrupts() -> Iterator[None]:
+def without_interrupts() -> Iterator[None]:
     """Ctrl-C ignored for a moment; threads that are not the main one have no say in that."""
     if threading.current_thread() is not threading.main_thread():
         yield
@@ -80,8 +84,8 @@ def _without_interrupts() -> Iterator[None]:
         signal.signal(signal.SIGINT, before)
 
 
-def _end_with_parent() -> None:
-    """End this process when its parent is gone, however that came."""
+def end_with_parent() -> None:
+    """End this process when its parent is gone, however that came: what a process of a pool begins with."""
 
     def watch() -> None:
         parent = multiprocessing.parent_process()

@@ -26,7 +26,8 @@ def zone_capacitances(
 
     Inside the field range it is that of the solved field, outside it eps0 eps/h of a thin gap: the thin gap
     everywhere, and where the field was solved what that differs from it. Where gas fills a part of the gap
-    both are scaled as ``filled_permittivity`` says; the walls behind the exit open slowly enough for that.
+    both are scaled as ``filled_permittivity`` says: the walls behind the exit open slowly enough that a field
+    solved anew gives the same to 1e-5.
 
     Parameters
     ----------
@@ -47,12 +48,13 @@ def zone_capacitances(
     oil = permittivity_law(film.density)
     fraction = oil_fraction(film.thickness, film.density, film.cavitated)
     gap = np.maximum(film.thickness, ATOM)
-    solved = field.capacitance_density - field.thin_gap_density
     by_outlet = {}
     for outlet in OUTLETS:
         permittivity = filled_permittivity(oil, fraction, outlet)
         thin = epsilon_0 * permittivity / gap
-        correction = solved * at_columns(film, field, permittivity / oil)
+        # Of the film's nodes, not of the field's own gap: finer columns then take away all of the thin gap.
+        instead = at_columns(film, field, thin)
+        correction = field.capacitance_density * at_columns(film, field, permittivity / oil) - instead
         by_outlet[outlet] = {
             name: float(np.vdot(weights, thin) + np.vdot(zones[1][name], correction))
             for name, weights in zones[0].items()

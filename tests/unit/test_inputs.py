@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from ehlectric import Case, InputError
 from ehlectric.contact_inputs import Body, Contact
+from ehlectric.discharge_inputs import Discharge, Pit, Weibull
 from ehlectric.inputs import Electric, Grid, Lubricant, Solver
 from ehlectric.quantity import Count, Quantity
 from ehlectric.roughness_inputs import Roughness
@@ -16,11 +17,20 @@ from tests.conftest import PAPER_CONTACT
 from tests.strategies import tables
 
 BODY = {"youngs_modulus": 2e11, "poissons_ratio": 0.3}
+# Tables whose other keys are needed where one of them is given.
+WHOLE = {
+    "body_1": BODY,
+    "weibull": {"scale": 3e7, "shape": 8.0, "reference_area": 1e-6},
+    "pit": {"efficiency": 0.2, "melting_energy": 1e10},
+}
 PARTS = {
     "contact": Contact,
     "contact.body_1": Body,
     "lubricant": Lubricant,
     "electric": Electric,
+    "discharge": Discharge,
+    "discharge.weibull": Weibull,
+    "discharge.pit": Pit,
     "grid": Grid,
     "solver": Solver,
     "roughness": Roughness,
@@ -58,7 +68,7 @@ def case_with(key, value):
         return table
     part = table
     for name in parents:
-        part = part.setdefault(name, dict(BODY) if name == "body_1" else {})
+        part = part.setdefault(name, dict(WHOLE.get(name, {})))
     part[leaf] = [value, 1.0] if leaf == "field_range" else value
     return table
 
@@ -95,7 +105,7 @@ def test_every_number_has_bounds():
 def test_numbers_out_of_bounds_are_refused_by_name(key):
     kind = INPUTS[key]
     for value in [*outside(kind), math.nan, math.inf, -math.inf, True, None, [], "x", ""]:
-        if value is None and key.split(".")[0] in ("contact", "lubricant", "grid", "roughness"):
+        if value is None and key.split(".")[0] in ("contact", "lubricant", "discharge", "grid", "roughness"):
             continue  # optional there
         message = refusal(key, value)
         assert message.startswith(f"{key}: got "), value
@@ -120,7 +130,8 @@ def test_bounds_are_the_same_in_any_unit(key):
                 and abs(value - kind.least) > 1e-12 * abs(value)
             ):
                 assert refusal(key, f"{value!r} {written}").startswith(f"{key}: got ")
-        assert "is not a unit of this quantity" in refusal(key, "1 kg")
+        kind_of = "an absolute temperature" if kind.unit == "K" else "this quantity"
+        assert f"is not a unit of {kind_of}" in refusal(key, "1 kg")
 
 
 @settings(deadline=None, max_examples=60)

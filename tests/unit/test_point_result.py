@@ -14,6 +14,7 @@ from ehlectric.point_conditions import resolve_point
 from ehlectric.point_film import solve_point_film
 from ehlectric.point_problems import point_film_problem
 from tests.conftest import PAPER_CONTACT
+from tests.strategies import discharges
 from tests.unit.test_point_case import point
 from tests.unit.test_round_trip import assert_equal, powers_of_ten
 
@@ -207,6 +208,7 @@ contacts = st.fixed_dictionaries(
         "electric": st.fixed_dictionaries(
             {"potential_1": st.just(0.0), "potential_2": powers_of_ten(-5.0, 6.0)}
         ),
+        "discharge": discharges.map(lambda table: {k: v for k, v in table.items() if k != "length"}),
         "grid": st.fixed_dictionaries(
             {
                 "nodes": st.integers(65, 72),

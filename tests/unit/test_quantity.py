@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ehlectric.quantity import Count, Quantity, to_si
+from ehlectric.quantity import Count, Quantities, Quantity, to_si
 
 
 @pytest.mark.parametrize(
@@ -95,3 +95,24 @@ def test_what_is_often_given_instead(text, unit, advice):
         to_si(text, unit)
     with pytest.raises(ValueError, match=r"is not a unit of this quantity$"):
         to_si("1 kg", unit)
+
+
+@pytest.mark.parametrize("text", ["158 degF", "70 C", "1 degC/m", "300 mK", "70", "1 kg"])
+def test_other_temperatures_are_refused(text):
+    """Only units whose zero is known: a difference of degrees is no temperature."""
+    with pytest.raises(ValueError, match=r"is not a unit of an absolute temperature: K, degC, °C$|no unit"):
+        to_si(text, "K")
+
+
+def test_lists_of_quantities():
+    lengths = Quantities(LENGTH, least=2)
+    assert lengths.parse(["1 mm", 2.0]) == (0.001, 2.0)
+    for wrong, message in (
+        ([1.0], r"got \[1\.0\], takes a list of 2 or more, each a number in m"),
+        (1.0, r"got 1\.0, takes a list"),
+        ("1 mm", r"got '1 mm', takes a list"),
+        ([1.0, 11.0], r"got 11\.0, takes a number in m"),
+        ([1.0, None], r"got None \(it is not a number\)"),
+    ):
+        with pytest.raises(ValueError, match=message):
+            lengths.parse(wrong)

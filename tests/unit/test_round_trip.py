@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ehlectric import Case, load, save, solve
+from tests.strategies import discharges
 
 
 def powers_of_ten(low, high):
@@ -42,6 +43,7 @@ contacts = st.fixed_dictionaries(
         "electric": st.fixed_dictionaries(
             {"potential_1": st.just(0.0), "potential_2": powers_of_ten(-5.0, 6.0)}
         ),
+        "discharge": st.one_of(st.none(), discharges),
         "grid": st.fixed_dictionaries(
             {"nodes": st.integers(65, 300), "wedge": st.sampled_from(["first-order", "second-order"])}
         ),

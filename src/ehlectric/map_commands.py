@@ -1,0 +1,160 @@
+"""The commands that look at a sweep: map and sensitivity."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ehlectric.errors import InputError, shown
+from ehlectric.terminal import print_table, user_errors, warn
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+    from ehlectric.sensitivity import Sensitivity
+    from ehlectric.sweep_results import SweepResults
+
+SENSITIVITY, SENSITIVITY_FIGURE = "sensitivity.json", "sensitivity.png"
+_BREAKDOWN = "discharge.breakdown_voltage"
+
+# Half-width of a confidence interval above which an index says little.
+_WIDE = 0.1
+
+SweepFolder = Annotated[Path, typer.Argument(metavar="DIR", help="Folder of a sweep.", show_default=False)]
+Value = Annotated[str, typer.Option(metavar="KEY", help="Key of summary.json.")]
+Output = Annotated[
+    Path | None, typer.Option("--output", "-o", metavar="DIR", help="Folder, default that of the sweep.")
+]
+Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No table or warnings.")]
+
+
+def draw_maps(
+    folder: SweepFolder,
+    x: Annotated[str, typer.Option(metavar="KEY", help="Varied key along the horizontal axis.")],
+    y: Annotated[
+        str | None,
+        typer.Option(metavar="KEY", help="Varied key along the vertical one; lines alone without."),
+    ] = None,
+    value: Value = _BREAKDOWN,
+    at: Annotated[
+        list[str] | None, typer.Option(metavar="KEY=VALUE", help="What is held where more vary; repeat it.")
+    ] = None,
+    output: Output = None,
+    quiet: Quiet = False,
+) -> None:
+    """Draw a value of a sweep as a map and as lines over varied keys, with the applied voltage drawn in."""
+    with user_errors():
+        held = _held(at or [])
+
+        from ehlectric.store import prepare
+        from ehlectric.sweep_plot import map_files, save_maps
+        from ehlectric.sweep_slices import take
+
+        results = _read(folder)
+        taken = take(results, x, y, value, held)
+        files = save_maps(results, x, y, value, prepare(output or folder, map_files(value)), at=held)
+    if not quiet:
+        from ehlectric.sweep_drawing import held_text
+
+        if taken.at or taken.free:
+            typer.echo("at " + held_text(results, taken).removeprefix("at "))
+        typer.echo("written: " + ", ".join(str(path) for path in files))
+
+
+def sensitivity(
+    folder: SweepFolder, value: Value = _BREAKDOWN, output: Output = None, quiet: Quiet = False
+) -> None:
+    """Spread of a value over the ranges of a Sobol design, and the part of each input in it."""
+    with user_errors():
+        from ehlectric.sensitivity import sensitivity as found_in
+        from ehlectric.sensitivity_plot import save_sensitivity
+        from ehlectric.store import prepare, whole
+
+        results = _read(folder)
+        found = found_in(results, value)
+        target = prepare(output or folder, (SENSITIVITY, SENSITIVITY_FIGURE))
+        files = [target / SENSITIVITY, target / SENSITIVITY_FIGURE]
+        with whole(files[0]) as path:
+            text = json.dumps(found.to_dict(), indent=2, allow_nan=False)
+            path.write_text(text + "\n", encoding="utf-8")
+        save_sensitivity(results, found, files[1])
+    if not quiet:
+        for table in _tables(results, found):
+            print_table(table)
+        typer.echo("written: " + ", ".join(str(path) for path in files))
+        warn(_remarks(found))
+
+
+def _read(folder: Path) -> SweepResults:
+    from ehlectric.sweep_store import read_sweep
+
+    return read_sweep(folder)
+
+
+def _held(given: Sequence[str]) -> dict[str, str]:
+    """Keys and values of --at."""
+    held: dict[str, str] = {}
+    for text in given:
+        key, sign, value = (part.strip() for part in text.partition("="))
+        if not (sign and key and value):
+            raise InputError(f"at: got {shown(text)}, takes KEY=VALUE")
+        if key in held:
+            raise InputError(f"at: got {key} twice, takes each key once")
+        held[key] = value
+    return held
+
+
+def _tables(results: SweepResults, found: Sensitivity) -> list[Table]:
+    """Spread and indices."""
+    import numpy as np
+    from rich.table import Table
+
+    from ehlectric.report import plain_table
+    from ehlectric.sweep_labels import label_of
+
+    label, spread = label_of(found.value, results.case), found.spread
+    scale = label.scaled(np.array([spread.minimum, spread.maximum]))
+    numbers = plain_table(results.case.title)
+    rows = {"mean": spread.mean, "standard deviation": spread.standard_deviation, "least": spread.minimum}
+    rows |= {f"{100.0 * q:g} %": at for q, at in spread.quantiles.items()} | {"largest": spread.maximum}
+    numbers.add_row(label.name, f"{spread.samples}", "samples")
+    for name, number in rows.items():
+        numbers.add_row(f"  {name}", f"{scale.factor * number:.4g}", scale.unit)
+    if found.share_below_voltage is not None:
+        numbers.add_row(
+            "  below the applied voltage", f"{100.0 * found.share_below_voltage:.3g}", "% of samples"
+        )
+    parts = Table(title=None, box=None, padding=(0, 2, 0, 0))
+    parts.add_column("part of the variance")
+    for head in ("first order", "95 % interval", "total", "95 % interval"):
+        parts.add_column(head, justify="right", no_wrap=True)
+    for index in sorted(found.indices, key=lambda one: -one.total):
+        parts.add_row(
+            label_of(index.key, results.case).name,
+            f"{index.first_order:.3f}",
+            "{:.3f} to {:.3f}".format(*index.first_order_interval),
+            f"{index.total:.3f}",
+            "{:.3f} to {:.3f}".format(*index.total_interval),
+        )
+    return [numbers, parts]
+
+
+def _remarks(found: Sensitivity) -> list[str]:
+    """What to know before using the numbers."""
+    remarks = []
+    if found.dropped:
+        remarks.append(
+            f"{found.dropped} of {found.rows} rows have a point that is not solved and are left out: the "
+            "numbers are those of the rest of the ranges"
+        )
+    ends = [end for i in found.indices for end in (i.first_order_interval, i.total_interval)]
+    widest = max(0.5 * (high - low) for low, high in ends)
+    if widest > _WIDE:
+        remarks.append(
+            f"confidence intervals reach up to {widest:.1g} either way; four times the samples halve that"
+        )
+    return remarks

@@ -1,0 +1,224 @@
+"""The sweep command."""
+
+from __future__ import annotations
+
+import re
+import sys
+import time
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ehlectric.errors import InputError, LostError, shown
+from ehlectric.terminal import NOT_CONVERGED, print_table, user_errors, warn
+from ehlectric.version import __version__
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+    from ehlectric.sweep_results import SweepResults
+
+# Between two lines of progress where nobody sees a bar [s].
+_EVERY = 15.0
+
+# Reasons that are printed; all of them are in the tables.
+_REASONS = 5
+
+# What reasons that are alike differ in.
+_NUMBER = re.compile(r"\d[\d.e+-]*")
+
+# More processes than any machine has cores.
+_MOST_WORKERS = 1024
+
+
+def sweep(
+    sweep_file: Annotated[Path, typer.Argument(help="Sweep file, TOML.", show_default=False)],
+    output: Annotated[
+        Path, typer.Option("--output", "-o", metavar="DIR", help="Folder for the results.")
+    ] = Path("sweep"),
+    workers: Annotated[
+        str | None,
+        typer.Option(metavar="N", help="Processes on this machine; as many as cores if not given."),
+    ] = None,
+    scheduler: Annotated[
+        str | None, typer.Option(metavar="ADDRESS", help="Of a Dask cluster that solves instead.")
+    ] = None,
+    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No table, progress or warnings.")] = False,
+) -> None:
+    """Solve a case over varied inputs; write sweep.sqlite, sweep.csv, sweep.nc and sweep.parquet.
+
+    Each point is saved as it finishes: the same command again goes on where it was stopped.
+
+    Exit status 0: done, though some points may have failed, which is said. 2: the input is wrong. 3: no point
+    was solved, or the scheduler is gone.
+    """
+    with user_errors():
+        count = _workers(workers, scheduler)
+
+        from ehlectric.sweep_inputs import Sweep
+
+        asked = Sweep.from_toml(sweep_file)
+
+        from ehlectric.sweep import crew, run_with
+
+        if scheduler is None:
+            solvers = crew(None, count)
+        else:
+            from ehlectric.sweep_cluster import cluster
+
+            solvers = cluster(scheduler)
+        with _told_where_it_stops(output) as seen, solvers as those, _shown(seen, quiet=quiet) as progress:
+            results = run_with(asked, output, those, progress)
+    if not quiet:
+        from ehlectric.sweep_tables import FILES
+
+        print_table(results_table(results))
+        typer.echo("written: " + ", ".join(str(output / name) for name in FILES if (output / name).exists()))
+        warn(_remarks(results))
+    if not any(point.solved for point in results.points):
+        typer.echo(f"error: none of {len(results.points)} points was solved", err=True)
+        raise typer.Exit(NOT_CONVERGED)
+
+
+def _workers(text: str | None, scheduler: str | None) -> int | None:
+    """The number of processes that an option gives."""
+    if text is None:
+        return None
+    if scheduler is not None:
+        raise InputError("--workers: got it beside --scheduler, takes one of the two")
+    if not text.isdecimal() or not 1 <= int(text) <= _MOST_WORKERS:
+        raise InputError(f"--workers: got {shown(text)}, takes a whole number from 1 to {_MOST_WORKERS}")
+    return int(text)
+
+
+class _Seen:
+    """How far a sweep has come."""
+
+    done = of = 0
+
+
+@contextmanager
+def _told_where_it_stops(output: Path) -> Iterator[_Seen]:
+    """One line of what is saved where a sweep is stopped or loses those who solve it."""
+    seen = _Seen()
+
+    def told(why: str) -> None:
+        saved = f"{seen.done} of {seen.of} points are saved in {output}"
+        typer.echo(f"{why}; {saved}, the same command goes on with the others", err=True)
+
+    try:
+        yield seen
+    except LostError as error:
+        told(f"error: those who solve are gone: {error}")
+        raise typer.Exit(NOT_CONVERGED) from None
+    except (KeyboardInterrupt, SystemExit):
+        if seen.of:
+            told("stopped")
+        raise
+
+
+@contextmanager
+def _shown(seen: _Seen, *, quiet: bool) -> Iterator[Callable[[int, int, str], None]]:
+    """Progress on stderr: a bar where somebody sees it, else a line now and then."""
+    showing = _silent() if quiet else _bar() if sys.stderr.isatty() else _lines()
+    with showing as show:
+
+        def progress(done: int, of: int, text: str) -> None:
+            seen.done, seen.of = done, of
+            show(done, of, text)
+
+        yield progress
+
+
+@contextmanager
+def _silent() -> Iterator[Callable[[int, int, str], None]]:
+    yield lambda _done, _of, _text: None
+
+
+@contextmanager
+def _lines() -> Iterator[Callable[[int, int, str], None]]:
+    """Plain lines, for a log file."""
+    started, first, last = 0.0, 0, time.monotonic()
+
+    def show(done: int, of: int, text: str) -> None:
+        nonlocal started, first, last
+        now = time.monotonic()
+        if not started:
+            started, first = now, done
+        if now - last < _EVERY:
+            return
+        last = now
+        rate = (done - first) / max(now - started, 1e-9)
+        left = f", {rate:.3g} a second, {_duration((of - done) / rate)} left" if rate else ""
+        typer.echo(f"{done} of {of} points{left}" + (f", {text}" if text else ""), err=True)
+
+    yield show
+
+
+@contextmanager
+def _bar() -> Iterator[Callable[[int, int, str], None]]:
+    """A bar with rate and time left, those of this run."""
+    from rich import progress
+    from rich.console import Console
+
+    columns = (
+        progress.BarColumn(),
+        progress.MofNCompleteColumn(),
+        progress.TextColumn("{task.fields[rate]}"),
+        progress.TimeRemainingColumn(),
+        progress.TextColumn("{task.description}"),
+    )
+    with progress.Progress(*columns, console=Console(stderr=True)) as bar:
+        tasks: list[progress.TaskID] = []
+
+        def show(done: int, of: int, text: str) -> None:
+            if not tasks:
+                tasks.append(bar.add_task(text, total=of, completed=done, rate=""))
+            speed = bar.tasks[0].speed
+            rate = "" if speed is None else f"{speed:.3g}/s"
+            bar.update(tasks[0], completed=done, description=text, rate=rate)
+
+        yield show
+
+
+def _duration(seconds: float) -> str:
+    minutes, rest = divmod(round(seconds), 60)
+    hours, minutes = divmod(minutes, 60)
+    return f"{hours}:{minutes:02}:{rest:02}"
+
+
+def results_table(results: SweepResults) -> Table:
+    """How many points were solved, and why the others were not."""
+    from ehlectric.report import plain_table
+
+    table = plain_table("")
+    for status in ("solved", "not converged", "failed"):
+        reasons = [point.reason for point in results.points if point.status == status]
+        table.add_row(status, str(len(reasons)), f"of {len(results.points)} points" * (status == "solved"))
+        for count, reason in _alike(reasons):
+            table.add_row("", str(count), reason)
+    return table
+
+
+def _alike(reasons: Iterable[str]) -> Iterator[tuple[int, str]]:
+    """How many reasons are alike but for their numbers, with the first of them; the most frequent ones."""
+    kinds: dict[str, list[str]] = {}
+    for reason in filter(None, reasons):
+        kinds.setdefault(_NUMBER.sub("", reason), []).append(reason)
+    found = sorted(kinds.values(), key=len, reverse=True)
+    for alike in found[:_REASONS]:
+        yield len(alike), alike[0] if len(set(alike)) == 1 else f"such as: {alike[0]}"
+    if others := sum(map(len, found[_REASONS:])):
+        yield others, "for other reasons, which are in sweep.csv"
+
+
+def _remarks(results: SweepResults) -> Iterator[str]:
+    """What a user should know of where the points come from."""
+    others = Counter(point.version for point in results.points if point.version not in ("", __version__))
+    for version, count in others.items():
+        kept = f"{count} points were solved by version {version} and are kept"
+        yield f"{kept}; in a new folder {__version__} solves them"

@@ -1,0 +1,225 @@
+"""What the axes of a sweep's figures are called: name, symbol and unit of varied keys and of values."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ehlectric.case import Case
+from ehlectric.case_keys import kind_of
+from ehlectric.drawing import unit_for
+from ehlectric.quantity import Quantity
+from ehlectric.typing import Array
+
+# Name and symbol of inputs; their units stand in the case.
+_INPUTS = {
+    "contact.entrainment_speed": ("entrainment speed", r"$(u_1 + u_2)/2$"),
+    "contact.speed_1": ("speed of surface 1", "$u_1$"),
+    "contact.speed_2": ("speed of surface 2", "$u_2$"),
+    "contact.slide_to_roll_ratio": ("slide-to-roll ratio", ""),
+    "contact.load": ("load", "$F$"),
+    "contact.load_per_length": ("load per length", "$w$"),
+    "contact.max_hertz_pressure": ("Hertz pressure", r"$p_\mathrm{h}$"),
+    "contact.reduced_radius": ("reduced radius", "$R$"),
+    "contact.radius_x": ("reduced radius along entrainment", "$R_x$"),
+    "contact.radius_y": ("reduced radius across entrainment", "$R_y$"),
+    "contact.reduced_modulus": ("reduced modulus", "$E'$"),
+    "lubricant.base": ("lubricant", ""),
+    "lubricant.viscosity": ("viscosity", r"$\eta_0$"),
+    "lubricant.pressure_viscosity_coefficient": ("pressure-viscosity coefficient", r"$\alpha$"),
+    "lubricant.roelands_z": ("Roelands' exponent", "$z$"),
+    "lubricant.roelands_pressure": ("Roelands' constant", "$p_0$"),
+    "lubricant.relative_permittivity": ("relative permittivity", r"$\varepsilon_\mathrm{r}$"),
+    "electric.potential_1": ("potential of surface 1", "$V_1$"),
+    "electric.potential_2": ("potential of surface 2", "$V_2$"),
+    "discharge.dielectric_strength": ("dielectric strength", ""),
+    "discharge.weibull.scale": ("Weibull scale", "$E_0$"),
+    "discharge.weibull.shape": ("Weibull shape", "$m$"),
+    "discharge.temperature": ("temperature", ""),
+    "discharge.conductivity": ("conductivity", r"$\sigma$"),
+    "discharge.external_capacitance": ("external capacitance", ""),
+    "discharge.length": ("length of the contact", ""),
+    "grid.nodes": ("nodes", ""),
+}
+
+# Name and symbol of values of the summary; their units follow from the last part of the key.
+_VALUES = {
+    "groups.moes_m": ("Moes", "$M$"),
+    "groups.moes_l": ("Moes", "$L$"),
+    "hertz.half_width": ("half-width", "$b$"),
+    "hertz.semi_axis_x": ("semi-axis along entrainment", "$b$"),
+    "hertz.semi_axis_y": ("semi-axis across entrainment", "$a$"),
+    "hertz.max_pressure": ("Hertz pressure", r"$p_\mathrm{h}$"),
+    "film.minimum_thickness": ("minimum film thickness", r"$h_\mathrm{min}$"),
+    "film.central_thickness": ("central film thickness", "$h(0)$"),
+    "film.mean_thickness": ("mean film thickness", r"$\bar{h}$"),
+    "film.max_pressure": ("largest pressure in the film", r"$p_\mathrm{max}$"),
+    "film.discretisation_error": ("discretisation error of the film", ""),
+    "field.voltage": ("voltage", "$V_{12}$"),
+    "field.max_strength": ("largest field strength", r"$|E|_\mathrm{max}$"),
+    "field.max_dimensionless": ("largest field strength", r"$|E|_\mathrm{max}\,h_\mathrm{min}/V_{12}$"),
+    "field.high_field_width": ("width above 95 % of the largest field", ""),
+    "field.high_field_area": ("area above 95 % of the largest field", ""),
+    "field.capacitance_per_length": ("capacitance per length, field range", ""),
+    "field.capacitance": ("capacitance, field range", "$C$"),
+    "roughness.lambda_ratio": ("lambda ratio", r"$\Lambda$"),
+    "discharge.breakdown_voltage": ("breakdown voltage", r"$V_\mathrm{b}$"),
+    "discharge.margin": ("breakdown voltage over applied voltage", r"$V_\mathrm{b}/V_{12}$"),
+    "discharge.probability": ("probability of breakdown", ""),
+    "discharge.capacitance_hertz": ("capacitance of the Hertz zone", r"$C_\mathrm{H}$"),
+    "discharge.capacitance_inlet": ("capacitance of the inlet", ""),
+    "discharge.capacitance_outlet": ("capacitance of the outlet", ""),
+    "discharge.capacitance_ratio": ("capacitance over that of a plate", ""),
+    "discharge.contact_energy": ("energy of the contact", "$C V_{12}^2/2$"),
+    "discharge.discharge_energy": ("energy of the discharge", ""),
+    "discharge.relaxation_time": ("charge relaxation time", r"$\varepsilon/\sigma$"),
+}
+
+# SI units by words of the last part of a key: keys are named for what they are.
+_UNITS = (
+    (("ratio", "error", "share", "margin", "probability", "dimensionless", "residual", "deficit"), ""),
+    (("voltage", "potential"), "V"),
+    (("thickness", "width", "position", "length", "depth", "diameter", "radius", "axis", "rq"), "m"),
+    (("area",), "m**2"),
+    (("volume",), "m**3"),
+    (("pressure",), "Pa"),
+    (("strength",), "V/m"),
+    (("energy",), "J"),
+    (("time",), "s"),
+    (("frequency",), "Hz"),
+    (("conductivity",), "S/m"),
+)
+
+# Units that are never prefixed: of none, of angles, and of absolute temperatures.
+_PLAIN = ("", "deg", "K", "rad")
+
+
+@dataclass(frozen=True)
+class Label:
+    """A key as it is shown.
+
+    Attributes
+    ----------
+    name, symbol : str
+        As "load per length" and "$w$"; the dotted key and none where it has no name of its own.
+    unit : str
+        SI unit as pint writes it; empty where there is none, or it is not known.
+    """
+
+    name: str
+    symbol: str
+    unit: str
+
+    def scaled(self, values: Array) -> Scale:
+        """The unit in which values, SI, are numbers that can be read; those not finite do not count."""
+        finite = np.abs(values[np.isfinite(values)])
+        return scale_for(float(np.max(finite, initial=0.0)) or 1.0, self.unit)
+
+    def axis(self, scale: Scale) -> str:
+        """Label of an axis in that unit."""
+        return " ".join(filter(None, [self.name, self.symbol, f"[{scale.unit}]" if scale.unit else ""]))
+
+
+@dataclass(frozen=True)
+class Scale:
+    """A unit to show values in, and what SI values are multiplied with."""
+
+    factor: float
+    unit: str
+
+    def text(self, value: Any) -> str:
+        """A value, SI, with its unit; a text as it is."""
+        if not isinstance(value, int | float):
+            return str(value)
+        return f"{value * self.factor:.4g} {self.unit}".rstrip()
+
+
+def label_of(key: str, case: Case) -> Label:
+    """Name, symbol and unit of a varied key or of a value of the summary.
+
+    Parameters
+    ----------
+    key : str
+        Dotted key of the case or of the summary; "inputs." before one of the case makes no difference.
+    case : Case
+        Of a line contact, whose capacitances are per length, or of a point contact.
+
+    Returns
+    -------
+    Label
+        With the dotted key as its name where that is all that is known.
+    """
+    own = key.removeprefix("inputs.")
+    kind = kind_of(own)
+    if kind is not None or own in _INPUTS:
+        unit = kind.unit if isinstance(kind, Quantity) else ""
+        return Label(*_INPUTS.get(own, (own, "")), unit)
+    name, symbol = _VALUES.get(key, (key, ""))
+    return Label(name, symbol, _unit_of(key, case))
+
+
+def _unit_of(key: str, case: Case) -> str:
+    """SI unit of a value of the summary."""
+    table, *_ = parts = [part for part in key.split(".") if not part.isdigit()]
+    if table == "seconds":
+        return "s"
+    words = parts[-1].split("_")
+    if "capacitance" in parts[-1] and "ratio" not in words:
+        # Those of all zones are per length of a line; field.capacitance is a point contact's alone.
+        return "F/m" if case.contact.geometry == "line" and "external" not in words else "F"
+    return next((unit for names, unit in _UNITS if set(names) & set(words)), "")
+
+
+def scale_for(largest: float, unit: str) -> Scale:
+    """Prefix of a unit by the largest of the values.
+
+    Parameters
+    ----------
+    largest : float
+        Above 0, SI.
+    unit : str
+        SI unit as pint writes it.
+
+    Returns
+    -------
+    Scale
+        With the unit as it is printed.
+
+    Examples
+    --------
+    >>> scale_for(2.2e-8, "1/Pa")
+    Scale(factor=1000000000.0, unit='1/GPa')
+    >>> scale_for(3e-12, "m**2")
+    Scale(factor=1000000000000.0, unit='µm²')
+    >>> scale_for(0.04, "Pa*s")
+    Scale(factor=1000.0, unit='mPa s')
+    """
+    if unit in _PLAIN:
+        return Scale(1.0, unit)
+    if unit.startswith("1/"):
+        # One over a value in the prefixed unit: the prefix of what is below the line.
+        factor, prefixed = unit_for(1.0 / largest, unit[2:], least=0.001)
+        return Scale(round_factor(1.0 / factor), f"1/{prefixed}")
+    base, power = (unit[:-3], int(unit[-1])) if unit in ("m**2", "m**3") else (unit, 1)
+    if unit == "s":
+        largest = min(largest, 1.0)
+    factor, prefixed = unit_for(largest ** (1.0 / power), base)
+    return Scale(round_factor(factor) ** power, _printed(prefixed) + {1: "", 2: "²", 3: "³"}[power])
+
+
+def round_factor(factor: float) -> float:
+    """The power of ten that a factor is, without the rounding of one over a negative power.
+
+    Examples
+    --------
+    >>> round_factor(1 / 1e-6)
+    1000000.0
+    """
+    return float(f"{factor:.9g}")
+
+
+def _printed(unit: str) -> str:
+    """A unit of pint's as it is printed."""
+    return unit.replace("**3", "³").replace("**2", "²").replace("*", " ").replace("ohm", "Ω")

@@ -1,0 +1,202 @@
+"""A sweep as tables: CSV, Parquet where pyarrow is there, and NetCDF, gridded where its points are a grid."""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+from collections.abc import Mapping
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ehlectric.case_keys import input_field, number_of
+from ehlectric.quantity import Quantity
+from ehlectric.store import clear, prepare, whole
+from ehlectric.sweep_results import SweepResults, flat
+from ehlectric.version import __version__
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+CSV = "sweep.csv"
+PARQUET = "sweep.parquet"
+NETCDF = "sweep.nc"
+FILES = (CSV, PARQUET, NETCDF)
+
+
+def write_tables(results: SweepResults, folder: str | Path) -> list[Path]:
+    """Write sweep.csv, sweep.nc and, where pyarrow is there, sweep.parquet.
+
+    Parameters
+    ----------
+    results : SweepResults
+        As ``read_sweep`` gives it, finished or not.
+    folder : str or Path
+        Where to; made if it is not there.
+
+    Returns
+    -------
+    list of Path
+        The files written.
+
+    Raises
+    ------
+    InputError
+        Where the folder cannot be written to.
+    """
+    folder = prepare(folder, FILES)
+    columns = columns_of(results)
+    clear(folder, FILES)
+    files = [folder / CSV, folder / NETCDF]
+    with whole(files[0]) as path, path.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(columns)
+        writer.writerows(zip(*(map(_cell, column) for column in columns.values()), strict=True))
+    with whole(files[1]) as path:
+        to_xarray(results).to_netcdf(path, engine="h5netcdf")
+    if find_spec("pyarrow") is not None:
+        import pyarrow
+        from pyarrow import parquet
+
+        files.append(folder / PARQUET)
+        with whole(files[-1]) as path:
+            parquet.write_table(pyarrow.table({key: _plain(column) for key, column in columns.items()}), path)
+    return files
+
+
+def columns_of(results: SweepResults) -> dict[str, list[Any]]:
+    """One row a point: number, status, reason, seconds, what was varied, and every number of the summary.
+
+    Parameters
+    ----------
+    results : SweepResults
+        A sweep, finished or not.
+
+    Returns
+    -------
+    dict
+        Columns by name, those of inputs and results by their dotted key, SI. Results are None where a point
+        is not solved, or has no such number; of the inputs that the summary resolves, those that vary.
+    """
+    points = results.points
+    columns: dict[str, list[Any]] = {
+        "number": [point.number for point in points],
+        "status": [point.status for point in points],
+        "reason": [point.reason for point in points],
+        "seconds": [point.seconds for point in points],
+    }
+    columns |= {key: [point.inputs[key] for point in points] for key in results.varied}
+    return columns | numbers_of(results)
+
+
+def numbers_of(results: SweepResults) -> dict[str, list[float | None]]:
+    """The numbers of all summaries by dotted key, a list over the points each."""
+    rows = [_numbers(point.summary) if point.solved and point.summary else {} for point in results.points]
+    keys = dict.fromkeys(key for row in rows for key in row)
+    found = {key: [row.get(key) for row in rows] for key in keys}
+    # Of what the summary repeats of its case, that which was not given and yet varies.
+    given = {f"inputs.{key}" for key in results.varied}
+    return {
+        key: values
+        for key, values in found.items()
+        if not key.startswith("inputs.") or (key not in given and len({*values} - {None}) > 1)
+    }
+
+
+def _numbers(summary: Mapping[str, Any]) -> dict[str, float]:
+    return {
+        key: value
+        for key, value in flat(summary).items()
+        if isinstance(value, int | float) and not isinstance(value, bool)
+    }
+
+
+def to_xarray(results: SweepResults) -> xr.Dataset:
+    """A sweep as a dataset, SI.
+
+    Parameters
+    ----------
+    results : SweepResults
+        A sweep, finished or not.
+
+    Returns
+    -------
+    xarray.Dataset
+        Of a "grid" over the varied keys, else over ``point``, with the numbers of the summary by dotted key,
+        not a number where a point is not solved; ``status`` and ``reason`` as texts.
+    """
+    import xarray as xr
+
+    gridded = results.design == "grid"
+    dimensions = results.varied if gridded else ("point",)
+    shape = tuple(len(axis) for axis in results.axes.values()) if gridded else (len(results.points),)
+
+    def laid(values: list[Any]) -> tuple[tuple[str, ...], Any]:
+        return dimensions, _array(values).reshape(shape)
+
+    columns = columns_of(results)
+    own = {name: laid(columns.pop(name)) for name in ("number", "status", "reason", "seconds")}
+    inputs = {key: columns.pop(key) for key in results.varied}
+    coordinates = {
+        key: (
+            key if gridded else "point",
+            _array(list(results.axes[key] if gridded else values)),
+            _units(key),
+        )
+        for key, values in inputs.items()
+    }
+    numbers = {
+        key: laid([math.nan if value is None else float(value) for value in values])
+        for key, values in columns.items()
+    }
+    return xr.Dataset(
+        own | numbers,
+        coords=coordinates,
+        attrs={
+            "Conventions": "CF-1.11",
+            "title": results.case.title or "Sweep of a lubricated contact",
+            "source": f"ehlectric {__version__}",
+            "comment": "SI units; not a number where a point is not solved",
+            "case": results.case.to_toml(),
+            "design": results.design,
+            "ranges": json.dumps({key: vars(over) for key, over in results.ranges.items()}),
+            "samples": results.samples,
+            "seed": results.seed,
+        },
+    )
+
+
+def _array(values: list[Any]) -> Any:
+    """Whole numbers and floats as such, texts and lists as texts."""
+    numeric = [isinstance(value, int | float) and not isinstance(value, bool) for value in values]
+    if all(numeric):
+        return np.array(values)
+    return np.array([_cell(value) for value in values], dtype=object)
+
+
+def _plain(column: list[Any]) -> list[Any]:
+    """A column of one type, for Parquet."""
+    texts = any(isinstance(value, str | list | bool) for value in column)
+    if texts:
+        return [None if value is None else _cell(value) for value in column]
+    if any(isinstance(value, float) for value in column):
+        return [None if value is None else float(value) for value in column]
+    return column
+
+
+def _cell(value: Any) -> Any:
+    """A value as text is written where it is no number: lists as JSON, nothing as nothing."""
+    if value is None or isinstance(value, str):
+        return value or ""
+    return repr(value) if isinstance(value, float) else json.dumps(value)
+
+
+def _units(key: str) -> dict[str, str]:
+    """Attributes of a varied input."""
+    number = number_of(input_field(key))
+    if not isinstance(number, Quantity):
+        return {}
+    return {"units": number.unit.replace("**", "^").replace("*", " ") or "1"}

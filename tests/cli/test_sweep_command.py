@@ -1,0 +1,331 @@
+"""The sweep command as a user types it: its options, what it prints, and every way it may be stopped."""
+
+import csv
+import json
+import os
+import random
+import signal
+import sqlite3
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+import xarray as xr
+
+from ehlectric import read_sweep
+from tests.cli.conftest import CASE, COMMAND, EXAMPLES
+from tests.cli.test_reproduce import children, gone
+
+SWEEP = """\
+case = "case.toml"
+[vary]
+contact.entrainment_speed = ["1 m/s", "2 m/s"]
+contact.max_hertz_pressure = { from = "0.5 GPa", to = "1 GPa", count = 2 }
+"""
+# Many points that take a moment each.
+LONG = """\
+case = "case.toml"
+[vary]
+contact.entrainment_speed = { from = "0.5 m/s", to = "8 m/s", count = 12, spacing = "log" }
+contact.max_hertz_pressure = { from = "0.5 GPa", to = "2 GPa", count = 10 }
+"""
+
+
+@pytest.fixture
+def swept(tmp_path, case_file):
+    """Writes a sweep file beside its case."""
+    case_file.write_text(CASE.replace("801", "257"))
+
+    def write(text):
+        (tmp_path / "sweep.toml").write_text(text)
+        return "sweep.toml"
+
+    return write
+
+
+def rows_of(folder):
+    with (folder / "sweep.csv").open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def saved(folder):
+    """Points that are saved, by their keys."""
+    with sqlite3.connect(f"file:{folder}/sweep.sqlite?mode=ro", uri=True, timeout=30.0) as file:
+        found = dict(file.execute("SELECT key, summary FROM results"))
+    file.close()
+    return found
+
+
+def test_a_sweep_is_solved_saved_and_told(ehlectric, tmp_path, swept):
+    done = ehlectric("sweep", swept(SWEEP), "-o", "out", "--workers", 1)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout.split()[:5] == ["solved", "4", "of", "4", "points"]
+    written = done.stdout.splitlines()[-1]
+    assert written == "written: out/sweep.csv, out/sweep.parquet, out/sweep.nc"
+    rows = rows_of(tmp_path / "out")
+    assert [row["contact.entrainment_speed"] for row in rows] == ["1.0", "1.0", "2.0", "2.0"]
+    with xr.open_dataset(tmp_path / "out" / "sweep.nc") as file:
+        assert dict(file.sizes) == {"contact.entrainment_speed": 2, "contact.max_hertz_pressure": 2}
+        # More speed, thicker film; more load, a thinner one.
+        thickness = file["film.minimum_thickness"].values
+    assert (thickness[1] > thickness[0]).all()
+    assert (thickness[:, 1] < thickness[:, 0]).all()
+    again = ehlectric("sweep", "sweep.toml", "-o", "out", "-q")
+    assert (again.returncode, again.stdout, again.stderr) == (0, "", "")
+    assert rows_of(tmp_path / "out") == rows
+
+
+def test_points_that_failed_are_counted_by_their_reason(ehlectric, tmp_path, swept):
+    text = SWEEP + "grid.nodes = [257, 65]\ngrid.outlet = [2.0, 9.0]\nsolver.max_iterations = [30]\n"
+    done = ehlectric("sweep", swept(text), "-o", "out", "--workers", 1)
+    assert (done.returncode, done.stderr) == (0, "")
+    counts = {row["status"]: 0 for row in rows_of(tmp_path / "out")}
+    for row in rows_of(tmp_path / "out"):
+        counts[row["status"]] += 1
+    # 13 half-widths take 105 nodes at least: four points have 65.
+    assert counts["failed"] == 4
+    assert "failed 4 4 grid.nodes: got 65 over 13 half-widths, takes at least 105" in " ".join(
+        done.stdout.split()
+    )
+
+
+def test_where_none_is_solved_the_status_is_3(ehlectric, tmp_path, swept):
+    done = ehlectric("sweep", swept(SWEEP + "solver.max_iterations = [1]\n"), "-o", "out", "--workers", 1)
+    assert (done.returncode, done.stderr) == (3, "error: none of 4 points was solved\n")
+    assert [row["status"] for row in rows_of(tmp_path / "out")] == ["not converged"] * 4
+
+
+SPED = SWEEP.replace("entrainment_speed", "entrainment_sped")
+BOTH = SWEEP + "contact.load_per_length = [1e6]\n"
+BAD = [
+    (
+        SPED,
+        [],
+        "vary.contact.entrainment_sped: unknown key; the nearest known one is contact.entr",
+    ),
+    (SWEEP.replace("case.toml", "other.toml"), [], "other.toml: cannot be read, no such file or directory"),
+    (
+        BOTH,
+        [],
+        "vary: no point is a case; of the first, contact.load_per_length: got load_per",
+    ),
+    (SWEEP, ["--workers", "two"], "--workers: got 'two', takes a whole number from 1 to 1024"),
+    (
+        SWEEP,
+        ["--workers", "2", "--scheduler", "a:1"],
+        "--workers: got it beside --scheduler, takes one",
+    ),
+    (SWEEP, ["--scheduler", "nonsense"], "scheduler: got no answer from 'nonsense', missing port number"),
+]
+
+
+@pytest.mark.parametrize(("text", "options", "message"), BAD)
+def test_wrong_input_is_one_line_before_anything_is_made(ehlectric, tmp_path, swept, text, options, message):
+    done = ehlectric("sweep", swept(text), "-o", "out", *options)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith(f"error: {message}")
+    assert done.stderr.count("\n") == 1
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_file_of_others_is_left_alone(ehlectric, tmp_path, swept):
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / "sweep.sqlite").write_text("mine\n" * 100)
+    done = ehlectric("sweep", swept(SWEEP), "-o", "out")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith("error: out/sweep.sqlite: is not a sweep of ehlectric")
+    assert done.stderr.count("\n") == 1
+    assert (tmp_path / "out" / "sweep.sqlite").read_text() == "mine\n" * 100
+
+
+@pytest.mark.slow
+def test_a_scheduler_that_nobody_is(ehlectric, swept):
+    started = time.monotonic()
+    done = ehlectric("sweep", swept(SWEEP), "-o", "out", "--scheduler", "tcp://127.0.0.1:1")
+    assert time.monotonic() - started < 20.0  # 8 s, and the start of the program
+    assert (done.returncode, done.stderr) == (
+        2,
+        "error: scheduler: got no answer from 'tcp://127.0.0.1:1', none in 8 s\n",
+    )
+
+
+def told(count):
+    """What is said of a long sweep that is stopped."""
+    return f"{count} of 120 points are saved in out, the same command goes on with the others\n"
+
+
+def begun(folder, *options, points=1, group=False):
+    """A long sweep with some points saved, still running."""
+    process = subprocess.Popen(
+        [COMMAND, "sweep", "sweep.toml", "-o", "out", *options],
+        cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=group,
+    )  # fmt: skip
+    wait_for_points(folder / "out", points, process)
+    return process
+
+
+def wait_for_points(folder, points, process):
+    deadline = time.monotonic() + 60.0
+    while time.monotonic() < deadline:
+        assert process.poll() is None, process.communicate()
+        if (folder / "sweep.sqlite").exists():
+            try:
+                if len(saved(folder)) >= points:
+                    return
+            except sqlite3.OperationalError:
+                pass  # its tables are being made
+        time.sleep(0.02)
+    raise AssertionError("nothing is saved")
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_sweep_that_is_stopped_says_what_is_saved(tmp_path, swept, number):
+    swept(LONG)
+    process = begun(tmp_path, "--workers", "1", group=True)
+    workers = children(process.pid)
+    assert workers
+    os.killpg(process.pid, number) if number == signal.SIGINT else process.send_signal(number)
+    out, errors = process.communicate(timeout=30)
+    assert (process.returncode, out) == (128 + number, "")
+    count = len(saved(tmp_path / "out"))
+    assert (
+        errors
+        == f"stopped; {count} of 120 points are saved in out, the same command goes on with the others\n"
+    )
+    assert gone(workers)
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == [".sweep.lock", "sweep.sqlite"]
+
+
+def test_a_second_sweep_in_the_same_folder_is_refused(ehlectric, tmp_path, swept):
+    swept(LONG)
+    process = begun(tmp_path, "--workers", "1")
+    second = ehlectric("sweep", "sweep.toml", "-o", "out")
+    assert (second.returncode, second.stdout) == (2, "")
+    assert second.stderr == "error: out: is being written to by another sweep, takes a folder of its own\n"
+    assert process.poll() is None
+    process.terminate()
+    process.communicate(timeout=30)
+
+
+@pytest.mark.slow
+def test_no_row_is_lost_or_doubled_by_kills(ehlectric, tmp_path, swept):
+    """Ten times kill -9 at a random moment: rows only become more, and the workers go too."""
+    swept(LONG.replace("count = 10", "count = 20"))
+    moment, rows = random.Random(5), {}
+    for turn in range(10):
+        # Half of them while points are saved, half while all is being made ready.
+        process = begun(tmp_path, "--workers", "2", points=len(rows) + 1 if turn % 2 else len(rows))
+        time.sleep(moment.uniform(0.0, 0.4))
+        workers = children(process.pid)
+        before = saved(tmp_path / "out")
+        process.kill()
+        process.communicate(timeout=30)
+        after = saved(tmp_path / "out")
+        assert rows.items() <= before.items() <= after.items()
+        assert gone(workers)
+        rows = after
+    assert 5 <= len(rows) < 240
+    done = ehlectric("sweep", "sweep.toml", "-o", "out")
+    assert done.returncode == 0, done.stderr
+    final = saved(tmp_path / "out")
+    assert rows.items() <= final.items()
+    assert len(final) == 240
+    assert [point.status for point in read_sweep(tmp_path / "out").points] == ["solved"] * 240
+    assert [row["number"] for row in rows_of(tmp_path / "out")] == [str(k) for k in range(240)]
+
+
+@pytest.mark.slow
+def test_a_worker_that_is_killed_costs_no_point(tmp_path, swept):
+    swept(LONG.replace("count = 10", "count = 4"))
+    process = begun(tmp_path, "--workers", "2", points=4)
+    # The tracker of resources is a child as well, and no worker.
+    workers = [
+        pid for pid in children(process.pid) if b"spawn_main" in Path(f"/proc/{pid}/cmdline").read_bytes()
+    ]
+    os.kill(workers[0], signal.SIGKILL)
+    _, errors = process.communicate(timeout=100)
+    assert (process.returncode, errors) == (0, "")
+    assert [point.status for point in read_sweep(tmp_path / "out").points] == ["solved"] * 48
+
+
+@pytest.mark.slow
+def test_the_example(ehlectric, tmp_path):
+    done = ehlectric("sweep", EXAMPLES / "sweep.toml", "-o", "out")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert [row["status"] for row in rows_of(tmp_path / "out")] == ["solved"] * 30
+
+
+@pytest.fixture
+def cluster(tmp_path):
+    """A scheduler and a worker, started by their own commands."""
+    processes, address = [], tmp_path / "scheduler.json"
+
+    def start(what, *options):
+        log = (tmp_path / f"{what}.log").open("w")
+        arguments = [sys.executable, "-m", f"distributed.cli.dask_{what}", "--no-dashboard", *options]
+        processes.append(subprocess.Popen(arguments, cwd=tmp_path, stdout=log, stderr=log))
+        log.close()
+        return processes[-1]
+
+    scheduler = start("scheduler", "--host", "127.0.0.1", "--port", "0", "--scheduler-file", str(address))
+    deadline = time.monotonic() + 60.0
+    while not address.exists() and time.monotonic() < deadline:
+        time.sleep(0.1)
+    where = json.loads(address.read_text())["address"]
+    start("worker", where, "--nworkers", "1", "--nthreads", "1", "--local-directory", str(tmp_path))
+    yield where, scheduler
+    for process in reversed(processes):
+        process.terminate()
+        process.wait(timeout=30)
+
+
+@pytest.mark.slow
+def test_a_scheduler_that_dies_loses_nothing(ehlectric, tmp_path, swept, cluster):
+    swept(LONG)
+    address, scheduler = cluster
+    process = begun(tmp_path, "--scheduler", address, points=5)
+    scheduler.kill()
+    scheduler.wait()
+    out, errors = process.communicate(timeout=60)
+    assert (process.returncode, out) == (3, "")
+    rows = saved(tmp_path / "out")
+    assert len(rows) >= 5
+    assert errors.startswith("error: those who solve are gone: ")
+    assert errors.endswith(
+        f"; {len(rows)} of 120 points are saved in out, the same command goes on with the others\n"
+    )
+    assert errors.count("\n") == 1
+    # Without the cluster, on this machine.
+    done = ehlectric("sweep", "sweep.toml", "-o", "out")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert rows.items() <= saved(tmp_path / "out").items()
+    assert [point.status for point in read_sweep(tmp_path / "out").points] == ["solved"] * 120
+
+
+@pytest.mark.slow
+def test_a_cluster_started_by_its_own_commands(ehlectric, tmp_path, swept, cluster):
+    done = ehlectric("sweep", swept(SWEEP), "-o", "out", "--scheduler", cluster[0])
+    assert (done.returncode, done.stderr) == (0, "")
+    assert [row["status"] for row in rows_of(tmp_path / "out")] == ["solved"] * 4
+
+
+@pytest.mark.slow
+def test_a_local_cluster_from_python(tmp_path, swept):
+    """As a script has it: a LocalCluster, its executor, and nothing left behind or warned of."""
+    swept(SWEEP)
+    script = tmp_path / "script.py"
+    script.write_text(
+        "from distributed import Client, LocalCluster\n"
+        "import ehlectric\n"
+        "if __name__ == '__main__':\n"
+        "    sweep = ehlectric.Sweep.from_toml('sweep.toml')\n"
+        "    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:\n"
+        "        with Client(cluster) as client, client.get_executor() as executor:\n"
+        "            results = ehlectric.run_sweep(sweep, 'out', executor)\n"
+        "    print([point.status for point in results.points])\n"
+    )
+    done = subprocess.run([sys.executable, script], cwd=tmp_path, capture_output=True, text=True, timeout=120)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout == f"{['solved'] * 4}\n"
