@@ -67,8 +67,8 @@ class BallEquilibrium:
     radial_displacement, lateral_displacement : float
         Of the inner ring along the radial load, and at right angles to it, towards the angle of 90 deg [m].
     moment, lateral_moment : float
-        That hold the ring from tilting, sum of R_i Q_i sin a_i times cos psi and sin psi [N m], about the centre
-        of the circle of inner groove centres, in whose plane the radial load acts; R_i is its radius.
+        That hold the ring from tilting, sum of R_i Q_i sin a_i times cos psi and sin psi [N m], about the
+        centre of the circle of inner groove centres, in whose plane the radial load acts; R_i is its radius.
     residual : float
         Largest force that ring or ball miss to balance, over the load.
     iterations : int
@@ -121,7 +121,7 @@ def contact_stiffness(bearing: BallBearing, modulus: float, angle: float, *, inn
     >>> bearing = BallBearing(9, 11.906e-3, 60e-3, 0.52, 0.52, radial_clearance=10e-6)
     >>> k = contact_stiffness(bearing, 226e9, 0.0, inner=True)
     >>> round(1e6 * (870.0 / k) ** (2 / 3), 2)
-    18.02
+    9.24
     """
     radii = bearing.radii(angle, inner=inner)
     return float(dry_contact(1.0, radii.radius_x, radii.radius_y, modulus).approach ** -1.5)
@@ -149,11 +149,10 @@ class _Angles:
     outer: Array
 
     @classmethod
-    def of(cls, seats: Seats, g: Array) -> _Angles:
-        """Angles of the lines through the ball's centre and either groove's."""
-        p = seats.place
-        inner = g - p
-        return cls(np.arctan2(inner[:, 0], inner[:, 1]), np.arctan2(p[:, 0], p[:, 1]))
+    def of(cls, seats: Seats) -> _Angles:
+        """Angles of both contacts, or of the narrowest places where there are none."""
+        inner, outer = seats.inner.normal, seats.outer.normal
+        return cls(np.arctan2(inner[:, 0], inner[:, 1]), np.arctan2(outer[:, 0], outer[:, 1]))
 
     @property
     def mean(self) -> Array:
@@ -210,9 +209,8 @@ class _Model:
         inner, outer = _stiffness_laws(self.bearing, self.modulus)
         return Grooves(
             *self.bearing.offsets,
-            # No groove reaches round to an angle above 90 deg.
-            np.exp(inner(np.maximum(0.0, np.cos(angles.inner)))),
-            np.exp(outer(np.maximum(0.0, np.cos(angles.outer)))),
+            np.exp(inner(np.cos(angles.inner))),
+            np.exp(outer(np.cos(angles.outer))),
             outward,
         )
 
@@ -252,13 +250,12 @@ class _State:
         scale = float(np.linalg.norm(model.load))
         reach = _REACH * model.bearing.groove_distance
         ring, residual, steps = balance(model.reaction(grooves), model.load, ring, reach, scale)
-        g = model.centres(ring)
-        seats = seat(grooves, g)
+        seats = seat(grooves, model.centres(ring))
         imbalance = seats.inner.force - seats.outer.force
         imbalance[:, 1] += grooves.outward
         # A ball at rest that nothing holds needs no force either.
         residual = max(residual, float(np.max(np.abs(imbalance))) / scale)
-        return cls(ring, grooves, seats, _Angles.of(seats, g), residual), steps
+        return cls(ring, grooves, seats, _Angles.of(seats), residual), steps
 
 
 def _solve(model: _Model) -> tuple[_State, int]:
@@ -277,7 +274,9 @@ def _solve(model: _Model) -> tuple[_State, int]:
         if change <= _SETTLED:
             break
         if rounds == _MOST_ROUNDS:
-            raise ConvergenceError(f"contact angles of the balls still change by {change:.1e} in their cosine")
+            raise ConvergenceError(
+                f"contact angles of the balls still change by {change:.1e} in their cosine"
+            )
     if state.residual > GOOD:
         raise ConvergenceError(f"forces on ring and balls balance to {state.residual:.1e} of the load only")
     return state, iterations
@@ -289,8 +288,8 @@ def _refuse(bearing: BallBearing, duty: Duty, unloaded: str) -> None:
         raise InputError(f"unloaded: got {shown(unloaded)}, takes one of {', '.join(UNLOADED)}")
     if bearing.contact_angle is not None and duty.axial_load <= 0.0:
         raise InputError(
-            f"axial_load: got {duty.axial_load:g} N, takes one above 0: an angular-contact bearing carries it one "
-            "way, and a radial load only with it"
+            f"axial_load: got {duty.axial_load:g} N, takes one above 0: an angular-contact bearing carries "
+            "it one way, and a radial load only with it"
         )
 
 
@@ -308,10 +307,11 @@ def ball_equilibrium(
 ) -> BallEquilibrium:
     """Equilibrium of the inner ring over all balls.
 
-    The sum over the balls of Q_i sin a_i is the axial load, that of Q_i cos a_i cos psi the radial one, that of
-    Q_i cos a_i sin psi vanishes; at each ball Q_o sin a_o = Q_i sin a_i and Q_o cos a_o = Q_i cos a_i + F_c.
-    K of each contact is that of its own contact angle. At speed a ball without load from the inner ring
-    stays at the outer one with the centrifugal force alone, and its clearance is at the inner ring.
+    The sum over the balls of Q_i sin a_i is the axial load, that of Q_i cos a_i cos psi the radial one, that
+    of Q_i cos a_i sin psi vanishes; at each ball Q_o sin a_o = Q_i sin a_i and
+    Q_o cos a_o = Q_i cos a_i + F_c. K of each contact is that of its own contact angle. At speed a ball
+    without load from the inner ring stays at the outer one with the centrifugal force alone, and its
+    clearance is at the inner ring.
 
     Parameters
     ----------
@@ -350,9 +350,8 @@ def ball_equilibrium(
     _refuse(bearing, duty, unloaded)
     model = _Model(bearing, duty, modulus, density)
     state, iterations = _solve(model)
-    g = model.centres(state.ring)
-    seats = _placed(state, g, unloaded)
-    angles = _Angles.of(seats, g)
+    seats = _placed(state, model.centres(state.ring), unloaded)
+    angles = _Angles.of(seats)
     mass, speeds = bearing.element_mass(density), model.speeds(angles)
     # About the centre of the ring's own groove circle: a contact's force passes through the groove's centre.
     levers = bearing.inner_centre_radius * seats.inner.force[:, 0]

@@ -1,20 +1,20 @@
 """Balls between two grooves: where each sits, what it carries, how stiff it is. SI units.
 
-Seen in the plane through the bearing's axis and the ball's centre, a groove is a circle about its centre, and
-the ball, which is smaller, lies inside both. Vectors in that plane are (axial, radial), from the centre of the
-outer groove: the ball's centre is at p and the inner groove's at g. The contacts are pressed in by
+Seen in the plane through the bearing's axis and the ball's centre, a groove is a circle about its centre,
+and the ball, which is smaller, lies inside both. Vectors in that plane are (axial, radial), from the centre
+of the outer groove: the ball's centre is at p and the inner groove's at g. The contacts are pressed in by
 
     delta_o = |p| - (f_o - 1/2) D,    delta_i = |g - p| - (f_i - 1/2) D
 
-and resist with Q = K delta^(3/2) where that is positive. Both grow with the distance of two points, so that
-the energy (2/5) K delta^(5/2) of both contacts less the work of the centrifugal force is convex in p and g
-together: each ball has one place, and Newton's method finds it.
+and resist with Q = K delta^(3/2) where that is positive. A groove does not reach round the ball: beyond
+90 deg it goes on as a plane wall, so that for a vector that points inward only its axial part counts. Both
+lengths are convex functions, and so is the energy (2/5) K delta^(5/2) of both contacts less the work of the
+centrifugal force, in p and g together: each ball has one place, and Newton's method finds it.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TypeAlias
 
 import numpy as np
 
@@ -24,10 +24,11 @@ _RADIAL = np.array([0.0, 1.0])
 _MOST_STEPS = 60
 _MOST_TRIALS = 40
 
-# Imbalance of a ball over its forces: what rounding leaves of a pressed-in depth of a millionth of the offset.
-_BALANCED = 1e-14
+# A step that overshoots is taken back until the force along it is at most this part of the one at its start.
+_OVERSHOOT = 0.5
 
-# A step of this part of the offset of the centres is below what the position can tell.
+# What rounding leaves: of the forces of a ball, and of its place over the distance of the groove centres.
+_ROUNDING = 1e-15
 _NUDGE = 4e-16
 
 
@@ -55,14 +56,15 @@ class Contacts:
     @classmethod
     def of(cls, span: Array, offset: float, stiffness: Array) -> Contacts:
         """Contacts of a vector between both centres, with the length at which they touch and K."""
-        length = np.hypot(span[:, 0], span[:, 1])
+        outward = np.maximum(0.0, span[:, 1])
+        length = np.hypot(span[:, 0], outward)
         # Two centres on each other have no direction, and no force either.
-        normal = span / np.maximum(length, np.finfo(float).tiny)[:, None]
+        normal = np.stack([span[:, 0], outward], axis=1) / np.maximum(length, np.finfo(float).tiny)[:, None]
         depth = length - offset
         root = np.sqrt(np.maximum(0.0, depth))
         load = stiffness * root**3
         along = normal[:, :, None] * normal[:, None, :]
-        across = (load / np.maximum(length, offset))[:, None, None]
+        across = np.where(span[:, 1] > 0.0, load / np.maximum(length, offset), 0.0)[:, None, None]
         tangent = (1.5 * stiffness * root)[:, None, None] * along + across * (np.eye(2) - along)
         return cls(normal, depth, load, tangent)
 
@@ -122,13 +124,17 @@ class Seats:
         """Derivative of the forces on the inner ring by g, the balls following: two springs in series."""
         stiffness = np.zeros_like(self.inner.tangent)
         inner, outer = self.inner.tangent[self.held], self.outer.tangent[self.held]
-        stiffness[self.held] = inner @ np.linalg.solve(inner + outer, outer)
+        both = inner + outer
+        # A ball just touched is stiff one way only, or not at all.
+        little = 1e-15 * np.trace(both, axis1=1, axis2=2) + np.finfo(float).tiny
+        both += little[:, None, None] * np.eye(2)
+        stiffness[self.held] = inner @ np.linalg.solve(both, outer)
         # The product of the two is symmetric but for rounding.
         return 0.5 * (stiffness + stiffness.transpose(0, 2, 1))
 
 
 def _corner(g: Array, inner: Array, outer: Array) -> Array:
-    """The outward one of the two points at the distances ``outer`` from 0 and ``inner`` from g."""
+    """The outward one of the two points at the lengths ``outer`` from 0 and ``inner`` from g."""
     length = np.maximum(np.hypot(g[:, 0], g[:, 1]), np.finfo(float).tiny)
     along = (length**2 + outer**2 - inner**2) / (2.0 * length)
     across = np.sqrt(np.maximum(0.0, outer**2 - along**2))
@@ -136,7 +142,11 @@ def _corner(g: Array, inner: Array, outer: Array) -> Array:
     normal = np.stack([-unit[:, 1], unit[:, 0]], axis=1)
     # Of the two unit vectors across, the outward one.
     normal[normal[:, 1] < 0.0] *= -1.0
-    return np.asarray(along[:, None] * unit + across[:, None] * normal)
+    corner = along[:, None] * unit + across[:, None] * normal
+    # Further out than g the ball leans on the plane wall.
+    axial = g[:, 0] - np.copysign(inner, g[:, 0])
+    wall = np.stack([axial, np.sqrt(np.maximum(0.0, outer**2 - axial**2))], axis=1)
+    return np.where((wall[:, 1] > g[:, 1])[:, None], wall, corner)
 
 
 def _at_rest(grooves: Grooves, g: Array) -> tuple[Array, Mask]:
@@ -144,13 +154,15 @@ def _at_rest(grooves: Grooves, g: Array) -> tuple[Array, Mask]:
 
     Balls that nothing holds are in the middle of their clearance.
     """
+    g = np.stack([g[:, 0], np.maximum(0.0, g[:, 1])], axis=1)
     length = np.hypot(g[:, 0], g[:, 1])
     play = length - grooves.inner_offset - grooves.outer_offset
     held = play > 0.0
     softness = grooves.outer_stiffness ** (-2.0 / 3.0)
     share = np.where(held, softness / (softness + grooves.inner_stiffness ** (-2.0 / 3.0)), 0.5)
-    unit = g / np.maximum(length, np.finfo(float).tiny)[:, None]
-    return (grooves.outer_offset + share * play)[:, None] * unit, held
+    # A groove far smaller than the other one is left from its own centre, not beyond.
+    out = np.clip(grooves.outer_offset + share * play, 0.0, length)
+    return (out / np.maximum(length, np.finfo(float).tiny))[:, None] * g, held
 
 
 def _first_guess(grooves: Grooves, g: Array) -> Array:
@@ -167,34 +179,36 @@ def _first_guess(grooves: Grooves, g: Array) -> Array:
 
 def _settled(grooves: Grooves, g: Array, held: Mask, p: Array) -> Array:
     """Places of the balls held between both grooves, by Newton's method on each; p to start from."""
+    offset = grooves.inner_offset + grooves.outer_offset
 
-    def imbalance(p: Array) -> tuple[Array, Array, Array]:
+    def imbalance(p: Array) -> tuple[Array, Array, Mask]:
         inner, outer = grooves.contacts(p, g, held)
         force = inner.force - outer.force + grooves.outward * _RADIAL
-        return force, inner.tangent + outer.tangent, inner.load + outer.load + grooves.outward
-
-    offset = grooves.inner_offset + grooves.outer_offset
-    force, tangent, size = imbalance(p)
-    for _ in range(_MOST_STEPS):
+        tangent = inner.tangent + outer.tangent
+        size = inner.load + outer.load + grooves.outward
+        noise = _ROUNDING * size + _NUDGE * offset * (tangent[:, 0, 0] + tangent[:, 1, 1])
         # A touch of stiffness where a contact is just being made and has none.
-        trace = tangent[:, 0, 0] + tangent[:, 1, 1] + size / offset
-        step = np.linalg.solve(tangent + 1e-13 * trace[:, None, None] * np.eye(2), force[:, :, None])[:, :, 0]
+        tangent += (1e-13 * size / offset)[:, None, None] * np.eye(2)
+        return force, tangent, np.max(np.abs(force), axis=1) > noise
+
+    force, tangent, moving = imbalance(p)
+    for _ in range(_MOST_STEPS):
+        if not moving.any():
+            break
+        step = np.linalg.solve(tangent, force[:, :, None])[:, :, 0]
         length = np.hypot(step[:, 0], step[:, 1])
         step *= np.minimum(1.0, 0.5 * offset / np.maximum(length, np.finfo(float).tiny))[:, None]
         slope = np.sum(force * step, axis=1)
         part = np.ones_like(slope)
         for _ in range(_MOST_TRIALS):
             there = p + part[:, None] * step
-            force, tangent, size = imbalance(there)
+            force, tangent, moving = imbalance(there)
             now = np.sum(force * step, axis=1)
-            over = (now < -0.5 * slope) & (length > _NUDGE * offset)
+            over = moving & (now < -_OVERSHOOT * slope)
             if not over.any():
                 break
             part = np.where(over, part * np.maximum(slope / np.where(over, slope - now, 1.0), 0.02), part)
         p = there
-        small = np.max(np.abs(force), axis=1) <= _BALANCED * size
-        if np.all(small | (length <= _NUDGE * offset)):
-            break
     return p
 
 
@@ -269,7 +283,7 @@ def lean_outward(grooves: Grooves, g: Array) -> Array:
     >>> [round(float(x) * 1e3, 4) for x in lean_outward(grooves, np.array([[0.0, 0.39e-3]]))[0]]
     [0.0, 0.2]
     >>> [round(float(x) * 1e3, 4) for x in lean_outward(grooves, np.array([[0.3e-3, 0.0]]))[0]]
-    [0.15, 0.1323]
+    [0.1, 0.1732]
     """
     bottom = np.broadcast_to(grooves.outer_offset * _RADIAL, g.shape)
     inner, _ = grooves.contacts(bottom, g)

@@ -55,7 +55,7 @@ class ContactRadii:
 
 
 def _rolling_radius(element_diameter: float, pitch_diameter: float, angle: float, *, inner: bool) -> float:
-    """Radius of a raceway in the rolling direction, (d_m - D cos a)/(2 cos a) or -(d_m + D cos a)/(2 cos a)."""
+    """Radius of a raceway in the rolling direction, that of the cone that touches it there [m]."""
     cosine = math.cos(angle)
     sign = 1.0 if inner else -1.0
     curvature = sign * 2.0 * cosine / (pitch_diameter - sign * element_diameter * cosine)
@@ -67,7 +67,7 @@ def _refuse_overlap(elements: int, diameter: float, pitch_diameter: float) -> No
     most = int(math.pi / math.asin(diameter / pitch_diameter)) if diameter < pitch_diameter else 0
     if most < 3:
         raise InputError(
-            f"pitch_diameter: got {pitch_diameter:g} m, takes one that three elements of {diameter:g} m fit on"
+            f"pitch_diameter: got {pitch_diameter:g} m, takes one that three of {diameter:g} m fit on"
         )
     if not 3 <= elements <= most:
         raise InputError(
@@ -135,8 +135,8 @@ class BallBearing:
             raise InputError(f"contact_angle: got {self.contact_angle:g} rad, takes one between 0 and 90 deg")
         if self.clearance >= 2.0 * self.groove_distance:
             raise InputError(
-                f"radial_clearance: got {self.clearance:g} m, takes one below {2.0 * self.groove_distance:g} m, "
-                "at which the balls leave the grooves"
+                f"radial_clearance: got {self.clearance:g} m, takes one below "
+                f"{2.0 * self.groove_distance:g} m, at which the balls leave the grooves"
             )
 
     @property
@@ -230,8 +230,8 @@ class RollerBearing:
     Examples
     --------
     >>> bearing = RollerBearing(14, 11e-3, 60e-3, 11e-3, 20e-6)
-    >>> round(bearing.radii(inner=True).radius_x * 1e3, 4), round(bearing.radii(inner=False).radius_x * 1e3, 4)
-    (4.4917, 6.5083)
+    >>> [round(bearing.radii(inner=inner).radius_x * 1e3, 4) for inner in (True, False)]
+    [4.4917, 6.5083]
     """
 
     elements: int
@@ -246,16 +246,16 @@ class RollerBearing:
         if self.profile not in PROFILES:
             raise InputError(f"profile: got {shown(self.profile)}, takes one of {', '.join(PROFILES)}")
 
-    def relief(self, x: ArrayLike) -> Array:
+    def relief(self, position: ArrayLike) -> Array:
         """By how much the roller's radius is smaller than in its middle.
 
-        P(x) = 0.00035 D ln(1/(1 - (2 x/L)^2)) for L up to 2.5 D. Longer rollers are straight but for an end of
-        1.25 D on either side, P = 0.0005 D ln(1/(1 - ((2 |x| - L)/(2.5 D) + 1)^2)) there.
+        P(x) = 0.00035 D ln(1/(1 - (2 x/L)^2)) for L up to 2.5 D. Longer rollers are straight but for an end
+        of 1.25 D on either side, P = 0.0005 D ln(1/(1 - ((2 |x| - L)/(2.5 D) + 1)^2)) there.
 
         Parameters
         ----------
-        x : array_like, shape (n,)
-            Position along the roller from its middle, within L/2 [m].
+        position : array_like, shape (n,)
+            x along the roller from its middle, within L/2 [m].
 
         Returns
         -------
@@ -270,9 +270,9 @@ class RollerBearing:
         --------
         >>> bearing = RollerBearing(14, 11e-3, 60e-3, 11e-3, 20e-6)
         >>> [round(float(p) * 1e6, 3) for p in bearing.relief([0.0, 2.75e-3, 5e-3])]
-        [0.0, 1.108, 6.744]
+        [0.0, 1.108, 6.742]
         """
-        x = np.abs(np.asarray(x, dtype=float))
+        x = np.abs(np.asarray(position, dtype=float))
         if self.profile == "none":
             return np.zeros_like(x)
         if self.roller_length <= _SHORT * self.roller_diameter:

@@ -72,7 +72,7 @@ def rolling_speeds(
     A 6208 at 3000 rpm:
 
     >>> speeds = rolling_speeds(11.906e-3, 60e-3, 3000 * 2 * np.pi / 60)
-    >>> round(speeds.cage * 60 / (2 * np.pi)), round(speeds.inner_entrainment, 3)
+    >>> round(speeds.cage * 60 / (2 * np.pi)), round(float(speeds.inner_entrainment), 3)
     (1202, 4.527)
     """
     cosine = np.cos(np.asarray(contact_angle, dtype=float))
@@ -137,7 +137,7 @@ def gyroscopic_moment(mass: float, diameter: float, speeds: Speeds, contact_angl
     --------
     >>> speeds = rolling_speeds(11.906e-3, 60e-3, 1000.0, contact_angle=0.5)
     >>> round(float(gyroscopic_moment(0.007, 11.906e-3, speeds, 0.5)), 4)
-    0.0481
+    0.048
     """
     inertia = mass * diameter**2 / 10.0
     return np.asarray(inertia * speeds.spin * speeds.cage * np.sin(contact_angle))

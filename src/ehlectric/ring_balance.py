@@ -67,7 +67,9 @@ class Duty:
         if self.radial_load < 0.0:
             raise InputError(f"radial_load: got {self.radial_load:g} N, takes 0 or more")
         if self.radial_load == 0.0 and self.axial_load == 0.0:
-            raise InputError("radial_load, axial_load: both are 0, takes a load: without one no element bears any")
+            raise InputError(
+                "radial_load, axial_load: both are 0, takes a load: without one no element bears any"
+            )
 
     def positions(self, elements: int) -> Array:
         """Angle of each element from the direction of the radial load [rad]."""
@@ -142,7 +144,7 @@ def balance(
     position = best = start
     force, tangent = reaction(start)
     least, idle = np.inf, 0
-    for step_number in range(_MOST_STEPS):
+    for iteration in range(_MOST_STEPS):
         missing = load - force
         residual = float(np.max(np.abs(missing))) / scale
         # Rounding ends the descent: below the good residual two steps without gain are the last.
@@ -152,9 +154,7 @@ def balance(
         if least <= _AIM or (least <= GOOD and idle >= 2):
             break
         step = _direction(missing, tangent, reach)
-        position, force, tangent, free = _shortened(
-            reaction, load, position, step, float(missing @ step)
-        )
+        position, force, tangent, free = _shortened(reaction, load, position, step, float(missing @ step))
         if free:
             reach *= 2.0
-    return best, least, step_number
+    return best, least, iteration

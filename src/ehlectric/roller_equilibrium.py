@@ -111,9 +111,9 @@ def line_stiffness(length: float, modulus: float) -> float:
 
     >>> steel = reduced_modulus(body_compliance(206e9, 0.3), body_compliance(206e9, 0.3))
     >>> round(line_stiffness(10e-3, steel) / 1e3 ** (10 / 9))
-    278339
+    278332
     """
-    return _STANDARD * length ** (8.0 / 9.0) * modulus / _STEEL
+    return float(_STANDARD * length ** (8.0 / 9.0) * modulus / _STEEL)
 
 
 @dataclass(frozen=True)
@@ -157,12 +157,14 @@ class _Rollers:
             return 0.0
         # Deep enough even if no more than the middle slice carried it.
         deepest = (self.outward / self.stiffness) ** (1.0 / _POWER) + self.least_relief
-        return float(brentq(lambda d: float(self.load(np.array(d))[0]) - self.outward, 0.0, deepest, xtol=1e-18))
+        return float(
+            brentq(lambda d: float(self.load(np.array(d))[0]) - self.outward, 0.0, deepest, xtol=1e-18)
+        )
 
     def seat(self, play: Array) -> tuple[Array, Mask]:
-        """Depth of the outer contacts, and which rollers are held, where both together are pressed in by ``play``.
+        """Depth of the outer contacts and which rollers are held, of what presses in both contacts together.
 
-        Without centrifugal force both contacts share alike, and so does a clearance.
+        Without centrifugal force both contacts share ``play`` alike, also where it is a clearance.
         """
         if self.outward == 0.0:
             return 0.5 * play, play > 0.0
@@ -173,10 +175,11 @@ class _Rollers:
         return outer, held
 
     def _shared(self, play: Array) -> Array:
-        """Depth of the outer contacts of held rollers: where Q(outer) - Q(play - outer) is the centrifugal force.
+        """Depth of the outer contacts of held rollers, where they carry the centrifugal force more.
 
-        Newton's method between bounds: the outer contact carries at least the centrifugal force and at least as
-        much as the inner one, and less than both would apart, since loads grow faster than depths.
+        Newton's method between bounds: an outer contact carries at least the centrifugal force and at least
+        as much as the inner one, and is pressed in less than by each of them apart, since loads grow faster
+        than depths.
         """
         low, high = np.maximum(0.5 * play, self.bottom), np.minimum(0.5 * play + self.bottom, play)
         outer = low
@@ -213,8 +216,8 @@ def _refuse(duty: Duty, unloaded: str, slices: int) -> None:
         raise InputError(f"unloaded: got {shown(unloaded)}, takes one of {', '.join(UNLOADED)}")
     if duty.axial_load != 0.0:
         raise InputError(
-            f"axial_load: got {duty.axial_load:g} N, takes 0: between its raceways a cylindrical roller bearing "
-            "carries none"
+            f"axial_load: got {duty.axial_load:g} N, takes 0: the raceways of a cylindrical roller bearing "
+            "carry none"
         )
     if slices < _LEAST_SLICES or slices % 2 == 0:
         raise InputError(f"slices: got {slices}, takes an odd number from {_LEAST_SLICES}")
@@ -231,9 +234,9 @@ def roller_equilibrium(
 ) -> RollerEquilibrium:
     """Equilibrium of the inner ring over all rollers.
 
-    A roller at the angle psi is pressed in by delta = x cos psi + y sin psi - P_d/2 at both contacts together.
-    Each slice k of either contact carries q_k = c (d - P_k)^(10/9) of the contact's own share d, with the
-    relief P_k; two equal contacts in series make up the stiffness of the standard, so c is 2^(10/9) c_L over the
+    A roller at the angle psi is pressed in by x cos psi + y sin psi - P_d/2 at both contacts together. Each
+    slice k of either contact carries q_k = c (d - P_k)^(10/9) of the contact's own share d, with the relief
+    P_k; two equal contacts in series make up the stiffness of the standard, so c is 2^(10/9) c_L over the
     number of slices. The outer contact carries the centrifugal force as well.
 
     Parameters
@@ -247,8 +250,8 @@ def roller_equilibrium(
     density : float
         Of the rollers [kg/m^3].
     unloaded : str
-        Where rollers without load are in a bearing at rest, gravity left out: "centred", between equal gaps, or
-        "outer", at the outer ring. At speed they are at the outer ring.
+        Where rollers without load are in a bearing at rest, gravity left out: "centred", between equal gaps,
+        or "outer", at the outer ring. At speed they are at the outer ring.
     slices : int
         Of a roller, odd.
 
@@ -268,8 +271,8 @@ def roller_equilibrium(
     --------
     >>> bearing = RollerBearing(14, 11e-3, 60e-3, 11e-3, 0.0, "none")
     >>> state = roller_equilibrium(bearing, Duty(5000.0), 226e9, 7800.0)
-    >>> round(state.inner_load[0] * 14 / 5000.0, 2)
-    4.07
+    >>> round(float(state.inner_load[0]) * 14 / 5000.0, 2)
+    4.09
     """
     _refuse(duty, unloaded, slices)
     length = bearing.roller_length
