@@ -143,18 +143,18 @@ def balance(
     """
     position = best = start
     force, tangent = reaction(start)
-    least, idle = np.inf, 0
-    for iteration in range(_MOST_STEPS):
+    least, idle, iterations = np.inf, 0, 0
+    while True:
         missing = load - force
         residual = float(np.max(np.abs(missing))) / scale
         # Rounding ends the descent: below the good residual two steps without gain are the last.
         idle = idle + 1 if residual > 0.5 * least else 0
         if residual < least:
             best, least = position, residual
-        if least <= _AIM or (least <= GOOD and idle >= 2):
-            break
+        if least <= _AIM or (least <= GOOD and idle >= 2) or iterations == _MOST_STEPS:
+            return best, least, iterations
         step = _direction(missing, tangent, reach)
         position, force, tangent, free = _shortened(reaction, load, position, step, float(missing @ step))
         if free:
             reach *= 2.0
-    return best, least, iteration
+        iterations += 1
