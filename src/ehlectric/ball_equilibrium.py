@@ -217,13 +217,14 @@ class _Model:
     def reaction(self, grooves: Grooves) -> Reaction:
         """Force of the balls on the ring over its displacement; each seating starts from the last one."""
         basis = self.basis
+        across = basis.transpose(0, 2, 1)
         last: Seats | None = None
 
         def reaction(ring: Array) -> tuple[Array, Array]:
             nonlocal last
             last = seats = seat(grooves, self.centres(ring), last)
             force = np.einsum("nij,ni->j", basis, seats.inner.force)
-            return force, np.einsum("nia,nij,njb->ab", basis, seats.tangent, basis, optimize=True)
+            return force, np.sum(across @ seats.tangent @ basis, axis=0)
 
         return reaction
 

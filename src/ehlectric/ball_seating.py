@@ -21,6 +21,12 @@ import numpy as np
 from ehlectric.typing import Array, Mask
 
 _RADIAL = np.array([0.0, 1.0])
+_UNITY = np.eye(2)
+
+# What counts of a vector: all of its axial part, of its radial one what points outward.
+_INWARD = np.array([-np.inf, 0.0])
+_TINY = np.finfo(float).tiny
+
 _MOST_STEPS = 60
 _MOST_TRIALS = 40
 
@@ -56,16 +62,16 @@ class Contacts:
     @classmethod
     def of(cls, span: Array, offset: float, stiffness: Array) -> Contacts:
         """Contacts of a vector between both centres, with the length at which they touch and K."""
-        outward = np.maximum(0.0, span[:, 1])
-        length = np.hypot(span[:, 0], outward)
+        counted = np.maximum(span, _INWARD)
+        length = np.hypot(counted[:, 0], counted[:, 1])
         # Two centres on each other have no direction, and no force either.
-        normal = np.stack([span[:, 0], outward], axis=1) / np.maximum(length, np.finfo(float).tiny)[:, None]
+        normal = counted / np.maximum(length, _TINY)[:, None]
         depth = length - offset
         root = np.sqrt(np.maximum(0.0, depth))
         load = stiffness * root**3
         along = normal[:, :, None] * normal[:, None, :]
-        across = np.where(span[:, 1] > 0.0, load / np.maximum(length, offset), 0.0)[:, None, None]
-        tangent = (1.5 * stiffness * root)[:, None, None] * along + across * (np.eye(2) - along)
+        across = (load / np.maximum(length, offset) * (span[:, 1] > 0.0))[:, None, None]
+        tangent = (1.5 * stiffness * root)[:, None, None] * along + across * (_UNITY - along)
         return cls(normal, depth, load, tangent)
 
     @property
@@ -126,8 +132,8 @@ class Seats:
         inner, outer = self.inner.tangent[self.held], self.outer.tangent[self.held]
         both = inner + outer
         # A ball just touched is stiff one way only, or not at all.
-        little = 1e-15 * np.trace(both, axis1=1, axis2=2) + np.finfo(float).tiny
-        both += little[:, None, None] * np.eye(2)
+        little = 1e-15 * np.trace(both, axis1=1, axis2=2) + _TINY
+        both += little[:, None, None] * _UNITY
         stiffness[self.held] = inner @ np.linalg.solve(both, outer)
         # The product of the two is symmetric but for rounding.
         return 0.5 * (stiffness + stiffness.transpose(0, 2, 1))
@@ -135,7 +141,7 @@ class Seats:
 
 def _corner(g: Array, inner: Array, outer: Array) -> Array:
     """The outward one of the two points at the lengths ``outer`` from 0 and ``inner`` from g."""
-    length = np.maximum(np.hypot(g[:, 0], g[:, 1]), np.finfo(float).tiny)
+    length = np.maximum(np.hypot(g[:, 0], g[:, 1]), _TINY)
     along = (length**2 + outer**2 - inner**2) / (2.0 * length)
     across = np.sqrt(np.maximum(0.0, outer**2 - along**2))
     unit = g / length[:, None]
@@ -154,7 +160,7 @@ def _at_rest(grooves: Grooves, g: Array) -> tuple[Array, Mask]:
 
     Balls that nothing holds are in the middle of their clearance.
     """
-    g = np.stack([g[:, 0], np.maximum(0.0, g[:, 1])], axis=1)
+    g = np.maximum(g, _INWARD)
     length = np.hypot(g[:, 0], g[:, 1])
     play = length - grooves.inner_offset - grooves.outer_offset
     held = play > 0.0
@@ -162,7 +168,7 @@ def _at_rest(grooves: Grooves, g: Array) -> tuple[Array, Mask]:
     share = np.where(held, softness / (softness + grooves.inner_stiffness ** (-2.0 / 3.0)), 0.5)
     # A groove far smaller than the other one is left from its own centre, not beyond.
     out = np.clip(grooves.outer_offset + share * play, 0.0, length)
-    return (out / np.maximum(length, np.finfo(float).tiny))[:, None] * g, held
+    return (out / np.maximum(length, _TINY))[:, None] * g, held
 
 
 def _first_guess(grooves: Grooves, g: Array) -> Array:
@@ -177,6 +183,17 @@ def _first_guess(grooves: Grooves, g: Array) -> Array:
     )
 
 
+def _start(grooves: Grooves, g: Array, held: Mask, guess: Seats | None) -> Array:
+    """Places to start from: those nearby where both contacts are pressed in there, else the first guess."""
+    if guess is None:
+        return _first_guess(grooves, g)
+    inner, outer = grooves.contacts(guess.place, g)
+    near = guess.held & (inner.depth > 0.0) & (outer.depth > 0.0)
+    if near[held].all():
+        return guess.place
+    return np.where(near[:, None], guess.place, _first_guess(grooves, g))
+
+
 def _settled(grooves: Grooves, g: Array, held: Mask, p: Array) -> Array:
     """Places of the balls held between both grooves, by Newton's method on each; p to start from."""
     offset = grooves.inner_offset + grooves.outer_offset
@@ -188,7 +205,7 @@ def _settled(grooves: Grooves, g: Array, held: Mask, p: Array) -> Array:
         size = inner.load + outer.load + grooves.outward
         noise = _ROUNDING * size + _NUDGE * offset * (tangent[:, 0, 0] + tangent[:, 1, 1])
         # A touch of stiffness where a contact is just being made and has none.
-        tangent += (1e-13 * size / offset)[:, None, None] * np.eye(2)
+        tangent += (1e-13 * size / offset)[:, None, None] * _UNITY
         return force, tangent, np.max(np.abs(force), axis=1) > noise
 
     force, tangent, moving = imbalance(p)
@@ -197,7 +214,7 @@ def _settled(grooves: Grooves, g: Array, held: Mask, p: Array) -> Array:
             break
         step = np.linalg.solve(tangent, force[:, :, None])[:, :, 0]
         length = np.hypot(step[:, 0], step[:, 1])
-        step *= np.minimum(1.0, 0.5 * offset / np.maximum(length, np.finfo(float).tiny))[:, None]
+        step *= np.minimum(1.0, 0.5 * offset / np.maximum(length, _TINY))[:, None]
         slope = np.sum(force * step, axis=1)
         part = np.ones_like(slope)
         for _ in range(_MOST_TRIALS):
@@ -249,12 +266,7 @@ def seat(grooves: Grooves, g: Array, guess: Seats | None = None) -> Seats:
     clear, _ = grooves.contacts(place, g)
     held = clear.depth > 0.0
     if held.any():
-        start = _first_guess(grooves, g)
-        if guess is not None:
-            inner, outer = grooves.contacts(guess.place, g)
-            near = guess.held & (inner.depth > 0.0) & (outer.depth > 0.0)
-            start = np.where(near[:, None], guess.place, start)
-        place[held] = _settled(grooves, g[held], held, start[held])
+        place[held] = _settled(grooves, g[held], held, _start(grooves, g, held, guess)[held])
     return Seats(place, held, *grooves.contacts(place, g))
 
 
