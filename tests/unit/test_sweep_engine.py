@@ -261,7 +261,8 @@ def test_where_nobody_is_left_no_point_is_to_blame(error):
     assert found == {}
 
 
-def test_what_is_in_flight_is_cancelled_where_the_run_is_stopped():
+def test_what_is_in_flight_is_cancelled_where_the_run_is_stopped(monkeypatch):
+    monkeypatch.setattr(sweep_engine, "_PULSE", 0.01)
     futures = []
 
     def submit(_call, *_values):
