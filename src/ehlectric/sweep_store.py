@@ -174,6 +174,7 @@ class Store:
             "ranges": {key: asdict(over) for key, over in sweep.ranges.items()},
             "samples": sweep.samples or 0,
             "seed": sweep.seed,
+            "title": sweep.title,
             "version": __version__,
             "date": now(),
         }
@@ -313,6 +314,7 @@ def _results(asked: Mapping[str, Any], rows: Sequence[tuple[Any, ...]]) -> Sweep
         samples=asked["samples"],
         points=tuple(_point(case, *row) for row in _parsed(rows)),
         seed=asked["seed"],
+        title=asked["title"],
     )
 
 
