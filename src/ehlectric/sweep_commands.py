@@ -71,8 +71,8 @@ def sweep(
             from ehlectric.sweep_cluster import cluster
 
             solvers = cluster(scheduler)
-        with _told_where_it_stops(output) as begun, solvers as those, _shown(begun, quiet=quiet) as progress:
-            results = run_with(asked, output, those, progress)
+        with _told_where_it_stops(output) as begun, _shown(begun, quiet=quiet) as progress:
+            results = run_with(asked, output, solvers, progress)
     if not quiet:
         from ehlectric.sweep_tables import FILES
 
