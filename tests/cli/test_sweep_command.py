@@ -74,6 +74,7 @@ def test_a_sweep_is_solved_saved_and_told(ehlectric, tmp_path, swept):
     assert (thickness[:, 1] < thickness[:, 0]).all()
 
 
+@pytest.mark.slow
 def test_points_that_failed_are_counted_by_their_reason(ehlectric, tmp_path, swept):
     text = SWEEP + "grid.nodes = [257, 65]\ngrid.outlet = [2.0, 9.0]\nsolver.max_iterations = [30]\n"
     done = ehlectric("sweep", swept(text), "-o", "out", "--workers", 1)
@@ -196,6 +197,7 @@ def test_a_sweep_that_is_stopped_says_what_is_saved(tmp_path, swept, number):
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == [".sweep.lock", "sweep.sqlite"]
 
 
+@pytest.mark.slow
 def test_a_second_sweep_in_the_same_folder_is_refused(ehlectric, tmp_path, swept):
     swept(LONG)
     process = begun(tmp_path, "--workers", "1")

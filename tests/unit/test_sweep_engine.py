@@ -143,6 +143,7 @@ def test_any_executor_will_do():
     assert [found[str(k)].status for k in range(3)] == ["solved"] * 3
 
 
+@pytest.mark.slow
 def test_only_the_point_that_kills_its_process_fails():
     with processes(1) as crew:
         found = found_by(with_deaths(crew), points([129, 129, DEADLY, 129, 129]))
