@@ -76,6 +76,9 @@ figures: $(VENV)/.run
 	cp $(RESULTS)/film.png $(RESULTS)/field_strength.png docs/figures
 	$(BIN)/ehlectric run examples/ball_contact.toml -o $(POINT_RESULTS) --quiet
 	cp $(POINT_RESULTS)/field_map.png docs/figures
+	$(BIN)/ehlectric sweep examples/sweep.toml -o results/sweep --quiet
+	$(BIN)/ehlectric map results/sweep --x contact.entrainment_speed --y contact.load_per_length --quiet
+	cp results/sweep/map_discharge.breakdown_voltage.png docs/figures/breakdown_map.png
 
 bench: $(VENV)/.dev
 	$(BIN)/python benchmarks/table.py

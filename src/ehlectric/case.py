@@ -27,6 +27,10 @@ def _title(text: str) -> str:
     return text
 
 
+# One line, as a file or a figure is headed.
+Title = Annotated[str, AfterValidator(_title)]
+
+
 class Case(Table):
     """A charged line or point contact: everything a solution depends on.
 
@@ -47,7 +51,7 @@ class Case(Table):
     2.0
     """
 
-    title: Annotated[str, AfterValidator(_title)] = ""
+    title: Title = ""
     contact: Contact
     lubricant: Lubricant
     roughness: tuple[Roughness, ...] = ()

@@ -118,7 +118,7 @@ def _tables(results: SweepResults, found: Sensitivity) -> list[Table]:
 
     label, spread = label_of(found.value, results.case), found.spread
     scale = label.scaled(np.array([spread.minimum, spread.maximum]))
-    numbers = plain_table(results.case.title)
+    numbers = plain_table(results.title)
     rows = {"mean": spread.mean, "standard deviation": spread.standard_deviation, "least": spread.minimum}
     rows |= {f"{100.0 * q:g} %": at for q, at in spread.quantiles.items()} | {"largest": spread.maximum}
     numbers.add_row(label.name, f"{spread.samples}", "samples")

@@ -111,7 +111,7 @@ def parts(results: SweepResults, found: Sensitivity, ax: Axes | None = None) -> 
     highest = max(1.0, *(max(i.total_interval[1], i.first_order_interval[1]) for i in ordered))
     lowest = min(0.0, *(i.first_order_interval[0] for i in ordered))
     ax.set_xlim(1.05 * lowest, 1.03 * highest)
-    ax.set_xlabel(f"part of the variance, {100.0 * LEVEL:g} % intervals of {found.used} rows")
+    ax.set_xlabel(f"part of the variance\n{100.0 * LEVEL:g} % intervals of {found.used} rows")
     ax.grid(axis="x", color=GREY, alpha=0.25, lw=0.5)
     ax.set_axisbelow(True)
     legend_above(ax, ax.get_legend_handles_labels()[0])

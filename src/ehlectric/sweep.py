@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor
-from contextlib import AbstractContextManager, nullcontext
+from contextlib import AbstractContextManager, ExitStack, nullcontext
 from pathlib import Path
 from typing import Any
 
@@ -64,8 +64,7 @@ def run_sweep(
     process was killed or whose memory did not do.
     """
     try:
-        with crew(executor, workers) as solvers:
-            return run_with(sweep, folder, solvers, progress)
+        return run_with(sweep, folder, crew(executor, workers), progress)
     except LostError as error:
         if executor is not None:
             raise
@@ -78,17 +77,24 @@ def crew(executor: Executor | None, workers: int | None) -> AbstractContextManag
 
 
 def run_with(
-    sweep: Sweep, folder: str | Path, solvers: Crew, progress: Progress | None = None
+    sweep: Sweep,
+    folder: str | Path,
+    solvers: AbstractContextManager[Crew],
+    progress: Progress | None = None,
 ) -> SweepResults:
-    """``run_sweep`` with a crew."""
+    """``run_sweep`` with a crew that comes when the sweep is known to be one, before its folder is made."""
     planned = planned_points(sweep)
-    folder = prepare(folder, (NAME, LOCK, *FILES))
-    with Store(folder) as store:
-        store.begin(sweep, planned)
-        clear(folder, FILES)
-        _solve(sweep, store, planned, solvers, progress or (lambda _done, _of, _text: None))
-    results = read_sweep(folder)
-    write_tables(results, folder)
+    with ExitStack() as crews:
+        those = crews.enter_context(solvers)
+        folder = prepare(folder, (NAME, LOCK, *FILES))
+        with Store(folder) as store:
+            store.begin(sweep, planned)
+            clear(folder, FILES)
+            _solve(sweep, store, planned, those, progress or (lambda _done, _of, _text: None))
+            # They leave while the tables are written, which nobody else can do meanwhile.
+            crews.close()
+            results = read_sweep(folder)
+            write_tables(results, folder)
     return results
 
 

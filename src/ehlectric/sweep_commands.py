@@ -71,8 +71,8 @@ def sweep(
             from ehlectric.sweep_cluster import cluster
 
             solvers = cluster(scheduler)
-        with _told_where_it_stops(output) as seen, solvers as those, _shown(seen, quiet=quiet) as progress:
-            results = run_with(asked, output, those, progress)
+        with _told_where_it_stops(output) as begun, _shown(begun, quiet=quiet) as progress:
+            results = run_with(asked, output, solvers, progress)
     if not quiet:
         from ehlectric.sweep_tables import FILES
 
@@ -95,40 +95,44 @@ def _workers(text: str | None, scheduler: str | None) -> int | None:
     return int(text)
 
 
-class _Seen:
-    """How far a sweep has come."""
+class _Begun:
+    """Whether points are being solved."""
 
-    done = of = 0
+    yet = False
 
 
 @contextmanager
-def _told_where_it_stops(output: Path) -> Iterator[_Seen]:
+def _told_where_it_stops(output: Path) -> Iterator[_Begun]:
     """One line of what is saved where a sweep is stopped or loses those who solve it."""
-    seen = _Seen()
+    begun = _Begun()
 
     def told(why: str) -> None:
-        saved = f"{seen.done} of {seen.of} points are saved in {output}"
-        typer.echo(f"{why}; {saved}, the same command goes on with the others", err=True)
+        from ehlectric.sweep_store import saved_points
+
+        # Of the file, as the last rows may not have been told yet.
+        saved, points = saved_points(output)
+        text = f"{saved} of {points} points are saved in {output}, the same command goes on with the others"
+        typer.echo(f"{why}; {text}", err=True)
 
     try:
-        yield seen
+        yield begun
     except LostError as error:
         told(f"error: those who solve are gone: {error}")
         raise typer.Exit(NOT_CONVERGED) from None
     except (KeyboardInterrupt, SystemExit):
-        if seen.of:
+        if begun.yet:
             told("stopped")
         raise
 
 
 @contextmanager
-def _shown(seen: _Seen, *, quiet: bool) -> Iterator[Callable[[int, int, str], None]]:
+def _shown(begun: _Begun, *, quiet: bool) -> Iterator[Callable[[int, int, str], None]]:
     """Progress on stderr: a bar where somebody sees it, else a line now and then."""
     showing = _silent() if quiet else _bar() if sys.stderr.isatty() else _lines()
     with showing as show:
 
         def progress(done: int, of: int, text: str) -> None:
-            seen.done, seen.of = done, of
+            begun.yet = True
             show(done, of, text)
 
         yield progress

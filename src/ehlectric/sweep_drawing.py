@@ -41,6 +41,9 @@ _MARKS: dict[str, dict[str, Any]] = {
     "not tried yet": {"marker": "o", "ms": 4.0, "color": GREY, "mfc": "none", "mew": 0.8},
 }
 
+# How many values, of how many letters at most, are the ticks of their axis.
+_FEW_VALUES, _SHORT = 8, 4
+
 # Round numbers in a decade, few, some and many.
 _FEW, _SOME = (1.0, 2.0, 5.0), (1.0, 1.5, 2.0, 3.0, 5.0, 7.0)
 _MANY = (1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0)
@@ -106,10 +109,17 @@ def scale_axis(axis: Axis, text: str, *, values: Array, log: bool) -> None:
     assert ax is not None
     (ax.set_xscale if axis.axis_name == "x" else ax.set_yscale)("log")  # type: ignore[attr-defined]
     finite = values[np.isfinite(values)]
-    axis.set_major_locator(FixedLocator(list(round_numbers(float(finite.min()), float(finite.max())))))
+    axis.set_major_locator(FixedLocator(list(_ticks(np.unique(finite)))))
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axis.set_minor_locator(NullLocator())
     axis.set_minor_formatter(NullFormatter())
+
+
+def _ticks(values: Array) -> Array:
+    """The values themselves where they are few and short, else round numbers."""
+    if values.size <= _FEW_VALUES and all(len(f"{value:g}") <= _SHORT for value in values):
+        return values
+    return np.asarray(round_numbers(float(values[0]), float(values[-1])))
 
 
 def round_numbers(low: float, high: float) -> Array:
@@ -211,7 +221,7 @@ def range_text(values: Array, unit: str) -> str:
 
 def name_figure(ax: Axes, results: SweepResults, more: str) -> None:
     """Title of a figure: that of the case, and below it what else there is to say."""
-    title = textwrap.shorten(results.case.title, 70, placeholder=" ...")
+    title = textwrap.shorten(results.title, 70, placeholder=" ...")
     text = "\n".join(filter(None, [title, textwrap.fill(more, 100)]))
     if text:
         figure_of(ax).suptitle(text, x=0.01, ha="left", size=9.0, parse_math=False)

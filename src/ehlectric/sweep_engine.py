@@ -243,7 +243,8 @@ def processes(number: int) -> Iterator[Crew]:
     except BaseException:
         end_now(pool)
         raise
-    pool.shutdown()
+    # Nothing is in flight: they are on their way out, and need nobody who waits.
+    pool.shutdown(wait=False)
 
 
 def _pool(number: int) -> ProcessPoolExecutor:

@@ -13,7 +13,7 @@ from pydantic import ValidationInfo, create_model, field_validator, model_valida
 from pydantic.fields import FieldInfo
 
 from ehlectric import sweep_design
-from ehlectric.case import Case, find_files
+from ehlectric.case import Case, Title, find_files
 from ehlectric.case_keys import input_field, number_of
 from ehlectric.errors import InputError, shown
 from ehlectric.quantity import Count, Quantity
@@ -44,6 +44,7 @@ class Sweep(Table):
     (4, {'contact.entrainment_speed': 1.0, 'grid.nodes': 3201})
     """
 
+    title: Title = ""
     case: Case
     design: Literal["grid", "paired", "sobol"] = "grid"
     vary: Mapping[str, Any]

@@ -83,6 +83,8 @@ class SweepResults:
         All points of the design, in its order; of a "grid" the last varied key runs fastest.
     seed : int
         Of a "sobol" design's random numbers.
+    title : str
+        Of the sweep, for figures.
     """
 
     case: Case
@@ -92,6 +94,7 @@ class SweepResults:
     samples: int
     points: tuple[Point, ...]
     seed: int = 0
+    title: str = ""
 
     @property
     def varied(self) -> tuple[str, ...]:

@@ -174,6 +174,7 @@ class Store:
             "ranges": {key: asdict(over) for key, over in sweep.ranges.items()},
             "samples": sweep.samples or 0,
             "seed": sweep.seed,
+            "title": sweep.title,
             "version": __version__,
             "date": now(),
         }
@@ -282,6 +283,27 @@ def read_sweep(folder: str | Path) -> SweepResults:
         raise InputError(f"{path}: is not a sweep of ehlectric, or damaged") from None
 
 
+def saved_points(folder: str | Path) -> tuple[int, int]:
+    """How many points of a sweep have been tried and saved, and how many it has.
+
+    Raises
+    ------
+    InputError
+        As ``read_sweep``.
+    """
+    path = Path(folder) / NAME
+    with _told(path):
+        file = _opened(path, "rw")
+        try:
+            saved, points = file.execute(
+                "SELECT count(CASE WHEN points.key IS NULL OR results.key IS NOT NULL THEN 1 END), count(*) "
+                "FROM points LEFT JOIN results USING (key)"
+            ).fetchone()
+        finally:
+            file.close()
+    return saved, points
+
+
 def _results(asked: Mapping[str, Any], rows: Sequence[tuple[Any, ...]]) -> SweepResults:
     case = Case.from_dict(tomllib.loads(asked["case"]))
     return SweepResults(
@@ -292,6 +314,7 @@ def _results(asked: Mapping[str, Any], rows: Sequence[tuple[Any, ...]]) -> Sweep
         samples=asked["samples"],
         points=tuple(_point(case, *row) for row in _parsed(rows)),
         seed=asked["seed"],
+        title=asked["title"],
     )
 
 

@@ -61,6 +61,7 @@ def test_json_is_the_summary_alone(ehlectric, case_file, tmp_path):
     assert json.loads(done.stdout) == json.loads((tmp_path / "out" / "summary.json").read_text())
 
 
+@pytest.mark.slow
 def test_quiet_prints_nothing(ehlectric, case_file):
     done = ehlectric("run", case_file, "-o", "out", "--no-plots", "--quiet")
     assert (done.returncode, done.stdout) == (0, "")
@@ -81,6 +82,7 @@ def test_not_converged_is_exit_3_with_all_files(ehlectric, case_file, tmp_path):
     assert "Traceback" not in done.stderr
 
 
+@pytest.mark.slow
 def test_films_that_vanish_are_not_converged(ehlectric, case_file, tmp_path):
     """An iterate without a film is given up; everything is written, and only words go to stderr."""
     case_file.write_text(CASE.replace("2 m/s", "1e-6 m/s"))
@@ -112,6 +114,7 @@ def test_any_title_is_printed_and_drawn(ehlectric, case_file, tmp_path, title):
     assert {path.name for path in (tmp_path / "out").iterdir()} > FIGURES
 
 
+@pytest.mark.slow
 def test_a_folder_holds_one_result(ehlectric, case_file, tmp_path):
     ehlectric("run", case_file, "-o", "out")
     ehlectric("run", case_file, "-o", "out", "--no-plots")
@@ -153,6 +156,7 @@ def test_plot_redraws(ehlectric, case_file, tmp_path):
     assert {path.name for path in (tmp_path / "figures").iterdir()} == FIGURES
 
 
+@pytest.mark.slow
 def test_rough_example(ehlectric, tmp_path):
     done = ehlectric("run", EXAMPLES / "rough_contact.toml", "-o", "out")
     assert done.returncode == 0, done.stderr
@@ -164,6 +168,7 @@ def test_rough_example(ehlectric, tmp_path):
     assert load(tmp_path / "out" / "result.nc").summary()["field"] == field
 
 
+@pytest.mark.slow
 def test_rough_where_the_contact_is_not(ehlectric, case_file, tmp_path):
     bump = '[[roughness]]\nsurface = 1\ngenerator = "asperity"\nheight = "20 nm"\nwidth = "1 um"\n'
     case_file.write_text(CASE + bump + 'position = "90 mm"\n')

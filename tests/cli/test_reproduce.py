@@ -21,6 +21,7 @@ def rows_of(path):
         return list(csv.DictReader(file))
 
 
+@pytest.mark.slow
 def test_schematics_need_no_solution(ehlectric, tmp_path):
     for number in (2, 3):
         done = ehlectric("reproduce", "-o", "out", "--figure", number)
@@ -42,6 +43,7 @@ def test_table_3_alone(ehlectric, tmp_path):
         assert abs(computed - printed["venner_h_min"]) < 0.04 * printed["venner_h_min"] + 0.005
 
 
+@pytest.mark.slow
 def test_one_figure_alone(ehlectric, tmp_path):
     done = ehlectric("reproduce", "-o", "out", "--figure", "7", "--quiet")
     assert done.returncode == 0, done.stderr

@@ -72,11 +72,9 @@ def test_a_sweep_is_solved_saved_and_told(ehlectric, tmp_path, swept):
         thickness = file["film.minimum_thickness"].values
     assert (thickness[1] > thickness[0]).all()
     assert (thickness[:, 1] < thickness[:, 0]).all()
-    again = ehlectric("sweep", "sweep.toml", "-o", "out", "-q")
-    assert (again.returncode, again.stdout, again.stderr) == (0, "", "")
-    assert rows_of(tmp_path / "out") == rows
 
 
+@pytest.mark.slow
 def test_points_that_failed_are_counted_by_their_reason(ehlectric, tmp_path, swept):
     text = SWEEP + "grid.nodes = [257, 65]\ngrid.outlet = [2.0, 9.0]\nsolver.max_iterations = [30]\n"
     done = ehlectric("sweep", swept(text), "-o", "out", "--workers", 1)
@@ -91,6 +89,7 @@ def test_points_that_failed_are_counted_by_their_reason(ehlectric, tmp_path, swe
     )
 
 
+@pytest.mark.slow
 def test_where_none_is_solved_the_status_is_3(ehlectric, tmp_path, swept):
     done = ehlectric("sweep", swept(SWEEP + "solver.max_iterations = [1]\n"), "-o", "out", "--workers", 1)
     assert (done.returncode, done.stderr) == (3, "error: none of 4 points was solved\n")
@@ -180,7 +179,7 @@ def wait_for_points(folder, points, process):
     raise AssertionError("nothing is saved")
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("number", [signal.SIGINT, pytest.param(signal.SIGTERM, marks=pytest.mark.slow)])
 def test_a_sweep_that_is_stopped_says_what_is_saved(tmp_path, swept, number):
     swept(LONG)
     process = begun(tmp_path, "--workers", "1", group=True)
@@ -198,6 +197,7 @@ def test_a_sweep_that_is_stopped_says_what_is_saved(tmp_path, swept, number):
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == [".sweep.lock", "sweep.sqlite"]
 
 
+@pytest.mark.slow
 def test_a_second_sweep_in_the_same_folder_is_refused(ehlectric, tmp_path, swept):
     swept(LONG)
     process = begun(tmp_path, "--workers", "1")
@@ -251,10 +251,14 @@ def test_a_worker_that_is_killed_costs_no_point(tmp_path, swept):
 
 
 @pytest.mark.slow
-def test_the_example(ehlectric, tmp_path):
+def test_the_example_and_again(ehlectric, tmp_path):
     done = ehlectric("sweep", EXAMPLES / "sweep.toml", "-o", "out")
     assert (done.returncode, done.stderr) == (0, "")
-    assert [row["status"] for row in rows_of(tmp_path / "out")] == ["solved"] * 30
+    rows = rows_of(tmp_path / "out")
+    assert [row["status"] for row in rows] == ["solved"] * 30
+    again = ehlectric("sweep", EXAMPLES / "sweep.toml", "-o", "out", "-q")
+    assert (again.returncode, again.stdout, again.stderr) == (0, "", "")
+    assert rows_of(tmp_path / "out") == rows
 
 
 @pytest.fixture
@@ -329,3 +333,17 @@ def test_a_local_cluster_from_python(tmp_path, swept):
     done = subprocess.run([sys.executable, script], cwd=tmp_path, capture_output=True, text=True, timeout=120)
     assert (done.returncode, done.stderr) == (0, "")
     assert done.stdout == f"{['solved'] * 4}\n"
+
+
+@pytest.mark.slow
+def test_a_script_without_a_main_guard_is_told_so(tmp_path, swept):
+    swept(SWEEP)
+    script = tmp_path / "script.py"
+    script.write_text(
+        "import ehlectric\nehlectric.run_sweep(ehlectric.Sweep.from_toml('sweep.toml'), 'out')\n"
+    )
+    done = subprocess.run([sys.executable, script], cwd=tmp_path, capture_output=True, text=True, timeout=120)
+    assert done.returncode == 1
+    assert 'a script takes this call below if __name__ == "__main__":' in done.stderr.splitlines()[-1]
+    # And no point is blamed for it.
+    assert {point.status for point in read_sweep(tmp_path / "out").points} == {"open"}

@@ -21,6 +21,7 @@ def ball(doublings):
     return solve(Case.from_dict(case)).discharge
 
 
+@pytest.mark.slow
 def test_capacitance_of_a_ball_grows_with_the_logarithm_of_its_domain():
     """Far out h = r^2/2R, so that doubling the domain adds 4 pi eps0 eps R ln 2, whatever its shape."""
     found = [ball(doublings).capacitance for doublings in range(3)]

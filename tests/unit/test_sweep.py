@@ -2,6 +2,7 @@
 
 import math
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import nullcontext
 
 import pytest
 
@@ -122,7 +123,7 @@ def test_two_sweeps_in_one_folder(tmp_path):
         return threads.submit(call, *values)
 
     with ThreadPoolExecutor(1) as threads:
-        results = run_with(speeds(2), tmp_path, Crew(submit, lambda: 2))
+        results = run_with(speeds(2), tmp_path, nullcontext(Crew(submit, lambda: 2)))
     assert refused
     assert [point.status for point in results.points] == ["solved", "solved"]
 
@@ -132,7 +133,7 @@ def test_what_holds_the_crew_up_is_told(tmp_path):
     with ThreadPoolExecutor(1) as threads:
         crew = Crew(crew_of(threads).submit, lambda: 2, remark=lambda: "no workers yet")
         vary = {"solver.max_iterations": [1, 30]}
-        run_with(sweep_over(vary), tmp_path, crew, lambda *values: told.append(values))
+        run_with(sweep_over(vary), tmp_path, nullcontext(crew), lambda *values: told.append(values))
     assert told[0] == (0, 2, "no workers yet")
     assert told[-1] == (2, 2, "1 not converged, no workers yet")
 
@@ -151,7 +152,9 @@ def test_progress_while_nothing_finishes(tmp_path, monkeypatch):
         return call(*values)
 
     with ThreadPoolExecutor(1) as threads:
-        run_with(speeds(1), tmp_path, Crew(submit, lambda: 2), lambda *values: told.append(values))
+        run_with(
+            speeds(1), tmp_path, nullcontext(Crew(submit, lambda: 2)), lambda *values: told.append(values)
+        )
     assert told[:5] == [(0, 1, "")] * 5
     assert told[-1] == (1, 1, "")
 
@@ -182,5 +185,5 @@ def test_solve_point_is_what_is_submitted(tmp_path):
         return threads.submit(call, *values)
 
     with ThreadPoolExecutor(1) as threads:
-        run_with(speeds(1), tmp_path, Crew(submit, lambda: 1))
+        run_with(speeds(1), tmp_path, nullcontext(Crew(submit, lambda: 1)))
     assert calls == [(solve_point, CASE.replace({SPEED: 1.0}).to_dict())]

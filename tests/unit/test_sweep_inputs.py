@@ -255,7 +255,7 @@ BAD_KEYS = [
         r"\.count: got it in a sobol design",
     ),
     (
-        {"design": "sobol", "samples": 2**16, "vary": {k: {"from": 1, "to": 2} for k in (SPEED, LOAD)}},
+        {"design": "sobol", "samples": 2**16, "vary": {key: {"from": 1, "to": 2} for key in (SPEED, LOAD)}},
         r"^vary: got 262144 points, takes at most 200000",
     ),
     (
