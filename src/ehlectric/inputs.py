@@ -33,6 +33,22 @@ def _law(laws: Mapping[str, object]) -> AfterValidator:
     return AfterValidator(known)
 
 
+def with_lubricant(table: Any) -> Any:
+    """A table with the values of the lubricant that it names, where it gives none itself.
+
+    Raises
+    ------
+    ValueError
+        Where the library has none of that name.
+    """
+    if not isinstance(table, Mapping) or not isinstance(table.get("base"), str):
+        return table
+    name, names = table["base"], library.lubricant_names()
+    if name not in names:
+        raise ValueError(f"base: got {shown(name)}, takes a name of the library: {', '.join(names)}")
+    return {**library.lubricant(name), **table}
+
+
 class Lubricant(Table):
     """Properties of the lubricant and the laws they enter."""
 
@@ -70,12 +86,7 @@ class Lubricant(Table):
     @classmethod
     def _from_base(cls, table: Any) -> Any:
         """The named lubricant of the library, with what the case gives in place of its values."""
-        if not isinstance(table, Mapping) or not isinstance(table.get("base"), str):
-            return table
-        name, names = table["base"], library.lubricant_names()
-        if name not in names:
-            raise ValueError(f"base: got {shown(name)}, takes a name of the library: {', '.join(names)}")
-        return {**library.lubricant(name), **table}
+        return with_lubricant(table)
 
     @model_validator(mode="after")
     def _check(self) -> Self:

@@ -1,4 +1,4 @@
-"""An oil over temperature: viscosity, density, pressure-viscosity coefficient, heat in the inlet. SI units."""
+"""An oil over temperature: viscosity, density, pressure-viscosity coefficient, heat of the inlet. SI."""
 
 from __future__ import annotations
 
@@ -68,14 +68,14 @@ class Walther:
         InputError
             Where it is below what the equation holds for.
         """
-        double = 10.0 ** (self.a - self.b * math.log10(temperature))
+        double = math.pow(10.0, self.a - self.b * math.log10(temperature))
         if double > 300.0:
             raise InputError(f"bearing.temperature: got {temperature:g} K, at which the oil is solid")
-        nu = 10.0**double - _ADDED
+        nu = math.pow(10.0, double) - _ADDED
         if nu < _LEAST:
             raise InputError(
-                f"bearing.temperature: got {temperature:g} K, at which the oil has {nu:.3g} mm^2/s; takes one "
-                f"at which it has {_LEAST:g} mm^2/s or more, for which ASTM D341 holds in its short form"
+                f"bearing.temperature: got {temperature:g} K, at which the oil has {nu:.3g} mm^2/s; takes "
+                f"one at which it has {_LEAST:g} mm^2/s or more, for which ASTM D341 holds in its short form"
             )
         return 1e-6 * nu
 
@@ -173,4 +173,4 @@ def inlet_shear_factor(viscosity: float, slope: float, speed: float, conductivit
     0.848
     """
     loading = viscosity * slope * speed**2 / conductivity
-    return 1.0 / (1.0 + 0.241 * loading**0.64)
+    return float(1.0 / (1.0 + 0.241 * loading**0.64))

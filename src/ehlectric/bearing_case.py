@@ -1,0 +1,56 @@
+"""A bearing file: bearing, lubricant, discharge and motor, read from TOML."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, Self
+
+from pydantic import model_validator
+
+from ehlectric.bearing_inputs import Bearing, BearingLubricant, Motor
+from ehlectric.case import Title
+from ehlectric.discharge_inputs import Discharge
+from ehlectric.inputs import Solver
+from ehlectric.validation import Table, read_toml
+
+# Of [discharge], what a bearing gives itself.
+_NOT_OF_BEARINGS = ("length", "external_capacitance", "peak_current", "pit")
+
+
+class BearingCase(Table):
+    """A rolling bearing in its machine: everything its capacitance and breakdown voltage depend on."""
+
+    title: Title = ""
+    bearing: Bearing
+    lubricant: BearingLubricant
+    discharge: Discharge = Discharge()
+    motor: Motor | None = None
+    solver: Solver = Solver()
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        for key in _NOT_OF_BEARINGS:
+            if getattr(self.discharge, key) is not None:
+                raise ValueError(f"discharge.{key}: got it for a bearing, which has no use for it")
+        if self.bearing.film_factor == "inlet-shear":
+            oil = self.lubricant.temperature
+            if oil is None or oil.thermal_conductivity is None:
+                raise ValueError(
+                    "lubricant.temperature.thermal_conductivity: missing, bearing.film_factor 'inlet-shear' takes it"
+                )
+        return self
+
+    @classmethod
+    def from_toml(cls, path: str | Path) -> Self:
+        """Bearing of a TOML file.
+
+        Raises
+        ------
+        InputError
+            Where the file cannot be read, is not TOML, or is not a bearing.
+        """
+        return cls.from_dict(read_toml(path))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Nested tables of all values that are set, SI floats."""
+        return self.model_dump(mode="json", exclude_none=True)

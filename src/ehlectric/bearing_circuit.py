@@ -1,0 +1,130 @@
+"""The circuit of a bearing: two contacts of each element in series, elements in parallel. SI units."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ehlectric.typing import Array
+
+
+@dataclass(frozen=True)
+class Circuit:
+    """Capacitances of a bearing's contacts and the voltages at which their films break down.
+
+    Attributes
+    ----------
+    inner, outer : ndarray, shape (n,)
+        Capacitance of each element's contacts with the inner and the outer ring [F].
+    inner_strength, outer_strength : ndarray, shape (n,)
+        Breakdown voltage of each contact by itself [V]; infinite where it has none.
+
+    Examples
+    --------
+    Two equal contacts share the voltage; where one breaks down at half of what the other withstands, that one
+    holds on alone.
+
+    >>> circuit = Circuit(np.array([1e-10]), np.array([1e-10]), np.array([5.0]), np.array([20.0]))
+    >>> circuit.capacitance, circuit.first_break, circuit.through_breakdown
+    (5e-11, 10.0, 20.0)
+    """
+
+    inner: Array
+    outer: Array
+    inner_strength: Array
+    outer_strength: Array
+
+    @property
+    def elements(self) -> Array:
+        """Capacitance of each element from ring to ring [F]."""
+        return self.inner * self.outer / (self.inner + self.outer)
+
+    @property
+    def capacitance(self) -> float:
+        """Of the bearing [F]."""
+        return float(np.sum(self.elements))
+
+    @property
+    def inner_share(self) -> Array:
+        """Part of the bearing's voltage on each inner contact; the outer one has the rest."""
+        return self.outer / (self.inner + self.outer)
+
+    @property
+    def first_breaks(self) -> Array:
+        """Bearing voltages at which the first contact of each element breaks down [V]."""
+        share = self.inner_share
+        return np.minimum(self.inner_strength / share, self.outer_strength / (1.0 - share))
+
+    @property
+    def through_breaks(self) -> Array:
+        """Bearing voltages at which each element breaks down through both contacts [V].
+
+        When the first one has broken down the other carries all of the voltage.
+        """
+        share = self.inner_share
+        inner_first = self.inner_strength / share <= self.outer_strength / (1.0 - share)
+        remaining = np.where(inner_first, self.outer_strength, self.inner_strength)
+        return np.maximum(self.first_breaks, remaining)
+
+    @property
+    def first_break(self) -> float:
+        """Least bearing voltage at which some contact breaks down [V]."""
+        return float(np.min(self.first_breaks))
+
+    @property
+    def through_breakdown(self) -> float:
+        """Least bearing voltage at which some element breaks down from ring to ring [V]."""
+        return float(np.min(self.through_breaks))
+
+
+def bearing_voltage_ratio(winding_rotor: float, rotor_frame: float, first: float, second: float) -> float:
+    """Part of the common-mode voltage that is on the bearings.
+
+    C_wr/(C_wr + C_rf + C_DE + C_NDE)
+
+    Parameters
+    ----------
+    winding_rotor, rotor_frame : float
+        Capacitance from winding to rotor and from rotor to frame [F].
+    first, second : float
+        Of both bearings [F].
+
+    Returns
+    -------
+    float
+        Dimensionless.
+
+    Examples
+    --------
+    >>> round(bearing_voltage_ratio(20e-12, 1e-9, 70e-12, 70e-12), 4)
+    0.0172
+    """
+    return winding_rotor / (winding_rotor + rotor_frame + first + second)
+
+
+def impedance(capacitance: Array, relaxation_time: float, frequency: Array) -> Array:
+    """Impedance of capacitances whose dielectric leaks, Z = 1/(C (i 2 pi f + 1/tau)).
+
+    Parameters
+    ----------
+    capacitance : ndarray
+        [F].
+    relaxation_time : float
+        tau = eps0 eps_r/sigma of the oil [s].
+    frequency : ndarray, shape (n,)
+        [Hz].
+
+    Returns
+    -------
+    ndarray of complex, shape (n,)
+        [Ohm].
+
+    Examples
+    --------
+    >>> z = impedance(1e-10, 1.0, np.array([0.0]))
+    >>> abs(z[0])
+    10000000000.0
+    """
+    z: Array = 1.0 / (capacitance * (2j * np.pi * frequency + 1.0 / relaxation_time))
+    return z
