@@ -1,8 +1,14 @@
 """Fixtures shared by all tests."""
 
+import signal
+
 import pytest
 
 from ehlectric import Case, solve
+
+# Jobs in the background of a shell may have interrupts ignored, which commands under test would inherit.
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 PAPER_CONTACT = {
     "reduced_radius": "14.1 mm",
