@@ -36,7 +36,7 @@ class BearingCase(Table):
             oil = self.lubricant.temperature
             if oil is None or oil.thermal_conductivity is None:
                 raise ValueError(
-                    "lubricant.temperature.thermal_conductivity: missing, bearing.film_factor 'inlet-shear' takes it"
+                    "lubricant.temperature.thermal_conductivity: missing, film_factor 'inlet-shear' takes it"
                 )
         return self
 

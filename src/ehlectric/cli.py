@@ -12,6 +12,7 @@ from typing import Annotated
 
 import typer
 
+from ehlectric.bearing_commands import bearing
 from ehlectric.errors import InputError, shown
 from ehlectric.map_commands import draw_maps, sensitivity
 from ehlectric.sweep_commands import sweep
@@ -272,6 +273,7 @@ def reproduce(
         raise typer.Exit(NOT_CONVERGED)
 
 
+app.command()(bearing)
 app.command()(sweep)
 app.command("map")(draw_maps)
 app.command()(sensitivity)

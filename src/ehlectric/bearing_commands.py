@@ -1,0 +1,125 @@
+"""The bearing command."""
+
+from __future__ import annotations
+
+import csv
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import numpy as np
+import typer
+
+from ehlectric.terminal import NOT_CONVERGED, print_table, progress_bar, user_errors, warn
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+    from ehlectric.bearing_result import BearingResult
+
+SUMMARY, CONTACTS = "summary.json", "contacts.csv"
+
+
+def bearing(
+    bearing_file: Annotated[Path, typer.Argument(help="Bearing file, TOML.", show_default=False)],
+    output: Annotated[
+        Path, typer.Option("--output", "-o", metavar="DIR", help="Folder for the results.")
+    ] = Path("bearing"),
+    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No table, progress or warnings.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")] = False,
+) -> None:
+    """Solve a whole rolling bearing; write summary.json and contacts.csv.
+
+    Exit status 0: solved. 2: the input is wrong. 3: a contact is not converged, everything is written all the
+    same.
+    """
+    with user_errors():
+        from ehlectric.bearing_case import BearingCase
+
+        case = BearingCase.from_toml(bearing_file)
+
+        from ehlectric.bearing_result import BearingResult
+        from ehlectric.bearing_solver import solve_bearing
+        from ehlectric.store import prepare, whole
+
+        folder = prepare(output, (SUMMARY, CONTACTS))
+        with progress_bar(shown=not quiet) as progress:
+            result = BearingResult(solve_bearing(case, progress=progress))
+        summary = result.summary()
+        with whole(folder / SUMMARY) as beside:
+            beside.write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
+        with whole(folder / CONTACTS) as beside, beside.open("w", encoding="utf-8", newline="") as file:
+            rows = result.contacts()
+            writer = csv.DictWriter(file, list(rows[0]))
+            writer.writeheader()
+            writer.writerows(rows)
+    if as_json:
+        typer.echo(json.dumps(summary, indent=2))
+    elif not quiet:
+        print_table(contacts_table(result))
+        print_table(bearing_table(result))
+        typer.echo("written: " + ", ".join(str(folder / name) for name in (SUMMARY, CONTACTS)))
+    if not quiet:
+        warn(result.warnings())
+    if not result.converged:
+        typer.echo("error: not converged: a contact of the bearing", err=True)
+        raise typer.Exit(NOT_CONVERGED)
+
+
+def contacts_table(result: BearingResult) -> Table:
+    """A row for every element and ring."""
+    from rich.table import Table
+
+    table = Table(box=None, padding=(0, 1, 0, 0))
+    heads = ("", "ring", "angle\n[deg]", "load\n[N]", "p_h\n[GPa]", "h_min\n[µm]", "h(0)\n[µm]")
+    for head in (*heads, "lambda", "C\n[pF]", "share\n[%]", "breaks\n[V]"):
+        table.add_column(head, justify="right", no_wrap=True)
+    for row in result.contacts():
+        pressure, breaks = row["max_pressure"], row["breakdown_voltage"]
+        table.add_row(
+            str(row["element"]),
+            row["ring"],
+            f"{np.degrees(row['position']):.0f}",
+            f"{row['load']:.4g}",
+            "" if pressure is None else f"{pressure / 1e9:.3f}",
+            f"{row['minimum_thickness'] * 1e6:.4g}",
+            f"{row['central_thickness'] * 1e6:.4g}",
+            f"{row['lambda_ratio']:.3g}",
+            f"{row['capacitance'] * 1e12:.4g}",
+            f"{100.0 * row['voltage_share']:.1f}",
+            "" if breaks is None else f"{breaks:.3g}",
+        )
+    return table
+
+
+def bearing_table(result: BearingResult) -> Table:
+    """The totals of a bearing."""
+    from ehlectric.report import plain_table
+
+    found = result.summary()["bearing"]
+    table = plain_table(result.solution.case.title)
+    factor = result.solution.case.bearing.film_factor
+    rows = (
+        ("capacitance", "capacitance", 1e12, "pF"),
+        ("  all in oil", "capacitance_oil", 1e12, "pF"),
+        ("  air around the films", "capacitance_air", 1e12, "pF"),
+        ("  over that of plates", "capacitance_ratio", 1.0, ""),
+        ("least lambda", "lambda_ratio", 1.0, found["lubrication"]),
+        ("film factor", "film_factor", 1.0, "" if isinstance(factor, float) else factor),
+        ("first break", "first_break", 1.0, "V"),
+        ("  mean over a pitch", "first_break_mean", 1.0, "V"),
+        ("through breakdown", "through_breakdown", 1.0, "V"),
+        ("  mean over a pitch", "through_breakdown_mean", 1.0, "V"),
+        ("bearing voltage ratio", "bearing_voltage_ratio", 100.0, "%"),
+        ("shaft voltage", "shaft_voltage", 1.0, "V, capacitive alone"),
+        ("first break over it", "margin", 1.0, ""),
+        ("error of the film", "discretisation_error", 100.0, "%"),
+        ("error of interpolation", "interpolation_error", 100.0, "%"),
+    )
+    for name, key, scale, unit in rows:
+        if found[key] is not None:
+            table.add_row(name, f"{found[key] * scale:.4g}", unit)
+    if found["first_break_at"] is not None:
+        table.add_row("breaks first", "", found["first_break_at"])
+    table.add_row("time", f"{result.solution.seconds:.3g}", "s")
+    return table

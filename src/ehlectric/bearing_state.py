@@ -1,0 +1,117 @@
+"""The contacts of all elements with one ring at one position of the cage: film, capacitance, breakdown."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ehlectric.bearing_contacts import ContactCurve, Race, raceway_of
+from ehlectric.bearing_duty import BearingDuty
+from ehlectric.bearing_geometry import RollerBearing
+from ehlectric.bearing_inputs import Bearing
+from ehlectric.discharge_inputs import Discharge
+from ehlectric.groove_gap import groove_capacitance
+from ehlectric.roller_gap import RollerRace, roller_capacitance
+from ehlectric.stress import dielectric_strength
+from ehlectric.typing import Array, Mask
+
+
+@dataclass(frozen=True)
+class RaceState:
+    """Contacts with one ring, one number an element, SI units.
+
+    Attributes
+    ----------
+    load, gap : ndarray, shape (n,)
+        [N], and the distance where element and ring do not touch [m], 0 elsewhere.
+    solved : ndarray of bool
+        Whether film and field are solved ones; a gap of rigid bodies otherwise.
+    max_pressure, semi_axis_x, semi_axis_y : ndarray
+        Of the dry contact; 0 without load.
+    minimum_thickness, central_thickness : ndarray
+        Of the film, or the gap [m].
+    inside, outside_oil, outside_air : ndarray
+        Capacitance over the film, and around it with oil and with air [F].
+    plate : ndarray
+        eps0 eps_r A/h(0) of the Hertz area [F]; 0 without load.
+    breakdown_voltage : ndarray
+        Of the contact by itself [V]; infinite without a strength.
+    """
+
+    load: Array
+    gap: Array
+    solved: Mask
+    max_pressure: Array
+    semi_axis_x: Array
+    semi_axis_y: Array
+    minimum_thickness: Array
+    central_thickness: Array
+    inside: Array
+    outside_oil: Array
+    outside_air: Array
+    plate: Array
+    breakdown_voltage: Array
+
+    def capacitance(self, fill: str) -> Array:
+        """Of each contact, with oil or air around the film [F]."""
+        return self.inside + (self.outside_oil if fill == "oil" else self.outside_air)
+
+
+# What a curve gives of a loaded contact.
+_FROM_CURVE = (
+    "max_pressure", "semi_axis_x", "semi_axis_y", "minimum_thickness", "central_thickness",
+    "inside", "outside_oil", "outside_air", "plate", "breakdown_voltage",
+)  # fmt: skip
+
+
+def race_state(
+    bearing: Bearing,
+    duty: BearingDuty,
+    race: Race,
+    curve: ContactCurve,
+    discharge: Discharge,
+    load: Array,
+    gap: Array,
+) -> RaceState:
+    """Contacts of all elements with one ring.
+
+    Parameters
+    ----------
+    bearing, duty, race : Bearing, BearingDuty and Race
+        The bearing and the ring.
+    curve : ContactCurve
+        Its loaded contacts.
+    discharge : Discharge
+        Strength of the film.
+    load, gap : ndarray, shape (n,)
+        Load [N] and, without one, distance [m] of each element.
+
+    Returns
+    -------
+    RaceState
+        Contacts without load count as rigid bodies.
+    """
+    solved = load > 0.0
+    found = {name: np.zeros_like(load) for name in _FROM_CURVE}
+    for name in _FROM_CURVE:
+        found[name][solved] = curve.at(name, load[solved])
+    strength = float(dielectric_strength(discharge, np.zeros(1))[0])
+    known = discharge.dielectric_strength is not None or discharge.strength_table is not None
+    for k in np.flatnonzero(~solved):
+        apart = float(gap[k])
+        vacuum = _rigid(bearing, duty, race, apart)
+        found["minimum_thickness"][k] = found["central_thickness"][k] = apart
+        found["outside_oil"][k] = vacuum * duty.lubricant.relative_permittivity
+        found["outside_air"][k] = vacuum
+        found["breakdown_voltage"][k] = strength * apart if known else np.inf
+    return RaceState(load=load, gap=gap, solved=solved, **found)
+
+
+def _rigid(bearing: Bearing, duty: BearingDuty, race: Race, gap: float) -> float:
+    """Capacitance of rigid bodies a gap apart, in vacuum [F]."""
+    if isinstance(duty.geometry, RollerBearing):
+        radii = duty.radii(0.0, inner=race.inner)
+        around = RollerRace(radii.element_x, abs(radii.ring_x), outer=not race.inner)
+        return duty.geometry.roller_length * roller_capacitance(around, gap)
+    return groove_capacitance(raceway_of(bearing, race), gap)
