@@ -132,7 +132,9 @@ def contact_case(
     return Case.from_dict(
         {
             "contact": contact,
-            "lubricant": duty.lubricant.model_dump(exclude_none=True, exclude={"base"}),
+            # Pressures are those above ambient, which acts on the bodies from all sides.
+            "lubricant": duty.lubricant.model_dump(exclude_none=True, exclude={"base"})
+            | {"ambient_pressure": 0.0},
             "grid": grid | {"refine": REFINE},
             "discharge": discharge.model_dump(exclude_none=True) | assess,
             "solver": solver,
@@ -268,9 +270,12 @@ class ContactCurve:
     ----------
     solutions : tuple of ContactSolution
         By increasing load.
+    light : bool
+        Whether the first is of an element that is hardly loaded, far below the others.
     """
 
     solutions: tuple[ContactSolution, ...]
+    light: bool = False
 
     def at(self, quantity: str, load: Array) -> Array:
         """A quantity at loads [N], interpolated in the logarithms of both."""
@@ -294,7 +299,7 @@ class ContactCurve:
         That of twice the distance of the loads: about the fourth part of it is left with all of them.
         """
         worst = 0.0
-        for k in range(1, len(self.solutions) - 1):
+        for k in range(2 if self.light else 1, len(self.solutions) - 1):
             others = [j for j in range(len(self.solutions)) if j != k]
             for quantity in ("inside", "breakdown_voltage"):
                 value = getattr(self.solutions[k], quantity)

@@ -116,7 +116,7 @@ def solve_bearing(
     ]
     found = _solved(tasks, progress or (lambda _done, _of, _text: None), workers or cores())
     first = len(loads[0])
-    curves = ContactCurve(tuple(found[:first])), ContactCurve(tuple(found[first:]))
+    curves = _curve(found[:first]), _curve(found[first:])
 
     def state(race: Race, curve: ContactCurve, at: Equilibrium) -> RaceState:
         load = at.inner_load if race.inner else at.outer_load
@@ -160,6 +160,11 @@ def _loads(equilibria: Sequence[Equilibrium], *, inner: bool) -> list[float]:
     light = all_loads[(all_loads > 0.0) & (all_loads < _LEAST * largest)]
     lightest = [max(float(np.min(light)), _LIGHTEST * largest)] if light.size else []
     return lightest + [float(load) for load in loads]
+
+
+def _curve(solutions: Sequence[ContactSolution]) -> ContactCurve:
+    light = len(solutions) > 1 and solutions[0].load < _LEAST * solutions[-1].load
+    return ContactCurve(tuple(solutions), light)
 
 
 def _solved(
