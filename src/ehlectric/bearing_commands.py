@@ -25,6 +25,9 @@ def bearing(
     output: Annotated[
         Path, typer.Option("--output", "-o", metavar="DIR", help="Folder for the results.")
     ] = Path("bearing"),
+    contacts: Annotated[
+        str, typer.Option(metavar="HOW", help="solved, or formula: films of formulas, at once.")
+    ] = "solved",
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No table, progress or warnings.")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")] = False,
 ) -> None:
@@ -44,7 +47,7 @@ def bearing(
 
         folder = prepare(output, (SUMMARY, CONTACTS))
         with progress_bar(shown=not quiet) as progress:
-            result = BearingResult(solve_bearing(case, progress=progress))
+            result = BearingResult(solve_bearing(case, contacts=contacts, progress=progress))
         summary = result.summary()
         with whole(folder / SUMMARY) as beside:
             beside.write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
@@ -100,7 +103,7 @@ def bearing_table(result: BearingResult) -> Table:
     table = plain_table(result.solution.case.title)
     factor = result.solution.case.bearing.film_factor
     rows = (
-        ("capacitance", "capacitance", 1e12, "pF"),
+        ("capacitance", "capacitance", 1e12, "pF, contacts " + found["contacts"]),
         ("  all in oil", "capacitance_oil", 1e12, "pF"),
         ("  air around the films", "capacitance_air", 1e12, "pF"),
         ("  over that of plates", "capacitance_ratio", 1.0, ""),

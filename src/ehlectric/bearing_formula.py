@@ -1,0 +1,197 @@
+"""Contacts of a bearing by film formulas: a uniform film under Hertz's pressure, the dry gap around it."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.constants import epsilon_0
+
+from ehlectric.bearing_contacts import ContactSolution, Race, raceway_of
+from ehlectric.bearing_duty import BearingDuty
+from ehlectric.bearing_geometry import RollerBearing
+from ehlectric.bearing_inputs import Bearing
+from ehlectric.conditions import density_law, effective_alpha, permittivity_law
+from ehlectric.discharge_inputs import Discharge
+from ehlectric.domain import areas
+from ehlectric.errors import InputError
+from ehlectric.film_formulas import LineContact, pan_hamrock
+from ehlectric.groove_gap import match_film, outside_capacitance
+from ehlectric.hertz import line_gap, line_half_width, line_max_pressure, line_pressure
+from ehlectric.hertz_point import dry_contact, point_deflection, point_pressure
+from ehlectric.point_conditions import default_side
+from ehlectric.point_formulas import PointContact, hamrock_dowson
+from ehlectric.roller_gap import RollerRace, roller_tails
+from ehlectric.stress import dielectric_strength
+from ehlectric.typing import Array
+
+# Domain in half-widths or semi-axes along entrainment, as of solved contacts; nodes along it and across.
+_POINT, _LINE = (-4.5, 1.5), (-4.0, 2.0)
+_NODES = 97, 65
+_LINE_NODES = 1601
+
+
+def check_formula(discharge: Discharge) -> None:
+    """Refuse a strength that takes more of a field than its largest value.
+
+    Raises
+    ------
+    InputError
+        For a Weibull law and for a table over pressure.
+    """
+    table = discharge.strength_table
+    if discharge.weibull is not None or (table is not None and table.over == "pressure"):
+        key = "weibull" if discharge.weibull is not None else "strength_table"
+        raise InputError(
+            f"discharge.{key}: got it with contacts by formula, which know no field; takes dielectric_strength, "
+            "a table over temperature, or solved contacts"
+        )
+
+
+def formula_contact(
+    bearing: Bearing, duty: BearingDuty, race: Race, load: float, discharge: Discharge
+) -> ContactSolution:
+    """One contact of a bearing by film formulas.
+
+    Parameters
+    ----------
+    bearing, duty : Bearing and BearingDuty
+        The bearing.
+    race : Race
+        Which contact.
+    load : float
+        [N].
+    discharge : Discharge
+        Strength of the film.
+
+    Returns
+    -------
+    ContactSolution
+        Without an error estimate: the formulas may be 30 % off, and more where the contact is light.
+
+    Notes
+    -----
+    Hamrock and Dowson (1977), doi:10.1115/1.3453074, for balls; Pan and Hamrock (1989),
+    doi:10.1115/1.3261899, for rollers. The capacitance is that of the dry gap a central film apart, with the
+    permittivity under Hertz's pressure; the largest field the voltage over the minimum film.
+    """
+    rollers = isinstance(duty.geometry, RollerBearing)
+    return (_roller if rollers else _ball)(bearing, duty, race, load, discharge)
+
+
+def _ball(
+    bearing: Bearing, duty: BearingDuty, race: Race, load: float, discharge: Discharge
+) -> ContactSolution:
+    radii = duty.radii(race.angle, inner=race.inner)
+    rx, ry = radii.radius_x, radii.radius_y
+    dry = dry_contact(load, rx, ry, duty.modulus)
+    b, a = dry.semi_axis_x, dry.semi_axis_y
+    contact = PointContact(
+        rx, ry, duty.modulus, load, race.speed, duty.lubricant.viscosity, effective_alpha(duty.lubricant)
+    )
+    film = hamrock_dowson(contact)
+    assert film.central_thickness is not None and film.minimum_thickness is not None
+    side = a * default_side(a / b)
+    x, y = b * np.linspace(*_POINT, _NODES[0]), np.linspace(-side, side, _NODES[1])
+    at_x, at_y = x[:, np.newaxis], y
+    opened = point_deflection(at_x, at_y, dry, duty.modulus)
+    gap = film.central_thickness + np.maximum(
+        0.0, at_x**2 / (2.0 * rx) + at_y**2 / (2.0 * ry) + opened - dry.approach
+    )
+    pressure = dry.max_pressure * point_pressure(at_x / b, at_y / b, a / b)
+    rim = np.ones_like(gap, dtype=bool)
+    rim[1:-1, 1:-1] = False
+    places = np.meshgrid(x, y, indexing="ij")
+    raceway = raceway_of(bearing, race)
+    around = match_film(raceway, dry, duty.modulus, places[0][rim], places[1][rim], gap[rim])
+    outside = outside_capacitance(raceway, around, (float(x[0]), float(x[-1]), side))
+    return _solution(
+        duty,
+        discharge,
+        load=load,
+        max_pressure=dry.max_pressure,
+        semi_axes=(b, a),
+        films=(film.minimum_thickness, film.central_thickness),
+        inside=float(np.vdot(areas((x, y)), _permittivity(duty, pressure) / gap)),
+        outside=outside,
+        area=np.pi * a * b,
+        moes=(contact.moes_m, contact.moes_l),
+        mismatch=around.mismatch,
+    )
+
+
+def _roller(
+    bearing: Bearing, duty: BearingDuty, race: Race, load: float, discharge: Discharge
+) -> ContactSolution:
+    assert isinstance(duty.geometry, RollerBearing) and bearing.roller_length is not None
+    radii, length = duty.radii(0.0, inner=race.inner), bearing.roller_length
+    radius, line = radii.radius_x, load / length
+    b = line_half_width(line, radius, duty.modulus)
+    contact = LineContact(
+        radius, duty.modulus, line, race.speed, duty.lubricant.viscosity, effective_alpha(duty.lubricant)
+    )
+    film = pan_hamrock(contact)
+    assert film.central_thickness is not None and film.minimum_thickness is not None
+    x = np.linspace(*_LINE, _LINE_NODES)
+    gap = film.central_thickness + b**2 / radius * line_gap(x)
+    highest = line_max_pressure(line, radius, duty.modulus)
+    race_of = RollerRace(radii.element_x, abs(radii.ring_x), outer=not race.inner)
+    ends = (b * _LINE[0], b * _LINE[1])
+    tails = roller_tails(race_of, b, ends, (float(gap[0]), float(gap[-1])))
+    inside = np.vdot(areas((b * x,)), _permittivity(duty, highest * line_pressure(x)) / gap)
+    return _solution(
+        duty,
+        discharge,
+        load=load,
+        max_pressure=highest,
+        semi_axes=(b, 0.5 * length),
+        films=(film.minimum_thickness, film.central_thickness),
+        inside=length * float(inside),
+        outside=length * sum(tails),
+        area=2.0 * b * length,
+        moes=(contact.moes_m, contact.moes_l),
+        mismatch=0.0,
+    )
+
+
+def _permittivity(duty: BearingDuty, pressure: Array) -> Array:
+    """Relative permittivity of the oil under pressure [Pa]."""
+    permittivity: Array = permittivity_law(duty.lubricant)(density_law(duty.lubricant)(pressure)[0])
+    return permittivity
+
+
+def _solution(
+    duty: BearingDuty,
+    discharge: Discharge,
+    *,
+    load: float,
+    max_pressure: float,
+    semi_axes: tuple[float, float],
+    films: tuple[float, float],
+    inside: float,
+    outside: float,
+    area: float,
+    moes: tuple[float, float],
+    mismatch: float,
+) -> ContactSolution:
+    """What the formulas of either contact give; integrals of eps_r dA/h and dA/h are not yet times eps0."""
+    given = discharge.dielectric_strength is not None or discharge.strength_table is not None
+    strength = float(dielectric_strength(discharge, np.zeros(1))[0])
+    eps_r = duty.lubricant.relative_permittivity
+    return ContactSolution(
+        load=load,
+        max_pressure=max_pressure,
+        semi_axis_x=semi_axes[0],
+        semi_axis_y=semi_axes[1],
+        minimum_thickness=films[0],
+        central_thickness=films[1],
+        inside=epsilon_0 * inside,
+        outside_oil=outside * eps_r,
+        outside_air=outside,
+        plate=epsilon_0 * eps_r * area / films[1],
+        breakdown_voltage=strength * films[0] if given else np.inf,
+        error=None,
+        moes_m=moes[0],
+        moes_l=moes[1],
+        mismatch=mismatch,
+        converged=True,
+        warnings=(),
+    )
