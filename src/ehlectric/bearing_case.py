@@ -2,16 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Self
+from typing import Any, Literal, Self
 
 from pydantic import model_validator
 
 from ehlectric.bearing_inputs import Bearing, BearingLubricant, Motor
 from ehlectric.case import Title
-from ehlectric.discharge_inputs import Discharge
+from ehlectric.changes import Groups, displace, set_keys
+from ehlectric.discharge_inputs import STRENGTHS, TABLES, Discharge
 from ehlectric.inputs import Solver
 from ehlectric.validation import Table, read_toml
+
+# What displaces each other where a key changes.
+_ALTERNATIVES: dict[str, Groups] = {
+    "lubricant": ((("viscosity",), ("temperature",)),),
+    "discharge": (STRENGTHS, TABLES),
+}
 
 # Of [discharge], what a bearing gives itself.
 _NOT_OF_BEARINGS = ("length", "external_capacitance", "peak_current", "pit")
@@ -21,6 +29,7 @@ class BearingCase(Table):
     """A rolling bearing in its machine: everything its capacitance and breakdown voltage depend on."""
 
     title: Title = ""
+    contacts: Literal["solved", "formula"] = "solved"
     bearing: Bearing
     lubricant: BearingLubricant
     discharge: Discharge = Discharge()
@@ -54,3 +63,24 @@ class BearingCase(Table):
     def to_dict(self) -> dict[str, Any]:
         """Nested tables of all values that are set, SI floats."""
         return self.model_dump(mode="json", exclude_none=True)
+
+    def to_toml(self) -> str:
+        """TOML text that ``from_toml`` reads back to an equal case."""
+        import tomli_w
+
+        return tomli_w.dumps(self.to_dict())
+
+    def replace(self, changes: Mapping[str, Any]) -> Self:
+        """A changed copy, with new values by dotted key; a new key displaces its alternative.
+
+        Raises
+        ------
+        InputError
+            As for a bearing file.
+        """
+        table = self.to_dict()
+        if "lubricant.base" in changes:
+            table["lubricant"] = {}
+        displace(table, changes, _ALTERNATIVES)
+        set_keys(table, changes)
+        return self.from_dict(table)

@@ -26,8 +26,9 @@ def bearing(
         Path, typer.Option("--output", "-o", metavar="DIR", help="Folder for the results.")
     ] = Path("bearing"),
     contacts: Annotated[
-        str, typer.Option(metavar="HOW", help="solved, or formula: films of formulas, at once.")
-    ] = "solved",
+        str,
+        typer.Option(metavar="HOW", help="solved or formula, else as the file says.", show_default=False),
+    ] = "",
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No table, progress or warnings.")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")] = False,
 ) -> None:
@@ -40,6 +41,8 @@ def bearing(
         from ehlectric.bearing_case import BearingCase
 
         case = BearingCase.from_toml(bearing_file)
+        if contacts:
+            case = case.replace({"contacts": contacts})
 
         from ehlectric.bearing_result import BearingResult
         from ehlectric.bearing_solver import solve_bearing
@@ -47,7 +50,7 @@ def bearing(
 
         folder = prepare(output, (SUMMARY, CONTACTS))
         with progress_bar(shown=not quiet) as progress:
-            result = BearingResult(solve_bearing(case, contacts=contacts, progress=progress))
+            result = BearingResult(solve_bearing(case, progress=progress))
         summary = result.summary()
         with whole(folder / SUMMARY) as beside:
             beside.write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")

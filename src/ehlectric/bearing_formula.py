@@ -41,8 +41,8 @@ def check_formula(discharge: Discharge) -> None:
     if discharge.weibull is not None or (table is not None and table.over == "pressure"):
         key = "weibull" if discharge.weibull is not None else "strength_table"
         raise InputError(
-            f"discharge.{key}: got it with contacts by formula, which know no field; takes dielectric_strength, "
-            "a table over temperature, or solved contacts"
+            f"discharge.{key}: got it with contacts by formula, which know no field; takes "
+            "dielectric_strength, a table over temperature, or solved contacts"
         )
 
 

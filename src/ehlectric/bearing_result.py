@@ -131,7 +131,7 @@ class BearingResult:
 
     def _warnings(self) -> Iterator[str]:
         solution = self.solution
-        if solution.contacts == "formula":
+        if solution.case.contacts == "formula":
             yield "contacts by formula: films may be 30 % off, and fields are voltages over the minimum film"
         if solution.duty.film_factor == 1.0:
             yield "film_factor none: the film is isothermal and fully flooded, voltages are upper bounds"
@@ -207,7 +207,7 @@ class BearingResult:
                 "pressure_viscosity_coefficient": duty.lubricant.pressure_viscosity_coefficient,
             },
             "bearing": {
-                "contacts": solution.contacts,
+                "contacts": case.contacts,
                 "capacitance": capacitance,
                 "capacitance_oil": self.capacitance("oil"),
                 "capacitance_air": self.capacitance("air"),

@@ -16,12 +16,8 @@ from ehlectric.bearing_contacts import ContactCurve, ContactSolution, Race, solv
 from ehlectric.bearing_duty import BearingDuty
 from ehlectric.bearing_formula import check_formula, formula_contact
 from ehlectric.bearing_state import RaceState, race_state
-from ehlectric.errors import InputError, shown
 from ehlectric.roller_equilibrium import RollerEquilibrium
 from ehlectric.workers import cores, run_all
-
-# How the films of the contacts are found.
-CONTACTS = ("solved", "formula")
 
 # Loads of each ring that are solved, and the least of them over the largest.
 LOADS, _LEAST = 6, 0.02
@@ -65,8 +61,6 @@ class BearingSolution:
     ----------
     case, duty : BearingCase and BearingDuty
         What was solved.
-    contacts : str
-        "solved" or "formula".
     inner, outer : Race
         The contacts with both rings.
     inner_curve, outer_curve : ContactCurve
@@ -79,7 +73,6 @@ class BearingSolution:
 
     case: BearingCase
     duty: BearingDuty
-    contacts: str
     inner: Race
     outer: Race
     inner_curve: ContactCurve
@@ -91,7 +84,6 @@ class BearingSolution:
 def solve_bearing(
     case: BearingCase,
     *,
-    contacts: str = "solved",
     progress: Progress | None = None,
     workers: int | None = None,
 ) -> BearingSolution:
@@ -101,8 +93,6 @@ def solve_bearing(
     ----------
     case : BearingCase
         What to solve.
-    contacts : str
-        "solved", or "formula": films of formulas instead, in a fraction of a second.
     progress : callable, optional
         Called with (contacts done, contacts in all, a text).
     workers : int, optional
@@ -119,9 +109,8 @@ def solve_bearing(
         Where the bearing cannot carry its load, or a contact cannot be solved.
     """
     started = time.perf_counter()
-    if contacts not in CONTACTS:
-        raise InputError(f"contacts: got {shown(contacts)}, takes one of {', '.join(CONTACTS)}")
-    if contacts == "formula":
+    by_formula = case.contacts == "formula"
+    if by_formula:
         check_formula(case.discharge)
     duty = BearingDuty.of(case)
     equilibria = duty.equilibria(case.bearing, POSITIONS)
@@ -130,12 +119,12 @@ def solve_bearing(
     given = case.bearing, duty
     tasks = [
         partial(formula_contact, *given, race, load, case.discharge)
-        if contacts == "formula"
+        if by_formula
         else partial(solve_contact, *given, race, load, case.discharge, case.solver.model_dump())
         for race, those in zip(races, loads, strict=True)
         for load in those
     ]
-    processes = 1 if contacts == "formula" else workers or cores()
+    processes = 1 if by_formula else workers or cores()
     found = _solved(tasks, progress or (lambda _done, _of, _text: None), processes)
     first = len(loads[0])
     curves = _curve(found[:first]), _curve(found[first:])
@@ -151,7 +140,6 @@ def solve_bearing(
     return BearingSolution(
         case=case,
         duty=duty,
-        contacts=contacts,
         inner=races[0],
         outer=races[1],
         inner_curve=curves[0],

@@ -11,11 +11,12 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any, Self
 
-from pydantic import AfterValidator, BaseModel, model_validator
+from pydantic import AfterValidator, model_validator
 
-from ehlectric.contact_inputs import CONTACT_ALTERNATIVES, ONLY, Alternatives, Contact
+from ehlectric.changes import displace, drop, flattened, set_keys
+from ehlectric.contact_inputs import CONTACT_ALTERNATIVES, ONLY, Contact
 from ehlectric.discharge_inputs import STRENGTHS, TABLES, Discharge
-from ehlectric.errors import InputError, shown
+from ehlectric.errors import shown
 from ehlectric.inputs import POINT_GRID, POINT_GRID_KEYS, Electric, Grid, Lubricant, Solver
 from ehlectric.roughness_inputs import Roughness, check_geometry
 from ehlectric.validation import Table, read_toml
@@ -132,20 +133,13 @@ class Case(Table):
         InputError
             As for a case file.
         """
-        flat = {**_flattened(tables), **(changes or {})}
+        flat = {**flattened(tables), **(changes or {})}
         table = self.to_dict()
-        geometry = _flattened(flat).get("contact.geometry", self.contact.geometry)
+        geometry = flattened(flat).get("contact.geometry", self.contact.geometry)
         if geometry != self.contact.geometry:
             _drop_geometry(table, self.contact.geometry)
         _displace(table, flat, geometry)
-        for key, value in flat.items():
-            *parents, leaf = key.split(".")
-            target: Any = table
-            for parent in parents:
-                target = _part(target, parent, key)
-            if isinstance(target, list):
-                raise InputError(f"{key}: is a table, takes one of its keys, as {key}.surface")
-            target[leaf] = value
+        set_keys(table, flat)
         return self.from_dict(table)
 
 
@@ -155,31 +149,6 @@ def find_files(table: dict[str, Any], folder: Path) -> None:
     for surface in rough if isinstance(rough, list) else []:
         if isinstance(surface, dict) and isinstance(surface.get("file"), str):
             surface["file"] = str((folder / surface["file"]).absolute())
-
-
-def _part(table: Any, name: str, key: str) -> Any:
-    """The table of this name within another, or of this number, from 1, within a list."""
-    if isinstance(table, list):
-        if not (name.isdecimal() and 1 <= int(name) <= len(table)):
-            there = f"a number from 1 to {len(table)}" if table else "none, as there are no tables"
-            raise InputError(f"{key}: got {shown(name)} for the table of a list, takes {there}")
-        return table[int(name) - 1]
-    part = table.setdefault(name, {})
-    if not isinstance(part, dict | list):
-        raise InputError(f"{key}: unknown key, {name} is not a table")
-    return part
-
-
-def _flattened(tables: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
-    flat: dict[str, Any] = {}
-    for key, value in tables.items():
-        if isinstance(value, BaseModel):
-            value = value.model_dump(mode="json", exclude_none=True, exclude_unset=True)
-        if isinstance(value, Mapping):
-            flat |= _flattened(value, f"{prefix}{key}.")
-        else:
-            flat[prefix + key] = value
-    return flat
 
 
 def _geometry(contact: Any) -> Any:
@@ -195,8 +164,8 @@ _GRID_OF_ANY = ("wedge", "field_degree", "refine")
 def _drop_geometry(table: dict[str, Any], geometry: str) -> None:
     """Drop what only contacts of this geometry have."""
     for key in ONLY[geometry]:
-        _drop(table["contact"], key)
-    _drop(table, "discharge.length")
+        drop(table["contact"], key)
+    drop(table, "discharge.length")
     table["grid"] = {key: value for key, value in table["grid"].items() if key in _GRID_OF_ANY}
 
 
@@ -204,43 +173,11 @@ def _displace(table: dict[str, Any], changes: Mapping[str, Any], geometry: objec
     """Drop from ``table`` what the changes are alternatives to."""
     if "lubricant.base" in changes:
         table["lubricant"] = {}
-    alternatives: dict[str, Alternatives] = {
+    alternatives = {
         "contact": (
             *CONTACT_ALTERNATIVES.get(str(geometry), ()),
             (("slide_to_roll_ratio",), ("speed_1", "speed_2")),
         ),
         "discharge": (STRENGTHS, TABLES),
     }
-    for name, groups in alternatives.items():
-        _displace_in(table.get(name, {}), _names_in(name, changes), groups)
-
-
-def _names_in(table: str, changes: Mapping[str, Any]) -> set[str]:
-    """Keys of one table that change, without its name."""
-    return {key.removeprefix(f"{table}.") for key in _flattened(changes) if key.startswith(f"{table}.")}
-
-
-def _displace_in(table: dict[str, Any], names: set[str], groups: Alternatives) -> None:
-    """Drop from one table what is an alternative to the keys that change."""
-    for group in groups:
-        for row in group:
-            if any(_within(name, key) for name in names for key in row):
-                for key in {key for other in group if other is not row for key in other}:
-                    if not any(_within(name, key) for name in names):
-                        _drop(table, key)
-
-
-def _within(name: str, key: str) -> bool:
-    """Whether a dotted name is the key, or lies in the table of that name."""
-    return name == key or name.startswith(f"{key}.")
-
-
-def _drop(table: dict[str, Any], key: str) -> None:
-    """Drop a dotted key, and its table where that leaves it empty."""
-    first, _, leaf = key.partition(".")
-    if not leaf:
-        table.pop(first, None)
-    elif isinstance(table.get(first), dict):
-        table[first].pop(leaf, None)
-        if not table[first]:
-            del table[first]
+    displace(table, changes, alternatives)

@@ -6,10 +6,14 @@ from typing import Any, get_args, get_origin
 
 from pydantic.fields import FieldInfo
 
+from ehlectric.bearing_case import BearingCase
 from ehlectric.case import Case
 from ehlectric.errors import InputError
 from ehlectric.quantity import Count, Quantity
-from ehlectric.validation import nearest_key, table_of
+from ehlectric.validation import Table, nearest_key, table_of
+
+# Tables and keys of a bearing file alone.
+_OF_BEARINGS = ("bearing", "motor", "contacts")
 
 
 def input_field(key: str) -> FieldInfo:
@@ -30,7 +34,9 @@ def input_field(key: str) -> FieldInfo:
     >>> input_field("contact.entrainment_speed").is_required()
     False
     """
-    names, model = key.split("."), Case
+    names = key.split(".")
+    of_bearing = names[0] in _OF_BEARINGS or names[:2] == ["lubricant", "temperature"]
+    model: type[Table] = BearingCase if of_bearing else Case
     within: list[str] = []
     if names[0] == "roughness":
         if len(names) < 3 or not names[1].isdecimal():

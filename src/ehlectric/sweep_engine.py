@@ -22,7 +22,10 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from ehlectric.case import Case
+from ehlectric.any_case import case_of_dict
+from ehlectric.bearing_case import BearingCase
+from ehlectric.bearing_result import BearingResult
+from ehlectric.bearing_solver import solve_bearing
 from ehlectric.errors import ConvergenceError, InputError, LostError, MemoryLimitError
 from ehlectric.solver import solve
 from ehlectric.sweep_results import Status
@@ -80,8 +83,7 @@ def solve_point(table: Mapping[str, Any]) -> Outcome:
 
 def _attempt(table: Mapping[str, Any]) -> tuple[Status, str, bool, dict[str, Any] | None]:
     try:
-        result = solve(Case.from_dict(table))
-        summary = result.summary()
+        solved, summary, doubts = _solved(table)
     except MemoryLimitError as error:
         return "failed", str(error), True, None
     except InputError as error:
@@ -92,11 +94,25 @@ def _attempt(table: Mapping[str, Any]) -> tuple[Status, str, bool, dict[str, Any
         return "failed", f"not solved: {error}", False, None
     except Exception as error:
         return "failed", f"unexpected: {type(error).__name__}: {error}", False, None
-    if result.converged:
-        return "solved", "", False, summary
+    return ("solved", "", False, summary) if solved else ("not converged", doubts, False, summary)
+
+
+def _solved(table: Mapping[str, Any]) -> tuple[bool, dict[str, Any], str]:
+    """Whether a case is solved, its summary, and what is to be said where it is not."""
+    case = case_of_dict(table)
+    if isinstance(case, BearingCase):
+        bearing = BearingResult(solve_bearing(case, workers=1))
+        summary = bearing.summary()
+        del summary["contacts"]  # a row for each would be more columns than a table has
+        return bearing.converged, summary, "a contact of the bearing is not converged"
+    result = solve(case)
     # The warning that says how far it came and what to try.
     status = result.film.status
-    return "not converged", next((text for text in result.warnings if status in text), status), False, summary
+    return (
+        result.converged,
+        result.summary(),
+        next((text for text in result.warnings if status in text), status),
+    )
 
 
 def run_points(

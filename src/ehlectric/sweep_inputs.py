@@ -13,7 +13,8 @@ from pydantic import ValidationInfo, create_model, field_validator, model_valida
 from pydantic.fields import FieldInfo
 
 from ehlectric import sweep_design
-from ehlectric.case import Case, Title, find_files
+from ehlectric.any_case import AnyCase, case_of_dict, case_of_file
+from ehlectric.case import Title, find_files
 from ehlectric.case_keys import input_field, number_of
 from ehlectric.errors import InputError, shown
 from ehlectric.quantity import Count, Quantity
@@ -45,7 +46,7 @@ class Sweep(Table):
     """
 
     title: Title = ""
-    case: Case
+    case: AnyCase
     design: Literal["grid", "paired", "sobol"] = "grid"
     vary: Mapping[str, Any]
     samples: Annotated[int, Count(2, 2**16, "rows of each matrix of a sobol design")] | None = None
@@ -109,13 +110,15 @@ class Sweep(Table):
         InputError
             One line with the key, what it got and what it takes.
         """
-        path = table.get("case")
-        if isinstance(path, str | Path):
-            try:
-                table = {**table, "case": Case.from_toml(path)}
-            except InputError as error:
-                text = str(error)
-                raise InputError(text if text.startswith(f"{path}: ") else f"{path}: {text}") from None
+        case = table.get("case")
+        try:
+            if isinstance(case, str | Path):
+                table = {**table, "case": case_of_file(case)}
+            elif isinstance(case, Mapping):
+                table = {**table, "case": case_of_dict(case)}
+        except InputError as error:
+            text, there = str(error), f"{case}: " if isinstance(case, str | Path) else "case."
+            raise InputError(text if text.startswith(there) else f"{there}{text}") from None
         return super().from_dict(table)
 
     @property

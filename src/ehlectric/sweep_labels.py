@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from ehlectric.any_case import AnyCase
 from ehlectric.case import Case
 from ehlectric.case_keys import kind_of
 from ehlectric.drawing import unit_for
@@ -136,14 +137,14 @@ class Scale:
         return f"{value * self.factor:.4g} {self.unit}".rstrip()
 
 
-def label_of(key: str, case: Case) -> Label:
+def label_of(key: str, case: AnyCase) -> Label:
     """Name, symbol and unit of a varied key or of a value of the summary.
 
     Parameters
     ----------
     key : str
         Dotted key of the case or of the summary; "inputs." before one of the case makes no difference.
-    case : Case
+    case : Case or BearingCase
         Of a line contact, whose capacitances are per length, or of a point contact.
 
     Returns
@@ -160,7 +161,7 @@ def label_of(key: str, case: Case) -> Label:
     return Label(name, symbol, _unit_of(key, case))
 
 
-def _unit_of(key: str, case: Case) -> str:
+def _unit_of(key: str, case: AnyCase) -> str:
     """SI unit of a value of the summary."""
     table, *_ = parts = [part for part in key.split(".") if not part.isdigit()]
     if table == "seconds":
@@ -168,7 +169,8 @@ def _unit_of(key: str, case: Case) -> str:
     words = parts[-1].split("_")
     if "capacitance" in parts[-1] and "ratio" not in words:
         # Those of all zones are per length of a line; field.capacitance is a point contact's alone.
-        return "F/m" if case.contact.geometry == "line" and "external" not in words else "F"
+        of_line = isinstance(case, Case) and case.contact.geometry == "line"
+        return "F/m" if of_line and "external" not in words else "F"
     return next((unit for names, unit in _UNITS if set(names) & set(words)), "")
 
 

@@ -9,7 +9,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from ehlectric.case import Case
+from ehlectric.any_case import AnyCase
 from ehlectric.typing import Array
 
 # "solved"; "not converged", whose summary is for looking at; "failed", which has none; "open", not tried yet.
@@ -68,7 +68,7 @@ class SweepResults:
 
     Attributes
     ----------
-    case : Case
+    case : Case or BearingCase
         The base case.
     design : str
         "grid", "paired" or "sobol".
@@ -87,7 +87,7 @@ class SweepResults:
         Of the sweep, for figures.
     """
 
-    case: Case
+    case: AnyCase
     design: str
     axes: Mapping[str, tuple[Any, ...]]
     ranges: Mapping[str, Range]

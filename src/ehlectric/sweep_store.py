@@ -14,7 +14,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any, Self
 
-from ehlectric.case import Case
+from ehlectric.any_case import AnyCase, case_of_dict
 from ehlectric.errors import InputError
 from ehlectric.store import refuse_special
 from ehlectric.sweep_inputs import Sweep
@@ -76,12 +76,12 @@ class Outcome:
     date: str = ""
 
 
-def case_key(case: Case) -> str:
+def case_key(case: AnyCase) -> str:
     """What a solution depends on, as a hash: all inputs, defaults filled in, and the contents of files.
 
     Parameters
     ----------
-    case : Case
+    case : Case or BearingCase
         A valid case. Its title, and where its files lie, are left out.
 
     Raises
@@ -93,13 +93,13 @@ def case_key(case: Case) -> str:
     --------
     >>> contact = {"reduced_radius": "14.1 mm", "reduced_modulus": "226 GPa"}
     >>> contact |= {"max_hertz_pressure": "1 GPa", "entrainment_speed": "4 m/s"}
-    >>> case = Case.from_dict({"contact": contact, "lubricant": {"base": "paper"}})
+    >>> case = case_of_dict({"contact": contact, "lubricant": {"base": "paper"}})
     >>> case_key(case) == case_key(case.replace(title="Another", solver={"max_iterations": 30}))
     True
     """
     table = case.to_dict()
     del table["title"]
-    for surface in table["roughness"]:
+    for surface in table.get("roughness", ()):
         if "file" in surface:
             path = Path(surface["file"])
             try:
@@ -305,7 +305,7 @@ def saved_points(folder: str | Path) -> tuple[int, int]:
 
 
 def _results(asked: Mapping[str, Any], rows: Sequence[tuple[Any, ...]]) -> SweepResults:
-    case = Case.from_dict(tomllib.loads(asked["case"]))
+    case = case_of_dict(tomllib.loads(asked["case"]))
     return SweepResults(
         case=case,
         design=asked["design"],
@@ -328,7 +328,7 @@ def _parsed(rows: Sequence[tuple[Any, ...]]) -> Iterator[tuple[Any, ...]]:
 
 
 def _point(
-    case: Case,
+    case: AnyCase,
     number: int,
     inputs: dict[str, Any],
     summary: dict[str, Any] | None,
