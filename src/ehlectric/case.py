@@ -145,7 +145,9 @@ class Case(Table):
                 target = _part(target, parent, key)
             if isinstance(target, list):
                 raise InputError(f"{key}: is a table, takes one of its keys, as {key}.surface")
-            target[leaf] = value
+            # An empty table changes nothing, but is there.
+            if not (value == {} and isinstance(target.get(leaf), dict)):
+                target[leaf] = value
         return self.from_dict(table)
 
 
@@ -175,7 +177,7 @@ def _flattened(tables: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
     for key, value in tables.items():
         if isinstance(value, BaseModel):
             value = value.model_dump(mode="json", exclude_none=True, exclude_unset=True)
-        if isinstance(value, Mapping):
+        if isinstance(value, Mapping) and value:
             flat |= _flattened(value, f"{prefix}{key}.")
         else:
             flat[prefix + key] = value
