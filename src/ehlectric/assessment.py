@@ -67,7 +67,9 @@ class Assessment:
     capacitance_plate, capacitance_ratio : float
         eps0 eps_r A/h(0) of the Hertz zone, eps_r at ambient pressure; the capacitance over it.
     capacitance_outlet_full, capacitance_outlet_fingers, capacitance_outlet_layers : float
-        Of the outlet by what fills it.
+        Of the outlet by what fills the gap behind the exit.
+    capacitance_full, capacitance_fingers, capacitance_layers : float
+        Of all zones by what fills it; of a point contact its sides have a part in that.
     outlet : str
         What ``capacitance`` and the energies count with.
     contact_energy, discharge_energy : float or None
@@ -105,6 +107,9 @@ class Assessment:
     capacitance_outlet_full: float
     capacitance_outlet_fingers: float
     capacitance_outlet_layers: float
+    capacitance_full: float
+    capacitance_fingers: float
+    capacitance_layers: float
     outlet: str
     contact_energy: float | None
     discharge_energy: float | None
@@ -255,6 +260,7 @@ def _capacitances(
         "capacitance": sum(chosen.values()),
         **{f"capacitance_{zone}": chosen.get(zone) for zone in ("hertz", "inlet", "outlet", "sides")},
         **{f"capacitance_outlet_{outlet}": found["outlet"] for outlet, found in by_outlet.items()},
+        **{f"capacitance_{outlet}": sum(found.values()) for outlet, found in by_outlet.items()},
     }
 
 

@@ -35,7 +35,9 @@ def set_keys(table: dict[str, Any], flat: Mapping[str, Any]) -> None:
             target = _part(target, parent, key)
         if isinstance(target, list):
             raise InputError(f"{key}: is a table, takes one of its keys, as {key}.surface")
-        target[leaf] = value
+        # An empty table changes nothing, but is there.
+        if not (value == {} and isinstance(target.get(leaf), dict)):
+            target[leaf] = value
 
 
 def _part(table: Any, name: str, key: str) -> Any:
@@ -63,7 +65,7 @@ def flattened(tables: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
     for key, value in tables.items():
         if isinstance(value, BaseModel):
             value = value.model_dump(mode="json", exclude_none=True, exclude_unset=True)
-        if isinstance(value, Mapping):
+        if isinstance(value, Mapping) and value:
             flat |= flattened(value, f"{prefix}{key}.")
         else:
             flat[prefix + key] = value

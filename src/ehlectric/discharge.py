@@ -25,11 +25,19 @@ _PITS = "Plazenet et al., as quoted by Morris et al. (2022), doi:10.3390/lubrica
 # Where the numbers come from that neither the case nor the solution gives, by the key they stand under.
 SOURCES = {
     "zone_size": "assumption: where the strength is used to 95 % of the most",
-    "zone_over_largest_pit": f"4 um: {_PITS}",
-    "zone_over_mean_pit": f"1.7 um: {_PITS}",
+    "zone_area": "assumption: as zone_size",
+    "zone_over_half_width": "assumption: as zone_size",
+    "zone_over_largest_pit": f"4 um: {_PITS}; assumption: as zone_size",
+    "zone_over_mean_pit": f"1.7 um: {_PITS}; assumption: as zone_size",
     "capacitance": "of the domain of the film alone: that of a point contact grows with its logarithm",
+    "capacitance_plate": "assumption: the Hertz area h(0) apart, permittivity at ambient pressure",
+    "capacitance_ratio": "assumption: as capacitance_plate",
+    "outlet": "assumption: what fills the gap behind the exit; its extremes stand beside it",
+    "capacitance_outlet_full": "assumption: oil alone behind the exit, also where its mass does not do",
     "capacitance_outlet_fingers": "assumption: oil from wall to wall beside gas; its mass is conserved",
     "capacitance_outlet_layers": "assumption: oil on the walls and gas between; its mass is conserved",
+    "discharge_energy": "assumption: all of the charge runs off in one spark",
+    "breakdown_energy": "assumption: all of the charge runs off in one spark",
     "pit_volume": "assumption: the energy at the voltage of the case, efficiency and melting energy as given",
     "pit_diameter": "assumption: a hemisphere",
     "current_density_limits": (
@@ -37,6 +45,7 @@ SOURCES = {
         "al. (1997), as quoted by Morris et al. (2022), who print it in A/m^2"
     ),
     "relaxation_time": "assumption: permittivity at ambient pressure, conductivity as given, at any pressure",
+    "corner_frequency": "assumption: as relaxation_time",
 }
 
 # The zone that breaks first is where the strength is used to at least this part of the most.

@@ -43,8 +43,8 @@ def _add_zone(table: Table, found: Assessment, half_width: float) -> None:
     places = position if isinstance(position, tuple) else (position,)
     at = ", ".join(f"{place / half_width:.3g}" for place in places)
     table.add_row("zone that breaks first, at", at, "x/b, y/b" if len(places) > 1 else "x/b")
-    pits = f"pits {MEAN_PIT * 1e6:g}, at most {LARGEST_PIT * 1e6:g}"
-    table.add_row("  across", f"{found.zone_size * 1e6:.4g}", f"µm, {pits}")
+    pits = f"published pits {MEAN_PIT * 1e6:g}, at most {LARGEST_PIT * 1e6:g}"
+    table.add_row("  across", f"{found.zone_size * 1e6:.4g}", f"µm, above 95 %; {pits}")
 
 
 def _add_capacitance(table: Table, found: Assessment, scale: float, unit: str) -> None:
@@ -55,8 +55,8 @@ def _add_capacitance(table: Table, found: Assessment, scale: float, unit: str) -
         if value is not None:
             about = f", {found.outlet}" if zone == "outlet" else ""
             table.add_row(f"  {zone}", f"{value * scale:.4g}", unit + about)
-    least, most = found.capacitance_outlet_layers * scale, found.capacitance_outlet_full * scale
-    table.add_row("  outlet, layers to full", f"{least:.4g} to {most:.4g}", unit)
+    least, most = found.capacitance_layers * scale, found.capacitance_full * scale
+    table.add_row("  whole, by outlet", f"{least:.4g} to {most:.4g}", f"{unit}, assumption: layers to full")
 
 
 def _add_costs(table: Table, found: Assessment) -> None:
@@ -64,11 +64,13 @@ def _add_costs(table: Table, found: Assessment) -> None:
         ("energy of the contact", found.contact_energy, 1e9, "nJ"),
         ("energy of a discharge", found.discharge_energy, 1e9, "nJ"),
         ("  at the breakdown voltage", found.breakdown_energy, 1e9, "nJ"),
-        ("pit it melts, hemisphere", found.pit_diameter, 1e6, "µm across"),
+        ("pit it melts", found.pit_diameter, 1e6, "µm; assumption: a hemisphere"),
     )
     for name, value, scale, unit in rows:
         if value is not None:
             table.add_row(name, f"{value * scale:.4g}", unit)
     if found.current_density is not None and found.current_density_limits is not None:
         limits = ", ".join(f"{limit / 1e6:g}" for limit in found.current_density_limits)
-        table.add_row("current density", f"{found.current_density / 1e6:.3g}", f"A/mm², limits {limits}")
+        table.add_row(
+            "current density", f"{found.current_density / 1e6:.3g}", f"A/mm², published limits {limits}"
+        )

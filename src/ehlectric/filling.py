@@ -13,7 +13,8 @@ def oil_fraction(thickness: Array, density: Array, cavitated: Mask) -> Array:
     """Part of the gap that oil fills behind the exit of the film.
 
     (rho H)_exit/(rho H): behind the exit no pressure gradient drives the oil, and what left it is carried on
-    between surfaces that part.
+    between surfaces that part. A rough film may end and form again; no more oil goes on than came through the
+    narrowest of the ends before.
 
     Parameters
     ----------
@@ -25,8 +26,8 @@ def oil_fraction(thickness: Array, density: Array, cavitated: Mask) -> Array:
     Returns
     -------
     ndarray, of the same shape
-        From 0 to 1. 1 before the exit, which is the first cavitated node behind the last full one of each
-        line along x, and on lines without a full film.
+        From 0 to 1; 1 before the first exit of each line along x, and where the film is full. An exit is the
+        first cavitated node behind a full one.
 
     Examples
     --------
@@ -34,15 +35,11 @@ def oil_fraction(thickness: Array, density: Array, cavitated: Mask) -> Array:
     >>> oil_fraction(h, np.ones(5), np.array([True, False, True, True, True])).tolist()
     [1.0, 1.0, 1.0, 0.5, 0.25]
     """
-    nodes = thickness.shape[0]
-    from_last = np.argmax(~cavitated[::-1], axis=0)
-    full = np.any(~cavitated, axis=0)
-    exits = np.where(full, np.minimum(nodes - from_last, nodes - 1), nodes - 1)
     mass = thickness * density
-    at_exit = np.take_along_axis(mass, exits[np.newaxis], axis=0)
-    places = np.arange(nodes).reshape(nodes, *(1,) * (thickness.ndim - 1))
-    behind = (places > exits) & (mass > at_exit)
-    return np.divide(at_exit, mass, out=np.ones_like(mass), where=behind)
+    exits = np.zeros_like(cavitated)
+    exits[1:] = cavitated[1:] & ~cavitated[:-1]
+    carried = np.minimum.accumulate(np.where(exits, mass, np.inf), axis=0)
+    return np.divide(carried, mass, out=np.ones_like(mass), where=cavitated & (mass > carried))
 
 
 def _full(permittivity: Array, _fraction: Array) -> Array:

@@ -203,7 +203,13 @@ def _alone(task: Task, crew: Crew) -> Outcome:
     except Exception as error:  # of the executor
         crew.renew()
         _ask(crew)
-        reason = f"its process was killed twice, as by a system out of memory ({type(error).__name__})"
+        kind = type(error).__name__
+        killed = isinstance(error, BrokenExecutor) or kind == "KilledWorker"  # the latter is Dask's
+        reason = (
+            f"its process was killed twice, as by a system out of memory ({kind})"
+            if killed
+            else " ".join(f"not taken by the executor: {kind}: {error}".split())[:1000]
+        )
         return Outcome("failed", reason, again=True, date=now())
     return outcome
 

@@ -341,7 +341,7 @@ def _point(
     reason, seconds, version = found
     if summary is not None:
         # A title is no part of the key: rows of another sweep may have come with theirs.
-        summary["title"] = case.title
+        summary["title"] = inputs.get("title", case.title)
     return Point(number, inputs, status, reason, summary, seconds, version)
 
 

@@ -94,7 +94,8 @@ def test_plates_with_nothing_given():
         "zone_position", "zone_size", "zone_over_half_width", "zone_over_largest_pit", "zone_over_mean_pit",
         "capacitance", "capacitance_hertz", "capacitance_inlet", "capacitance_outlet", "capacitance_plate",
         "capacitance_ratio", "capacitance_outlet_full", "capacitance_outlet_fingers",
-        "capacitance_outlet_layers", "outlet",
+        "capacitance_outlet_layers", "capacitance_full", "capacitance_fingers", "capacitance_layers",
+        "outlet",
     }  # fmt: skip
     no_discharge = Case.from_dict({"contact": PAPER_CONTACT, "lubricant": OIL})
     assert assess(no_discharge, conditions, film, line_gap_field(film, slice(20, 50))) is None

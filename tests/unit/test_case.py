@@ -323,3 +323,13 @@ def test_contacts_that_no_bearing_has_are_said():
     assert any(
         "no insulator withstands" in text for text in solve(case.replace({"grid.nodes": 801})).warnings
     )
+
+
+def test_an_empty_table_is_there_and_changes_nothing(paper_case):
+    """An empty [discharge] asks for capacitances alone, by any way of writing it."""
+    for changed in (paper_case.replace(discharge={}), paper_case.replace({"discharge": {}})):
+        assert changed.discharge is not None
+        assert changed.discharge.dielectric_strength is None
+    strong = paper_case.replace(discharge={"dielectric_strength": "15 V/um"})
+    assert strong.replace(discharge={}) == strong
+    assert paper_case.replace(grid={}) == paper_case

@@ -286,3 +286,22 @@ def test_what_is_in_flight_is_cancelled_where_the_run_is_stopped(monkeypatch):
 
 def test_as_many_processes_as_cores():
     assert cores() == len(os.sched_getaffinity(0))
+
+
+class _Refusing(ThreadPoolExecutor):
+    """An executor that takes no point of one speed."""
+
+    def submit(self, call, *values, **named):
+        if values and values[0]["contact"]["entrainment_speed"] == 2.0:
+            failed = Future()
+            failed.set_exception(ValueError("disk quota of the worker\nexceeded"))
+            return failed
+        return super().submit(call, *values, **named)
+
+
+def test_what_an_executor_says_is_the_reason():
+    with _Refusing(1) as executor:
+        found = found_by(crew_of(executor), points([129, 129]))
+    assert found["0"].status == "solved"
+    assert found["1"].reason == "not taken by the executor: ValueError: disk quota of the worker exceeded"
+    assert found["1"].again
