@@ -99,7 +99,8 @@ def race_state(
     strength = float(dielectric_strength(discharge, np.zeros(1))[0])
     known = discharge.dielectric_strength is not None or discharge.strength_table is not None
     for k in np.flatnonzero(~solved):
-        apart = float(gap[k])
+        # No gap is narrower than the film that the lightest load leaves.
+        apart = max(float(gap[k]), curve.solutions[0].central_thickness)
         vacuum = _rigid(bearing, duty, race, apart)
         found["minimum_thickness"][k] = found["central_thickness"][k] = apart
         found["outside_oil"][k] = vacuum * duty.lubricant.relative_permittivity

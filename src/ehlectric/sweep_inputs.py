@@ -116,9 +116,11 @@ class Sweep(Table):
                 table = {**table, "case": case_of_file(case)}
             elif isinstance(case, Mapping):
                 table = {**table, "case": case_of_dict(case)}
+            elif case is not None and not isinstance(case, AnyCase):
+                raise InputError(f"case: got {shown(case)}, takes a table or the name of a file")
         except InputError as error:
             text, there = str(error), f"{case}: " if isinstance(case, str | Path) else "case."
-            raise InputError(text if text.startswith(there) else f"{there}{text}") from None
+            raise InputError(text if text.startswith((there, "case:")) else f"{there}{text}") from None
         return super().from_dict(table)
 
     @property
