@@ -135,11 +135,12 @@ def _title(result: BearingResult) -> str:
     loads = ((bearing.radial_load, "radial"), (bearing.axial_load, "axial"))
     parts = [f"{load:.4g} N {way}" for load, way in loads if load]
     parts += [f"{bearing.inner_speed * 30.0 / np.pi:.4g} rpm", f"{bearing.temperature - 273.15:.4g} °C"]
-    if duty.film_factor == 1.0:
-        parts.append("isothermal film: voltages are upper bounds")
-    else:
-        parts.append(f"film factor {duty.film_factor:.3g}")
-    if result.lubrication != "full film":
-        parts.append(f"{result.lubrication}, λ = {result.lambda_ratio:.2g}")
+    isothermal = duty.film_factor == 1.0
+    parts.append("isothermal film" if isothermal else f"film factor {duty.film_factor:.3g}")
+    parts.append(f"least λ {result.lambda_ratio:.2g}")
+    if result.lubrication == "conducting":
+        parts[-1] += ": surfaces touch"
+    elif isothermal or result.lubrication == "partial film":
+        parts[-1] += ": voltages are upper bounds"
     title = textwrap.shorten(result.solution.case.title, 70, placeholder=" ...")
     return "\n".join(filter(None, [title, ", ".join(parts)]))

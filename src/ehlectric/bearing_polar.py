@@ -29,6 +29,9 @@ _CORE = 0.3
 # Least film over that of a lambda whose circle is shown no more.
 _FAR = 4.0
 
+# More round numbers than these along a logarithmic radius leave powers of ten alone.
+_MOST_TICKS = 7
+
 
 def new_polar(columns: int, size: tuple[float, float]) -> list[Axes]:
     """Polar axes of a new figure of a size in inches, beside each other."""
@@ -60,7 +63,7 @@ def load_around(result: BearingResult, ax: Axes | None = None) -> Axes:
     for k, ring in reversed(list(enumerate(_RINGS))):
         races = [pair[k] for pair in states]
         _ring(result, ax, ring, races, [factor * race.load for race in races], at_rest="not loaded")
-    _radius(ax, np.linspace(0.0, 1.06 * factor * largest, 2), log=False)
+    _radius(ax, np.array([0.0, factor * largest]), log=False)
     ax.set_title(f"contact load [{unit}]")
     _legend_below(ax)
     return ax
@@ -86,7 +89,9 @@ def film_around(result: BearingResult, ax: Axes | None = None) -> Axes:
     states = [(position.inner, position.outer) for position in result.solution.positions]
     rq = result.solution.case.bearing.composite_rq
     films = np.concatenate([race.minimum_thickness for pair in states for race in pair])
-    factor, unit = unit_for(float(films.min()), "m")
+    # Gaps without load may be next to nothing, or far above the films.
+    thinnest = min(float(np.min(race.minimum_thickness[race.solved])) for pair in states for race in pair)
+    factor, unit = unit_for(thinnest, "m")
     # Circles far below the films would leave them little room.
     ratios = [ratio for ratio in (CONDUCTING, PARTIAL) if films.min() < _FAR * ratio * rq]
     everything = factor * np.concatenate([films, rq * np.array(ratios)])
@@ -152,9 +157,11 @@ def _radius(ax: Axes, values: Array, *, log: bool) -> None:
         ax.set_rscale("log")
         low, high = 0.8 * low, 1.2 * high
         ticks = round_numbers(low, high)
+        if ticks.size > _MOST_TICKS:
+            ticks = np.array([tick for tick in ticks if math.isclose(math.log10(tick) % 1.0, 0.0)])
         origin = low * (low / high) ** (_CORE / (1.0 - _CORE))
     else:
-        low = 0.0
+        low, high = 0.0, 1.06 * high
         step = 10.0 ** math.floor(math.log10(high))
         step *= next(part for part in (0.2, 0.5, 1.0, 2.0) if high <= 5.0 * part * step)
         ticks = np.arange(0.0, high, step)

@@ -79,7 +79,7 @@ def breakdown_over_speed(points: Speeds, ax: Axes | None = None) -> Axes:
         ax.plot(speed, shaft, label="shaft voltage", **SHAFT)
         over: Mask = shaft > first
         if np.any(over):
-            label = "first film breaks below the shaft voltage"
+            label = "shaft voltage above first break"
             look: dict[str, Any] = {"color": ORANGE, "alpha": 0.2, "lw": 0.0, "label": label}
             ax.fill_between(speed, first, shaft, where=list(over), interpolate=True, **look)
     everything = np.concatenate([first, through, shaft])
@@ -88,7 +88,7 @@ def breakdown_over_speed(points: Speeds, ax: Axes | None = None) -> Axes:
     if not log:
         ax.set_ylim(0.0, 1.1 * float(np.nanmax(everything)))
     _lubrication(points, ax, speed)
-    legend_above(ax, ax.get_legend_handles_labels()[0], columns=3)
+    legend_above(ax, ax.get_legend_handles_labels()[0])
     return ax
 
 
@@ -116,7 +116,7 @@ def _lubrication(points: Speeds, ax: Axes, speed: Array) -> None:
     states = [summary["bearing"]["lubrication"] for _, summary in sorted(points, key=lambda point: point[0])]
     kinds: tuple[tuple[str, str, dict[str, Any]], ...] = (
         ("conducting", r"$\lambda$ < 1: surfaces touch", {"color": ORANGE, "marker": "X"}),
-        ("partial film", r"$\lambda$ from 1 to 3: upper bound", {"color": GREY, "marker": "^"}),
+        ("partial film", r"$\lambda$ from 1 to 3: surfaces may touch", {"color": GREY, "marker": "^"}),
     )
     for state, label, look in kinds:
         on = np.array([found == state for found in states])

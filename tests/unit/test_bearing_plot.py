@@ -4,7 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import tomli_w
 from matplotlib.figure import Figure
+from typer.testing import CliRunner
 
 from ehlectric import bearing_circuit_plot, bearing_polar, bearing_speed_plot
 from ehlectric.bearing_case import BearingCase
@@ -15,6 +17,7 @@ from ehlectric.bearing_plot import bearing_figures_of, save_bearing_figures, sav
 from ehlectric.bearing_result import BearingResult
 from ehlectric.bearing_solver import BearingSolution, Position
 from ehlectric.bearing_state import race_state
+from ehlectric.cli import app
 from ehlectric.store import BEARING_FIGURE_FILES, SPEED_FIGURE_FILES
 
 LOADS, CIRCUIT, PITCH, IMPEDANCE = BEARING_FIGURE_FILES
@@ -277,6 +280,38 @@ def test_figures_are_saved(result, tmp_path):
     assert [file.name for file in files] == list(BEARING_FIGURE_FILES)
     assert sorted(tmp_path.iterdir()) == sorted(files)
     assert all(file.read_bytes().startswith(b"\x89PNG") for file in files)
+
+
+def test_the_command_draws_unless_told_not_to(result, monkeypatch, tmp_path):
+    """And takes the figures of an earlier bearing away."""
+    file = tmp_path / "bearing.toml"
+    file.write_text(tomli_w.dumps(TABLE), encoding="utf-8")
+    monkeypatch.setattr("ehlectric.bearing_solver.solve_bearing", lambda *_args, **_kwargs: result.solution)
+    for option, figures in (("--plots", BEARING_FIGURE_FILES), ("--no-plots", ())):
+        done = CliRunner().invoke(app, ["bearing", str(file), "-o", str(tmp_path / "out"), "-q", option])
+        assert done.exit_code == 0, done.output
+        written = {path.name for path in (tmp_path / "out").iterdir()}
+        assert written == {"summary.json", "contacts.csv", *figures}
+
+
+@pytest.mark.parametrize(
+    ("changes", "text"),
+    [
+        ({}, "isothermal film, least λ 6.7: voltages are upper bounds"),
+        ({"film": 0.02e-6}, "isothermal film, least λ 0.67: surfaces touch"),
+        ({"bearing": {"film_factor": 0.6}}, "film factor 0.6, least λ 6.7"),
+        ({"bearing": {"radial_load": 0.0, "axial_load": "500 N"}}, "500 N axial, 3000 rpm, 70 °C"),
+    ],
+)
+def test_titles_say_the_duty_and_what_the_film_is_worth(changes, text, monkeypatch, tmp_path):
+    """0.2 um of film at 900 N, about the most loaded ball here, over 0.03 um of roughness."""
+    named = []
+    monkeypatch.setattr(Figure, "suptitle", lambda _self, text, **_: named.append(text))
+    monkeypatch.setattr(Figure, "savefig", lambda *_args, **_kwargs: None)
+    save_bearing_figures(by_hand(positions=1, **changes), tmp_path)
+    assert named
+    assert all(name.startswith("By hand\n") and text in name for name in named)
+    assert all(("upper bounds" in name) == ("upper bounds" in text or "axial" in text) for name in named)
 
 
 def test_a_bearing_that_did_not_converge_says_so(result, monkeypatch, tmp_path):
