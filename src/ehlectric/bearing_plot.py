@@ -28,8 +28,8 @@ from ehlectric.store import BEARING_FIGURE_FILES, SPEED_FIGURE_FILES, whole
 Draw = Callable[[BearingResult, Axes], Axes]
 
 # Size of a figure, and of each panel of those below each other [inches].
-_POLAR_SIZE, _SPEED_SIZE = (6.9, 4.4), (6.3, 3.7)
-_WIDTH, _HEIGHT, _TITLE = 6.3, 2.1, 0.5
+_POLAR_SIZE, _SPEED_SIZE = (6.9, 4.6), (6.3, 3.7)
+_WIDTH, _HEIGHT, _TITLE = 6.3, 2.1, 0.65
 
 
 def bearing_figures_of(result: BearingResult) -> dict[str, tuple[Draw, ...]]:
@@ -136,11 +136,11 @@ def _title(result: BearingResult) -> str:
     parts = [f"{load:.4g} N {way}" for load, way in loads if load]
     parts += [f"{bearing.inner_speed * 30.0 / np.pi:.4g} rpm", f"{bearing.temperature - 273.15:.4g} °C"]
     isothermal = duty.film_factor == 1.0
-    parts.append("isothermal film" if isothermal else f"film factor {duty.film_factor:.3g}")
-    parts.append(f"least λ {result.lambda_ratio:.2g}")
+    film = "isothermal film" if isothermal else f"film factor {duty.film_factor:.3g}"
+    film += f", least λ {result.lambda_ratio:.2g}"
     if result.lubrication == "conducting":
-        parts[-1] += ": surfaces touch"
+        film += ": surfaces touch"
     elif isothermal or result.lubrication == "partial film":
-        parts[-1] += ": voltages are upper bounds"
+        film += ": voltages are upper bounds"
     title = textwrap.shorten(result.solution.case.title, 70, placeholder=" ...")
-    return "\n".join(filter(None, [title, ", ".join(parts)]))
+    return "\n".join(filter(None, [title, ", ".join(parts), film]))
