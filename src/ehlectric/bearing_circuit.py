@@ -123,8 +123,45 @@ def impedance(capacitance: Array, relaxation_time: float, frequency: Array) -> A
     Examples
     --------
     >>> z = impedance(1e-10, 1.0, np.array([0.0]))
-    >>> abs(z[0])
+    >>> float(abs(z[0]))
     10000000000.0
     """
     z: Array = 1.0 / (capacitance * (2j * np.pi * frequency + 1.0 / relaxation_time))
     return z
+
+
+def leaking_admittance(
+    inner: tuple[Array, Array], outer: tuple[Array, Array], relaxation_time: float, frequency: Array
+) -> Array:
+    """Admittance of a bearing whose oil leaks, and the air around its films does not.
+
+    A contact has i 2 pi f C + C_oil/tau; those of an element are in series, elements in parallel.
+
+    Parameters
+    ----------
+    inner, outer : tuple of ndarray, shape (n,)
+        Of each element's contacts with the inner and the outer ring all of the capacitance, and that of the
+        oil in it [F].
+    relaxation_time : float
+        tau = eps0 eps_r/sigma of the oil [s].
+    frequency : ndarray, shape (m,)
+        [Hz].
+
+    Returns
+    -------
+    ndarray of complex, shape (m,)
+        [S].
+
+    Examples
+    --------
+    All of it in oil, 1/Z of the bearing's capacitance:
+
+    >>> both = np.array([2e-10]), np.array([2e-10])
+    >>> y = leaking_admittance(both, both, 1.0, np.array([1.0]))
+    >>> bool(np.isclose(y[0] * impedance(1e-10, 1.0, np.array([1.0]))[0], 1.0))
+    True
+    """
+    omega = 2.0 * np.pi * frequency[:, np.newaxis]
+    first, second = (1j * omega * whole + oil / relaxation_time for whole, oil in (inner, outer))
+    y: Array = np.sum(first * second / (first + second), axis=1)
+    return y

@@ -29,10 +29,11 @@ def bearing(
         str,
         typer.Option(metavar="HOW", help="solved or formula, else as the file says.", show_default=False),
     ] = "",
+    plots: Annotated[bool, typer.Option("--plots/--no-plots", help="Draw the figures.")] = True,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No table, progress or warnings.")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")] = False,
 ) -> None:
-    """Solve a whole rolling bearing; write summary.json and contacts.csv.
+    """Solve a whole rolling bearing; write summary.json, contacts.csv and figures.
 
     Exit status 0: solved. 2: the input is wrong. 3: a contact is not converged, everything is written all the
     same.
@@ -46,12 +47,14 @@ def bearing(
 
         from ehlectric.bearing_result import BearingResult
         from ehlectric.bearing_solver import solve_bearing
-        from ehlectric.store import prepare, whole
+        from ehlectric.store import BEARING_FIGURE_FILES, clear, prepare, whole
 
-        folder = prepare(output, (SUMMARY, CONTACTS))
+        names = (SUMMARY, CONTACTS, *BEARING_FIGURE_FILES)
+        folder = prepare(output, names)
         with progress_bar(shown=not quiet) as progress:
             result = BearingResult(solve_bearing(case, progress=progress))
         summary = result.summary()
+        clear(folder, names)
         with whole(folder / SUMMARY) as beside:
             beside.write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
         with whole(folder / CONTACTS) as beside, beside.open("w", encoding="utf-8", newline="") as file:
@@ -59,12 +62,17 @@ def bearing(
             writer = csv.DictWriter(file, list(rows[0]))
             writer.writeheader()
             writer.writerows(rows)
+        files = [folder / SUMMARY, folder / CONTACTS]
+        if plots:
+            from ehlectric.bearing_plot import save_bearing_figures
+
+            files += save_bearing_figures(result, folder)
     if as_json:
         typer.echo(json.dumps(summary, indent=2))
     elif not quiet:
         print_table(contacts_table(result))
         print_table(bearing_table(result))
-        typer.echo("written: " + ", ".join(str(folder / name) for name in (SUMMARY, CONTACTS)))
+        typer.echo("written: " + ", ".join(str(path) for path in files))
     if not quiet:
         warn(result.warnings())
     if not result.converged:

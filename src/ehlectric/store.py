@@ -64,6 +64,15 @@ POINT_FIGURE_FILES = (
     "field_sections.png",
     "cuts.png",
 )
+# Of a whole bearing: loads and films, the circuit, its course over a pitch of the cage, and over frequency.
+BEARING_FIGURE_FILES = (
+    "bearing_loads.png",
+    "bearing_circuit.png",
+    "bearing_pitch.png",
+    "bearing_impedance.png",
+)
+# And over the speed of the shaft.
+SPEED_FIGURE_FILES = ("capacitance_over_speed.png", "breakdown_over_speed.png")
 # A folder holds one result: what another one left of these goes.
 ALL_FIGURES = tuple(dict.fromkeys((*FIGURE_FILES, *POINT_FIGURE_FILES, ROUGHNESS_FIGURE)))
 

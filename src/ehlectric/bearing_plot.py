@@ -1,0 +1,146 @@
+"""The figures of a whole bearing as PNG files."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from ehlectric.bearing_circuit_plot import (
+    breakdown_over_pitch,
+    breakdown_voltages,
+    capacitance_over_pitch,
+    contact_capacitances,
+    impedance_magnitude,
+    impedance_phase,
+    voltage_shares,
+)
+from ehlectric.bearing_polar import film_around, load_around, new_polar
+from ehlectric.bearing_result import BearingResult
+from ehlectric.bearing_speed_plot import Speeds, breakdown_over_speed, breaks_anywhere, capacitance_over_speed
+from ehlectric.drawing import figure_of, new_panels, style
+from ehlectric.store import BEARING_FIGURE_FILES, SPEED_FIGURE_FILES, whole
+
+Draw = Callable[[BearingResult, Axes], Axes]
+
+# Size of a figure, and of each panel of those below each other [inches].
+_POLAR_SIZE, _SPEED_SIZE = (6.9, 4.6), (6.3, 3.7)
+_WIDTH, _HEIGHT, _TITLE = 6.3, 2.1, 0.65
+
+
+def bearing_figures_of(result: BearingResult) -> dict[str, tuple[Draw, ...]]:
+    """The panels of the figures of a bearing by the names of their files, those that have something to show.
+
+    There is no circuit of ceramic elements, no voltage without a strength or where surfaces touch, and no
+    impedance without a conductivity or where surfaces touch.
+    """
+    loads, circuit, pitch, impedance = BEARING_FIGURE_FILES
+    found: dict[str, tuple[Draw, ...]] = {loads: (load_around, film_around)}
+    if result.ceramic:
+        return found
+    breaks = result.breaks()["first_break"] is not None
+    found[circuit] = (contact_capacitances, voltage_shares, *((breakdown_voltages,) if breaks else ()))
+    found[pitch] = (capacitance_over_pitch, *((breakdown_over_pitch,) if breaks else ()))
+    if result.impedance_time() is not None and result.lubrication != "conducting":
+        found[impedance] = (impedance_magnitude, impedance_phase)
+    return found
+
+
+def save_bearing_figures(result: BearingResult, folder: Path) -> list[Path]:
+    """Draw all figures of a bearing as PNG files.
+
+    Parameters
+    ----------
+    result : BearingResult
+        What to draw.
+    folder : Path
+        Where to; it must be there.
+
+    Returns
+    -------
+    list of Path
+        The files written.
+    """
+    title = _title(result)
+    files = []
+    with style():
+        for name, panels in bearing_figures_of(result).items():
+            polar = panels[0] is load_around
+            axes = new_polar(len(panels), _POLAR_SIZE) if polar else _stack(len(panels))
+            for draw, ax in zip(panels, axes, strict=True):
+                draw(result, ax)
+            if not polar:
+                _share_below(axes)
+            files.append(_save(axes[0], title, folder / name, converged=result.converged))
+    return files
+
+
+def save_speed_figures(points: Speeds, folder: Path, title: str = "") -> list[Path]:
+    """Draw capacitance and, where there are any, breakdown voltages over the speed as PNG files.
+
+    Parameters
+    ----------
+    points : sequence of (float, dict)
+        Speed of the inner ring [rad/s], and the summary at it.
+    folder : Path
+        Where to; it must be there.
+    title : str, optional
+        Over the figures.
+
+    Returns
+    -------
+    list of Path
+        The files written.
+    """
+    files = []
+    title = textwrap.shorten(title, 70, placeholder=" ...")
+    converged = all(summary["converged"] for _, summary in points)
+    with style():
+        draws = (capacitance_over_speed, *((breakdown_over_speed,) if breaks_anywhere(points) else ()))
+        for name, draw in zip(SPEED_FIGURE_FILES, draws, strict=False):
+            ax = draw(points, new_panels(1, 1, _SPEED_SIZE)[0])
+            files.append(_save(ax, title, folder / name, converged=converged))
+    return files
+
+
+def _stack(panels: int) -> list[Axes]:
+    return new_panels(panels, 1, (_WIDTH, _HEIGHT * panels + _TITLE))
+
+
+def _share_below(axes: Sequence[Axes]) -> None:
+    """Panels below each other have the label of their common axis once."""
+    for ax in axes[:-1]:
+        ax.set_xlabel("")
+        ax.tick_params(labelbottom=False)
+    figure_of(axes[0]).align_ylabels(axes)
+
+
+def _save(ax: Axes, title: str, path: Path, *, converged: bool) -> Path:
+    how: dict[str, Any] = {} if converged else {"color": "red", "weight": "bold"}
+    text = title if converged else f"NOT CONVERGED\n{title}"
+    if text:
+        figure_of(ax).suptitle(text, x=0.01, ha="left", size=9.0, parse_math=False, **how)
+    with whole(path) as beside:
+        figure_of(ax).savefig(beside)
+    return path
+
+
+def _title(result: BearingResult) -> str:
+    """Title of the case, and below it the duty and what the film is worth."""
+    bearing, duty = result.solution.case.bearing, result.solution.duty
+    loads = ((bearing.radial_load, "radial"), (bearing.axial_load, "axial"))
+    parts = [f"{load:.4g} N {way}" for load, way in loads if load]
+    parts += [f"{bearing.inner_speed * 30.0 / np.pi:.4g} rpm", f"{bearing.temperature - 273.15:.4g} °C"]
+    isothermal = duty.film_factor == 1.0
+    film = "isothermal film" if isothermal else f"film factor {duty.film_factor:.3g}"
+    film += f", least λ {result.lambda_ratio:.2g}"
+    if result.lubrication == "conducting":
+        film += ": surfaces touch"
+    elif isothermal or result.lubrication == "partial film":
+        film += ": voltages are upper bounds"
+    title = textwrap.shorten(result.solution.case.title, 70, placeholder=" ...")
+    return "\n".join(filter(None, [title, ", ".join(parts), film]))
