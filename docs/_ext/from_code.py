@@ -215,6 +215,7 @@ def _write(app: Sphinx) -> None:
         text for name, command in group.commands.items() for text in _command(name, command)
     )
     pages |= {f"library_{kind}": _library(kind) for kind in ("bearings", "solids")}
+    pages["bearing_example"] = _example(Path(app.srcdir).parent / "examples" / "bearing_6208.toml")
     _check_bearing(app)
     for geometry in _CONTACTS:
         result = _small(geometry)
@@ -250,6 +251,12 @@ def _variables(result: Any) -> str:
             for name, v in result.to_xarray().variables.items()
         ],
     )
+
+
+def _example(path: Path) -> str:
+    """A file without its comments."""
+    lines = [line.partition("#")[0].rstrip() for line in path.read_text(encoding="utf-8").splitlines()]
+    return "```toml\n" + "\n".join(filter(None, lines)).replace("\n[", "\n\n[") + "\n```\n"
 
 
 def _library(kind: str) -> str:
