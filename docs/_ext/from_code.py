@@ -272,7 +272,9 @@ def _library(kind: str) -> str:
 
 
 def _value(value: Any) -> str:
-    return str(value).lower() if isinstance(value, bool) else str(value).replace("^3", "\N{SUPERSCRIPT THREE}")
+    return (
+        str(value).lower() if isinstance(value, bool) else str(value).replace("^3", "\N{SUPERSCRIPT THREE}")
+    )
 
 
 def _check_bearing(app: Sphinx) -> None:
