@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 import tomllib
 from collections.abc import Iterable, Iterator, Mapping
+from importlib import resources
 from pathlib import Path
 from typing import Any, Literal, get_args, get_origin
 
@@ -22,15 +23,20 @@ from sphinx.errors import ExtensionError
 import ehlectric
 from ehlectric import (
     Case,
+    bearing_inputs,
     contact_inputs,
     discharge_inputs,
     inputs,
+    library,
     lubricant,
     roughness_inputs,
     solve,
     sweep_inputs,
     validation,
 )
+from ehlectric.bearing_case import BearingCase
+from ehlectric.bearing_result import BearingResult
+from ehlectric.bearing_solver import solve_bearing
 from ehlectric.cli import app as commands
 from ehlectric.conditions import density_law, permittivity_law
 from ehlectric.paper.contacts import CONTACTS
@@ -50,12 +56,19 @@ _TABLES = {
     "grid": inputs.Grid,
     "solver": inputs.Solver,
     "sweep": sweep_inputs.Sweep,
+    "bearing": bearing_inputs.Bearing,
+    "lubricant.temperature": bearing_inputs.OilTemperature,
+    "motor": bearing_inputs.Motor,
 }
 _UNLISTED = ("cli", "typing", "version")  # the guide shows the commands
-_LAWS = {
+# Keys that take a name, by what the names stand in.
+_NAMES: dict[str, Iterable[str]] = {
     "viscosity_law": lubricant.VISCOSITY_LAWS,
     "density_law": lubricant.DENSITY_LAWS,
     "permittivity_law": lubricant.PERMITTIVITY_LAWS,
+    "generator": roughness_inputs.GENERATORS,
+    "element_material": library.solid_names(),
+    "ring_material": [name for name in library.solid_names() if library.solid(name)["conducting"]],
 }
 # What a small contact of each kind has of its own, and units as they are printed.
 _CONTACTS = {"line": {"reduced_radius": 0.01}, "point": {"radius_x": 0.01, "radius_y": 0.01}}
@@ -117,10 +130,10 @@ def _unit(written: str) -> str:
 
 def _takes(name: str, found: Any, *, pair: bool) -> str:
     """What the key takes, with its unit, and why."""
-    if name in _LAWS:
-        return ", ".join(f'`"{law}"`' for law in _LAWS[name])
-    if name == "generator":
-        return ", ".join(f'`"{name}"`' for name in roughness_inputs.GENERATORS)
+    if name in _NAMES:
+        return ", ".join(f'`"{name}"`' for name in _NAMES[name])
+    if name == "film_factor":
+        return '`"none"`, `"inlet-shear"`, or a number above 0 and at most 1'
     if isinstance(found, Quantities):
         return f"a list of {found.least} or more, each {_takes(name, found.each, pair=False)}"
     if isinstance(found, Quantity | Count):
@@ -201,6 +214,9 @@ def _write(app: Sphinx) -> None:
     pages["commands"] = "\n".join(
         text for name, command in group.commands.items() for text in _command(name, command)
     )
+    pages |= {f"library_{kind}": _library(kind) for kind in ("bearings", "solids")}
+    pages["bearing_example"] = _example(Path(app.srcdir).parent / "examples" / "bearing_6208.toml")
+    _check_bearing(app)
     for geometry in _CONTACTS:
         result = _small(geometry)
         _check_summary(app, result.summary())
@@ -235,6 +251,41 @@ def _variables(result: Any) -> str:
             for name, v in result.to_xarray().variables.items()
         ],
     )
+
+
+def _example(path: Path) -> str:
+    """A file without its comments."""
+    lines = [line.partition("#")[0].rstrip() for line in path.read_text(encoding="utf-8").splitlines()]
+    return "```toml\n" + "\n".join(filter(None, lines)).replace("\n[", "\n\n[") + "\n```\n"
+
+
+def _library(kind: str) -> str:
+    """Bearings or solids of the library, with where their numbers are from."""
+    rows = []
+    for name in getattr(library, f"{kind[:-1]}_names")():
+        path = resources.files(library) / kind / f"{name}.toml"
+        table = tomllib.loads(path.read_text(encoding="utf-8"))
+        values = ", ".join(f"{key.replace('_', ' ')} {_value(v)}" for key, v in table[kind[:-1]].items())
+        source = table["source"]
+        rows.append([f'`"{name}"`', values, source["citation"], source.get("assumption", "\N{EN DASH}")])
+    return _table(["name", "values", "source", "assumption"], rows)
+
+
+def _value(value: Any) -> str:
+    return (
+        str(value).lower() if isinstance(value, bool) else str(value).replace("^3", "\N{SUPERSCRIPT THREE}")
+    )
+
+
+def _check_bearing(app: Sphinx) -> None:
+    """The keys of a bearing's summary and of its contacts stand in the nomenclature."""
+    bearing = {"base": "6208", "radial_clearance": 1e-5, "axial_load": 500.0, "inner_speed": 500.0}
+    bearing |= {"temperature": 343.15, "composite_rq": 1e-8}
+    oil = {"base": "paper"}
+    # Under an axial load alone all elements are alike: one contact a ring is solved.
+    case = BearingCase.from_dict({"bearing": bearing, "lubricant": oil, "discharge": {}})
+    summary = BearingResult(solve_bearing(case)).summary()
+    _check_summary(app, summary | {"contacts": summary["contacts"][0]})
 
 
 def _check_summary(app: Sphinx, summary: dict[str, Any]) -> None:

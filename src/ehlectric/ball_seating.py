@@ -4,7 +4,7 @@ Seen in the plane through the bearing's axis and the ball's centre, a groove is 
 and the ball, which is smaller, lies inside both. Vectors in that plane are (axial, radial), from the centre
 of the outer groove: the ball's centre is at p and the inner groove's at g. The contacts are pressed in by
 
-    delta_o = |p| - (f_o - 1/2) D,    delta_i = |g - p| - (f_i - 1/2) D
+    delta_o = abs(p) - (f_o - 1/2) D,    delta_i = abs(g - p) - (f_i - 1/2) D
 
 and resist with Q = K delta^(3/2) where that is positive. A groove does not reach round the ball: beyond
 90 deg it goes on as a plane wall, so that for a vector that points inward only its axial part counts. Both

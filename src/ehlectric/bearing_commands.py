@@ -82,12 +82,14 @@ def bearing(
 
 def contacts_table(result: BearingResult) -> Table:
     """A row for every element and ring."""
+    from rich.markup import escape
     from rich.table import Table
 
     table = Table(box=None, padding=(0, 1, 0, 0))
     heads = ("", "ring", "angle\n[deg]", "load\n[N]", "p_h\n[GPa]", "h_min\n[µm]", "h(0)\n[µm]")
     for head in (*heads, "lambda", "C\n[pF]", "share\n[%]", "breaks\n[V]"):
-        table.add_column(head, justify="right", no_wrap=True)
+        # Unescaped, a unit of small letters would be taken for a style.
+        table.add_column(escape(head), justify="right", no_wrap=True)
     for row in result.contacts():
         pressure, breaks = row["max_pressure"], row["breakdown_voltage"]
         table.add_row(

@@ -250,7 +250,7 @@ class RollerBearing:
         """By how much the roller's radius is smaller than in its middle.
 
         P(x) = 0.00035 D ln(1/(1 - (2 x/L)^2)) for L up to 2.5 D. Longer rollers are straight but for an end
-        of 1.25 D on either side, P = 0.0005 D ln(1/(1 - ((2 |x| - L)/(2.5 D) + 1)^2)) there.
+        of 1.25 D on either side, P = 0.0005 D ln(1/(1 - ((2 abs(x) - L)/(2.5 D) + 1)^2)) there.
 
         Parameters
         ----------

@@ -7,12 +7,12 @@ centre O at the distance R_o from the axis, a gap h0 at the contact angle alpha,
 alpha and the radius of the race at Q, R = R_o + s (r_g cos psi - e cos alpha), s = 1 at the outer ring and
 -1 at the inner one,
 
-    |Q - O|^2 = (r + h0)^2 + 4 r_g e sin^2(u/2) + 4 R R_o sin^2(phi/2),
+    abs(Q - O)^2 = (r + h0)^2 + 4 r_g e sin^2(u/2) + 4 R R_o sin^2(phi/2),
 
-without a difference of large numbers. The gap is measured from Q along the radius of the ball, |Q - O| - r,
-and the charge on the raceway is that of ``thin_gap.charge_density``. It is summed across the groove out to
-the shoulders, and along rolling as far as half of the ball faces the race: to where the race's own normal
-only grazes the ball, and the tangent planes part by 90 degrees.
+without a difference of large numbers. The gap is measured from Q along the radius of the ball,
+abs(Q - O) - r, and the charge on the raceway is that of ``thin_gap.charge_density``. It is summed across the
+groove out to the shoulders, and along rolling as far as half of the ball faces the race: to where the race's
+own normal only grazes the ball, and the tangent planes part by 90 degrees.
 
 What is beyond is not in it: field lines from the lands beside the groove, from the race before and behind
 the ball, which it shares with the next one, and those to cage and shields. Over an endless plane that would

@@ -4,10 +4,10 @@ Both are circles: the race convex at the inner ring and concave at the outer one
 and r of the roller, and its centre O at R_o = R +- (r + h0) from the axis, a point Q of the race at the
 azimuth phi has
 
-    |Q - O|^2 = (r + h0)^2 + 4 R R_o sin^2(phi/2).
+    abs(Q - O)^2 = (r + h0)^2 + 4 R R_o sin^2(phi/2).
 
-The gap is measured from Q along the radius of the roller, |Q - O| - r, and the charge on the race is that of
-``thin_gap.charge_density``. It is summed as far as half of the roller faces the race: to where the race's
+The gap is measured from Q along the radius of the roller, abs(Q - O) - r, and the charge on the race is that
+of ``thin_gap.charge_density``. It is summed as far as half of the roller faces the race: to where the race's
 own normal only grazes the roller. The field around the ends of the roller is not in it.
 """
 

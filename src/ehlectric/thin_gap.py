@@ -3,9 +3,9 @@
 A gap h(x, y) over a plane holds the charge density (eps0 eps V)/h. Where it opens as that of a ball does,
 h = rho^2/(2 r), the next order is not small against it: it is of the same size all over the tail, and so adds
 some percent to the capacitance of a ball. Expanding the potential in powers of the slope, V(z)/V = z/h +
-(z^3 - z h^2) h (1/h)_xx/6 ..., gives (1 + |grad h|^2/3 - h lap h/6)/h on the plane. Written with the distance
-delta along the normal of the far surface, the angle beta between both normals there and the sums of their
-principal curvatures, and carried over to two curved surfaces by the concentric spheres, it is
+(z^3 - z h^2) h (1/h)_xx/6 ..., gives (1 + abs(grad h)^2/3 - h lap h/6)/h on the plane. Written with the
+distance delta along the normal of the far surface, the angle beta between both normals there and the sums of
+their principal curvatures, and carried over to two curved surfaces by the concentric spheres, it is
 
     (sin(beta)/beta)/delta - k_far/6 - k_near/3,
 
