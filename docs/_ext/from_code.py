@@ -283,7 +283,7 @@ def _check_bearing(app: Sphinx) -> None:
     bearing |= {"temperature": 343.15, "composite_rq": 1e-8}
     oil = {"base": "paper"}
     # Under an axial load alone all elements are alike: one contact a ring is solved.
-    case = BearingCase.from_dict({"bearing": bearing, "lubricant": oil, "discharge": {}})
+    case = BearingCase.from_dict({"contacts": "formula", "bearing": bearing, "lubricant": oil})
     summary = BearingResult(solve_bearing(case)).summary()
     _check_summary(app, summary | {"contacts": summary["contacts"][0]})
 

@@ -151,6 +151,7 @@ class BearingResult:
         solution = self.solution
         position, fill = solution.positions[0], solution.case.bearing.fill
         at, circuit = position.equilibrium, position.circuit(fill)
+        breaks = not self.ceramic and self.lubrication != "conducting"
         rows = []
         for k in range(at.position.size):
             for name, race, share in (
@@ -173,7 +174,7 @@ class BearingResult:
                         "lambda_ratio": race.minimum_thickness[k] / solution.case.bearing.composite_rq,
                         "capacitance": race.capacitance(fill)[k],
                         "voltage_share": share[k],
-                        "breakdown_voltage": race.breakdown_voltage[k],
+                        "breakdown_voltage": race.breakdown_voltage[k] if breaks else None,
                         "solved": bool(race.solved[k]),
                     }
                 )

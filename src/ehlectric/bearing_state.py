@@ -96,6 +96,12 @@ def race_state(
     found = {name: np.zeros_like(load) for name in _FROM_CURVE}
     for name in _FROM_CURVE:
         found[name][solved] = curve.at(name, load[solved])
+    # Lighter loads than any that was solved have its film, but their own dry contact.
+    lighter = np.minimum(1.0, load / curve.solutions[0].load)
+    rollers = isinstance(duty.geometry, RollerBearing)
+    found["max_pressure"] *= lighter ** (1.0 / 2.0 if rollers else 1.0 / 3.0)
+    found["semi_axis_x"] *= lighter ** (1.0 / 2.0 if rollers else 1.0 / 3.0)
+    found["semi_axis_y"] *= 1.0 if rollers else lighter ** (1.0 / 3.0)
     strength = float(dielectric_strength(discharge, np.zeros(1))[0])
     known = discharge.dielectric_strength is not None or discharge.strength_table is not None
     for k in np.flatnonzero(~solved):
