@@ -36,6 +36,7 @@ WIDE = 20.0
 _MARKS: dict[str, dict[str, Any]] = {
     "solved": {"marker": "o", "ms": 2.6, "color": "black", "mew": 0.0},
     "without this value": {"marker": "s", "ms": 4.0, "color": GREY, "mfc": "none", "mew": 0.8},
+    "do not use": {"marker": "D", "ms": 4.2, "color": ORANGE, "mfc": "none", "mew": 1.2},
     "not converged": {"marker": "+", "ms": 7.0, "color": "black", "mew": 1.3},
     "failed": {"marker": "x", "ms": 5.5, "color": ORANGE, "mew": 1.6},
     "not tried yet": {"marker": "o", "ms": 4.0, "color": GREY, "mfc": "none", "mew": 0.8},
@@ -54,7 +55,8 @@ def kinds(taken: Slice) -> dict[str, Mask]:
     known = np.isfinite(taken.values)
     masks = {
         "solved": taken.of("solved") & known,
-        "without this value": taken.of("solved") & ~known,
+        "without this value": taken.of("solved") & ~known & ~taken.doubtful,
+        "do not use": taken.doubtful,
         "not converged": taken.of("not converged"),
         "failed": taken.of("failed"),
         "not tried yet": taken.of("open"),

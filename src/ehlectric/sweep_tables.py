@@ -68,7 +68,7 @@ def write_tables(results: SweepResults, folder: str | Path) -> list[Path]:
 
 
 def columns_of(results: SweepResults) -> dict[str, list[Any]]:
-    """One row a point: number, status, reason, seconds, what was varied, and every number of the summary.
+    """One row a point: its number, what became of it, what was varied, and every number of the summary.
 
     Parameters
     ----------
@@ -78,14 +78,16 @@ def columns_of(results: SweepResults) -> dict[str, list[Any]]:
     Returns
     -------
     dict
-        Columns by name, those of inputs and results by their dotted key, SI. Results are None where a point
-        is not solved, or has no such number; of the inputs that the summary resolves, those that vary.
+        Columns by name, those of inputs and results by their dotted key, SI; before them number, status,
+        reason, warnings, joined by "; ", and seconds. Results are None where a point is not solved, or has no
+        such number; of the inputs that the summary resolves, those that vary.
     """
     points = results.points
     columns: dict[str, list[Any]] = {
         "number": [point.number for point in points],
         "status": [point.status for point in points],
         "reason": [point.reason for point in points],
+        "warnings": ["; ".join(point.warnings) for point in points],
         "seconds": [point.seconds for point in points],
     }
     columns |= {key: [point.inputs[key] for point in points] for key in results.varied}
@@ -126,7 +128,7 @@ def to_xarray(results: SweepResults) -> xr.Dataset:
     -------
     xarray.Dataset
         Of a "grid" over the varied keys, else over ``point``, with the numbers of the summary by dotted key,
-        not a number where a point is not solved; ``status`` and ``reason`` as texts.
+        not a number where a point is not solved; ``status``, ``reason`` and ``warnings`` as texts.
     """
     import xarray as xr
 
@@ -138,7 +140,7 @@ def to_xarray(results: SweepResults) -> xr.Dataset:
         return dimensions, _array(values).reshape(shape)
 
     columns = columns_of(results)
-    own = {name: laid(columns.pop(name)) for name in ("number", "status", "reason", "seconds")}
+    own = {name: laid(columns.pop(name)) for name in ("number", "status", "reason", "warnings", "seconds")}
     inputs = {key: columns.pop(key) for key in results.varied}
     coordinates = {
         key: (
@@ -159,7 +161,7 @@ def to_xarray(results: SweepResults) -> xr.Dataset:
             "Conventions": "CF-1.11",
             "title": results.case.title or "Sweep of a lubricated contact",
             "source": f"ehlectric {__version__}",
-            "comment": "SI units; not a number where a point is not solved",
+            "comment": "SI units; not a number where a point is not solved; warnings say what not to use",
             "case": results.case.to_toml(),
             "design": results.design,
             "ranges": json.dumps({key: vars(over) for key, over in results.ranges.items()}),

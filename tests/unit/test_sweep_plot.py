@@ -15,7 +15,7 @@ from ehlectric.sweep_lines import value_lines
 from ehlectric.sweep_maps import value_map
 from ehlectric.sweep_plot import save_maps
 from ehlectric.sweep_results import Range
-from tests.sweep_models import LOAD, POTENTIAL, SPEED, breakdown, grid, paired, sobol
+from tests.sweep_models import LOAD, POTENTIAL, SPEED, breakdown, doubtful_where, grid, paired, sobol
 
 VALUE = "discharge.breakdown_voltage"
 SPEEDS, LOADS = (0.5, 1.0, 2.0, 4.0, 8.0), (2e5, 5e5, 1e6, 2e6)
@@ -72,6 +72,31 @@ def test_map_has_a_hole_around_what_is_not_solved():
         assert not filled(ax, x, y)
     for x, y in ((0.7, 1.5), (3.0, 0.3), (7.0, 0.4)):
         assert filled(ax, x, y)
+
+
+def test_a_film_that_is_not_to_be_used_is_a_hole_with_its_mark():
+    """As one that failed, but for its mark: no number of it is in the colours, the line or the curves."""
+
+    def wrong(inputs):
+        return (inputs[SPEED], inputs[LOAD]) == (1.0, 5e5)
+
+    results = grid({SPEED: SPEEDS, LOAD: LOADS}, doubtful_where(wrong))
+    ax = value_map(results, SPEED, LOAD, VALUE)
+    assert legend(ax)[:2] == ["19 solved", "1 do not use"]
+    np.testing.assert_allclose(marks(ax, "D"), [[1.0, 0.5]])
+    assert not filled(ax, 1.0, 0.5)
+    assert not filled(ax, 1.9, 0.9)
+    assert filled(ax, 3.0, 0.6)
+    lines = value_lines(results, SPEED, LOAD, VALUE)
+    (mark,) = [line for line in lines.lines if line.get_marker() == "D"]
+    assert list(mark.get_xdata()) == [1.0]
+    assert not any(np.any(line.get_xydata()[:, 0] == 1.0) for line in curves(lines)[1:2])
+
+
+def test_where_no_film_is_to_be_used_there_is_nothing_to_draw():
+    results = grid({SPEED: SPEEDS}, doubtful_where(lambda _: True))
+    with pytest.raises(InputError, match='in none of the 5 points .* 5 are solved but say "do not use"'):
+        value_lines(results, SPEED, None, VALUE)
 
 
 def test_map_is_drawn_up_to_its_largest_value():

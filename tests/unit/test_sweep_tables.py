@@ -62,10 +62,11 @@ def test_the_csv_is_the_database(gridded):
         assert int(row["number"]) == number
         assert row["status"] == ("failed" if refused else status or "open")
         assert row["reason"] == (refused or reason or "")
+        assert row["warnings"] == "; ".join(json.loads(summary)["warnings"] if summary else [])
         varied = json.loads(inputs)
         assert [row[key] for key in varied] == [json.dumps(value) for value in varied.values()]
         numbers = flat(json.loads(summary)) if status == "solved" else {}
-        for key in list(row)[4 + len(varied) :]:
+        for key in list(row)[5 + len(varied) :]:
             expected = numbers.get(key)
             assert row[key] == ("" if expected is None else repr(expected))
             compared += row[key] != ""
@@ -75,6 +76,8 @@ def test_the_csv_is_the_database(gridded):
     assert (kinds[1], kinds[3], kinds[11]) == ("failed", "not converged", "open")
     assert kinds.count("solved") > 5
     assert compared > 5 * 20
+    # 65 nodes make a film that is not to be used.
+    assert any(row["status"] == "solved" and "do not use" in row["warnings"] for row in rows)
 
 
 def test_parquet_is_the_csv(gridded):
@@ -99,9 +102,10 @@ def test_the_netcdf_is_the_csv(gridded):
         point = dataset.sel(at)
         assert point["status"].item() == row["status"]
         assert point["reason"].item() == row["reason"]
+        assert point["warnings"].item() == row["warnings"]
         assert int(point["number"]) == int(row["number"])
         for key in dataset.data_vars:
-            if key not in ("status", "reason", "number"):
+            if key not in ("status", "reason", "warnings", "number"):
                 value = float(row[key]) if row[key] else math.nan
                 np.testing.assert_equal(float(point[key]), value)
     assert dataset[SPEED].attrs["units"] == "m/s"
