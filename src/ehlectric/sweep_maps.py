@@ -169,7 +169,8 @@ def _breakdown(between: _Between, ax: Axes) -> list[Artist]:
     least, most = float(np.min(shown)), float(np.max(shown))
     volts = voltage_text(between.taken)
     if least >= 1.0:
-        return [Line2D([], [], ls="none", label=f"breakdown voltage above the applied {volts}")]
+        where = " where filled" * bool(np.any(between.surface.alone(between.taken.margin)))
+        return [Line2D([], [], ls="none", label=f"breakdown voltage above the applied {volts}{where}")]
     drawn = between.triangles(whole), margin
     ax.tricontourf(*drawn, levels=[min(0.5 * least, 0.5), 1.0], colors="none", hatches=[_BREAKS])
     hatched = Patch(facecolor="none", edgecolor="black", hatch=_BREAKS, lw=0.0)

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ehlectric.case_keys import input_field, number_of
-from ehlectric.quantity import Quantity
+from ehlectric.case_keys import kind_of
 from ehlectric.store import clear, prepare, whole
+from ehlectric.sweep_labels import label_of
 from ehlectric.sweep_results import SweepResults, flat
 from ehlectric.version import __version__
 
@@ -25,6 +25,15 @@ CSV = "sweep.csv"
 PARQUET = "sweep.parquet"
 NETCDF = "sweep.nc"
 FILES = (CSV, PARQUET, NETCDF)
+
+# What is said of a point beside its inputs and numbers, with attributes as CF has them.
+_OWN = {
+    "number": {"long_name": "number of the point in the order of the design", "units": "1"},
+    "status": {"long_name": "what became of the point"},
+    "reason": {"long_name": "why it is not solved"},
+    "warnings": {"long_name": "what to know before using its numbers"},
+    "seconds": {"long_name": "time it took", "units": "s"},
+}
 
 
 def write_tables(results: SweepResults, folder: str | Path) -> list[Path]:
@@ -140,18 +149,21 @@ def to_xarray(results: SweepResults) -> xr.Dataset:
         return dimensions, _array(values).reshape(shape)
 
     columns = columns_of(results)
-    own = {name: laid(columns.pop(name)) for name in ("number", "status", "reason", "warnings", "seconds")}
+    own = {name: (*laid(columns.pop(name)), attributes) for name, attributes in _OWN.items()}
     inputs = {key: columns.pop(key) for key in results.varied}
     coordinates = {
         key: (
             key if gridded else "point",
             _array(list(results.axes[key] if gridded else values)),
-            _units(key),
+            _attributes(key, results),
         )
         for key, values in inputs.items()
     }
     numbers = {
-        key: laid([math.nan if value is None else float(value) for value in values])
+        key: (
+            *laid([math.nan if value is None else float(value) for value in values]),
+            _attributes(key, results),
+        )
         for key, values in columns.items()
     }
     return xr.Dataset(
@@ -159,7 +171,7 @@ def to_xarray(results: SweepResults) -> xr.Dataset:
         coords=coordinates,
         attrs={
             "Conventions": "CF-1.11",
-            "title": results.case.title or "Sweep of a lubricated contact",
+            "title": results.title or results.case.title or "Sweep of a lubricated contact",
             "source": f"ehlectric {__version__}",
             "comment": "SI units; not a number where a point is not solved; warnings say what not to use",
             "case": results.case.to_toml(),
@@ -196,9 +208,10 @@ def _cell(value: Any) -> Any:
     return repr(value) if isinstance(value, float) else json.dumps(value)
 
 
-def _units(key: str) -> dict[str, str]:
-    """Attributes of a varied input."""
-    number = number_of(input_field(key))
-    if not isinstance(number, Quantity):
-        return {}
-    return {"units": number.unit.replace("**", "^").replace("*", " ") or "1"}
+def _attributes(key: str, results: SweepResults) -> dict[str, str]:
+    """Name and unit of an input or of a number of the summary; no unit where it is no number."""
+    label = label_of(key, results.case)
+    found = {"long_name": label.name}
+    if key in results.varied and kind_of(key) is None:
+        return found
+    return found | {"units": label.unit.replace("**", "^").replace("*", " ") or "1"}
