@@ -139,7 +139,7 @@ def value_lines(
     along = scale_x.factor * taken.along
     log_y = y is not None and taken.numeric and spaced_log(results, y, np.array(taken.across))
     lines = _lines(taken, log=log_y)
-    joined = not taken.free and max(line.numbers.size for line in lines) > 1
+    joined = _joined(taken, lines)
     solved = kinds(taken).get("solved", np.zeros(along.size, dtype=bool))
     path = _Path(results, taken, spaced_log(results, x, taken.along), log_y)
     for line in lines:
@@ -185,6 +185,11 @@ def _lines(taken: Slice, *, log: bool) -> list[_Line]:
     return [_Line(value, n, DARK_COLOURS(place)) for (value, n), place in zip(series, places, strict=True)]
 
 
+def _joined(taken: Slice, lines: list[_Line]) -> bool:
+    """Whether points of a line differ in x alone, and some line has two of them."""
+    return not taken.free and max(line.numbers.size for line in lines) > 1
+
+
 def _norm(values: Array, *, log: bool) -> Normalize:
     """Colours of many lines, from the least value to the largest."""
     return norm_of(np.array([values.min(), values.max()]), log=log)
@@ -205,6 +210,9 @@ def _applied(path: _Path, ax: Axes, scales: tuple[Scale, Scale], lines: list[_Li
         level, text = scale.factor, f"breakdown voltage = applied {applied}"
     elif np.ptp(volts) <= 1e-9 * volts[0]:
         level = scale.factor * float(volts[0])
+    elif not _joined(taken, lines):
+        ax.axhspan(scale.factor * volts.min(), scale.factor * volts.max(), color=GREY, alpha=0.15, lw=0.0)
+        return [Patch(facecolor=GREY, alpha=0.15, label=text)]
     else:
         # No one voltage to shade below: that of each point, in the colour of its line.
         for line in lines:

@@ -93,7 +93,8 @@ def value_map(
         between = _Between(results, taken, surface, any(logs.values()), (scale_x.factor, scale_y.factor))
         handles += _fill(between, ax)
         for kind, mask in kinds(taken).items():
-            look = {"ms": dot_size(taken, 2.6)} if kind == "solved" else {}
+            # With a white edge, as they lie on dark colours and hatches too.
+            look = {"ms": dot_size(taken, 3.4), "mec": "white", "mew": 0.4} if kind == "solved" else {}
             mark(ax, kind, along[mask], up[mask], **look)
     ax.use_sticky_edges = False  # points on the edge of the sweep lie clear of the frame
     ax.margins(0.03)

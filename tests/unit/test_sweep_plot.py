@@ -249,6 +249,17 @@ def test_applied_voltage_is_a_level_or_a_line_for_each():
     assert legend(margin)[1:] == ["breakdown voltage = applied 2 to 5 V", "below the applied 2 to 5 V"]
 
 
+def test_points_without_lines_have_no_line_of_voltage_either():
+    """Their voltages, V_2 + 1 V, are between 2 and 9 V: a band."""
+    span = {SPEED: Range(0.5, 8.0, "log"), LOAD: Range(2e5, 2e6, "log"), POTENTIAL: Range(1.0, 8.0)}
+    results = sobol(span, 16, breakdown)
+    ax = value_lines(results, SPEED, LOAD, VALUE)
+    assert not [line for line in ax.lines if line.get_ls() == "--"]
+    (band,) = [patch for patch in ax.patches if patch.get_alpha() == 0.15]
+    volts = results.values("field.voltage")
+    assert (band.get_y(), band.get_y() + band.get_height()) == pytest.approx((volts.min(), volts.max()))
+
+
 def test_lines_are_named_or_have_a_colour_bar():
     few = value_lines(grid({SPEED: SPEEDS, LOAD: LOADS}), SPEED, LOAD, VALUE)
     (named,) = [child for child in few.artists if hasattr(child, "get_title")]
