@@ -45,6 +45,16 @@ def breakdown(inputs: Inputs) -> dict[str, Any]:
     }
 
 
+def doubtful_where(wrong: Callable[[Inputs], bool], model: Model = breakdown) -> Model:
+    """A model whose film is not to be used at some points, as ``findings`` says it."""
+
+    def warned(inputs: Inputs) -> dict[str, Any]:
+        texts = ["the film may be 32 % off or more on this grid; do not use it"] if wrong(inputs) else []
+        return {"warnings": texts} | model(inputs)
+
+    return warned
+
+
 def points(
     rows: Sequence[Inputs], model: Model, status: Callable[[Inputs], str] = lambda _: "solved"
 ) -> tuple[Point, ...]:

@@ -29,6 +29,7 @@ _STYLE: dict[str, Any] = {
     "legend.fontsize": 8.0,
     "lines.linewidth": 1.2,
     "axes.linewidth": 0.7,
+    "hatch.linewidth": 0.6,
     "savefig.dpi": 300,
     "figure.constrained_layout.use": True,
 }

@@ -151,6 +151,11 @@ def _remarks(found: Sensitivity) -> list[str]:
             f"{found.dropped} of {found.rows} rows have a point that is not solved and are left out: the "
             "numbers are those of the rest of the ranges"
         )
+    if found.doubtful:
+        remarks.append(
+            f"{found.doubtful} of {found.used} rows that are used have a point whose film is not to be used, "
+            "as its warnings in sweep.csv say: spread and indices count with them"
+        )
     ends = [end for i in found.indices for end in (i.first_order_interval, i.total_interval)]
     widest = max(0.5 * (high - low) for low, high in ends)
     if widest > _WIDE:

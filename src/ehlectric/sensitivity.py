@@ -80,6 +80,8 @@ class Sensitivity:
         Of the design, and how many of them are solved.
     rows, used : int
         Rows of the design, and how many are complete: the indices are of these.
+    doubtful : int
+        How many of the complete ones have a point with a warning not to use its film.
     spread : Spread
         Of the value.
     indices : tuple of Index
@@ -95,6 +97,7 @@ class Sensitivity:
     solved: int
     rows: int
     used: int
+    doubtful: int
     spread: Spread
     indices: tuple[Index, ...]
     share_below_voltage: float | None
@@ -116,6 +119,7 @@ class Sensitivity:
             "solved": self.solved,
             "rows": self.rows,
             "rows_dropped": self.dropped,
+            "rows_doubtful": self.doubtful,
             "spread": {
                 "samples": spread.samples,
                 "mean": spread.mean,
@@ -196,6 +200,7 @@ def sensitivity(results: SweepResults, value: str, *, resamples: int = 1000, see
         solved=sum(point.solved for point in results.points),
         rows=rows,
         used=used,
+        doubtful=int(np.sum(np.any(results.doubtful.reshape(pages.shape)[:, complete], axis=0))),
         spread=spread_of(samples),
         indices=tuple(
             Index(

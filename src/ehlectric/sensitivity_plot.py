@@ -126,6 +126,7 @@ def save_sensitivity(results: SweepResults, found: Sensitivity, path: Path) -> N
         distribution(results, found, left)
         parts(results, found, right)
         dropped = f"{found.dropped} of {found.rows} rows dropped: not solved" if found.dropped else ""
-        name_figure(left, results, dropped)
+        doubtful = f'{found.doubtful} of {found.used} used rows have points that say "do not use"'
+        name_figure(left, results, ", ".join(filter(None, [dropped, doubtful if found.doubtful else ""])))
         with whole(path) as beside:
             figure_of(left).savefig(beside)

@@ -47,7 +47,9 @@ def sweep(
     scheduler: Annotated[
         str | None, typer.Option(metavar="ADDRESS", help="Of a Dask cluster that solves instead.")
     ] = None,
-    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No table, progress or warnings.")] = False,
+    quiet: Annotated[
+        bool, typer.Option("--quiet", "-q", help="No table or progress; in one line what failed.")
+    ] = False,
 ) -> None:
     """Solve a case over varied inputs; write sweep.sqlite, sweep.csv, sweep.nc and sweep.parquet.
 
@@ -79,6 +81,8 @@ def sweep(
         print_table(results_table(results))
         typer.echo("written: " + ", ".join(str(output / name) for name in FILES if (output / name).exists()))
         warn(_remarks(results))
+    elif any(point.solved for point in results.points):
+        warn(_in_short(results))
     if not any(point.solved for point in results.points):
         typer.echo(f"error: none of {len(results.points)} points was solved", err=True)
         raise typer.Exit(NOT_CONVERGED)
@@ -221,8 +225,26 @@ def _alike(reasons: Iterable[str]) -> Iterator[tuple[int, str]]:
 
 
 def _remarks(results: SweepResults) -> Iterator[str]:
-    """What a user should know of where the points come from."""
+    """What a user should know of the points that are solved, and of where they come from."""
+    solved = [point for point in results.points if point.solved]
+    warned, doubtful = sum(bool(point.warnings) for point in solved), sum(results.doubtful)
+    where = "which the column warnings of sweep.csv has"
+    if warned:
+        yield f"{warned} of {len(solved)} solved points have warnings, {where}"
+    if doubtful:
+        told = f"{doubtful} of {len(solved)} solved points have a film that is not to be used"
+        yield f"{told}, as their warnings say: maps and lines leave them out"
     others = Counter(point.version for point in results.points if point.version not in ("", __version__))
     for version, count in others.items():
         kept = f"{count} points were solved by version {version} and are kept"
         yield f"{kept}; in a new folder {__version__} solves them"
+
+
+def _in_short(results: SweepResults) -> Iterator[str]:
+    """In one line how many points are no use, where any is."""
+    counts = Counter(point.status for point in results.points)
+    told = [f"{counts[status]} {status}" for status in ("failed", "not converged") if counts[status]]
+    if doubtful := sum(results.doubtful):
+        told.append(f'{doubtful} solved but "do not use"')
+    if told:
+        yield f"of {len(results.points)} points {', '.join(told)}; sweep.csv says why"

@@ -36,6 +36,7 @@ WIDE = 20.0
 _MARKS: dict[str, dict[str, Any]] = {
     "solved": {"marker": "o", "ms": 2.6, "color": "black", "mew": 0.0},
     "without this value": {"marker": "s", "ms": 4.0, "color": GREY, "mfc": "none", "mew": 0.8},
+    "do not use": {"marker": "D", "ms": 4.2, "color": ORANGE, "mfc": "none", "mew": 1.2},
     "not converged": {"marker": "+", "ms": 7.0, "color": "black", "mew": 1.3},
     "failed": {"marker": "x", "ms": 5.5, "color": ORANGE, "mew": 1.6},
     "not tried yet": {"marker": "o", "ms": 4.0, "color": GREY, "mfc": "none", "mew": 0.8},
@@ -54,7 +55,8 @@ def kinds(taken: Slice) -> dict[str, Mask]:
     known = np.isfinite(taken.values)
     masks = {
         "solved": taken.of("solved") & known,
-        "without this value": taken.of("solved") & ~known,
+        "without this value": taken.of("solved") & ~known & ~taken.doubtful,
+        "do not use": taken.doubtful,
         "not converged": taken.of("not converged"),
         "failed": taken.of("failed"),
         "not tried yet": taken.of("open"),
@@ -143,8 +145,31 @@ def round_numbers(low: float, high: float) -> Array:
 
 def is_wide(values: Array) -> bool:
     """Whether values, those that are finite, are positive and differ widely."""
+    return by_logarithm(values, log_axis=False)
+
+
+def by_logarithm(values: Array, *, log_axis: bool) -> bool:
+    """Whether it is the logarithm of values that is linear between points.
+
+    Film and breakdown voltage go nearly with powers of speed and load; straight lines over a logarithmic axis
+    would overstate them between the points.
+
+    Parameters
+    ----------
+    values : ndarray
+        Those that are not finite do not count.
+    log_axis : bool
+        Whether an axis that they lie over is logarithmic.
+
+    Examples
+    --------
+    >>> by_logarithm(np.array([1.0, 2.0]), log_axis=False), by_logarithm(np.array([1.0, 2.0]), log_axis=True)
+    (False, True)
+    """
     finite = values[np.isfinite(values)]
-    return bool(finite.size and finite.min() > 0.0 and finite.max() > WIDE * finite.min())
+    if not finite.size or finite.min() <= 0.0:
+        return False
+    return log_axis or bool(finite.max() > WIDE * finite.min())
 
 
 def levels_of(values: Array, *, log: bool) -> Array:

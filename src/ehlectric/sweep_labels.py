@@ -10,7 +10,6 @@ import numpy as np
 from ehlectric.any_case import AnyCase
 from ehlectric.case import Case
 from ehlectric.case_keys import kind_of
-from ehlectric.drawing import unit_for
 from ehlectric.quantity import Quantity
 from ehlectric.typing import Array
 
@@ -40,7 +39,11 @@ _INPUTS = {
     "discharge.weibull.shape": ("Weibull shape", "$m$"),
     "discharge.temperature": ("temperature", ""),
     "discharge.conductivity": ("conductivity", r"$\sigma$"),
-    "discharge.external_capacitance": ("external capacitance", ""),
+    "discharge.external_capacitance": ("external capacitance", r"$C_\mathrm{ext}$"),
+    "discharge.outlet": ("what fills the outlet", ""),
+    "discharge.peak_current": ("peak current", ""),
+    "discharge.pit.efficiency": ("part of the energy that melts", r"$\zeta$"),
+    "discharge.pit.melting_energy": ("heat to melt a volume", "$q$"),
     "discharge.length": ("length of the contact", ""),
     "grid.nodes": ("nodes", ""),
 }
@@ -68,21 +71,49 @@ _VALUES = {
     "roughness.lambda_ratio": ("lambda ratio", r"$\Lambda$"),
     "discharge.breakdown_voltage": ("breakdown voltage", r"$V_\mathrm{b}$"),
     "discharge.margin": ("breakdown voltage over applied voltage", r"$V_\mathrm{b}/V_{12}$"),
+    "discharge.breakdown_voltage_low": ("breakdown voltage at 5 %", ""),
+    "discharge.breakdown_voltage_high": ("breakdown voltage at 95 %", ""),
     "discharge.probability": ("probability of breakdown", ""),
+    "discharge.zone_position": ("place of the zone that breaks down first", ""),
+    "discharge.zone_size": ("size of the zone that breaks down first", ""),
+    "discharge.zone_area": ("area of the zone that breaks down first", ""),
+    "discharge.zone_over_half_width": ("size of the zone over the half-width", ""),
+    "discharge.zone_over_largest_pit": ("size of the zone over the largest pit", ""),
+    "discharge.zone_over_mean_pit": ("size of the zone over the mean pit", ""),
+    "discharge.capacitance": ("capacitance of the whole film", "$C$"),
     "discharge.capacitance_hertz": ("capacitance of the Hertz zone", r"$C_\mathrm{H}$"),
     "discharge.capacitance_inlet": ("capacitance of the inlet", ""),
     "discharge.capacitance_outlet": ("capacitance of the outlet", ""),
+    "discharge.capacitance_sides": ("capacitance of the sides", ""),
+    "discharge.capacitance_plate": (
+        "capacitance of a plate",
+        r"$\varepsilon_0 \varepsilon_\mathrm{r} A_\mathrm{H}/h(0)$",
+    ),
     "discharge.capacitance_ratio": ("capacitance over that of a plate", ""),
+    "discharge.capacitance_outlet_full": ("capacitance of the outlet, full of oil", ""),
+    "discharge.capacitance_outlet_fingers": ("capacitance of the outlet, oil in fingers", ""),
+    "discharge.capacitance_outlet_layers": ("capacitance of the outlet, oil in layers", ""),
     "discharge.contact_energy": ("energy of the contact", "$C V_{12}^2/2$"),
-    "discharge.discharge_energy": ("energy of the discharge", ""),
+    "discharge.discharge_energy": ("energy of the discharge", "$W$"),
+    "discharge.breakdown_energy": ("energy of the discharge at breakdown", r"$W_\mathrm{b}$"),
+    "discharge.pit_volume": ("volume of the pit", ""),
+    "discharge.pit_diameter": ("diameter of the pit", ""),
+    "discharge.current_density": ("apparent current density", "$J$"),
+    "discharge.current_density_limits": ("published limit of the current density", ""),
     "discharge.relaxation_time": ("charge relaxation time", r"$\varepsilon/\sigma$"),
+    "discharge.corner_frequency": ("frequency above which it is a capacitor", r"$f_\mathrm{c}$"),
 }
 
 # SI units by words of the last part of a key: keys are named for what they are.
 _UNITS = (
-    (("ratio", "error", "share", "margin", "probability", "dimensionless", "residual", "deficit"), ""),
+    (
+        ("ratio", "error", "share", "margin", "probability", "dimensionless", "residual", "deficit", "over"),
+        "",
+    ),
     (("voltage", "potential"), "V"),
-    (("thickness", "width", "position", "length", "depth", "diameter", "radius", "axis", "rq"), "m"),
+    (("density",), "A/m**2"),
+    (("thickness", "width", "position", "length", "depth", "diameter", "radius", "axis", "size"), "m"),
+    (("rq", "ra", "sq", "sa", "spacing"), "m"),
     (("area",), "m**2"),
     (("volume",), "m**3"),
     (("pressure",), "Pa"),
@@ -157,15 +188,20 @@ def label_of(key: str, case: AnyCase) -> Label:
     if kind is not None or own in _INPUTS:
         unit = kind.unit if isinstance(kind, Quantity) else ""
         return Label(*_INPUTS.get(own, (own, "")), unit)
-    name, symbol = _VALUES.get(key, (key, ""))
+    name, symbol = _VALUES.get(key) or _VALUES.get(key.rstrip("0123456789").rstrip("."), (key, ""))
     return Label(name, symbol, _unit_of(key, case))
 
 
 def _unit_of(key: str, case: AnyCase) -> str:
     """SI unit of a value of the summary."""
     table, *_ = parts = [part for part in key.split(".") if not part.isdigit()]
-    if table == "seconds":
-        return "s"
+    if table in ("seconds", "inputs"):
+        # Inputs that are no numbers are lists of those without a unit.
+        return "s" if table == "seconds" else ""
+    if key.startswith("roughness.surfaces.") and parts[-1] == "size":
+        return ""  # points of a profile or a map
+    if "capacitance_by_zone" in parts:
+        return "F"  # a point contact has them alone
     words = parts[-1].split("_")
     if "capacitance" in parts[-1] and "ratio" not in words:
         # Those of all zones are per length of a line; field.capacitance is a point contact's alone.
@@ -200,6 +236,11 @@ def scale_for(largest: float, unit: str) -> Scale:
     """
     if unit in _PLAIN:
         return Scale(1.0, unit)
+    if unit == "A/m**2":
+        return Scale(1e-6, "A/mm²")  # as its limits are published
+    # With it comes matplotlib, which names and units alone do not take.
+    from ehlectric.drawing import unit_for
+
     if unit.startswith("1/"):
         # One over a value in the prefixed unit: the prefix of what is below the line.
         factor, prefixed = unit_for(1.0 / largest, unit[2:], least=0.001)

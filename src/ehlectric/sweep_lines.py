@@ -17,6 +17,7 @@ from matplotlib.patches import Patch
 from ehlectric.drawing import BLUE, GREEN, GREY, ORANGE, axes_or_new
 from ehlectric.sweep_drawing import (
     DARK_COLOURS,
+    by_logarithm,
     colour_bar,
     dot_size,
     is_wide,
@@ -34,7 +35,7 @@ from ehlectric.sweep_drawing import (
 from ehlectric.sweep_labels import Scale
 from ehlectric.sweep_results import SweepResults
 from ehlectric.sweep_slices import BREAKDOWN, MARGIN, Slice, take
-from ehlectric.sweep_surfaces import spaced_log
+from ehlectric.sweep_surfaces import applied_at, curve_of, spaced_log
 from ehlectric.typing import Array, IntArray
 
 _TEXTS = (BLUE, ORANGE, GREEN, "#cc79a7", "#e69f00", "#56b4e9", "black", GREY)
@@ -60,6 +61,36 @@ class _Line:
     value: Any
     numbers: IntArray
     colour: Any
+
+
+@dataclass(frozen=True)
+class _Path:
+    """What lines are between the points of a slice, as a map over the same axes has it."""
+
+    results: SweepResults
+    taken: Slice
+    log_x: bool
+    log_y: bool
+
+    def values(self, line: _Line) -> tuple[Array, Array]:
+        """Places and what is drawn there, SI."""
+        if self.taken.value != MARGIN:
+            return self._curve(self.taken.values, line)
+        places, breaks = self._curve(self.taken.margin * self.taken.voltage, line)
+        return places, breaks / self.voltages(line)[1]
+
+    def voltages(self, line: _Line) -> tuple[Array, Array]:
+        """Places and the applied voltage there [V]."""
+        places, voltage = self._curve(self.taken.voltage, line)
+        applied = applied_at(self.results, self.taken, places, line.value)
+        return places, voltage if applied is None else np.where(np.isfinite(voltage), applied, np.nan)
+
+    def _curve(self, values: Array, line: _Line) -> tuple[Array, Array]:
+        along, heights = self.taken.along[line.numbers], values[line.numbers]
+        if line.numbers.size < 2:
+            return along, heights
+        log = by_logarithm(values, log_axis=self.log_x or self.log_y)
+        return curve_of(along, heights, log_x=self.log_x, log=log)
 
 
 def value_lines(
@@ -91,8 +122,9 @@ def value_lines(
     Returns
     -------
     Axes
-        A line ends where a point is not solved; its cross stands at the bottom. Points of a design without
-        lines, as "sobol", are drawn by themselves. A breakdown voltage has the applied voltage, a margin 1.
+        A line ends where a point has no value, and is between points as a map is; its cross stands at the
+        bottom. Points of a design without lines, as "sobol", are drawn by themselves. A breakdown voltage has
+        the applied voltage, a margin 1.
 
     Raises
     ------
@@ -107,20 +139,22 @@ def value_lines(
     along = scale_x.factor * taken.along
     log_y = y is not None and taken.numeric and spaced_log(results, y, np.array(taken.across))
     lines = _lines(taken, log=log_y)
-    joined = not taken.free and max(line.numbers.size for line in lines) > 1
+    joined = _joined(taken, lines)
     solved = kinds(taken).get("solved", np.zeros(along.size, dtype=bool))
+    path = _Path(results, taken, spaced_log(results, x, taken.along), log_y)
     for line in lines:
         heights = scale.factor * taken.values[line.numbers]
         if joined:
-            ax.plot(along[line.numbers], heights, color=line.colour)
+            places, between = path.values(line)
+            ax.plot(scale_x.factor * places, scale.factor * between, color=line.colour)
         dots = solved[line.numbers]
         look = {"color": line.colour, "ms": dot_size(taken, 3.5)}
         mark(ax, "solved", along[line.numbers[dots]], heights[dots], **look)
-    scale_axis(ax.xaxis, name_x.axis(scale_x), values=along, log=spaced_log(results, x, taken.along))
+    scale_axis(ax.xaxis, name_x.axis(scale_x), values=along, log=path.log_x)
     scale_axis(ax.yaxis, name.axis(scale), values=scale.factor * shown, log=is_wide(taken.values))
     ax.margins(x=0.03)
     own = {} if y is None else {"color": GREY}  # marks have the colours of their lines
-    handles: list[Artist] = [*kind_handles(taken, **own), *_applied(taken, ax, scale, lines, along)]
+    handles: list[Artist] = [*kind_handles(taken, **own), *_applied(path, ax, (scale_x, scale), lines)]
     _limit_values(ax, scale.factor * shown)
     _strip(taken, ax, lines, along)
     if y is not None:
@@ -151,33 +185,44 @@ def _lines(taken: Slice, *, log: bool) -> list[_Line]:
     return [_Line(value, n, DARK_COLOURS(place)) for (value, n), place in zip(series, places, strict=True)]
 
 
+def _joined(taken: Slice, lines: list[_Line]) -> bool:
+    """Whether points of a line differ in x alone, and some line has two of them."""
+    return not taken.free and max(line.numbers.size for line in lines) > 1
+
+
 def _norm(values: Array, *, log: bool) -> Normalize:
     """Colours of many lines, from the least value to the largest."""
     return norm_of(np.array([values.min(), values.max()]), log=log)
 
 
-def _applied(taken: Slice, ax: Axes, scale: Scale, lines: list[_Line], along: Array) -> list[Artist]:
+def _applied(path: _Path, ax: Axes, scales: tuple[Scale, Scale], lines: list[_Line]) -> list[Artist]:
     """What the value is at the applied voltage, with its legend."""
+    taken, (scale_x, scale) = path.taken, scales
     volts = taken.voltage[np.isfinite(taken.voltage)]
     if not (taken.value.startswith("discharge.") and volts.size):
         return []
-    text = f"applied voltage {voltage_text(taken)}"
+    applied = voltage_text(taken)
+    text = f"applied voltage {applied}"
     if taken.value not in (BREAKDOWN, MARGIN):
         return [Line2D([], [], ls="none", label=f"at the {text}")]
     if taken.value == MARGIN:
-        level = scale.factor
+        # No voltage but where the two are equal.
+        level, text = scale.factor, f"breakdown voltage = applied {applied}"
     elif np.ptp(volts) <= 1e-9 * volts[0]:
         level = scale.factor * float(volts[0])
+    elif not _joined(taken, lines):
+        ax.axhspan(scale.factor * volts.min(), scale.factor * volts.max(), color=GREY, alpha=0.15, lw=0.0)
+        return [Patch(facecolor=GREY, alpha=0.15, label=text)]
     else:
         # No one voltage to shade below: that of each point, in the colour of its line.
         for line in lines:
-            heights = scale.factor * taken.voltage[line.numbers]
-            ax.plot(along[line.numbers], heights, color=line.colour, ls="--", lw=0.9)
+            places, voltages = path.voltages(line)
+            ax.plot(scale_x.factor * places, scale.factor * voltages, color=line.colour, ls="--", lw=0.9)
         return [Line2D([], [], color=GREY, ls="--", lw=0.9, label=text)]
     ax.axhline(level, color="black", ls="--", lw=1.2, zorder=3.0)
     floor = 1e-3 * level if ax.get_yscale() == "log" else min(0.0, ax.get_ylim()[0])
     ax.axhspan(floor, level, color=GREY, alpha=0.15, lw=0.0)
-    below = Patch(facecolor=GREY, alpha=0.15, label="breakdown voltage below it")
+    below = Patch(facecolor=GREY, alpha=0.15, label=f"below the applied {applied}")
     return [Line2D([], [], color="black", ls="--", lw=1.2, label=text), below]
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any, cast
 
 import numpy as np
@@ -16,6 +17,7 @@ from matplotlib.tri import Triangulation
 from ehlectric.drawing import axes_or_new
 from ehlectric.sweep_drawing import (
     COLOURS,
+    by_logarithm,
     colour_bar,
     dot_size,
     is_wide,
@@ -30,9 +32,9 @@ from ehlectric.sweep_drawing import (
     voltage_text,
 )
 from ehlectric.sweep_results import SweepResults
-from ehlectric.sweep_slices import Slice, take
-from ehlectric.sweep_surfaces import Surface, spaced_log, surface_of
-from ehlectric.typing import Array
+from ehlectric.sweep_slices import MARGIN, Slice, take
+from ehlectric.sweep_surfaces import Surface, applied_at, spaced_log, surface_of
+from ehlectric.typing import Array, Mask
 
 _BREAKS = "////"
 
@@ -64,9 +66,10 @@ def value_map(
     Returns
     -------
     Axes
-        With a colour bar. Filled between points that are all solved, linearly in the axes as they are drawn;
-        points that are not solved are crosses in a hole. Values of ``discharge`` have the line on which the
-        breakdown voltage is the applied one, the side that breaks down hatched.
+        With a colour bar. Filled between points that all have a value, linearly in the axes as they are drawn
+        (the logarithm of positive values where an axis is logarithmic); other points are marked in a hole.
+        Values of ``discharge`` have the line on which the breakdown voltage is the applied one, the side that
+        breaks down hatched.
 
     Raises
     ------
@@ -87,12 +90,11 @@ def value_map(
     if surface is None:
         handles += _scatter(results, taken, ax, along, up)
     else:
-        factors = (scale_x.factor, scale_y.factor)
-        _fill(results, taken, surface, ax, factors)
-        if value.startswith("discharge."):
-            handles += _breakdown(taken, surface, ax, factors)
+        between = _Between(results, taken, surface, any(logs.values()), (scale_x.factor, scale_y.factor))
+        handles += _fill(between, ax)
         for kind, mask in kinds(taken).items():
-            look = {"ms": dot_size(taken, 2.6)} if kind == "solved" else {}
+            # With a white edge, as they lie on dark colours and hatches too.
+            look = {"ms": dot_size(taken, 3.4), "mec": "white", "mew": 0.4} if kind == "solved" else {}
             mark(ax, kind, along[mask], up[mask], **look)
     ax.use_sticky_edges = False  # points on the edge of the sweep lie clear of the frame
     ax.margins(0.03)
@@ -100,64 +102,117 @@ def value_map(
     return ax
 
 
-def _triangles(
-    surface: Surface, factors: tuple[float, float], values: Array, *, log: bool
-) -> tuple[Triangulation, Array] | None:
-    """Triangles in the units of the axes and values at their nodes; None where no triangle is whole."""
-    nodes, whole = surface.at_nodes(values, log=log)
-    if not np.any(whole):
-        return None
-    x, y = factors[0] * surface.x, factors[1] * surface.y
-    return Triangulation(x, y, surface.triangles, mask=~whole), nodes
+@dataclass(frozen=True)
+class _Between:
+    """A slice with its surface, whether an axis is logarithmic, and the factors of the units of both axes."""
+
+    results: SweepResults
+    taken: Slice
+    surface: Surface
+    log_axis: bool
+    factors: tuple[float, float]
+
+    def values(self) -> tuple[Array, Mask]:
+        """What is drawn, SI, as ``Surface.at_nodes`` gives it."""
+        return self.margins() if self.taken.value == MARGIN else self._at_nodes(self.taken.values)
+
+    def margins(self) -> tuple[Array, Mask]:
+        """Breakdown voltage over applied voltage, each between the points for itself."""
+        taken = self.taken
+        breaks = np.where(taken.margin > 0.0, taken.margin * taken.voltage, np.nan)
+        nodes, whole = self._at_nodes(breaks)
+        applied = applied_at(self.results, taken, self.surface.x, self.surface.y)
+        return nodes / (self._at_nodes(taken.voltage)[0] if applied is None else applied), whole
+
+    def _at_nodes(self, values: Array) -> tuple[Array, Mask]:
+        return self.surface.at_nodes(values, log=by_logarithm(values, log_axis=self.log_axis))
+
+    def triangles(self, whole: Mask) -> Triangulation:
+        """Those that have values throughout, in the units of the axes."""
+        x, y = self.factors[0] * self.surface.x, self.factors[1] * self.surface.y
+        return Triangulation(x, y, self.surface.triangles, mask=~whole)
 
 
-def _fill(
-    results: SweepResults, taken: Slice, surface: Surface, ax: Axes, factors: tuple[float, float]
-) -> None:
-    """Colours between round levels, with their bar."""
-    label, scale = labelled(results, taken.value, taken.values)
+def _fill(between: _Between, ax: Axes) -> list[Artist]:
+    """Colours between round levels, with their bar, and of a discharge where the film breaks down."""
+    taken = between.taken
+    label, scale = labelled(between.results, taken.value, taken.values)
     values = scale.factor * taken.values
-    if not np.any(np.isfinite(values)):
-        return
     log = is_wide(values)
     levels = levels_of(values, log=log)
     norm = norm_of(levels, log=log)
-    drawn = _triangles(surface, factors, values, log=log)
-    if drawn is not None:
+    nodes, whole = between.values()
+    handles: list[Artist] = []
+    if np.any(whole):
+        drawn = between.triangles(whole), scale.factor * nodes
         # A value on the last level, as a probability of 1, is not below it, and so would have no colour.
         bounds = [*levels[:-1], levels[-1] + 1e-9 * (levels[-1] - levels[0])]
         ax.tricontourf(*drawn, levels=bounds, norm=norm, cmap=COLOURS)
         ax.tricontour(*drawn, levels=levels, colors="white", linewidths=0.4, linestyles="-")
-    alone = surface.alone(taken.values)
-    at = (factors[0] * taken.along[alone], factors[1] * np.array(taken.across)[alone])
-    ax.scatter(*at, c=values[alone], s=40.0, cmap=COLOURS, norm=norm, zorder=4.0)
+        handles += _breakdown(between, ax)
+    alone = between.surface.alone(taken.values)
+    if np.any(alone):
+        at = between.factors[0] * taken.along, between.factors[1] * np.array(taken.across)
+        look = {"c": values, "cmap": COLOURS, "norm": norm, "s": 40.0}
+        handles += _dots(taken, ax, at, alone, look, beside=bool(np.any(whole)))
     colour_bar(ax, norm, label.axis(scale), levels)
+    return handles
 
 
-def _breakdown(taken: Slice, surface: Surface, ax: Axes, factors: tuple[float, float]) -> list[Artist]:
+def _breakdown(between: _Between, ax: Axes) -> list[Artist]:
     """The line on which the film breaks down at the applied voltage, the side where it does, their legend."""
-    margin = np.where(taken.margin > 0.0, taken.margin, np.nan)
-    # As the colours of a breakdown voltage go between the points, so that the line is one of their levels.
-    drawn = _triangles(surface, factors, margin, log=is_wide(margin))
-    if drawn is None:
+    if not between.taken.value.startswith("discharge."):
         return []
-    volts = voltage_text(taken)
-    least, most = float(np.nanmin(margin)), float(np.nanmax(margin))
+    margin, whole = between.margins()
+    if not np.any(whole):
+        return []
+    shown = margin[between.surface.triangles[whole]]
+    least, most = float(np.min(shown)), float(np.max(shown))
+    volts = voltage_text(between.taken)
     if least >= 1.0:
-        return [Line2D([], [], ls="none", label=f"breakdown voltage above the applied {volts}")]
-    side = [min(0.5 * least, 0.5), 1.0]
-    ax.tricontourf(*drawn, levels=side, colors=["white"], alpha=0.3)
-    ax.tricontourf(*drawn, levels=side, colors="none", hatches=[_BREAKS])
-    hatched = Patch(
-        facecolor="none", edgecolor="black", hatch=_BREAKS, lw=0.0, label="breakdown voltage below it"
-    )
+        where = " where filled" * bool(np.any(between.surface.alone(between.taken.margin)))
+        return [Line2D([], [], ls="none", label=f"breakdown voltage above the applied {volts}{where}")]
+    drawn = between.triangles(whole), margin
+    ax.tricontourf(*drawn, levels=[min(0.5 * least, 0.5), 1.0], colors="none", hatches=[_BREAKS])
+    hatched = Patch(facecolor="none", edgecolor="black", hatch=_BREAKS, lw=0.0)
     if most <= 1.0:
         hatched.set_label(f"breakdown voltage below the applied {volts}")
         return [hatched]
     line = ax.tricontour(*drawn, levels=[1.0], colors="black", linewidths=1.8)
     line.set_path_effects([cast("AbstractPathEffect", withStroke(linewidth=3.2, foreground="white"))])
-    label = f"breakdown voltage = applied {volts}"
-    return [Line2D([], [], color="black", lw=1.8, label=label), hatched]
+    hatched.set_label(f"below the applied {volts}")
+    return [Line2D([], [], color="black", lw=1.8, label=f"breakdown voltage = applied {volts}"), hatched]
+
+
+def _dots(
+    taken: Slice,
+    ax: Axes,
+    at: tuple[Array, Array],
+    some: Mask,
+    look: Mapping[str, Any],
+    *,
+    beside: bool = False,
+) -> list[Artist]:
+    """Points by themselves, coloured by their value; of a discharge by their side of the applied voltage.
+
+    ``beside`` what is filled, which has a legend of its own, they are said to be alone.
+    """
+    parts = {"": (some, "o")}
+    if taken.value.startswith("discharge.") and np.any(np.isfinite(taken.margin[some])):
+        low, volts = some & (taken.margin < 1.0), voltage_text(taken)
+        parts = {
+            f"{'alone,' if beside else 'breakdown voltage'} above the applied {volts}": (some & ~low, "o"),
+            f"{'alone, ' if beside else ''}below the applied {volts}": (low, "v"),
+        }
+    for part, shape in parts.values():
+        own = {**look, "c": look["c"][part], "marker": shape}
+        ax.scatter(at[0][part], at[1][part], edgecolors="black", lw=0.5, zorder=4.0, **own)
+    hollow: dict[str, Any] = {"ls": "none", "color": "black", "mfc": "none", "ms": 5.0, "mew": 0.5}
+    return [
+        Line2D([], [], marker=shape, label=text, **hollow)
+        for text, (part, shape) in parts.items()
+        if text and np.any(part)
+    ]
 
 
 def _scatter(results: SweepResults, taken: Slice, ax: Axes, along: Array, up: Array) -> list[Artist]:
@@ -167,29 +222,9 @@ def _scatter(results: SweepResults, taken: Slice, ax: Axes, along: Array, up: Ar
     masks = kinds(taken)
     for kind in masks.keys() - {"solved"}:
         mark(ax, kind, along[masks[kind]], up[masks[kind]])
-    solved = masks.get("solved")
-    if solved is None:
-        return []
     log = is_wide(values)
     levels = levels_of(values, log=log)
     norm = norm_of(levels, log=log)
     colour_bar(ax, norm, label.axis(scale), levels)
-    parts = {"": (solved, "o")}
-    if taken.value.startswith("discharge.") and np.any(np.isfinite(taken.margin)):
-        low, volts = solved & (taken.margin < 1.0), voltage_text(taken)
-        parts = {
-            f"breakdown voltage above the applied {volts}": (solved & ~low, "o"),
-            "below it": (low, "v"),
-        }
-    for part, shape in parts.values():
-        look: dict[str, Any] = {
-            "marker": shape,
-            "s": 26.0,
-            "cmap": COLOURS,
-            "norm": norm,
-            "lw": 0.5,
-            "zorder": 4.0,
-        }
-        ax.scatter(along[part], up[part], c=values[part], edgecolors="black", **look)
-    hollow: dict[str, Any] = {"ls": "none", "color": "black", "mfc": "none", "ms": 5.0, "mew": 0.5}
-    return [Line2D([], [], marker=m, label=text, **hollow) for text, (_, m) in parts.items() if text]
+    look = {"c": values, "cmap": COLOURS, "norm": norm, "s": 26.0}
+    return _dots(taken, ax, (along, up), masks["solved"], look)

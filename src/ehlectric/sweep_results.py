@@ -10,11 +10,14 @@ from typing import Any, Literal
 import numpy as np
 
 from ehlectric.any_case import AnyCase
-from ehlectric.typing import Array
+from ehlectric.typing import Array, Mask
 
 # "solved"; "not converged", whose summary is for looking at; "failed", which has none; "open", not tried yet.
 Status = Literal["solved", "not converged", "failed", "open"]
 Spacing = Literal["linear", "log"]
+
+# What warnings say of a film that is no use, as ``findings`` writes them.
+_NO_USE = "do not use"
 
 
 @dataclass(frozen=True)
@@ -58,8 +61,24 @@ class Point:
 
     @property
     def solved(self) -> bool:
-        """Whether its numbers may be used."""
+        """Whether it has numbers; whether they may be used, ``doubtful`` says."""
         return self.status == "solved"
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What its summary warns of; nothing where there is none."""
+        return tuple((self.summary or {}).get("warnings", ()))
+
+    @property
+    def doubtful(self) -> bool:
+        """Whether it is solved, but a warning says not to use its film.
+
+        Examples
+        --------
+        >>> Point(0, {}, "solved", summary={"warnings": ["the film may be 32 % off; do not use it"]}).doubtful
+        True
+        """
+        return self.solved and any(_NO_USE in text for text in self.warnings)
 
 
 @dataclass(frozen=True)
@@ -101,6 +120,11 @@ class SweepResults:
         """Keys of the case that vary, in the order given."""
         return tuple(self.ranges if self.design == "sobol" else self.axes)
 
+    @property
+    def doubtful(self) -> Mask:
+        """Which points are solved, but have a warning not to use their film, shape (points,)."""
+        return np.array([point.doubtful for point in self.points], dtype=bool)
+
     def values(self, key: str) -> Array:
         """One number of every point.
 
@@ -112,7 +136,8 @@ class SweepResults:
         Returns
         -------
         ndarray, shape (points,)
-            SI; not a number where a point is not solved or its summary has none.
+            SI; not a number where a point is not solved or its summary has none. Those of doubtful points
+            are among them.
         """
         found = [flat(point.summary or {}).get(key) if point.solved else None for point in self.points]
         return np.array([as_number(value) for value in found])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -44,9 +44,9 @@ class Slice:
     across : tuple
         Value of ``y`` of each point, SI numbers or texts; empty without one.
     values : ndarray, shape (points,)
-        What is drawn, SI; not a number where a point is not solved.
+        What is drawn, SI; not a number where a point is not solved, or doubtful.
     voltage : ndarray, shape (points,)
-        Applied [V]; not a number where a point is not solved.
+        Applied [V]; not a number where a point is not solved, or doubtful.
     margin : ndarray, shape (points,)
         Breakdown voltage over applied voltage; not a number where there is none.
     """
@@ -66,6 +66,11 @@ class Slice:
     def of(self, status: Status) -> Mask:
         """Which points have a status, shape (points,)."""
         return np.array([point.status == status for point in self.points])
+
+    @property
+    def doubtful(self) -> Mask:
+        """Which points are solved, but have a warning not to use their film, shape (points,)."""
+        return np.array([point.doubtful for point in self.points])
 
     @property
     def numeric(self) -> bool:
@@ -143,8 +148,8 @@ def take(
     Raises
     ------
     InputError
-        Where a key is not varied or no number, a value is in no summary, or a grid has further varied keys
-        that are not held.
+        Where a key is not varied or no number, a value is in no summary or in none of the points that are
+        drawn, or a grid has further varied keys that are not held.
     """
     for name, key in (("x", x), ("y", y)):
         if key is not None and key not in results.varied:
@@ -177,6 +182,11 @@ def take(
     if not chosen:
         raise InputError(f"at: no point of the sweep has {', '.join(f'{k} = {v}' for k, v in held.items())}")
     points = tuple(results.points[k] for k in chosen)
+    # A number that is not to be used is no number of a figure.
+    usable = np.where([point.doubtful for point in points], np.nan, 1.0)
+    values = usable * values[chosen]
+    if not np.any(np.isfinite(values)):
+        raise InputError(f"value: {value} is in none of the {_drawn(points)}, there is nothing to show")
     across = () if y is None else tuple(_hashable(point.inputs.get(y)) for point in points)
     return Slice(
         x=x,
@@ -187,10 +197,17 @@ def take(
         points=points,
         along=np.array([as_number(point.inputs[x]) for point in points]),
         across=across,
-        values=values[chosen],
-        voltage=results.values(VOLTAGE)[chosen],
-        margin=margins(results)[chosen],
+        values=values,
+        voltage=usable * results.values(VOLTAGE)[chosen],
+        margin=usable * margins(results)[chosen],
     )
+
+
+def _drawn(points: Sequence[Point]) -> str:
+    """How many points there are, and how many of them are not to be used."""
+    doubtful = sum(point.doubtful for point in points)
+    text = f"{len(points)} points that are drawn"
+    return text + (f', of which {doubtful} are solved but say "do not use"' if doubtful else "")
 
 
 def known_values(results: SweepResults) -> list[str]:

@@ -1,13 +1,15 @@
-"""Between the points of a sweep: linear in the axes a figure has, with holes where points are not solved."""
+"""Between the points of a sweep: linear in the axes a figure has, with holes where points have no value."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from scipy.sparse import csr_array
 from scipy.spatial import Delaunay, QhullError
 
+from ehlectric.bearing_case import BearingCase
 from ehlectric.sweep_results import SweepResults
 from ehlectric.sweep_slices import Slice
 from ehlectric.typing import Array, IntArray, Mask
@@ -15,6 +17,11 @@ from ehlectric.typing import Array, IntArray, Mask
 # Nodes along either axis of a grid, about, and parts of the edge of a triangle: enough for lines of equal
 # value to look as curved as they are on logarithmic axes.
 _NODES, _PARTS = 160, 6
+
+_POTENTIALS = ("electric.potential_1", "electric.potential_2")
+
+# A case takes no less between its surfaces [V].
+_LEAST_VOLTAGE = 1e-6
 
 
 @dataclass(frozen=True)
@@ -126,6 +133,63 @@ def _weights(shares: Array, corners: IntArray, points: int) -> csr_array:
     weights = csr_array((shares.ravel(), (rows, corners.ravel())), shape=(len(corners), points))
     weights.eliminate_zeros()
     return weights
+
+
+def curve_of(x: Array, values: Array, *, log_x: bool, log: bool) -> tuple[Array, Array]:
+    """Values over increasing places, at these and between them.
+
+    Parameters
+    ----------
+    x, values : ndarray, shape (points,)
+        Two points at least; a value is not a number where there is none, and above 0 where ``log``.
+    log_x, log : bool
+        Whether the nodes are even in the logarithm of x, and the values linear in theirs.
+
+    Returns
+    -------
+    x, values : ndarray, shape (nodes,)
+        Linear between the points in these terms; not a number between points that do not both have a value.
+
+    Examples
+    --------
+    A power of x on logarithmic axes, between two points:
+
+    >>> x, y = curve_of(np.array([1.0, 4.0]), np.array([1.0, 8.0]), log_x=True, log=True)
+    >>> bool(np.allclose(y, x**1.5))
+    True
+    """
+    nodes, cell, part = _between(x, log=log_x)
+    ends = _onto(values, log=log)
+    found = (1.0 - part) * ends[cell] + part * ends[cell + 1]
+    # A point is drawn though its neighbour has no value.
+    found = np.where(part == 0.0, ends[cell], np.where(part == 1.0, ends[cell + 1], found))
+    return nodes, _back(found, log=log)
+
+
+def applied_at(results: SweepResults, taken: Slice, along: Array, across: Any) -> Array | None:
+    """The applied voltage [V] anywhere between the points of a slice that is drawn over a potential.
+
+    Parameters
+    ----------
+    results : SweepResults
+        Of whose case the other potential is.
+    taken : Slice
+        Which holds what it is not drawn over.
+    along, across : ndarray or float
+        Values of ``taken.x`` and ``taken.y``, SI.
+
+    Returns
+    -------
+    ndarray or None
+        Exact, but never 0; None where neither key is a potential: that of the points counts there.
+    """
+    if isinstance(results.case, BearingCase) or not {taken.x, taken.y} & set(_POTENTIALS):
+        return None
+    there: dict[Any, Any] = {**taken.at, taken.x: along, taken.y: across}
+    given = results.case.electric
+    first = there.get(_POTENTIALS[0], given.potential_1)
+    second = there.get(_POTENTIALS[1], given.potential_2)
+    return np.asarray(np.maximum(np.abs(second - first), _LEAST_VOLTAGE))
 
 
 def _between(values: Array, *, log: bool) -> tuple[Array, IntArray, Array]:

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ehlectric.case_keys import input_field, number_of
-from ehlectric.quantity import Quantity
+from ehlectric.case_keys import kind_of
 from ehlectric.store import clear, prepare, whole
+from ehlectric.sweep_labels import label_of
 from ehlectric.sweep_results import SweepResults, flat
 from ehlectric.version import __version__
 
@@ -25,6 +25,15 @@ CSV = "sweep.csv"
 PARQUET = "sweep.parquet"
 NETCDF = "sweep.nc"
 FILES = (CSV, PARQUET, NETCDF)
+
+# What is said of a point beside its inputs and numbers, with attributes as CF has them.
+_OWN = {
+    "number": {"long_name": "number of the point in the order of the design", "units": "1"},
+    "status": {"long_name": "what became of the point"},
+    "reason": {"long_name": "why it is not solved"},
+    "warnings": {"long_name": "what to know before using its numbers"},
+    "seconds": {"long_name": "time it took", "units": "s"},
+}
 
 
 def write_tables(results: SweepResults, folder: str | Path) -> list[Path]:
@@ -68,7 +77,7 @@ def write_tables(results: SweepResults, folder: str | Path) -> list[Path]:
 
 
 def columns_of(results: SweepResults) -> dict[str, list[Any]]:
-    """One row a point: number, status, reason, seconds, what was varied, and every number of the summary.
+    """One row a point: its number, what became of it, what was varied, and every number of the summary.
 
     Parameters
     ----------
@@ -78,14 +87,16 @@ def columns_of(results: SweepResults) -> dict[str, list[Any]]:
     Returns
     -------
     dict
-        Columns by name, those of inputs and results by their dotted key, SI. Results are None where a point
-        is not solved, or has no such number; of the inputs that the summary resolves, those that vary.
+        Columns by name, those of inputs and results by their dotted key, SI; before them number, status,
+        reason, warnings, joined by "; ", and seconds. Results are None where a point is not solved, or has no
+        such number; of the inputs that the summary resolves, those that vary.
     """
     points = results.points
     columns: dict[str, list[Any]] = {
         "number": [point.number for point in points],
         "status": [point.status for point in points],
         "reason": [point.reason for point in points],
+        "warnings": ["; ".join(point.warnings) for point in points],
         "seconds": [point.seconds for point in points],
     }
     columns |= {key: [point.inputs[key] for point in points] for key in results.varied}
@@ -126,7 +137,7 @@ def to_xarray(results: SweepResults) -> xr.Dataset:
     -------
     xarray.Dataset
         Of a "grid" over the varied keys, else over ``point``, with the numbers of the summary by dotted key,
-        not a number where a point is not solved; ``status`` and ``reason`` as texts.
+        not a number where a point is not solved; ``status``, ``reason`` and ``warnings`` as texts.
     """
     import xarray as xr
 
@@ -138,18 +149,21 @@ def to_xarray(results: SweepResults) -> xr.Dataset:
         return dimensions, _array(values).reshape(shape)
 
     columns = columns_of(results)
-    own = {name: laid(columns.pop(name)) for name in ("number", "status", "reason", "seconds")}
+    own = {name: (*laid(columns.pop(name)), attributes) for name, attributes in _OWN.items()}
     inputs = {key: columns.pop(key) for key in results.varied}
     coordinates = {
         key: (
             key if gridded else "point",
             _array(list(results.axes[key] if gridded else values)),
-            _units(key),
+            _attributes(key, results),
         )
         for key, values in inputs.items()
     }
     numbers = {
-        key: laid([math.nan if value is None else float(value) for value in values])
+        key: (
+            *laid([math.nan if value is None else float(value) for value in values]),
+            _attributes(key, results),
+        )
         for key, values in columns.items()
     }
     return xr.Dataset(
@@ -157,9 +171,9 @@ def to_xarray(results: SweepResults) -> xr.Dataset:
         coords=coordinates,
         attrs={
             "Conventions": "CF-1.11",
-            "title": results.case.title or "Sweep of a lubricated contact",
+            "title": results.title or results.case.title or "Sweep of a lubricated contact",
             "source": f"ehlectric {__version__}",
-            "comment": "SI units; not a number where a point is not solved",
+            "comment": "SI units; not a number where a point is not solved; warnings say what not to use",
             "case": results.case.to_toml(),
             "design": results.design,
             "ranges": json.dumps({key: vars(over) for key, over in results.ranges.items()}),
@@ -194,9 +208,10 @@ def _cell(value: Any) -> Any:
     return repr(value) if isinstance(value, float) else json.dumps(value)
 
 
-def _units(key: str) -> dict[str, str]:
-    """Attributes of a varied input."""
-    number = number_of(input_field(key))
-    if not isinstance(number, Quantity):
-        return {}
-    return {"units": number.unit.replace("**", "^").replace("*", " ") or "1"}
+def _attributes(key: str, results: SweepResults) -> dict[str, str]:
+    """Name and unit of an input or of a number of the summary; no unit where it is no number."""
+    label = label_of(key, results.case)
+    found = {"long_name": label.name}
+    if key in results.varied and kind_of(key) is None:
+        return found
+    return found | {"units": label.unit.replace("**", "^").replace("*", " ") or "1"}

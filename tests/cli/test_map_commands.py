@@ -96,8 +96,8 @@ def test_sensitivity_prints_and_writes_the_same(command, tmp_path):
     found = json.loads((folder / "sensitivity.json").read_text(), parse_constant=pytest.fail)
     assert found["schema"] == "ehlectric.sensitivity/1"
     assert set(found) == {
-        "schema", "value", "points", "solved", "rows", "rows_dropped", "spread", "share_below_voltage",
-        "indices", "bootstrap",
+        "schema", "value", "points", "solved", "rows", "rows_dropped", "rows_doubtful", "spread",
+        "share_below_voltage", "indices", "bootstrap",
     }  # fmt: skip
     assert (found["value"], found["rows"]) == (VALUE, 64)
     assert found["rows_dropped"] > 0

@@ -126,9 +126,12 @@ def test_unit_and_zero_of_the_value_do_not_matter(scale, sign, shift, seed):
 
 @given(seed=st.integers(0, 999), inputs=st.integers(2, 5))
 def test_totals_are_no_less_than_first_order(seed, inputs):
-    """Of the true indices; of estimates within their intervals."""
+    """Of the true indices; of estimates but for their scatter: twice both of their intervals, four standard
+    deviations of either.
+    """
     low, high = intervals(*some_rows(inputs, seed=seed), resamples=100, seed=0)
-    assert np.all(high[1] >= low[0])
+    reach = high - low
+    assert np.all(high[1] + 0.5 * reach[1] >= low[0] - 0.5 * reach[0])
     assert np.all(low <= high)
     assert np.all(low[1] >= 0.0)
 
@@ -211,3 +214,18 @@ def test_refusals():
     for message, (given_results, key) in refused.items():
         with pytest.raises(InputError, match=message):
             sensitivity(given_results, key)
+
+
+def test_rows_with_a_film_that_is_not_to_be_used_are_counted():
+    """Points 3 of A and 5 of B are, and 3 of A with a column of B: two rows; a third is not complete."""
+    results = of(lambda x, y: x + y, {"x": Range(0.0, 1.0), "y": Range(0.0, 1.0)}, 32)
+    told = {"warnings": ["the film may be 32 % off or more on this grid; do not use it"]}
+    points = [
+        dataclasses.replace(point, summary={**point.summary, **told})
+        if point.number in (3, 32 + 5, 64 + 3, 7)
+        else point
+        for point in results.points
+    ]
+    found = sensitivity(without(dataclasses.replace(results, points=tuple(points)), (32 + 7,)), VALUE)
+    assert (found.doubtful, found.used, found.dropped) == (2, 31, 1)
+    assert found.to_dict()["rows_doubtful"] == 2

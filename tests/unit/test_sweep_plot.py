@@ -15,7 +15,7 @@ from ehlectric.sweep_lines import value_lines
 from ehlectric.sweep_maps import value_map
 from ehlectric.sweep_plot import save_maps
 from ehlectric.sweep_results import Range
-from tests.sweep_models import LOAD, POTENTIAL, SPEED, breakdown, grid, paired, sobol
+from tests.sweep_models import LOAD, POTENTIAL, SPEED, breakdown, doubtful_where, grid, paired, sobol
 
 VALUE = "discharge.breakdown_voltage"
 SPEEDS, LOADS = (0.5, 1.0, 2.0, 4.0, 8.0), (2e5, 5e5, 1e6, 2e6)
@@ -74,6 +74,31 @@ def test_map_has_a_hole_around_what_is_not_solved():
         assert filled(ax, x, y)
 
 
+def test_a_film_that_is_not_to_be_used_is_a_hole_with_its_mark():
+    """As one that failed, but for its mark: no number of it is in the colours, the line or the curves."""
+
+    def wrong(inputs):
+        return (inputs[SPEED], inputs[LOAD]) == (1.0, 5e5)
+
+    results = grid({SPEED: SPEEDS, LOAD: LOADS}, doubtful_where(wrong))
+    ax = value_map(results, SPEED, LOAD, VALUE)
+    assert legend(ax)[:2] == ["19 solved", "1 do not use"]
+    np.testing.assert_allclose(marks(ax, "D"), [[1.0, 0.5]])
+    assert not filled(ax, 1.0, 0.5)
+    assert not filled(ax, 1.9, 0.9)
+    assert filled(ax, 3.0, 0.6)
+    lines = value_lines(results, SPEED, LOAD, VALUE)
+    (mark,) = [line for line in lines.lines if line.get_marker() == "D"]
+    assert list(mark.get_xdata()) == [1.0]
+    assert [np.isnan(at_points(line.get_ydata())[1]) for line in curves(lines)] == [False, True, False, False]
+
+
+def test_where_no_film_is_to_be_used_there_is_nothing_to_draw():
+    results = grid({SPEED: SPEEDS}, doubtful_where(lambda _: True))
+    with pytest.raises(InputError, match="none of the 5 points that are drawn, of which 5 are solved but"):
+        value_lines(results, SPEED, None, VALUE)
+
+
 def test_map_is_drawn_up_to_its_largest_value():
     """A probability of 1 has a colour as any other."""
     ax = value_map(grid({SPEED: SPEEDS, LOAD: LOADS}), SPEED, LOAD, "discharge.probability")
@@ -84,15 +109,16 @@ def test_map_is_drawn_up_to_its_largest_value():
 def test_line_of_breakdown_is_where_it_is():
     """10 V (u/(4 m/s))^0.7 (w/(1 MN/m))^-0.1 is 5 V at u = 4 (0.5 (w/(1 MN/m))^0.1)^(1/0.7) m/s.
 
-    Five speeds that are wide apart, as the logarithms of the model are linear then, or many.
+    Both axes are logarithmic, on which the logarithm of the model is linear, few points or many.
     """
-    wide, many = np.geomspace(0.05, 8.0, 5), np.geomspace(0.5, 8.0, 60)
-    for value, speeds in ((VALUE, wide), (VALUE, many), ("discharge.contact_energy", wide)):
+    wide, few = np.geomspace(0.05, 8.0, 5), np.geomspace(0.5, 8.0, 3)
+    values = (VALUE, "discharge.margin", "discharge.probability", "discharge.contact_energy")
+    for value, speeds in ((value, speeds) for value in values for speeds in (wide, few)):
         ax = value_map(grid({SPEED: list(speeds), LOAD: LOADS}), SPEED, LOAD, value)
         x, y = line_of_breakdown(ax).T
         np.testing.assert_allclose(x, 4.0 * (0.5 * y**0.1) ** (1.0 / 0.7), rtol=2e-3)
         assert (y.min(), y.max()) == pytest.approx((0.2, 2.0))
-        assert legend(ax)[1:] == ["breakdown voltage = applied 5 V", "breakdown voltage below it"]
+        assert legend(ax)[1:] == ["breakdown voltage = applied 5 V", "below the applied 5 V"]
 
 
 def test_voltage_of_every_point_counts():
@@ -162,8 +188,16 @@ def test_scattered_points_of_two_keys_are_a_map():
     np.testing.assert_allclose(10.0 * (x / 4.0) ** 0.7 * y**-0.1, 5.0, rtol=5e-3)
 
 
-def curves(ax):
-    return [line for line in ax.lines if line.get_linestyle() == "-" and len(line.get_xdata()) == len(SPEEDS)]
+def curves(ax, style="-"):
+    """Lines through the points and what lies between them."""
+    return [
+        line for line in ax.lines if line.get_linestyle() == style and len(line.get_xdata()) > len(SPEEDS)
+    ]
+
+
+def at_points(values):
+    """Of a line over the speeds, its values there."""
+    return values[:: (len(values) - 1) // (len(SPEEDS) - 1)]
 
 
 def test_lines_end_where_points_are_not_solved():
@@ -183,7 +217,8 @@ def test_lines_end_where_points_are_not_solved():
             else np.nan
             for u in SPEEDS
         ]
-        np.testing.assert_allclose(line.get_ydata(), expected, rtol=1e-12)
+        np.testing.assert_allclose(at_points(line.get_xdata()), SPEEDS, rtol=1e-12)
+        np.testing.assert_allclose(at_points(line.get_ydata()), expected, rtol=1e-12)
     # Their crosses stand in the strip below the values, in the colours of their lines.
     (cross,) = [line for line in ax.lines if line.get_marker() == "x"]
     (plus,) = [line for line in ax.lines if line.get_marker() == "+"]
@@ -195,7 +230,7 @@ def test_lines_end_where_points_are_not_solved():
     assert ax.get_yticklabels()[0].get_text() == "no value"
     assert legend(ax) == [
         *("18 solved", "1 not converged", "1 failed"),
-        *("applied voltage 5 V", "breakdown voltage below it"),
+        *("applied voltage 5 V", "below the applied 5 V"),
     ]
 
 
@@ -207,9 +242,22 @@ def test_applied_voltage_is_a_level_or_a_line_for_each():
     margin = value_lines(grid({SPEED: SPEEDS}), SPEED, None, "discharge.margin")
     assert [list(line.get_ydata()) for line in margin.lines if line.get_ls() == "--"] == [[1.0, 1.0]]
     ax = value_lines(grid({SPEED: SPEEDS, POTENTIAL: (1.0, 4.0)}), SPEED, POTENTIAL, VALUE)
-    dashed = [line.get_ydata() for line in ax.lines if line.get_ls() == "--"]
+    dashed = [at_points(line.get_ydata()) for line in curves(ax, "--")]
     np.testing.assert_allclose(dashed, [[2.0] * 5, [5.0] * 5])
     assert legend(ax)[-1] == "applied voltage 2 to 5 V"
+    margin = value_lines(grid({POTENTIAL: (1.0, 2.0, 4.0)}), POTENTIAL, None, "discharge.margin")
+    assert legend(margin)[1:] == ["breakdown voltage = applied 2 to 5 V", "below the applied 2 to 5 V"]
+
+
+def test_points_without_lines_have_no_line_of_voltage_either():
+    """Their voltages, V_2 + 1 V, are between 2 and 9 V: a band."""
+    span = {SPEED: Range(0.5, 8.0, "log"), LOAD: Range(2e5, 2e6, "log"), POTENTIAL: Range(1.0, 8.0)}
+    results = sobol(span, 16, breakdown)
+    ax = value_lines(results, SPEED, LOAD, VALUE)
+    assert not [line for line in ax.lines if line.get_ls() == "--"]
+    (band,) = [patch for patch in ax.patches if patch.get_alpha() == 0.15]
+    volts = results.values("field.voltage")
+    assert (band.get_y(), band.get_y() + band.get_height()) == pytest.approx((volts.min(), volts.max()))
 
 
 def test_lines_are_named_or_have_a_colour_bar():
@@ -272,8 +320,13 @@ def test_few_solved_points_are_shown_all_the_same(tmp_path, status):
     results = grid({SPEED: (0.5, 1.0, 2.0), LOAD: (2e5, 5e5, 1e6)}, status=status)
     ax = value_map(results, SPEED, LOAD, VALUE)
     values = results.values(VALUE)
-    (alone,) = [c for c in ax.collections if isinstance(c, PathCollection)]
-    np.testing.assert_allclose(np.sort(alone.get_array()), np.sort(values[np.isfinite(values)]))
+    alone = [c for c in ax.collections if isinstance(c, PathCollection)]
+    shown = np.sort(np.concatenate([c.get_array() for c in alone]))
+    np.testing.assert_allclose(shown, np.sort(values[np.isfinite(values)]))
+    # One point of 3.8 V or six of 2.5 to 7.2 V, at 5 V: those below have a mark of their own, and it is said.
+    low = values < 5.0
+    told = [text for text in legend(ax) if "below the applied 5 V" in text]
+    assert (len(told), sum(len(c.get_array()) for c in alone[1:])) == (1, np.sum(low))
     assert len(save_maps(results, SPEED, LOAD, VALUE, tmp_path)) == 2
 
 

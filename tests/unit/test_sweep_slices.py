@@ -237,13 +237,26 @@ def test_ranges_say_how_their_axes_are():
         ("field.max_strength_position.1", [1e-4], "[mm]", "0.1 mm"),
         ("seconds.film", [12.0], "seconds.film [s]", "12 s"),
         ("film.nodes", [3201.0], "film.nodes", "3201"),
+        ("discharge.breakdown_energy", [2e-9], r"at breakdown $W_\mathrm{b}$ [nJ]", "2 nJ"),
+        ("discharge.pit_volume", [3e-18], "volume of the pit [µm³]", "3 µm³"),
+        ("discharge.pit_diameter", [2e-6], "diameter of the pit [µm]", "2 µm"),
+        ("discharge.zone_size", [2e-5], "zone that breaks down first [µm]", "20 µm"),
+        ("discharge.zone_position.1", [2e-5], "zone that breaks down first [µm]", "20 µm"),
+        ("discharge.zone_over_half_width", [0.04], "zone over the half-width", "0.04"),
+        ("discharge.capacitance", [40e-9], "capacitance of the whole film $C$ [nF/m]", "40 nF/m"),
+        ("discharge.capacitance_plate", [30e-9], "A_\\mathrm{H}/h(0)$ [nF/m]", "30 nF/m"),
+        ("discharge.current_density", [3e5], "apparent current density $J$ [A/mm²]", "0.3 A/mm²"),
+        ("discharge.corner_frequency", [7.5], r"$f_\mathrm{c}$ [Hz]", "7.5 Hz"),
+        ("discharge.outlet", [], "what fills the outlet", None),
+        ("roughness.combined.ra", [3e-9], "roughness.combined.ra [nm]", "3 nm"),
+        ("field.capacitance_by_zone.hertz", [2e-12], "[pF]", "2 pF"),
     ],
 )
 def test_labels_have_the_unit_that_suits(key, values, label, text):
     found = label_of(key, case())
     scale = found.scaled(np.array(values))
     assert found.axis(scale).endswith(label)
-    assert scale.text(values[0]) == text
+    assert text is None or scale.text(values[0]) == text
 
 
 def test_capacitances_of_point_contacts_are_no_line_s():

@@ -1,6 +1,7 @@
 """Tables of a sweep: CSV, Parquet, NetCDF and SQLite say the same."""
 
 import csv
+import dataclasses
 import json
 import math
 import sqlite3
@@ -62,10 +63,11 @@ def test_the_csv_is_the_database(gridded):
         assert int(row["number"]) == number
         assert row["status"] == ("failed" if refused else status or "open")
         assert row["reason"] == (refused or reason or "")
+        assert row["warnings"] == "; ".join(json.loads(summary)["warnings"] if summary else [])
         varied = json.loads(inputs)
         assert [row[key] for key in varied] == [json.dumps(value) for value in varied.values()]
         numbers = flat(json.loads(summary)) if status == "solved" else {}
-        for key in list(row)[4 + len(varied) :]:
+        for key in list(row)[5 + len(varied) :]:
             expected = numbers.get(key)
             assert row[key] == ("" if expected is None else repr(expected))
             compared += row[key] != ""
@@ -75,6 +77,8 @@ def test_the_csv_is_the_database(gridded):
     assert (kinds[1], kinds[3], kinds[11]) == ("failed", "not converged", "open")
     assert kinds.count("solved") > 5
     assert compared > 5 * 20
+    # 65 nodes make a film that is not to be used.
+    assert any(row["status"] == "solved" and "do not use" in row["warnings"] for row in rows)
 
 
 def test_parquet_is_the_csv(gridded):
@@ -99,13 +103,21 @@ def test_the_netcdf_is_the_csv(gridded):
         point = dataset.sel(at)
         assert point["status"].item() == row["status"]
         assert point["reason"].item() == row["reason"]
+        assert point["warnings"].item() == row["warnings"]
         assert int(point["number"]) == int(row["number"])
         for key in dataset.data_vars:
-            if key not in ("status", "reason", "number"):
+            if key not in ("status", "reason", "warnings", "number"):
                 value = float(row[key]) if row[key] else math.nan
                 np.testing.assert_equal(float(point[key]), value)
     assert dataset[SPEED].attrs["units"] == "m/s"
     assert "units" not in dataset["grid.field_range"].attrs
+    assert all(dataset[key].attrs["long_name"] for key in dataset.variables)
+    units = {key: dataset[key].attrs.get("units") for key in dataset.data_vars}
+    assert [key for key, unit in units.items() if unit is None] == ["status", "reason", "warnings"]
+    assert units[THICKNESS] == "m"
+    assert units["field.capacitance_per_length"] == "F/m"
+    assert units["film.newton_iterations"] == "1"
+    assert dataset[THICKNESS].attrs["long_name"] == "minimum film thickness"
     assert dataset[NODES].dtype.kind == "i"
     assert dataset.attrs["design"] == "grid"
 
@@ -122,7 +134,8 @@ def test_inputs_that_stay_are_left_out_and_resolved_ones_kept(tmp_path):
     # p_h = 2 w/(pi b) with b = sqrt(8 w R/(pi E')) gives w = 2 pi p_h^2 R/E'.
     expected = [2.0 * math.pi * p**2 * 0.0141 / 226e9 for p in (0.5e9, 1e9)]
     assert columns[f"inputs.{LOAD}"] == pytest.approx(expected, rel=1e-12)
-    dataset = to_xarray(read_sweep(tmp_path))
+    dataset = to_xarray(dataclasses.replace(read_sweep(tmp_path), title="A sweep of its own"))
+    assert dataset.attrs["title"] == "A sweep of its own"
     assert dataset[THICKNESS].dims == ("point",)
     assert dataset[PRESSURE].attrs["units"] == "Pa"
     assert dataset[PRESSURE].values.tolist() == [0.5e9, 1e9]
