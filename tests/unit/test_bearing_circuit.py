@@ -1,4 +1,4 @@
-"""The circuit of a bearing by hand, and its breakdown against a voltage that is raised until contacts break."""
+"""The circuit of a bearing by hand; its breakdown against a voltage that is raised until contacts break."""
 
 import numpy as np
 import pytest

@@ -23,6 +23,7 @@ AS_ROLLERS = {
     "bearing__roller_length": "10 mm",
     "bearing__profile": "none",
 }
+NO_VISCOSITY = {"viscosity_law": "constant", "density_law": "incompressible", "relative_permittivity": 2.4}
 CERAMIC = {"bearing__element_material": "silicon-nitride"}
 
 
@@ -108,11 +109,11 @@ MISTAKES = [
     ({"bearing__film_factor": True}, "bearing.film_factor: got True, takes 'none'"),
     ({"bearing__film_factor": math.nan}, "bearing.film_factor: got nan, takes 'none'"),
     ({"bearing__film_factor": "0.8"}, "bearing.film_factor: got '0.8', takes 'none'"),
-    ({"bearing__film_factor": "inlet-shear"}, "lubricant.temperature.thermal_conductivity: missing, film_fac"),
+    ({"bearing__film_factor": "inlet-shear"}, "lubricant.temperature.thermal_conductivity: missing, film"),
     # Materials and names.
-    ({"bearing__ring_material": "silicon-nitride"}, "bearing.ring_material: got 'silicon-nitride', takes one"),
+    ({"bearing__ring_material": "silicon-nitride"}, "bearing.ring_material: got 'silicon-nitride', takes"),
     ({"bearing__element_material": "brass"}, "bearing.element_material: got 'brass', takes one of the libra"),
-    ({"bearing__element_capacitance": "10 pF"}, "bearing.element_capacitance: got it for elements that condu"),
+    ({"bearing__element_capacitance": "10 pF"}, "bearing.element_capacitance: got it for elements that"),
     ({**CERAMIC, "bearing__element_capacitance": "0 pF"}, "bearing.element_capacitance: got '0 pF', takes a"),
     ({"bearing__base": "6209"}, "bearing.base: got '6209', takes a name of the library: 209-hamrock, 6208"),
     ({"lubricant__base": "papier"}, "lubricant.base: got 'papier', takes"),
@@ -123,20 +124,20 @@ MISTAKES = [
     # The oil.
     ({"lubricant__viscosity": "0.02 Pa s"}, "lubricant.viscosity: got viscosity and temperature together"),
     (
-        {"lubricant": {"viscosity_law": "constant", "density_law": "incompressible", "relative_permittivity": 2.4}},
+        {"lubricant": NO_VISCOSITY},
         "lubricant.viscosity: missing, takes either viscosity or temperature",
     ),
     (
         {"lubricant__temperature__kinematic_viscosity_100": None},
         "lubricant.temperature.kinematic_viscosity_100: missing, takes a value",
     ),
-    ({"lubricant__temperature__density_15": "870 g/m^3"}, "lubricant.temperature.density_15: got '870 g/m^3'"),
+    ({"lubricant__temperature__density_15": "870 g/m^3"}, "lubricant.temperature.density_15: got '870"),
     # Discharge and motor.
     ({"discharge__length": "10 mm"}, "discharge.length: got it for a bearing, which has no use for it"),
     ({"discharge__external_capacitance": "1 nF"}, "discharge.external_capacitance: got it for a bearing"),
     ({"motor__winding_rotor_capacitance": None}, "motor.winding_rotor_capacitance: missing, takes a value"),
-    ({"motor__common_mode_voltage": "-300 V"}, "motor.common_mode_voltage: got '-300 V', takes a number in V"),
-]  # fmt: skip
+    ({"motor__common_mode_voltage": "-300 V"}, "motor.common_mode_voltage: got '-300 V', takes a number"),
+]
 
 
 @pytest.mark.parametrize(("changes", "text"), MISTAKES, ids=[text.split(",")[0] for _, text in MISTAKES])
@@ -152,7 +153,7 @@ def test_mistakes_are_one_line(changes, text):
 CONTRADICTIONS = [
     ({"bearing__elements": 16}, "bearing.elements: got 16, takes 3 to 15"),
     ({"bearing__radial_clearance": "2 mm"}, "bearing.radial_clearance: got 0.002 m, takes one below"),
-    ({"bearing__temperature": "300 degC"}, "bearing.temperature: got 573.15 K, at which the oil has 0.814 mm"),
+    ({"bearing__temperature": "300 degC"}, "bearing.temperature: got 573.15 K, at which the oil has 0.814"),
     (
         {"lubricant__temperature__kinematic_viscosity_100": "60 mm^2/s"},
         "lubricant.temperature.kinematic_viscosity_100: got 6e-05 m^2/s, takes less than",
@@ -161,7 +162,7 @@ CONTRADICTIONS = [
         {"lubricant__roelands_pressure": "1 kg"},
         "lubricant.roelands_pressure: got '1 kg'",
     ),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(
@@ -204,7 +205,7 @@ def test_an_oil_without_constants_of_roelands_needs_its_alpha():
         "relative_permittivity": 2.4,
     }
     changes = {f"lubricant__{key}": value for key, value in barus.items()}
-    with pytest.raises(InputError, match="lubricant.pressure_viscosity_coefficient: missing, takes it, or"):
+    with pytest.raises(InputError, match=r"lubricant\.pressure_viscosity_coefficient: missing, takes it, or"):
         bearing_case(BALLS, **changes).lubricant.at(343.15)
 
 
@@ -222,7 +223,7 @@ def test_film_factor_goes_through_the_entrainment_product():
 
 
 def test_inlet_shear_factor_of_a_bearing():
-    """Of the speed n pi (d_m^2 - D^2)/(2 d_m) at zero angle, half of the inner raceway's relative to the cage."""
+    """Of the speed n pi (d_m^2 - D^2)/(2 d_m) at zero angle, the inner race's against the cage."""
     changes = {
         "bearing__film_factor": "inlet-shear",
         "lubricant__temperature__thermal_conductivity": "0.14 W/m/K",
