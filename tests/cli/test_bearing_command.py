@@ -90,12 +90,18 @@ def test_json_on_request(ehlectric, bearing_file, tmp_path):
         (
             "elements = 14",
             "elements = 18",
-            "bearing.elements: got 18, takes 3 to 17, the most of 0.011 m that a pitch circle of 0.06 m holds",
+            (
+                "bearing.elements: got 18, takes 3 to 17, the most of 0.011 m that a pitch circle of 0.06 m "
+                "holds"
+            ),
         ),
         (
             "[lubricant]\n",
             '[lubricant]\nviscosity = "0.02 Pa s"\n',
-            "lubricant.viscosity: got viscosity and temperature together, takes either viscosity or temperature",
+            (
+                "lubricant.viscosity: got viscosity and temperature together, takes either viscosity or "
+                "temperature"
+            ),
         ),
     ],
 )
