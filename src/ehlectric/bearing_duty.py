@@ -13,6 +13,7 @@ from ehlectric.ball_equilibrium import BallEquilibrium, ball_equilibrium
 from ehlectric.bearing_case import BearingCase
 from ehlectric.bearing_geometry import BallBearing, ContactRadii, RollerBearing
 from ehlectric.bearing_inputs import ROLLERS, Bearing
+from ehlectric.errors import InputError
 from ehlectric.inputs import Lubricant
 from ehlectric.oil_temperature import inlet_shear_factor
 from ehlectric.quantity import to_si
@@ -84,7 +85,10 @@ class BearingDuty:
         bearing = case.bearing
         element, ring = Solid.of(bearing.element_material), Solid.of(bearing.ring_material)
         lubricant = case.lubricant.at(bearing.temperature)
-        geometry = geometry_of(bearing)
+        try:
+            geometry = geometry_of(bearing)
+        except InputError as error:
+            raise InputError(f"bearing.{error}") from None
         factor = _film_factor(case, geometry, lubricant)
         exponent = LINE_EXPONENT if isinstance(geometry, RollerBearing) else POINT_EXPONENT
         return cls(

@@ -162,8 +162,8 @@ class Grid(Table):
         Annotated[int, Count(33, _MOST_AXIS, "fewer do not resolve the Hertz zone, more fill the memory")]
         | None
     ) = None
-    inlet: Annotated[float, Quantity("", least=-100.0, below=-1.0, reason="ahead of the Hertz zone")] = -4.0
-    outlet: Annotated[float, Quantity("", above=1.0, most=100.0, reason="behind the Hertz zone")] = 2.0
+    inlet: Annotated[float, Quantity("", least=-1000.0, below=-1.0, reason="ahead of the Hertz zone")] = -4.0
+    outlet: Annotated[float, Quantity("", above=1.0, most=1000.0, reason="behind the Hertz zone")] = 2.0
     side: Annotated[float, Quantity("", above=1.0, most=100.0, reason="beside the Hertz zone")] | None = None
     wedge: Literal["second-order", "first-order"] = "second-order"
     field_range: tuple[_FieldEnd, _FieldEnd] = (-1.25, 1.25)

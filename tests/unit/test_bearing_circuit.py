@@ -1,0 +1,162 @@
+"""The circuit of a bearing by hand; its breakdown against a voltage that is raised until contacts break."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from ehlectric.bearing_circuit import Circuit, bearing_voltage_ratio, impedance
+
+capacitances = st.floats(1e-12, 1e-9)
+strengths = st.floats(0.5, 500.0)
+elements = st.tuples(capacitances, capacitances, strengths, strengths)
+
+
+def circuit_of(*rows):
+    return Circuit(*np.array(rows, dtype=float).T)
+
+
+def raised(inner, outer, inner_strength, outer_strength):
+    """Voltages at which the first contact of one element breaks, and at which the second is gone too.
+
+    A ramp in steps of one part in a thousand, the voltages from the charges: both contacts carry the same
+    while they hold, and one that has broken down has no voltage.
+    """
+    first = None
+    broken = {"inner": False, "outer": False}
+    voltage = 1e-3
+    while not all(broken.values()):
+        while True:
+            charge = voltage / (1.0 / inner + 1.0 / outer)
+            on = {"inner": charge / inner, "outer": charge / outer}
+            for name, other in (("inner", "outer"), ("outer", "inner")):
+                if broken[other]:
+                    on[name] = voltage
+            new = [
+                name
+                for name, holds in (("inner", inner_strength), ("outer", outer_strength))
+                if not broken[name] and on[name] >= holds
+            ]
+            if not new:
+                break
+            # One breaks after the other, the one furthest beyond its strength before.
+            holds = {"inner": inner_strength, "outer": outer_strength}
+            broken[max(new, key=lambda name: on[name] / holds[name])] = True
+            first = voltage if first is None else first
+        voltage *= 1.001
+    return first, voltage / 1.001
+
+
+@given(element=elements)
+def test_breakdown_of_an_element_as_its_voltage_is_raised(element):
+    first, through = raised(*element)
+    found = circuit_of(element)
+    # The ramp finds both within its step, from above.
+    assert found.first_break <= first * (1.0 + 1e-9)
+    assert found.first_break == pytest.approx(first, rel=1.1e-3, abs=0.0)
+    assert found.through_breakdown <= through * (1.0 + 1e-9)
+    assert found.through_breakdown == pytest.approx(through, rel=1.1e-3, abs=0.0)
+
+
+@given(rows=st.lists(elements, min_size=1, max_size=12))
+def test_a_bearing_is_its_elements(rows):
+    """Capacitances of parallel elements add; the bearing breaks where its weakest element does."""
+    found = circuit_of(*rows)
+    alone = [circuit_of(row) for row in rows]
+    assert found.capacitance == pytest.approx(sum(one.capacitance for one in alone), rel=1e-12, abs=0.0)
+    assert found.first_break == min(one.first_break for one in alone)
+    assert found.through_breakdown == min(one.through_breakdown for one in alone)
+    assert found.through_breakdown >= found.first_break
+    # 1/C = 1/C_i + 1/C_o, and both shares of a voltage are all of it.
+    series = [1.0 / (1.0 / row[0] + 1.0 / row[1]) for row in rows]
+    np.testing.assert_allclose(found.elements, series, rtol=1e-12)
+    inner = found.inner_share * found.inner
+    np.testing.assert_allclose(inner, (1.0 - found.inner_share) * found.outer, rtol=1e-6)
+
+
+@given(rows=st.lists(elements, min_size=2, max_size=8), scale=st.floats(0.1, 10.0))
+def test_scales(rows, scale):
+    """Capacitances alone say nothing of the voltages but by their ratios; strengths scale them."""
+    one = circuit_of(*rows)
+    larger = Circuit(scale * one.inner, scale * one.outer, one.inner_strength, one.outer_strength)
+    assert larger.capacitance == pytest.approx(scale * one.capacitance, rel=1e-12, abs=0.0)
+    assert larger.first_break == pytest.approx(one.first_break, rel=1e-9, abs=0.0)
+    stronger = Circuit(one.inner, one.outer, scale * one.inner_strength, scale * one.outer_strength)
+    assert stronger.first_break == pytest.approx(scale * one.first_break, rel=1e-9, abs=0.0)
+    assert stronger.through_breakdown == pytest.approx(scale * one.through_breakdown, rel=1e-9, abs=0.0)
+
+
+def test_one_element_by_hand():
+    """100 and 300 pF: 75 pF, three quarters of the voltage on the smaller one.
+
+    It breaks at 9/0.75 = 12 V, the other one would at 8/0.25 = 32 V; alone it holds 8 V, less than there is.
+    """
+    found = circuit_of((100e-12, 300e-12, 9.0, 8.0))
+    assert found.capacitance == pytest.approx(75e-12, rel=1e-12, abs=0.0)
+    assert found.inner_share[0] == pytest.approx(0.75, rel=1e-12, abs=0.0)
+    assert found.first_break == pytest.approx(12.0, rel=1e-12, abs=0.0)
+    assert found.through_breakdown == pytest.approx(12.0, rel=1e-12, abs=0.0)
+    # With 20 V the other one holds on until the bearing has 20 V.
+    assert circuit_of((100e-12, 300e-12, 9.0, 20.0)).through_breakdown == pytest.approx(20.0, rel=1e-12)
+    # Rings exchanged.
+    turned = circuit_of((300e-12, 100e-12, 20.0, 9.0))
+    assert turned.first_break == pytest.approx(12.0, rel=1e-12, abs=0.0)
+    assert turned.through_breakdown == pytest.approx(20.0, rel=1e-12, abs=0.0)
+
+
+@pytest.mark.parametrize("number", [1, 3, 9, 100])
+def test_all_equal(number):
+    """n elements of two equal contacts: n C/2, twice the strength of one, and both break at once."""
+    found = circuit_of(*[(50e-12, 50e-12, 4.0, 4.0)] * number)
+    assert found.capacitance == pytest.approx(number * 25e-12, rel=1e-12, abs=0.0)
+    np.testing.assert_allclose(found.inner_share, 0.5)
+    assert found.first_break == found.through_breakdown == pytest.approx(8.0, rel=1e-12, abs=0.0)
+
+
+def test_contacts_without_a_strength_never_break():
+    nothing = circuit_of((1e-10, 2e-10, np.inf, np.inf))
+    assert nothing.first_break == nothing.through_breakdown == np.inf
+    # One that breaks, beside one that does not: 3/(2/3) = 4.5 V, and never through.
+    one = circuit_of((1e-10, 2e-10, 3.0, np.inf))
+    assert one.first_break == pytest.approx(4.5, rel=1e-12, abs=0.0)
+    assert one.through_breakdown == np.inf
+
+
+@given(
+    wr=capacitances,
+    rf=capacitances,
+    first=capacitances,
+    second=capacitances,
+)
+def test_voltage_ratio_is_the_charge_of_the_divider(wr, rf, first, second):
+    """Winding at 1 V, frame at 0: the rotor's voltage at which all its charges add to nothing."""
+    rotor = bearing_voltage_ratio(wr, rf, first, second)
+    charges = wr * (rotor - 1.0) + (rf + first + second) * rotor
+    assert abs(charges) < 1e-12 * (wr + rf + first + second)
+    assert 0.0 < rotor < 1.0
+
+
+def test_voltage_ratio_by_hand():
+    """20/(20 + 1000 + 70 + 110) = 1/60."""
+    found = bearing_voltage_ratio(20e-12, 1e-9, 70e-12, 110e-12)
+    assert found == pytest.approx(1.0 / 60.0, rel=1e-12, abs=0.0)
+
+
+def test_impedance_at_both_ends():
+    """A leaking capacitance: R = tau/C at rest, 1/(2 pi f C) far above 1/(2 pi tau), -45 degrees there."""
+    c, tau = 2e-10, 21.0
+    corner = 1.0 / (2.0 * np.pi * tau)
+    z = impedance(c, tau, np.array([0.0, corner, 1e6]))
+    assert z[0] == pytest.approx(tau / c, rel=1e-12, abs=0.0)
+    assert np.degrees(np.angle(z[1])) == pytest.approx(-45.0, rel=1e-9, abs=0.0)
+    assert abs(z[1]) == pytest.approx(tau / c / np.sqrt(2.0), rel=1e-9, abs=0.0)
+    assert abs(z[2]) == pytest.approx(1.0 / (2.0 * np.pi * 1e6 * c), rel=1e-9, abs=0.0)
+    assert np.degrees(np.angle(z[2])) == pytest.approx(-90.0, rel=1e-6, abs=0.0)
+
+
+@given(frequency=st.floats(1e-3, 1e6))
+def test_impedance_is_resistance_beside_capacitance(frequency):
+    """1/Z = 1/R + i omega C with R = tau/C."""
+    c, tau = 1e-10, 0.5
+    admittance = 1.0 / impedance(c, tau, np.array([frequency]))[0]
+    assert admittance == pytest.approx(c / tau + 2j * np.pi * frequency * c, rel=1e-12, abs=0.0)
