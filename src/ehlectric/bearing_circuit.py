@@ -123,7 +123,7 @@ def impedance(capacitance: Array, relaxation_time: float, frequency: Array) -> A
     Examples
     --------
     >>> z = impedance(1e-10, 1.0, np.array([0.0]))
-    >>> abs(z[0])
+    >>> float(abs(z[0]))
     10000000000.0
     """
     z: Array = 1.0 / (capacitance * (2j * np.pi * frequency + 1.0 / relaxation_time))
