@@ -86,7 +86,7 @@ def contacts_table(result: BearingResult) -> Table:
     from rich.table import Table
 
     table = Table(box=None, padding=(0, 1, 0, 0))
-    heads = ("", "ring", "angle\n[deg]", "load\n[N]", "p_h\n[GPa]", "h_min\n[µm]", "h(0)\n[µm]")
+    heads = ("", "ring", "at\n[deg]", "load\n[N]", "p_h\n[GPa]", "h_min\n[µm]", "h(0)\n[µm]")
     for head in (*heads, "lambda", "C\n[pF]", "share\n[%]", "breaks\n[V]"):
         # Unescaped, a unit of small letters would be taken for a style.
         table.add_column(escape(head), justify="right", no_wrap=True)

@@ -29,8 +29,9 @@ from ehlectric.solver import solve
 from ehlectric.typing import Array
 
 # Domain of a lightly loaded contact in lengths over which its pressure builds up, before, beside and behind
-# it, and the most of it in semi-axes. It costs below 1 % of the film, or 15 % where a ball hardly presses.
-_ALONG, _ACROSS, _BEHIND, _MOST = 10.0, 4.0, 1.0, 100.0
+# it. It costs below 1 % of the film, or 15 % where a ball hardly presses. And the most that a grid holds of
+# what is before and beside, in semi-axes.
+_ALONG, _ACROSS, _BEHIND, _MOST = 10.0, 4.0, 1.0, (48.0, 24.0)
 
 # As much of rollers before and behind the contact: they cost 0.6 % of the film.
 _LINE_INLET, _LINE_OUTLET = 10.0, 2.0
@@ -125,7 +126,7 @@ def contact_case(
             "load_per_length": load / duty.geometry.roller_length,
         }
         assess: dict[str, Any] = {"length": duty.geometry.roller_length}
-        grid = _line_domain(duty, race, load / duty.geometry.roller_length)
+        grid = _line_domain(duty, race, load)
     else:
         contact |= {
             "geometry": "point",
@@ -147,29 +148,38 @@ def contact_case(
     )
 
 
-def _line_domain(duty: BearingDuty, race: Race, load: float) -> dict[str, Any]:
-    """Domain of a roller's contact at a load [N/m], long enough for the thick film of a light one too."""
-    radii = duty.radii(race.angle, inner=race.inner)
-    viscosity, alpha = duty.lubricant.viscosity, effective_alpha(duty.lubricant)
-    formula = moes(LineContact(radii.radius_x, duty.modulus, load, race.speed, viscosity, alpha))
+def _line_length(duty: BearingDuty, race: Race, load: float) -> float:
+    """Length sqrt(2 R h) over which a roller's pressure builds up, in half-widths; load in N."""
+    radius = duty.radii(race.angle, inner=race.inner).radius_x
+    assert isinstance(duty.geometry, RollerBearing)
+    width, alpha = load / duty.geometry.roller_length, effective_alpha(duty.lubricant)
+    formula = moes(LineContact(radius, duty.modulus, width, race.speed, duty.lubricant.viscosity, alpha))
     assert formula.central_thickness is not None
-    width = line_half_width(load, radii.radius_x, duty.modulus)
-    length = math.sqrt(2.0 * radii.radius_x * formula.central_thickness) / width
-    # Where a roller begins to fall away from a parabola, and what a grid takes.
-    most = min(0.5 * radii.element_x / width, 1000.0)
+    return math.sqrt(2.0 * radius * formula.central_thickness) / line_half_width(width, radius, duty.modulus)
+
+
+def _line_domain(duty: BearingDuty, race: Race, load: float) -> dict[str, Any]:
+    """Domain of a roller's contact at a load [N], long enough for the thick film of a light one too."""
+    length, most = _line_length(duty, race, load), _line_most(duty, race, load)
     inlet = max(4.0, min(_LINE_INLET * length, most))
     outlet = max(2.0, min(_LINE_OUTLET * length, most))
     # Sixteen nodes in the Hertz zone are the least that a case takes.
     nodes = max(3201, 8 * math.ceil(inlet + outlet) + 1)
-    field = [-max(1.25, min(length, inlet)), max(1.25, min(length, outlet))]
+    # The field's ends are those of a case's.
+    field = [-max(1.25, min(length, inlet, 100.0)), max(1.25, min(length, outlet, 100.0))]
     return {"inlet": -inlet, "outlet": outlet, "nodes": nodes, "field_range": field}
 
 
-def _point_domain(duty: BearingDuty, race: Race, load: float) -> dict[str, Any]:
-    """Domain and nodes of a ball's contact: as of other point contacts, wider for a light load's thick film.
+def _line_most(duty: BearingDuty, race: Race, load: float) -> float:
+    """Half-widths to where a roller begins to fall away from a parabola, or what a grid takes."""
+    radii = duty.radii(race.angle, inner=race.inner)
+    assert isinstance(duty.geometry, RollerBearing)
+    width = line_half_width(load / duty.geometry.roller_length, radii.radius_x, duty.modulus)
+    return min(0.5 * radii.element_x / width, 1000.0)
 
-    Pressure builds up where the gap is some films wide, over lengths of sqrt(2 R h).
-    """
+
+def _point_lengths(duty: BearingDuty, race: Race, load: float) -> tuple[float, float, float]:
+    """Lengths sqrt(2 R h) over which a ball's pressure builds up, in semi-axes, and the ratio of these."""
     radii = duty.radii(race.angle, inner=race.inner)
     viscosity, alpha = duty.lubricant.viscosity, effective_alpha(duty.lubricant)
     formula = nijenbanning_venner_moes(
@@ -178,13 +188,35 @@ def _point_domain(duty: BearingDuty, race: Race, load: float) -> dict[str, Any]:
     assert formula.central_thickness is not None
     dry = dry_contact(load, radii.radius_x, radii.radius_y, duty.modulus)
     along, across = (
-        float(np.sqrt(2.0 * radius * formula.central_thickness)) / axis
+        math.sqrt(2.0 * radius * formula.central_thickness) / axis
         for radius, axis in ((radii.radius_x, dry.semi_axis_x), (radii.radius_y, dry.semi_axis_y))
     )
-    inlet, outlet = max(4.5, min(_ALONG * along, _MOST)), max(1.5, min(_BEHIND * along, _MOST))
-    side = max(default_side(dry.semi_axis_y / dry.semi_axis_x), min(1.0 + _ACROSS * across, _MOST))
-    nodes = max(257, 8 * math.ceil(inlet + outlet) + 1)
+    return along, across, dry.semi_axis_y / dry.semi_axis_x
+
+
+def _point_domain(duty: BearingDuty, race: Race, load: float) -> dict[str, Any]:
+    """Domain and nodes of a ball's contact: as of other points, wider for a light load's thick film."""
+    along, across, ratio = _point_lengths(duty, race, load)
+    inlet, outlet = max(4.5, min(_ALONG * along, _MOST[0])), max(1.5, min(_BEHIND * along, 0.1 * _MOST[0]))
+    side = max(default_side(ratio), min(1.0 + _ACROSS * across, _MOST[1]))
+    nodes = max(257, 8 * math.ceil(inlet + outlet) + 1, 16 * math.ceil(side) + 1)
     return {"inlet": -inlet, "outlet": outlet, "side": side, "nodes": nodes}
+
+
+def least_load(duty: BearingDuty, race: Race) -> float:
+    """Load [N] below which a contact's film builds up over more than its domain can hold, to a third.
+
+    Lighter contacts have thicker films than this one's, so that its voltage is a lower bound of theirs.
+    """
+    for load in np.geomspace(1e-6, 1e6, 121):
+        if isinstance(duty.geometry, RollerBearing):
+            fits = _LINE_INLET * _line_length(duty, race, load) <= _line_most(duty, race, load)
+        else:
+            along, across, _ = _point_lengths(duty, race, load)
+            fits = _ALONG * along <= _MOST[0] and 1.0 + _ACROSS * across <= _MOST[1]
+        if fits:
+            return float(load)
+    return math.inf
 
 
 def solve_contact(
@@ -319,7 +351,7 @@ class ContactCurve:
     def interpolation_error(self) -> float:
         """Largest relative error at a load, were it left out, of capacitance and breakdown voltage.
 
-        That of twice the distance of the loads: about the fourth part of it is left with all of them.
+        At twice the distance of the loads it bounds what is left with all of them.
         """
         worst = 0.0
         for k in range(2 if self.light else 1, len(self.solutions) - 1):

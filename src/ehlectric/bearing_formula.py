@@ -18,7 +18,7 @@ from ehlectric.groove_gap import match_film, outside_capacitance
 from ehlectric.hertz import line_gap, line_half_width, line_max_pressure, line_pressure
 from ehlectric.hertz_point import dry_contact, point_deflection, point_pressure
 from ehlectric.point_conditions import default_side
-from ehlectric.point_formulas import PointContact, hamrock_dowson
+from ehlectric.point_formulas import PointContact, chittenden
 from ehlectric.roller_gap import RollerRace, roller_tails
 from ehlectric.stress import dielectric_strength
 from ehlectric.typing import Array
@@ -69,7 +69,7 @@ def formula_contact(
 
     Notes
     -----
-    Hamrock and Dowson (1977), doi:10.1115/1.3453074, for balls; Pan and Hamrock (1989),
+    Chittenden, Dowson, Dunn and Taylor (1985), doi:10.1098/rspa.1985.0014, for balls; Pan and Hamrock (1989),
     doi:10.1115/1.3261899, for rollers. The capacitance is that of the dry gap a central film apart, with the
     permittivity under Hertz's pressure; the largest field the voltage over the minimum film.
     """
@@ -87,7 +87,7 @@ def _ball(
     contact = PointContact(
         rx, ry, duty.modulus, load, race.speed, duty.lubricant.viscosity, effective_alpha(duty.lubricant)
     )
-    film = hamrock_dowson(contact)
+    film = chittenden(contact)
     assert film.central_thickness is not None and film.minimum_thickness is not None
     side = a * default_side(a / b)
     x, y = b * np.linspace(*_POINT, _NODES[0]), np.linspace(-side, side, _NODES[1])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -12,7 +13,7 @@ import numpy as np
 from ehlectric.ball_equilibrium import BallEquilibrium
 from ehlectric.bearing_case import BearingCase
 from ehlectric.bearing_circuit import Circuit
-from ehlectric.bearing_contacts import ContactCurve, ContactSolution, Race, solve_contact
+from ehlectric.bearing_contacts import ContactCurve, ContactSolution, Race, least_load, solve_contact
 from ehlectric.bearing_duty import BearingDuty
 from ehlectric.bearing_formula import check_formula, formula_contact
 from ehlectric.bearing_state import RaceState, race_state
@@ -115,7 +116,7 @@ def solve_bearing(
     duty = BearingDuty.of(case)
     equilibria = duty.equilibria(case.bearing, POSITIONS)
     races = [_race(duty, equilibria, inner=inner) for inner in (True, False)]
-    loads = [_loads(equilibria, inner=race.inner) for race in races]
+    loads = [_loads(equilibria, least_load(duty, race), inner=race.inner) for race in races]
     given = case.bearing, duty
     tasks = [
         partial(formula_contact, *given, race, load, case.discharge)
@@ -161,16 +162,16 @@ def _race(duty: BearingDuty, equilibria: Sequence[Equilibrium], *, inner: bool) 
     return Race(inner, angle, speed * duty.entrainment_factor)
 
 
-def _loads(equilibria: Sequence[Equilibrium], *, inner: bool) -> list[float]:
-    """Loads to solve, evenly in their logarithm [N]."""
+def _loads(equilibria: Sequence[Equilibrium], lightest: float, *, inner: bool) -> list[float]:
+    """Loads to solve [N], evenly in their logarithm, and one below them that is not below ``lightest``."""
     all_loads = np.concatenate([at.inner_load if inner else at.outer_load for at in equilibria])
     largest = float(np.max(all_loads))
     least = float(np.min(all_loads[all_loads >= _LEAST * largest]))
     loads = np.geomspace(least, largest, LOADS) if largest / least > _ALIKE else np.array([largest])
     # Elements that their centrifugal force alone presses outward have a film of their own.
     light = all_loads[(all_loads > 0.0) & (all_loads < _LEAST * largest)]
-    lightest = [max(float(np.min(light)), _LIGHTEST * largest)] if light.size else []
-    return lightest + [float(load) for load in loads]
+    own = max(float(np.min(light)), _LIGHTEST * largest, lightest) if light.size else math.inf
+    return [own] * (own < 0.5 * float(loads[0])) + [float(load) for load in loads]
 
 
 def _curve(solutions: Sequence[ContactSolution]) -> ContactCurve:

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 _NAME = r"[A-Za-zµμΩ°]+(?:(?:\*\*|\^)?[-+]?[1-9]|²|³)?"
 _UNIT = re.compile(rf"(?:1?\s*/\s*)?{_NAME}(?:(?:\s*[*/·]\s*|\s+){_NAME})*")
 _EXPONENT = re.compile(r"(?<=[A-Za-zµμΩ°])(?:\*\*|\^)?([-+]?[1-9])")
+_ANGLE = re.compile("rad|rpm|rev|turn|deg")
 _NUMBER_AND_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*")
 
 
@@ -94,6 +95,9 @@ def _factor(written: str, unit: str) -> float:
 
     if _UNIT.fullmatch(written) is None:
         raise ValueError(f"{shown(written)} is not a unit")
+    if unit == "rad/s" and _ANGLE.search(written) is None:
+        # Angles are dimensionless: 50 Hz would be 50 rad/s.
+        raise ValueError(f"{written} is a frequency and leaves open what turns, takes rpm, rad/s or deg/s")
     plain = _EXPONENT.sub(r"**\1", written).removeprefix("1").lstrip()
     expression = f"1{plain}" if plain.startswith("/") else plain
     try:

@@ -72,6 +72,7 @@ def test_a_bearing(ehlectric, bearing_file, tmp_path):
         assert (row["max_pressure"] == "") == (same["max_pressure"] is None)
 
 
+@pytest.mark.slow
 def test_json_on_request(ehlectric, bearing_file, tmp_path):
     done = ehlectric("bearing", bearing_file, "-o", "out", "--json", "-q")
     assert done.returncode == 0, done.stderr

@@ -19,6 +19,7 @@ from ehlectric.bearing_duty import BearingDuty
 from ehlectric.bearing_state import race_state
 from ehlectric.groove_gap import groove_capacitance, match_film, outside_capacitance
 from ehlectric.hertz_point import dry_contact
+from ehlectric.point_conditions import resolve_point
 from ehlectric.roller_gap import RollerRace, roller_capacitance, roller_tails
 from tests.bearings import BALLS, ROLLERS, bearing_case
 
@@ -126,9 +127,7 @@ def test_a_rollers_capacitance_does_not_depend_on_where_its_film_ends(load):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("load", "film", "whole"), [(3.3, 0.2, 0.03), (20.0, 0.01, 0.01), (200.0, 0.01, 0.01)]
-)
+@pytest.mark.parametrize(("load", "film", "whole"), [(3.3, 0.2, 0.03), (20.0, 0.01, 0.01)])
 def test_a_balls_film_in_a_domain_twice_as_large(load, film, whole):
     """The film of balls that hardly press builds up far ahead: the domain costs less than these parts."""
     bearing, duty, discharge, solver = of(BALLS)
@@ -165,7 +164,7 @@ def test_a_balls_capacitance_falls_with_speed():
 
     The Hertz part is extrapolated from two grids, since the thinner film has the larger error.
     """
-    speeds = SPEED * np.array([1.0, 2.0, 4.0])
+    speeds = SPEED * np.array([1.0, 4.0])
     hertz, whole = [], []
     bearing, duty, discharge, solver = of(BALLS)
     for speed in speeds:
@@ -220,6 +219,16 @@ def test_between_its_loads_a_curve_is_as_good_as_it_says(rollers):
             error = abs(found / getattr(between, name) - 1.0)
             assert error < rollers.interpolation_error, (name, between.load)
     assert rollers.interpolation_error < 0.05
+
+
+@pytest.mark.parametrize("inner", [True, False])
+def test_a_6208_is_where_its_contacts_are_known_to_be(inner):
+    """M of 1300 to 10 000 and L of 11 to 23 at 870 N, estimated apart from this package."""
+    _, duty, discharge, solver = of(BALLS)
+    case = contact_case(duty, Race(inner, 0.0, SPEED), 870.0, discharge, solver)
+    formulas = resolve_point(case).formulas
+    assert 1300.0 < formulas.moes_m < 10_000.0
+    assert 11.0 < formulas.moes_l < 23.0
 
 
 def powers(loads, light=False):
