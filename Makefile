@@ -14,7 +14,7 @@ export PIP_DISABLE_PIP_VERSION_CHECK := 1
 help:
 	@echo "make run     install and solve the example, with figures"
 	@echo "make test    install and run the tests"
-	@echo "make slow    run the long tests, and add to the coverage that make check measured"
+	@echo "make slow    run the long tests"
 	@echo "make check   format, lint, types, import contract and tests"
 	@echo "make lint    the same without the tests"
 	@echo "make format  format the code"
@@ -52,7 +52,7 @@ test: $(VENV)/.test
 	$(BIN)/python -m pytest
 
 slow: $(VENV)/.test
-	$(BIN)/python -m pytest -m slow --cov --cov-append --cov-report=term
+	$(BIN)/python -m pytest -m slow
 
 lint: $(VENV)/.dev
 	$(BIN)/ruff format --check .
