@@ -38,7 +38,7 @@ class Sweep(Table):
     --------
     >>> contact = {"reduced_radius": "14.1 mm", "reduced_modulus": "226 GPa"}
     >>> contact |= {"max_hertz_pressure": "1 GPa", "entrainment_speed": "4 m/s"}
-    >>> case = Case.from_dict({"contact": contact, "lubricant": {"base": "paper"}})
+    >>> case = case_of_dict({"contact": contact, "lubricant": {"base": "paper"}})
     >>> vary = {"contact.entrainment_speed": ["1 m/s", "2 m/s"], "grid.nodes": [1601, 3201]}
     >>> sweep = Sweep.from_dict({"case": case, "vary": vary})
     >>> sweep.size, list(sweep.points())[1]
