@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from ehlectric.bearing_case import BearingCase
-from ehlectric.case import Case
+from ehlectric.case import Case, find_files
 from ehlectric.validation import read_toml
 
 AnyCase = Case | BearingCase
@@ -32,4 +32,6 @@ def case_of_file(path: str | Path) -> AnyCase:
     InputError
         Where it cannot be read, is not TOML, or is neither.
     """
-    return BearingCase.from_toml(path) if "bearing" in read_toml(path) else Case.from_toml(path)
+    table = read_toml(path)
+    find_files(table, Path(path).parent)
+    return case_of_dict(table)

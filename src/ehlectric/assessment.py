@@ -215,7 +215,7 @@ def _breakdown(given: Discharge, stress: Stress, voltage: float, size: _Size) ->
             "breakdown_voltage_high": weakest.voltage(0.95),
             "probability": weakest.probability(voltage),
         }
-    elif given.dielectric_strength is not None or given.strength_table is not None:
+    elif given.has_strength:
         table = given.strength_table
         breaks = breakdown_voltage(voltage, stress.strength, stress.withstood)
         found |= {

@@ -6,7 +6,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ehlectric.typing import Array
+from ehlectric.typing import Array, Mask
+
+
+def series(first: Array, second: Array) -> Array:
+    """Capacitance of two in series, C1 C2/(C1 + C2) [F].
+
+    Examples
+    --------
+    >>> float(series(np.array(2e-10), np.array(2e-10)))
+    1e-10
+    """
+    return first * second / (first + second)
 
 
 @dataclass(frozen=True)
@@ -38,7 +49,7 @@ class Circuit:
     @property
     def elements(self) -> Array:
         """Capacitance of each element from ring to ring [F]."""
-        return self.inner * self.outer / (self.inner + self.outer)
+        return series(self.inner, self.outer)
 
     @property
     def capacitance(self) -> float:
@@ -51,10 +62,24 @@ class Circuit:
         return self.outer / (self.inner + self.outer)
 
     @property
+    def inner_breaks(self) -> Array:
+        """Bearing voltages at which the inner contacts break down, their partners being whole [V]."""
+        return self.inner_strength / self.inner_share
+
+    @property
+    def outer_breaks(self) -> Array:
+        """As much of the outer contacts [V]."""
+        return self.outer_strength / (1.0 - self.inner_share)
+
+    @property
+    def inner_first(self) -> Mask:
+        """Whether the inner contact of each element breaks down before the outer one, or with it."""
+        return self.inner_breaks <= self.outer_breaks
+
+    @property
     def first_breaks(self) -> Array:
         """Bearing voltages at which the first contact of each element breaks down [V]."""
-        share = self.inner_share
-        return np.minimum(self.inner_strength / share, self.outer_strength / (1.0 - share))
+        return np.minimum(self.inner_breaks, self.outer_breaks)
 
     @property
     def through_breaks(self) -> Array:
@@ -62,9 +87,7 @@ class Circuit:
 
         When the first one has broken down the other carries all of the voltage.
         """
-        share = self.inner_share
-        inner_first = self.inner_strength / share <= self.outer_strength / (1.0 - share)
-        remaining = np.where(inner_first, self.outer_strength, self.inner_strength)
+        remaining = np.where(self.inner_first, self.outer_strength, self.inner_strength)
         return np.maximum(self.first_breaks, remaining)
 
     @property

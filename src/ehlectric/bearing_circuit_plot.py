@@ -11,8 +11,8 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from ehlectric.bearing_circuit import leaking_admittance
 from ehlectric.bearing_result import BearingResult
-from ehlectric.drawing import BLUE, GREEN, GREY, ORANGE, axes_or_new, unit_for
-from ehlectric.sweep_drawing import is_wide, legend_above, round_numbers
+from ehlectric.drawing import BLUE, GREEN, GREY, ORANGE, axes_or_new, legend_above, unit_for
+from ehlectric.sweep_drawing import is_wide, round_numbers
 from ehlectric.typing import Array
 
 # How voltages of the whole bearing look in all figures. They are often equal: the one below is the wider.
@@ -53,7 +53,7 @@ def contact_capacitances(result: BearingResult, ax: Axes | None = None) -> Axes:
     ax.set_title(f"bearing: {total * circuit.capacitance:.4g} {of}, {fill} around the films", loc="right")
     ax.set_ylabel(f"capacitance\n[{unit}]")
     _elements(result, ax)
-    legend_above(ax, ax.get_legend_handles_labels()[0])
+    legend_above(ax)
     return ax
 
 
@@ -80,7 +80,7 @@ def voltage_shares(result: BearingResult, ax: Axes | None = None) -> Axes:
     ax.axhline(50.0, color="white", lw=0.8, ls=":")
     ax.set(ylim=(0.0, 100.0), ylabel="share of the\nvoltage [%]")
     _elements(result, ax)
-    legend_above(ax, ax.get_legend_handles_labels()[0])
+    legend_above(ax)
     return ax
 
 
@@ -102,8 +102,8 @@ def breakdown_voltages(result: BearingResult, ax: Axes | None = None) -> Axes:
     """
     ax = axes_or_new(ax)
     circuit = result.circuits(result.solution.case.bearing.fill)[0]
-    at, share = np.arange(circuit.inner.size), circuit.inner_share
-    inner, outer = circuit.inner_strength / share, circuit.outer_strength / (1.0 - share)
+    at = np.arange(circuit.inner.size)
+    inner, outer = circuit.inner_breaks, circuit.outer_breaks
     marks: dict[str, Any] = {"ls": "none", "ms": 6.0, "zorder": 4.0}
     ax.plot(at - 0.12, inner, marker="o", color=BLUE, label="inner contact", **marks)
     ax.plot(at + 0.12, outer, marker="s", color=ORANGE, label="outer contact", **marks)
@@ -120,7 +120,7 @@ def breakdown_voltages(result: BearingResult, ax: Axes | None = None) -> Axes:
         ax.set_ylim(0.0, 1.15 * np.max(everything))
     ax.set_ylabel("bearing voltage at\nbreakdown [V]")
     _elements(result, ax)
-    legend_above(ax, ax.get_legend_handles_labels()[0], columns=3)
+    legend_above(ax, columns=3)
     return ax
 
 
@@ -217,7 +217,7 @@ def _impedance(result: BearingResult) -> tuple[Array, Array, float]:
 def _corner(ax: Axes, corner: float) -> None:
     label = f"corner of the oil $1/(2\\pi\\tau)$ = {corner:.3g} Hz"
     ax.axvline(corner, color=GREY, lw=0.9, ls="--", label=label)
-    legend_above(ax, ax.get_legend_handles_labels()[0])
+    legend_above(ax)
 
 
 def capacitance_over_pitch(result: BearingResult, ax: Axes | None = None) -> Axes:
@@ -244,7 +244,7 @@ def capacitance_over_pitch(result: BearingResult, ax: Axes | None = None) -> Axe
         _over_pitch(result, ax, factor * values, label, {"color": color})
     ax.set_ylim(0.0, 1.15 * factor * float(np.max(oil)))
     ax.set_ylabel(f"capacitance [{unit}]")
-    legend_above(ax, ax.get_legend_handles_labels()[0])
+    legend_above(ax)
     return ax
 
 
@@ -274,7 +274,7 @@ def breakdown_over_pitch(result: BearingResult, ax: Axes | None = None) -> Axes:
         ax.axhline(shaft, label=f"shaft voltage, {shaft:.3g} V", **SHAFT)
     ax.set_ylim(0.0, 1.15 * max(float(np.max(through)), shaft or 0.0))
     ax.set_ylabel("bearing voltage [V]")
-    legend_above(ax, ax.get_legend_handles_labels()[0])
+    legend_above(ax)
     return ax
 
 

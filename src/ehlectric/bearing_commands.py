@@ -4,18 +4,16 @@ from __future__ import annotations
 
 import csv
 import json
+import math
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
-import numpy as np
 import typer
 
 from ehlectric.terminal import NOT_CONVERGED, print_table, progress_bar, user_errors, warn
 
 if TYPE_CHECKING:
     from rich.table import Table
-
-    from ehlectric.bearing_result import BearingResult
 
 SUMMARY, CONTACTS = "summary.json", "contacts.csv"
 
@@ -58,10 +56,9 @@ def bearing(
         with whole(folder / SUMMARY) as beside:
             beside.write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
         with whole(folder / CONTACTS) as beside, beside.open("w", encoding="utf-8", newline="") as file:
-            rows = result.contacts()
-            writer = csv.DictWriter(file, list(rows[0]))
+            writer = csv.DictWriter(file, list(summary["contacts"][0]))
             writer.writeheader()
-            writer.writerows(rows)
+            writer.writerows(summary["contacts"])
         files = [folder / SUMMARY, folder / CONTACTS]
         if plots:
             from ehlectric.bearing_plot import save_bearing_figures
@@ -70,17 +67,17 @@ def bearing(
     if as_json:
         typer.echo(json.dumps(summary, indent=2))
     elif not quiet:
-        print_table(contacts_table(result))
-        print_table(bearing_table(result))
+        print_table(contacts_table(summary))
+        print_table(bearing_table(summary))
         typer.echo("written: " + ", ".join(str(path) for path in files))
     if not quiet:
-        warn(result.warnings())
+        warn(summary["warnings"])
     if not result.converged:
         typer.echo("error: not converged: a contact of the bearing", err=True)
         raise typer.Exit(NOT_CONVERGED)
 
 
-def contacts_table(result: BearingResult) -> Table:
+def contacts_table(summary: dict[str, Any]) -> Table:
     """A row for every element and ring."""
     from rich.markup import escape
     from rich.table import Table
@@ -90,12 +87,12 @@ def contacts_table(result: BearingResult) -> Table:
     for head in (*heads, "lambda", "C\n[pF]", "share\n[%]", "breaks\n[V]"):
         # Unescaped, a unit of small letters would be taken for a style.
         table.add_column(escape(head), justify="right", no_wrap=True)
-    for row in result.contacts():
+    for row in summary["contacts"]:
         pressure, breaks = row["max_pressure"], row["breakdown_voltage"]
         table.add_row(
             str(row["element"]),
             row["ring"],
-            f"{np.degrees(row['position']):.0f}",
+            f"{math.degrees(row['position']):.0f}",
             f"{row['load']:.4g}",
             "" if pressure is None else f"{pressure / 1e9:.3f}",
             f"{row['minimum_thickness'] * 1e6:.4g}",
@@ -108,13 +105,13 @@ def contacts_table(result: BearingResult) -> Table:
     return table
 
 
-def bearing_table(result: BearingResult) -> Table:
+def bearing_table(summary: dict[str, Any]) -> Table:
     """The totals of a bearing."""
     from ehlectric.report import plain_table
 
-    found = result.summary()["bearing"]
-    table = plain_table(result.solution.case.title)
-    factor = result.solution.case.bearing.film_factor
+    found = summary["bearing"]
+    table = plain_table(summary["title"])
+    factor = summary["inputs"]["bearing"]["film_factor"]
     rows = (
         ("capacitance", "capacitance", 1e12, "pF, contacts " + found["contacts"]),
         ("  all in oil", "capacitance_oil", 1e12, "pF"),
@@ -137,5 +134,5 @@ def bearing_table(result: BearingResult) -> Table:
             table.add_row(name, f"{found[key] * scale:.4g}", unit)
     if found["first_break_at"] is not None:
         table.add_row("breaks first", "", found["first_break_at"])
-    table.add_row("time", f"{result.solution.seconds:.3g}", "s")
+    table.add_row("time", f"{summary['seconds']:.3g}", "s")
     return table

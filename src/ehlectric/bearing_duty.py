@@ -13,6 +13,7 @@ from ehlectric.ball_equilibrium import BallEquilibrium, ball_equilibrium
 from ehlectric.bearing_case import BearingCase
 from ehlectric.bearing_geometry import BallBearing, ContactRadii, RollerBearing
 from ehlectric.bearing_inputs import ROLLERS, Bearing
+from ehlectric.bearing_kinematics import rolling_speeds
 from ehlectric.errors import InputError
 from ehlectric.inputs import Lubricant
 from ehlectric.oil_temperature import inlet_shear_factor
@@ -155,7 +156,11 @@ def _film_factor(case: BearingCase, geometry: BallBearing | RollerBearing, lubri
     assert oil is not None and oil.thermal_conductivity is not None
     # The speed of pure rolling at the free contact angle: it hardly changes with the loaded one.
     angle = geometry.free_angle if isinstance(geometry, BallBearing) else 0.0
-    ratio = case.bearing.element_diameter * math.cos(angle) / case.bearing.pitch_diameter
-    speed = 0.25 * case.bearing.inner_speed * case.bearing.pitch_diameter * (1.0 - ratio**2)
+    bearing = case.bearing
+    speeds = rolling_speeds(
+        bearing.element_diameter, bearing.pitch_diameter, bearing.inner_speed, contact_angle=angle
+    )
     slope = case.lubricant.walther().slope(case.bearing.temperature) + oil.expansion
-    return inlet_shear_factor(lubricant.viscosity, slope, speed, oil.thermal_conductivity)
+    return inlet_shear_factor(
+        lubricant.viscosity, slope, float(speeds.inner_entrainment), oil.thermal_conductivity
+    )

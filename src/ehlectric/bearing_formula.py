@@ -5,21 +5,20 @@ from __future__ import annotations
 import numpy as np
 from scipy.constants import epsilon_0
 
-from ehlectric.bearing_contacts import ContactSolution, Race, raceway_of
+from ehlectric.bearing_contacts import ContactSolution
 from ehlectric.bearing_duty import BearingDuty
 from ehlectric.bearing_geometry import RollerBearing
 from ehlectric.bearing_inputs import Bearing
-from ehlectric.conditions import density_law, effective_alpha, permittivity_law
+from ehlectric.bearing_race import Race, around_ball, around_roller, line_contact, point_contact
+from ehlectric.conditions import density_law, permittivity_law
 from ehlectric.discharge_inputs import Discharge
 from ehlectric.domain import areas
 from ehlectric.errors import InputError
-from ehlectric.film_formulas import LineContact, pan_hamrock
-from ehlectric.groove_gap import match_film, outside_capacitance
+from ehlectric.film_formulas import pan_hamrock
 from ehlectric.hertz import line_gap, line_half_width, line_max_pressure, line_pressure
 from ehlectric.hertz_point import dry_contact, point_deflection, point_pressure
 from ehlectric.point_conditions import default_side
-from ehlectric.point_formulas import PointContact, chittenden
-from ehlectric.roller_gap import RollerRace, roller_tails
+from ehlectric.point_formulas import chittenden
 from ehlectric.stress import dielectric_strength
 from ehlectric.typing import Array
 
@@ -73,20 +72,18 @@ def formula_contact(
     doi:10.1115/1.3261899, for rollers. The capacitance is that of the dry gap a central film apart, with the
     permittivity under Hertz's pressure; the largest field the voltage over the minimum film.
     """
-    rollers = isinstance(duty.geometry, RollerBearing)
-    return (_roller if rollers else _ball)(bearing, duty, race, load, discharge)
+    if isinstance(duty.geometry, RollerBearing):
+        return _roller(duty, race, load, discharge)
+    return _ball(bearing, duty, race, load, discharge)
 
 
 def _ball(
     bearing: Bearing, duty: BearingDuty, race: Race, load: float, discharge: Discharge
 ) -> ContactSolution:
-    radii = duty.radii(race.angle, inner=race.inner)
-    rx, ry = radii.radius_x, radii.radius_y
+    contact = point_contact(duty, race, load)
+    rx, ry = contact.radius_x, contact.radius_y
     dry = dry_contact(load, rx, ry, duty.modulus)
     b, a = dry.semi_axis_x, dry.semi_axis_y
-    contact = PointContact(
-        rx, ry, duty.modulus, load, race.speed, duty.lubricant.viscosity, effective_alpha(duty.lubricant)
-    )
     film = chittenden(contact)
     assert film.central_thickness is not None and film.minimum_thickness is not None
     side = a * default_side(a / b)
@@ -97,12 +94,7 @@ def _ball(
         0.0, at_x**2 / (2.0 * rx) + at_y**2 / (2.0 * ry) + opened - dry.approach
     )
     pressure = dry.max_pressure * point_pressure(at_x / b, at_y / b, a / b)
-    rim = np.ones_like(gap, dtype=bool)
-    rim[1:-1, 1:-1] = False
-    places = np.meshgrid(x, y, indexing="ij")
-    raceway = raceway_of(bearing, race)
-    around = match_film(raceway, dry, duty.modulus, places[0][rim], places[1][rim], gap[rim])
-    outside = outside_capacitance(raceway, around, (float(x[0]), float(x[-1]), side))
+    outside, mismatch = around_ball(bearing, contact, race, (x, y), gap)
     return _solution(
         duty,
         discharge,
@@ -114,28 +106,20 @@ def _ball(
         outside=outside,
         area=np.pi * a * b,
         moes=(contact.moes_m, contact.moes_l),
-        mismatch=around.mismatch,
+        mismatch=mismatch,
     )
 
 
-def _roller(
-    bearing: Bearing, duty: BearingDuty, race: Race, load: float, discharge: Discharge
-) -> ContactSolution:
-    assert isinstance(duty.geometry, RollerBearing) and bearing.roller_length is not None
-    radii, length = duty.radii(0.0, inner=race.inner), bearing.roller_length
-    radius, line = radii.radius_x, load / length
+def _roller(duty: BearingDuty, race: Race, load: float, discharge: Discharge) -> ContactSolution:
+    assert isinstance(duty.geometry, RollerBearing)
+    contact, length = line_contact(duty, race, load), duty.geometry.roller_length
+    line, radius = contact.load_per_length, contact.reduced_radius
     b = line_half_width(line, radius, duty.modulus)
-    contact = LineContact(
-        radius, duty.modulus, line, race.speed, duty.lubricant.viscosity, effective_alpha(duty.lubricant)
-    )
     film = pan_hamrock(contact)
     assert film.central_thickness is not None and film.minimum_thickness is not None
     x = np.linspace(*_LINE, _LINE_NODES)
     gap = film.central_thickness + b**2 / radius * line_gap(x)
     highest = line_max_pressure(line, radius, duty.modulus)
-    race_of = RollerRace(radii.element_x, abs(radii.ring_x), outer=not race.inner)
-    ends = (b * _LINE[0], b * _LINE[1])
-    tails = roller_tails(race_of, b, ends, (float(gap[0]), float(gap[-1])))
     inside = np.vdot(areas((b * x,)), _permittivity(duty, highest * line_pressure(x)) / gap)
     return _solution(
         duty,
@@ -145,7 +129,7 @@ def _roller(
         semi_axes=(b, 0.5 * length),
         films=(film.minimum_thickness, film.central_thickness),
         inside=length * float(inside),
-        outside=length * sum(tails),
+        outside=around_roller(duty, race, b, b * x, gap),
         area=2.0 * b * length,
         moes=(contact.moes_m, contact.moes_l),
         mismatch=0.0,
@@ -173,7 +157,6 @@ def _solution(
     mismatch: float,
 ) -> ContactSolution:
     """What the formulas of either contact give; integrals of eps_r dA/h and dA/h are not yet times eps0."""
-    given = discharge.dielectric_strength is not None or discharge.strength_table is not None
     strength = float(dielectric_strength(discharge, np.zeros(1))[0])
     eps_r = duty.lubricant.relative_permittivity
     return ContactSolution(
@@ -187,7 +170,7 @@ def _solution(
         outside_oil=outside * eps_r,
         outside_air=outside,
         plate=epsilon_0 * eps_r * area / films[1],
-        breakdown_voltage=strength * films[0] if given else np.inf,
+        breakdown_voltage=strength * films[0] if discharge.has_strength else np.inf,
         error=None,
         moes_m=moes[0],
         moes_l=moes[1],

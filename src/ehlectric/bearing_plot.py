@@ -5,7 +5,6 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -22,8 +21,8 @@ from ehlectric.bearing_circuit_plot import (
 from ehlectric.bearing_polar import film_around, load_around, new_polar
 from ehlectric.bearing_result import BearingResult
 from ehlectric.bearing_speed_plot import Speeds, breakdown_over_speed, breaks_anywhere, capacitance_over_speed
-from ehlectric.drawing import figure_of, new_panels, style
-from ehlectric.store import BEARING_FIGURE_FILES, SPEED_FIGURE_FILES, whole
+from ehlectric.drawing import figure_of, name_over, new_panels, save_figure, style
+from ehlectric.store import BEARING_FIGURE_FILES, SPEED_FIGURE_FILES
 
 Draw = Callable[[BearingResult, Axes], Axes]
 
@@ -120,12 +119,10 @@ def _share_below(axes: Sequence[Axes]) -> None:
 
 
 def _save(ax: Axes, title: str, path: Path, *, converged: bool) -> Path:
-    how: dict[str, Any] = {} if converged else {"color": "red", "weight": "bold"}
     text = title if converged else f"NOT CONVERGED\n{title}"
     if text:
-        figure_of(ax).suptitle(text, x=0.01, ha="left", size=9.0, parse_math=False, **how)
-    with whole(path) as beside:
-        figure_of(ax).savefig(beside)
+        name_over(ax, text, converged=converged)
+    save_figure(ax, path)
     return path
 
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ehlectric.ball_equilibrium import BallEquilibrium
-from ehlectric.bearing_circuit import Circuit, bearing_voltage_ratio
+from ehlectric.bearing_circuit import Circuit, bearing_voltage_ratio, series
 from ehlectric.bearing_solver import BearingSolution
 from ehlectric.discharge import relaxation_time
 from ehlectric.solution import plain
@@ -122,7 +122,7 @@ class BearingResult:
         for position in self.solution.positions:
             inner, outer = position.inner.plate, position.outer.plate
             loaded = (inner > 0.0) & (outer > 0.0)
-            totals.append(float(np.sum(inner[loaded] * outer[loaded] / (inner + outer)[loaded])))
+            totals.append(float(np.sum(series(inner[loaded], outer[loaded]))))
         return float(np.mean(totals))
 
     def warnings(self) -> list[str]:
@@ -191,7 +191,7 @@ class BearingResult:
         solution = self.solution
         case, duty, at = solution.case, solution.duty, solution.positions[0].equilibrium
         fill = case.bearing.fill
-        capacitance = self.capacitance(fill)
+        capacitance, plate = self.capacitance(fill), self.plate()
         curves = (solution.inner_curve, solution.outer_curve)
         errors = [contact.error for curve in curves for contact in curve.solutions]
         known = [error for error in errors if error is not None]
@@ -212,8 +212,8 @@ class BearingResult:
                 "capacitance": capacitance,
                 "capacitance_oil": self.capacitance("oil"),
                 "capacitance_air": self.capacitance("air"),
-                "capacitance_plate": self.plate(),
-                "capacitance_ratio": capacitance / self.plate(),
+                "capacitance_plate": plate,
+                "capacitance_ratio": capacitance / plate,
                 "lambda_ratio": self.lambda_ratio,
                 "lubrication": self.lubrication,
                 "film_factor": duty.film_factor,
@@ -249,6 +249,4 @@ def _largest(values: Array | None) -> float | None:
 def _weakest(circuit: Circuit) -> str:
     """Which contact of which element breaks first."""
     k = int(np.argmin(circuit.first_breaks))
-    share = circuit.inner_share[k]
-    inner = circuit.inner_strength[k] / share <= circuit.outer_strength[k] / (1.0 - share)
-    return f"{'inner' if inner else 'outer'} contact of element {k}"
+    return f"{'inner' if circuit.inner_first[k] else 'outer'} contact of element {k}"

@@ -13,9 +13,11 @@ import numpy as np
 from ehlectric.ball_equilibrium import BallEquilibrium
 from ehlectric.bearing_case import BearingCase
 from ehlectric.bearing_circuit import Circuit
-from ehlectric.bearing_contacts import ContactCurve, ContactSolution, Race, least_load, solve_contact
+from ehlectric.bearing_contacts import ContactCurve, ContactSolution, solve_contact
+from ehlectric.bearing_domain import least_load
 from ehlectric.bearing_duty import BearingDuty
 from ehlectric.bearing_formula import check_formula, formula_contact
+from ehlectric.bearing_race import Race
 from ehlectric.bearing_state import RaceState, race_state
 from ehlectric.roller_equilibrium import RollerEquilibrium
 from ehlectric.workers import cores, run_all
@@ -171,7 +173,8 @@ def _loads(equilibria: Sequence[Equilibrium], lightest: float, *, inner: bool) -
     # Elements that their centrifugal force alone presses outward have a film of their own.
     light = all_loads[(all_loads > 0.0) & (all_loads < _LEAST * largest)]
     own = max(float(np.min(light)), _LIGHTEST * largest, lightest) if light.size else math.inf
-    return [own] * (own < 0.5 * float(loads[0])) + [float(load) for load in loads]
+    apart = own < 0.5 * float(loads[0])
+    return [*([own] if apart else []), *(float(load) for load in loads)]
 
 
 def _curve(solutions: Sequence[ContactSolution]) -> ContactCurve:

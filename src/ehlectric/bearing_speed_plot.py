@@ -9,8 +9,8 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ehlectric.bearing_circuit_plot import FIRST, SHAFT, THROUGH
-from ehlectric.drawing import BLUE, GREY, ORANGE, axes_or_new, unit_for
-from ehlectric.sweep_drawing import is_wide, legend_above, scale_axis
+from ehlectric.drawing import BLUE, GREY, ORANGE, axes_or_new, legend_above, unit_for
+from ehlectric.sweep_drawing import is_wide, scale_axis
 from ehlectric.typing import Array, Mask
 
 # Speed of the inner ring [rad/s], and the summary at it.
@@ -50,7 +50,7 @@ def capacitance_over_speed(points: Speeds, ax: Axes | None = None) -> Axes:
     if not log:
         ax.set_ylim(0.0, 1.1 * float(np.nanmax(everything)))
     _lubrication(points, ax, speed)
-    legend_above(ax, ax.get_legend_handles_labels()[0])
+    legend_above(ax)
     return ax
 
 
@@ -88,7 +88,7 @@ def breakdown_over_speed(points: Speeds, ax: Axes | None = None) -> Axes:
     if not log:
         ax.set_ylim(0.0, 1.1 * float(np.nanmax(everything)))
     _lubrication(points, ax, speed)
-    legend_above(ax, ax.get_legend_handles_labels()[0])
+    legend_above(ax)
     return ax
 
 

@@ -6,13 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ehlectric.bearing_contacts import ContactCurve, Race, raceway_of
+from ehlectric.bearing_contacts import ContactCurve
 from ehlectric.bearing_duty import BearingDuty
 from ehlectric.bearing_geometry import RollerBearing
 from ehlectric.bearing_inputs import Bearing
+from ehlectric.bearing_race import Race, rigid_capacitance
 from ehlectric.discharge_inputs import Discharge
-from ehlectric.groove_gap import groove_capacitance
-from ehlectric.roller_gap import RollerRace, roller_capacitance
 from ehlectric.stress import dielectric_strength
 from ehlectric.typing import Array, Mask
 
@@ -99,26 +98,16 @@ def race_state(
     # Lighter loads than any that was solved have its film, but their own dry contact.
     lighter = np.minimum(1.0, load / curve.solutions[0].load)
     rollers = isinstance(duty.geometry, RollerBearing)
-    found["max_pressure"] *= lighter ** (1.0 / 2.0 if rollers else 1.0 / 3.0)
-    found["semi_axis_x"] *= lighter ** (1.0 / 2.0 if rollers else 1.0 / 3.0)
-    found["semi_axis_y"] *= 1.0 if rollers else lighter ** (1.0 / 3.0)
+    power = 1.0 / 2.0 if rollers else 1.0 / 3.0
+    for name in ("max_pressure", "semi_axis_x", *(() if rollers else ("semi_axis_y",))):
+        found[name] *= lighter**power
     strength = float(dielectric_strength(discharge, np.zeros(1))[0])
-    known = discharge.dielectric_strength is not None or discharge.strength_table is not None
     for k in np.flatnonzero(~solved):
         # No gap is narrower than the film that the lightest load leaves.
         apart = max(float(gap[k]), curve.solutions[0].central_thickness)
-        vacuum = _rigid(bearing, duty, race, apart)
+        vacuum = rigid_capacitance(bearing, duty, race, apart)
         found["minimum_thickness"][k] = found["central_thickness"][k] = apart
         found["outside_oil"][k] = vacuum * duty.lubricant.relative_permittivity
         found["outside_air"][k] = vacuum
-        found["breakdown_voltage"][k] = strength * apart if known else np.inf
+        found["breakdown_voltage"][k] = strength * apart if discharge.has_strength else np.inf
     return RaceState(load=load, gap=gap, solved=solved, **found)
-
-
-def _rigid(bearing: Bearing, duty: BearingDuty, race: Race, gap: float) -> float:
-    """Capacitance of rigid bodies a gap apart, in vacuum [F]."""
-    if isinstance(duty.geometry, RollerBearing):
-        radii = duty.radii(0.0, inner=race.inner)
-        around = RollerRace(radii.element_x, abs(radii.ring_x), outer=not race.inner)
-        return duty.geometry.roller_length * roller_capacitance(around, gap)
-    return groove_capacitance(raceway_of(bearing, race), gap)

@@ -101,6 +101,11 @@ class Discharge(Table):
     ) = None
     pit: Pit | None = None
 
+    @property
+    def has_strength(self) -> bool:
+        """Whether there is a strength that a field reaches or not: a constant or a table of it."""
+        return self.dielectric_strength is not None or self.strength_table is not None
+
     @model_validator(mode="after")
     def _check(self) -> Self:
         names = [row[0] for row in STRENGTHS]

@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from pathlib import Path
 from typing import Any
 
 import matplotlib as mpl
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from ehlectric.point_result import PointResult
 from ehlectric.result import Result
+from ehlectric.store import whole
 from ehlectric.typing import Array
 
 _PREFIXES = {1e9: "G", 1e6: "M", 1e3: "k", 1.0: "", 1e-3: "m", 1e-6: "µ", 1e-9: "n", 1e-12: "p"}
@@ -21,6 +24,9 @@ _PREFIXES = {1e9: "G", 1e6: "M", 1e3: "k", 1.0: "", 1e-3: "m", 1e-6: "µ", 1e-9:
 # Colours that stay apart in print and for colour-blind readers (Okabe and Ito).
 BLUE, ORANGE, GREEN, GREY = "#0072b2", "#d55e00", "#009e73", "#555555"
 BODY, OIL = "#c9ced6", "#fff1cc"
+
+# How the title of what is no solution is written.
+NOT_CONVERGED: dict[str, Any] = {"color": "red", "weight": "bold"}
 
 _STYLE: dict[str, Any] = {
     "font.size": 9.0,
@@ -61,6 +67,33 @@ def figure_of(ax: Axes) -> Figure:
     figure = ax.get_figure(root=True)
     assert figure is not None
     return figure
+
+
+def name_over(ax: Axes, text: str, *, converged: bool = True) -> None:
+    """Title over all panels of a figure, in red where what it shows is no solution."""
+    how: dict[str, Any] = {} if converged else NOT_CONVERGED
+    figure_of(ax).suptitle(text, x=0.01, ha="left", size=9.0, parse_math=False, **how)
+
+
+def save_figure(ax: Axes, path: Path) -> None:
+    """Write the whole figure that axes are part of as a PNG file, whole or not at all."""
+    with whole(path) as beside:
+        figure_of(ax).savefig(beside)
+
+
+def legend_above(ax: Axes, handles: Sequence[Artist] | None = None, columns: int = 2) -> None:
+    """Legend above the axes, where no data are, of these or of all that is labelled."""
+    ax.legend(
+        handles=ax.get_legend_handles_labels()[0] if handles is None else list(handles),
+        loc="lower left",
+        bbox_to_anchor=(0.0, 1.0),
+        borderaxespad=0.3,
+        borderpad=0.2,
+        ncols=columns,
+        frameon=False,
+        handlelength=2.2,
+        columnspacing=1.4,
+    )
 
 
 def in_half_widths(result: Result | PointResult, x: Array) -> Array:

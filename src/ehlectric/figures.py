@@ -4,16 +4,14 @@ from __future__ import annotations
 
 import textwrap
 from pathlib import Path
-from typing import Any
 
 from matplotlib.axes import Axes
 
-from ehlectric.drawing import figure_of, style
+from ehlectric.drawing import NOT_CONVERGED, name_over, save_figure, style
 from ehlectric.plot import figures_of
 from ehlectric.point_plot import point_figures_of
 from ehlectric.point_result import PointResult
 from ehlectric.result import Result
-from ehlectric.store import whole
 
 
 def save_figures(result: Result | PointResult, folder: Path) -> list[Path]:
@@ -38,8 +36,7 @@ def save_figures(result: Result | PointResult, folder: Path) -> list[Path]:
         for name, draw in drawn.items():
             ax = draw(result)
             _name(ax, result, title)
-            with whole(folder / name) as path:
-                figure_of(ax).savefig(path)
+            save_figure(ax, folder / name)
             files.append(folder / name)
     return files
 
@@ -48,8 +45,7 @@ def _name(ax: Axes, result: Result | PointResult, title: str) -> None:
     """Title of a figure: over its axes, or over all of its panels."""
     converged = result.converged
     text = title if converged else "NOT CONVERGED"
-    how: dict[str, Any] = {} if converged else {"color": "red", "weight": "bold"}
     if isinstance(result, PointResult):
-        figure_of(ax).suptitle(text, x=0.01, ha="left", size=9.0, parse_math=False, **how)
+        name_over(ax, text, converged=converged)
     else:
-        ax.set_title(text, loc="left", parse_math=False, **how)
+        ax.set_title(text, loc="left", parse_math=False, **({} if converged else NOT_CONVERGED))

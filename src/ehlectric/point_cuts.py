@@ -11,8 +11,18 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
-from ehlectric.drawing import BLUE, GREY, ORANGE, axes_or_new, figure_of, label_position, new_panels, unit_for
-from ehlectric.point_drawing import film_unit, film_window, legend_above, round_levels
+from ehlectric.drawing import (
+    BLUE,
+    GREY,
+    ORANGE,
+    axes_or_new,
+    figure_of,
+    label_position,
+    legend_above,
+    new_panels,
+    unit_for,
+)
+from ehlectric.point_drawing import film_unit, film_window, round_levels
 from ehlectric.point_field import PointField
 from ehlectric.point_result import PointResult
 from ehlectric.section_plot import draw_section

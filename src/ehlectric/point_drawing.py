@@ -7,7 +7,6 @@ from typing import Any, cast
 
 import numpy as np
 from matplotlib import patheffects
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import QuadMesh
@@ -255,21 +254,6 @@ def entrainment(result: PointResult, ax: Axes, ink: str = "black") -> None:
         va=va,
         transform=off(*where),
         path_effects=_outlined(ink, 1.8),
-    )
-
-
-def legend_above(ax: Axes, handles: Sequence[Artist], columns: int = 2) -> None:
-    """Legend above the axes, where no data are."""
-    ax.legend(
-        handles=list(handles),
-        loc="lower left",
-        bbox_to_anchor=(0.0, 1.0),
-        borderaxespad=0.3,
-        borderpad=0.2,
-        ncols=columns,
-        frameon=False,
-        handlelength=2.2,
-        columnspacing=1.4,
     )
 
 

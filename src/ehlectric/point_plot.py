@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from ehlectric.drawing import GREY, unit_for
+from ehlectric.drawing import GREY, legend_above, unit_for
 from ehlectric.point_cuts import cuts, field_sections
 from ehlectric.point_drawing import (
     Range,
@@ -22,7 +22,6 @@ from ehlectric.point_drawing import (
     film_unit,
     film_window,
     hertz_ellipse,
-    legend_above,
     legend_line,
     map_panels,
     mark,

@@ -9,10 +9,18 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from ehlectric.drawing import BLUE, GREY, ORANGE, axes_or_new, figure_of, new_panels, style
+from ehlectric.drawing import (
+    BLUE,
+    GREY,
+    ORANGE,
+    axes_or_new,
+    legend_above,
+    new_panels,
+    save_figure,
+    style,
+)
 from ehlectric.sensitivity import LEVEL, Sensitivity
-from ehlectric.store import whole
-from ehlectric.sweep_drawing import labelled, legend_above, name_figure, range_text
+from ehlectric.sweep_drawing import labelled, name_figure, range_text
 from ehlectric.sweep_labels import label_of
 from ehlectric.sweep_results import SweepResults
 from ehlectric.sweep_slices import BREAKDOWN, VOLTAGE, numbers_of
@@ -114,7 +122,7 @@ def parts(results: SweepResults, found: Sensitivity, ax: Axes | None = None) -> 
     ax.set_xlabel(f"part of the variance\n{100.0 * LEVEL:g} % intervals of {found.used} rows")
     ax.grid(axis="x", color=GREY, alpha=0.25, lw=0.5)
     ax.set_axisbelow(True)
-    legend_above(ax, ax.get_legend_handles_labels()[0])
+    legend_above(ax)
     return ax
 
 
@@ -128,5 +136,4 @@ def save_sensitivity(results: SweepResults, found: Sensitivity, path: Path) -> N
         dropped = f"{found.dropped} of {found.rows} rows dropped: not solved" if found.dropped else ""
         doubtful = f'{found.doubtful} of {found.used} used rows have points that say "do not use"'
         name_figure(left, results, ", ".join(filter(None, [dropped, doubtful if found.doubtful else ""])))
-        with whole(path) as beside:
-            figure_of(left).savefig(beside)
+        save_figure(left, path)

@@ -8,9 +8,8 @@ from pathlib import Path
 import numpy as np
 from matplotlib.axes import Axes
 
-from ehlectric.drawing import BLUE, axes_or_new, figure_of, new_panels, style, unit_for
+from ehlectric.drawing import BLUE, axes_or_new, figure_of, new_panels, save_figure, style, unit_for
 from ehlectric.roughness import Profile, rms, statistics
-from ehlectric.store import whole
 from ehlectric.topography import Map
 
 # Part of the heights of a map that may lie beyond either end of its colours: dust would take them all.
@@ -99,5 +98,4 @@ def save_surface(steps: Sequence[tuple[str, Profile | Map]], path: Path) -> None
         for ax, (name, step) in zip(panels, shown, strict=True):
             drawn = height_map(step, ax) if isinstance(step, Map) else profile(step, ax)
             drawn.set_title(name if step is steps[0][1] else "after the last step", loc="left")
-        with whole(path) as beside:
-            figure_of(panels[0]).savefig(beside)
+        save_figure(panels[0], path)

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import math
 import textwrap
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from matplotlib import colormaps
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.cm import ScalarMappable
@@ -18,7 +16,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullFormatter, NullLocator
 
-from ehlectric.drawing import GREY, ORANGE, figure_of
+from ehlectric.drawing import GREY, ORANGE, figure_of, name_over
 from ehlectric.sweep_labels import Label, Scale, label_of
 from ehlectric.sweep_results import SweepResults
 from ehlectric.sweep_slices import Slice
@@ -212,21 +210,6 @@ def colour_bar(ax: Axes, norm: Normalize, text: str, levels: Array, colours: Col
     bar.ax.minorticks_off()
 
 
-def legend_above(ax: Axes, handles: Sequence[Artist], columns: int = 2) -> None:
-    """Legend above the axes, where no data are."""
-    ax.legend(
-        handles=list(handles),
-        loc="lower left",
-        bbox_to_anchor=(0.0, 1.0),
-        borderaxespad=0.3,
-        borderpad=0.2,
-        ncols=columns,
-        frameon=False,
-        handlelength=2.0,
-        columnspacing=1.4,
-    )
-
-
 def voltage_text(taken: Slice) -> str:
     """The applied voltage of the solved points, or its range."""
     return range_text(taken.voltage[np.isfinite(taken.voltage)], "V")
@@ -249,7 +232,7 @@ def name_figure(ax: Axes, results: SweepResults, more: str) -> None:
     title = textwrap.shorten(results.title, 70, placeholder=" ...")
     text = "\n".join(filter(None, [title, textwrap.fill(more, 100)]))
     if text:
-        figure_of(ax).suptitle(text, x=0.01, ha="left", size=9.0, parse_math=False)
+        name_over(ax, text)
 
 
 def held_text(results: SweepResults, taken: Slice) -> str:

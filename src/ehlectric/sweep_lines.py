@@ -14,7 +14,7 @@ from matplotlib.colors import Normalize
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from ehlectric.drawing import BLUE, GREEN, GREY, ORANGE, axes_or_new
+from ehlectric.drawing import BLUE, GREEN, GREY, ORANGE, axes_or_new, legend_above
 from ehlectric.sweep_drawing import (
     DARK_COLOURS,
     by_logarithm,
@@ -24,7 +24,6 @@ from ehlectric.sweep_drawing import (
     kind_handles,
     kinds,
     labelled,
-    legend_above,
     levels_of,
     mark,
     norm_of,

@@ -14,7 +14,7 @@ from matplotlib.patches import Patch
 from matplotlib.patheffects import AbstractPathEffect, withStroke
 from matplotlib.tri import Triangulation
 
-from ehlectric.drawing import axes_or_new
+from ehlectric.drawing import axes_or_new, legend_above
 from ehlectric.sweep_drawing import (
     COLOURS,
     by_logarithm,
@@ -24,7 +24,6 @@ from ehlectric.sweep_drawing import (
     kind_handles,
     kinds,
     labelled,
-    legend_above,
     levels_of,
     mark,
     norm_of,

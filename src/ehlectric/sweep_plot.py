@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
-from ehlectric.drawing import figure_of, new_panels, style
-from ehlectric.store import whole
+from ehlectric.drawing import new_panels, save_figure, style
 from ehlectric.sweep_drawing import held_text, name_figure
 from ehlectric.sweep_lines import value_lines
 from ehlectric.sweep_maps import value_map
@@ -74,7 +73,6 @@ def save_maps(
             drawn.insert(0, (map_file, ax))
         for name, ax in drawn:
             name_figure(ax, results, named)
-            with whole(folder / name) as path:
-                figure_of(ax).savefig(path)
+            save_figure(ax, folder / name)
             files.append(folder / name)
     return files

@@ -10,12 +10,11 @@ from ehlectric import Case, solve
 from ehlectric.bearing_contacts import (
     ContactCurve,
     ContactSolution,
-    Race,
     contact_case,
-    raceway_of,
     solve_contact,
 )
 from ehlectric.bearing_duty import BearingDuty
+from ehlectric.bearing_race import Race, raceway_of
 from ehlectric.bearing_state import race_state
 from ehlectric.groove_gap import groove_capacitance, match_film, outside_capacitance
 from ehlectric.hertz_point import dry_contact

@@ -11,9 +11,10 @@ from typer.testing import CliRunner
 from ehlectric import bearing_circuit_plot, bearing_polar, bearing_speed_plot
 from ehlectric.bearing_case import BearingCase
 from ehlectric.bearing_circuit import impedance
-from ehlectric.bearing_contacts import ContactCurve, ContactSolution, Race
+from ehlectric.bearing_contacts import ContactCurve, ContactSolution
 from ehlectric.bearing_duty import BearingDuty
 from ehlectric.bearing_plot import bearing_figures_of, save_bearing_figures, save_speed_figures
+from ehlectric.bearing_race import Race
 from ehlectric.bearing_result import BearingResult
 from ehlectric.bearing_solver import BearingSolution, Position
 from ehlectric.bearing_state import race_state

@@ -3,8 +3,10 @@
 import numpy as np
 import pytest
 
-from ehlectric.bearing_contacts import Race, contact_case, least_load, solve_contact
+from ehlectric.bearing_contacts import contact_case, solve_contact
+from ehlectric.bearing_domain import least_load
 from ehlectric.bearing_duty import BearingDuty
+from ehlectric.bearing_race import Race
 from ehlectric.bearing_result import BearingResult
 from ehlectric.bearing_solver import LOADS, POSITIONS, solve_bearing
 from ehlectric.conditions import resolve
