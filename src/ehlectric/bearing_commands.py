@@ -44,9 +44,10 @@ def bearing(
             case = case.replace({"contacts": contacts})
 
         from ehlectric.bearing_result import BearingResult
-        from ehlectric.bearing_solver import solve_bearing
+        from ehlectric.bearing_solver import check_bearing, solve_bearing
         from ehlectric.store import BEARING_FIGURE_FILES, clear, prepare, whole
 
+        check_bearing(case)
         names = (SUMMARY, CONTACTS, *BEARING_FIGURE_FILES)
         folder = prepare(output, names)
         with progress_bar(shown=not quiet) as progress:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,7 +15,9 @@ from ehlectric.bearing_geometry import RollerBearing
 from ehlectric.bearing_inputs import Bearing
 from ehlectric.bearing_race import Race, around_ball, around_roller, point_contact
 from ehlectric.case import Case
+from ehlectric.conditions import Conditions, regime_remarks
 from ehlectric.discharge_inputs import Discharge
+from ehlectric.point_conditions import PointConditions, point_regime_remarks
 from ehlectric.point_result import PointResult
 from ehlectric.solver import solve
 from ehlectric.typing import Array
@@ -168,8 +170,17 @@ def solve_contact(
         moes_l=formulas.moes_l,
         mismatch=mismatch,
         converged=result.converged,
-        warnings=result.warnings,
+        warnings=warnings_of(result.warnings, result.conditions),
     )
+
+
+def warnings_of(texts: Iterable[str], conditions: Conditions | PointConditions) -> tuple[str, ...]:
+    """Warnings of a contact but for those of its regime: the domain of a light one is chosen for that."""
+    if isinstance(conditions, PointConditions):
+        regime = set(point_regime_remarks(conditions))
+    else:
+        regime = set(regime_remarks(conditions))
+    return tuple(text for text in texts if text not in regime)
 
 
 @dataclass(frozen=True)

@@ -5,19 +5,20 @@ from __future__ import annotations
 import numpy as np
 from scipy.constants import epsilon_0
 
-from ehlectric.bearing_contacts import ContactSolution
+from ehlectric.bearing_contacts import ContactSolution, contact_case, warnings_of
 from ehlectric.bearing_duty import BearingDuty
 from ehlectric.bearing_geometry import RollerBearing
 from ehlectric.bearing_inputs import Bearing
-from ehlectric.bearing_race import Race, around_ball, around_roller, line_contact, point_contact
-from ehlectric.conditions import density_law, permittivity_law
+from ehlectric.bearing_race import Race, around_ball, around_roller
+from ehlectric.conditions import density_law, permittivity_law, remarks, resolve
 from ehlectric.discharge_inputs import Discharge
 from ehlectric.domain import areas
 from ehlectric.errors import InputError
 from ehlectric.film_formulas import pan_hamrock
-from ehlectric.hertz import line_gap, line_half_width, line_max_pressure, line_pressure
+from ehlectric.hertz import line_gap, line_pressure
 from ehlectric.hertz_point import dry_contact, point_deflection, point_pressure
-from ehlectric.point_conditions import default_side
+from ehlectric.inputs import Lubricant
+from ehlectric.point_conditions import default_side, point_remarks, resolve_point
 from ehlectric.point_formulas import chittenden
 from ehlectric.stress import dielectric_strength
 from ehlectric.typing import Array
@@ -28,14 +29,20 @@ _NODES = 97, 65
 _LINE_NODES = 1601
 
 
-def check_formula(discharge: Discharge) -> None:
-    """Refuse a strength that takes more of a field than its largest value.
+def check_formula(discharge: Discharge, lubricant: Lubricant) -> None:
+    """Refuse what the formulas know nothing of.
 
     Raises
     ------
     InputError
-        For a Weibull law and for a table over pressure.
+        For a Weibull law and a table over pressure, which take more of a field than its largest value, and
+        for a viscosity that does not grow with pressure.
     """
+    if lubricant.viscosity_law == "constant":
+        raise InputError(
+            "lubricant.viscosity_law: got 'constant' with contacts by formula, which are for "
+            "piezoviscous oils; takes another law, or solved contacts"
+        )
     table = discharge.strength_table
     if discharge.weibull is not None or (table is not None and table.over == "pressure"):
         key = "weibull" if discharge.weibull is not None else "strength_table"
@@ -66,6 +73,11 @@ def formula_contact(
     ContactSolution
         Without an error estimate: the formulas may be 30 % off, and more where the contact is light.
 
+    Raises
+    ------
+    InputError
+        Where the dry contact is wider than its bodies allow.
+
     Notes
     -----
     Chittenden, Dowson, Dunn and Taylor (1985), doi:10.1098/rspa.1985.0014, for balls; Pan and Hamrock (1989),
@@ -80,7 +92,9 @@ def formula_contact(
 def _ball(
     bearing: Bearing, duty: BearingDuty, race: Race, load: float, discharge: Discharge
 ) -> ContactSolution:
-    contact = point_contact(duty, race, load)
+    case = contact_case(duty, race, load, discharge, {})
+    conditions = resolve_point(case)
+    contact = conditions.formulas
     rx, ry = contact.radius_x, contact.radius_y
     dry = dry_contact(load, rx, ry, duty.modulus)
     b, a = dry.semi_axis_x, dry.semi_axis_y
@@ -107,19 +121,20 @@ def _ball(
         area=np.pi * a * b,
         moes=(contact.moes_m, contact.moes_l),
         mismatch=mismatch,
+        warnings=warnings_of(point_remarks(case, conditions), conditions),
     )
 
 
 def _roller(duty: BearingDuty, race: Race, load: float, discharge: Discharge) -> ContactSolution:
     assert isinstance(duty.geometry, RollerBearing)
-    contact, length = line_contact(duty, race, load), duty.geometry.roller_length
-    line, radius = contact.load_per_length, contact.reduced_radius
-    b = line_half_width(line, radius, duty.modulus)
+    case = contact_case(duty, race, load, discharge, {})
+    conditions = resolve(case)
+    contact, length = conditions.formulas, duty.geometry.roller_length
+    radius, b, highest = contact.reduced_radius, conditions.half_width, conditions.max_pressure
     film = pan_hamrock(contact)
     assert film.central_thickness is not None and film.minimum_thickness is not None
     x = np.linspace(*_LINE, _LINE_NODES)
     gap = film.central_thickness + b**2 / radius * line_gap(x)
-    highest = line_max_pressure(line, radius, duty.modulus)
     inside = np.vdot(areas((b * x,)), _permittivity(duty, highest * line_pressure(x)) / gap)
     return _solution(
         duty,
@@ -133,6 +148,7 @@ def _roller(duty: BearingDuty, race: Race, load: float, discharge: Discharge) ->
         area=2.0 * b * length,
         moes=(contact.moes_m, contact.moes_l),
         mismatch=0.0,
+        warnings=warnings_of(remarks(case, conditions), conditions),
     )
 
 
@@ -155,6 +171,7 @@ def _solution(
     area: float,
     moes: tuple[float, float],
     mismatch: float,
+    warnings: tuple[str, ...],
 ) -> ContactSolution:
     """What the formulas of either contact give; integrals of eps_r dA/h and dA/h are not yet times eps0."""
     strength = float(dielectric_strength(discharge, np.zeros(1))[0])
@@ -176,5 +193,5 @@ def _solution(
         moes_l=moes[1],
         mismatch=mismatch,
         converged=True,
-        warnings=(),
+        warnings=warnings,
     )

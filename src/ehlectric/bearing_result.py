@@ -22,6 +22,9 @@ SCHEMA = "ehlectric.bearing/1"
 # Lambda ratios below which surfaces touch, and below which they do now and then.
 CONDUCTING, PARTIAL = 1.0, 3.0
 
+# Below it the viscosity from 40 and 100 degC is a bold extrapolation [K].
+_COLD = 273.15
+
 
 @dataclass(frozen=True)
 class BearingResult:
@@ -135,6 +138,9 @@ class BearingResult:
             yield "contacts by formula: films may be 30 % off, and fields are voltages over the minimum film"
         if solution.duty.film_factor == 1.0:
             yield "film_factor none: the film is isothermal and fully flooded, voltages are upper bounds"
+        if solution.case.lubricant.temperature is not None and solution.case.bearing.temperature < _COLD:
+            cold = solution.case.bearing.temperature - 273.15
+            yield f"bearing.temperature is {cold:.3g} °C: the viscosity from 40 and 100 °C may be far off"
         if self.lubrication == "conducting":
             yield f"lambda is {self.lambda_ratio:.2g}: surfaces touch and conduct, nothing breaks down"
         elif self.lubrication == "partial film":

@@ -13,12 +13,13 @@ import numpy as np
 from ehlectric.ball_equilibrium import BallEquilibrium
 from ehlectric.bearing_case import BearingCase
 from ehlectric.bearing_circuit import Circuit
-from ehlectric.bearing_contacts import ContactCurve, ContactSolution, solve_contact
+from ehlectric.bearing_contacts import ContactCurve, ContactSolution, contact_case, solve_contact
 from ehlectric.bearing_domain import least_load
 from ehlectric.bearing_duty import BearingDuty
 from ehlectric.bearing_formula import check_formula, formula_contact
 from ehlectric.bearing_race import Race
 from ehlectric.bearing_state import RaceState, race_state
+from ehlectric.meaning import check_case
 from ehlectric.roller_equilibrium import RollerEquilibrium
 from ehlectric.workers import cores, run_all
 
@@ -112,10 +113,7 @@ def solve_bearing(
         Where the bearing cannot carry its load, or a contact cannot be solved.
     """
     started = time.perf_counter()
-    by_formula = case.contacts == "formula"
-    if by_formula:
-        check_formula(case.discharge)
-    duty = BearingDuty.of(case)
+    by_formula, duty = case.contacts == "formula", _duty(case)
     equilibria = duty.equilibria(case.bearing, POSITIONS)
     races = [_race(duty, equilibria, inner=inner) for inner in (True, False)]
     loads = [_loads(equilibria, least_load(duty, race), inner=race.inner) for race in races]
@@ -150,6 +148,30 @@ def solve_bearing(
         positions=positions,
         seconds=time.perf_counter() - started,
     )
+
+
+def check_bearing(case: BearingCase) -> None:
+    """Refuse, before a folder is made for its results, a bearing that cannot be solved.
+
+    Raises
+    ------
+    InputError
+        As ``solve_bearing`` does, of the cage's first position.
+    """
+    duty = _duty(case)
+    equilibria = duty.equilibria(case.bearing, 1)
+    for inner in (True, False):
+        load = float(np.max(equilibria[0].inner_load if inner else equilibria[0].outer_load))
+        race = _race(duty, equilibria, inner=inner)
+        check_case(contact_case(duty, race, load, case.discharge, case.solver.model_dump()))
+
+
+def _duty(case: BearingCase) -> BearingDuty:
+    """The duty of a case, which its contacts can be found for."""
+    duty = BearingDuty.of(case)
+    if case.contacts == "formula":
+        check_formula(case.discharge, duty.lubricant)
+    return duty
 
 
 def _race(duty: BearingDuty, equilibria: Sequence[Equilibrium], *, inner: bool) -> Race:

@@ -215,13 +215,18 @@ def permittivity_law(lubricant: Lubricant) -> Callable[[Array], Array]:
 
 def remarks(case: Case, conditions: Conditions) -> Iterator[str]:
     """What a user should know about a case before it is solved, one text each."""
+    yield from regime_remarks(conditions)
+    width = (case.grid.outlet - case.grid.inlet) / (0.5 * np.pi)
+    yield from pressure_remarks(case.lubricant, conditions.max_pressure, width, "line", _PERMANENT)
+
+
+def regime_remarks(conditions: Conditions) -> Iterator[str]:
+    """What to know of a line contact far from those that the film formulas were made for."""
     regime = film_formulas.regime(conditions.formulas)
     if regime == "isoviscous-rigid":
         yield rigid_remark("half-width", "half-widths", _RIGID_INLET / conditions.formulas.moes_m)
     elif regime != "piezoviscous-elastic":
         yield f"{regime} regime: the film formulas but Moes' are for piezoviscous-elastic contacts"
-    width = (case.grid.outlet - case.grid.inlet) / (0.5 * np.pi)
-    yield from pressure_remarks(case.lubricant, conditions.max_pressure, width, "line", _PERMANENT)
 
 
 def rigid_remark(length: str, lengths: str, reach: float) -> str:

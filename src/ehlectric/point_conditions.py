@@ -206,6 +206,14 @@ def default_side(ratio: float) -> float:
 
 def point_remarks(case: Case, conditions: PointConditions) -> Iterator[str]:
     """What a user should know about a point contact before it is solved, one text each."""
+    yield from point_regime_remarks(conditions)
+    area = (case.grid.outlet - case.grid.inlet) * 2.0 * conditions.side
+    domain = area / (2.0 * np.pi / 3.0)
+    yield from pressure_remarks(case.lubricant, conditions.max_pressure, domain, "point", _PERMANENT)
+
+
+def point_regime_remarks(conditions: PointConditions) -> Iterator[str]:
+    """What to know of a point contact far from those that the film formulas were made for."""
     formulas = conditions.formulas
     regime = point_formulas.regime(formulas)
     if regime == "isoviscous-rigid":
@@ -219,6 +227,3 @@ def point_remarks(case: Case, conditions: PointConditions) -> Iterator[str]:
             f"{regime} regime: the film formulas but that of Nijenbanning, Venner and Moes are for "
             "piezoviscous contacts"
         )
-    area = (case.grid.outlet - case.grid.inlet) * 2.0 * conditions.side
-    domain = area / (2.0 * np.pi / 3.0)
-    yield from pressure_remarks(case.lubricant, conditions.max_pressure, domain, "point", _PERMANENT)

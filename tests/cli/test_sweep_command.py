@@ -69,7 +69,8 @@ def failures(stderr):
 
 def saved(folder):
     """Points that are saved, by their keys."""
-    with sqlite3.connect(f"file:{folder}/sweep.sqlite?mode=ro", uri=True, timeout=30.0) as file:
+    # Not read-only: what a kill left half written is taken back by whoever opens the file next.
+    with sqlite3.connect(f"file:{folder}/sweep.sqlite?mode=rw", uri=True, timeout=30.0) as file:
         found = dict(file.execute("SELECT key, summary FROM results"))
     file.close()
     return found

@@ -3,12 +3,13 @@
 import numpy as np
 import pytest
 
+from ehlectric import InputError
 from ehlectric.bearing_contacts import contact_case, solve_contact
 from ehlectric.bearing_domain import least_load
 from ehlectric.bearing_duty import BearingDuty
 from ehlectric.bearing_race import Race
 from ehlectric.bearing_result import BearingResult
-from ehlectric.bearing_solver import LOADS, POSITIONS, solve_bearing
+from ehlectric.bearing_solver import LOADS, POSITIONS, check_bearing, solve_bearing
 from ehlectric.conditions import resolve
 from ehlectric.point_conditions import resolve_point
 from ehlectric.point_formulas import PointContact, chittenden
@@ -142,3 +143,30 @@ def test_a_6208_in_parallel():
             if contact.moes_m > 100.0:
                 assert contact.central_thickness == pytest.approx(formula.central_thickness, rel=0.1)
             assert contact.mismatch < 0.1
+
+
+@pytest.mark.parametrize("contacts", ["solved", "formula"])
+def test_a_load_wider_than_the_balls_is_refused_before_anything_is_solved(contacts):
+    """200 kN on a ball bearing of 60 mm: dry contacts of a centimetre on balls of twelve millimetres."""
+    case = bearing_case(BALLS, contacts=contacts, bearing__radial_load="200 kN")
+    with pytest.raises(InputError, match=r"^contact: the dry contact would be .* wide on each side"):
+        check_bearing(case)
+
+
+@pytest.mark.parametrize("tables", [BALLS, ROLLERS])
+def test_formulas_take_piezoviscous_oils(tables):
+    case = bearing_case(tables, contacts="formula", lubricant__viscosity_law="constant")
+    for refused in (check_bearing, solve_bearing):
+        with pytest.raises(InputError, match=r"^lubricant\.viscosity_law: got 'constant'"):
+            refused(case)
+    check_bearing(case.replace({"contacts": "solved"}))
+
+
+def test_an_oil_below_freezing_is_doubted():
+    """ASTM D341 goes on below any pour point."""
+    for temperature, doubted in (("-20 degC", True), ("70 degC", False)):
+        case = bearing_case(BALLS, contacts="formula", bearing__temperature=temperature)
+        texts = BearingResult(solve_bearing(case)).warnings()
+        assert any(text.startswith("bearing.temperature is") for text in texts) == doubted
+        # A bearing's contacts have no grid that its file could change.
+        assert not any("grid." in text for text in texts)

@@ -149,6 +149,28 @@ def test_a_reader_beside_the_writer(tmp_path):
             store.write([(point.key, FOUND)])
 
 
+# A transaction that outgrows its cache, so that half of it is in the file when its process is killed.
+HALF_WRITTEN = """
+import os, signal, sqlite3, sys
+file = sqlite3.connect(sys.argv[1], isolation_level=None)
+file.execute("PRAGMA cache_size = 1")
+file.execute("BEGIN IMMEDIATE")
+file.execute("UPDATE points SET inputs = 'broken'")
+for number in range(1000, 4000):
+    file.execute("INSERT INTO points VALUES (?, ?, NULL, '')", (number, "x" * 400))
+os.kill(os.getpid(), signal.SIGKILL)
+"""
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no signal that cannot be caught")
+def test_what_a_kill_left_half_written_is_taken_back_by_the_next_reader(tmp_path):
+    begun(tmp_path, speeds(3), [FOUND])
+    before = read_sweep(tmp_path)
+    subprocess.run([sys.executable, "-c", HALF_WRITTEN, str(tmp_path / NAME)], check=False)
+    assert (tmp_path / f"{NAME}-journal").stat().st_size > 0
+    assert read_sweep(tmp_path) == before
+
+
 def test_two_writers_are_one_too_many(tmp_path):
     with (
         Store(tmp_path),
