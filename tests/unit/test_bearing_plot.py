@@ -76,6 +76,7 @@ def contact(load, film, strength):
         outside_oil=3e-11,
         outside_air=1.25e-11,
         plate=3e-11,
+        strength_per_volt=1.0 / thickness,
         breakdown_voltage=np.inf if strength is None else strength * thickness,
         error=0.01,
         moes_m=1000.0,
