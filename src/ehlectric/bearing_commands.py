@@ -46,10 +46,10 @@ def bearing(
 
         from ehlectric.bearing_result import BearingResult
         from ehlectric.bearing_solver import check_bearing, solve_bearing
-        from ehlectric.store import BEARING_FIGURE_FILES, clear, prepare, whole
+        from ehlectric.store import BEARING_FIGURE_FILES, SPEED_FIGURE_FILES, clear, prepare, whole
 
         check_bearing(case)
-        names = (SUMMARY, CONTACTS, *BEARING_FIGURE_FILES)
+        names = (SUMMARY, CONTACTS, *BEARING_FIGURE_FILES, *SPEED_FIGURE_FILES)
         folder = prepare(output, names)
         with progress_bar(shown=not quiet) as progress:
             result = BearingResult(solve_bearing(case, progress=progress))
@@ -62,10 +62,15 @@ def bearing(
             writer.writeheader()
             writer.writerows(summary["contacts"])
         files = [folder / SUMMARY, folder / CONTACTS]
+        left_out: list[str] = []
         if plots:
-            from ehlectric.bearing_plot import save_bearing_figures
+            from ehlectric.bearing_plot import save_bearing_figures, save_speed_figures
+            from ehlectric.bearing_speeds import over_speed
 
             files += save_bearing_figures(result, folder)
+            speeds, left_out = over_speed(case)
+            own = case.bearing.inner_speed, summary
+            files += save_speed_figures(speeds, folder, case.title, own=own) if speeds else []
     if as_json:
         typer.echo(json.dumps(summary, indent=2))
     elif not quiet:
@@ -74,7 +79,7 @@ def bearing(
         print_table(bearing_table(summary))
         typer.echo("written: " + ", ".join(str(path) for path in files))
     if not quiet:
-        warn(summary["warnings"])
+        warn([*summary["warnings"], *left_out])
     if not result.converged:
         typer.echo("error: not converged: a contact of the bearing", err=True)
         raise typer.Exit(NOT_CONVERGED)

@@ -115,7 +115,10 @@ MISTAKES = [
     ({"bearing__element_material": "brass"}, "bearing.element_material: got 'brass', takes one of the libra"),
     ({"bearing__element_capacitance": "10 pF"}, "bearing.element_capacitance: got it for elements that"),
     ({**CERAMIC, "bearing__element_capacitance": "0 pF"}, "bearing.element_capacitance: got '0 pF', takes a"),
-    ({"bearing__base": "6209"}, "bearing.base: got '6209', takes a name of the library: 209-hamrock, 6208"),
+    (
+        {"bearing__base": "6209"},
+        "bearing.base: got '6209', takes a name of the library: 209-hamrock, 6208, nu-215",
+    ),
     ({"lubricant__base": "papier"}, "lubricant.base: got 'papier', takes"),
     ({"bearing__groove": 0.52}, "bearing.groove: unknown key; the nearest known one is bearing."),
     ({"grid__nodes": 257}, "grid: unknown key; the nearest known one is"),
