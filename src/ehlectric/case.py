@@ -18,6 +18,7 @@ from ehlectric.contact_inputs import CONTACT_ALTERNATIVES, ONLY, Contact
 from ehlectric.discharge_inputs import STRENGTHS, TABLES, Discharge
 from ehlectric.errors import shown
 from ehlectric.inputs import POINT_GRID, POINT_GRID_KEYS, Electric, Grid, Lubricant, Solver
+from ehlectric.motion_inputs import Motion
 from ehlectric.roughness_inputs import Roughness, check_geometry
 from ehlectric.validation import Table, read_toml
 
@@ -58,6 +59,7 @@ class Case(Table):
     roughness: tuple[Roughness, ...] = ()
     electric: Electric = Electric()
     discharge: Discharge | None = None
+    motion: Motion | None = None
     grid: Grid = Grid()
     solver: Solver = Solver()
 
@@ -84,7 +86,18 @@ class Case(Table):
         check_geometry(self.roughness, self.contact.geometry)
         if self.discharge is not None:
             self.discharge.check_geometry(self.contact.geometry)
+        self._check_motion()
         return self
+
+    def _check_motion(self) -> None:
+        if self.motion is None:
+            return
+        if not self.roughness:
+            raise ValueError("motion: got it without roughness, which is what moves; takes a rough surface")
+        if self.grid.wedge != "second-order":
+            raise ValueError(f"grid.wedge: got {self.grid.wedge!r} beside motion, takes 'second-order'")
+        if self.grid.refine is not None:
+            raise ValueError("grid.refine: got it beside motion, which takes one grid; takes grid.nodes")
 
     @classmethod
     def from_toml(cls, path: str | Path) -> Self:
@@ -179,5 +192,6 @@ def _displace(table: dict[str, Any], changes: Mapping[str, Any], geometry: objec
             (("slide_to_roll_ratio",), ("speed_1", "speed_2")),
         ),
         "discharge": (STRENGTHS, TABLES),
+        "motion": ((("passes",), ("duration",)),),
     }
     displace(table, changes, alternatives)

@@ -1,0 +1,204 @@
+"""Roughness that moves with its surface through a contact: where it is at a time, and how long it moves.
+
+At first all of what moves lies outside the domain, so that the film is that of the surfaces at rest. What of
+a surface lies at x in the case is at x - D + u t, with the length D of the domain and the speed u of the
+surface: after the time D/u it lies as the case has it. What is ahead of that, on the far side of the contact
+in the case, never was: the roughness begins with a front, which rises over one half-width.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from ehlectric.case import Case
+from ehlectric.conditions import Conditions, resolve
+from ehlectric.errors import InputError
+from ehlectric.nested import FilmProblem
+from ehlectric.point_conditions import PointConditions, resolve_point
+from ehlectric.point_problems import domain_of, point_film_problem
+from ehlectric.problems import film_problem
+from ehlectric.rough_maps import RoughMap, rough_maps
+from ehlectric.typing import Array
+from ehlectric.unsteady import MOST_COURANT
+from ehlectric.walls import RoughSurface, rough_surfaces
+
+# Speed of a surface, over the mean speed, below which it counts as at rest.
+_AT_REST = 1e-9
+
+
+@dataclass(frozen=True)
+class Course:
+    """How long and in which steps surfaces move.
+
+    Attributes
+    ----------
+    end : float
+        T at the end, of T = t u/b with the mean speed u and the half-width b.
+    steps : int
+        Equal time steps.
+    courant : float
+        Grid spacings that the mean speed travels in one of them.
+    recorded : ndarray of int
+        Steps whose instants are kept, from 0 to ``steps``.
+    time : float
+        b/u [s], the time of T = 1.
+    """
+
+    end: float
+    steps: int
+    courant: float
+    recorded: Array
+    time: float
+
+    @property
+    def step(self) -> float:
+        """Time step, of T."""
+        return self.end / self.steps
+
+
+class Motion:
+    """A contact whose roughness moves, ready to be solved in time.
+
+    Parameters
+    ----------
+    case : Case
+        With ``motion`` and roughness, a line or a point contact.
+
+    Raises
+    ------
+    InputError
+        Where a surface cannot be made, nothing rough moves, or the steps are too long.
+    """
+
+    def __init__(self, case: Case) -> None:
+        if case.motion is None:
+            raise InputError("motion: missing, a case whose roughness moves takes it")
+        self.case = case
+        point = case.contact.geometry == "point"
+        self.conditions: Conditions | PointConditions = resolve_point(case) if point else resolve(case)
+        self.course = _course(case, self.conditions)
+        self.rough = self._surfaces()
+        if not any(self.speed_of(surface.surface) for surface in self.rough):
+            raise InputError(
+                "motion: got roughness on surfaces at rest alone; takes it on one that moves, or a case "
+                "without motion"
+            )
+
+    @property
+    def half_width(self) -> float:
+        """b, of a point contact the semi-axis along entrainment [m]."""
+        given = self.conditions
+        return given.semi_axis_x if isinstance(given, PointConditions) else given.half_width
+
+    @property
+    def domain(self) -> float:
+        """Length D of the domain, of X."""
+        return self.case.grid.outlet - self.case.grid.inlet
+
+    def speed_of(self, surface: int) -> float:
+        """Speed of a surface over the mean speed; 0 where it is at rest."""
+        slide = 0.5 * self.conditions.slide_to_roll_ratio
+        speed = 1.0 + slide if surface == 1 else 1.0 - slide
+        return speed if abs(speed) > _AT_REST else 0.0
+
+    @cached_property
+    def _reached(self) -> Case:
+        """The case with a domain as long as its surfaces travel."""
+        grid = self.case.grid
+        ends = [grid.inlet, grid.outlet]
+        for surface in {table.surface for table in self.case.roughness}:
+            beyond = abs(self.speed_of(surface)) * self.course.end - self.domain
+            side = 0 if self.speed_of(surface) > 0.0 else 1
+            ends[side] += (1 if side else -1) * max(0.0, beyond)
+        reached = grid.model_copy(update={"inlet": ends[0], "outlet": ends[1]})
+        return self.case.model_copy(update={"grid": reached})
+
+    def _surfaces(self) -> Sequence[RoughSurface] | Sequence[RoughMap]:
+        """The rough surfaces, made as far as they travel."""
+        case = self._reached
+        if isinstance(self.conditions, PointConditions):
+            return rough_maps(case.roughness, domain_of(case, self.conditions))
+        return rough_surfaces(case, self.conditions)
+
+    @cached_property
+    def problem(self) -> FilmProblem:
+        """The film equations with the roughness of surfaces at rest alone."""
+        if isinstance(self.conditions, PointConditions):
+            maps = [surface for surface in self.rough if isinstance(surface, RoughMap)]
+            resting = [surface for surface in maps if not self.speed_of(surface.surface)]
+            problem = point_film_problem(self.case, self.conditions, resting)
+            whole = point_film_problem(self._reached, self.conditions, maps)
+            return replace(problem, width=whole.width)
+        lines = [surface for surface in self.rough if isinstance(surface, RoughSurface)]
+        resting_lines = [surface for surface in lines if not self.speed_of(surface.surface)]
+        return film_problem(self.case, self.conditions, resting_lines)
+
+    def heights(self, time: float, *axes: Array) -> Array:
+        """Roughness of both surfaces at a time.
+
+        Parameters
+        ----------
+        time : float
+            T.
+        *axes : ndarray
+            X, and of a point contact Y, in half-widths along entrainment.
+
+        Returns
+        -------
+        ndarray, shape (2, nx) or (2, nx, ny)
+            Positive out of the body [m].
+        """
+        heights = np.zeros((2, *(axis.size for axis in axes)))
+        for surface in self.rough:
+            heights[surface.surface - 1] += self._height(surface, time, *axes)
+        return heights
+
+    def moving_gap(self, time: float, x: Array, y: Array) -> Array:
+        """What the surfaces that move add to the dimensionless gap, X (nx,), Y (ny,) -> (nx, ny)."""
+        moved = [surface for surface in self.rough if self.speed_of(surface.surface)]
+        axes = (x, y) if isinstance(self.conditions, PointConditions) else (x,)
+        heights = np.sum([self._height(surface, time, *axes) for surface in moved], axis=0)
+        gap: Array = -heights.reshape(x.size, y.size) / self.conditions.thickness_scale
+        return gap
+
+    def _height(self, surface: RoughSurface | RoughMap, time: float, x: Array, *others: Array) -> Array:
+        speed, b = self.speed_of(surface.surface), self.half_width
+        if not speed:
+            return surface.height(b * x, *(b * other for other in others))
+        travelled = speed * time - np.sign(speed) * self.domain
+        front = (self.case.grid.outlet if speed > 0.0 else self.case.grid.inlet) + travelled
+        behind = np.clip((front - x) * np.sign(speed), 0.0, 1.0)
+        here = np.flatnonzero(behind > 0.0)
+        height = np.zeros((x.size, *(other.size for other in others)))
+        if here.size:
+            rise = np.sin(0.5 * np.pi * behind[here]) ** 2
+            there = surface.height(b * (x[here] - travelled), *(b * other for other in others))
+            height[here] = there * rise.reshape(-1, *(1 for _ in others))
+        return height
+
+
+def _course(case: Case, conditions: Conditions | PointConditions) -> Course:
+    assert case.motion is not None
+    motion, grid = case.motion, case.grid
+    b = conditions.semi_axis_x if isinstance(conditions, PointConditions) else conditions.half_width
+    time = b / conditions.entrainment_speed
+    length = grid.outlet - grid.inlet
+    end = motion.passes * length if motion.passes is not None else (motion.duration or 0.0) / time
+    spacing = length / (grid.nodes - 1)
+    # As long as the grid spacing: then the feet of the lines on which oil travels are nodes.
+    steps = motion.steps or max(1, round(end / spacing))
+    if motion.steps is None:
+        end = steps * spacing
+    courant = end / steps / spacing
+    if courant > MOST_COURANT * (1.0 + 1e-9):
+        least = int(np.ceil(end / spacing / MOST_COURANT))
+        raise InputError(
+            f"motion.steps: got {steps}, in each of which oil would travel {courant:.3g} grid spacings; "
+            f"takes at least {least}, and {round(end / spacing)} for one spacing a step"
+        )
+    recorded = np.unique(np.round(np.linspace(0, steps, min(motion.record, steps + 1))).astype(int))
+    return Course(end, steps, courant, recorded, time)
