@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ehlectric.conditions import Conditions
 from ehlectric.errors import ConvergenceError
@@ -119,7 +120,7 @@ class MovingContact:
         pressure = np.maximum(scales.pressure * state.pressure, scales.ambient_pressure)
         load = float(np.vdot(level.weights, state.pressure))
 
-        def shaped(values: Array) -> Array:
+        def shaped(values: NDArray[Any]) -> NDArray[Any]:
             return mesh.mirrored(values) if point else values[:, 0]
 
         film: dict[str, Any] = {
