@@ -15,6 +15,7 @@ import typer
 from ehlectric.bearing_commands import bearing
 from ehlectric.errors import InputError, shown
 from ehlectric.map_commands import draw_maps, sensitivity
+from ehlectric.motion_commands import animate, run_moving
 from ehlectric.sweep_commands import sweep
 from ehlectric.terminal import (
     NOT_CONVERGED,
@@ -89,6 +90,9 @@ def run(
             raise InputError(f"--solver: got {shown(solver)}, takes one of {', '.join(SOLVERS)}")
         check_case(case)
         SOLVERS[solver].check(case)
+        if case.motion is not None:
+            run_moving(case, output, solver=solver, plots=plots, quiet=quiet, as_json=as_json)
+            return
         names = (*FILES, *ALL_FIGURES)
         folder = prepare(output, names)
         with progress_line(shown=not quiet) as stage:
@@ -276,6 +280,7 @@ def reproduce(
 app.command()(bearing)
 app.command()(sweep)
 app.command("map")(draw_maps)
+app.command()(animate)
 app.command()(sensitivity)
 
 

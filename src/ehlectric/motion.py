@@ -82,7 +82,10 @@ class Motion:
         self.conditions: Conditions | PointConditions = resolve_point(case) if point else resolve(case)
         self.course = _course(case, self.conditions)
         self.rough = self._surfaces()
-        if not any(self.speed_of(surface.surface) for surface in self.rough):
+        if np.isfinite(self.coincident):
+            alike = round(self.coincident / self.course.step)
+            self.course = replace(self.course, recorded=np.union1d(self.course.recorded, [alike]))
+        if not self._speeds:
             raise InputError(
                 "motion: got roughness on surfaces at rest alone; takes it on one that moves, or a case "
                 "without motion"
@@ -105,8 +108,34 @@ class Motion:
         speed = 1.0 + slide if surface == 1 else 1.0 - slide
         return speed if abs(speed) > _AT_REST else 0.0
 
+    @property
+    def _speeds(self) -> list[float]:
+        """Speeds of the rough surfaces that move, over the mean speed."""
+        speeds = [self.speed_of(surface.surface) for surface in self.rough]
+        return [speed for speed in speeds if speed]
+
+    @property
+    def covered(self) -> float:
+        """T from which the roughness that moves fills the Hertz zone; infinite where it does not in time."""
+        grid = self.case.grid
+        # The front has risen over one half-width.
+        ways = [2.0 - grid.inlet if speed > 0.0 else grid.outlet + 2.0 for speed in self._speeds]
+        latest = max(
+            (way / abs(speed) for way, speed in zip(ways, self._speeds, strict=True)), default=np.inf
+        )
+        return latest if latest <= self.course.end else np.inf
+
+    @property
+    def coincident(self) -> float:
+        """T at which all that moves lies as the case has it; infinite where it does not, or not together."""
+        speeds = sorted(map(abs, self._speeds))
+        if not speeds or speeds[-1] - speeds[0] > _AT_REST * speeds[-1]:
+            return np.inf
+        time = self.domain / speeds[0]
+        return time if time <= self.course.end * (1.0 + _AT_REST) else np.inf
+
     @cached_property
-    def _reached(self) -> Case:
+    def reached(self) -> Case:
         """The case with a domain as long as its surfaces travel."""
         grid = self.case.grid
         ends = [grid.inlet, grid.outlet]
@@ -114,12 +143,12 @@ class Motion:
             beyond = abs(self.speed_of(surface)) * self.course.end - self.domain
             side = 0 if self.speed_of(surface) > 0.0 else 1
             ends[side] += (1 if side else -1) * max(0.0, beyond)
-        reached = grid.model_copy(update={"inlet": ends[0], "outlet": ends[1]})
-        return self.case.model_copy(update={"grid": reached})
+        longer = grid.model_copy(update={"inlet": ends[0], "outlet": ends[1]})
+        return self.case.model_copy(update={"grid": longer})
 
     def _surfaces(self) -> Sequence[RoughSurface] | Sequence[RoughMap]:
         """The rough surfaces, made as far as they travel."""
-        case = self._reached
+        case = self.reached
         if isinstance(self.conditions, PointConditions):
             return rough_maps(case.roughness, domain_of(case, self.conditions))
         return rough_surfaces(case, self.conditions)
@@ -131,7 +160,7 @@ class Motion:
             maps = [surface for surface in self.rough if isinstance(surface, RoughMap)]
             resting = [surface for surface in maps if not self.speed_of(surface.surface)]
             problem = point_film_problem(self.case, self.conditions, resting)
-            whole = point_film_problem(self._reached, self.conditions, maps)
+            whole = point_film_problem(self.reached, self.conditions, maps)
             return replace(problem, width=whole.width)
         lines = [surface for surface in self.rough if isinstance(surface, RoughSurface)]
         resting_lines = [surface for surface in lines if not self.speed_of(surface.surface)]

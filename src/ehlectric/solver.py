@@ -96,7 +96,7 @@ def solve(
     Raises
     ------
     InputError
-        Where the values of the case contradict each other.
+        Where the values of the case contradict each other, or its roughness moves.
     ConvergenceError
         Where the film was not solved and ``require_convergence`` is set, or its field was not.
 
@@ -110,6 +110,10 @@ def solve(
     0.74
     """
     solvers.check(case)
+    if case.motion is not None:
+        raise InputError(
+            "motion: got it where a film at rest is solved; takes run_motion, or a case without it"
+        )
     if case.contact.geometry == "point":
         return _solve_point(case, progress, demand=require_convergence, beside_smooth=beside_smooth)
     return solve_line(

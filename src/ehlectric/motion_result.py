@@ -1,0 +1,228 @@
+"""What a run of moving roughness says: film and field over time, and beside the same roughness held still."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from scipy.ndimage import maximum_filter
+
+from ehlectric.motion import Motion
+from ehlectric.motion_store import motion_of
+from ehlectric.point_conditions import PointConditions
+from ehlectric.solution import plain
+from ehlectric.stress import dielectric_strength
+from ehlectric.typing import Array, Mask
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+SCHEMA = "ehlectric.motion/1"
+
+# Part of the largest field above which the time counts.
+HIGH_FIELD = 0.9
+
+QUANTILES = 0.05, 0.5, 0.95
+
+# Steps of time between an instant that is kept and the one at which all lies as the case has it, at the most.
+_NEAR = 0.6
+
+
+def counted(dataset: xr.Dataset) -> Mask:
+    """Which instants count: those since the roughness has filled the Hertz zone, or all, shape (frames,)."""
+    time = dataset["frame_time"].values
+    motion = motion_of(dataset)
+    since = motion.covered * motion.course.time
+    return np.asarray(time >= since if np.count_nonzero(time >= since) > 1 else time >= 0.0)
+
+
+def summary_of(dataset: xr.Dataset) -> dict[str, Any]:
+    """Numbers of a run, nested as summary.json, SI units.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        As ``read_motion`` gives it.
+
+    Returns
+    -------
+    dict
+        Statistics over time are of the instants since the roughness has filled the Hertz zone, where it does.
+    """
+    motion, attributes = motion_of(dataset), dataset.attrs
+    complete = bool(attributes["complete"])
+    found = {
+        "schema": SCHEMA,
+        "version": str(attributes["version"]),
+        "title": motion.case.title,
+        "converged": complete,
+        "warnings": json.loads(attributes["warnings"]),
+        "inputs": motion.case.to_dict(),
+        "motion": _course(motion, dataset),
+        "film": _film(dataset),
+        "field": _field(motion, dataset),
+        "discharge": _discharge(motion, dataset),
+        "stationary": json.loads(attributes["stationary"]),
+        "beside_stationary": _beside(motion, dataset),
+        "rough": json.loads(attributes["rough"]),
+        "seconds": float(attributes["seconds"]),
+    }
+    summary: dict[str, Any] = plain(found)
+    return summary
+
+
+def _course(motion: Motion, dataset: xr.Dataset) -> dict[str, Any]:
+    course, steps = motion.course, dataset.sizes["step"] - 1
+    return {
+        "duration": course.end * course.time,
+        "steps": course.steps,
+        "steps_done": steps,
+        "courant": course.courant,
+        "frames": dataset.sizes["frame"],
+        "speed_ratio_1": motion.speed_of(1),
+        "speed_ratio_2": motion.speed_of(2),
+        "covered_from": motion.covered * course.time,
+        "coincident": motion.coincident * course.time,
+        "newton_per_step": float(dataset["newton_iterations"].values.sum()) / max(steps, 1),
+        "krylov_per_step": float(dataset["krylov_iterations"].values.sum()) / max(steps, 1),
+        "halvings": int(dataset["halvings"].values.sum()),
+    }
+
+
+def _film(dataset: xr.Dataset) -> dict[str, Any]:
+    thickness, pressure = dataset["minimum_thickness"].values, dataset["max_pressure"].values
+    thinnest, highest = int(np.argmin(thickness)), int(np.argmax(pressure))
+    time = dataset["time"].values
+    place = [float(dataset[name].values[thinnest]) for name in ("minimum_x", "minimum_y") if name in dataset]
+    return {
+        "before": thickness[0],
+        "minimum_thickness": thickness[thinnest],
+        "minimum_time": time[thinnest],
+        "minimum_position": place if len(place) > 1 else place[0],
+        "max_pressure": pressure[highest],
+        "max_pressure_time": time[highest],
+    }
+
+
+def _field(motion: Motion, dataset: xr.Dataset) -> dict[str, Any]:
+    strength, time = dataset["max_strength"].values, dataset["frame_time"].values
+    largest = int(np.argmax(strength))
+    names = [name for name in ("max_strength_x", "max_strength_y") if name in dataset]
+    place = [float(dataset[name].values[largest]) for name in names]
+    within = counted(dataset)
+    maxima = local_maxima(dataset, within)
+    capacitance = dataset["capacitance"].values[within]
+    electric = motion.case.electric
+    share = time_above(time[within], strength[within], HIGH_FIELD * np.max(strength[within]))
+    return {
+        "voltage": abs(electric.potential_2 - electric.potential_1),
+        "before": strength[0],
+        "max_strength": strength[largest],
+        "max_strength_time": time[largest],
+        "max_strength_position": place if len(place) > 1 else place[0],
+        "max_thin_gap_strength": np.max(dataset["thin_gap_strength"].values),
+        "share_above_90": share,
+        "time_above_90": share * float(np.ptp(time[within])),
+        "local_maxima": maxima.size,
+        "local_maxima_quantiles": list(np.quantile(maxima, QUANTILES)) if maxima.size else None,
+        "capacitance_mean": np.mean(capacitance),
+        "capacitance_least": np.min(capacitance),
+        "capacitance_largest": np.max(capacitance),
+    }
+
+
+def time_above(time: Array, values: Array, level: float) -> float:
+    """Part of the time in which a value, linear between its instants, is above a level.
+
+    Examples
+    --------
+    >>> round(time_above(np.array([0.0, 1.0, 2.0]), np.array([0.0, 1.0, 0.0]), 0.75), 9)
+    0.25
+    """
+    if time.size < 2:
+        return float(values[0] > level)
+    steps = np.diff(time)
+    low, high = np.minimum(values[:-1], values[1:]), np.maximum(values[:-1], values[1:])
+    span = np.where(high > low, high - low, 1.0)
+    part = np.where(high > low, np.clip((high - level) / span, 0.0, 1.0), (high > level).astype(float))
+    return float(part @ steps / np.sum(steps))
+
+
+def local_maxima(dataset: xr.Dataset, within: Mask) -> Array:
+    """Field strengths that are larger than those at all nodes beside, within the Hertz zone [V/m].
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        Of a run.
+    within : ndarray of bool, shape (frames,)
+        Which instants count.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        Of all those instants together.
+    """
+    given = motion_of(dataset).conditions
+    strength = np.nan_to_num(dataset["strength"].values[within], nan=-np.inf)
+    x = dataset["x"].values
+    if isinstance(given, PointConditions):
+        inside = np.hypot(x[:, np.newaxis] / given.semi_axis_x, dataset["y"].values / given.semi_axis_y) < 1.0
+        size: tuple[int, ...] = (1, 3, 3)
+    else:
+        inside, size = np.abs(x) < given.half_width, (1, 3)
+    highest = maximum_filter(strength, size=size, mode="constant", cval=-np.inf)
+    neighbours = np.ones(size, dtype=bool)
+    neighbours[tuple(n // 2 for n in size)] = False
+    beside = maximum_filter(strength, footprint=neighbours, mode="constant", cval=-np.inf)
+    peaks: Array = strength[(strength == highest) & (strength > beside) & inside]
+    return peaks.astype(float)
+
+
+def _discharge(motion: Motion, dataset: xr.Dataset) -> dict[str, Any] | None:
+    """Least breakdown voltage over time, by a strength that is the same everywhere."""
+    discharge = motion.case.discharge
+    if discharge is None or discharge.dielectric_strength is None:
+        return None
+    electric = motion.case.electric
+    voltage = abs(electric.potential_2 - electric.potential_1)
+    strength = float(dielectric_strength(discharge, np.zeros(1))[0])
+    voltages = strength * voltage / dataset["max_strength"].values
+    least = int(np.argmin(voltages))
+    return {
+        "breakdown_voltage": voltages[least],
+        "breakdown_time": dataset["frame_time"].values[least],
+        "breakdown_voltage_before": voltages[0],
+        "breakdown_voltage_median": np.median(voltages[counted(dataset)]),
+        "margin": voltages[least] / voltage,
+    }
+
+
+def instant_beside(motion: Motion, dataset: xr.Dataset) -> int | None:
+    """Number of the instant at which all lies as the case has it, None where none was kept near it."""
+    if "stationary_thickness" not in dataset or not np.isfinite(motion.coincident):
+        return None
+    away = np.abs(dataset["frame_time"].values - motion.coincident * motion.course.time)
+    nearest = int(np.argmin(away))
+    return nearest if away[nearest] <= _NEAR * motion.course.step * motion.course.time else None
+
+
+def _beside(motion: Motion, dataset: xr.Dataset) -> dict[str, Any] | None:
+    """The moving roughness over the same held still, where both lie alike, within the Hertz zone."""
+    frame = instant_beside(motion, dataset)
+    if frame is None:
+        return None
+    inside = np.abs(dataset["x"].values) < motion.half_width
+    found: dict[str, Any] = {"time": dataset["frame_time"].values[frame]}
+    for name, reduce in (("thickness", np.nanmin), ("pressure", np.nanmax), ("strength", np.nanmax)):
+        moving = dataset[name].values[frame][inside].astype(float)
+        still = dataset[f"stationary_{name}"].values[inside]
+        which = "minimum" if reduce is np.nanmin else "maximum"
+        found |= {
+            f"{which}_{name}": reduce(moving),
+            f"{which}_{name}_stationary": reduce(still),
+            f"{name}_rms_difference": np.sqrt(np.nanmean((moving - still) ** 2)),
+            f"{name}_largest_difference": np.nanmax(np.abs(moving - still)),
+        }
+    return found

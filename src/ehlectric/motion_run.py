@@ -1,0 +1,150 @@
+"""Run a contact whose roughness moves into its file, and go on with a run that was stopped."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Callable, Iterator
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+from ehlectric.case import Case
+from ehlectric.conditions import Conditions, remarks
+from ehlectric.map_remarks import remarks as map_remarks
+from ehlectric.memory import check_memory
+from ehlectric.motion import Motion
+from ehlectric.motion_solver import MovingContact
+from ehlectric.motion_store import MOTION, MotionFile, Row, column_strength
+from ehlectric.point_conditions import PointConditions, point_remarks
+from ehlectric.point_problems import domain_of, spacings
+from ehlectric.point_result import PointResult
+from ehlectric.result import Result
+from ehlectric.rough_maps import RoughMap
+from ehlectric.solution import plain
+from ehlectric.solver import solve
+from ehlectric.store import prepare
+from ehlectric.typing import Array
+from ehlectric.version import __version__
+from ehlectric.walls import RoughSurface
+from ehlectric.walls import remarks as rough_remarks
+
+# Called with the steps done, all of them, and what is being done.
+Progress = Callable[[int, int, str], None]
+
+
+def _quiet(_done: int, _of: int, _text: str) -> None:
+    pass
+
+
+def run_motion(case: Case, folder: str | Path, *, progress: Progress = _quiet) -> Path:
+    """Solve a contact whose roughness moves, and write it as it goes.
+
+    Parameters
+    ----------
+    case : Case
+        With ``motion``.
+    folder : str or Path
+        Where motion.nc goes; made if it is not there. An unfinished run of the same case there is gone on
+        with from the last instant that was kept; anything else there is replaced.
+    progress : callable, optional
+        Called with the steps done, all of them, and what is being done.
+
+    Returns
+    -------
+    Path
+        The file, which ``read_motion`` reads.
+
+    Raises
+    ------
+    InputError
+        Where the case or the folder cannot be used.
+    ConvergenceError
+        Where a step is not solved; the file has what was found before.
+    """
+    motion = Motion(case)
+    check_memory(case)
+    path = prepare(folder, (MOTION,)) / MOTION
+    contact = MovingContact(motion)
+    file = MotionFile(path, contact)
+    found = file.resumed()
+    if found is None:
+        path.unlink(missing_ok=True)
+        progress(0, motion.course.steps, "before the motion")
+        _begin(file, contact)
+        found = file.resumed()
+        assert found is not None
+    done, history = found
+    started, rows = time.perf_counter(), list[Row]()
+    recorded = set(motion.course.recorded.tolist())
+    for step, latest in contact.run(history, done):
+        rows.append(Row.of(contact, latest))
+        if step in recorded:
+            file.append(rows, step, contact.snapshot(latest.now), latest)
+            rows = []
+            progress(step, motion.course.steps, "in time")
+            file.add_seconds(time.perf_counter() - started)
+            started = time.perf_counter()
+    return path
+
+
+def _begin(file: MotionFile, contact: MovingContact) -> None:
+    """The film before the motion as the first instant, beside the roughness held still."""
+    motion, started = contact.motion, time.perf_counter()
+    still = solve(motion.case.replace(motion=None), beside_smooth=False)
+    history = contact.start()
+    first = contact.snapshot(history.now)
+    attributes = {
+        "title": "Film and electric field of a contact whose roughness moves",
+        "case": motion.case.to_toml(),
+        "version": __version__,
+        "date": datetime.now(UTC).isoformat(timespec="seconds"),
+        "warnings": json.dumps(list(_remarks(motion, still))),
+        "stationary": json.dumps(plain(_numbers(still))),
+        "rough": json.dumps(plain([surface.describe() for surface in motion.rough])),
+        "seconds": 0.0,
+    }
+    file.create(first, attributes, _maps(still))
+    file.append([Row.of(contact, history)], 0, first, history)
+    file.add_seconds(time.perf_counter() - started)
+
+
+def _maps(still: Result | PointResult) -> dict[str, Array]:
+    """Film and field of the roughness held still; nothing where it was not solved."""
+    if not still.converged:
+        return {}
+    film = still.film
+    strength = column_strength(film, still.field)
+    return {"pressure": film.pressure, "thickness": film.thickness, "strength": strength}
+
+
+def _numbers(still: Result | PointResult) -> dict[str, Any] | None:
+    if not still.converged:
+        return None
+    return {
+        "minimum_thickness": still.film.minimum_thickness,
+        "minimum_position": still.film.minimum_position,
+        "max_pressure": still.film.max_pressure,
+        "max_strength": still.field.max_strength,
+        "capacitance": still.field.capacitance,
+        "discretisation_error": still.film.discretisation_error,
+    }
+
+
+def _remarks(motion: Motion, still: Result | PointResult) -> Iterator[str]:
+    """What to know before using it."""
+    case, given = motion.reached, motion.conditions
+    if isinstance(given, PointConditions):
+        yield from point_remarks(motion.case, given)
+        maps = [surface for surface in motion.rough if isinstance(surface, RoughMap)]
+        grid = spacings(motion.case, given)
+        yield from map_remarks(case.roughness, maps, domain_of(case, given), *grid)
+    else:
+        assert isinstance(given, Conditions)
+        yield from remarks(motion.case, given)
+        lines = [surface for surface in motion.rough if isinstance(surface, RoughSurface)]
+        yield from rough_remarks(case, given, lines)
+    if not still.converged:
+        yield f"the same roughness held still is not solved: {still.film.status}"
+    elif (error := still.film.discretisation_error) is not None and error > 0.01:
+        yield f"held still, the film may be {100.0 * error:.2g} % off on this grid, and moving about as much"

@@ -1,0 +1,305 @@
+"""The file of a contact whose roughness moves: written as it is solved, read again to go on.
+
+Closed between two instants, it is whole whenever the run stops. Long fields are kept in single precision,
+what a run goes on from in double.
+"""
+
+from __future__ import annotations
+
+import math
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from scipy.interpolate import RegularGridInterpolator
+
+from ehlectric.case import Case
+from ehlectric.errors import InputError
+from ehlectric.field import Field
+from ehlectric.film import Film
+from ehlectric.motion import Motion
+from ehlectric.motion_solver import MovingContact, Snapshot
+from ehlectric.newton import State
+from ehlectric.point_field import PointField
+from ehlectric.point_film import PointFilm
+from ehlectric.typing import Array
+from ehlectric.unsteady import History, Instant
+from ehlectric.version import __version__
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+MOTION = "motion.nc"
+
+# Name: (long name, unit), of all time steps, and of the instants that are kept.
+_STEPS = {
+    "time": ("time since the roughness began to enter", "s"),
+    "minimum_thickness": ("smallest film thickness", "m"),
+    "minimum_x": ("where the film is thinnest, along entrainment", "m"),
+    "minimum_y": ("where the film is thinnest, across entrainment", "m"),
+    "max_pressure": ("largest pressure", "Pa"),
+    "thin_gap_strength": ("voltage over the smallest film thickness", "V/m"),
+    "newton_iterations": ("Newton steps of a time step", "1"),
+    "krylov_iterations": ("GMRES iterations of a time step", "1"),
+    "halvings": ("how often a time step was halved", "1"),
+}
+_FRAMES = {
+    "frame_time": ("time since the roughness began to enter", "s"),
+    "frame_step": ("number of the time step", "1"),
+    "max_strength": ("largest field strength", "V/m"),
+    "max_strength_x": ("where the field is strongest, along entrainment", "m"),
+    "max_strength_y": ("where the field is strongest, across entrainment", "m"),
+    "capacitance": ("capacitance within the field range", "F/m or F"),
+}
+_MAPS = {
+    "pressure": ("pressure", "Pa"),
+    "thickness": ("film thickness", "m"),
+    "strength": ("largest field strength across the film", "V/m"),
+    "roughness_1": ("roughness of surface 1, out of the body", "m"),
+    "roughness_2": ("roughness of surface 2, out of the body", "m"),
+    "cavitated": ("pressure held at ambient", "1"),
+}
+_OF_POINTS = ("minimum_y", "max_strength_y")
+_RESUME = ("pressure", "thickness", "mass", "density", "free")
+_CHUNK = 1024
+
+
+@dataclass(frozen=True)
+class Row:
+    """What is kept of a time step."""
+
+    values: Mapping[str, float]
+
+    @classmethod
+    def of(cls, contact: MovingContact, history: History) -> Row:
+        """Of the last step of a history, SI units."""
+        motion, instant = contact.motion, history.now
+        electric = motion.case.electric
+        film = contact.film(instant)
+        values: dict[str, float] = {
+            "time": instant.time * motion.course.time,
+            "minimum_thickness": film.minimum_thickness,
+            "max_pressure": film.max_pressure,
+            "thin_gap_strength": abs(electric.potential_2 - electric.potential_1) / film.minimum_thickness,
+            "newton_iterations": history.effort.newton,
+            "krylov_iterations": history.effort.krylov,
+            "halvings": history.effort.halvings,
+        }
+        return cls(values | _place("minimum", film.minimum_position))
+
+
+def _place(name: str, place: float | tuple[float, float]) -> dict[str, float]:
+    if isinstance(place, tuple):
+        return {f"{name}_x": place[0], f"{name}_y": place[1]}
+    return {f"{name}_x": place}
+
+
+class MotionFile:
+    """The file of a run, made new or opened to go on.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    contact : MovingContact
+        What is solved.
+    """
+
+    def __init__(self, path: Path, contact: MovingContact) -> None:
+        self._path, self._contact = path, contact
+        self._point = contact.motion.case.contact.geometry == "point"
+
+    def create(self, first: Snapshot, attributes: Mapping[str, Any], stationary: Mapping[str, Array]) -> None:
+        """A file without instants; ``stationary`` has maps of the roughness held still."""
+        import h5netcdf
+
+        nodes = ("x", "y") if self._point else ("x",)
+        with h5netcdf.File(self._path, "w") as file:
+            axes = {name: np.asarray(getattr(first.film, name)) for name in nodes}
+            file.dimensions = {"step": None, "frame": None} | {name: axes[name].size for name in nodes}
+            for name, values in axes.items():
+                way = "along" if name == "x" else "across"
+                self._add(file, name, (name,), f"position {way} entrainment", "m", values)
+            for table, dimension in ((_STEPS, "step"), (_FRAMES, "frame")):
+                for name, (long_name, unit) in table.items():
+                    if self._point or name not in _OF_POINTS:
+                        self._add(file, name, (dimension,), long_name, self._unit(name, unit))
+            for name, (long_name, unit) in _MAPS.items():
+                self._add(file, name, ("frame", *nodes), long_name, unit)
+            for name, values in stationary.items():
+                long_name, unit = _MAPS[name]
+                about = f"{long_name}, the roughness held still"
+                self._add(file, f"stationary_{name}", nodes, about, unit, values)
+            file.attrs["complete"] = 0
+            for key, value in attributes.items():
+                file.attrs[key] = value
+
+    def _unit(self, name: str, unit: str) -> str:
+        return ("F" if self._point else "F/m") if name == "capacitance" else unit
+
+    def _add(
+        self,
+        file: Any,
+        name: str,
+        dimensions: Sequence[str],
+        long_name: str,
+        unit: str,
+        values: Array | None = None,
+    ) -> None:
+        how: dict[str, Any] = {}
+        kind = "f8"
+        if dimensions[0] == "frame" and len(dimensions) > 1:
+            kind = "i1" if name == "cavitated" else "f4"
+            shape = tuple(file.dimensions[d].size for d in dimensions[1:])
+            how = {"chunks": (1, *shape), "compression": "gzip", "compression_opts": 1, "shuffle": True}
+        elif dimensions[0] in ("step", "frame"):
+            how = {"chunks": (_CHUNK,)}
+        variable = file.create_variable(name, tuple(dimensions), kind, data=values, **how)
+        variable.attrs["long_name"], variable.attrs["units"] = long_name, unit
+
+    def append(self, rows: Sequence[Row], step: int, snapshot: Snapshot, history: History) -> None:
+        """The steps since the last instant, the instant, and what goes on from it."""
+        import h5netcdf
+
+        film, field = snapshot.film, snapshot.field
+        maps = {
+            "pressure": film.pressure,
+            "thickness": film.thickness,
+            "strength": column_strength(film, field),
+            "roughness_1": snapshot.roughness[0],
+            "roughness_2": snapshot.roughness[1],
+            "cavitated": film.cavitated,
+        }
+        numbers = {
+            "frame_time": snapshot.time,
+            "frame_step": step,
+            "max_strength": field.max_strength,
+            "capacitance": field.capacitance,
+        } | _place("max_strength", field.max_strength_position)
+        with h5netcdf.File(self._path, "a") as file:
+            done = file.dimensions["step"].size
+            file.resize_dimension("step", done + len(rows))
+            for name in file.variables:
+                if name in _STEPS:
+                    file.variables[name][done:] = [row.values[name] for row in rows]
+            frame = file.dimensions["frame"].size
+            file.resize_dimension("frame", frame + 1)
+            for name, value in (*maps.items(), *numbers.items()):
+                file.variables[name][frame] = value
+            self._keep(file, history)
+            file.attrs["complete"] = int(step == self._contact.motion.course.steps)
+
+    def add_seconds(self, seconds: float) -> None:
+        """Time that was spent on it [s]."""
+        import h5netcdf
+
+        with h5netcdf.File(self._path, "a") as file:
+            file.attrs["seconds"] = float(file.attrs["seconds"]) + seconds
+
+    def _keep(self, file: Any, history: History) -> None:
+        """What a run goes on from."""
+        pairs = history.now, history.before
+        found = {name: np.stack([_part(one, name) for one in pairs]) for name in _RESUME}
+        if "resume" not in file.groups:
+            group = file.create_group("resume")
+            shape = history.now.state.pressure.shape
+            group.dimensions = {"instant": 2, "along": shape[0], "across": shape[1]}
+            for name, values in found.items():
+                kind = "i1" if name == "free" else "f8"
+                group.create_variable(name, ("instant", "along", "across"), kind, data=values.astype(kind))
+            for name in ("t", "h00"):
+                group.create_variable(name, ("instant",), "f8")
+        group = file.groups["resume"]
+        for name, values in found.items():
+            group.variables[name][:] = values
+        group.variables["t"][:] = [one.time for one in pairs]
+        group.variables["h00"][:] = [one.state.h00 for one in pairs]
+
+    def resumed(self) -> tuple[int, History] | None:
+        """The last step of an unfinished run of the same case and the film then, None without one."""
+        import h5netcdf
+
+        if not self._path.is_file():
+            return None
+        try:
+            with h5netcdf.File(self._path, "r") as file:
+                same = (file.attrs["case"], file.attrs["version"]) == (
+                    self._contact.motion.case.to_toml(),
+                    __version__,
+                )
+                if not same or file.attrs["complete"] or not file.dimensions["frame"].size:
+                    return None
+                group = file.groups["resume"]
+                now, before = (_instant(group, k) for k in range(2))
+                return int(file.variables["frame_step"][-1]), History(now, before)
+        except (OSError, KeyError, ValueError):
+            return None  # not a run, or damaged: solved from the start
+
+
+def _part(instant: Instant, name: str) -> Array:
+    of_state = name in ("pressure", "thickness")
+    values: Array = getattr(instant.state if of_state else instant, name)
+    return values
+
+
+def _instant(group: Any, k: int) -> Instant:
+    parts = {name: np.asarray(group.variables[name][k]) for name in _RESUME}
+    state = State(parts["pressure"], float(group.variables["h00"][k]), parts["thickness"])
+    time = float(group.variables["t"][k])
+    return Instant(time, state, parts["mass"], parts["density"], parts["free"].astype(bool))
+
+
+def column_strength(film: Film, field: Field | PointField) -> Array:
+    """Largest field strength across the film at its nodes [V/m]; not a number outside the field range."""
+    strength = field.column_strength
+    if isinstance(film, PointFilm):
+        assert isinstance(field, PointField)
+        between = RegularGridInterpolator((field.x, field.y), strength, bounds_error=False)
+        at: Array = between(np.stack(np.meshgrid(film.x, film.y, indexing="ij"), axis=-1))
+        return at
+    return np.interp(film.x, field.x, strength, left=math.nan, right=math.nan)
+
+
+def read_motion(path: str | Path) -> xr.Dataset:
+    """The dataset of a run.
+
+    Parameters
+    ----------
+    path : str or Path
+        A motion.nc, or the folder it lies in.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over ``step`` all time steps, over ``frame`` the instants that were kept; SI units.
+
+    Raises
+    ------
+    InputError
+        Where it cannot be read, or is none of a run.
+    """
+    import xarray as xr
+
+    path = Path(path)
+    path = path / MOTION if path.is_dir() else path
+    try:
+        path.open("rb").close()
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read, {(error.strerror or str(error)).lower()}") from None
+    try:
+        with xr.open_dataset(path, engine="h5netcdf") as file:
+            dataset = file.load()
+        Case.from_dict(tomllib.loads(dataset.attrs["case"]))
+        if not dataset.sizes["frame"]:
+            raise ValueError("no instant")
+    except Exception:  # whatever HDF5 and its wrappers raise at damaged files
+        raise InputError(f"{path}: is no motion of ehlectric, or damaged") from None
+    return dataset
+
+
+def motion_of(dataset: xr.Dataset) -> Motion:
+    """What was solved."""
+    return Motion(Case.from_dict(tomllib.loads(dataset.attrs["case"])))
