@@ -153,7 +153,9 @@ class BearingResult:
         if solution.case.contacts == "formula":
             yield "contacts by formula: films may be 30 % off, and fields are voltages over the minimum film"
         if solution.duty.film_factor == 1.0:
-            yield "film_factor none: the film is isothermal and fully flooded, voltages are upper bounds"
+            given = solution.case.bearing.film_factor
+            name = given if isinstance(given, str) else f"{given:g}"
+            yield f"film_factor {name}: the film is isothermal and fully flooded, voltages are upper bounds"
         if solution.case.lubricant.temperature is not None and solution.case.bearing.temperature < _COLD:
             cold = solution.case.bearing.temperature - 273.15
             yield f"bearing.temperature is {cold:.3g} °C: the viscosity from 40 and 100 °C may be far off"

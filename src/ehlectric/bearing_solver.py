@@ -17,7 +17,7 @@ from ehlectric.bearing_contacts import ContactCurve, ContactSolution, contact_ca
 from ehlectric.bearing_domain import least_load
 from ehlectric.bearing_duty import BearingDuty
 from ehlectric.bearing_formula import check_formula, formula_contact
-from ehlectric.bearing_race import Race
+from ehlectric.bearing_race import Race, of_contact
 from ehlectric.bearing_state import RaceState, race_state
 from ehlectric.meaning import check_case
 from ehlectric.roller_equilibrium import RollerEquilibrium
@@ -163,7 +163,8 @@ def check_bearing(case: BearingCase) -> None:
     for inner in (True, False):
         load = float(np.max(equilibria[0].inner_load if inner else equilibria[0].outer_load))
         race = _race(duty, equilibria, inner=inner)
-        check_case(contact_case(duty, race, load, case.discharge, case.solver.model_dump()))
+        with of_contact(race, load):
+            check_case(contact_case(duty, race, load, case.discharge, case.solver.model_dump()))
 
 
 def _duty(case: BearingCase) -> BearingDuty:

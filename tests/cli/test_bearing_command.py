@@ -123,6 +123,23 @@ def test_a_missing_file_is_one_line(ehlectric, tmp_path):
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.parametrize("command", ["run", "check"])
+def test_a_bearing_is_not_taken_for_a_contact(ehlectric, bearing_file, command):
+    """The line names the command that takes it, as that one does for the file of a contact."""
+    done = ehlectric(command, bearing_file)
+    assert done.returncode == 2
+    line = "is the file of a bearing, takes that of a contact; ehlectric bearing solves it"
+    assert done.stderr.splitlines() == [f"error: {bearing_file}: {line}"]
+
+
+def test_a_contact_is_not_taken_for_a_bearing(ehlectric, case_file):
+    done = ehlectric("bearing", case_file)
+    assert done.returncode == 2
+    assert done.stderr.splitlines() == [
+        f"error: {case_file}: is the file of a contact, takes that of a bearing; ehlectric run solves it"
+    ]
+
+
 @pytest.mark.slow
 def test_not_converged(ehlectric, bearing_file, tmp_path):
     """One Newton step is not enough: status 3, and everything is written all the same."""

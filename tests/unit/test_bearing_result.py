@@ -250,6 +250,9 @@ def test_film_factor_is_told(rollers):
     lean = BearingResult(dataclasses.replace(rollers.solution, duty=duty))
     assert not any(text.startswith("film_factor none:") for text in lean.warnings())
     assert lean.summary()["bearing"]["film_factor"] == 0.7
+    # A one that is given is told as what it is.
+    one = with_bearing(rollers, film_factor=1.0)
+    assert any(text.startswith("film_factor 1: the film is isothermal") for text in one.warnings())
 
 
 def test_pure_axial_load_is_shared_equally(axial):
