@@ -18,6 +18,7 @@ from ehlectric.bearing_circuit_plot import (
     impedance_phase,
     voltage_shares,
 )
+from ehlectric.bearing_impedance import impedance_of
 from ehlectric.bearing_polar import film_around, load_around, new_polar
 from ehlectric.bearing_result import BearingResult
 from ehlectric.bearing_speed_plot import (
@@ -51,7 +52,7 @@ def bearing_figures_of(result: BearingResult) -> dict[str, tuple[Draw, ...]]:
     breaks = result.breaks()["first_break"] is not None
     found[circuit] = (contact_capacitances, voltage_shares, *((breakdown_voltages,) if breaks else ()))
     found[pitch] = (capacitance_over_pitch, *((breakdown_over_pitch,) if breaks else ()))
-    if result.impedance_time() is not None and result.lubrication != "conducting":
+    if impedance_of(result) is not None:
         found[impedance] = (impedance_magnitude, impedance_phase)
     return found
 

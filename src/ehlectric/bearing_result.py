@@ -11,10 +11,10 @@ import numpy as np
 
 from ehlectric.ball_equilibrium import BallEquilibrium
 from ehlectric.bearing_circuit import Circuit, bearing_voltage_ratio, series
+from ehlectric.bearing_mechanics import mechanics_of
 from ehlectric.bearing_solver import BearingSolution
 from ehlectric.discharge import relaxation_time
 from ehlectric.solution import plain
-from ehlectric.typing import Array
 from ehlectric.version import __version__
 
 SCHEMA = "ehlectric.bearing/1"
@@ -217,7 +217,7 @@ class BearingResult:
     def summary(self) -> dict[str, Any]:
         """Totals, SI units, nested as summary.json; never NaN."""
         solution = self.solution
-        case, duty, at = solution.case, solution.duty, solution.positions[0].equilibrium
+        case, duty = solution.case, solution.duty
         fill = case.bearing.fill
         capacitance, plate = self.capacitance(fill), self.plate()
         strength, shaft = self.strength_per_volt, self.shaft_voltage
@@ -255,26 +255,12 @@ class BearingResult:
                 "discretisation_error": max(known) if len(known) == len(errors) else None,
                 "interpolation_error": max(curve.interpolation_error for curve in curves),
             },
-            "mechanics": {
-                "max_load": np.max(at.outer_load),
-                "radial_displacement": at.radial_displacement,
-                "axial_displacement": getattr(at, "axial_displacement", None),
-                "moment": getattr(at, "moment", None),
-                "centrifugal_force": at.centrifugal_force,
-                "gyroscopic_moment": _largest(getattr(at, "gyroscopic_moment", None)),
-                "cage_speed": getattr(at, "cage_speed", None),
-                "entrainment_speed": float(np.max(at.speeds.inner_entrainment)),
-                "residual": at.residual,
-            },
+            "mechanics": mechanics_of(solution.positions[0].equilibrium),
             "contacts": self.contacts(),
             "seconds": solution.seconds,
         }
         found: dict[str, Any] = plain(summary)
         return found
-
-
-def _largest(values: Array | None) -> float | None:
-    return None if values is None else float(np.max(values))
 
 
 def _weakest(circuit: Circuit) -> str:

@@ -295,7 +295,19 @@ def test_the_command_draws_unless_told_not_to(result, monkeypatch, tmp_path):
         done = CliRunner().invoke(app, ["bearing", str(file), "-o", str(tmp_path / "out"), "-q", option])
         assert done.exit_code == 0, done.output
         written = {path.name for path in (tmp_path / "out").iterdir()}
-        assert written == {"summary.json", "contacts.csv", *figures}
+        assert written == {"summary.json", "contacts.csv", "impedance.csv", *figures}
+
+
+def test_the_impedance_of_an_earlier_bearing_is_taken_away(monkeypatch, tmp_path):
+    """With a conductivity it is written, without one there is none."""
+    file, out = tmp_path / "bearing.toml", tmp_path / "out"
+    file.write_text(tomli_w.dumps(TABLE), encoding="utf-8")
+    for changes, there in (({}, True), ({"discharge": None}, False)):
+        solution = by_hand(positions=1, **changes).solution
+        monkeypatch.setattr("ehlectric.bearing_solver.solve_bearing", lambda *_, s=solution, **__: s)
+        done = CliRunner().invoke(app, ["bearing", str(file), "-o", str(out), "-q", "--no-plots"])
+        assert done.exit_code == 0, done.output
+        assert (out / "impedance.csv").exists() == there
 
 
 @pytest.mark.parametrize(
