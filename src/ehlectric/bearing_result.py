@@ -13,6 +13,7 @@ from ehlectric.ball_equilibrium import BallEquilibrium
 from ehlectric.bearing_circuit import Circuit, bearing_voltage_ratio, series
 from ehlectric.bearing_mechanics import mechanics_of
 from ehlectric.bearing_solver import BearingSolution
+from ehlectric.contact_remarks import contact_remarks
 from ehlectric.discharge import relaxation_time
 from ehlectric.solution import plain
 from ehlectric.version import __version__
@@ -165,10 +166,9 @@ class BearingResult:
             yield f"lambda is {self.lambda_ratio:.2g}: surfaces may touch, voltages are upper bounds"
         if self.ceramic and solution.case.bearing.element_capacitance is None:
             yield "the elements are ceramic: the capacitance is an upper bound, that of conducting ones"
-        for name, curve in (("inner", solution.inner_curve), ("outer", solution.outer_curve)):
-            for contact in curve.solutions:
-                where = f"{name} contact at {contact.load:.4g} N: "
-                yield from (where + text for text in contact.warnings)
+        yield from contact_remarks(
+            {"inner": solution.inner_curve.solutions, "outer": solution.outer_curve.solutions}
+        )
 
     def contacts(self) -> list[dict[str, Any]]:
         """A row for every element and ring, cage at its first position, SI units."""
