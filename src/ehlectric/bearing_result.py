@@ -217,7 +217,7 @@ class BearingResult:
     def summary(self) -> dict[str, Any]:
         """Totals, SI units, nested as summary.json; never NaN."""
         solution = self.solution
-        case, duty = solution.case, solution.duty
+        case, duty, oil = solution.case, solution.duty, solution.case.lubricant.temperature
         fill = case.bearing.fill
         capacitance, plate = self.capacitance(fill), self.plate()
         strength, shaft = self.strength_per_volt, self.shaft_voltage
@@ -235,6 +235,8 @@ class BearingResult:
                 "temperature": case.bearing.temperature,
                 "viscosity": duty.lubricant.viscosity,
                 "pressure_viscosity_coefficient": duty.lubricant.pressure_viscosity_coefficient,
+                "expansion": None if oil is None else oil.expansion,
+                "film_factor": duty.film_factor,
             },
             "bearing": {
                 "contacts": case.contacts,
