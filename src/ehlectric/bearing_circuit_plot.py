@@ -37,7 +37,7 @@ def contact_capacitances(result: BearingResult, ax: Axes | None = None) -> Axes:
     Returns
     -------
     Axes
-        With that of the bearing over them.
+        With that of the bearing over them, its cage at that position.
     """
     ax = axes_or_new(ax)
     fill = result.solution.case.bearing.fill
@@ -47,7 +47,8 @@ def contact_capacitances(result: BearingResult, ax: Axes | None = None) -> Axes:
     ax.bar(at - 0.2, factor * circuit.inner, 0.4, color=BLUE, label="inner contact")
     ax.bar(at + 0.2, factor * circuit.outer, 0.4, color=ORANGE, label="outer contact")
     total, of = unit_for(circuit.capacitance, "F", least=1.0)
-    ax.set_title(f"bearing: {total * circuit.capacitance:.4g} {of}, {fill} around the films", loc="right")
+    # That of the summary is the mean over a pitch.
+    ax.set_title(f"bearing, cage as here: {total * circuit.capacitance:.4g} {of}, {fill} fill", loc="right")
     ax.set_ylabel(f"capacitance\n[{unit}]")
     _elements(result, ax)
     legend_above(ax)

@@ -326,8 +326,29 @@ def test_titles_say_the_duty_and_what_the_film_is_worth(changes, text, monkeypat
     monkeypatch.setattr(Figure, "savefig", lambda *_args, **_kwargs: None)
     save_bearing_figures(by_hand(positions=1, **changes), tmp_path)
     assert named
-    assert all(name.startswith("By hand\n") and text in name for name in named)
-    assert all(("upper bounds" in name) == ("upper bounds" in text or "axial" in text) for name in named)
+    plain = text.removesuffix(": voltages are upper bounds")
+    assert all(name.startswith("By hand\n") and plain in name for name in named)
+    # Circuit and pitch, the second and third figure of four, show voltages of breakdown; the others do not.
+    bounds = "upper bounds" in text or "axial" in text
+    assert [k for k, name in enumerate(named) if "upper bounds" in name] == ([1, 2] if bounds else [])
+
+
+def test_radii_are_named_where_no_mark_is():
+    """Of an even number of elements one is at 180 degrees, at the top; of nine none is."""
+    for elements, away in ((9, 0.0), (8, 22.5)):
+        found = by_hand(positions=1, bearing={"elements": elements})
+        for draw in OF_BEARING[:2]:
+            angles = {np.degrees(text.get_position()[0]) for text in draw(found).texts}
+            assert len(angles) == 1
+            assert abs(angles.pop() - 180.0) == pytest.approx(away, abs=1e-9)
+
+
+def test_a_bearings_capacitance_over_its_contacts_is_that_of_the_position_shown(result):
+    """Not the mean over a pitch, which the summary has."""
+    title = bearing_circuit_plot.contact_capacitances(result).get_title(loc="right")
+    here, mean = result.circuits("oil")[0].capacitance, result.capacitance("oil")
+    assert f"{1e12 * here:.4g}" != f"{1e12 * mean:.4g}"
+    assert title == f"bearing, cage as here: {1e12 * here:.4g} pF, oil fill"
 
 
 def test_a_bearing_that_did_not_converge_says_so(result, monkeypatch, tmp_path):
