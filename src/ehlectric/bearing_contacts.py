@@ -119,7 +119,13 @@ def contact_case(
 
 
 def solve_contact(
-    bearing: Bearing, duty: BearingDuty, race: Race, load: float, discharge: Discharge, solver: dict[str, Any]
+    bearing: Bearing,
+    duty: BearingDuty,
+    race: Race,
+    load: float,
+    *,
+    discharge: Discharge,
+    solver: dict[str, Any],
 ) -> ContactSolution:
     """Solve one contact of a bearing at a load.
 

@@ -53,7 +53,7 @@ def check_formula(discharge: Discharge, lubricant: Lubricant) -> None:
 
 
 def formula_contact(
-    bearing: Bearing, duty: BearingDuty, race: Race, load: float, discharge: Discharge
+    bearing: Bearing, duty: BearingDuty, race: Race, load: float, *, discharge: Discharge
 ) -> ContactSolution:
     """One contact of a bearing by film formulas.
 

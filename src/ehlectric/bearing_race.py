@@ -131,7 +131,7 @@ def around_ball(
     rim[1:-1, 1:-1] = False
     modulus = contact.reduced_modulus
     dry = dry_contact(contact.load, contact.radius_x, contact.radius_y, modulus)
-    matched = match_film(raceway, dry, modulus, x[rim], y[rim], thickness[rim])
+    matched = match_film(raceway, dry, modulus, x=x[rim], y=y[rim], thickness=thickness[rim])
     domain = float(nodes[0][0]), float(nodes[0][-1]), float(nodes[1][-1])
     return outside_capacitance(raceway, matched, domain), matched.mismatch
 

@@ -119,9 +119,16 @@ def solve_bearing(
     loads = [_loads(equilibria, least_load(duty, race), inner=race.inner) for race in races]
     given = case.bearing, duty
     tasks = [
-        partial(formula_contact, *given, race, load, case.discharge)
+        partial(formula_contact, *given, race, load, discharge=case.discharge)
         if by_formula
-        else partial(solve_contact, *given, race, load, case.discharge, case.solver.model_dump())
+        else partial(
+            solve_contact,
+            *given,
+            race,
+            load,
+            discharge=case.discharge,
+            solver=case.solver.model_dump(),
+        )
         for race, those in zip(races, loads, strict=True)
         for load in those
     ]
@@ -133,7 +140,7 @@ def solve_bearing(
     def state(race: Race, curve: ContactCurve, at: Equilibrium) -> RaceState:
         load = at.inner_load if race.inner else at.outer_load
         gap = at.inner_gap if race.inner else at.outer_gap
-        return race_state(case.bearing, duty, race, curve, case.discharge, load, gap)
+        return race_state(case.bearing, duty, race, curve, discharge=case.discharge, load=load, gap=gap)
 
     positions = tuple(
         Position(at, state(races[0], curves[0], at), state(races[1], curves[1], at)) for at in equilibria

@@ -103,14 +103,15 @@ def by_hand(*, film=0.2e-6, positions=2, **changes):
         ContactCurve(tuple(contact(load, thick, strength) for load in (1.0, 900.0)))
         for thick in (film, 1.2 * film)
     ]
-    states = [
-        Position(
-            at,
-            race_state(case.bearing, duty, races[0], curves[0], case.discharge, at.inner_load, at.inner_gap),
-            race_state(case.bearing, duty, races[1], curves[1], case.discharge, at.outer_load, at.outer_gap),
-        )
-        for at in duty.equilibria(case.bearing, positions)
-    ]
+    states = []
+    for at in duty.equilibria(case.bearing, positions):
+        of_rings = ((at.inner_load, at.inner_gap), (at.outer_load, at.outer_gap))
+        given = {"discharge": case.discharge}
+        both = [
+            race_state(case.bearing, duty, race, curve, load=load, gap=gap, **given)
+            for race, curve, (load, gap) in zip(races, curves, of_rings, strict=True)
+        ]
+        states.append(Position(at, *both))
     return BearingResult(BearingSolution(case, duty, *races, *curves, tuple(states), seconds=1.0))
 
 

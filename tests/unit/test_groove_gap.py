@@ -287,10 +287,10 @@ def test_a_film_is_continued(outer):
     offset = 3e-7 - dry.approach
     film = groove_gap.groove_gap(race, offset, x, y) + point_deflection(x, y, dry, E)
     assert np.min(film) > 0.0
-    contact = match_film(race, dry, E, x, y, film)
+    contact = match_film(race, dry, E, x=x, y=y, thickness=film)
     assert contact.offset == pytest.approx(offset, rel=1e-9, abs=0.0)
     assert contact.mismatch < 1e-9
-    bumped = match_film(race, dry, E, x, y, np.where(x == x[0], 1.02, 1.0) * film)
+    bumped = match_film(race, dry, E, x=x, y=y, thickness=np.where(x == x[0], 1.02, 1.0) * film)
     assert 0.01 < bumped.mismatch < 0.02
     assert bumped.offset > offset
 
@@ -305,7 +305,7 @@ def test_hertz_gap_of_parabolas_and_circles():
         1.0 / (1.0 / race.ball_radius - 1.0 / race.groove_radius),
     )
     film = 0.5 * x**2 / rx + 0.5 * y**2 / ry + point_deflection(x, y, dry, E) - dry.approach
-    contact = match_film(race, dry, E, x, y, film)
+    contact = match_film(race, dry, E, x=x, y=y, thickness=film)
     assert contact.offset == pytest.approx(-dry.approach, rel=0.05, abs=0.0)
     assert contact.mismatch < 0.05
 
