@@ -159,9 +159,11 @@ def around(bearing, duty, race, result):
 
 @pytest.mark.slow
 def test_a_balls_capacitance_falls_with_speed():
-    """At 890 N: the Hertz part with h(0) of the speed's power 0.67 or a little more, the whole less steeply.
+    """At 890 N: the Hertz part as the inverse of h(0), the whole less steeply.
 
-    The Hertz part is extrapolated from two grids, since the thinner film has the larger error.
+    A film between the 0.67 of Hamrock and Dowson's fit and the 0.75 of the limit of heavily loaded contacts,
+    M^(-1/12) L^(3/4) (Nijenbanning, Venner and Moes). The Hertz part is extrapolated from two grids, since
+    the thinner film has the larger error.
     """
     speeds = SPEED * np.array([1.0, 4.0])
     hertz, whole = [], []
@@ -174,12 +176,12 @@ def test_a_balls_capacitance_falls_with_speed():
         hertz.append(parts[1] + (parts[1] - parts[0]) / 3.0)
         whole.append(fine.discharge.capacitance + 2.4 * around(bearing, duty, race, fine)[0])
     slopes = [np.polyfit(np.log(speeds), np.log(c), 1)[0] for c in (hertz, whole)]
-    assert -0.72 < slopes[0] < -0.66
+    assert -0.75 < slopes[0] < -0.67
     assert slopes[0] + 0.1 < slopes[1] < -0.4
 
 
 def test_a_rollers_capacitance_falls_with_speed():
-    """Of a line contact the Hertz part falls with the power of Dowson and Toyoda's film, 0.69, or nearly."""
+    """The Hertz part falls with between 0.69, Dowson and Toyoda's, and the limit M^(-1/8) L^(3/4), 0.75."""
     speeds = SPEED * np.array([0.5, 1.0, 2.0])
     bearing, duty, discharge, solver = of(ROLLERS)
     hertz, whole = [], []
@@ -189,7 +191,7 @@ def test_a_rollers_capacitance_falls_with_speed():
         found = solve_contact(bearing, duty, race, 2000.0, discharge=discharge, solver=solver)
         whole.append(found.inside + found.outside_oil)
     slopes = [np.polyfit(np.log(speeds), np.log(c), 1)[0] for c in (hertz, whole)]
-    assert -0.72 < slopes[0] < -0.67
+    assert -0.75 < slopes[0] < -0.69
     assert slopes[0] + 0.05 < slopes[1] < -0.4
 
 
