@@ -10,7 +10,6 @@ from typer.testing import CliRunner
 
 from ehlectric import bearing_circuit_plot, bearing_polar, bearing_speed_plot
 from ehlectric.bearing_case import BearingCase
-from ehlectric.bearing_circuit import impedance
 from ehlectric.bearing_contacts import ContactCurve, ContactSolution
 from ehlectric.bearing_duty import BearingDuty
 from ehlectric.bearing_plot import bearing_figures_of, save_bearing_figures, save_speed_figures
@@ -223,32 +222,6 @@ def test_bars_are_capacitances_and_shares(result):
     np.testing.assert_allclose(tops, 100.0, rtol=1e-12)
 
 
-def test_impedance_is_that_of_the_capacitance_where_all_is_oil(result):
-    """Then every contact has the same time constant, and so has the bearing."""
-    frequency, magnitude = bearing_circuit_plot.impedance_magnitude(result).get_lines()[0].get_data()
-    tau = result.impedance_time()
-    z = impedance(result.capacitance("oil"), tau, frequency)
-    np.testing.assert_allclose(magnitude, np.abs(z), rtol=1e-9)
-    corner = 1.0 / (2.0 * np.pi * tau)
-    assert frequency[0] == pytest.approx(0.01 * corner, rel=1e-9)
-    assert frequency[-1] == pytest.approx(1e7, rel=1e-9)
-    ax = bearing_circuit_plot.impedance_phase(result)
-    curve, mark = ax.get_lines()
-    assert mark.get_xdata()[0] == pytest.approx(corner, rel=1e-12)
-    at_corner = np.interp(np.log(corner), np.log(curve.get_xdata()), curve.get_ydata())
-    assert at_corner == pytest.approx(-45.0, abs=0.05)
-
-
-def test_air_does_not_leak():
-    """High up the impedance is that of all capacitances, far down it is above what oil alone would have."""
-    result = by_hand(bearing={"fill": "air"})
-    frequency, magnitude = bearing_circuit_plot.impedance_magnitude(result).get_lines()[0].get_data()
-    assert magnitude[-1] * 2.0 * np.pi * frequency[-1] * result.capacitance("air") == pytest.approx(
-        1.0, rel=1e-6
-    )
-    assert magnitude[0] > 1.1 * result.impedance_time() / result.capacitance("oil")
-
-
 def test_a_pitch_ends_as_it_begins(result):
     ax = bearing_circuit_plot.capacitance_over_pitch(result)
     for fill in ("oil", "air"):
@@ -297,18 +270,6 @@ def test_the_command_draws_unless_told_not_to(result, monkeypatch, tmp_path):
         assert done.exit_code == 0, done.output
         written = {path.name for path in (tmp_path / "out").iterdir()}
         assert written == {"summary.json", "contacts.csv", "impedance.csv", *figures}
-
-
-def test_the_impedance_of_an_earlier_bearing_is_taken_away(monkeypatch, tmp_path):
-    """With a conductivity it is written, without one there is none."""
-    file, out = tmp_path / "bearing.toml", tmp_path / "out"
-    file.write_text(tomli_w.dumps(TABLE), encoding="utf-8")
-    for changes, there in (({}, True), ({"discharge": None}, False)):
-        solution = by_hand(positions=1, **changes).solution
-        monkeypatch.setattr("ehlectric.bearing_solver.solve_bearing", lambda *_, s=solution, **__: s)
-        done = CliRunner().invoke(app, ["bearing", str(file), "-o", str(out), "-q", "--no-plots"])
-        assert done.exit_code == 0, done.output
-        assert (out / "impedance.csv").exists() == there
 
 
 @pytest.mark.parametrize(
