@@ -12,6 +12,7 @@ from ehlectric.bearing_inputs import Bearing, BearingLubricant, Motor
 from ehlectric.case import Title
 from ehlectric.changes import Groups, displace, set_keys
 from ehlectric.discharge_inputs import STRENGTHS, TABLES, Discharge
+from ehlectric.errors import InputError
 from ehlectric.inputs import Solver
 from ehlectric.validation import Table, read_toml
 
@@ -58,7 +59,12 @@ class BearingCase(Table):
         InputError
             Where the file cannot be read, is not TOML, or is not a bearing.
         """
-        return cls.from_dict(read_toml(path))
+        table = read_toml(path)
+        if "contact" in table and "bearing" not in table:
+            raise InputError(
+                f"{path}: is the file of a contact, takes that of a bearing; ehlectric run solves it"
+            )
+        return cls.from_dict(table)
 
     def to_dict(self) -> dict[str, Any]:
         """Nested tables of all values that are set, SI floats."""

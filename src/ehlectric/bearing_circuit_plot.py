@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
-from ehlectric.bearing_circuit import leaking_admittance
+from ehlectric.bearing_impedance import Impedance, impedance_of
 from ehlectric.bearing_result import BearingResult
 from ehlectric.drawing import BLUE, GREEN, GREY, ORANGE, axes_or_new, legend_above, unit_for
 from ehlectric.sweep_drawing import is_wide, round_numbers
@@ -19,9 +19,6 @@ from ehlectric.typing import Array
 FIRST: dict[str, Any] = {"color": "black", "lw": 1.1, "ls": "-"}
 THROUGH: dict[str, Any] = {"color": "#e69f00", "lw": 3.0, "ls": "-"}
 SHAFT: dict[str, Any] = {"color": GREEN, "lw": 1.4, "ls": "--"}
-
-# Frequencies that the impedance is drawn up to [Hz], and from, over that of its corner.
-_HIGHEST, _BELOW_CORNER = 1e7, 1e-2
 
 # With more elements than this not all of them have their number on the axis.
 _NUMBERED = 16
@@ -40,7 +37,7 @@ def contact_capacitances(result: BearingResult, ax: Axes | None = None) -> Axes:
     Returns
     -------
     Axes
-        With that of the bearing over them.
+        With that of the bearing over them, its cage at that position.
     """
     ax = axes_or_new(ax)
     fill = result.solution.case.bearing.fill
@@ -50,7 +47,8 @@ def contact_capacitances(result: BearingResult, ax: Axes | None = None) -> Axes:
     ax.bar(at - 0.2, factor * circuit.inner, 0.4, color=BLUE, label="inner contact")
     ax.bar(at + 0.2, factor * circuit.outer, 0.4, color=ORANGE, label="outer contact")
     total, of = unit_for(circuit.capacitance, "F", least=1.0)
-    ax.set_title(f"bearing: {total * circuit.capacitance:.4g} {of}, {fill} around the films", loc="right")
+    # That of the summary is the mean over a pitch.
+    ax.set_title(f"bearing, cage as here: {total * circuit.capacitance:.4g} {of}, {fill} fill", loc="right")
     ax.set_ylabel(f"capacitance\n[{unit}]")
     _elements(result, ax)
     legend_above(ax)
@@ -159,13 +157,15 @@ def impedance_magnitude(result: BearingResult, ax: Axes | None = None) -> Axes:
     Returns
     -------
     Axes
-        Both logarithmic; the corner of the oil, 1/(2 pi tau), is marked.
+        Both logarithmic; the corner of the oil alone, 1/(2 pi tau), is marked; with air
+        around the films that of the bearing is below it.
     """
     ax = axes_or_new(ax)
-    frequency, z, corner = _impedance(result)
-    ax.loglog(frequency, np.abs(z), color=BLUE)
+    found = _found(result)
+    frequency = found.frequency
+    ax.loglog(frequency, found.magnitude, color=BLUE)
     ax.set(ylabel=r"magnitude $|Z|$ [Ω]", xlabel="frequency $f$ [Hz]", xlim=(frequency[0], frequency[-1]))
-    _corner(ax, corner)
+    _corner(ax, found.corner)
     ax.grid(color="0.9", lw=0.6)
     return ax
 
@@ -186,36 +186,25 @@ def impedance_phase(result: BearingResult, ax: Axes | None = None) -> Axes:
         From 0, a resistor, to -90 degrees, a capacitor.
     """
     ax = axes_or_new(ax)
-    frequency, z, corner = _impedance(result)
-    ax.semilogx(frequency, np.degrees(np.angle(z)), color=BLUE)
+    found = _found(result)
+    frequency = found.frequency
+    ax.semilogx(frequency, found.phase, color=BLUE)
     ax.set(ylabel="phase [°]", xlabel="frequency $f$ [Hz]", xlim=(frequency[0], frequency[-1]))
     ax.set_ylim(-95.0, 5.0)
     ax.set_yticks([-90, -60, -45, -30, 0])
-    _corner(ax, corner)
+    _corner(ax, found.corner)
     ax.grid(color="0.9", lw=0.6)
     return ax
 
 
-def _impedance(result: BearingResult) -> tuple[Array, Array, float]:
-    """Frequencies [Hz], impedance at them [Ohm], mean admittance over the positions, and the oil's corner."""
-    tau = result.impedance_time()
-    assert tau is not None
-    corner = 1.0 / (2.0 * np.pi * tau)
-    lowest = _BELOW_CORNER * corner
-    frequency = np.geomspace(lowest, max(_HIGHEST, corner / _BELOW_CORNER), 400)
-    fill = result.solution.case.bearing.fill
-    y = np.zeros(frequency.shape, dtype=complex)
-    for position in result.solution.positions:
-        inner, outer = (
-            (race.capacitance(fill), race.capacitance("oil") if fill == "oil" else race.inside)
-            for race in (position.inner, position.outer)
-        )
-        y = y + leaking_admittance(inner, outer, tau, frequency)
-    return frequency, len(result.solution.positions) / y, corner
+def _found(result: BearingResult) -> Impedance:
+    found = impedance_of(result)
+    assert found is not None
+    return found
 
 
 def _corner(ax: Axes, corner: float) -> None:
-    label = f"corner of the oil $1/(2\\pi\\tau)$ = {corner:.3g} Hz"
+    label = f"corner of the oil alone, $1/(2\\pi\\tau)$ = {corner:.3g} Hz"
     ax.axvline(corner, color=GREY, lw=0.9, ls="--", label=label)
     legend_above(ax)
 

@@ -16,7 +16,9 @@ from ehlectric.terminal import NOT_CONVERGED, print_table, progress_bar, user_er
 if TYPE_CHECKING:
     from rich.table import Table
 
-SUMMARY, CONTACTS = "summary.json", "contacts.csv"
+    from ehlectric.bearing_result import BearingResult
+
+SUMMARY, CONTACTS, IMPEDANCE = "summary.json", "contacts.csv", "impedance.csv"
 
 
 def bearing(
@@ -32,7 +34,7 @@ def bearing(
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No table, progress or warnings.")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")] = False,
 ) -> None:
-    """Solve a whole rolling bearing; write summary.json, contacts.csv and figures.
+    """Solve a whole rolling bearing; write summary.json, tables as CSV and figures.
 
     Exit status 0: solved. 2: the input is wrong. 3: a contact is not converged, everything is written all the
     same.
@@ -46,22 +48,16 @@ def bearing(
 
         from ehlectric.bearing_result import BearingResult
         from ehlectric.bearing_solver import check_bearing, solve_bearing
-        from ehlectric.store import BEARING_FIGURE_FILES, SPEED_FIGURE_FILES, clear, prepare, whole
+        from ehlectric.store import BEARING_FIGURE_FILES, SPEED_FIGURE_FILES, clear, prepare
 
         check_bearing(case)
-        names = (SUMMARY, CONTACTS, *BEARING_FIGURE_FILES, *SPEED_FIGURE_FILES)
+        names = (SUMMARY, CONTACTS, IMPEDANCE, *BEARING_FIGURE_FILES, *SPEED_FIGURE_FILES)
         folder = prepare(output, names)
         with progress_bar(shown=not quiet) as progress:
             result = BearingResult(solve_bearing(case, progress=progress))
         summary = result.summary()
         clear(folder, names)
-        with whole(folder / SUMMARY) as beside:
-            beside.write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
-        with whole(folder / CONTACTS) as beside, beside.open("w", encoding="utf-8", newline="") as file:
-            writer = csv.DictWriter(file, list(summary["contacts"][0]))
-            writer.writeheader()
-            writer.writerows(summary["contacts"])
-        files = [folder / SUMMARY, folder / CONTACTS]
+        files = _write(result, summary, folder)
         left_out: list[str] = []
         if plots:
             from ehlectric.bearing_plot import save_bearing_figures, save_speed_figures
@@ -83,6 +79,29 @@ def bearing(
     if not result.converged:
         typer.echo("error: not converged: a contact of the bearing", err=True)
         raise typer.Exit(NOT_CONVERGED)
+
+
+def _write(result: BearingResult, summary: dict[str, Any], folder: Path) -> list[Path]:
+    """Summary and tables as files; the impedance where there is one."""
+    from ehlectric.bearing_impedance import impedance_of
+    from ehlectric.store import whole
+
+    with whole(folder / SUMMARY) as beside:
+        beside.write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
+    rows = summary["contacts"]
+    tables: dict[str, tuple[list[str], Iterable[Iterable[Any]]]] = {
+        CONTACTS: (list(rows[0]), (row.values() for row in rows))
+    }
+    found = impedance_of(result)
+    if found is not None:
+        columns = found.frequency.tolist(), found.magnitude.tolist(), found.phase.tolist()
+        tables[IMPEDANCE] = ["frequency", "magnitude", "phase_degrees"], zip(*columns, strict=True)
+    for name, (heads, lines) in tables.items():
+        with whole(folder / name) as beside, beside.open("w", encoding="utf-8", newline="") as file:
+            writer = csv.writer(file)
+            writer.writerow(heads)
+            writer.writerows(lines)
+    return [folder / name for name in (SUMMARY, *tables)]
 
 
 def loads_table(summary: dict[str, Any]) -> Table:

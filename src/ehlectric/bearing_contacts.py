@@ -13,7 +13,7 @@ from ehlectric.bearing_domain import line_domain, point_domain
 from ehlectric.bearing_duty import BearingDuty
 from ehlectric.bearing_geometry import RollerBearing
 from ehlectric.bearing_inputs import Bearing
-from ehlectric.bearing_race import Race, around_ball, around_roller, point_contact
+from ehlectric.bearing_race import Race, around_ball, around_roller, of_contact, point_contact
 from ehlectric.case import Case
 from ehlectric.conditions import Conditions, regime_remarks
 from ehlectric.discharge_inputs import Discharge
@@ -119,7 +119,13 @@ def contact_case(
 
 
 def solve_contact(
-    bearing: Bearing, duty: BearingDuty, race: Race, load: float, discharge: Discharge, solver: dict[str, Any]
+    bearing: Bearing,
+    duty: BearingDuty,
+    race: Race,
+    load: float,
+    *,
+    discharge: Discharge,
+    solver: dict[str, Any],
 ) -> ContactSolution:
     """Solve one contact of a bearing at a load.
 
@@ -141,7 +147,8 @@ def solve_contact(
     ContactSolution
         Film, field and the gap around them.
     """
-    result = solve(contact_case(duty, race, load, discharge, solver), beside_smooth=False)
+    with of_contact(race, load):
+        result = solve(contact_case(duty, race, load, discharge, solver), beside_smooth=False)
     found = result.discharge
     assert found is not None
     length = duty.geometry.roller_length if isinstance(duty.geometry, RollerBearing) else 1.0

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
@@ -86,10 +88,8 @@ class BearingDuty:
         bearing = case.bearing
         element, ring = Solid.of(bearing.element_material), Solid.of(bearing.ring_material)
         lubricant = case.lubricant.at(bearing.temperature)
-        try:
+        with _keys_of_bearing():
             geometry = geometry_of(bearing)
-        except InputError as error:
-            raise InputError(f"bearing.{error}") from None
         factor = _film_factor(case, geometry, lubricant)
         exponent = LINE_EXPONENT if isinstance(geometry, RollerBearing) else POINT_EXPONENT
         return cls(
@@ -105,19 +105,30 @@ class BearingDuty:
     def equilibria(self, bearing: Bearing, positions: int) -> list[BallEquilibrium] | list[RollerEquilibrium]:
         """Equilibrium at positions of the cage over a pitch, the first with an element on the load line."""
         pitch = 2.0 * math.pi / bearing.elements
-        duties = [
-            Duty(bearing.radial_load, bearing.axial_load, bearing.inner_speed, cage_angle=angle)
-            for angle in pitch * np.arange(positions) / positions
-        ]
-        if isinstance(self.geometry, RollerBearing):
-            return [roller_equilibrium(self.geometry, d, self.modulus, self.element.density) for d in duties]
-        return [ball_equilibrium(self.geometry, d, self.modulus, self.element.density) for d in duties]
+        given = self.modulus, self.element.density
+        with _keys_of_bearing():
+            duties = [
+                Duty(bearing.radial_load, bearing.axial_load, bearing.inner_speed, cage_angle=angle)
+                for angle in pitch * np.arange(positions) / positions
+            ]
+            if isinstance(self.geometry, RollerBearing):
+                return [roller_equilibrium(self.geometry, duty, *given) for duty in duties]
+            return [ball_equilibrium(self.geometry, duty, *given) for duty in duties]
 
     def radii(self, angle: float, *, inner: bool) -> ContactRadii:
         """Radii of a contact at a contact angle [rad]."""
         if isinstance(self.geometry, RollerBearing):
             return self.geometry.radii(inner=inner)
         return self.geometry.radii(angle, inner=inner)
+
+
+@contextmanager
+def _keys_of_bearing() -> Iterator[None]:
+    """Errors of geometry and loads, which name a key, with the table of it."""
+    try:
+        yield
+    except InputError as error:
+        raise InputError(f"bearing.{error}") from None
 
 
 def geometry_of(bearing: Bearing) -> BallBearing | RollerBearing:

@@ -9,7 +9,7 @@ from ehlectric.bearing_contacts import ContactSolution, contact_case, warnings_o
 from ehlectric.bearing_duty import BearingDuty
 from ehlectric.bearing_geometry import RollerBearing
 from ehlectric.bearing_inputs import Bearing
-from ehlectric.bearing_race import Race, around_ball, around_roller
+from ehlectric.bearing_race import Race, around_ball, around_roller, of_contact
 from ehlectric.conditions import density_law, permittivity_law, remarks, resolve
 from ehlectric.discharge_inputs import Discharge
 from ehlectric.domain import areas
@@ -53,7 +53,7 @@ def check_formula(discharge: Discharge, lubricant: Lubricant) -> None:
 
 
 def formula_contact(
-    bearing: Bearing, duty: BearingDuty, race: Race, load: float, discharge: Discharge
+    bearing: Bearing, duty: BearingDuty, race: Race, load: float, *, discharge: Discharge
 ) -> ContactSolution:
     """One contact of a bearing by film formulas.
 
@@ -84,9 +84,10 @@ def formula_contact(
     doi:10.1115/1.3261899, for rollers. The capacitance is that of the dry gap a central film apart, with the
     permittivity under Hertz's pressure; the largest field the voltage over the minimum film.
     """
-    if isinstance(duty.geometry, RollerBearing):
-        return _roller(duty, race, load, discharge)
-    return _ball(bearing, duty, race, load, discharge)
+    with of_contact(race, load):
+        if isinstance(duty.geometry, RollerBearing):
+            return _roller(duty, race, load, discharge)
+        return _ball(bearing, duty, race, load, discharge)
 
 
 def _ball(

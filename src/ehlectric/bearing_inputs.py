@@ -10,7 +10,7 @@ from pydantic import AfterValidator, BeforeValidator, model_validator
 
 from ehlectric import library
 from ehlectric.errors import InputError, shown
-from ehlectric.inputs import Lubricant, with_lubricant
+from ehlectric.inputs import Lubricant, library_name, with_lubricant
 from ehlectric.oil_temperature import Walther, density, roelands_alpha
 from ehlectric.quantity import Count, Quantity
 from ehlectric.validation import Table
@@ -86,11 +86,9 @@ class Bearing(Table):
     @classmethod
     def _from_base(cls, table: Any) -> Any:
         """The named bearing of the library, with what the file gives in place of its values."""
-        if not isinstance(table, Mapping) or not isinstance(table.get("base"), str):
+        if not isinstance(table, Mapping) or table.get("base") is None:
             return table
-        name, names = table["base"], library.bearing_names()
-        if name not in names:
-            raise ValueError(f"base: got {shown(name)}, takes a name of the library: {', '.join(names)}")
+        name = library_name(table["base"], library.bearing_names())
         return {**library.bearing(name), **table}
 
     @model_validator(mode="after")
@@ -134,7 +132,7 @@ class OilTemperature(Table):
     kinematic_viscosity_40: _Viscosity
     kinematic_viscosity_100: _Viscosity
     density_15: Annotated[float, Quantity("kg/m**3", least=500.0, most=2000.0, reason="of an oil")]
-    # Dowson and Higginson's density over temperature; petroleum oils have 6 to 8.
+    # D. Dowson and G. R. Higginson, Elasto-Hydrodynamic Lubrication, Pergamon, 1966, as quoted since.
     expansion: Annotated[float, Quantity("1/K", least=1e-5, most=2e-3, reason="thermal, of an oil")] = 6.5e-4
     thermal_conductivity: (
         Annotated[float, Quantity("W/m/K", least=0.01, most=1.0, reason="of an oil")] | None

@@ -18,6 +18,7 @@ from ehlectric.bearing_circuit_plot import (
     impedance_phase,
     voltage_shares,
 )
+from ehlectric.bearing_impedance import impedance_of
 from ehlectric.bearing_polar import film_around, load_around, new_polar
 from ehlectric.bearing_result import BearingResult
 from ehlectric.bearing_speed_plot import (
@@ -51,7 +52,7 @@ def bearing_figures_of(result: BearingResult) -> dict[str, tuple[Draw, ...]]:
     breaks = result.breaks()["first_break"] is not None
     found[circuit] = (contact_capacitances, voltage_shares, *((breakdown_voltages,) if breaks else ()))
     found[pitch] = (capacitance_over_pitch, *((breakdown_over_pitch,) if breaks else ()))
-    if result.impedance_time() is not None and result.lubrication != "conducting":
+    if impedance_of(result) is not None:
         found[impedance] = (impedance_magnitude, impedance_phase)
     return found
 
@@ -71,10 +72,10 @@ def save_bearing_figures(result: BearingResult, folder: Path) -> list[Path]:
     list of Path
         The files written.
     """
-    title = _title(result)
     files = []
     with style():
         for name, panels in bearing_figures_of(result).items():
+            title = _title(result, voltages=breakdown_voltages in panels or breakdown_over_pitch in panels)
             polar = panels[0] is load_around
             axes = new_polar(len(panels), _POLAR_SIZE) if polar else _stack(len(panels))
             for draw, ax in zip(panels, axes, strict=True):
@@ -139,8 +140,8 @@ def _save(ax: Axes, title: str, path: Path, *, converged: bool) -> Path:
     return path
 
 
-def _title(result: BearingResult) -> str:
-    """Title of the case, and below it the duty and what the film is worth."""
+def _title(result: BearingResult, *, voltages: bool) -> str:
+    """Title of the case, and below it the duty and what the film is worth, and voltages where it has them."""
     bearing, duty = result.solution.case.bearing, result.solution.duty
     loads = ((bearing.radial_load, "radial"), (bearing.axial_load, "axial"))
     parts = [f"{load:.4g} N {way}" for load, way in loads if load]
@@ -150,7 +151,7 @@ def _title(result: BearingResult) -> str:
     film += f", least λ {result.lambda_ratio:.2g}"
     if result.lubrication == "conducting":
         film += ": surfaces touch"
-    elif isothermal or result.lubrication == "partial film":
+    elif voltages and (isothermal or result.lubrication == "partial film"):
         film += ": voltages are upper bounds"
     title = textwrap.shorten(result.solution.case.title, 70, placeholder=" ...")
     return "\n".join(filter(None, [title, ", ".join(parts), film]))

@@ -63,7 +63,7 @@ def load_around(result: BearingResult, ax: Axes | None = None) -> Axes:
     for k, ring in reversed(list(enumerate(_RINGS))):
         races = [pair[k] for pair in states]
         _ring(result, ax, ring, races, [factor * race.load for race in races], at_rest="not loaded")
-    _radius(ax, np.array([0.0, factor * largest]), log=False)
+    _radius(ax, np.array([0.0, factor * largest]), _between(result), log=False)
     ax.set_title(f"contact load [{unit}]")
     _legend_below(ax)
     return ax
@@ -104,7 +104,7 @@ def film_around(result: BearingResult, ax: Axes | None = None) -> Axes:
         races = [pair[k] for pair in states]
         values = [factor * race.minimum_thickness for race in races]
         _ring(result, ax, ring, races, values, at_rest="not loaded: gap")
-    _radius(ax, everything, log=is_wide(everything))
+    _radius(ax, everything, _between(result), log=is_wide(everything))
     ax.set_title(f"minimum film $h_\\mathrm{{min}}$ [{unit}]")
     _legend_below(ax)
     return ax
@@ -149,8 +149,15 @@ def _ring(
         ax.plot(angles[0][~on], values[0][~on], **hollow)
 
 
-def _radius(ax: Axes, values: Array, *, log: bool) -> None:
-    """Radius from a circle of some size, so that elements there stand apart; few ticks, named."""
+def _between(result: BearingResult) -> float:
+    """Angle near the top, halfway between two elements at the cage's first position: no mark is there."""
+    at = np.sort(np.mod(result.solution.positions[0].equilibrium.position, 2.0 * np.pi))
+    halfway = 0.5 * (at + np.append(at[1:], at[0] + 2.0 * np.pi))
+    return float(halfway[np.argmin(np.abs(halfway - np.pi))])
+
+
+def _radius(ax: Axes, values: Array, at: float, *, log: bool) -> None:
+    """Radius from a circle of some size, so that elements there stand apart; few ticks, named at an angle."""
     assert isinstance(ax, PolarAxes)
     low, high = float(np.min(values)), float(np.max(values))
     if log:
@@ -175,7 +182,7 @@ def _radius(ax: Axes, values: Array, *, log: bool) -> None:
     edge = [withStroke(linewidth=2.4, foreground="white")]
     for tick in ticks:
         where: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": 7.5, "zorder": 6.0}
-        ax.text(np.pi, tick, f"{tick:g}", path_effects=edge, **where)
+        ax.text(at, tick, f"{tick:g}", path_effects=edge, **where)
 
 
 def _legend_below(ax: Axes) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,6 +12,7 @@ from ehlectric.bearing_duty import BearingDuty
 from ehlectric.bearing_geometry import RollerBearing
 from ehlectric.bearing_inputs import Bearing
 from ehlectric.conditions import effective_alpha
+from ehlectric.errors import InputError
 from ehlectric.film_formulas import LineContact
 from ehlectric.groove_gap import Raceway, groove_capacitance, match_film, outside_capacitance
 from ehlectric.hertz_point import dry_contact
@@ -35,6 +38,33 @@ class Race:
     inner: bool
     angle: float
     speed: float
+
+    @property
+    def ring(self) -> str:
+        """The ring's name."""
+        return "inner" if self.inner else "outer"
+
+
+@contextmanager
+def of_contact(race: Race, load: float) -> Iterator[None]:
+    """Errors of a contact at a load [N], whose case nobody wrote, as those of the bearing.
+
+    Examples
+    --------
+    >>> with of_contact(Race(inner=True, angle=0.0, speed=1.0), 800.0):
+    ...     raise InputError("contact: the dry contact would be too wide")
+    Traceback (most recent call last):
+        ...
+    ehlectric.errors.InputError: bearing: inner contact at 800 N: the dry contact would be too wide
+    """
+    try:
+        yield
+    except InputError as error:
+        text = str(error)
+        if not text.startswith(("contact", "grid")):
+            raise
+        where = f"bearing: {race.ring} contact at {load:.4g} N: "
+        raise type(error)(where + text.removeprefix("contact: ")) from None
 
 
 def point_contact(duty: BearingDuty, race: Race, load: float) -> PointContact:
@@ -101,7 +131,7 @@ def around_ball(
     rim[1:-1, 1:-1] = False
     modulus = contact.reduced_modulus
     dry = dry_contact(contact.load, contact.radius_x, contact.radius_y, modulus)
-    matched = match_film(raceway, dry, modulus, x[rim], y[rim], thickness[rim])
+    matched = match_film(raceway, dry, modulus, x=x[rim], y=y[rim], thickness=thickness[rim])
     domain = float(nodes[0][0]), float(nodes[0][-1]), float(nodes[1][-1])
     return outside_capacitance(raceway, matched, domain), matched.mismatch
 

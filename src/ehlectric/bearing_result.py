@@ -11,10 +11,11 @@ import numpy as np
 
 from ehlectric.ball_equilibrium import BallEquilibrium
 from ehlectric.bearing_circuit import Circuit, bearing_voltage_ratio, series
+from ehlectric.bearing_mechanics import mechanics_of
 from ehlectric.bearing_solver import BearingSolution
+from ehlectric.contact_remarks import contact_remarks
 from ehlectric.discharge import relaxation_time
 from ehlectric.solution import plain
-from ehlectric.typing import Array
 from ehlectric.version import __version__
 
 SCHEMA = "ehlectric.bearing/1"
@@ -153,7 +154,9 @@ class BearingResult:
         if solution.case.contacts == "formula":
             yield "contacts by formula: films may be 30 % off, and fields are voltages over the minimum film"
         if solution.duty.film_factor == 1.0:
-            yield "film_factor none: the film is isothermal and fully flooded, voltages are upper bounds"
+            given = solution.case.bearing.film_factor
+            name = given if isinstance(given, str) else f"{given:g}"
+            yield f"film_factor {name}: the film is isothermal and fully flooded, voltages are upper bounds"
         if solution.case.lubricant.temperature is not None and solution.case.bearing.temperature < _COLD:
             cold = solution.case.bearing.temperature - 273.15
             yield f"bearing.temperature is {cold:.3g} °C: the viscosity from 40 and 100 °C may be far off"
@@ -163,10 +166,9 @@ class BearingResult:
             yield f"lambda is {self.lambda_ratio:.2g}: surfaces may touch, voltages are upper bounds"
         if self.ceramic and solution.case.bearing.element_capacitance is None:
             yield "the elements are ceramic: the capacitance is an upper bound, that of conducting ones"
-        for name, curve in (("inner", solution.inner_curve), ("outer", solution.outer_curve)):
-            for contact in curve.solutions:
-                where = f"{name} contact at {contact.load:.4g} N: "
-                yield from (where + text for text in contact.warnings)
+        yield from contact_remarks(
+            {"inner": solution.inner_curve.solutions, "outer": solution.outer_curve.solutions}
+        )
 
     def contacts(self) -> list[dict[str, Any]]:
         """A row for every element and ring, cage at its first position, SI units."""
@@ -215,7 +217,7 @@ class BearingResult:
     def summary(self) -> dict[str, Any]:
         """Totals, SI units, nested as summary.json; never NaN."""
         solution = self.solution
-        case, duty, at = solution.case, solution.duty, solution.positions[0].equilibrium
+        case, duty, oil = solution.case, solution.duty, solution.case.lubricant.temperature
         fill = case.bearing.fill
         capacitance, plate = self.capacitance(fill), self.plate()
         strength, shaft = self.strength_per_volt, self.shaft_voltage
@@ -233,6 +235,8 @@ class BearingResult:
                 "temperature": case.bearing.temperature,
                 "viscosity": duty.lubricant.viscosity,
                 "pressure_viscosity_coefficient": duty.lubricant.pressure_viscosity_coefficient,
+                "expansion": None if oil is None else oil.expansion,
+                "film_factor": duty.film_factor,
             },
             "bearing": {
                 "contacts": case.contacts,
@@ -253,26 +257,12 @@ class BearingResult:
                 "discretisation_error": max(known) if len(known) == len(errors) else None,
                 "interpolation_error": max(curve.interpolation_error for curve in curves),
             },
-            "mechanics": {
-                "max_load": np.max(at.outer_load),
-                "radial_displacement": at.radial_displacement,
-                "axial_displacement": getattr(at, "axial_displacement", None),
-                "moment": getattr(at, "moment", None),
-                "centrifugal_force": at.centrifugal_force,
-                "gyroscopic_moment": _largest(getattr(at, "gyroscopic_moment", None)),
-                "cage_speed": getattr(at, "cage_speed", None),
-                "entrainment_speed": float(np.max(at.speeds.inner_entrainment)),
-                "residual": at.residual,
-            },
+            "mechanics": mechanics_of(solution.positions[0].equilibrium),
             "contacts": self.contacts(),
             "seconds": solution.seconds,
         }
         found: dict[str, Any] = plain(summary)
         return found
-
-
-def _largest(values: Array | None) -> float | None:
-    return None if values is None else float(np.max(values))
 
 
 def _weakest(circuit: Circuit) -> str:

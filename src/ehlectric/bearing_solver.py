@@ -17,7 +17,7 @@ from ehlectric.bearing_contacts import ContactCurve, ContactSolution, contact_ca
 from ehlectric.bearing_domain import least_load
 from ehlectric.bearing_duty import BearingDuty
 from ehlectric.bearing_formula import check_formula, formula_contact
-from ehlectric.bearing_race import Race
+from ehlectric.bearing_race import Race, of_contact
 from ehlectric.bearing_state import RaceState, race_state
 from ehlectric.meaning import check_case
 from ehlectric.roller_equilibrium import RollerEquilibrium
@@ -119,9 +119,16 @@ def solve_bearing(
     loads = [_loads(equilibria, least_load(duty, race), inner=race.inner) for race in races]
     given = case.bearing, duty
     tasks = [
-        partial(formula_contact, *given, race, load, case.discharge)
+        partial(formula_contact, *given, race, load, discharge=case.discharge)
         if by_formula
-        else partial(solve_contact, *given, race, load, case.discharge, case.solver.model_dump())
+        else partial(
+            solve_contact,
+            *given,
+            race,
+            load,
+            discharge=case.discharge,
+            solver=case.solver.model_dump(),
+        )
         for race, those in zip(races, loads, strict=True)
         for load in those
     ]
@@ -133,7 +140,7 @@ def solve_bearing(
     def state(race: Race, curve: ContactCurve, at: Equilibrium) -> RaceState:
         load = at.inner_load if race.inner else at.outer_load
         gap = at.inner_gap if race.inner else at.outer_gap
-        return race_state(case.bearing, duty, race, curve, case.discharge, load, gap)
+        return race_state(case.bearing, duty, race, curve, discharge=case.discharge, load=load, gap=gap)
 
     positions = tuple(
         Position(at, state(races[0], curves[0], at), state(races[1], curves[1], at)) for at in equilibria
@@ -163,7 +170,8 @@ def check_bearing(case: BearingCase) -> None:
     for inner in (True, False):
         load = float(np.max(equilibria[0].inner_load if inner else equilibria[0].outer_load))
         race = _race(duty, equilibria, inner=inner)
-        check_case(contact_case(duty, race, load, case.discharge, case.solver.model_dump()))
+        with of_contact(race, load):
+            check_case(contact_case(duty, race, load, case.discharge, case.solver.model_dump()))
 
 
 def _duty(case: BearingCase) -> BearingDuty:

@@ -72,6 +72,7 @@ def race_state(
     duty: BearingDuty,
     race: Race,
     curve: ContactCurve,
+    *,
     discharge: Discharge,
     load: Array,
     gap: Array,

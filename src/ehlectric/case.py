@@ -16,7 +16,7 @@ from pydantic import AfterValidator, model_validator
 from ehlectric.changes import displace, drop, flattened, set_keys
 from ehlectric.contact_inputs import CONTACT_ALTERNATIVES, ONLY, Contact
 from ehlectric.discharge_inputs import STRENGTHS, TABLES, Discharge
-from ehlectric.errors import shown
+from ehlectric.errors import InputError, shown
 from ehlectric.inputs import POINT_GRID, POINT_GRID_KEYS, Electric, Grid, Lubricant, Solver
 from ehlectric.motion_inputs import Motion
 from ehlectric.roughness_inputs import Roughness, check_geometry
@@ -109,6 +109,10 @@ class Case(Table):
             Where the file cannot be read, is not TOML, or is not a case.
         """
         table = read_toml(path)
+        if "bearing" in table and "contact" not in table:
+            raise InputError(
+                f"{path}: is the file of a bearing, takes that of a contact; ehlectric bearing solves it"
+            )
         find_files(table, Path(path).parent)
         return cls.from_dict(table)
 

@@ -273,7 +273,7 @@ def outside_capacitance(
 
 
 def match_film(
-    race: Raceway, dry: DryContact, modulus: float, x: Array, y: Array, thickness: Array
+    race: Raceway, dry: DryContact, modulus: float, *, x: Array, y: Array, thickness: Array
 ) -> LoadedContact:
     """The bodies outside a film, so that their gap continues it.
 

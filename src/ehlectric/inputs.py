@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import AfterValidator, model_validator
@@ -41,12 +41,25 @@ def with_lubricant(table: Any) -> Any:
     ValueError
         Where the library has none of that name.
     """
-    if not isinstance(table, Mapping) or not isinstance(table.get("base"), str):
+    if not isinstance(table, Mapping) or table.get("base") is None:
         return table
-    name, names = table["base"], library.lubricant_names()
-    if name not in names:
-        raise ValueError(f"base: got {shown(name)}, takes a name of the library: {', '.join(names)}")
+    name = library_name(table["base"], library.lubricant_names())
     return {**library.lubricant(name), **table}
+
+
+def library_name(base: Any, names: Sequence[str]) -> str:
+    """A base, where the library has one of that name; a number is none, whatever its digits.
+
+    Raises
+    ------
+    ValueError
+        Where the library has none of that name.
+    """
+    if not isinstance(base, str):
+        raise ValueError(f"base: got {shown(base)}, takes a text, a name of the library: {', '.join(names)}")
+    if base not in names:
+        raise ValueError(f"base: got {shown(base)}, takes a name of the library: {', '.join(names)}")
+    return base
 
 
 class Lubricant(Table):

@@ -84,6 +84,11 @@ _VALUES = {
     "field.capacitance_per_length": ("capacitance per length, field range", ""),
     "field.capacitance": ("capacitance, field range", "$C$"),
     "roughness.lambda_ratio": ("lambda ratio", r"$\Lambda$"),
+    "lubricant.temperature": ("temperature of the oil", ""),
+    "lubricant.expansion": ("thermal expansion of the oil", "$a$"),
+    "lubricant.film_factor": ("film factor, resolved", "$C$"),
+    "bearing.lubrication": ("state of lubrication", ""),
+    "bearing.first_break_at": ("contact that breaks first", ""),
     "bearing.capacitance": ("capacitance of the bearing", "$C$"),
     "bearing.capacitance_oil": ("capacitance of the bearing, all in oil", ""),
     "bearing.capacitance_air": ("capacitance of the bearing, air around the films", ""),
@@ -155,6 +160,13 @@ _UNITS = (
     (("frequency",), "Hz"),
     (("conductivity",), "S/m"),
     (("break", "breakdown"), "V"),
+    (("temperature",), "K"),
+    (("expansion",), "1/K"),
+    (("displacement",), "m"),
+    (("force", "load"), "N"),
+    (("moment",), "N*m"),
+    (("entrainment",), "m/s"),
+    (("speed",), "rad/s"),
 )
 
 # Units that are never prefixed: of none, of angles, and of absolute temperatures.

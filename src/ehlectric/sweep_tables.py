@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import json
-import math
 from collections.abc import Mapping
 from importlib.util import find_spec
 from pathlib import Path
@@ -15,7 +14,7 @@ import numpy as np
 from ehlectric.case_keys import kind_of
 from ehlectric.store import clear, prepare, whole
 from ehlectric.sweep_labels import label_of
-from ehlectric.sweep_results import SweepResults, flat
+from ehlectric.sweep_results import SweepResults, as_number, flat
 from ehlectric.version import __version__
 
 if TYPE_CHECKING:
@@ -25,6 +24,9 @@ CSV = "sweep.csv"
 PARQUET = "sweep.parquet"
 NETCDF = "sweep.nc"
 FILES = (CSV, PARQUET, NETCDF)
+
+# Texts of a summary that change from point to point.
+_TEXTS = ("bearing.lubrication", "bearing.first_break_at")
 
 # What is said of a point beside its inputs and numbers, with attributes as CF has them.
 _OWN = {
@@ -77,7 +79,7 @@ def write_tables(results: SweepResults, folder: str | Path) -> list[Path]:
 
 
 def columns_of(results: SweepResults) -> dict[str, list[Any]]:
-    """One row a point: its number, what became of it, what was varied, and every number of the summary.
+    """One row a point: its number, what became of it, what was varied, and what the summary has.
 
     Parameters
     ----------
@@ -89,7 +91,8 @@ def columns_of(results: SweepResults) -> dict[str, list[Any]]:
     dict
         Columns by name, those of inputs and results by their dotted key, SI; before them number, status,
         reason, warnings, joined by "; ", and seconds. Results are None where a point is not solved, or has no
-        such number; of the inputs that the summary resolves, those that vary.
+        such value; of the inputs that the summary resolves, those that vary. A value of the summary that has
+        the key of one that was varied, as a film factor, has no column: the input has it.
     """
     points = results.points
     columns: dict[str, list[Any]] = {
@@ -100,7 +103,14 @@ def columns_of(results: SweepResults) -> dict[str, list[Any]]:
         "seconds": [point.seconds for point in points],
     }
     columns |= {key: [point.inputs[key] for point in points] for key in results.varied}
-    return columns | numbers_of(results)
+    found = texts_of(results) | numbers_of(results)
+    return columns | {key: values for key, values in found.items() if key not in columns}
+
+
+def texts_of(results: SweepResults) -> dict[str, list[str | None]]:
+    """Texts of the summaries by dotted key, a list over the points each, those of bearings that change."""
+    rows = [flat(point.summary) if point.solved and point.summary else {} for point in results.points]
+    return {key: [row.get(key) for row in rows] for key in _TEXTS if any(key in row for row in rows)}
 
 
 def numbers_of(results: SweepResults) -> dict[str, list[float | None]]:
@@ -137,7 +147,8 @@ def to_xarray(results: SweepResults) -> xr.Dataset:
     -------
     xarray.Dataset
         Of a "grid" over the varied keys, else over ``point``, with the numbers of the summary by dotted key,
-        not a number where a point is not solved; ``status``, ``reason`` and ``warnings`` as texts.
+        not a number where a point is not solved; ``status``, ``reason`` and ``warnings`` as texts, and those
+        of a bearing's lubrication and first contact to break.
     """
     import xarray as xr
 
@@ -159,15 +170,12 @@ def to_xarray(results: SweepResults) -> xr.Dataset:
         )
         for key, values in inputs.items()
     }
-    numbers = {
-        key: (
-            *laid([math.nan if value is None else float(value) for value in values]),
-            _attributes(key, results),
-        )
+    found = {
+        key: (*laid(values if key in _TEXTS else list(map(as_number, values))), _attributes(key, results))
         for key, values in columns.items()
     }
     return xr.Dataset(
-        own | numbers,
+        own | found,
         coords=coordinates,
         attrs={
             "Conventions": "CF-1.11",
@@ -212,6 +220,6 @@ def _attributes(key: str, results: SweepResults) -> dict[str, str]:
     """Name and unit of an input or of a number of the summary; no unit where it is no number."""
     label = label_of(key, results.case)
     found = {"long_name": label.name}
-    if key in results.varied and kind_of(key) is None:
+    if key in _TEXTS or (key in results.varied and kind_of(key) is None):
         return found
     return found | {"units": label.unit.replace("**", "^").replace("*", " ") or "1"}

@@ -2,6 +2,7 @@
 
 import csv
 import json
+import math
 
 import pytest
 
@@ -70,6 +71,24 @@ def test_a_bearing(ehlectric, bearing_file, tmp_path):
         assert float(row["capacitance"]) == same["capacitance"]
         # Without load there is no Hertz pressure: an empty field.
         assert (row["max_pressure"] == "") == (same["max_pressure"] is None)
+    with (tmp_path / "out" / "impedance.csv").open(newline="", encoding="utf-8") as file:
+        lines = list(csv.DictReader(file))
+    # Rollers in oil of 1 pS/m: a resistor of tau/C far below 1/(2 pi tau), a capacitor far above it.
+    tau = 2.4 * 8.8541878e-12 / 1e-12
+    assert float(lines[0]["frequency"]) < 0.1 / tau
+    resistance = float(lines[0]["magnitude"]) * found["capacitance"]
+    assert resistance == pytest.approx(tau, rel=1e-3, abs=0.0)
+    omega = 2.0 * math.pi * float(lines[-1]["frequency"])
+    assert omega * float(lines[-1]["magnitude"]) == pytest.approx(1.0 / found["capacitance"], rel=1e-3)
+    assert float(lines[0]["phase_degrees"]) == pytest.approx(0.0, abs=1.0)
+    assert float(lines[-1]["phase_degrees"]) == pytest.approx(-90.0, abs=0.1)
+    # Closed formulas, g = 11/60: cage at w (1 - g)/2, rollers at w (1 - g^2)/(2 g), d_m w (1 - g^2)/4.
+    g, w, speeds = 11.0 / 60.0, 100.0 * math.pi, summary["mechanics"]
+    assert speeds["cage_speed"] == pytest.approx(0.5 * w * (1.0 - g), rel=1e-9, abs=0.0)
+    assert speeds["element_speed"] == pytest.approx(0.5 * w * (1.0 - g**2) / g, rel=1e-9, abs=0.0)
+    for ring in ("inner", "outer"):
+        entrainment = 0.06 * w * (1.0 - g**2) / 4.0
+        assert speeds[f"entrainment_speed_{ring}"] == pytest.approx(entrainment, rel=1e-9, abs=0.0)
 
 
 @pytest.mark.slow
@@ -121,6 +140,23 @@ def test_a_missing_file_is_one_line(ehlectric, tmp_path):
     assert done.returncode == 2
     assert done.stderr.splitlines() == ["error: none.toml: cannot be read, no such file or directory"]
     assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("command", ["run", "check"])
+def test_a_bearing_is_not_taken_for_a_contact(ehlectric, bearing_file, command):
+    """The line names the command that takes it, as that one does for the file of a contact."""
+    done = ehlectric(command, bearing_file)
+    assert done.returncode == 2
+    line = "is the file of a bearing, takes that of a contact; ehlectric bearing solves it"
+    assert done.stderr.splitlines() == [f"error: {bearing_file}: {line}"]
+
+
+def test_a_contact_is_not_taken_for_a_bearing(ehlectric, case_file):
+    done = ehlectric("bearing", case_file)
+    assert done.returncode == 2
+    assert done.stderr.splitlines() == [
+        f"error: {case_file}: is the file of a contact, takes that of a bearing; ehlectric run solves it"
+    ]
 
 
 @pytest.mark.slow

@@ -30,7 +30,9 @@ def test_the_whole_at_any_edge():
         rim = np.ones_like(thickness, dtype=bool)
         rim[1:-1, 1:-1] = False
         xy = np.meshgrid(x, y, indexing="ij")
-        contact = match_film(race, dry, dry_case.reduced_modulus, xy[0][rim], xy[1][rim], thickness[rim])
+        contact = match_film(
+            race, dry, dry_case.reduced_modulus, x=xy[0][rim], y=xy[1][rim], thickness=thickness[rim]
+        )
         assert contact.mismatch < 0.05
         assert contact.offset == pytest.approx(-dry.approach, rel=0.05)
         outside = outside_capacitance(race, contact, (x[0], x[-1], y[-1]))

@@ -33,8 +33,8 @@ def of(tables, **changes):
 
 
 def solved(tables, load, *, inner=True, **changes):
-    bearing, duty, *rest = of(tables, **changes)
-    return solve_contact(bearing, duty, Race(inner, 0.0, SPEED), load, *rest)
+    bearing, duty, discharge, solver = of(tables, **changes)
+    return solve_contact(bearing, duty, Race(inner, 0.0, SPEED), load, discharge=discharge, solver=solver)
 
 
 @pytest.fixture(scope="module")
@@ -111,7 +111,7 @@ def test_a_rollers_capacitance_does_not_depend_on_where_its_film_ends(load):
     """Film and tails beside a domain twice as long: within 1 %, the film's own part of that with it."""
     bearing, duty, discharge, solver = of(ROLLERS)
     race = Race(False, 0.0, SPEED)
-    found = solve_contact(bearing, duty, race, load, discharge, solver)
+    found = solve_contact(bearing, duty, race, load, discharge=discharge, solver=solver)
     case = contact_case(duty, race, load, discharge, solver)
     twice = {f"grid.{end}": 2.0 * getattr(case.grid, end) for end in ("inlet", "outlet")}
     result = solve(case.replace(twice | {"grid.nodes": 2 * case.grid.nodes - 1}))
@@ -131,7 +131,7 @@ def test_a_balls_film_in_a_domain_twice_as_large(load, film, whole):
     """The film of balls that hardly press builds up far ahead: the domain costs less than these parts."""
     bearing, duty, discharge, solver = of(BALLS)
     race = Race(False, 0.0, SPEED)
-    found = solve_contact(bearing, duty, race, load, discharge, solver)
+    found = solve_contact(bearing, duty, race, load, discharge=discharge, solver=solver)
     case = contact_case(duty, race, load, discharge, solver)
     wide = {key: 2.0 * getattr(case.grid, key) for key in ("inlet", "side")}
     nodes = 2 * case.grid.nodes - 1
@@ -152,16 +152,18 @@ def around(bearing, duty, race, result):
     rim[1:-1, 1:-1] = False
     dry = dry_contact(conditions.load, conditions.radius_x, conditions.radius_y, duty.modulus)
     raceway = raceway_of(bearing, race)
-    contact = match_film(raceway, dry, duty.modulus, x[rim], y[rim], film.thickness[rim])
+    contact = match_film(raceway, dry, duty.modulus, x=x[rim], y=y[rim], thickness=film.thickness[rim])
     ends = float(film.x[0]), float(film.x[-1]), float(film.y[-1])
     return outside_capacitance(raceway, contact, ends), contact.mismatch
 
 
 @pytest.mark.slow
 def test_a_balls_capacitance_falls_with_speed():
-    """At 890 N: the Hertz part with h(0) of the speed's power 0.67 or a little more, the whole less steeply.
+    """At 890 N: the Hertz part as the inverse of h(0), the whole less steeply.
 
-    The Hertz part is extrapolated from two grids, since the thinner film has the larger error.
+    A film between the 0.67 of Hamrock and Dowson's fit and the 0.75 of the limit of heavily loaded contacts,
+    M^(-1/12) L^(3/4) (Nijenbanning, Venner and Moes). The Hertz part is extrapolated from two grids, since
+    the thinner film has the larger error.
     """
     speeds = SPEED * np.array([1.0, 4.0])
     hertz, whole = [], []
@@ -174,22 +176,22 @@ def test_a_balls_capacitance_falls_with_speed():
         hertz.append(parts[1] + (parts[1] - parts[0]) / 3.0)
         whole.append(fine.discharge.capacitance + 2.4 * around(bearing, duty, race, fine)[0])
     slopes = [np.polyfit(np.log(speeds), np.log(c), 1)[0] for c in (hertz, whole)]
-    assert -0.72 < slopes[0] < -0.66
+    assert -0.75 < slopes[0] < -0.67
     assert slopes[0] + 0.1 < slopes[1] < -0.4
 
 
 def test_a_rollers_capacitance_falls_with_speed():
-    """Of a line contact the Hertz part falls with the power of Dowson and Toyoda's film, 0.69, or nearly."""
+    """The Hertz part falls with between 0.69, Dowson and Toyoda's, and the limit M^(-1/8) L^(3/4), 0.75."""
     speeds = SPEED * np.array([0.5, 1.0, 2.0])
     bearing, duty, discharge, solver = of(ROLLERS)
     hertz, whole = [], []
     for speed in speeds:
         race = Race(True, 0.0, float(speed))
         hertz.append(solve(contact_case(duty, race, 2000.0, discharge, solver)).discharge.capacitance_hertz)
-        found = solve_contact(bearing, duty, race, 2000.0, discharge, solver)
+        found = solve_contact(bearing, duty, race, 2000.0, discharge=discharge, solver=solver)
         whole.append(found.inside + found.outside_oil)
     slopes = [np.polyfit(np.log(speeds), np.log(c), 1)[0] for c in (hertz, whole)]
-    assert -0.72 < slopes[0] < -0.67
+    assert -0.75 < slopes[0] < -0.69
     assert slopes[0] + 0.05 < slopes[1] < -0.4
 
 
@@ -284,7 +286,9 @@ def test_elements_without_load_are_rigid_bodies_apart(inner):
         bearing, duty, discharge, _ = of(tables)
         race = Race(inner, 0.0, SPEED)
         load, gap = np.array([100.0, 0.0, 0.0]), np.array([0.0, 5e-6, 20e-6])
-        state = race_state(bearing, duty, race, powers([1.0, 1000.0]), discharge, load, gap)
+        state = race_state(
+            bearing, duty, race, powers([1.0, 1000.0]), discharge=discharge, load=load, gap=gap
+        )
         if tables is BALLS:
             expected = [groove_capacitance(raceway_of(bearing, race), g) for g in gap[1:]]
         else:

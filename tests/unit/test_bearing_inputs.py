@@ -11,6 +11,7 @@ from ehlectric import InputError, library
 from ehlectric.bearing_case import BearingCase
 from ehlectric.bearing_duty import BearingDuty, Solid
 from ehlectric.bearing_geometry import BallBearing, RollerBearing
+from ehlectric.bearing_solver import check_bearing
 from ehlectric.oil_temperature import inlet_shear_factor
 from ehlectric.point_formulas import PointContact, hamrock_dowson
 from tests.bearings import BALLS, ROLLERS, bearing_case, changed
@@ -119,7 +120,12 @@ MISTAKES = [
         {"bearing__base": "6209"},
         "bearing.base: got '6209', takes a name of the library: 209-hamrock, 6208, nu-215",
     ),
+    (
+        {"bearing__base": 6208},
+        "bearing.base: got 6208, takes a text, a name of the library: 209-hamrock, 6208, nu-215",
+    ),
     ({"lubricant__base": "papier"}, "lubricant.base: got 'papier', takes"),
+    ({"lubricant__base": 46}, "lubricant.base: got 46, takes a text, a name of the library: "),
     ({"bearing__groove": 0.52}, "bearing.groove: unknown key; the nearest known one is bearing."),
     ({"grid__nodes": 257}, "grid: unknown key; the nearest known one is"),
     ({"bearing": None}, "bearing: missing, takes a table"),
@@ -150,6 +156,7 @@ def test_mistakes_are_one_line(changes, text):
         bearing_case(BALLS, **changes)
     assert str(error.value).startswith(text)
     assert "\n" not in str(error.value)
+    assert "more)" not in str(error.value)
 
 
 # What only shows when the numbers meet.
@@ -175,6 +182,34 @@ def test_contradictions_are_one_line(changes, text):
     with pytest.raises(InputError) as error:
         BearingDuty.of(bearing_case(BALLS, **changes))
     assert str(error.value).startswith(text)
+    assert "\n" not in str(error.value)
+
+
+ANGULAR = {
+    "bearing__kind": "angular-contact ball",
+    "bearing__contact_angle": "25 deg",
+    "bearing__radial_clearance": None,
+}
+
+
+@pytest.mark.parametrize("contacts", ["solved", "formula"])
+@pytest.mark.parametrize(
+    ("changes", "text"),
+    [
+        (
+            {**ANGULAR, "bearing__axial_load": None},
+            "bearing.axial_load: got 0 N, takes one above 0: an an",
+        ),
+        # Semi-axes go with the cube root of the load: 1.44 mm at 876 N, over a fourth of the ball at 10 kN.
+        ({"bearing__radial_load": "3 MN"}, "bearing: inner contact at "),
+    ],
+)
+def test_what_a_bearing_cannot_carry_is_said_of_the_bearing(changes, text, contacts):
+    """No word of a table ``contact``, which a bearing file has not."""
+    with pytest.raises(InputError) as error:
+        check_bearing(bearing_case(BALLS, **changes, contacts=contacts))
+    assert str(error.value).startswith(text)
+    assert "contact:" not in str(error.value)
     assert "\n" not in str(error.value)
 
 

@@ -243,6 +243,36 @@ def test_a_contact_that_is_not_converged(rollers):
     assert not strict(failed.summary())["converged"]
 
 
+def doubted(result, name, texts):
+    """The result with warnings of the contacts with one ring, a list for each."""
+    curve = getattr(result.solution, f"{name}_curve")
+    contacts = zip(curve.solutions, texts, strict=True)
+    changed = tuple(dataclasses.replace(contact, warnings=tuple(found)) for contact, found in contacts)
+    curve = dataclasses.replace(curve, solutions=changed)
+    return BearingResult(dataclasses.replace(result.solution, **{f"{name}_curve": curve}))
+
+
+def test_what_contacts_share_is_said_once(axial):
+    """One contact with either ring here: both, or one."""
+    loads = [c.solutions[0].load for c in (axial.solution.inner_curve, axial.solution.outer_curve)]
+    both = doubted(doubted(axial, "inner", [["thin oil", "a"]]), "outer", [["thin oil", "b"]])
+    told = [text for text in both.warnings() if text.endswith(("thin oil", ": a", ": b"))]
+    assert told == [
+        "thin oil",
+        f"inner contact at {loads[0]:.4g} N: a",
+        f"outer contact at {loads[1]:.4g} N: b",
+    ]
+
+
+def test_what_some_contacts_share_names_their_loads(rollers):
+    curve = rollers.solution.inner_curve
+    loads = [contact.load for contact in curve.solutions]
+    assert len(loads) > 3
+    heavy = [["Barus"] if load >= loads[2] else [] for load in loads]
+    told = [text for text in doubted(rollers, "inner", heavy).warnings() if "Barus" in text]
+    assert told == [f"{len(loads) - 2} inner contacts at {loads[2]:.4g} to {loads[-1]:.4g} N: Barus"]
+
+
 def test_film_factor_is_told(rollers):
     assert any(text.startswith("film_factor none:") for text in rollers.warnings())
     assert rollers.summary()["bearing"]["film_factor"] == 1.0
@@ -250,6 +280,9 @@ def test_film_factor_is_told(rollers):
     lean = BearingResult(dataclasses.replace(rollers.solution, duty=duty))
     assert not any(text.startswith("film_factor none:") for text in lean.warnings())
     assert lean.summary()["bearing"]["film_factor"] == 0.7
+    # A one that is given is told as what it is.
+    one = with_bearing(rollers, film_factor=1.0)
+    assert any(text.startswith("film_factor 1: the film is isothermal") for text in one.warnings())
 
 
 def test_pure_axial_load_is_shared_equally(axial):
@@ -275,3 +308,22 @@ def test_plates_hold_less_than_the_bearing(axial, rollers):
     """h(0) is about the thickest of the Hertz zone, and there is oil and gap around it."""
     for result in (axial, rollers):
         assert result.summary()["bearing"]["capacitance_ratio"] > 1.0
+
+
+def test_a_doubt_about_the_oil_is_said_once():
+    """A given alpha that Roelands' z is not for, of all contacts; Barus' law, of those above 0.5 GPa."""
+    given = bearing_case(BALLS, contacts="formula", lubricant__pressure_viscosity_coefficient="10 1/GPa")
+    told = [text for text in BearingResult(solve_bearing(given)).warnings() if "roelands_z" in text]
+    assert len(told) == 1
+    assert told[0].startswith("roelands_z is 0.67")
+    barus = {"lubricant__viscosity_law": "barus", "lubricant__pressure_viscosity_coefficient": "18 1/GPa"}
+    found = BearingResult(solve_bearing(bearing_case(BALLS, contacts="formula", **barus)))
+    told = [text for text in found.warnings() if "Barus" in text]
+    assert len(told) == 1
+    curves = found.solution.inner_curve, found.solution.outer_curve
+    heavy = [[c.load for c in curve.solutions if c.max_pressure > 0.5e9] for curve in curves]
+    names = [
+        f"{len(those)} {ring} contacts at {those[0]:.4g} to {those[-1]:.4g} N"
+        for ring, those in zip(("inner", "outer"), heavy, strict=True)
+    ]
+    assert told[0].startswith(", ".join(names) + ": Barus' law")

@@ -61,8 +61,8 @@ def test_an_elements_contact_is_the_one_solved_at_its_load(rollers):
                 rollers.duty,
                 race,
                 float(state.load[k]),
-                case.discharge,
-                case.solver.model_dump(),
+                discharge=case.discharge,
+                solver=case.solver.model_dump(),
             )
             tolerance = curve.interpolation_error
             assert state.inside[k] == pytest.approx(alone.inside, rel=tolerance)

@@ -287,10 +287,10 @@ def test_a_film_is_continued(outer):
     offset = 3e-7 - dry.approach
     film = groove_gap.groove_gap(race, offset, x, y) + point_deflection(x, y, dry, E)
     assert np.min(film) > 0.0
-    contact = match_film(race, dry, E, x, y, film)
+    contact = match_film(race, dry, E, x=x, y=y, thickness=film)
     assert contact.offset == pytest.approx(offset, rel=1e-9, abs=0.0)
     assert contact.mismatch < 1e-9
-    bumped = match_film(race, dry, E, x, y, np.where(x == x[0], 1.02, 1.0) * film)
+    bumped = match_film(race, dry, E, x=x, y=y, thickness=np.where(x == x[0], 1.02, 1.0) * film)
     assert 0.01 < bumped.mismatch < 0.02
     assert bumped.offset > offset
 
@@ -305,7 +305,7 @@ def test_hertz_gap_of_parabolas_and_circles():
         1.0 / (1.0 / race.ball_radius - 1.0 / race.groove_radius),
     )
     film = 0.5 * x**2 / rx + 0.5 * y**2 / ry + point_deflection(x, y, dry, E) - dry.approach
-    contact = match_film(race, dry, E, x, y, film)
+    contact = match_film(race, dry, E, x=x, y=y, thickness=film)
     assert contact.offset == pytest.approx(-dry.approach, rel=0.05, abs=0.0)
     assert contact.mismatch < 0.05
 
@@ -347,3 +347,44 @@ def test_domain_may_be_any(outer):
 def test_refused(arguments, angle, message):
     with pytest.raises(InputError, match=message):
         Raceway.of(D, PITCH, *arguments, outer=False, contact_angle=angle)
+
+
+def by_cells(*, outer, shoulder, gap, cells=(200, 600)):
+    """Area over the gap, summed over cells of the raceway whose normals meet the ball: three meanings of it.
+
+    By points in space: nothing of the module, and not its charge density either.
+    """
+    r, rg, s = 0.5 * D, 0.52 * D, 1.0 if outer else -1.0
+
+    def middles(end, scale, number):
+        """Middles of cells, small where the gap is, and their widths."""
+        step = np.arcsinh(end / scale) / number
+        t = step * (np.arange(-number, number) + 0.5)
+        return scale * np.sinh(t), scale * np.cosh(t) * step
+
+    psi, across = (a[:, np.newaxis] for a in middles(np.arccos(1.0 - shoulder / 0.52), 0.2, cells[0]))
+    phi, along = middles(0.4, 2e-3, cells[1])
+    radius = 0.5 * PITCH + s * (r + gap) - s * rg * (1.0 - np.cos(psi))
+    point = [radius * np.cos(phi) - 0.5 * PITCH, radius * np.sin(phi), rg * np.sin(psi) + 0.0 * phi]
+    normal = [s * np.cos(psi) * np.cos(phi), s * np.cos(psi) * np.sin(phi), np.sin(psi) + 0.0 * phi]
+    far = np.sqrt(sum(x**2 for x in point))
+    height = sum(x * n for x, n in zip(point, normal, strict=True))
+    meets = far**2 - height**2 < r**2
+    area = (rg * radius * across * along)[meets]
+    far, height = far[meets], height[meets]
+    by_radius, by_normal = far - r, height - np.sqrt(r**2 - far**2 + height**2)
+    of_ball = area * height / far * (r / far) ** 2
+    return [
+        epsilon_0 * np.sum(a / h) for a, h in ((area, by_radius), (area, by_normal), (of_ball, by_radius))
+    ]
+
+
+@pytest.mark.parametrize("outer", [False, True])
+@pytest.mark.parametrize("shoulder", [0.2, 0.07])
+@pytest.mark.parametrize("gap", [2e-6, 5e-6, 2e-5])
+def test_a_6208_by_cells(outer, shoulder, gap):
+    """Gap along the ball's radius or the raceway's normal, area of raceway or ball: ours is between them."""
+    found = groove_capacitance(race_of(shoulder=shoulder, outer=outer), gap)
+    sums = by_cells(outer=outer, shoulder=shoulder, gap=gap)
+    assert min(sums) < found < max(sums)
+    assert max(sums) < 1.1 * min(sums)

@@ -1,13 +1,16 @@
 """Figures of sweeps over bearings: their breakdown voltages with the voltage of the shaft."""
 
+import csv
 import dataclasses
 import itertools
 
 import matplotlib as mpl
 import numpy as np
 import pytest
+import xarray as xr
 from typer.testing import CliRunner
 
+from ehlectric.bearing_duty import BearingDuty
 from ehlectric.cli import app
 from ehlectric.sensitivity import sensitivity
 from ehlectric.store import SPEED_FIGURE_FILES
@@ -138,6 +141,37 @@ def test_a_sweep_of_bearings_is_mapped_by_its_first_break(tmp_path):
     done = CliRunner().invoke(app, ["map", str(out), "--x", SPEED])
     assert done.exit_code == 0, done.output
     assert {path.name for path in out.glob("*.png")} == {"lines_bearing.first_break.png", *SPEED_FIGURE_FILES}
+
+
+def test_tables_have_texts_and_a_film_factor_beside_the_one_that_was_varied(tmp_path):
+    """Inlet shear thins the film, and a roughness of 0.3 um lets it touch; what was asked for stays."""
+    thermal = {"lubricant__temperature__thermal_conductivity": "0.14 W/m/K"}
+    base = bearing_case(BALLS, contacts="formula", **thermal).replace({"bearing.radial_load": "1 kN"})
+    (tmp_path / "bearing.toml").write_text(base.to_toml(), encoding="utf-8")
+    (tmp_path / "sweep.toml").write_text(
+        'case = "bearing.toml"\n[vary]\nbearing.film_factor = ["none", "inlet-shear", 0.5]\n'
+        'bearing.composite_rq = ["0.01 um", "0.3 um"]\n',
+        encoding="utf-8",
+    )
+    out = tmp_path / "out"
+    swept = CliRunner().invoke(app, ["sweep", str(tmp_path / "sweep.toml"), "-o", str(out), "--workers", "1"])
+    assert swept.exit_code == 0, swept.output
+    with (out / "sweep.csv").open(newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    assert [row["bearing.film_factor"] for row in rows] == ["none"] * 2 + ["inlet-shear"] * 2 + ["0.5"] * 2
+    factors = [float(row["lubricant.film_factor"]) for row in rows]
+    assert factors[:2] == [1.0, 1.0]
+    resolved = BearingDuty.of(base.replace({"bearing.film_factor": "inlet-shear"})).film_factor
+    assert factors[2:4] == pytest.approx([resolved, resolved], rel=1e-12)
+    assert factors[4:] == [0.5, 0.5]
+    assert [row["bearing.lubrication"] for row in rows] == ["full film", "conducting"] * 3
+    # Where surfaces touch nothing breaks; else the heaviest contact with the smaller radius.
+    assert [row["bearing.first_break_at"] for row in rows] == ["inner contact of element 0", ""] * 3
+    with xr.open_dataset(out / "sweep.nc", engine="h5netcdf") as found:
+        touching = found["bearing.lubrication"].to_numpy().tolist()
+        assert touching == [["full film", "conducting"]] * 3
+        assert found["lubricant.temperature"].attrs["units"] == "K"
+        assert found["mechanics.element_speed"].attrs["units"] == "rad/s"
 
 
 def test_units_of_a_bearing():
