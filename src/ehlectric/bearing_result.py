@@ -11,6 +11,7 @@ import numpy as np
 
 from ehlectric.ball_equilibrium import BallEquilibrium
 from ehlectric.bearing_circuit import Circuit, bearing_voltage_ratio, series
+from ehlectric.bearing_limits import clearance_remarks, edge_remarks
 from ehlectric.bearing_solver import BearingSolution
 from ehlectric.discharge import relaxation_time
 from ehlectric.solution import plain
@@ -157,12 +158,18 @@ class BearingResult:
         if solution.case.lubricant.temperature is not None and solution.case.bearing.temperature < _COLD:
             cold = solution.case.bearing.temperature - 273.15
             yield f"bearing.temperature is {cold:.3g} °C: the viscosity from 40 and 100 °C may be far off"
+        if solution.case.lubricant.temperature is None:
+            yield "lubricant.viscosity is given: bearing.temperature has no part in the films"
         if self.lubrication == "conducting":
             yield f"lambda is {self.lambda_ratio:.2g}: surfaces touch and conduct, nothing breaks down"
         elif self.lubrication == "partial film":
             yield f"lambda is {self.lambda_ratio:.2g}: surfaces may touch, voltages are upper bounds"
         if self.ceramic and solution.case.bearing.element_capacitance is None:
             yield "the elements are ceramic: the capacitance is an upper bound, that of conducting ones"
+        first = solution.positions[0]
+        yield from clearance_remarks(solution.duty, first.equilibrium, first.inner, first.outer)
+        states = [(position.equilibrium, position.inner, position.outer) for position in solution.positions]
+        yield from edge_remarks(solution.case.bearing, states)
         for name, curve in (("inner", solution.inner_curve), ("outer", solution.outer_curve)):
             for contact in curve.solutions:
                 where = f"{name} contact at {contact.load:.4g} N: "

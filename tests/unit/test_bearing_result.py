@@ -237,7 +237,7 @@ def test_ceramic_elements(rollers):
 def test_a_contact_that_is_not_converged(rollers):
     solution = rollers.solution
     first, *others = solution.outer_curve.solutions
-    curve = ContactCurve((dataclasses.replace(first, converged=False), *others), solution.outer_curve.light)
+    curve = ContactCurve((dataclasses.replace(first, converged=False), *others))
     failed = BearingResult(dataclasses.replace(solution, outer_curve=curve))
     assert not failed.converged
     assert not strict(failed.summary())["converged"]
