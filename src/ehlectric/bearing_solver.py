@@ -45,11 +45,12 @@ Progress = Callable[[int, int, str], None]
 
 @dataclass(frozen=True)
 class Position:
-    """A bearing at one position of its cage."""
+    """A bearing at one position of its cage; ``shape`` is that of a Weibull strength."""
 
     equilibrium: Equilibrium
     inner: RaceState
     outer: RaceState
+    shape: float | None = None
 
     def circuit(self, fill: str) -> Circuit:
         """Its circuit, with oil or air around the films."""
@@ -58,6 +59,7 @@ class Position:
             self.outer.capacitance(fill),
             self.inner.breakdown_voltage,
             self.outer.breakdown_voltage,
+            self.shape,
         )
 
 
@@ -138,8 +140,10 @@ def solve_bearing(
         gap = at.inner_gap if race.inner else at.outer_gap
         return race_state(case.bearing, duty, race, curve, discharge, load, gap)
 
+    shape = None if discharge.weibull is None else discharge.weibull.shape
     positions = tuple(
-        Position(at, state(races[0], curves[0], at), state(races[1], curves[1], at)) for at in equilibria
+        Position(at, state(races[0], curves[0], at), state(races[1], curves[1], at), shape)
+        for at in equilibria
     )
     return BearingSolution(
         case=case,
