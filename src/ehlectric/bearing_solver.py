@@ -29,10 +29,10 @@ LOADS, _LEAST = 6, 0.02
 # The least load over the largest: below it films hardly change any more what a bearing's circuit sees.
 _LIGHTEST = 0.002
 
-# Loads between that one and the six: about one for each of these ratios, up to four. They crowd at the light
+# Loads between that one and the six: about one for each of these ratios, up to six. They crowd at the light
 # end, where the film of rigid bodies, which goes with 1/Q, turns into that of bodies that deform: a power of
 # their number, since halving the distance there is worth more than elsewhere.
-_BETWEEN, _MOST_BETWEEN, _CROWDED = 1.8, 4, 1.5
+_BETWEEN, _MOST_BETWEEN, _CROWDED = 1.5, 6, 1.5
 
 # Loads closer than this ratio are one.
 _ALIKE = 1.001
