@@ -70,7 +70,7 @@ class BallEquilibrium:
         That hold the ring from tilting, sum of R_i Q_i sin a_i times cos psi and sin psi [N m], about the
         centre of the circle of inner groove centres, in whose plane the radial load acts; R_i is its radius.
     residual : float
-        Largest force that ring or ball miss to balance, over the load.
+        Largest force that ring or ball miss to balance, over the load and the centrifugal force together.
     iterations : int
         Newton steps of the ring.
     """
@@ -195,8 +195,9 @@ class _Model:
         return np.asarray(self.basis @ ring + np.array([0.0, self.bearing.radial_distance]))
 
     def cage_speed(self, angles: _Angles, loads: Array) -> float:
-        """Mean speed of the balls about the axis, weighted with what they carry [rad/s]."""
-        return float(np.average(np.asarray(self.speeds(angles).cage), weights=loads))
+        """Mean speed of the balls about the axis, weighted with what they carry, if anything [rad/s]."""
+        weights = loads if loads.any() else None
+        return float(np.average(np.asarray(self.speeds(angles).cage), weights=weights))
 
     def speeds(self, angles: _Angles) -> Speeds:
         bearing, duty = self.bearing, self.duty
@@ -248,7 +249,8 @@ class _State:
     @classmethod
     def solved(cls, model: _Model, grooves: Grooves, ring: Array) -> tuple[_State, int]:
         """The balance from a displacement to start from, and the steps it took."""
-        scale = float(np.linalg.norm(model.load))
+        # Balls that fly press harder than a light load does, and so does what rounding leaves.
+        scale = float(np.linalg.norm(model.load)) + grooves.outward
         reach = _REACH * model.bearing.groove_distance
         ring, residual, steps = balance(model.reaction(grooves), model.load, ring, reach, scale)
         seats = seat(grooves, model.centres(ring))
@@ -331,7 +333,7 @@ def ball_equilibrium(
     Returns
     -------
     BallEquilibrium
-        Forces in balance to 1e-9 of the load.
+        Forces in balance to 1e-9 of the load and the centrifugal force.
 
     Raises
     ------

@@ -8,10 +8,10 @@ from typing import Any, Literal, Self
 
 from pydantic import model_validator
 
-from ehlectric.bearing_inputs import Bearing, BearingLubricant, Motor
+from ehlectric.bearing_inputs import Bearing, BearingDischarge, BearingLubricant, Motor
 from ehlectric.case import Title
 from ehlectric.changes import Groups, displace, set_keys
-from ehlectric.discharge_inputs import STRENGTHS, TABLES, Discharge
+from ehlectric.discharge_inputs import STRENGTHS, TABLES
 from ehlectric.errors import InputError
 from ehlectric.inputs import Solver
 from ehlectric.validation import Table, read_toml
@@ -33,7 +33,7 @@ class BearingCase(Table):
     contacts: Literal["solved", "formula"] = "solved"
     bearing: Bearing
     lubricant: BearingLubricant
-    discharge: Discharge = Discharge()
+    discharge: BearingDischarge = BearingDischarge()
     motor: Motor | None = None
     solver: Solver = Solver()
 

@@ -30,6 +30,8 @@ class Circuit:
         Capacitance of each element's contacts with the inner and the outer ring [F].
     inner_strength, outer_strength : ndarray, shape (n,)
         Breakdown voltage of each contact by itself [V]; infinite where it has none.
+    shape : float or None
+        m of Weibull's law, whose 63.2 % those voltages then are; none where the strength is a certain one.
 
     Examples
     --------
@@ -39,12 +41,19 @@ class Circuit:
     >>> circuit = Circuit(np.array([1e-10]), np.array([1e-10]), np.array([5.0]), np.array([20.0]))
     >>> circuit.capacitance, circuit.first_break, circuit.through_breakdown
     (5e-11, 10.0, 20.0)
+
+    By Weibull's law four equal contacts break sooner than one, by the power 1/m of their number:
+
+    >>> pair, both = np.full(2, 1e-10), np.full(2, 5.0)
+    >>> round(Circuit(pair, pair, both, both, shape=2.0).first_break, 9)
+    5.0
     """
 
     inner: Array
     outer: Array
     inner_strength: Array
     outer_strength: Array
+    shape: float | None = None
 
     @property
     def elements(self) -> Array:
@@ -92,12 +101,27 @@ class Circuit:
 
     @property
     def first_break(self) -> float:
-        """Least bearing voltage at which some contact breaks down [V]."""
-        return float(np.min(self.first_breaks))
+        """Least bearing voltage at which some contact breaks down [V].
+
+        By Weibull's law that at which one of them has broken down with the probability 63.2 %: the exponents
+        of all, (V/V_k)^m with the bearing voltage V_k of each one's own 63.2 %, add up to 1.
+
+        W. Weibull, J. Appl. Mech. 18 (1951) 293, doi:10.1115/1.4010337.
+        """
+        least = float(np.min(self.first_breaks))
+        if self.shape is None or not np.isfinite(least):
+            return least
+        breaks = np.concatenate([self.inner_breaks, self.outer_breaks])
+        # Of the weakest, whose power alone would overflow.
+        number = float(np.sum((least / breaks) ** self.shape))
+        return least * float(number ** (-1.0 / self.shape))
 
     @property
     def through_breakdown(self) -> float:
-        """Least bearing voltage at which some element breaks down from ring to ring [V]."""
+        """Least bearing voltage at which some element breaks down from ring to ring [V].
+
+        By Weibull's law each contact is taken at its own 63.2 %.
+        """
         return float(np.min(self.through_breaks))
 
 

@@ -129,8 +129,8 @@ def films_table(summary: dict[str, Any]) -> Table:
             f"{row['minimum_thickness'] * 1e6:.4g}",
             f"{row['central_thickness'] * 1e6:.4g}",
             f"{row['lambda_ratio']:.3g}",
-            f"{row['capacitance'] * 1e12:.4g}",
-            f"{100.0 * row['voltage_share']:.1f}",
+            _number(row["capacitance"], 1e12, ".4g"),
+            _number(row["voltage_share"], 100.0, ".1f"),
             _number(row["max_strength" if driven else "strength_per_volt"], 1e-6, ".3g"),
             _number(row["breakdown_voltage"], 1.0, ".3g"),
         )

@@ -202,12 +202,9 @@ class ContactCurve:
     ----------
     solutions : tuple of ContactSolution
         By increasing load.
-    light : bool
-        Whether the first is of an element that is hardly loaded, far below the others.
     """
 
     solutions: tuple[ContactSolution, ...]
-    light: bool = False
 
     def at(self, quantity: str, load: Array) -> Array:
         """A quantity at loads [N], interpolated in the logarithms of both."""
@@ -231,7 +228,7 @@ class ContactCurve:
         At twice the distance of the loads it bounds what is left with all of them.
         """
         worst = 0.0
-        for k in range(2 if self.light else 1, len(self.solutions) - 1):
+        for k in range(1, len(self.solutions) - 1):
             others = [j for j in range(len(self.solutions)) if j != k]
             for quantity in ("inside", "breakdown_voltage"):
                 value = getattr(self.solutions[k], quantity)

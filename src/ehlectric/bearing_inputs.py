@@ -9,6 +9,7 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import AfterValidator, BeforeValidator, model_validator
 
 from ehlectric import library
+from ehlectric.discharge_inputs import Discharge
 from ehlectric.errors import InputError, shown
 from ehlectric.inputs import Lubricant, library_name, with_lubricant
 from ehlectric.oil_temperature import Walther, density, roelands_alpha
@@ -197,6 +198,39 @@ class BearingLubricant(Lubricant):
                 "roelands_pressure, from which it follows at the temperature"
             )
         return roelands_alpha(viscosity, z, p0)
+
+
+class BearingDischarge(Discharge):
+    """Discharge of a bearing: a strength over temperature is that of the bearing's temperature."""
+
+    def _check_temperature(self) -> None:
+        if self.temperature is not None:
+            raise ValueError(
+                f"temperature: got {self.temperature:g} K for a bearing, takes bearing.temperature in its "
+                "place, at which the strength is taken"
+            )
+
+    def at(self, temperature: float) -> Discharge:
+        """The discharge at an absolute temperature [K].
+
+        Raises
+        ------
+        InputError
+            Where a table of the strength does not reach there.
+
+        Examples
+        --------
+        >>> table = {"temperature": ["20 degC", "120 degC"], "strength": ["20 V/um", "10 V/um"]}
+        >>> BearingDischarge.from_dict({"strength_table": table}).at(343.15).temperature
+        343.15
+        """
+        table = self.model_dump(exclude_none=True)
+        if self.strength_table is not None and self.strength_table.over == "temperature":
+            table["temperature"] = temperature
+        try:
+            return Discharge.from_dict(table)
+        except InputError as error:
+            raise InputError(f"bearing.{error}") from None
 
 
 class Motor(Table):

@@ -42,17 +42,18 @@ _WIDTH, _HEIGHT, _TITLE = 6.3, 2.1, 0.65
 def bearing_figures_of(result: BearingResult) -> dict[str, tuple[Draw, ...]]:
     """The panels of the figures of a bearing by the names of their files, those that have something to show.
 
-    There is no circuit of ceramic elements, no voltage without a strength or where surfaces touch, and no
-    impedance without a conductivity or where surfaces touch.
+    There is no circuit of ceramic elements, no voltage where surfaces touch, none of breakdown without a
+    strength, and no impedance without a conductivity or where surfaces touch.
     """
     loads, circuit, pitch, impedance = BEARING_FIGURE_FILES
     found: dict[str, tuple[Draw, ...]] = {loads: (load_around, film_around)}
     if result.ceramic:
         return found
     breaks = result.breaks()["first_break"] is not None
-    found[circuit] = (contact_capacitances, voltage_shares, *((breakdown_voltages,) if breaks else ()))
+    shares = (voltage_shares,) if result.insulating else ()
+    found[circuit] = (contact_capacitances, *shares, *((breakdown_voltages,) if breaks else ()))
     found[pitch] = (capacitance_over_pitch, *((breakdown_over_pitch,) if breaks else ()))
-    if impedance_of(result) is not None:
+    if impedance_of(result) is not None and result.insulating:
         found[impedance] = (impedance_magnitude, impedance_phase)
     return found
 
@@ -149,7 +150,7 @@ def _title(result: BearingResult, *, voltages: bool) -> str:
     isothermal = duty.film_factor == 1.0
     film = "isothermal film" if isothermal else f"film factor {duty.film_factor:.3g}"
     film += f", least λ {result.lambda_ratio:.2g}"
-    if result.lubrication == "conducting":
+    if result.lubrication in ("conducting", "touching"):
         film += ": surfaces touch"
     elif voltages and (isothermal or result.lubrication == "partial film"):
         film += ": voltages are upper bounds"

@@ -11,6 +11,7 @@ import numpy as np
 
 from ehlectric.ball_equilibrium import BallEquilibrium
 from ehlectric.bearing_circuit import Circuit, bearing_voltage_ratio, series
+from ehlectric.bearing_limits import clearance_remarks, edge_remarks
 from ehlectric.bearing_mechanics import mechanics_of
 from ehlectric.bearing_solver import BearingSolution
 from ehlectric.contact_remarks import contact_remarks
@@ -47,7 +48,7 @@ class BearingResult:
 
     @property
     def ceramic(self) -> bool:
-        """Whether the elements do not conduct: capacitances are upper bounds, and nothing breaks down."""
+        """Whether the elements do not conduct: no film has all of a voltage, and nothing breaks down."""
         return not self.solution.duty.element.conducting
 
     def circuits(self, fill: str) -> list[Circuit]:
@@ -74,16 +75,32 @@ class BearingResult:
 
     @property
     def lubrication(self) -> str:
-        """By the lambda ratio: "conducting" below 1, "partial film" up to 3, "full film" above."""
+        """By the lambda ratio: "conducting" below 1, "partial film" up to 3, "full film" above.
+
+        Ceramic elements do not conduct where they touch: "touching" below 1.
+        """
         if self.lambda_ratio < CONDUCTING:
-            return "conducting"
+            return "touching" if self.ceramic else "conducting"
         return "partial film" if self.lambda_ratio < PARTIAL else "full film"
 
     @property
+    def insulating(self) -> bool:
+        """Whether there are voltages on films: elements conduct, and surfaces do not touch."""
+        return not self.ceramic and self.lubrication != "conducting"
+
+    @property
+    def bounded(self) -> bool:
+        """Whether no more than an upper bound of the capacitance is known: of ceramic elements."""
+        return self.ceramic and self.solution.case.bearing.element_capacitance is None
+
+    @property
     def bearing_voltage_ratio(self) -> float | None:
-        """Part of the common-mode voltage on the bearing; None without a motor."""
+        """Part of the common-mode voltage on the bearing.
+
+        None without a motor, where surfaces touch and conduct, and of a capacitance that is a bound.
+        """
         motor = self.solution.case.motor
-        if motor is None:
+        if motor is None or self.lubrication == "conducting" or self.bounded:
             return None
         own = self.capacitance(self.solution.case.bearing.fill)
         second = motor.second_bearing_capacitance
@@ -96,7 +113,7 @@ class BearingResult:
 
     @property
     def shaft_voltage(self) -> float | None:
-        """Of the capacitive divider [V]; None without a motor."""
+        """Of the capacitive divider [V]; None where there is no ``bearing_voltage_ratio``."""
         motor, ratio = self.solution.case.motor, self.bearing_voltage_ratio
         return None if motor is None or ratio is None else ratio * motor.common_mode_voltage
 
@@ -106,7 +123,7 @@ class BearingResult:
         circuits = self.circuits(fill)
         first = np.array([circuit.first_break for circuit in circuits])
         through = np.array([circuit.through_breakdown for circuit in circuits])
-        none = self.ceramic or self.lubrication == "conducting" or not np.all(np.isfinite(through))
+        none = not self.insulating or not np.all(np.isfinite(through))
         least = int(np.argmin(first))
         shaft = self.shaft_voltage
         found = {
@@ -126,7 +143,7 @@ class BearingResult:
 
         None of ceramic elements, and where surfaces touch.
         """
-        if self.ceramic or self.lubrication == "conducting":
+        if not self.insulating:
             return None
         fill = self.solution.case.bearing.fill
         return max(
@@ -136,8 +153,13 @@ class BearingResult:
             for share, race in ((inner_share, position.inner), (1.0 - inner_share, position.outer))
         )
 
-    def plate(self) -> float:
-        """Capacitance by plates of the Hertz areas, h(0) apart, mean over the positions [F]."""
+    def plate(self) -> float | None:
+        """Capacitance by plates of the Hertz areas, h(0) apart, mean over the positions [F].
+
+        None of ceramic elements, which are no plate.
+        """
+        if self.ceramic:
+            return None
         totals = []
         for position in self.solution.positions:
             inner, outer = position.inner.plate, position.outer.plate
@@ -147,9 +169,10 @@ class BearingResult:
 
     def warnings(self) -> list[str]:
         """What a user should know before using it, each text once."""
-        return list(dict.fromkeys(self._warnings()))
+        return list(dict.fromkeys([*self._of_films(), *self._of_voltages(), *self._of_contacts()]))
 
-    def _warnings(self) -> Iterator[str]:
+    def _of_films(self) -> Iterator[str]:
+        """What to know of the films of the whole bearing."""
         solution = self.solution
         if solution.case.contacts == "formula":
             yield "contacts by formula: films may be 30 % off, and fields are voltages over the minimum film"
@@ -157,15 +180,36 @@ class BearingResult:
             given = solution.case.bearing.film_factor
             name = given if isinstance(given, str) else f"{given:g}"
             yield f"film_factor {name}: the film is isothermal and fully flooded, voltages are upper bounds"
-        if solution.case.lubricant.temperature is not None and solution.case.bearing.temperature < _COLD:
+        if solution.case.lubricant.temperature is None:
+            yield "lubricant.viscosity is given: bearing.temperature has no part in the films"
+        elif solution.case.bearing.temperature < _COLD:
             cold = solution.case.bearing.temperature - 273.15
             yield f"bearing.temperature is {cold:.3g} °C: the viscosity from 40 and 100 °C may be far off"
+        first = solution.positions[0]
+        yield from clearance_remarks(solution.duty, first.equilibrium, first.inner, first.outer)
+
+    def _of_voltages(self) -> Iterator[str]:
+        """What to know of capacitance and voltages."""
+        touching = f"lambda is {self.lambda_ratio:.2g}: surfaces"
         if self.lubrication == "conducting":
-            yield f"lambda is {self.lambda_ratio:.2g}: surfaces touch and conduct, nothing breaks down"
+            yield f"{touching} touch and conduct, nothing breaks down, and no shaft voltage is stated"
+        elif self.lubrication == "touching":
+            yield f"{touching} touch, and the elements insulate"
         elif self.lubrication == "partial film":
-            yield f"lambda is {self.lambda_ratio:.2g}: surfaces may touch, voltages are upper bounds"
-        if self.ceramic and solution.case.bearing.element_capacitance is None:
-            yield "the elements are ceramic: the capacitance is an upper bound, that of conducting ones"
+            yield f"{touching} may touch" + ("" if self.ceramic else ", voltages are upper bounds")
+        if self.bounded:
+            yield (
+                "the elements are ceramic: the capacitance is an upper bound, that of conducting ones, and "
+                "no shaft voltage follows from it; bearing.element_capacitance gives one"
+            )
+        if self.solution.case.discharge.weibull is not None and self.insulating:
+            yield "first break and through breakdown are voltages at a probability of 63.2 % (Weibull)"
+
+    def _of_contacts(self) -> Iterator[str]:
+        """What to know of single contacts, and of those at the edge of their groove."""
+        solution = self.solution
+        states = [(position.equilibrium, position.inner, position.outer) for position in solution.positions]
+        yield from edge_remarks(solution.case.bearing, states)
         yield from contact_remarks(
             {"inner": solution.inner_curve.solutions, "outer": solution.outer_curve.solutions}
         )
@@ -175,7 +219,6 @@ class BearingResult:
         solution = self.solution
         position, fill = solution.positions[0], solution.case.bearing.fill
         at, circuit = position.equilibrium, position.circuit(fill)
-        insulating = not self.ceramic and self.lubrication != "conducting"
         shaft = self.shaft_voltage
         rows = []
         for k in range(at.position.size):
@@ -183,7 +226,7 @@ class BearingResult:
                 ("inner", position.inner, circuit.inner_share),
                 ("outer", position.outer, 1.0 - circuit.inner_share),
             ):
-                strength = share[k] * race.strength_per_volt[k] if insulating else None
+                strength = share[k] * race.strength_per_volt[k] if self.insulating else None
                 angle = getattr(at, f"{name}_angle")[k] if isinstance(at, BallEquilibrium) else 0.0
                 rows.append(
                     {
@@ -198,11 +241,11 @@ class BearingResult:
                         "minimum_thickness": race.minimum_thickness[k],
                         "central_thickness": race.central_thickness[k],
                         "lambda_ratio": race.minimum_thickness[k] / solution.case.bearing.composite_rq,
-                        "capacitance": race.capacitance(fill)[k],
-                        "voltage_share": share[k],
+                        "capacitance": None if self.ceramic else race.capacitance(fill)[k],
+                        "voltage_share": share[k] if self.insulating else None,
                         "strength_per_volt": strength,
                         "max_strength": None if strength is None or shaft is None else strength * shaft,
-                        "breakdown_voltage": race.breakdown_voltage[k] if insulating else None,
+                        "breakdown_voltage": race.breakdown_voltage[k] if self.insulating else None,
                         "solved": bool(race.solved[k]),
                     }
                 )
@@ -244,7 +287,7 @@ class BearingResult:
                 "capacitance_oil": self.capacitance("oil"),
                 "capacitance_air": self.capacitance("air"),
                 "capacitance_plate": plate,
-                "capacitance_ratio": capacitance / plate,
+                "capacitance_ratio": None if plate is None else capacitance / plate,
                 "lambda_ratio": self.lambda_ratio,
                 "lubrication": self.lubrication,
                 "film_factor": duty.film_factor,

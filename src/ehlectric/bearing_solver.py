@@ -17,17 +17,22 @@ from ehlectric.bearing_contacts import ContactCurve, ContactSolution, contact_ca
 from ehlectric.bearing_domain import least_load
 from ehlectric.bearing_duty import BearingDuty
 from ehlectric.bearing_formula import check_formula, formula_contact
+from ehlectric.bearing_limits import Equilibrium, check_film, check_load, check_shoulders
 from ehlectric.bearing_race import Race, of_contact
 from ehlectric.bearing_state import RaceState, race_state
 from ehlectric.meaning import check_case
-from ehlectric.roller_equilibrium import RollerEquilibrium
 from ehlectric.workers import cores, run_all
 
-# Loads of each ring that are solved, and the least of them over the largest.
+# Loads of each ring that are solved, but for those of light elements, and the least of them over the largest.
 LOADS, _LEAST = 6, 0.02
 
 # The least load over the largest: below it films hardly change any more what a bearing's circuit sees.
 _LIGHTEST = 0.002
+
+# Loads between that one and the six: about one for each of these ratios, up to six. They crowd at the light
+# end, where the film of rigid bodies, which goes with 1/Q, turns into that of bodies that deform: a power of
+# their number, since halving the distance there is worth more than elsewhere.
+_BETWEEN, _MOST_BETWEEN, _CROWDED = 1.5, 6, 1.5
 
 # Loads closer than this ratio are one.
 _ALIKE = 1.001
@@ -35,17 +40,17 @@ _ALIKE = 1.001
 # Positions of the cage over one pitch of the elements.
 POSITIONS = 8
 
-Equilibrium = BallEquilibrium | RollerEquilibrium
 Progress = Callable[[int, int, str], None]
 
 
 @dataclass(frozen=True)
 class Position:
-    """A bearing at one position of its cage."""
+    """A bearing at one position of its cage; ``shape`` is that of a Weibull strength."""
 
     equilibrium: Equilibrium
     inner: RaceState
     outer: RaceState
+    shape: float | None = None
 
     def circuit(self, fill: str) -> Circuit:
         """Its circuit, with oil or air around the films."""
@@ -54,6 +59,7 @@ class Position:
             self.outer.capacitance(fill),
             self.inner.breakdown_voltage,
             self.outer.breakdown_voltage,
+            self.shape,
         )
 
 
@@ -105,7 +111,7 @@ def solve_bearing(
     Returns
     -------
     BearingSolution
-        Six loads of either ring are solved, and interpolated in between.
+        Six loads of either ring are solved, those of light elements besides, and interpolated in between.
 
     Raises
     ------
@@ -113,20 +119,19 @@ def solve_bearing(
         Where the bearing cannot carry its load, or a contact cannot be solved.
     """
     started = time.perf_counter()
-    by_formula, duty = case.contacts == "formula", _duty(case)
-    equilibria = duty.equilibria(case.bearing, POSITIONS)
-    races = [_race(duty, equilibria, inner=inner) for inner in (True, False)]
+    by_formula, discharge = case.contacts == "formula", case.discharge.at(case.bearing.temperature)
+    duty, equilibria, races = _prepared(case, POSITIONS)
     loads = [_loads(equilibria, least_load(duty, race), inner=race.inner) for race in races]
     given = case.bearing, duty
     tasks = [
-        partial(formula_contact, *given, race, load, discharge=case.discharge)
+        partial(formula_contact, *given, race, load, discharge=discharge)
         if by_formula
         else partial(
             solve_contact,
             *given,
             race,
             load,
-            discharge=case.discharge,
+            discharge=discharge,
             solver=case.solver.model_dump(),
         )
         for race, those in zip(races, loads, strict=True)
@@ -135,15 +140,17 @@ def solve_bearing(
     processes = 1 if by_formula else workers or cores()
     found = _solved(tasks, progress or (lambda _done, _of, _text: None), processes)
     first = len(loads[0])
-    curves = _curve(found[:first]), _curve(found[first:])
+    curves = ContactCurve(tuple(found[:first])), ContactCurve(tuple(found[first:]))
 
     def state(race: Race, curve: ContactCurve, at: Equilibrium) -> RaceState:
         load = at.inner_load if race.inner else at.outer_load
         gap = at.inner_gap if race.inner else at.outer_gap
-        return race_state(case.bearing, duty, race, curve, discharge=case.discharge, load=load, gap=gap)
+        return race_state(case.bearing, duty, race, curve, discharge=discharge, load=load, gap=gap)
 
+    shape = None if discharge.weibull is None else discharge.weibull.shape
     positions = tuple(
-        Position(at, state(races[0], curves[0], at), state(races[1], curves[1], at)) for at in equilibria
+        Position(at, state(races[0], curves[0], at), state(races[1], curves[1], at), shape)
+        for at in equilibria
     )
     return BearingSolution(
         case=case,
@@ -165,21 +172,29 @@ def check_bearing(case: BearingCase) -> None:
     InputError
         As ``solve_bearing`` does, of the cage's first position.
     """
-    duty = _duty(case)
-    equilibria = duty.equilibria(case.bearing, 1)
-    for inner in (True, False):
-        load = float(np.max(equilibria[0].inner_load if inner else equilibria[0].outer_load))
-        race = _race(duty, equilibria, inner=inner)
+    duty, equilibria, races = _prepared(case, 1)
+    discharge = case.discharge.at(case.bearing.temperature)
+    for race in races:
+        load = float(np.max(equilibria[0].inner_load if race.inner else equilibria[0].outer_load))
         with of_contact(race, load):
-            check_case(contact_case(duty, race, load, case.discharge, case.solver.model_dump()))
+            check_case(contact_case(duty, race, load, discharge, case.solver.model_dump()))
 
 
-def _duty(case: BearingCase) -> BearingDuty:
-    """The duty of a case, which its contacts can be found for."""
-    duty = BearingDuty.of(case)
+def _prepared(case: BearingCase, positions: int) -> tuple[BearingDuty, Sequence[Equilibrium], list[Race]]:
+    """The duty of a case, its equilibria, and the contacts with either ring, where they can be found."""
+    bearing, duty = case.bearing, BearingDuty.of(case)
     if case.contacts == "formula":
-        check_formula(case.discharge, duty.lubricant)
-    return duty
+        check_formula(case.discharge.at(bearing.temperature), duty.lubricant)
+    check_load(bearing, duty)
+    equilibria = duty.equilibria(bearing, positions)
+    for at in equilibria:
+        check_shoulders(bearing, at)
+    races = [_race(duty, equilibria, inner=inner) for inner in (True, False)]
+    for race in races:
+        check_film(
+            duty, race, float(np.max(equilibria[0].inner_load if race.inner else equilibria[0].outer_load))
+        )
+    return duty, equilibria, races
 
 
 def _race(duty: BearingDuty, equilibria: Sequence[Equilibrium], *, inner: bool) -> Race:
@@ -195,7 +210,7 @@ def _race(duty: BearingDuty, equilibria: Sequence[Equilibrium], *, inner: bool) 
 
 
 def _loads(equilibria: Sequence[Equilibrium], lightest: float, *, inner: bool) -> list[float]:
-    """Loads to solve [N], evenly in their logarithm, and one below them that is not below ``lightest``."""
+    """Loads to solve [N]: evenly in their logarithm, and below them from one not below ``lightest`` on."""
     all_loads = np.concatenate([at.inner_load if inner else at.outer_load for at in equilibria])
     largest = float(np.max(all_loads))
     least = float(np.min(all_loads[all_loads >= _LEAST * largest]))
@@ -203,13 +218,16 @@ def _loads(equilibria: Sequence[Equilibrium], lightest: float, *, inner: bool) -
     # Elements that their centrifugal force alone presses outward have a film of their own.
     light = all_loads[(all_loads > 0.0) & (all_loads < _LEAST * largest)]
     own = max(float(np.min(light)), _LIGHTEST * largest, lightest) if light.size else math.inf
-    apart = own < 0.5 * float(loads[0])
-    return [*([own] if apart else []), *(float(load) for load in loads)]
+    return [*_lighter(own, float(loads[0])), *(float(load) for load in loads)]
 
 
-def _curve(solutions: Sequence[ContactSolution]) -> ContactCurve:
-    light = len(solutions) > 1 and solutions[0].load < _LEAST * solutions[-1].load
-    return ContactCurve(tuple(solutions), light)
+def _lighter(own: float, least: float) -> list[float]:
+    """Loads [N] from that of light elements up to the least of the others; none where they are close."""
+    if own >= 0.5 * least:
+        return []
+    ratio = math.log(least / own)
+    number = 1 + min(_MOST_BETWEEN, int(ratio / math.log(_BETWEEN)))
+    return [own * math.exp(ratio * (k / number) ** _CROWDED) for k in range(number)]
 
 
 def _solved(

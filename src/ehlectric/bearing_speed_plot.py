@@ -138,12 +138,12 @@ def _speed(points: Speeds, ax: Axes) -> Array:
 def _lubrication(points: Speeds, ax: Axes, speed: Array) -> None:
     """Marks along the lower edge where films are thin against the roughness."""
     states = [summary["bearing"]["lubrication"] for _, summary in sorted(points, key=lambda point: point[0])]
-    kinds: tuple[tuple[str, str, dict[str, Any]], ...] = (
-        ("conducting", r"$\lambda$ < 1: surfaces touch", {"color": ORANGE, "marker": "X"}),
-        ("partial film", r"$\lambda$ from 1 to 3: surfaces may touch", {"color": GREY, "marker": "^"}),
+    kinds: tuple[tuple[tuple[str, ...], str, dict[str, Any]], ...] = (
+        (("conducting", "touching"), r"$\lambda$ < 1: surfaces touch", {"color": ORANGE, "marker": "X"}),
+        (("partial film",), r"$\lambda$ from 1 to 3: surfaces may touch", {"color": GREY, "marker": "^"}),
     )
-    for state, label, look in kinds:
-        on = np.array([found == state for found in states])
+    for names, label, look in kinds:
+        on = np.array([found in names for found in states])
         if np.any(on):
             edge = ax.get_xaxis_transform()
             marks: dict[str, Any] = {"ls": "none", "ms": 6.0, "clip_on": False, "zorder": 5.0, "label": label}

@@ -8,9 +8,9 @@ import numpy as np
 
 from ehlectric.bearing_case import BearingCase
 from ehlectric.bearing_formula import check_formula
+from ehlectric.bearing_inputs import BearingDischarge
 from ehlectric.bearing_result import BearingResult
 from ehlectric.bearing_solver import solve_bearing
-from ehlectric.discharge_inputs import Discharge
 from ehlectric.errors import InputError
 
 # From which part of the case's speed to which, in how many steps of its logarithm.
@@ -68,9 +68,9 @@ def _by_formula(case: BearingCase) -> tuple[BearingCase | None, list[str]]:
     """The case with contacts by formula, if need be without a strength, and what the formulas do not take."""
     lubricant = case.lubricant.at(case.bearing.temperature)
     left_out: list[str] = []
-    for discharge in (case.discharge, Discharge(conductivity=case.discharge.conductivity)):
+    for discharge in (case.discharge, BearingDischarge(conductivity=case.discharge.conductivity)):
         try:
-            check_formula(discharge, lubricant)
+            check_formula(discharge.at(case.bearing.temperature), lubricant)
         except InputError as error:
             left_out = [f"over speed: {error}"]
         else:

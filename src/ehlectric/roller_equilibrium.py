@@ -63,7 +63,7 @@ class RollerEquilibrium:
     radial_displacement, lateral_displacement : float
         Of the inner ring along the radial load, and at right angles to it, towards the angle of 90 deg [m].
     residual : float
-        Largest force that ring or roller miss to balance, over the load.
+        Largest force that ring or roller miss to balance, over the load and the centrifugal force together.
     iterations : int
         Newton steps of the ring.
     """
@@ -258,7 +258,7 @@ def roller_equilibrium(
     Returns
     -------
     RollerEquilibrium
-        Forces in balance to 1e-9 of the load.
+        Forces in balance to 1e-9 of the load and the centrifugal force.
 
     Raises
     ------
@@ -289,7 +289,8 @@ def roller_equilibrium(
     reaction = rollers.reaction(basis, bearing.radial_clearance)
     load = np.array([duty.radial_load, 0.0])
     reach = (duty.radial_load / stiffness) ** (1.0 / _POWER) + abs(bearing.radial_clearance)
-    ring, residual, iterations = balance(reaction, load, np.zeros(2), reach, duty.radial_load)
+    scale = duty.radial_load + outward
+    ring, residual, iterations = balance(reaction, load, np.zeros(2), reach, scale)
 
     play = basis @ ring - 0.5 * bearing.radial_clearance
     outer, held = rollers.seat(play)
@@ -299,7 +300,7 @@ def roller_equilibrium(
     inner_slices, outer_slices = rollers.slices(inner), rollers.slices(outer)
     inner_load, outer_load = inner_slices.sum(axis=1), outer_slices.sum(axis=1)
     missing = outer_load - inner_load - outward
-    residual = max(residual, float(np.max(np.abs(missing))) / duty.radial_load)
+    residual = max(residual, float(np.max(np.abs(missing))) / scale)
     if residual > GOOD:
         raise ConvergenceError(f"forces on ring and rollers balance to {residual:.1e} of the load only")
     return RollerEquilibrium(

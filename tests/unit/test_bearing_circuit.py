@@ -160,3 +160,39 @@ def test_impedance_is_resistance_beside_capacitance(frequency):
     c, tau = 1e-10, 0.5
     admittance = 1.0 / impedance(c, tau, np.array([frequency]))[0]
     assert admittance == pytest.approx(c / tau + 2j * np.pi * frequency * c, rel=1e-12, abs=0.0)
+
+
+@given(rows=st.lists(elements, min_size=1, max_size=12), shape=st.floats(0.5, 200.0))
+def test_the_first_break_of_a_weibull_strength_is_at_63_2_per_cent(rows, shape):
+    """The probability that all contacts hold, one by one, at that bearing voltage: 1/e."""
+    whole = circuit_of(*rows)
+    found = Circuit(whole.inner, whole.outer, whole.inner_strength, whole.outer_strength, shape)
+    hold = 1.0
+    for inner, outer, inner_strength, outer_strength in rows:
+        on_inner = found.first_break * outer / (inner + outer)
+        hold *= np.exp(-((on_inner / inner_strength) ** shape))
+        hold *= np.exp(-(((found.first_break - on_inner) / outer_strength) ** shape))
+    assert hold == pytest.approx(np.exp(-1.0), rel=1e-6, abs=0.0)
+    # Each of 2 n contacts alone breaks at no less than the first of a certain strength.
+    assert found.first_break <= whole.first_break * (1.0 + 1e-12)
+    assert found.first_break >= whole.first_break * (2 * len(rows)) ** (-1.0 / shape) * (1.0 - 1e-12)
+    assert found.through_breakdown == whole.through_breakdown
+
+
+@pytest.mark.parametrize("shape", [1.0, 3.0, 10.0])
+def test_equal_contacts_break_sooner_by_the_root_of_their_number(shape):
+    """N equal contacts, half of the voltage each: 2 V N^(-1/m)."""
+    rows = [(1e-10, 1e-10, 5.0, 5.0)] * 9
+    arrays = np.array(rows).T
+    assert Circuit(*arrays, shape=shape).first_break == pytest.approx(
+        10.0 * 18.0 ** (-1.0 / shape), rel=1e-12, abs=0.0
+    )
+
+
+def test_a_strength_that_does_not_scatter_has_no_weaker_links():
+    arrays = np.array([(1e-10, 1e-10, 5.0, 6.0), (1e-10, 2e-10, 9.0, 8.0)]).T
+    assert Circuit(*arrays, shape=200.0).first_break == pytest.approx(10.0, rel=1e-12, abs=0.0)
+    # Contacts without a strength, as unloaded ones of a Weibull law, do not count.
+    endless = np.array([(1e-10, 1e-10, 5.0, np.inf), (1e-10, 1e-10, np.inf, np.inf)]).T
+    assert Circuit(*endless, shape=2.0).first_break == 10.0
+    assert Circuit(*np.array([(1e-10, 1e-10, np.inf, np.inf)]).T, shape=2.0).first_break == np.inf

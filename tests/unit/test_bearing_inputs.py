@@ -11,7 +11,8 @@ from ehlectric import InputError, library
 from ehlectric.bearing_case import BearingCase
 from ehlectric.bearing_duty import BearingDuty, Solid
 from ehlectric.bearing_geometry import BallBearing, RollerBearing
-from ehlectric.bearing_solver import check_bearing
+from ehlectric.bearing_result import BearingResult
+from ehlectric.bearing_solver import check_bearing, solve_bearing
 from ehlectric.oil_temperature import inlet_shear_factor
 from ehlectric.point_formulas import PointContact, hamrock_dowson
 from tests.bearings import BALLS, ROLLERS, bearing_case, changed
@@ -144,6 +145,10 @@ MISTAKES = [
     # Discharge and motor.
     ({"discharge__length": "10 mm"}, "discharge.length: got it for a bearing, which has no use for it"),
     ({"discharge__external_capacitance": "1 nF"}, "discharge.external_capacitance: got it for a bearing"),
+    (
+        {"discharge__dielectric_strength": None, "discharge__temperature": "40 degC"},
+        "discharge.temperature: got 313.15 K for a bearing, takes bearing.temperature in its place",
+    ),
     ({"motor__winding_rotor_capacitance": None}, "motor.winding_rotor_capacitance: missing, takes a value"),
     ({"motor__common_mode_voltage": "-300 V"}, "motor.common_mode_voltage: got '-300 V', takes a number"),
 ]
@@ -322,3 +327,42 @@ def test_library_solids(name):
     assert solid.compliance == pytest.approx(
         (1.0 - solid.poissons_ratio**2) / solid.youngs_modulus, rel=1e-12
     )
+
+
+def over_temperature(*temperatures):
+    """A strength from 20 to 10 V/um over two temperatures, and no other."""
+    table = {"temperature": list(temperatures), "strength": ["20 V/um", "10 V/um"]}
+    return {"discharge__dielectric_strength": None, "discharge__strength_table": table}
+
+
+def test_a_strength_over_temperature_is_that_of_the_bearing():
+    """Linear from 20 V/um at 20 degC to 10 at 120 degC: 15 at 70 degC; swept with bearing.temperature."""
+    case = bearing_case(BALLS, contacts="formula", **over_temperature("20 degC", "120 degC"))
+    assert BearingCase.from_dict(case.to_dict()) == case
+    for celsius, strength in ((70.0, 15e6), (45.0, 17.5e6)):
+        at = case.replace({"bearing.temperature": 273.15 + celsius})
+        found = solve_bearing(at).inner_curve.solutions[-1]
+        expected = strength * found.minimum_thickness
+        assert found.breakdown_voltage == pytest.approx(expected, rel=1e-9, abs=0.0)
+
+
+def test_a_strength_does_not_reach_beyond_its_temperatures():
+    case = bearing_case(BALLS, contacts="formula", **over_temperature("20 degC", "60 degC"))
+    line = r"^bearing\.temperature: got 343\.15 K, takes one within the strength_table, 293\.15 to 333\.15 K$"
+    for refused in (check_bearing, solve_bearing):
+        with pytest.raises(InputError, match=line):
+            refused(case)
+
+
+def test_a_given_viscosity_knows_no_temperature():
+    """Warned of, since films at any bearing.temperature are the same."""
+    given = {"lubricant__temperature": None, "lubricant__viscosity": "20 mPa s", "contacts": "formula"}
+    results = [
+        BearingResult(solve_bearing(bearing_case(BALLS, bearing__temperature=at, **given)))
+        for at in ("70 degC", "20 degC")
+    ]
+    assert results[0].lambda_ratio == results[1].lambda_ratio
+    for result in results:
+        assert any(text.startswith("lubricant.viscosity is given:") for text in result.warnings())
+    over = BearingResult(solve_bearing(bearing_case(BALLS, contacts="formula")))
+    assert not any("lubricant.viscosity" in text for text in over.warnings())

@@ -237,7 +237,7 @@ def test_a_pitch_ends_as_it_begins(result):
         ({}, (LOADS, CIRCUIT, PITCH, IMPEDANCE), (2, 3, 2, 2)),
         ({"motor": None}, (LOADS, CIRCUIT, PITCH, IMPEDANCE), (2, 3, 2, 2)),
         ({"discharge": None}, (LOADS, CIRCUIT, PITCH), (2, 2, 1)),
-        ({"film": 0.02e-6}, (LOADS, CIRCUIT, PITCH), (2, 2, 1)),
+        ({"film": 0.02e-6}, (LOADS, CIRCUIT, PITCH), (2, 1, 1)),
         ({"bearing": {"element_material": "silicon-nitride"}}, (LOADS,), (2,)),
     ],
 )

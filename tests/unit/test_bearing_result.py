@@ -198,8 +198,10 @@ def test_lambda(rollers, ratio, lubrication, text):
     said = [warning for warning in found["warnings"] if warning.startswith("lambda")]
     assert len(said) == (text is not None)
     assert text is None or text in said[0]
-    for key in BREAKS:
+    for key in (*BREAKS, "bearing_voltage_ratio", "shaft_voltage"):
         assert (found["bearing"][key] is None) == (lubrication == "conducting")
+    for key in ("voltage_share", "strength_per_volt", "max_strength", "breakdown_voltage"):
+        assert {row[key] is None for row in found["contacts"]} == {lubrication == "conducting"}
     assert found["bearing"]["capacitance"] > 0.0
 
 
@@ -222,22 +224,65 @@ def test_without_a_strength_there_are_no_voltages(rollers):
 
 
 def test_ceramic_elements(rollers):
-    """No equipotential: an upper bound or the given capacitance of each, and nothing that breaks down."""
+    """No equipotential: an upper bound or the given capacitance of each, and nothing that breaks down.
+
+    From a bound follows no voltage of the divider, from 14 times 3 pF that of 20 pF/(20 pF + 1 nF + 84 pF).
+    """
     solution = rollers.solution
     duty = dataclasses.replace(solution.duty, element=Solid.of("silicon-nitride"))
     ceramic = BearingResult(dataclasses.replace(solution, duty=duty))
     found = strict(ceramic.summary())
     assert {found["bearing"][key] for key in BREAKS} == {None}
-    assert any("upper bound, that of conducting ones" in text for text in found["warnings"])
+    bounds = [text for text in found["warnings"] if "upper bound, that of conducting ones" in text]
+    assert len(bounds) == 1
+    assert "no shaft voltage follows from it" in bounds[0]
+    assert found["bearing"]["bearing_voltage_ratio"] is None
+    assert found["bearing"]["shaft_voltage"] is None
     given = with_bearing(ceramic, element_capacitance=3e-12)
     assert given.capacitance("oil") == pytest.approx(14 * 3e-12, rel=1e-12, abs=0.0)
     assert not any("that of conducting ones" in text for text in given.warnings())
+    ratio = 20.0 / (20.0 + 1000.0 + 84.0)
+    assert given.bearing_voltage_ratio == pytest.approx(ratio, rel=1e-12, abs=0.0)
+    assert given.shaft_voltage == pytest.approx(300.0 * ratio, rel=1e-12, abs=0.0)
+    for result in (ceramic, given):
+        found = strict(result.summary())
+        keys = ("capacitance_ratio", "capacitance_plate", "strength_per_volt")
+        assert {found["bearing"][key] for key in keys} == {None}
+        keys = ("capacitance", "voltage_share", "strength_per_volt", "breakdown_voltage")
+        assert {row[key] for row in found["contacts"] for key in keys} == {None}
+
+
+def test_ceramic_elements_insulate_where_they_touch(rollers):
+    """A lambda of a half: no conductor, and with a given capacitance a shaft voltage as ever."""
+    duty = dataclasses.replace(rollers.solution.duty, element=Solid.of("silicon-nitride"))
+    ceramic = BearingResult(dataclasses.replace(rollers.solution, duty=duty))
+    rough = {"composite_rq": 2.0 * ceramic.lambda_ratio * 0.03e-6, "element_capacitance": 3e-12}
+    touching = with_bearing(ceramic, **rough)
+    found = strict(touching.summary())
+    assert found["bearing"]["lubrication"] == "touching"
+    assert found["bearing"]["shaft_voltage"] > 0.0
+    assert not any("conduct, " in text for text in found["warnings"])
+
+
+def test_a_weibull_strength_is_that_of_all_contacts(rollers):
+    """From the rows of the first position: sum of (share V/V_k)^m is 1 at the first break."""
+    position = rollers.solution.positions[0]
+    one = dataclasses.replace(position, shape=8.0)
+    weibull = BearingResult(dataclasses.replace(rollers.solution, positions=(one,)))
+    first = weibull.breaks()["first_break"]
+    used = [first * row["voltage_share"] / row["breakdown_voltage"] for row in weibull.contacts()]
+    assert sum(part**8.0 for part in used) == pytest.approx(1.0, rel=1e-9, abs=0.0)
+    assert weibull.breaks()["first_break_at"] == "inner contact of element 0"
+    assert np.argmax(used) == 0
+    certain = BearingResult(dataclasses.replace(rollers.solution, positions=(position,))).breaks()
+    assert first < certain["first_break"]
+    assert weibull.breaks()["through_breakdown"] == certain["through_breakdown"]
 
 
 def test_a_contact_that_is_not_converged(rollers):
     solution = rollers.solution
     first, *others = solution.outer_curve.solutions
-    curve = ContactCurve((dataclasses.replace(first, converged=False), *others), solution.outer_curve.light)
+    curve = ContactCurve((dataclasses.replace(first, converged=False), *others))
     failed = BearingResult(dataclasses.replace(solution, outer_curve=curve))
     assert not failed.converged
     assert not strict(failed.summary())["converged"]
@@ -327,3 +372,17 @@ def test_a_doubt_about_the_oil_is_said_once():
         for ring, those in zip(("inner", "outer"), heavy, strict=True)
     ]
     assert told[0].startswith(", ".join(names) + ": Barus' law")
+
+
+@pytest.mark.slow
+def test_a_weibull_strength_from_the_file():
+    """Solved rollers: the shape of the file is that of the circuit, and the warning tells the probability."""
+    law = {"scale": "15 V/um", "shape": 10.0, "reference_area": "1 mm^2"}
+    changes = {"discharge__dielectric_strength": None, "discharge__weibull": law}
+    result = BearingResult(solve_bearing(bearing_case(ROLLERS, **changes)))
+    assert {position.shape for position in result.solution.positions} == {10.0}
+    assert any("63.2 %" in text for text in result.warnings())
+    found = result.breaks()
+    least = min(float(np.min(circuit.first_breaks)) for circuit in result.circuits("oil"))
+    assert 28.0 ** (-1.0 / 10.0) * least < found["first_break"] < least
+    assert found["through_breakdown"] > found["first_break"]

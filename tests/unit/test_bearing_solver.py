@@ -22,15 +22,17 @@ def rollers():
 
 
 def test_solved_loads_hold_those_of_all_elements(rollers):
-    """Six of each ring, evenly in their logarithm up to the largest, and a light one."""
+    """Six of each ring, evenly in their logarithm up to the largest, and light ones below."""
     for name, race, curve in (
         ("inner", rollers.inner, rollers.inner_curve),
         ("outer", rollers.outer, rollers.outer_curve),
     ):
         loads = np.array([solution.load for solution in curve.solutions])
-        steps = np.diff(np.log(loads[int(curve.light) :]))
-        assert steps.size == LOADS - 1
-        np.testing.assert_allclose(steps, steps[0], rtol=1e-9)
+        steps = np.diff(np.log(loads))
+        np.testing.assert_allclose(steps[1 - LOADS :], steps[-1], rtol=1e-9)
+        # No decade is left empty: from the light end on, each step is longer than the one before.
+        assert np.all(loads[1:] < 3.0 * loads[:-1])
+        assert np.all(np.diff(steps[: -LOADS + 1]) > 0.0)
         of_elements = np.concatenate([getattr(p.equilibrium, f"{name}_load") for p in rollers.positions])
         assert loads[-1] == pytest.approx(np.max(of_elements), rel=1e-9, abs=0.0)
         # What is below a five hundredth of the largest, or has a film that no domain holds, is not reached.
@@ -114,8 +116,9 @@ def test_below_the_least_load_a_domain_is_at_its_end(tables):
         made = contact_case(duty, race, float(load), case.discharge, case.solver.model_dump())
         axis = resolve_point(made).semi_axis_x if tables is BALLS else resolve(made).half_width
         inlets.append(-made.grid.inlet * axis)
-    # A roller's film goes with 1/w, and the length with its root: 2 from 4 w to w, or nearly, as yet.
-    assert 1.6 < inlets[1] / inlets[0] < 2.5
+    # A roller's film goes with 1/w, and the length with its root: 2 from 4 w to w, or nearly, as yet; a long
+    # inlet is a fifth shorter.
+    assert 1.5 < inlets[1] / inlets[0] < 2.5
     # Without an end they would again be twice as long.
     assert inlets[2] < 1.3 * inlets[1]
     assert inlets[3] < 1.3 * inlets[1]
@@ -164,9 +167,28 @@ def test_formulas_take_piezoviscous_oils(tables):
 
 def test_an_oil_below_freezing_is_doubted():
     """ASTM D341 goes on below any pour point."""
-    for temperature, doubted in (("-20 degC", True), ("70 degC", False)):
+    for temperature, doubted in (("-10 degC", True), ("70 degC", False)):
         case = bearing_case(BALLS, contacts="formula", bearing__temperature=temperature)
         texts = BearingResult(solve_bearing(case)).warnings()
         assert any(text.startswith("bearing.temperature is") for text in texts) == doubted
         # A bearing's contacts have no grid that its file could change.
         assert not any("grid." in text for text in texts)
+
+
+@pytest.mark.slow
+def test_a_light_balls_contact_between_the_loads_that_were_solved():
+    """Outer contacts pressed by little more than the centrifugal force, each against its own solution.
+
+    Between 3.3 and 42 N the film of rigid bodies turns into that of bodies that deform; with no load between
+    them it was up to a third off.
+    """
+    case = bearing_case(BALLS)
+    solution = solve_bearing(case)
+    curve, race = solution.outer_curve, solution.outer
+    for load in (3.56, 4.22, 5.35, 7.6, 13.15, 25.0):
+        rest = case.discharge, case.solver.model_dump()
+        alone = solve_contact(case.bearing, solution.duty, race, load, *rest)
+        for name in ("inside", "breakdown_voltage"):
+            found = curve.at(name, np.array([load]))[0]
+            assert found == pytest.approx(getattr(alone, name), rel=curve.interpolation_error), (name, load)
+            assert found == pytest.approx(getattr(alone, name), rel=0.02), (name, load)
