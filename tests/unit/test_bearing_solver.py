@@ -152,7 +152,9 @@ def test_a_6208_in_parallel():
 def test_a_load_wider_than_the_balls_is_refused_before_anything_is_solved(contacts):
     """200 kN on a ball bearing of 60 mm: dry contacts of a centimetre on balls of twelve millimetres."""
     case = bearing_case(BALLS, contacts=contacts, bearing__radial_load="200 kN")
-    with pytest.raises(InputError, match=r"^contact: the dry contact would be .* wide on each side"):
+    with pytest.raises(
+        InputError, match=r"^bearing: inner contact at .* N: the dry contact would be .* wide"
+    ):
         check_bearing(case)
 
 
