@@ -1,4 +1,4 @@
-"""Contacts by formula against printed film formulas, Hertz's gap and laws of the oil, summed in another way."""
+"""Contacts by formula against printed film formulas, Hertz's gap and laws of the oil, summed otherwise."""
 
 import math
 import time
