@@ -96,10 +96,14 @@ def test_one_element_by_hand():
     assert found.inner_share[0] == pytest.approx(0.75, rel=1e-12, abs=0.0)
     assert found.first_break == pytest.approx(12.0, rel=1e-12, abs=0.0)
     assert found.through_breakdown == pytest.approx(12.0, rel=1e-12, abs=0.0)
+    # The stronger one is the first, for what it has to carry.
+    assert found.inner_first[0]
     # With 20 V the other one holds on until the bearing has 20 V.
     assert circuit_of((100e-12, 300e-12, 9.0, 20.0)).through_breakdown == pytest.approx(20.0, rel=1e-12)
     # Rings exchanged.
     turned = circuit_of((300e-12, 100e-12, 20.0, 9.0))
+    assert not turned.inner_first[0]
+    assert not circuit_of((300e-12, 100e-12, 8.0, 9.0)).inner_first[0]
     assert turned.first_break == pytest.approx(12.0, rel=1e-12, abs=0.0)
     assert turned.through_breakdown == pytest.approx(20.0, rel=1e-12, abs=0.0)
 

@@ -91,6 +91,22 @@ def test_a_bearing_from_its_elements(result):
     assert found["through_margin"] == pytest.approx(min(throughs) / (300.0 * ratio), rel=5e-3)
 
 
+def test_rings_have_the_angle_and_speed_of_the_most_loaded_ball(result):
+    """At 9000 rpm the angles of its two contacts differ, and its speed is w d_m (1 - g^2)/4 at both."""
+    solution = result.solution
+    at = solution.positions[0].equilibrium
+    inner, outer = float(at.inner_angle[0]), float(at.outer_angle[0])
+    assert np.argmax(at.inner_load) == 0
+    assert inner > 1.02 * outer > 0.0
+    assert solution.inner.inner
+    assert not solution.outer.inner
+    assert solution.inner.angle == pytest.approx(inner, rel=1e-12, abs=0.0)
+    assert solution.outer.angle == pytest.approx(outer, rel=1e-12, abs=0.0)
+    gamma = 11.906 / 60.0 * math.cos(0.5 * (inner + outer))
+    speed = 9000.0 * 2.0 * math.pi / 60.0 * 60e-3 / 4.0 * (1.0 - gamma**2)
+    assert [solution.inner.speed, solution.outer.speed] == pytest.approx([speed] * 2, rel=1e-9, abs=0.0)
+
+
 def test_rows_are_those_of_the_elements(result):
     """Loads, angles, films and shares of the first position, the outer ring with its centrifugal force."""
     solution = result.solution
