@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import math
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -45,10 +46,10 @@ def bearing(
 
         from ehlectric.bearing_result import BearingResult
         from ehlectric.bearing_solver import check_bearing, solve_bearing
-        from ehlectric.store import BEARING_FIGURE_FILES, clear, prepare, whole
+        from ehlectric.store import BEARING_FIGURE_FILES, SPEED_FIGURE_FILES, clear, prepare, whole
 
         check_bearing(case)
-        names = (SUMMARY, CONTACTS, *BEARING_FIGURE_FILES)
+        names = (SUMMARY, CONTACTS, *BEARING_FIGURE_FILES, *SPEED_FIGURE_FILES)
         folder = prepare(output, names)
         with progress_bar(shown=not quiet) as progress:
             result = BearingResult(solve_bearing(case, progress=progress))
@@ -61,49 +62,81 @@ def bearing(
             writer.writeheader()
             writer.writerows(summary["contacts"])
         files = [folder / SUMMARY, folder / CONTACTS]
+        left_out: list[str] = []
         if plots:
-            from ehlectric.bearing_plot import save_bearing_figures
+            from ehlectric.bearing_plot import save_bearing_figures, save_speed_figures
+            from ehlectric.bearing_speeds import over_speed
 
             files += save_bearing_figures(result, folder)
+            speeds, left_out = over_speed(case)
+            own = case.bearing.inner_speed, summary
+            files += save_speed_figures(speeds, folder, case.title, own=own) if speeds else []
     if as_json:
         typer.echo(json.dumps(summary, indent=2))
     elif not quiet:
-        print_table(contacts_table(summary))
+        print_table(loads_table(summary))
+        print_table(films_table(summary))
         print_table(bearing_table(summary))
         typer.echo("written: " + ", ".join(str(path) for path in files))
     if not quiet:
-        warn(summary["warnings"])
+        warn([*summary["warnings"], *left_out])
     if not result.converged:
         typer.echo("error: not converged: a contact of the bearing", err=True)
         raise typer.Exit(NOT_CONVERGED)
 
 
-def contacts_table(summary: dict[str, Any]) -> Table:
-    """A row for every element and ring."""
-    from rich.markup import escape
-    from rich.table import Table
-
-    table = Table(box=None, padding=(0, 1, 0, 0))
-    heads = ("", "ring", "at\n[deg]", "load\n[N]", "p_h\n[GPa]", "h_min\n[µm]", "h(0)\n[µm]")
-    for head in (*heads, "lambda", "C\n[pF]", "share\n[%]", "breaks\n[V]"):
-        # Unescaped, a unit of small letters would be taken for a style.
-        table.add_column(escape(head), justify="right", no_wrap=True)
-    for row in summary["contacts"]:
-        pressure, breaks = row["max_pressure"], row["breakdown_voltage"]
-        table.add_row(
-            str(row["element"]),
-            row["ring"],
+def loads_table(summary: dict[str, Any]) -> Table:
+    """Load and dry contact of every element with either ring."""
+    heads = ("at\n[deg]", "load\n[N]", "angle\n[deg]", "p_h\n[GPa]", "semi-axes\n[µm]")
+    rows = (
+        (
             f"{math.degrees(row['position']):.0f}",
             f"{row['load']:.4g}",
-            "" if pressure is None else f"{pressure / 1e9:.3f}",
+            f"{math.degrees(row['contact_angle']):.1f}",
+            _number(row["max_pressure"], 1e-9, ".3f"),
+            " x ".join(filter(None, [_number(row[f"semi_axis_{axis}"], 1e6, ".4g") for axis in "xy"])),
+        )
+        for row in summary["contacts"]
+    )
+    return _contacts_table(summary, heads, rows)
+
+
+def films_table(summary: dict[str, Any]) -> Table:
+    """Film, capacitance and voltages of every element with either ring."""
+    driven = summary["bearing"]["shaft_voltage"] is not None
+    heads = ("h_min\n[µm]", "h(0)\n[µm]", "lambda", "C\n[pF]", "share\n[%]")
+    rows = (
+        (
             f"{row['minimum_thickness'] * 1e6:.4g}",
             f"{row['central_thickness'] * 1e6:.4g}",
             f"{row['lambda_ratio']:.3g}",
             f"{row['capacitance'] * 1e12:.4g}",
             f"{100.0 * row['voltage_share']:.1f}",
-            "" if breaks is None else f"{breaks:.3g}",
+            _number(row["max_strength" if driven else "strength_per_volt"], 1e-6, ".3g"),
+            _number(row["breakdown_voltage"], 1.0, ".3g"),
         )
+        for row in summary["contacts"]
+    )
+    field = "E\n[V/µm]" if driven else "E/V\n[1/µm]"
+    return _contacts_table(summary, (*heads, field, "breaks\n[V]"), rows)
+
+
+def _contacts_table(summary: dict[str, Any], heads: Sequence[str], rows: Iterable[tuple[str, ...]]) -> Table:
+    from rich.markup import escape
+    from rich.table import Table
+
+    table = Table(box=None, padding=(0, 2, 0, 0))
+    for head in ("", "ring", *heads):
+        # Unescaped, a unit of small letters would be taken for a style.
+        table.add_column(escape(head), justify="right", no_wrap=True)
+    for row, texts in zip(summary["contacts"], rows, strict=True):
+        table.add_row(str(row["element"]), row["ring"], *texts)
     return table
+
+
+def _number(value: float | None, factor: float, digits: str) -> str:
+    """A number in its column; nothing where there is none."""
+    return "" if value is None else f"{value * factor:{digits}}"
 
 
 def bearing_table(summary: dict[str, Any]) -> Table:
@@ -124,6 +157,8 @@ def bearing_table(summary: dict[str, Any]) -> Table:
         ("  mean over a pitch", "first_break_mean", 1.0, "V"),
         ("through breakdown", "through_breakdown", 1.0, "V"),
         ("  mean over a pitch", "through_breakdown_mean", 1.0, "V"),
+        ("largest field by volt", "strength_per_volt", 1e-6, "1/µm, of the bearing's voltage"),
+        ("  at the shaft voltage", "max_strength", 1e-6, "V/µm"),
         ("bearing voltage ratio", "bearing_voltage_ratio", 100.0, "%"),
         ("shaft voltage", "shaft_voltage", 1.0, "V, capacitive alone"),
         ("first break over it", "margin", 1.0, ""),

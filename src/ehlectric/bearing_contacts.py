@@ -42,6 +42,8 @@ class ContactSolution:
         Capacitance over the film's domain, and outside it with oil and with air there [F].
     plate : float
         eps0 eps_r A/h(0) [F].
+    strength_per_volt : float
+        Largest field strength over the contact's voltage [1/m].
     breakdown_voltage : float
         [V]; infinite without a strength.
     error : float or None
@@ -64,6 +66,7 @@ class ContactSolution:
     outside_oil: float
     outside_air: float
     plate: float
+    strength_per_volt: float
     breakdown_voltage: float
     error: float | None
     moes_m: float
@@ -164,6 +167,7 @@ def solve_contact(
         outside_oil=outside * duty.lubricant.relative_permittivity,
         outside_air=outside,
         plate=length * found.capacitance_plate,
+        strength_per_volt=result.field.max_strength / result.field.voltage,
         breakdown_voltage=np.inf if breaks is None else breaks,
         error=result.film.discretisation_error,
         moes_m=formulas.moes_m,

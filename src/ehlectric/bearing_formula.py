@@ -187,6 +187,7 @@ def _solution(
         outside_oil=outside * eps_r,
         outside_air=outside,
         plate=epsilon_0 * eps_r * area / films[1],
+        strength_per_volt=1.0 / films[0],
         breakdown_voltage=strength * films[0] if discharge.has_strength else np.inf,
         error=None,
         moes_m=moes[0],

@@ -20,7 +20,14 @@ from ehlectric.bearing_circuit_plot import (
 )
 from ehlectric.bearing_polar import film_around, load_around, new_polar
 from ehlectric.bearing_result import BearingResult
-from ehlectric.bearing_speed_plot import Speeds, breakdown_over_speed, breaks_anywhere, capacitance_over_speed
+from ehlectric.bearing_speed_plot import (
+    Speed,
+    Speeds,
+    breakdown_over_speed,
+    breaks_anywhere,
+    capacitance_over_speed,
+    how_found,
+)
 from ehlectric.drawing import figure_of, name_over, new_panels, save_figure, style
 from ehlectric.store import BEARING_FIGURE_FILES, SPEED_FIGURE_FILES
 
@@ -78,7 +85,9 @@ def save_bearing_figures(result: BearingResult, folder: Path) -> list[Path]:
     return files
 
 
-def save_speed_figures(points: Speeds, folder: Path, title: str = "") -> list[Path]:
+def save_speed_figures(
+    points: Speeds, folder: Path, title: str = "", *, own: Speed | None = None
+) -> list[Path]:
     """Draw capacitance and, where there are any, breakdown voltages over the speed as PNG files.
 
     Parameters
@@ -89,6 +98,8 @@ def save_speed_figures(points: Speeds, folder: Path, title: str = "") -> list[Pa
         Where to; it must be there.
     title : str, optional
         Over the figures.
+    own : (float, dict), optional
+        A bearing to mark beside them, as one whose contacts were solved.
 
     Returns
     -------
@@ -97,11 +108,13 @@ def save_speed_figures(points: Speeds, folder: Path, title: str = "") -> list[Pa
     """
     files = []
     title = textwrap.shorten(title, 70, placeholder=" ...")
+    title = f"{title}\ncontacts {how_found(points)}".lstrip()
     converged = all(summary["converged"] for _, summary in points)
     with style():
-        draws = (capacitance_over_speed, *((breakdown_over_speed,) if breaks_anywhere(points) else ()))
+        breaks = breaks_anywhere(points)
+        draws = (capacitance_over_speed, *((breakdown_over_speed,) if breaks else ()))
         for name, draw in zip(SPEED_FIGURE_FILES, draws, strict=False):
-            ax = draw(points, new_panels(1, 1, _SPEED_SIZE)[0])
+            ax = draw(points, new_panels(1, 1, _SPEED_SIZE)[0], own=own)
             files.append(_save(ax, title, folder / name, converged=converged))
     return files
 

@@ -119,6 +119,22 @@ class BearingResult:
         }
         return dict.fromkeys(found) if none else found
 
+    @cached_property
+    def strength_per_volt(self) -> float | None:
+        """Largest field strength in the bearing over its voltage, over the positions [1/m].
+
+        None of ceramic elements, and where surfaces touch.
+        """
+        if self.ceramic or self.lubrication == "conducting":
+            return None
+        fill = self.solution.case.bearing.fill
+        return max(
+            float(np.max(share * race.strength_per_volt))
+            for position in self.solution.positions
+            for inner_share in (position.circuit(fill).inner_share,)
+            for share, race in ((inner_share, position.inner), (1.0 - inner_share, position.outer))
+        )
+
     def plate(self) -> float:
         """Capacitance by plates of the Hertz areas, h(0) apart, mean over the positions [F]."""
         totals = []
@@ -157,13 +173,15 @@ class BearingResult:
         solution = self.solution
         position, fill = solution.positions[0], solution.case.bearing.fill
         at, circuit = position.equilibrium, position.circuit(fill)
-        breaks = not self.ceramic and self.lubrication != "conducting"
+        insulating = not self.ceramic and self.lubrication != "conducting"
+        shaft = self.shaft_voltage
         rows = []
         for k in range(at.position.size):
             for name, race, share in (
                 ("inner", position.inner, circuit.inner_share),
                 ("outer", position.outer, 1.0 - circuit.inner_share),
             ):
+                strength = share[k] * race.strength_per_volt[k] if insulating else None
                 angle = getattr(at, f"{name}_angle")[k] if isinstance(at, BallEquilibrium) else 0.0
                 rows.append(
                     {
@@ -180,7 +198,9 @@ class BearingResult:
                         "lambda_ratio": race.minimum_thickness[k] / solution.case.bearing.composite_rq,
                         "capacitance": race.capacitance(fill)[k],
                         "voltage_share": share[k],
-                        "breakdown_voltage": race.breakdown_voltage[k] if breaks else None,
+                        "strength_per_volt": strength,
+                        "max_strength": None if strength is None or shaft is None else strength * shaft,
+                        "breakdown_voltage": race.breakdown_voltage[k] if insulating else None,
                         "solved": bool(race.solved[k]),
                     }
                 )
@@ -198,6 +218,7 @@ class BearingResult:
         case, duty, at = solution.case, solution.duty, solution.positions[0].equilibrium
         fill = case.bearing.fill
         capacitance, plate = self.capacitance(fill), self.plate()
+        strength, shaft = self.strength_per_volt, self.shaft_voltage
         curves = (solution.inner_curve, solution.outer_curve)
         errors = [contact.error for curve in curves for contact in curve.solutions]
         known = [error for error in errors if error is not None]
@@ -224,8 +245,10 @@ class BearingResult:
                 "lubrication": self.lubrication,
                 "film_factor": duty.film_factor,
                 **self.breaks(),
+                "strength_per_volt": strength,
+                "max_strength": None if strength is None or shaft is None else strength * shaft,
                 "bearing_voltage_ratio": self.bearing_voltage_ratio,
-                "shaft_voltage": self.shaft_voltage,
+                "shaft_voltage": shaft,
                 "relaxation_time": self.impedance_time(),
                 "discretisation_error": max(known) if len(known) == len(errors) else None,
                 "interpolation_error": max(curve.interpolation_error for curve in curves),

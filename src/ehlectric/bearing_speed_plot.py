@@ -14,10 +14,11 @@ from ehlectric.sweep_drawing import is_wide, scale_axis
 from ehlectric.typing import Array, Mask
 
 # Speed of the inner ring [rad/s], and the summary at it.
-Speeds = Sequence[tuple[float, dict[str, Any]]]
+Speed = tuple[float, dict[str, Any]]
+Speeds = Sequence[Speed]
 
 
-def capacitance_over_speed(points: Speeds, ax: Axes | None = None) -> Axes:
+def capacitance_over_speed(points: Speeds, ax: Axes | None = None, *, own: Speed | None = None) -> Axes:
     """Capacitance of a bearing over its speed, between its bounds with air and oil around the films.
 
     Parameters
@@ -26,6 +27,8 @@ def capacitance_over_speed(points: Speeds, ax: Axes | None = None) -> Axes:
         Speed of the inner ring [rad/s], and the summary at it.
     ax : Axes, optional
         Where to; new axes otherwise.
+    own : (float, dict), optional
+        A bearing to mark beside them, as one whose contacts were solved.
 
     Returns
     -------
@@ -44,7 +47,8 @@ def capacitance_over_speed(points: Speeds, ax: Axes | None = None) -> Axes:
     given = f", {fills.pop()} around the films" if len(fills) == 1 else ""
     label = f"capacitance of the bearing{given}"
     ax.plot(speed, factor * values, color="black", lw=1.4, marker="o", ms=4.0, label=label)
-    everything = factor * np.concatenate([oil, air, values])
+    marked = _mark(ax, own, ("capacitance",), factor)
+    everything = np.append(factor * np.concatenate([oil, air, values]), marked)
     log = is_wide(everything)
     scale_axis(ax.yaxis, f"capacitance [{unit}]", values=everything, log=log)
     if not log:
@@ -54,7 +58,7 @@ def capacitance_over_speed(points: Speeds, ax: Axes | None = None) -> Axes:
     return ax
 
 
-def breakdown_over_speed(points: Speeds, ax: Axes | None = None) -> Axes:
+def breakdown_over_speed(points: Speeds, ax: Axes | None = None, *, own: Speed | None = None) -> Axes:
     """First break and through breakdown of a bearing over its speed, and the voltage of the shaft.
 
     Parameters
@@ -63,6 +67,8 @@ def breakdown_over_speed(points: Speeds, ax: Axes | None = None) -> Axes:
         Speed of the inner ring [rad/s], and the summary at it.
     ax : Axes, optional
         Where to; new axes otherwise.
+    own : (float, dict), optional
+        A bearing to mark beside them, as one whose contacts were solved.
 
     Returns
     -------
@@ -82,7 +88,8 @@ def breakdown_over_speed(points: Speeds, ax: Axes | None = None) -> Axes:
             label = "shaft voltage above first break"
             look: dict[str, Any] = {"color": ORANGE, "alpha": 0.2, "lw": 0.0, "label": label}
             ax.fill_between(speed, first, shaft, where=list(over), interpolate=True, **look)
-    everything = np.concatenate([first, through, shaft])
+    marked = _mark(ax, own, ("through_breakdown", "first_break"), 1.0)
+    everything = np.concatenate([first, through, shaft, marked])
     log = is_wide(everything)
     scale_axis(ax.yaxis, "bearing voltage [V]", values=everything, log=log)
     if not log:
@@ -95,6 +102,23 @@ def breakdown_over_speed(points: Speeds, ax: Axes | None = None) -> Axes:
 def breaks_anywhere(points: Speeds) -> bool:
     """Whether there is a breakdown voltage at any speed."""
     return bool(np.any(np.isfinite(_of(points, "first_break"))))
+
+
+def _mark(ax: Axes, own: Speed | None, keys: Sequence[str], factor: float) -> Array:
+    """A star at each value of a bearing by itself; the values drawn."""
+    if own is None:
+        return np.empty(0)
+    found = factor * np.concatenate([_of([own], key) for key in keys])
+    look: dict[str, Any] = {"ls": "none", "marker": "*", "ms": 11.0, "color": "black", "mec": "white"}
+    label = f"at its own speed, contacts {how_found([own])}"
+    ax.plot(np.full(found.size, own[0] * 30.0 / np.pi), found, zorder=6.0, label=label, **look)
+    return found
+
+
+def how_found(points: Speeds) -> str:
+    """How films and fields were found, as "solved" or "by formula"."""
+    names = {"solved": "solved", "formula": "by formula"}
+    return " or ".join(sorted({names[summary["bearing"]["contacts"]] for _, summary in points}))
 
 
 def _of(points: Speeds, key: str) -> Array:

@@ -34,6 +34,8 @@ class RaceState:
         Capacitance over the film, and around it with oil and with air [F].
     plate : ndarray
         eps0 eps_r A/h(0) of the Hertz area [F]; 0 without load.
+    strength_per_volt : ndarray
+        Largest field strength over the contact's voltage [1/m].
     breakdown_voltage : ndarray
         Of the contact by itself [V]; infinite without a strength.
     """
@@ -50,6 +52,7 @@ class RaceState:
     outside_oil: Array
     outside_air: Array
     plate: Array
+    strength_per_volt: Array
     breakdown_voltage: Array
 
     def capacitance(self, fill: str) -> Array:
@@ -60,7 +63,7 @@ class RaceState:
 # What a curve gives of a loaded contact.
 _FROM_CURVE = (
     "max_pressure", "semi_axis_x", "semi_axis_y", "minimum_thickness", "central_thickness",
-    "inside", "outside_oil", "outside_air", "plate", "breakdown_voltage",
+    "inside", "outside_oil", "outside_air", "plate", "strength_per_volt", "breakdown_voltage",
 )  # fmt: skip
 
 
@@ -109,5 +112,6 @@ def race_state(
         found["minimum_thickness"][k] = found["central_thickness"][k] = apart
         found["outside_oil"][k] = vacuum * duty.lubricant.relative_permittivity
         found["outside_air"][k] = vacuum
+        found["strength_per_volt"][k] = 1.0 / apart
         found["breakdown_voltage"][k] = strength * apart if discharge.has_strength else np.inf
     return RaceState(load=load, gap=gap, solved=solved, **found)

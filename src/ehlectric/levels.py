@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TypeAlias
 
 import numpy as np
 from scipy import sparse
@@ -67,11 +68,22 @@ def _adjoint(matrix: sparse.csr_array, coarse: Array, fine: Array) -> sparse.csr
     return sparse.csr_array(matrix.T.multiply(fine).multiply(1.0 / coarse[:, np.newaxis]))
 
 
+# What a distributed unknown adds to the pressures of its line: (offset, part) of its own node and of others.
+# A steady film is opened by the first difference of the deflection, which acts like 1/(i - j - 1/2): on
+# dipoles it acts like 1/(i - j)^2 and is diagonally dominant. In time it is the deflection itself that acts,
+# like a logarithm, and second differences do to that what dipoles do to its difference.
+Distribution: TypeAlias = tuple[tuple[int, float], ...]
+DIPOLE: Distribution = ((0, 1.0), (-1, -1.0))
+SECOND_DIFFERENCE: Distribution = ((0, 1.0), (-1, -0.5), (1, -0.5))
+
+
 @dataclass(frozen=True)
 class Level:
     """One grid: nodes, quadrature weights, operators, and the transfers to and from the next finer.
 
-    The finest grid has no finer one, and no transfers.
+    The finest grid has no finer one, and no transfers. ``wedge`` acts on the mass rho H: upstream along x, or
+    in time on the mass at the node itself; ``rate`` is about its coefficient, and ``distribution`` what suits
+    it.
     """
 
     mesh: Mesh
@@ -80,10 +92,12 @@ class Level:
     dry_gap: Array  # (nx, ny)
     load: float
     wedge: Stencil
+    rate: float  # 1/dX, or in time 1/dT
     source: Array  # (nx, ny), right side of the Reynolds equation, zero on the edges
     to_finer: Transfer | None
     from_finer: Transfer | None
     averaged: Transfer | None  # of residuals, from the next finer
+    distribution: Distribution = DIPOLE
 
     @property
     def nodes(self) -> int:
@@ -147,6 +161,7 @@ def hierarchy(
                 dry_gap=geometry.dry_gap(mesh.x, mesh.y),
                 load=geometry.load,
                 wedge=wedge_stencil(mesh.shape, mesh.dx, second_order=second_order),
+                rate=1.0 / mesh.dx,
                 source=right,
                 to_finer=up,
                 from_finer=Transfer.between(meshes[k - 1], mesh) if k else None,

@@ -19,13 +19,12 @@ if TYPE_CHECKING:
     from ehlectric.sweep_results import SweepResults
 
 SENSITIVITY, SENSITIVITY_FIGURE = "sensitivity.json", "sensitivity.png"
-_BREAKDOWN = "discharge.breakdown_voltage"
 
 # Half-width of a confidence interval above which an index says little.
 _WIDE = 0.1
 
 SweepFolder = Annotated[Path, typer.Argument(metavar="DIR", help="Folder of a sweep.", show_default=False)]
-Value = Annotated[str, typer.Option(metavar="KEY", help="Key of summary.json.")]
+Value = Annotated[str, typer.Option(metavar="KEY", help="Key of summary.json, default a breakdown voltage.")]
 Output = Annotated[
     Path | None, typer.Option("--output", "-o", metavar="DIR", help="Folder, default that of the sweep.")
 ]
@@ -39,24 +38,30 @@ def draw_maps(
         str | None,
         typer.Option(metavar="KEY", help="Varied key along the vertical one; lines alone without."),
     ] = None,
-    value: Value = _BREAKDOWN,
+    value: Value = "",
     at: Annotated[
         list[str] | None, typer.Option(metavar="KEY=VALUE", help="What is held where more vary; repeat it.")
     ] = None,
     output: Output = None,
     quiet: Quiet = False,
 ) -> None:
-    """Draw a value of a sweep as a map and as lines over varied keys, with the applied voltage drawn in."""
+    """Draw a value of a sweep as a map and as lines over varied keys, with the applied voltage drawn in.
+
+    Of bearings over their speed alone, capacitance and breakdown voltages too.
+    """
     with user_errors():
         held = _held(at or [])
 
-        from ehlectric.store import prepare
-        from ehlectric.sweep_plot import map_files, save_maps
+        from ehlectric.store import SPEED_FIGURE_FILES, prepare
+        from ehlectric.sweep_breakdown import breakdown_of
+        from ehlectric.sweep_plot import map_files, save_maps, save_speeds
         from ehlectric.sweep_slices import take
 
         results = _read(folder)
+        value = value or breakdown_of(results.case).value
         taken = take(results, x, y, value, held)
-        files = save_maps(results, x, y, value, prepare(output or folder, map_files(value)), at=held)
+        target = prepare(output or folder, (*map_files(value), *SPEED_FIGURE_FILES))
+        files = save_maps(results, x, y, value, target, at=held) + save_speeds(results, taken, target)
     if not quiet:
         from ehlectric.sweep_drawing import held_text
 
@@ -65,16 +70,16 @@ def draw_maps(
         typer.echo("written: " + ", ".join(str(path) for path in files))
 
 
-def sensitivity(
-    folder: SweepFolder, value: Value = _BREAKDOWN, output: Output = None, quiet: Quiet = False
-) -> None:
+def sensitivity(folder: SweepFolder, value: Value = "", output: Output = None, quiet: Quiet = False) -> None:
     """Spread of a value over the ranges of a Sobol design, and the part of each input in it."""
     with user_errors():
         from ehlectric.sensitivity import sensitivity as found_in
         from ehlectric.sensitivity_plot import save_sensitivity
         from ehlectric.store import prepare, whole
+        from ehlectric.sweep_breakdown import breakdown_of
 
         results = _read(folder)
+        value = value or breakdown_of(results.case).value
         found = found_in(results, value)
         target = prepare(output or folder, (SENSITIVITY, SENSITIVITY_FIGURE))
         files = [target / SENSITIVITY, target / SENSITIVITY_FIGURE]
@@ -114,8 +119,10 @@ def _tables(results: SweepResults, found: Sensitivity) -> list[Table]:
     from rich.table import Table
 
     from ehlectric.report import plain_table
+    from ehlectric.sweep_breakdown import breakdown_of
     from ehlectric.sweep_labels import label_of
 
+    about = breakdown_of(results.case, found.value)
     label, spread = label_of(found.value, results.case), found.spread
     scale = label.scaled(np.array([spread.minimum, spread.maximum]))
     numbers = plain_table(results.title)
@@ -126,7 +133,7 @@ def _tables(results: SweepResults, found: Sensitivity) -> list[Table]:
         numbers.add_row(f"  {name}", f"{scale.factor * number:.4g}", scale.unit)
     if found.share_below_voltage is not None:
         numbers.add_row(
-            "  below the applied voltage", f"{100.0 * found.share_below_voltage:.3g}", "% of samples"
+            "  below the " + about.voltage_name, f"{100.0 * found.share_below_voltage:.3g}", "% of samples"
         )
     parts = Table(title=None, box=None, padding=(0, 2, 0, 0))
     parts.add_column("part of the variance")

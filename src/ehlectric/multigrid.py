@@ -11,7 +11,7 @@ from functools import cached_property
 import numpy as np
 from scipy.linalg import lapack
 
-from ehlectric.levels import Level
+from ehlectric.levels import Distribution, Level
 from ehlectric.reynolds import (
     ALONG,
     OFFSETS,
@@ -58,12 +58,12 @@ class Linearised:
         self.by_p, self.by_h = linearise(coefficients, level.wedge, pressure, thickness, level.mesh)
         self.by_p.coefficients[:, ~free] = 0.0
         self.by_h.coefficients[:, ~free] = 0.0
-        # Nodes whose unknown is distributed, +1 to P_j and -1 to P_(j-1). Where eps/dX^2 is small
-        # against 1/dX the equation is the first difference of the deflection and acts like
-        # 1/(i - j - 1/2); on dipoles it acts like 1/(i - j)^2 and is diagonally dominant.
+        # Nodes whose unknown is distributed: where eps/dX^2 is small and the deflection decides.
         poiseuille = poiseuille_weight(coefficients, level.mesh)
-        self.dipole = free & (poiseuille < 1.0 / level.mesh.dx)
-        self.dipole[1:] &= free[:-1]
+        self.distributed = free & (poiseuille < level.rate)
+        for offset, _ in self.beside:
+            here, there = _shifted(offset)
+            self.distributed[here] &= free[there]
         line_contact = level.mesh.dy is None
         # No wider than the grid: one contact may have many times more nodes across than along.
         self.half_band = min(HALF_BAND if line_contact else HALF_BAND_POINT, level.nodes - 3)
@@ -77,6 +77,11 @@ class Linearised:
         diagonal = poiseuille + elastic_weight(coefficients, level)
         self.scale = np.divide(1.0, diagonal, out=np.zeros(free.shape), where=free)
         self.unscale = np.where(free, diagonal, 0.0)
+
+    @property
+    def beside(self) -> Distribution:
+        """What an unknown adds to the nodes beside it."""
+        return tuple(part for part in self.level.distribution if part[0])
 
     def __call__(self, dp: Array, dh00: float) -> tuple[Array, float]:
         """Change of the Reynolds residual and of the load integral."""
@@ -104,14 +109,15 @@ class Linearised:
         nx, ny = self.free.shape
         band = self.half_band
         matrix = np.zeros((3 * band + 1, ny, nx))
-        left = self._diagonal(-band - 1)
+        diagonals = {offset: self._diagonal(offset) for offset in range(-band - 1, band + 2)}
         for offset in range(-band, band + 1):
             rows = slice(max(0, -offset), min(nx, nx - offset))
             columns = slice(max(0, offset), min(nx, nx + offset))
-            here = self._diagonal(offset)
-            entry = here[rows] - np.where(self.dipole[columns], left[rows], 0.0)
+            entry = diagonals[offset][rows]
+            for shift, share in self.beside:
+                added = share * diagonals[offset + shift][rows]
+                entry = entry + np.where(self.distributed[columns], added, 0.0)
             matrix[2 * band - offset, :, columns] = entry.T
-            left = here
         matrix[2 * band][~self.free.T] = 1.0
         factors = []
         for lines in (slice(0, ny, 2), slice(1, ny, 2))[:ny]:
@@ -133,7 +139,10 @@ class Linearised:
             solution, _ = lapack.dgbtrs(lu, self.half_band, self.half_band, right, pivots)
             unknown = solution.reshape(-1, r.shape[0]).T
             dp[:, lines] = unknown
-            dp[:-1, lines] -= np.where(self.dipole[1:, lines], unknown[1:], 0.0)
+            shared = np.where(self.distributed[:, lines], unknown, 0.0)
+            for offset, share in self.beside:
+                here, there = _shifted(offset)
+                dp[there, lines] += share * shared[here]
             dp[~self.free] = 0.0
         return dp
 
@@ -157,10 +166,17 @@ class Linearised:
         return np.where(self.free, solution[:-1].reshape(r.shape), 0.0), float(solution[-1])
 
 
+def _shifted(offset: int) -> tuple[slice, slice]:
+    """Nodes that have a neighbour so far along x, and that neighbour of each."""
+    if offset < 0:
+        return slice(-offset, None), slice(None, offset)
+    return slice(None, -offset), slice(offset, None)
+
+
 def elastic_weight(coefficients: Coefficients, level: Level) -> Array:
-    """The elastic part of a row's own coefficient: what a dipole opens where it is, over dX."""
+    """The elastic part of a row's own coefficient: what a distributed unknown opens where it is."""
     influence = level.deflection.influence
-    weight: Array = coefficients.density * ((influence[0, 0] - influence[1, 0]) / level.mesh.dx)
+    weight: Array = coefficients.density * ((influence[0, 0] - influence[1, 0]) * level.rate)
     return weight
 
 

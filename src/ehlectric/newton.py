@@ -138,7 +138,7 @@ def newton(
     """
     level = levels[0]
     # A row takes the difference of films over dX: what rounding leaves of it is no residual.
-    tolerance = max(tolerance, ROUNDING / level.mesh.dx)
+    tolerance = max(tolerance, ROUNDING * level.rate)
     steps: list[NewtonStep] = []
     now = _assess(fluid, level, state)
     while now.norm > tolerance and len(steps) < max_iterations:
@@ -171,7 +171,7 @@ def _assess(fluid: Fluid, level: Level, state: State) -> Residual:
     r = residual(coefficients, level.wedge, state.pressure, state.thickness, mesh) - level.source
     poiseuille = poiseuille_weight(coefficients, mesh)
     excess = state.pressure - fluid.ambient_pressure
-    c = 1.0 / np.maximum(20.0 * state.thickness / mesh.dx, poiseuille)
+    c = 1.0 / np.maximum(20.0 * level.rate * state.thickness, poiseuille)
     free = (excess - c * r >= 0.0) & mesh.inner
 
     load = level.load - float(np.vdot(level.weights, state.pressure))

@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 
 from ehlectric.errors import InputError
+from ehlectric.sweep_breakdown import breakdown_of
 from ehlectric.sweep_results import SweepResults
-from ehlectric.sweep_slices import BREAKDOWN, MARGIN, margins, numbers_of
+from ehlectric.sweep_slices import numbers_of
 from ehlectric.typing import Array
 
 SCHEMA = "ehlectric.sensitivity/1"
@@ -193,7 +194,9 @@ def sensitivity(results: SweepResults, value: str, *, resamples: int = 1000, see
     a, b, mixed = pages[0, complete], pages[1, complete], pages[2:, complete]
     first, total = indices(a, b, mixed)
     low, high = intervals(a, b, mixed, resamples=resamples, seed=seed)
-    below = margins(results)[: 2 * rows][drawn] < 1.0 if value in (BREAKDOWN, MARGIN) else None
+    breakdown = breakdown_of(results.case, value)
+    margins = breakdown.margins(results)[: 2 * rows][drawn]
+    told = value in breakdown.keys and bool(np.all(np.isfinite(margins)))
     return Sensitivity(
         value=value,
         points=len(results.points),
@@ -212,7 +215,7 @@ def sensitivity(results: SweepResults, value: str, *, resamples: int = 1000, see
             )
             for k, key in enumerate(results.varied)
         ),
-        share_below_voltage=None if below is None else float(np.mean(below)),
+        share_below_voltage=float(np.mean(margins < 1.0)) if told else None,
         resamples=resamples,
         seed=seed,
     )

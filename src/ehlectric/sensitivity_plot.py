@@ -20,10 +20,11 @@ from ehlectric.drawing import (
     style,
 )
 from ehlectric.sensitivity import LEVEL, Sensitivity
+from ehlectric.sweep_breakdown import breakdown_of
 from ehlectric.sweep_drawing import labelled, name_figure, range_text
 from ehlectric.sweep_labels import label_of
 from ehlectric.sweep_results import SweepResults
-from ehlectric.sweep_slices import BREAKDOWN, VOLTAGE, numbers_of
+from ehlectric.sweep_slices import numbers_of
 from ehlectric.typing import Array
 
 # Probabilities that are marked.
@@ -74,15 +75,16 @@ def _drawn(results: SweepResults, value: str) -> Array:
 
 def _applied(results: SweepResults, found: Sensitivity, ax: Axes, factor: float) -> Line2D:
     """The applied voltage, or its range, and the part of the samples below it."""
-    volts = results.values(VOLTAGE)[: 2 * results.samples]
+    about = breakdown_of(results.case, found.value)
+    volts = results.values(about.voltage)[: 2 * results.samples]
     volts = volts[np.isfinite(volts)]
-    ends = factor * np.array([volts.min(), volts.max()]) if found.value == BREAKDOWN else np.ones(2)
+    ends = factor * np.array([volts.min(), volts.max()]) if found.value == about.value else np.ones(2)
     assert found.share_below_voltage is not None
     share = f"{100.0 * found.share_below_voltage:.3g} % of the samples"
     line = ax.axvline(ends[0], color=ORANGE, lw=1.4, ls="--")
     if ends[1] > ends[0]:
         ax.axvspan(*ends, color=ORANGE, alpha=0.2, lw=0.0)
-    line.set_label(f"applied voltage {range_text(volts, 'V')}, above {share}")
+    line.set_label(f"{about.voltage_name} {range_text(volts, 'V')}, above {share}")
     return line
 
 

@@ -34,6 +34,21 @@ _INPUTS = {
     "lubricant.relative_permittivity": ("relative permittivity", r"$\varepsilon_\mathrm{r}$"),
     "electric.potential_1": ("potential of surface 1", "$V_1$"),
     "electric.potential_2": ("potential of surface 2", "$V_2$"),
+    "bearing.inner_speed": ("speed of the inner ring", ""),
+    "bearing.radial_load": ("radial load", r"$F_\mathrm{r}$"),
+    "bearing.axial_load": ("axial load", r"$F_\mathrm{a}$"),
+    "bearing.temperature": ("temperature", ""),
+    "bearing.composite_rq": ("composite roughness", r"$R_\mathrm{q}$"),
+    "bearing.radial_clearance": ("radial clearance", ""),
+    "bearing.contact_angle": ("free contact angle", ""),
+    "bearing.film_factor": ("film factor", ""),
+    "bearing.inner_groove": ("groove of the inner ring over the ball", r"$f_\mathrm{i}$"),
+    "bearing.outer_groove": ("groove of the outer ring over the ball", r"$f_\mathrm{o}$"),
+    "lubricant.temperature.kinematic_viscosity_40": ("kinematic viscosity at 40 °C", r"$\nu_{40}$"),
+    "lubricant.temperature.kinematic_viscosity_100": ("kinematic viscosity at 100 °C", r"$\nu_{100}$"),
+    "motor.common_mode_voltage": ("common-mode voltage", ""),
+    "motor.winding_rotor_capacitance": ("capacitance from winding to rotor", r"$C_\mathrm{wr}$"),
+    "motor.rotor_frame_capacitance": ("capacitance from rotor to frame", r"$C_\mathrm{rf}$"),
     "discharge.dielectric_strength": ("dielectric strength", ""),
     "discharge.weibull.scale": ("Weibull scale", "$E_0$"),
     "discharge.weibull.shape": ("Weibull shape", "$m$"),
@@ -69,6 +84,22 @@ _VALUES = {
     "field.capacitance_per_length": ("capacitance per length, field range", ""),
     "field.capacitance": ("capacitance, field range", "$C$"),
     "roughness.lambda_ratio": ("lambda ratio", r"$\Lambda$"),
+    "bearing.capacitance": ("capacitance of the bearing", "$C$"),
+    "bearing.capacitance_oil": ("capacitance of the bearing, all in oil", ""),
+    "bearing.capacitance_air": ("capacitance of the bearing, air around the films", ""),
+    "bearing.capacitance_plate": ("capacitance of plates", ""),
+    "bearing.capacitance_ratio": ("capacitance over that of plates", ""),
+    "bearing.lambda_ratio": ("least film over roughness", r"$\lambda$"),
+    "bearing.first_break": ("bearing voltage of the first break", ""),
+    "bearing.first_break_mean": ("first break, mean over a pitch", ""),
+    "bearing.through_breakdown": ("bearing voltage of the through breakdown", ""),
+    "bearing.through_breakdown_mean": ("through breakdown, mean over a pitch", ""),
+    "bearing.margin": ("first break over shaft voltage", ""),
+    "bearing.through_margin": ("through breakdown over shaft voltage", ""),
+    "bearing.strength_per_volt": ("largest field strength by bearing voltage", ""),
+    "bearing.max_strength": ("largest field strength", ""),
+    "bearing.bearing_voltage_ratio": ("bearing voltage ratio", ""),
+    "bearing.shaft_voltage": ("shaft voltage", ""),
     "discharge.breakdown_voltage": ("breakdown voltage", r"$V_\mathrm{b}$"),
     "discharge.margin": ("breakdown voltage over applied voltage", r"$V_\mathrm{b}/V_{12}$"),
     "discharge.breakdown_voltage_low": ("breakdown voltage at 5 %", ""),
@@ -110,6 +141,7 @@ _UNITS = (
         ("ratio", "error", "share", "margin", "probability", "dimensionless", "residual", "deficit", "over"),
         "",
     ),
+    (("volt",), "1/m"),
     (("voltage", "potential"), "V"),
     (("density",), "A/m**2"),
     (("thickness", "width", "position", "length", "depth", "diameter", "radius", "axis", "size"), "m"),
@@ -122,6 +154,7 @@ _UNITS = (
     (("time",), "s"),
     (("frequency",), "Hz"),
     (("conductivity",), "S/m"),
+    (("break", "breakdown"), "V"),
 )
 
 # Units that are never prefixed: of none, of angles, and of absolute temperatures.
@@ -166,6 +199,10 @@ class Scale:
         if not isinstance(value, int | float):
             return str(value)
         return f"{value * self.factor:.4g} {self.unit}".rstrip()
+
+
+# Not prefixed either: limits of a current density are published in A/mm^2, and speeds are told in rpm.
+_OWN = {"A/m**2": Scale(1e-6, "A/mm²"), "rad/s": Scale(30.0 / np.pi, "rpm")}
 
 
 def label_of(key: str, case: AnyCase) -> Label:
@@ -236,8 +273,8 @@ def scale_for(largest: float, unit: str) -> Scale:
     """
     if unit in _PLAIN:
         return Scale(1.0, unit)
-    if unit == "A/m**2":
-        return Scale(1e-6, "A/mm²")  # as its limits are published
+    if unit in _OWN:
+        return _OWN[unit]
     # With it comes matplotlib, which names and units alone do not take.
     from ehlectric.drawing import unit_for
 

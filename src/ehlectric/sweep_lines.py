@@ -33,7 +33,7 @@ from ehlectric.sweep_drawing import (
 )
 from ehlectric.sweep_labels import Scale
 from ehlectric.sweep_results import SweepResults
-from ehlectric.sweep_slices import BREAKDOWN, MARGIN, Slice, take
+from ehlectric.sweep_slices import Slice, take
 from ehlectric.sweep_surfaces import applied_at, curve_of, spaced_log
 from ehlectric.typing import Array, IntArray
 
@@ -73,7 +73,7 @@ class _Path:
 
     def values(self, line: _Line) -> tuple[Array, Array]:
         """Places and what is drawn there, SI."""
-        if self.taken.value != MARGIN:
+        if self.taken.value != self.taken.breakdown.margin:
             return self._curve(self.taken.values, line)
         places, breaks = self._curve(self.taken.margin * self.taken.voltage, line)
         return places, breaks / self.voltages(line)[1]
@@ -164,9 +164,9 @@ def value_lines(
 
 def _shown_values(taken: Slice) -> Array:
     """Values that the axis must hold: those drawn, and what is drawn in for the applied voltage."""
-    if taken.value == BREAKDOWN:
+    if taken.value == taken.breakdown.value:
         return np.concatenate([taken.values, taken.voltage])
-    return np.append(taken.values, 1.0) if taken.value == MARGIN else taken.values
+    return np.append(taken.values, 1.0) if taken.value == taken.breakdown.margin else taken.values
 
 
 def _lines(taken: Slice, *, log: bool) -> list[_Line]:
@@ -198,15 +198,15 @@ def _applied(path: _Path, ax: Axes, scales: tuple[Scale, Scale], lines: list[_Li
     """What the value is at the applied voltage, with its legend."""
     taken, (scale_x, scale) = path.taken, scales
     volts = taken.voltage[np.isfinite(taken.voltage)]
-    if not (taken.value.startswith("discharge.") and volts.size):
+    if not (taken.of_discharge and volts.size):
         return []
-    applied = voltage_text(taken)
-    text = f"applied voltage {applied}"
-    if taken.value not in (BREAKDOWN, MARGIN):
+    about, applied = taken.breakdown, voltage_text(taken)
+    text = f"{about.voltage_name} {applied}"
+    if taken.value not in taken.breakdown.keys:
         return [Line2D([], [], ls="none", label=f"at the {text}")]
-    if taken.value == MARGIN:
+    if taken.value == taken.breakdown.margin:
         # No voltage but where the two are equal.
-        level, text = scale.factor, f"breakdown voltage = applied {applied}"
+        level, text = scale.factor, f"{about.name} = {about.whose} {applied}"
     elif np.ptp(volts) <= 1e-9 * volts[0]:
         level = scale.factor * float(volts[0])
     elif not _joined(taken, lines):
@@ -221,7 +221,7 @@ def _applied(path: _Path, ax: Axes, scales: tuple[Scale, Scale], lines: list[_Li
     ax.axhline(level, color="black", ls="--", lw=1.2, zorder=3.0)
     floor = 1e-3 * level if ax.get_yscale() == "log" else min(0.0, ax.get_ylim()[0])
     ax.axhspan(floor, level, color=GREY, alpha=0.15, lw=0.0)
-    below = Patch(facecolor=GREY, alpha=0.15, label=f"below the applied {applied}")
+    below = Patch(facecolor=GREY, alpha=0.15, label=f"below the {about.whose} {applied}")
     return [Line2D([], [], color="black", ls="--", lw=1.2, label=text), below]
 
 

@@ -31,7 +31,7 @@ from ehlectric.sweep_drawing import (
     voltage_text,
 )
 from ehlectric.sweep_results import SweepResults
-from ehlectric.sweep_slices import MARGIN, Slice, take
+from ehlectric.sweep_slices import Slice, take
 from ehlectric.sweep_surfaces import Surface, applied_at, spaced_log, surface_of
 from ehlectric.typing import Array, Mask
 
@@ -67,8 +67,8 @@ def value_map(
     Axes
         With a colour bar. Filled between points that all have a value, linearly in the axes as they are drawn
         (the logarithm of positive values where an axis is logarithmic); other points are marked in a hole.
-        Values of ``discharge`` have the line on which the breakdown voltage is the applied one, the side that
-        breaks down hatched.
+        Values of ``discharge``, and breakdown voltages of a bearing, have the line on which the breakdown
+        voltage is the applied one, the side that breaks down hatched.
 
     Raises
     ------
@@ -113,7 +113,11 @@ class _Between:
 
     def values(self) -> tuple[Array, Mask]:
         """What is drawn, SI, as ``Surface.at_nodes`` gives it."""
-        return self.margins() if self.taken.value == MARGIN else self._at_nodes(self.taken.values)
+        return (
+            self.margins()
+            if self.taken.value == self.taken.breakdown.margin
+            else self._at_nodes(self.taken.values)
+        )
 
     def margins(self) -> tuple[Array, Mask]:
         """Breakdown voltage over applied voltage, each between the points for itself."""
@@ -160,27 +164,28 @@ def _fill(between: _Between, ax: Axes) -> list[Artist]:
 
 def _breakdown(between: _Between, ax: Axes) -> list[Artist]:
     """The line on which the film breaks down at the applied voltage, the side where it does, their legend."""
-    if not between.taken.value.startswith("discharge."):
+    if not between.taken.of_discharge:
         return []
     margin, whole = between.margins()
     if not np.any(whole):
         return []
     shown = margin[between.surface.triangles[whole]]
     least, most = float(np.min(shown)), float(np.max(shown))
-    volts = voltage_text(between.taken)
+    about, volts = between.taken.breakdown, voltage_text(between.taken)
+    whose = f"the {about.whose} {volts}"
     if least >= 1.0:
         where = " where filled" * bool(np.any(between.surface.alone(between.taken.margin)))
-        return [Line2D([], [], ls="none", label=f"breakdown voltage above the applied {volts}{where}")]
+        return [Line2D([], [], ls="none", label=f"{about.name} above {whose}{where}")]
     drawn = between.triangles(whole), margin
     ax.tricontourf(*drawn, levels=[min(0.5 * least, 0.5), 1.0], colors="none", hatches=[_BREAKS])
     hatched = Patch(facecolor="none", edgecolor="black", hatch=_BREAKS, lw=0.0)
     if most <= 1.0:
-        hatched.set_label(f"breakdown voltage below the applied {volts}")
+        hatched.set_label(f"{about.name} below {whose}")
         return [hatched]
     line = ax.tricontour(*drawn, levels=[1.0], colors="black", linewidths=1.8)
     line.set_path_effects([cast("AbstractPathEffect", withStroke(linewidth=3.2, foreground="white"))])
-    hatched.set_label(f"below the applied {volts}")
-    return [Line2D([], [], color="black", lw=1.8, label=f"breakdown voltage = applied {volts}"), hatched]
+    hatched.set_label(f"below {whose}")
+    return [Line2D([], [], color="black", lw=1.8, label=f"{about.name} = {about.whose} {volts}"), hatched]
 
 
 def _dots(
@@ -197,11 +202,12 @@ def _dots(
     ``beside`` what is filled, which has a legend of its own, they are said to be alone.
     """
     parts = {"": (some, "o")}
-    if taken.value.startswith("discharge.") and np.any(np.isfinite(taken.margin[some])):
-        low, volts = some & (taken.margin < 1.0), voltage_text(taken)
+    if taken.of_discharge and np.any(np.isfinite(taken.margin[some])):
+        low, about = some & (taken.margin < 1.0), taken.breakdown
+        whose = f"the {about.whose} {voltage_text(taken)}"
         parts = {
-            f"{'alone,' if beside else 'breakdown voltage'} above the applied {volts}": (some & ~low, "o"),
-            f"{'alone, ' if beside else ''}below the applied {volts}": (low, "v"),
+            f"{'alone,' if beside else about.name} above {whose}": (some & ~low, "o"),
+            f"{'alone, ' if beside else ''}below {whose}": (low, "v"),
         }
     for part, shape in parts.values():
         own = {**look, "c": look["c"][part], "marker": shape}

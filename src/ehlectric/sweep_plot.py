@@ -5,13 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
+from ehlectric.bearing_plot import save_speed_figures
 from ehlectric.drawing import new_panels, save_figure, style
 from ehlectric.sweep_drawing import held_text, name_figure
 from ehlectric.sweep_lines import value_lines
 from ehlectric.sweep_maps import value_map
 from ehlectric.sweep_results import SweepResults
-from ehlectric.sweep_slices import take
+from ehlectric.sweep_slices import Slice, take
 
+_SPEED = "bearing.inner_speed"
 _MAP_SIZE, _LINES_SIZE = (6.3, 4.7), (6.3, 4.3)
 
 
@@ -76,3 +78,32 @@ def save_maps(
             save_figure(ax, folder / name)
             files.append(folder / name)
     return files
+
+
+def save_speeds(results: SweepResults, taken: Slice, folder: Path) -> list[Path]:
+    """Draw capacitance and breakdown voltages of bearings over the speed, where a slice is over that alone.
+
+    Parameters
+    ----------
+    results : SweepResults
+        Of what.
+    taken : Slice
+        Its points; those that are not solved, and doubtful ones, are left out.
+    folder : Path
+        Where to; it must be there.
+
+    Returns
+    -------
+    list of Path
+        The files written; none of other slices.
+    """
+    if taken.x != _SPEED or taken.y is not None or taken.free:
+        return []
+    points = [
+        (float(speed), dict(point.summary))
+        for speed, point in zip(taken.along, taken.points, strict=True)
+        if point.solved and not point.doubtful and point.summary is not None
+    ]
+    # Not the title of the case, which may name what is held otherwise here.
+    title = ", ".join(filter(None, [results.title, held_text(results, taken).removeprefix("at ")]))
+    return save_speed_figures(points, folder, title) if points else []

@@ -11,11 +11,10 @@ import numpy as np
 from ehlectric.case_keys import kind_of
 from ehlectric.errors import InputError, shown
 from ehlectric.quantity import Count, Quantity
+from ehlectric.sweep_breakdown import Breakdown, breakdown_of
 from ehlectric.sweep_results import Point, Status, SweepResults, as_number, flat
 from ehlectric.typing import Array, IntArray, Mask
 from ehlectric.validation import nearest
-
-BREAKDOWN, MARGIN, VOLTAGE = "discharge.breakdown_voltage", "discharge.margin", "field.voltage"
 
 # Names and values that a message lists at most.
 _MOST_LISTED = 8
@@ -33,6 +32,8 @@ class Slice:
         Second varied key.
     value : str
         Key of the summary that is drawn.
+    breakdown : Breakdown
+        What it is set beside.
     at : mapping
         What is held, SI, by varied key.
     free : tuple of str
@@ -54,6 +55,7 @@ class Slice:
     x: str
     y: str | None
     value: str
+    breakdown: Breakdown
     at: Mapping[str, Any]
     free: tuple[str, ...]
     points: tuple[Point, ...]
@@ -71,6 +73,11 @@ class Slice:
     def doubtful(self) -> Mask:
         """Which points are solved, but have a warning not to use their film, shape (points,)."""
         return np.array([point.doubtful for point in self.points])
+
+    @property
+    def of_discharge(self) -> bool:
+        """Whether its value tells of breakdown or of what goes with it."""
+        return self.value.startswith("discharge.") or self.value in self.breakdown.keys
 
     @property
     def numeric(self) -> bool:
@@ -187,19 +194,21 @@ def take(
     values = usable * values[chosen]
     if not np.any(np.isfinite(values)):
         raise InputError(f"value: {value} is in none of the {_drawn(points)}, there is nothing to show")
+    breakdown = breakdown_of(results.case, value)
     across = () if y is None else tuple(_hashable(point.inputs.get(y)) for point in points)
     return Slice(
         x=x,
         y=y,
         value=value,
+        breakdown=breakdown,
         at=held,
         free=free,
         points=points,
         along=np.array([as_number(point.inputs[x]) for point in points]),
         across=across,
         values=values,
-        voltage=usable * results.values(VOLTAGE)[chosen],
-        margin=usable * margins(results)[chosen],
+        voltage=usable * results.values(breakdown.voltage)[chosen],
+        margin=usable * breakdown.margins(results)[chosen],
     )
 
 
@@ -251,19 +260,6 @@ def numbers_of(results: SweepResults, value: str) -> Array:
             f"value: got {shown(value)}, takes a number of summary.json; nearest is {near}{table}"
         )
     return results.values(value)
-
-
-def margins(results: SweepResults) -> Array:
-    """Breakdown voltage over applied voltage of every point, not a number where there is none.
-
-    Returns
-    -------
-    ndarray, shape (points,)
-        ``discharge.margin`` of the summaries; where they have none, from the two voltages.
-    """
-    margin = results.values(MARGIN)
-    ratio = results.values(BREAKDOWN) / results.values(VOLTAGE)
-    return np.where(np.isfinite(margin), margin, ratio)
 
 
 def _is_number(value: Any) -> bool:

@@ -279,8 +279,8 @@ def powers(loads, light=False):
     one = ContactSolution(
         load=1.0, max_pressure=1e8, semi_axis_x=1e-5, semi_axis_y=1e-4, minimum_thickness=4e-7,
         central_thickness=5e-7, inside=2e-11, outside_oil=1e-11, outside_air=5e-12, plate=1e-11,
-        breakdown_voltage=6.0, error=0.01, moes_m=10.0, moes_l=10.0, mismatch=0.0, converged=True,
-        warnings=(),
+        strength_per_volt=2.5e6, breakdown_voltage=6.0, error=0.01, moes_m=10.0, moes_l=10.0,
+        mismatch=0.0, converged=True, warnings=(),
     )  # fmt: skip
     rows = [
         dataclasses.replace(one, load=q, inside=2e-11 * q**0.6, breakdown_voltage=6.0 * q**-0.07)

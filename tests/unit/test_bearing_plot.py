@@ -76,6 +76,7 @@ def contact(load, film, strength):
         outside_oil=3e-11,
         outside_air=1.25e-11,
         plate=3e-11,
+        strength_per_volt=1.0 / thickness,
         breakdown_voltage=np.inf if strength is None else strength * thickness,
         error=0.01,
         moes_m=1000.0,
@@ -121,6 +122,7 @@ def result():
 def at_speed(rpm, capacitance, first, shaft, *, lubrication="full film", fill="oil"):
     """Speed and summary, air a tenth below oil, the bearing broken through at 1.5 times its first break."""
     bearing = {
+        "contacts": "formula",
         "capacitance": capacitance if fill == "oil" else 0.9 * capacitance,
         "capacitance_oil": capacitance,
         "capacitance_air": 0.9 * capacitance,
@@ -288,7 +290,8 @@ def test_the_command_draws_unless_told_not_to(result, monkeypatch, tmp_path):
     file = tmp_path / "bearing.toml"
     file.write_text(tomli_w.dumps(TABLE), encoding="utf-8")
     monkeypatch.setattr("ehlectric.bearing_solver.solve_bearing", lambda *_args, **_kwargs: result.solution)
-    for option, figures in (("--plots", BEARING_FIGURE_FILES), ("--no-plots", ())):
+    drawn = *BEARING_FIGURE_FILES, *SPEED_FIGURE_FILES
+    for option, figures in (("--plots", drawn), ("--no-plots", ())):
         done = CliRunner().invoke(app, ["bearing", str(file), "-o", str(tmp_path / "out"), "-q", option])
         assert done.exit_code == 0, done.output
         written = {path.name for path in (tmp_path / "out").iterdir()}
@@ -356,6 +359,22 @@ def test_breakdown_over_speed_shades_where_the_shaft_has_more(points):
     np.testing.assert_allclose(ends, [1000.0, 1000.0 + 2000.0 * 1.2 / 2.8])
     assert list(line(ax, r"$\lambda$ < 1").get_xdata()) == pytest.approx([500.0])
     assert list(line(ax, r"$\lambda$ from 1 to 3").get_xdata()) == pytest.approx([1000.0])
+
+
+@pytest.mark.parametrize(
+    ("draw", "heights"),
+    [(OVER_SPEED[0], [180.0]), (OVER_SPEED[1], [9.0, 8.0])],
+    ids=["capacitance", "breaks"],
+)
+def test_a_bearing_by_itself_is_marked_on_the_axes_of_the_others(points, draw, heights):
+    own = at_speed(2000.0, 1.8e-10, 8.0, 5.0)
+    own[1]["bearing"] |= {"through_breakdown": 9.0, "contacts": "solved"}
+    plain, ax = draw(points), draw(points, own=own)
+    star = line(ax, "at its own speed, contacts solved")
+    np.testing.assert_allclose(star.get_xdata(), 2000.0, rtol=1e-12)
+    np.testing.assert_allclose(star.get_ydata(), heights, rtol=1e-12)
+    assert ax.get_yscale() == plain.get_yscale() == "linear"
+    assert ax.get_ylim() == plain.get_ylim()
 
 
 def test_figures_over_speed_are_saved(points, tmp_path):

@@ -6,9 +6,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ehlectric import InputError
+from ehlectric.sweep_breakdown import CONTACT
 from ehlectric.sweep_labels import label_of, scale_for
 from ehlectric.sweep_results import Range
-from ehlectric.sweep_slices import margins, take
+from ehlectric.sweep_slices import take
 from ehlectric.sweep_surfaces import spaced_log, surface_of
 from tests.sweep_models import LOAD, POTENTIAL, SPEED, breakdown, case, grid, paired, sobol
 
@@ -115,7 +116,7 @@ def test_margin_is_the_ratio_of_the_voltages():
         del summary["discharge"]["margin"]
         return summary
 
-    np.testing.assert_allclose(margins(cube()), margins(cube(model=without)), rtol=1e-15)
+    np.testing.assert_allclose(CONTACT.margins(cube()), CONTACT.margins(cube(model=without)), rtol=1e-15)
 
 
 positive = st.lists(st.floats(1e-3, 1e3), min_size=2, max_size=6, unique_by=lambda v: round(np.log(v), 3))
