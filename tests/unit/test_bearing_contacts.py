@@ -86,6 +86,9 @@ def test_a_ball_is_the_case_by_hand(light_ball):
     assert light_ball.plate == pytest.approx(result.discharge.capacitance_plate, rel=0.02)
     # Where the film is thinnest the field is the largest, but for a thousandth.
     assert light_ball.breakdown_voltage == pytest.approx(15e6 * light_ball.minimum_thickness, rel=3e-3)
+    # What the field is at the breakdown voltage is the strength.
+    at_breakdown = light_ball.breakdown_voltage * light_ball.strength_per_volt
+    assert at_breakdown == pytest.approx(15e6, rel=1e-6, abs=0.0)
     assert light_ball.converged
     assert light_ball.error < 0.03
 

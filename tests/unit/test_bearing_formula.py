@@ -105,6 +105,7 @@ def test_a_ball(inner, angle):
     assert found.minimum_thickness == pytest.approx(least, rel=1e-4, abs=0.0)
     assert found.central_thickness == pytest.approx(central, rel=1e-4, abs=0.0)
     assert found.breakdown_voltage == pytest.approx(15e6 * least, rel=1e-4, abs=0.0)
+    assert found.strength_per_volt == pytest.approx(1.0 / least, rel=1e-4, abs=0.0)
     assert found.plate == pytest.approx(epsilon_0 * 2.4 * np.pi * a * b / central, rel=1e-4, abs=0.0)
 
     side = 1.6 * a + 1.4 * b
@@ -145,6 +146,7 @@ def test_a_roller(inner):
     assert found.minimum_thickness == pytest.approx(least, rel=1e-4, abs=0.0)
     assert found.central_thickness == pytest.approx(central, rel=1e-4, abs=0.0)
     assert found.breakdown_voltage == pytest.approx(15e6 * least, rel=1e-4, abs=0.0)
+    assert found.strength_per_volt == pytest.approx(1.0 / least, rel=1e-4, abs=0.0)
     plate = epsilon_0 * 2.4 * 2.0 * b * LENGTH / central
     assert found.plate == pytest.approx(plate, rel=1e-4, abs=0.0)
 

@@ -83,6 +83,11 @@ def test_a_bearing_from_its_elements(result):
     assert found["first_break_mean"] == pytest.approx(np.mean(firsts), rel=5e-3)
     assert found["through_breakdown"] == pytest.approx(min(throughs), rel=5e-3)
     assert found["through_breakdown_mean"] == pytest.approx(np.mean(throughs), rel=5e-3)
+    # At the first break the largest field of all is the strength of the oil, 15 V/um.
+    at_break = found["first_break"] * found["strength_per_volt"]
+    assert at_break == pytest.approx(15e6, rel=1e-3, abs=0.0)
+    on_shaft = found["shaft_voltage"] * found["strength_per_volt"]
+    assert found["max_strength"] == pytest.approx(on_shaft, rel=1e-12, abs=0.0)
     assert found["lambda_ratio"] == pytest.approx(min(films) / 0.03e-6, rel=5e-3)
     ratio = 20e-12 / (20e-12 + 1e-9 + 2.0 * np.mean(totals))
     assert found["bearing_voltage_ratio"] == pytest.approx(ratio, rel=1e-3)
@@ -121,6 +126,11 @@ def test_rows_are_those_of_the_elements(result):
         assert row["contact_angle"] == pytest.approx(angle, rel=1e-12, abs=1e-15)
         assert row["capacitance"] == pytest.approx(own[k], rel=0.02)
         assert row["voltage_share"] == pytest.approx(other[k] / (own[k] + other[k]), abs=0.01)
+        # Both by the least film: the field at 1 V on the bearing, and the voltage that makes it the strength.
+        strength = 15e6 * row["voltage_share"] / row["breakdown_voltage"]
+        assert row["strength_per_volt"] == pytest.approx(strength, rel=1e-3, abs=0.0)
+        on_shaft = row["strength_per_volt"] * result.shaft_voltage
+        assert row["max_strength"] == pytest.approx(on_shaft, rel=1e-9, abs=0.0)
         assert row["lambda_ratio"] == pytest.approx(row["minimum_thickness"] / 0.03e-6, rel=1e-12, abs=0.0)
 
 

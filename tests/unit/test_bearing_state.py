@@ -24,8 +24,8 @@ def curve_of(axes_and_pressure, loads):
             ContactSolution(
                 load=load, max_pressure=pressure, semi_axis_x=b, semi_axis_y=a, minimum_thickness=0.9 * film,
                 central_thickness=film, inside=2e-11 * load**0.4, outside_oil=1.2e-11, outside_air=5e-12,
-                plate=1e-11, breakdown_voltage=15e6 * 0.9 * film, error=0.01, moes_m=10.0, moes_l=10.0,
-                mismatch=0.0, converged=True, warnings=(),
+                plate=1e-11, strength_per_volt=1.0 / (0.9 * film), breakdown_voltage=15e6 * 0.9 * film,
+                error=0.01, moes_m=10.0, moes_l=10.0, mismatch=0.0, converged=True, warnings=(),
             )
         )  # fmt: skip
     return ContactCurve(tuple(rows))
@@ -63,6 +63,7 @@ def test_every_load_has_its_own_dry_contact(tables, law):
     np.testing.assert_allclose(state.central_thickness, films, rtol=1e-9)
     np.testing.assert_allclose(state.minimum_thickness, 0.9 * films, rtol=1e-9)
     np.testing.assert_allclose(state.breakdown_voltage, 15e6 * 0.9 * films, rtol=1e-9)
+    np.testing.assert_allclose(state.strength_per_volt, 1.0 / (0.9 * films), rtol=1e-9)
     np.testing.assert_allclose(state.inside, 2e-11 * np.maximum(10.0, loads) ** 0.4, rtol=1e-9)
     np.testing.assert_allclose(state.capacitance("oil"), state.inside + 1.2e-11, rtol=1e-9)
     np.testing.assert_allclose(state.capacitance("air"), state.inside + 5e-12, rtol=1e-9)
@@ -77,6 +78,7 @@ def test_no_gap_is_narrower_than_the_film_of_the_least_load(tables, law):
         assert state.central_thickness[k] == pytest.approx(apart, rel=1e-12, abs=0.0)
         assert state.minimum_thickness[k] == pytest.approx(apart, rel=1e-12, abs=0.0)
         assert state.breakdown_voltage[k] == pytest.approx(15e6 * apart, rel=1e-12, abs=0.0)
+        assert state.strength_per_volt[k] == pytest.approx(1.0 / apart, rel=1e-12, abs=0.0)
         assert state.capacitance("air")[k] == pytest.approx(rigid(apart), rel=1e-12, abs=0.0)
         assert state.capacitance("oil")[k] == pytest.approx(2.4 * rigid(apart), rel=1e-12, abs=0.0)
         nothing = [state.max_pressure[k], state.semi_axis_x[k], state.semi_axis_y[k], state.plate[k]]
