@@ -1,5 +1,6 @@
 """A ball bearing whose rings differ, put together again from its elements, one contact at a time."""
 
+import dataclasses
 import math
 
 import numpy as np
@@ -94,6 +95,47 @@ def test_a_bearing_from_its_elements(result):
     assert found["shaft_voltage"] == pytest.approx(300.0 * ratio, rel=1e-3)
     assert found["margin"] == pytest.approx(min(firsts) / (300.0 * ratio), rel=5e-3)
     assert found["through_margin"] == pytest.approx(min(throughs) / (300.0 * ratio), rel=5e-3)
+
+
+def test_breaks_of_strengths_that_are_anything(result):
+    """Strengths made up, so that what breaks first and what is through are not one, nor are its positions.
+
+    By hand: V_i (C_i + C_o)/C_o and V_o (C_i + C_o)/C_i, the lesser first; through, the partner holds it all.
+    """
+    solution, fill = result.solution, result.solution.case.bearing.fill
+    rng = np.random.default_rng(8)
+    positions, firsts, throughs, names = [], [], [], []
+    for position in solution.positions:
+        inner, outer = (rng.uniform(1.0, 50.0, size) for size in (9, 9))
+        positions.append(
+            dataclasses.replace(
+                position,
+                inner=dataclasses.replace(position.inner, breakdown_voltage=inner),
+                outer=dataclasses.replace(position.outer, breakdown_voltage=outer),
+            )
+        )
+        one, other = position.inner.capacitance(fill), position.outer.capacitance(fill)
+        breaks = np.array([inner * (one + other) / other, outer * (one + other) / one])
+        first = breaks.min(axis=0)
+        throughs.append(np.min(np.maximum(first, np.where(breaks[0] <= breaks[1], outer, inner))))
+        firsts.append(np.min(first))
+        k = int(np.argmin(first))
+        names.append(f"{'inner' if breaks[0][k] <= breaks[1][k] else 'outer'} contact of element {k}")
+    # Neither of the two is the other, and no mean is the least.
+    assert min(throughs) > 1.1 * min(firsts)
+    assert np.ptp(firsts) > 0.1
+    found = BearingResult(dataclasses.replace(solution, positions=tuple(positions))).breaks()
+    shaft = result.shaft_voltage
+    expected = {
+        "first_break": min(firsts),
+        "first_break_mean": np.mean(firsts),
+        "through_breakdown": min(throughs),
+        "through_breakdown_mean": np.mean(throughs),
+        "margin": min(firsts) / shaft,
+        "through_margin": min(throughs) / shaft,
+    }
+    assert found.pop("first_break_at") == names[int(np.argmin(firsts))]
+    assert found == pytest.approx(expected, rel=1e-9, abs=0.0)
 
 
 def test_rings_have_the_angle_and_speed_of_the_most_loaded_ball(result):

@@ -37,7 +37,11 @@ def test_solved_loads_hold_those_of_all_elements(rollers):
         assert loads[-1] == pytest.approx(np.max(of_elements), rel=1e-9, abs=0.0)
         # What is below a five hundredth of the largest, or has a film that no domain holds, is not reached.
         least = np.min(of_elements[of_elements > 0.0])
-        assert loads[0] <= max(least, 0.002 * loads[-1], least_load(rollers.duty, race)) * (1.0 + 1e-9)
+        lightest = max(least, 0.002 * loads[-1], least_load(rollers.duty, race))
+        assert loads[0] <= lightest * (1.0 + 1e-9)
+        # Nor is anything lighter solved.
+        assert curve.light
+        assert loads[0] == pytest.approx(lightest, rel=1e-9, abs=0.0)
 
 
 def test_positions_are_those_of_one_pitch(rollers):
