@@ -6,6 +6,7 @@ import math
 import numpy as np
 import pytest
 
+from ehlectric.bearing_contacts import ContactCurve
 from ehlectric.bearing_formula import formula_contact
 from ehlectric.bearing_race import Race, rigid_capacitance
 from ehlectric.bearing_result import BearingResult
@@ -136,6 +137,39 @@ def test_breaks_of_strengths_that_are_anything(result):
     }
     assert found.pop("first_break_at") == names[int(np.argmin(firsts))]
     assert found == pytest.approx(expected, rel=1e-9, abs=0.0)
+
+
+@pytest.mark.parametrize("ring", ["inner", "outer"])
+def test_lambda_is_that_of_the_thinnest_loaded_film(result, ring):
+    """A film of 2 nm on one ring, at the last position, is the least; gaps without load are none."""
+    solution = result.solution
+    *others, last = solution.positions
+    race = getattr(last, ring)
+    loaded = np.flatnonzero(race.load > 0.0)
+    films = race.minimum_thickness.copy()
+    films[loaded[-1]] = 2e-9
+    films[race.load == 0.0] = 1e-9
+    thin = dataclasses.replace(last, **{ring: dataclasses.replace(race, minimum_thickness=films)})
+    found = BearingResult(dataclasses.replace(solution, positions=(*others, thin)))
+    assert found.lambda_ratio == pytest.approx(2e-9 / 0.03e-6, rel=1e-12, abs=0.0)
+    assert found.lubrication == "conducting"
+
+
+def test_errors_are_the_larger_of_both_rings(result):
+    """Of one ring interpolated exactly and of one whose contact in the middle is 10 % off its neighbours'."""
+    solution = result.solution
+    one = solution.outer_curve.solutions[-1]
+    rows = [dataclasses.replace(one, load=q, inside=1e-11 * q**0.5, error=0.02) for q in (1.0, 10.0, 100.0)]
+    exact = ContactCurve(tuple(rows))
+    off = dataclasses.replace(rows[1], inside=1.1 * rows[1].inside, error=0.01)
+    bent = ContactCurve((rows[0], off, rows[2]))
+    for inner, outer in ((exact, bent), (bent, exact)):
+        curves = dataclasses.replace(solution, inner_curve=inner, outer_curve=outer)
+        found = BearingResult(curves).summary()["bearing"]
+        assert found["interpolation_error"] == pytest.approx(1.0 - 1.0 / 1.1, rel=1e-9, abs=0.0)
+        assert found["discretisation_error"] == 0.02
+    # By formula there is no estimate of a film's error.
+    assert result.summary()["bearing"]["discretisation_error"] is None
 
 
 def test_rings_have_the_angle_and_speed_of_the_most_loaded_ball(result):
