@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad
 from scipy.optimize import brentq, minimize
+from scipy.special import ellipe, ellipk
 
 from ehlectric import InputError
 from ehlectric.ball_equilibrium import ball_equilibrium, contact_stiffness
@@ -132,6 +133,49 @@ def test_stiffness_is_the_exact_one_at_every_angle():
         for q, d, a in zip(load, depth, angle, strict=True):
             k = contact_stiffness(ANGULAR, E, float(a), inner=inner)
             assert q == pytest.approx(k * d**1.5, rel=1e-10, abs=1e-6)
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.6, 1.2])
+@pytest.mark.parametrize(("inner", "groove", "sign"), [(True, 0.52, 1.0), (False, 0.53, -1.0)])
+def test_stiffness_by_complete_integrals(inner, groove, sign, angle):
+    """Hertz as Harris has it: F(rho) = ((k^2 + 1) E - 2 K)/((k^2 - 1) E) gives k, the ratio of the axes.
+
+    With the sum of curvatures s, a^3 = 6 k^2 E Q/(pi s E'), and the approach is (3 Q/(2 pi a)) K/(E'/2),
+    K and E complete integrals of m = 1 - 1/k^2.
+    """
+    d, c = 11.906e-3, math.cos(angle)
+    across = (2.0 - 1.0 / groove) / d
+    along = (2.0 + sign * 2.0 * (11.906 / 60.0) * c / (1.0 - sign * (11.906 / 60.0) * c)) / d
+    difference = (along - across) / (along + across)
+
+    def excess(k):
+        m = 1.0 - k**-2
+        return ((k**2 + 1.0) * ellipe(m) - 2.0 * ellipk(m)) / ((k**2 - 1.0) * ellipe(m)) - difference
+
+    k = brentq(excess, 1.0 + 1e-6, 1e3, xtol=1e-13)
+    m, load = 1.0 - k**-2, 700.0
+    a = (6.0 * k**2 * ellipe(m) * load / (math.pi * (along + across) * E)) ** (1.0 / 3.0)
+    approach = 1.5 * load / (math.pi * a) * ellipk(m) / (0.5 * E)
+    stiffness = contact_stiffness(ANGULAR, E, angle, inner=inner)
+    assert (load / stiffness) ** (2 / 3) == pytest.approx(approach, rel=1e-9, abs=0.0)
+
+
+def test_cage_and_gyroscopic_moment_by_hand():
+    """w_c = w (1 - g)/2 of each ball's mean angle, weighted with its load; M_g = m D^2/10 w_s w_c sin a."""
+    speed = 15_000 * RPM
+    state = solve(ANGULAR, 900.0, 700.0, speed, 0.0, 0.1)
+    angle = 0.5 * (state.inner_angle + state.outer_angle)
+    gamma = 11.906 / 60.0 * np.cos(angle)
+    cages = 0.5 * speed * (1.0 - gamma)
+    mean = cages @ state.inner_load / np.sum(state.inner_load)
+    # The plain mean is another one.
+    assert abs(np.mean(cages) / mean - 1.0) > 1e-4
+    assert state.cage_speed == pytest.approx(mean, rel=1e-9, abs=0.0)
+    mass = DENSITY * math.pi / 6.0 * 11.906e-3**3
+    assert state.centrifugal_force == pytest.approx(mass * 30e-3 * mean**2, rel=1e-9, abs=0.0)
+    spin = speed * (1.0 - gamma**2) / (2.0 * 11.906 / 60.0)
+    moments = mass * 11.906e-3**2 / 10.0 * spin * cages * np.sin(angle)
+    np.testing.assert_allclose(state.gyroscopic_moment, moments, rtol=1e-9)
 
 
 @pytest.mark.parametrize(

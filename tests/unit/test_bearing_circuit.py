@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ehlectric.bearing_circuit import Circuit, bearing_voltage_ratio, impedance
+from ehlectric.bearing_circuit import Circuit, bearing_voltage_ratio, impedance, leaking_admittance
 
 capacitances = st.floats(1e-12, 1e-9)
 strengths = st.floats(0.5, 500.0)
@@ -96,10 +96,14 @@ def test_one_element_by_hand():
     assert found.inner_share[0] == pytest.approx(0.75, rel=1e-12, abs=0.0)
     assert found.first_break == pytest.approx(12.0, rel=1e-12, abs=0.0)
     assert found.through_breakdown == pytest.approx(12.0, rel=1e-12, abs=0.0)
+    # The stronger one is the first, for what it has to carry.
+    assert found.inner_first[0]
     # With 20 V the other one holds on until the bearing has 20 V.
     assert circuit_of((100e-12, 300e-12, 9.0, 20.0)).through_breakdown == pytest.approx(20.0, rel=1e-12)
     # Rings exchanged.
     turned = circuit_of((300e-12, 100e-12, 20.0, 9.0))
+    assert not turned.inner_first[0]
+    assert not circuit_of((300e-12, 100e-12, 8.0, 9.0)).inner_first[0]
     assert turned.first_break == pytest.approx(12.0, rel=1e-12, abs=0.0)
     assert turned.through_breakdown == pytest.approx(20.0, rel=1e-12, abs=0.0)
 
@@ -196,3 +200,38 @@ def test_a_strength_that_does_not_scatter_has_no_weaker_links():
     endless = np.array([(1e-10, 1e-10, 5.0, np.inf), (1e-10, 1e-10, np.inf, np.inf)]).T
     assert Circuit(*endless, shape=2.0).first_break == 10.0
     assert Circuit(*np.array([(1e-10, 1e-10, np.inf, np.inf)]).T, shape=2.0).first_break == np.inf
+
+
+LEAKING = np.array([[100e-12, 80e-12, 300e-12, 120e-12], [20e-12, 5e-12, 15e-12, 12e-12]])
+
+
+def leaking(tau, frequency):
+    inner, inner_oil, outer, outer_oil = LEAKING.T
+    return leaking_admittance((inner, inner_oil), (outer, outer_oil), tau, np.array(frequency))
+
+
+@pytest.mark.parametrize("tau", [1e-3, 20.0])
+def test_leaking_contacts_by_kirchhoff(tau):
+    """Rings at 1 V and 0, each element afloat between them: the currents of both contacts are one.
+
+    A contact carries sigma times the oil's C/eps beside i omega of all of its C; sigma/eps is 1/tau.
+    """
+    for frequency in (0.01, 1.0 / tau, 1e5):
+        total = 0.0
+        for inner, inner_oil, outer, outer_oil in LEAKING:
+            first = inner_oil / tau + 2j * np.pi * frequency * inner
+            second = outer_oil / tau + 2j * np.pi * frequency * outer
+            # Current and voltage of the element: first (1 - v) = i, second v = i.
+            current, _ = np.linalg.solve(np.array([[1.0, first], [1.0, -second]]), np.array([first, 0.0]))
+            total += current
+        assert leaking(tau, [frequency])[0] == pytest.approx(total, rel=1e-9, abs=0.0)
+
+
+def test_leaking_contacts_at_both_ends():
+    """At rest the oil's resistances tau/C_oil alone, in series; at high frequency all capacitances.
+
+    80 and 120 pF make 48, 5 and 12 make 60/17; 100 and 300 make 75, 20 and 15 make 60/7.
+    """
+    slow, fast = leaking(20.0, [0.0, 1e7])
+    assert slow == pytest.approx((48e-12 + 60e-12 / 17.0) / 20.0, rel=1e-12, abs=0.0)
+    assert fast == pytest.approx(2j * np.pi * 1e7 * (75e-12 + 60e-12 / 7.0), rel=1e-6, abs=0.0)

@@ -86,6 +86,9 @@ def test_a_ball_is_the_case_by_hand(light_ball):
     assert light_ball.plate == pytest.approx(result.discharge.capacitance_plate, rel=0.02)
     # Where the film is thinnest the field is the largest, but for a thousandth.
     assert light_ball.breakdown_voltage == pytest.approx(15e6 * light_ball.minimum_thickness, rel=3e-3)
+    # What the field is at the breakdown voltage is the strength.
+    at_breakdown = light_ball.breakdown_voltage * light_ball.strength_per_volt
+    assert at_breakdown == pytest.approx(15e6, rel=1e-6, abs=0.0)
     assert light_ball.converged
     assert light_ball.error < 0.03
 
@@ -104,6 +107,50 @@ def test_a_roller_is_the_case_by_hand(inner):
     assert found.semi_axis_x == pytest.approx(result.conditions.half_width, rel=1e-6, abs=0.0)
     assert found.semi_axis_y == pytest.approx(5e-3, rel=1e-12, abs=0.0)
     assert found.breakdown_voltage == pytest.approx(result.discharge.breakdown_voltage, rel=3e-3)
+
+
+def test_moes_groups_by_hand(light_ball):
+    """M = F/(E' Rx^2) U^(-3/4) and L = alpha E' U^(1/4), U = eta0 u_s/(E' Rx) with u_s of both surfaces."""
+    modulus, viscosity = 208e9 / (1.0 - 0.3**2), 14.847e-6 * 838.90
+    rx = 1.0 / (2.0 / 11.906e-3 + 2.0 / (60e-3 - 11.906e-3))
+    u = viscosity * 2.0 * SPEED / (modulus * rx)
+    assert light_ball.moes_m == pytest.approx(60.0 / (modulus * rx**2) * u**-0.75, rel=1e-3, abs=0.0)
+    alpha = 0.67 * (math.log(viscosity) + 9.67) / 0.198e9
+    assert light_ball.moes_l == pytest.approx(alpha * modulus * u**0.25, rel=1e-3, abs=0.0)
+
+
+def test_the_whole_of_a_ball_in_another_domain(light_ball):
+    """Film by hand within 7 semi-axes before it and 3 beside, the gap of its groove around that."""
+    ball, groove = 11.906e-3 / 2.0, 0.52 * 11.906e-3
+    contact = {
+        "geometry": "point",
+        "radius_x": 1.0 / (1.0 / ball + 1.0 / (30e-3 - ball)),
+        "radius_y": 1.0 / (1.0 / ball - 1.0 / groove),
+        "load": 60.0,
+    }
+    result = solve(by_hand(contact, {"inlet": -7.0, "side": 3.0, "nodes": 257}, {}))
+    bearing, duty, *_ = of(BALLS)
+    outside, mismatch = around(bearing, duty, Race(True, 0.0, SPEED), result)
+    assert 0.0 < mismatch < 0.1
+    assert 0.0 < light_ball.mismatch < 0.1
+    whole = result.discharge.capacitance + 2.4 * outside
+    assert light_ball.inside + light_ball.outside_oil == pytest.approx(whole, rel=0.01)
+    assert light_ball.outside_oil == pytest.approx(2.4 * light_ball.outside_air, rel=1e-12, abs=0.0)
+    assert light_ball.inside == pytest.approx(result.discharge.capacitance, rel=0.1)
+
+
+def test_a_solution_tells_what_its_case_does():
+    """Estimate of its film's error, whether it converged, and warnings but for those of light loads."""
+    bearing, duty, discharge, solver = of(ROLLERS)
+    race = Race(True, 0.0, SPEED)
+    for options, converged in ((solver, True), (solver | {"max_iterations": 1}, False)):
+        result = solve(contact_case(duty, race, 1200.0, discharge, options))
+        found = solve_contact(bearing, duty, race, 1200.0, discharge, options)
+        assert found.error == result.film.discretisation_error
+        assert (found.error is not None) == found.converged == result.converged == converged
+        assert found.error is None or 0.0 < found.error < 0.03
+        assert set(found.warnings) <= set(result.warnings)
+        assert bool(found.warnings) != converged
 
 
 @pytest.mark.parametrize("load", [5.0, 60.0, 1200.0])

@@ -1,5 +1,7 @@
 """Whole bearings, solved: loads that are chosen, contacts of elements between them, laws of scale."""
 
+import resource
+
 import numpy as np
 import pytest
 
@@ -37,7 +39,11 @@ def test_solved_loads_hold_those_of_all_elements(rollers):
         assert loads[-1] == pytest.approx(np.max(of_elements), rel=1e-9, abs=0.0)
         # What is below a five hundredth of the largest, or has a film that no domain holds, is not reached.
         least = np.min(of_elements[of_elements > 0.0])
-        assert loads[0] <= max(least, 0.002 * loads[-1], least_load(rollers.duty, race)) * (1.0 + 1e-9)
+        lightest = max(least, 0.002 * loads[-1], least_load(rollers.duty, race))
+        assert loads[0] <= lightest * (1.0 + 1e-9)
+        # Nor is anything lighter solved.
+        assert curve.light
+        assert loads[0] == pytest.approx(lightest, rel=1e-9, abs=0.0)
 
 
 def test_positions_are_those_of_one_pitch(rollers):
@@ -146,6 +152,24 @@ def test_a_6208_in_parallel():
             if contact.moes_m > 100.0:
                 assert contact.central_thickness == pytest.approx(formula.central_thickness, rel=0.1)
             assert contact.mismatch < 0.1
+
+
+@pytest.mark.slow
+def test_a_6208_takes_below_a_minute_on_two_cores():
+    """What its two processes worked, shared by two cores: waiting for others on the machine is not its own.
+
+    Beside the whole by formula, whose films may be 30 % off: the solved ones are thicker, if not by as much.
+    """
+    case = bearing_case(BALLS)
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    solution = solve_bearing(case, workers=2)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    assert (after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime) / 2.0 < 60.0
+    found = BearingResult(solution).summary()["bearing"]
+    assert found["discretisation_error"] < 0.03
+    formula = BearingResult(solve_bearing(case.replace({"contacts": "formula"}))).summary()["bearing"]
+    for key in ("capacitance", "capacitance_plate", "first_break", "through_breakdown", "lambda_ratio"):
+        assert formula[key] == pytest.approx(found[key], rel=0.3), key
 
 
 @pytest.mark.parametrize("contacts", ["solved", "formula"])

@@ -145,6 +145,13 @@ def test_rigid_tails_and_middle_add_up():
         assert sum(tails) + middle == pytest.approx(roller_capacitance(race, gap), rel=1e-4, abs=0.0)
 
 
+def test_tails_are_linear_in_the_permittivity():
+    for race in RACES:
+        ends = (-6e-4, 4e-4), (4e-5, 2e-5)
+        air, oil = roller_tails(race, 1e-4, *ends), roller_tails(race, 1e-4, *ends, 2.4)
+        assert oil == pytest.approx([2.4 * tail for tail in air], rel=1e-14, abs=0.0)
+
+
 def test_no_tail_beyond_the_roller():
     assert roller_tails(RACES[0], 1e-3, (-8e-3, 8e-3), (8e-3, 8e-3)) == (0.0, 0.0)
 
