@@ -145,7 +145,7 @@ def test_a_solution_tells_what_its_case_does():
     race = Race(True, 0.0, SPEED)
     for options, converged in ((solver, True), (solver | {"max_iterations": 1}, False)):
         result = solve(contact_case(duty, race, 1200.0, discharge, options))
-        found = solve_contact(bearing, duty, race, 1200.0, discharge, options)
+        found = solve_contact(bearing, duty, race, 1200.0, discharge=discharge, solver=options)
         assert found.error == result.film.discretisation_error
         assert (found.error is not None) == found.converged == result.converged == converged
         assert found.error is None or 0.0 < found.error < 0.03

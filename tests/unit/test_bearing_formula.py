@@ -33,7 +33,7 @@ SPEED = 4.5
 def by_formula(tables, load, *, inner, angle=0.0, **changes):
     case = bearing_case(tables, **changes)
     race = Race(inner, angle, SPEED)
-    return formula_contact(case.bearing, BearingDuty.of(case), race, load, case.discharge)
+    return formula_contact(case.bearing, BearingDuty.of(case), race, load, discharge=case.discharge)
 
 
 def permittivity(pressure):
@@ -170,7 +170,9 @@ def test_a_rollers_formula_beside_its_solution():
     case = bearing_case(ROLLERS)
     duty, race = BearingDuty.of(case), Race(True, 0.0, SPEED)
     formula = by_formula(ROLLERS, 1500.0, inner=True)
-    solved = solve_contact(case.bearing, duty, race, 1500.0, case.discharge, case.solver.model_dump())
+    solved = solve_contact(
+        case.bearing, duty, race, 1500.0, discharge=case.discharge, solver=case.solver.model_dump()
+    )
     for name in ("minimum_thickness", "central_thickness", "inside", "plate", "breakdown_voltage"):
         assert getattr(formula, name) == pytest.approx(getattr(solved, name), rel=0.3), name
 

@@ -45,7 +45,7 @@ def by_elements(result, at, fill):
         capacitances, strengths, films = [], [], []
         for load, gap in zip(getattr(at, f"{name}_load"), getattr(at, f"{name}_gap"), strict=True):
             if load > 0.0:
-                contact = formula_contact(case.bearing, duty, race, float(load), case.discharge)
+                contact = formula_contact(case.bearing, duty, race, float(load), discharge=case.discharge)
                 around = contact.outside_oil if fill == "oil" else contact.outside_air
                 capacitances.append(contact.inside + around)
                 strengths.append(contact.breakdown_voltage)

@@ -35,7 +35,9 @@ def state_of(tables, axes_and_pressure, load, gap, **changes):
     case = bearing_case(tables, **changes)
     duty, race = BearingDuty.of(case), Race(True, 0.0, 4.5)
     curve = curve_of(axes_and_pressure, [10.0, 100.0, 1000.0])
-    state = race_state(case.bearing, duty, race, curve, case.discharge, np.array(load), np.array(gap))
+    state = race_state(
+        case.bearing, duty, race, curve, discharge=case.discharge, load=np.array(load), gap=np.array(gap)
+    )
     return state, lambda apart: rigid_capacitance(case.bearing, duty, race, apart)
 
 
