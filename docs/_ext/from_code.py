@@ -12,6 +12,7 @@ import tomllib
 from collections.abc import Iterable, Iterator, Mapping
 from importlib import resources
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any, Literal, get_args, get_origin
 
 import numpy as np
@@ -29,6 +30,7 @@ from ehlectric import (
     inputs,
     library,
     lubricant,
+    motion_inputs,
     roughness_inputs,
     solve,
     sweep_inputs,
@@ -39,6 +41,9 @@ from ehlectric.bearing_result import BearingResult
 from ehlectric.bearing_solver import solve_bearing
 from ehlectric.cli import app as commands
 from ehlectric.conditions import density_law, permittivity_law
+from ehlectric.motion_result import summary_of
+from ehlectric.motion_run import run_motion
+from ehlectric.motion_store import read_motion
 from ehlectric.paper.contacts import CONTACTS
 from ehlectric.paper.reproduce import reproduce
 from ehlectric.quantity import Count, Quantities, Quantity
@@ -53,6 +58,7 @@ _TABLES = {
     "discharge.strength_table": discharge_inputs.StrengthTable,
     "discharge.weibull": discharge_inputs.Weibull,
     "discharge.pit": discharge_inputs.Pit,
+    "motion": motion_inputs.Motion,
     "grid": inputs.Grid,
     "solver": inputs.Solver,
     "sweep": sweep_inputs.Sweep,
@@ -73,8 +79,8 @@ _NAMES: dict[str, Iterable[str]] = {
 # What a small contact of each kind has of its own, and units as they are printed.
 _CONTACTS = {"line": {"reduced_radius": 0.01}, "point": {"radius_x": 0.01, "radius_y": 0.01}}
 # A discharge whose summary has every source, and the length that only a line has.
-_EVERYTHING = {"conductivity": 1e-12, "external_capacitance": 1e-9, "peak_current": 0.1}
-_EVERYTHING |= {"pit": {"efficiency": 0.1, "melting_energy": 1e10}}
+_PIT = {"efficiency": 0.1, "melting_energy": 1e10}
+_EVERYTHING = {"conductivity": 1e-12, "external_capacitance": 1e-9, "peak_current": 0.1, "pit": _PIT}
 _LENGTHS = {"line": {"length": 0.01}, "point": {}}
 _UNITS = {"1": "\N{EN DASH}", "F/m^2": "F/m\N{SUPERSCRIPT TWO}"}
 
@@ -215,30 +221,41 @@ def _write(app: Sphinx) -> None:
         text for name, command in group.commands.items() for text in _command(name, command)
     )
     pages |= {f"library_{kind}": _library(kind) for kind in ("bearings", "solids")}
-    pages["bearing_example"] = _example(Path(app.srcdir).parent / "examples" / "bearing_6208.toml")
+    for name, file in (("bearing", "bearing_6208"), ("motion", "moving_roughness")):
+        pages[f"{name}_example"] = _example(Path(app.srcdir).parent / "examples" / f"{file}.toml")
     _check_bearing(app)
     for geometry in _CONTACTS:
-        result = _small(geometry)
+        result = solve(_small(geometry))
         _check_summary(app, result.summary())
-        pages[f"variables_{geometry}"] = _variables(result)
+        pages[f"variables_{geometry}"] = _variables(result.to_xarray())
+    _check_summary(app, summary_of(motion := _moved(_small("line"))))
+    pages["variables_motion"] = _variables(motion)
     for name, text in pages.items():
         path = folder / f"{name}.md"
         if not path.exists() or path.read_text(encoding="utf-8") != text:
             path.write_text(text, encoding="utf-8")
 
 
-def _small(geometry: str) -> Any:
-    """The result of a small rough contact."""
+def _small(geometry: str) -> Case:
+    """A small rough contact."""
     contact = {"geometry": geometry, "reduced_modulus": 2e11, "max_hertz_pressure": 1e9}
     contact |= {"entrainment_speed": 2.0} | _CONTACTS[geometry]
     rough = {"surface": 1, "generator": "sinusoid", "amplitude": 1e-9, "wavelength": 1e-4}
     grid = {"nodes": 401 if geometry == "line" else 65}
     case = {"contact": contact, "lubricant": {"base": "paper"}, "roughness": [rough], "grid": grid}
-    return solve(Case.from_dict(case | {"discharge": _EVERYTHING | _LENGTHS[geometry]}))
+    return Case.from_dict(case | {"discharge": _EVERYTHING | _LENGTHS[geometry]})
 
 
-def _variables(result: Any) -> str:
-    """Variables of result.nc."""
+def _moved(case: Case) -> Any:
+    """A short motion that has everything: at its end the roughness lies as in the case."""
+    changed = {"grid.nodes": 201, "motion": {"passes": 1.0, "record": 2}}
+    with TemporaryDirectory() as folder:
+        run_motion(case.replace(changed | {"discharge": {"dielectric_strength": 15e6}}), folder)
+        return read_motion(folder)
+
+
+def _variables(dataset: Any) -> str:
+    """Variables of a dataset."""
     return _table(
         ["variable", "over", "meaning", "unit"],
         [
@@ -248,7 +265,7 @@ def _variables(result: Any) -> str:
                 v.attrs["long_name"],
                 _UNITS.get(v.attrs["units"], v.attrs["units"]),
             ]
-            for name, v in result.to_xarray().variables.items()
+            for name, v in dataset.variables.items()
         ],
     )
 
@@ -281,9 +298,8 @@ def _check_bearing(app: Sphinx) -> None:
     """The keys of a bearing's summary and of its contacts stand in the nomenclature."""
     bearing = {"base": "6208", "radial_clearance": 1e-5, "axial_load": 500.0, "inner_speed": 500.0}
     bearing |= {"temperature": 343.15, "composite_rq": 1e-8}
-    oil = {"base": "paper"}
     # Under an axial load alone all elements are alike: one contact a ring is solved.
-    case = BearingCase.from_dict({"contacts": "formula", "bearing": bearing, "lubricant": oil})
+    case = BearingCase.from_dict({"contacts": "formula", "bearing": bearing, "lubricant": {"base": "paper"}})
     summary = BearingResult(solve_bearing(case)).summary()
     _check_summary(app, summary | {"contacts": summary["contacts"][0]})
 

@@ -1,0 +1,97 @@
+"""
+Steady against moving
+=====================
+
+A waviness of the lower surface in a contact of the paper, 1 GPa at 4 m/s: held still while the other
+surface slides past, and carried along in pure rolling, as roughness is. Both lie alike at one instant, and
+there film, pressure and field are set beside each other. ``examples/moving_roughness.toml`` is the same on
+twice the nodes.
+"""
+
+from tempfile import TemporaryDirectory
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+import ehlectric
+from ehlectric.motion_result import instant_beside, summary_of
+from ehlectric.motion_run import run_motion
+from ehlectric.motion_store import motion_of, read_motion
+
+case = ehlectric.Case.from_dict(
+    {
+        "contact": {
+            "reduced_radius": "14.1 mm",
+            "reduced_modulus": "226 GPa",
+            "max_hertz_pressure": "1 GPa",
+            "entrainment_speed": "4 m/s",
+            "slide_to_roll_ratio": 0.0,
+        },
+        "lubricant": {"base": "paper"},
+        "roughness": [
+            {"surface": 1, "generator": "sinusoid", "amplitude": "50 nm", "wavelength": "50 um"},
+        ],
+        "electric": {"potential_1": "0 V", "potential_2": "2 V"},
+        "grid": {"nodes": 801},
+        "motion": {"passes": 1.1, "record": 161},
+    }
+)
+with TemporaryDirectory() as folder:
+    run_motion(case, folder)
+    motion = read_motion(folder)
+
+# %%
+# Where both lie alike. The black line is the film before the roughness has come, that of smooth surfaces.
+# Held still, the pressure flattens the waviness, and what is left of it in the film is that the oil is
+# denser where the pressure is higher. Moving, the inlet lets more and less oil through in turn, and what it
+# has let in is carried through the contact with the surface: the film keeps the waviness, and the pressure
+# hardly ripples.
+frame = instant_beside(motion_of(motion), motion)
+b = motion_of(motion).half_width
+x = motion["x"] / b
+panels = {
+    "thickness": ("film [µm]", 1e6, (0.65, 1.1)),
+    "pressure": ("pressure [GPa]", 1e-9, (0.0, 1.5)),
+    "strength": ("field [V/µm]", 1e-6, (1.5, 3.0)),
+}
+figure, axes = plt.subplots(3, 1, figsize=(6.3, 6.6), sharex=True)
+for ax, (name, (label, scale, limits)) in zip(axes, panels.items(), strict=True):
+    ax.plot(x, scale * motion[f"stationary_{name}"], label="held still")
+    ax.plot(x, scale * motion[name][frame], label="moving")
+    ax.plot(x, scale * motion[name][0], color="black", lw=0.8, label="before the motion")
+    ax.set(ylabel=label, ylim=limits, xlim=(-1.25, 1.25))
+axes[0].legend(ncols=3, loc="upper center")
+axes[-1].set_xlabel("$x/b$")
+
+# %%
+# The film over position and time, from shortly before the front of the roughness is there. Its stripes lie
+# along the dashed line, on which oil travels; nothing of the waviness fades on the way.
+late = slice(73, None)
+time = 1e3 * motion["frame_time"][late]
+inside = np.abs(x) < 1.25
+figure, ax = plt.subplots(figsize=(6.3, 3.6))
+film = ax.pcolormesh(x[inside], time, 1e6 * motion["thickness"][late, inside], vmin=0.65, vmax=1.0)
+pace = 1e-3 * case.contact.entrainment_speed / b
+ax.plot([-1.2, 1.2], 0.3 + np.array([-1.2, 1.2]) / pace, color="white", ls="--", lw=1.0)
+ax.set(xlabel="$x/b$", ylabel="time [ms]", xlim=(-1.2, 1.2), ylim=(float(time[0]), float(time[-1])))
+figure.colorbar(film, label="film [µm]")
+
+# %%
+# In numbers. Where both lie alike, the smallest film and the largest field hardly differ, as the crests
+# happen to lie; over time they do. One instant says little about a contact whose roughness moves, and the
+# film held still is no bound for it.
+summary = summary_of(motion)
+alike, film, field, still = (summary[key] for key in ("beside_stationary", "film", "field", "stationary"))
+rows = (
+    ("where both lie alike", *(alike[key] for key in ("minimum_thickness", "maximum_strength"))),
+    ("least and largest over time", film["minimum_thickness"], field["max_strength"]),
+    ("held still", still["minimum_thickness"], still["max_strength"]),
+    ("before the motion", film["before"], field["before"]),
+)
+for text, thickness, strength in rows:
+    print(f"{text:28} smallest film {1e6 * thickness:.3f} µm, largest field {1e-6 * strength:.3f} V/µm")
+print(
+    f"largest differences at that instant: film {1e9 * alike['thickness_largest_difference']:.0f} nm, "
+    f"pressure {1e-9 * alike['pressure_largest_difference']:.2f} GPa, "
+    f"field {1e-6 * alike['strength_largest_difference']:.2f} V/µm"
+)
