@@ -81,7 +81,7 @@ def formula_contact(
     Notes
     -----
     Chittenden, Dowson, Dunn and Taylor (1985), doi:10.1098/rspa.1985.0014, for balls; Pan and Hamrock (1989),
-    doi:10.1115/1.3261899, for rollers. The capacitance is that of the dry gap a central film apart, with the
+    doi:10.1115/1.3261900, for rollers. The capacitance is that of the dry gap a central film apart, with the
     permittivity under Hertz's pressure; the largest field the voltage over the minimum film.
     """
     with of_contact(race, load):
