@@ -143,7 +143,11 @@ class Motion:
             beyond = abs(self.speed_of(surface)) * self.course.end - self.domain
             side = 0 if self.speed_of(surface) > 0.0 else 1
             ends[side] += (1 if side else -1) * max(0.0, beyond)
-        longer = grid.model_copy(update={"inlet": ends[0], "outlet": ends[1]})
+        # As fine as the grid of the case, and no finer across.
+        nodes = 1 + int(np.ceil((grid.nodes - 1) * (ends[1] - ends[0]) / self.domain - _AT_REST))
+        longer = grid.model_copy(update={"inlet": ends[0], "outlet": ends[1], "nodes": nodes})
+        if self.case.contact.geometry == "point":
+            longer = longer.model_copy(update={"nodes_y": grid.nodes_across})
         return self.case.model_copy(update={"grid": longer})
 
     def _surfaces(self) -> Sequence[RoughSurface] | Sequence[RoughMap]:
