@@ -73,6 +73,8 @@ def run(
 ) -> None:
     """Solve a case; write summary.json, result.nc, film.csv and figures.
 
+    With [motion]: summary.json, motion.nc as it goes, and figures. Stopped, the same command goes on.
+
     Exit status 0: solved. 2: the input is wrong. 3: not converged, everything is written all the same.
     """
     with user_errors():
@@ -82,9 +84,10 @@ def run(
         case = Case.from_toml(case_file)
 
         from ehlectric.meaning import check_case
+        from ehlectric.motion_store import MOTION
         from ehlectric.paper.solvers import SOLVERS
         from ehlectric.solver import solve
-        from ehlectric.store import ALL_FIGURES, FILES, clear, prepare, save
+        from ehlectric.store import ALL_FIGURES, FILES, MOTION_FIGURE_FILES, clear, prepare, save
 
         if solver not in SOLVERS:
             raise InputError(f"--solver: got {shown(solver)}, takes one of {', '.join(SOLVERS)}")
@@ -104,7 +107,7 @@ def run(
                 solvers=SOLVERS[solver],
             )
             stage("writing results")
-            clear(folder, names)
+            clear(folder, (*names, MOTION, *MOTION_FIGURE_FILES))
             files = save(result, folder)
             if plots:
                 from ehlectric.figures import save_figures

@@ -10,6 +10,7 @@ from ehlectric.case import Case
 from ehlectric.conditions import remarks, resolve
 from ehlectric.map_remarks import remarks as map_remarks
 from ehlectric.memory import check_memory
+from ehlectric.motion import Motion
 from ehlectric.point_conditions import point_remarks, resolve_point
 from ehlectric.point_problems import domain_of, spacings
 from ehlectric.point_report import point_result_table, point_summary, point_table
@@ -47,6 +48,7 @@ def meaning(case: Case) -> tuple[Table, dict[str, Any], list[str]]:
     >>> round(summary["hertz"]["max_pressure"] / 1e9, 3)
     0.791
     """
+    check_motion(case)
     if case.contact.geometry == "point":
         return _of_point(case)
     conditions = resolve(case)
@@ -69,6 +71,19 @@ def check_case(case: Case) -> None:
     else:
         rough_surfaces(case, resolve(case))
     check_memory(case)
+    check_motion(case)
+
+
+def check_motion(case: Case) -> None:
+    """Refuse steps that are too long, and roughness on surfaces at rest alone, where the case has motion.
+
+    Raises
+    ------
+    InputError
+        As ``Motion`` does.
+    """
+    if case.motion is not None:
+        Motion(case)
 
 
 def result_table(result: Result | PointResult) -> Table:

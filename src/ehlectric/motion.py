@@ -139,11 +139,17 @@ class Motion:
         """The case with a domain as long as its surfaces travel."""
         grid = self.case.grid
         ends = [grid.inlet, grid.outlet]
-        for surface in {table.surface for table in self.case.roughness}:
-            beyond = abs(self.speed_of(surface)) * self.course.end - self.domain
-            side = 0 if self.speed_of(surface) > 0.0 else 1
-            ends[side] += (1 if side else -1) * max(0.0, beyond)
-        longer = grid.model_copy(update={"inlet": ends[0], "outlet": ends[1]})
+        for speed in {self.speed_of(table.surface) for table in self.case.roughness}:
+            beyond = max(0.0, abs(speed) * self.course.end - self.domain)
+            if speed > 0.0:
+                ends[0] = min(ends[0], grid.inlet - beyond)
+            else:
+                ends[1] = max(ends[1], grid.outlet + beyond)
+        # As fine as the grid of the case, and no finer across.
+        nodes = 1 + int(np.ceil((grid.nodes - 1) * (ends[1] - ends[0]) / self.domain - _AT_REST))
+        longer = grid.model_copy(update={"inlet": ends[0], "outlet": ends[1], "nodes": nodes})
+        if self.case.contact.geometry == "point":
+            longer = longer.model_copy(update={"nodes_y": grid.nodes_across})
         return self.case.model_copy(update={"grid": longer})
 
     def _surfaces(self) -> Sequence[RoughSurface] | Sequence[RoughMap]:

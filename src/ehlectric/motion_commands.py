@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -25,18 +27,17 @@ def run_moving(case: Case, output: Path, *, solver: str, plots: bool, quiet: boo
     Where a step is not solved, what was found before is summed up and drawn all the same, exit status 3.
     """
     from ehlectric.errors import ConvergenceError, InputError, shown
-    from ehlectric.motion import Motion
     from ehlectric.motion_run import run_motion
     from ehlectric.motion_store import MOTION, read_motion
-    from ehlectric.store import MOTION_FIGURE_FILES, clear, prepare
+    from ehlectric.store import ALL_FIGURES, FILES, MOTION_FIGURE_FILES, clear, prepare
 
     if solver != "ehlectric":
         raise InputError(f"--solver: got {shown(solver)} for a case with motion, takes 'ehlectric'")
-    Motion(case)  # refused before a folder is made
-    folder = prepare(output, (SUMMARY, MOTION, *MOTION_FIGURE_FILES))
+    names = (*FILES, *ALL_FIGURES, *MOTION_FIGURE_FILES)
+    folder = prepare(output, (MOTION, *names))
     failed: ConvergenceError | None = None
-    clear(folder, (SUMMARY, *MOTION_FIGURE_FILES))
-    with progress_bar(shown=not quiet) as progress:
+    clear(folder, names)
+    with progress_bar(shown=not quiet) as bar, _told_where_it_stops(folder, bar) as progress:
         try:
             run_motion(case, folder, progress=progress)
         except ConvergenceError as error:
@@ -53,6 +54,27 @@ def run_moving(case: Case, output: Path, *, solver: str, plots: bool, quiet: boo
         warn(summary["warnings"])
     if failed is not None:
         raise failed
+
+
+@contextmanager
+def _told_where_it_stops(
+    folder: Path, show: Callable[[int, int, str], None]
+) -> Iterator[Callable[[int, int, str], None]]:
+    """The progress to call; where the run is stopped, one line of what is saved."""
+    saved, steps = 0, 0
+
+    def progress(done: int, of: int, text: str) -> None:
+        nonlocal saved, steps
+        saved, steps = done, of
+        show(done, of, text)
+
+    try:
+        yield progress
+    except (KeyboardInterrupt, SystemExit):
+        if steps:
+            text = f"{saved} of {steps} steps are saved in {folder}, the same command goes on with the others"
+            typer.echo(f"stopped; {text}", err=True)
+        raise
 
 
 def _written(dataset: xr.Dataset, folder: Path, *, plots: bool) -> tuple[dict[str, Any], list[Path]]:

@@ -215,14 +215,22 @@ def _beside(motion: Motion, dataset: xr.Dataset) -> dict[str, Any] | None:
         return None
     inside = np.abs(dataset["x"].values) < motion.half_width
     found: dict[str, Any] = {"time": dataset["frame_time"].values[frame]}
-    for name, reduce in (("thickness", np.nanmin), ("pressure", np.nanmax), ("strength", np.nanmax)):
+    for name, which in (("thickness", "minimum"), ("pressure", "maximum"), ("strength", "maximum")):
         moving = dataset[name].values[frame][inside].astype(float)
         still = dataset[f"stationary_{name}"].values[inside]
-        which = "minimum" if reduce is np.nanmin else "maximum"
-        found |= {
-            f"{which}_{name}": reduce(moving),
-            f"{which}_{name}_stationary": reduce(still),
-            f"{name}_rms_difference": np.sqrt(np.nanmean((moving - still) ** 2)),
-            f"{name}_largest_difference": np.nanmax(np.abs(moving - still)),
-        }
+        known = np.isfinite(moving) & np.isfinite(still)  # no strength outside the field range
+        found |= _compared(name, which, moving[known], still[known])
     return found
+
+
+def _compared(name: str, which: str, moving: Array, still: Array) -> dict[str, Any]:
+    """Extremes and differences of the values at the same nodes, None where there are none."""
+    extreme = f"{which}_{name}"
+    keys = extreme, f"{extreme}_stationary", f"{name}_rms_difference", f"{name}_largest_difference"
+    if not moving.size:
+        return dict.fromkeys(keys)
+    reduce = np.min if which == "minimum" else np.max
+    away = np.abs(moving - still)
+    return dict(
+        zip(keys, (reduce(moving), reduce(still), np.sqrt(np.mean(away**2)), away.max()), strict=True)
+    )

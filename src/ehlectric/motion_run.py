@@ -9,16 +9,20 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from ehlectric.case import Case
 from ehlectric.conditions import Conditions, remarks
 from ehlectric.map_remarks import remarks as map_remarks
 from ehlectric.memory import check_memory
 from ehlectric.motion import Motion
 from ehlectric.motion_solver import MovingContact
-from ehlectric.motion_store import MOTION, MotionFile, Row, column_strength
+from ehlectric.motion_store import MOTION, MotionFile, Row, column_strength, described
 from ehlectric.point_conditions import PointConditions, point_remarks
+from ehlectric.point_film import PointFilm
 from ehlectric.point_problems import domain_of, spacings
 from ehlectric.point_result import PointResult
+from ehlectric.poisson import ATOM
 from ehlectric.result import Result
 from ehlectric.rough_maps import RoughMap
 from ehlectric.solution import plain
@@ -28,6 +32,9 @@ from ehlectric.typing import Array
 from ehlectric.version import __version__
 from ehlectric.walls import RoughSurface
 from ehlectric.walls import remarks as rough_remarks
+
+# Part of its height by which roughness that moves may differ from that held still, without a word.
+_ALIKE = 1e-3
 
 # Called with the steps done, all of them, and what is being done.
 Progress = Callable[[int, int, str], None]
@@ -75,6 +82,7 @@ def run_motion(case: Case, folder: str | Path, *, progress: Progress = _quiet) -
         found = file.resumed()
         assert found is not None
     done, history = found
+    progress(done, motion.course.steps, "in time")
     started, rows = time.perf_counter(), list[Row]()
     recorded = set(motion.course.recorded.tolist())
     for step, latest in contact.run(history, done):
@@ -101,7 +109,7 @@ def _begin(file: MotionFile, contact: MovingContact) -> None:
         "date": datetime.now(UTC).isoformat(timespec="seconds"),
         "warnings": json.dumps(list(_remarks(motion, still))),
         "stationary": json.dumps(plain(_numbers(still))),
-        "rough": json.dumps(plain([surface.describe() for surface in motion.rough])),
+        "rough": described(motion),
         "seconds": 0.0,
     }
     file.create(first, attributes, _maps(still))
@@ -144,7 +152,24 @@ def _remarks(motion: Motion, still: Result | PointResult) -> Iterator[str]:
         yield from remarks(motion.case, given)
         lines = [surface for surface in motion.rough if isinstance(surface, RoughSurface)]
         yield from rough_remarks(case, given, lines)
+    yield from _unlike(motion, still)
     if not still.converged:
         yield f"the same roughness held still is not solved: {still.film.status}"
     elif (error := still.film.discretisation_error) is not None and error > 0.01:
         yield f"held still, the film may be {100.0 * error:.2g} % off on this grid, and moving about as much"
+
+
+def _unlike(motion: Motion, still: Result | PointResult) -> Iterator[str]:
+    """Roughness that is another one held still: made longer, its form and its Rq are of all that is made."""
+    if not np.isfinite(motion.coincident):
+        return
+    film, b = still.film, motion.half_width
+    axes = (film.x / b, film.y / b) if isinstance(film, PointFilm) else (film.x / b,)
+    inside = np.abs(axes[0]) <= 1.0
+    away = (motion.heights(motion.coincident, *axes) - still.roughness)[:, inside]
+    part = np.max(np.abs(away)) / max(np.max(np.abs(still.roughness[:, inside])), ATOM)
+    if part > _ALIKE:
+        yield (
+            f"the roughness that moves is up to {100.0 * part:.2g} % of its height off that held still: form "
+            "and rescale_rq are of all that moves through the contact, which is longer"
+        )

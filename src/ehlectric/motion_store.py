@@ -1,13 +1,17 @@
 """The file of a contact whose roughness moves: written as it is solved, read again to go on.
 
-Closed between two instants, it is whole whenever the run stops. Long fields are kept in single precision,
-what a run goes on from in double.
+Closed between two instants, it is whole whenever the run stops then. Where it stops while an instant is
+written, that instant does not count: the number of those that do is written last, and what a run goes on
+from is kept twice, of the last two instants in turn. Long fields are kept in single precision, what a run
+goes on from in double.
 """
 
 from __future__ import annotations
 
+import json
 import math
 import tomllib
+import zlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -25,6 +29,7 @@ from ehlectric.motion_solver import MovingContact, Snapshot
 from ehlectric.newton import State
 from ehlectric.point_field import PointField
 from ehlectric.point_film import PointFilm
+from ehlectric.solution import plain
 from ehlectric.typing import Array
 from ehlectric.unsteady import History, Instant
 from ehlectric.version import __version__
@@ -64,6 +69,8 @@ _MAPS = {
 }
 _OF_POINTS = ("minimum_y", "max_strength_y")
 _RESUME = ("pressure", "thickness", "mass", "density", "free")
+_TIMES = ("t", "h00")
+_PLACES = 2  # of what a run goes on from
 _CHUNK = 1024
 
 
@@ -133,7 +140,7 @@ class MotionFile:
                 long_name, unit = _MAPS[name]
                 about = f"{long_name}, the roughness held still"
                 self._add(file, f"stationary_{name}", nodes, about, unit, values)
-            file.attrs["complete"] = 0
+            file.attrs["frames"] = file.attrs["complete"] = 0
             for key, value in attributes.items():
                 file.attrs[key] = value
 
@@ -180,16 +187,17 @@ class MotionFile:
             "capacitance": field.capacitance,
         } | _place("max_strength", field.max_strength_position)
         with h5netcdf.File(self._path, "a") as file:
-            done = file.dimensions["step"].size
-            file.resize_dimension("step", done + len(rows))
+            # By their numbers, not behind what there is: of an instant that was half written before.
+            before = file.variables["frame_step"][: int(file.attrs["frames"])]
+            frame = int(np.searchsorted(before, step))
+            _resize(file, {"step": step + 1, "frame": frame + 1})
             for name in file.variables:
                 if name in _STEPS:
-                    file.variables[name][done:] = [row.values[name] for row in rows]
-            frame = file.dimensions["frame"].size
-            file.resize_dimension("frame", frame + 1)
+                    file.variables[name][step + 1 - len(rows) :] = [row.values[name] for row in rows]
             for name, value in (*maps.items(), *numbers.items()):
                 file.variables[name][frame] = value
-            self._keep(file, history)
+            self._keep(file, history, frame % _PLACES)
+            file.attrs["frames"] = frame + 1
             file.attrs["complete"] = int(step == self._contact.motion.course.steps)
 
     def add_seconds(self, seconds: float) -> None:
@@ -199,24 +207,24 @@ class MotionFile:
         with h5netcdf.File(self._path, "a") as file:
             file.attrs["seconds"] = float(file.attrs["seconds"]) + seconds
 
-    def _keep(self, file: Any, history: History) -> None:
+    def _keep(self, file: Any, history: History, place: int) -> None:
         """What a run goes on from."""
         pairs = history.now, history.before
         found = {name: np.stack([_part(one, name) for one in pairs]) for name in _RESUME}
+        found |= {"t": np.array([one.time for one in pairs])}
+        found |= {"h00": np.array([one.state.h00 for one in pairs])}
         if "resume" not in file.groups:
             group = file.create_group("resume")
             shape = history.now.state.pressure.shape
-            group.dimensions = {"instant": 2, "along": shape[0], "across": shape[1]}
-            for name, values in found.items():
-                kind = "i1" if name == "free" else "f8"
-                group.create_variable(name, ("instant", "along", "across"), kind, data=values.astype(kind))
-            for name in ("t", "h00"):
-                group.create_variable(name, ("instant",), "f8")
+            group.dimensions = {"place": _PLACES, "instant": 2, "along": shape[0], "across": shape[1]}
+            for name in found:
+                sizes = ("place", "instant") if name in _TIMES else ("place", *tuple(group.dimensions)[1:])
+                group.create_variable(name, sizes, "i1" if name == "free" else "f8")
+            group.create_variable("checksum", ("place",), "i8")
         group = file.groups["resume"]
         for name, values in found.items():
-            group.variables[name][:] = values
-        group.variables["t"][:] = [one.time for one in pairs]
-        group.variables["h00"][:] = [one.state.h00 for one in pairs]
+            group.variables[name][place] = values
+        group.variables["checksum"][place] = _checksum(found)
 
     def resumed(self) -> tuple[int, History] | None:
         """The last step of an unfinished run of the same case and the film then, None without one."""
@@ -226,17 +234,49 @@ class MotionFile:
             return None
         try:
             with h5netcdf.File(self._path, "r") as file:
-                same = (file.attrs["case"], file.attrs["version"]) == (
-                    self._contact.motion.case.to_toml(),
-                    __version__,
-                )
-                if not same or file.attrs["complete"] or not file.dimensions["frame"].size:
+                if file.attrs["complete"] or not self._same(file.attrs):
                     return None
-                group = file.groups["resume"]
-                now, before = (_instant(group, k) for k in range(2))
-                return int(file.variables["frame_step"][-1]), History(now, before)
-        except (OSError, KeyError, ValueError):
+                frames = int(file.attrs["frames"])
+                kept = _kept(file.groups["resume"], frames)
+                return None if kept is None else (int(file.variables["frame_step"][frames - 1]), kept)
+        except (OSError, KeyError, ValueError, RuntimeError, zlib.error):
             return None  # not a run, or damaged: solved from the start
+
+    def _same(self, attributes: Mapping[str, Any]) -> bool:
+        """Whether a file is of this case, its surfaces as they are now, by this version."""
+        motion = self._contact.motion
+        known = {"case": motion.case.to_toml(), "version": __version__, "rough": described(motion)}
+        return all(attributes[name] == value for name, value in known.items())
+
+
+def described(motion: Motion) -> str:
+    """The rough surfaces as JSON."""
+    return json.dumps(plain([surface.describe() for surface in motion.rough]))
+
+
+def _resize(file: Any, sizes: Mapping[str, int]) -> None:
+    for name, size in sizes.items():
+        if file.dimensions[name].size != size:
+            file.resize_dimension(name, size)
+
+
+def _checksum(found: Mapping[str, Array]) -> int:
+    """Of what a run goes on from, in the order and kinds in which it is kept."""
+    total = 0
+    for name in (*_RESUME, *_TIMES):
+        kind = "i1" if name == "free" else "f8"
+        total = zlib.crc32(np.ascontiguousarray(found[name], dtype=kind).tobytes(), total)
+    return total
+
+
+def _kept(group: Any, frames: int) -> History | None:
+    """The film after so many instants; None where it was not written whole."""
+    place = (frames - 1) % _PLACES
+    found = {name: np.asarray(group.variables[name][place]) for name in (*_RESUME, *_TIMES)}
+    if not frames or _checksum(found) != int(group.variables["checksum"][place]):
+        return None
+    now, before = (_instant(found, k) for k in range(2))
+    return History(now, before)
 
 
 def _part(instant: Instant, name: str) -> Array:
@@ -245,11 +285,10 @@ def _part(instant: Instant, name: str) -> Array:
     return values
 
 
-def _instant(group: Any, k: int) -> Instant:
-    parts = {name: np.asarray(group.variables[name][k]) for name in _RESUME}
-    state = State(parts["pressure"], float(group.variables["h00"][k]), parts["thickness"])
-    time = float(group.variables["t"][k])
-    return Instant(time, state, parts["mass"], parts["density"], parts["free"].astype(bool))
+def _instant(found: Mapping[str, Array], k: int) -> Instant:
+    parts = {name: found[name][k] for name in _RESUME}
+    state = State(parts["pressure"], float(found["h00"][k]), parts["thickness"])
+    return Instant(float(found["t"][k]), state, parts["mass"], parts["density"], parts["free"].astype(bool))
 
 
 def column_strength(film: Film, field: Field | PointField) -> Array:
@@ -293,8 +332,9 @@ def read_motion(path: str | Path) -> xr.Dataset:
         with xr.open_dataset(path, engine="h5netcdf") as file:
             dataset = file.load()
         Case.from_dict(tomllib.loads(dataset.attrs["case"]))
-        if not dataset.sizes["frame"]:
-            raise ValueError("no instant")
+        frames = int(dataset.attrs["frames"])
+        last = int(dataset["frame_step"].values[:frames][-1])
+        dataset = dataset.isel(frame=slice(0, frames), step=slice(0, last + 1))
     except Exception:  # whatever HDF5 and its wrappers raise at damaged files
         raise InputError(f"{path}: is no motion of ehlectric, or damaged") from None
     return dataset

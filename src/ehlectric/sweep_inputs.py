@@ -14,7 +14,7 @@ from pydantic.fields import FieldInfo
 
 from ehlectric import sweep_design
 from ehlectric.any_case import AnyCase, case_of_dict, case_of_file
-from ehlectric.case import Title, find_files
+from ehlectric.case import Case, Title, find_files
 from ehlectric.case_keys import input_field, number_of
 from ehlectric.errors import InputError, shown
 from ehlectric.quantity import Count, Quantity
@@ -66,6 +66,10 @@ class Sweep(Table):
 
     @model_validator(mode="after")
     def _check(self) -> Self:
+        if isinstance(self.case, Case) and self.case.motion is not None:
+            raise ValueError(
+                "case.motion: got it in a sweep, whose films are at rest; takes a case without it"
+            )
         if self.design == "sobol":
             if self.samples is None:
                 raise ValueError("samples: missing, a sobol design takes it: a power of two")
@@ -176,6 +180,8 @@ def _locate(tables: dict[str, Any], folder: Path, prefix: str = "") -> None:
 
 def _axis(key: str, given: Any, design: str) -> tuple[Any, ...] | Range:
     """Values of a varied key, or its range in a sobol design."""
+    if key.partition(".")[0] == "motion":
+        raise ValueError(f"{key}: got it in a sweep, whose films are at rest; takes other keys of the case")
     field = input_field(key)
     if isinstance(given, Mapping):
         return _range(key, given, number_of(field), design)
