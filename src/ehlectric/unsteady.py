@@ -185,6 +185,7 @@ class UnsteadyFilm:
                 start,
                 tolerance=max(self.problem.tolerance, STEP_TOLERANCE),
                 max_iterations=iterations,
+                min_iterations=1,
                 eliminate_spike=spike,
             )
             krylov = sum(one.krylov_iterations for one in solution.steps)
