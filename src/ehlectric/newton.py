@@ -106,6 +106,7 @@ def newton(
     *,
     tolerance: float,
     max_iterations: int,
+    min_iterations: int = 0,
     progress: Progress | None = None,
     eliminate_spike: bool = False,
 ) -> GridSolution:
@@ -125,6 +126,10 @@ def newton(
         allows.
     max_iterations : int
         Newton steps after which to stop.
+    min_iterations : int
+        Newton steps to take whatever the residual is. A row is measured by the pressure of its own node, and
+        where a residual is smooth over many nodes the pressure that is missing is the square of their number
+        times larger: a good guess is no solution yet.
     progress : callable, optional
         Called with (nodes, Newton step, residual) before every step.
     eliminate_spike : bool
@@ -141,7 +146,7 @@ def newton(
     tolerance = max(tolerance, ROUNDING * level.rate)
     steps: list[NewtonStep] = []
     now = _assess(fluid, level, state)
-    while now.norm > tolerance and len(steps) < max_iterations:
+    while len(steps) < min_iterations or (now.norm > tolerance and len(steps) < max_iterations):
         if progress is not None:
             progress(level.nodes, len(steps), now.norm)
         if eliminate_spike:

@@ -131,9 +131,11 @@ class UnsteadyFilm:
         full = steady.final.coefficients.density * steady.state.thickness
         mass = full.copy()
         empty = ~steady.final.free & self.level.mesh.inner & (self.level.mesh.x > 0.0)[:, np.newaxis]
+        # What the pressure drives into a node, most of all into the first beyond the full film.
+        driven = steady.level.wedge(full) - steady.final.reynolds
         for i in np.flatnonzero(empty.any(axis=1)):
-            flowing = np.minimum(full[i], (4.0 * mass[i - 1] - mass[i - 2]) / 3.0)
-            mass[i] = np.where(empty[i], flowing, full[i])
+            flowing = (4.0 * mass[i - 1] - mass[i - 2] + 2.0 * steady.level.mesh.dx * driven[i]) / 3.0
+            mass[i] = np.where(empty[i], np.clip(flowing, 0.0, full[i]), full[i])
         mass[-1] = np.minimum(full[-1], mass[-2])
         density = steady.final.coefficients.density
         now = Instant(0.0, steady.state, mass, density, steady.final.free)
@@ -185,6 +187,7 @@ class UnsteadyFilm:
                 start,
                 tolerance=max(self.problem.tolerance, STEP_TOLERANCE),
                 max_iterations=iterations,
+                min_iterations=1,
                 eliminate_spike=spike,
             )
             krylov = sum(one.krylov_iterations for one in solution.steps)
