@@ -10,9 +10,11 @@ from matplotlib.axes import Axes
 
 from ehlectric.drawing import BLUE, GREY, ORANGE, axes_or_new, legend_above, unit_for
 from ehlectric.motion_panels import (
+    Unit,
     along_label,
     field_unit,
     film_unit,
+    fitted,
     height_unit,
     in_contact,
     shown_range,
@@ -44,7 +46,7 @@ def film_beside(run: MotionRun, ax: Axes | None = None) -> Axes:
     least = [f"least {factor * value:.3g} {unit}" for value in _extremes(run, "thickness", np.nanmin)]
     ax, lines = _three(run, ax, "thickness", factor, least)
     ax.set_ylabel(f"film thickness $h$ [{unit}]")
-    _fit(ax, [line[in_contact(run)] for line in lines])
+    ax.set_ylim(*fitted(*(line[in_contact(run)] for line in lines)))
     return ax
 
 
@@ -91,11 +93,11 @@ def field_beside(run: MotionRun, ax: Axes | None = None) -> Axes:
     most = [f"largest {factor * value:.3g} {unit}" for value in _extremes(run, "strength", np.nanmax)]
     ax, lines = _three(run, ax, "strength", factor, most)
     ax.set_ylabel(f"field $|E|$ [{unit}]")
-    _fit(ax, [line[in_contact(run)] for line in lines])
+    ax.set_ylim(*fitted(*(line[in_contact(run)] for line in lines)))
     return ax
 
 
-def roughness_at(run: MotionRun, frame: int, ax: Axes | None = None) -> Axes:
+def roughness_at(run: MotionRun, frame: int, ax: Axes | None = None, *, unit: Unit | None = None) -> Axes:
     """Heights of the rough surfaces along entrainment at a recorded instant, peaks up for either.
 
     Parameters
@@ -106,6 +108,8 @@ def roughness_at(run: MotionRun, frame: int, ax: Axes | None = None) -> Axes:
         Which of its instants.
     ax : Axes, optional
         Where to; new axes otherwise.
+    unit : (float, str), optional
+        Factor and unit of the heights; those that suit this instant otherwise.
 
     Returns
     -------
@@ -114,11 +118,11 @@ def roughness_at(run: MotionRun, frame: int, ax: Axes | None = None) -> Axes:
     """
     ax = axes_or_new(ax)
     heights = {k: run.along(f"roughness_{k}", frame) for k in run.speeds}
-    factor, unit = height_unit(np.stack(list(heights.values())))
+    factor, name = unit or height_unit(np.stack(list(heights.values())))
     for k, colour, style in ((1, "black", "-"), (2, GREY, "--")):
         if k in heights:
             ax.plot(run.x, factor * heights[k], color=colour, ls=style, lw=0.8, label=f"surface {k}")
-    ax.set(xlim=shown_range(run), ylabel=f"roughness [{unit}]")
+    ax.set(xlim=shown_range(run), ylabel=f"roughness [{name}]")
     along_label(run, ax)
     legend_above(ax)
     return ax
@@ -137,13 +141,6 @@ def coincidence_text(run: MotionRun) -> str:
     factor, unit = unit_for(abs(late), "m", least=1.0)
     how = "past" if late > 0.0 else "short of"
     return f"{text}, the roughness {factor * abs(late):.2g} {unit} {how} where it is held still"
-
-
-def _fit(ax: Axes, lines: list[Array]) -> None:
-    """Heights of an axis that lines fill, but for some room."""
-    low, high = float(np.nanmin(lines)), float(np.nanmax(lines))
-    room = max(0.12 * (high - low), 1e-3 * high)
-    ax.set_ylim(low - room, high + room)
 
 
 def _extremes(run: MotionRun, name: str, of: Callable[[Array], Any]) -> list[float]:

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 from ehlectric.drawing import BLUE, GREEN, GREY, ORANGE, axes_or_new, legend_above
-from ehlectric.motion_panels import field_unit, film_unit, time_unit
+from ehlectric.motion_panels import field_unit, film_unit, fitted, time_unit
 from ehlectric.motion_run import MotionRun, intervals_above
 from ehlectric.typing import Array
 
@@ -41,7 +41,7 @@ def least_film(run: MotionRun, ax: Axes | None = None) -> Axes:
         still = factor * float(np.min(run.values("stationary_thickness")))
         ax.axhline(still, color=ORANGE, lw=0.9, ls="--", label=f"held still, {still:.3g} {unit}")
         shown.append(np.array([still]))
-    ax.set(ylabel=rf"least film $h_\mathrm{{min}}$ [{unit}]", ylim=_limits(*shown))
+    ax.set(ylabel=rf"least film $h_\mathrm{{min}}$ [{unit}]", ylim=fitted(*shown))
     _over_time(run, ax)
     legend_above(ax)
     return ax
@@ -75,7 +75,7 @@ def largest_field(run: MotionRun, ax: Axes | None = None) -> Axes:
         _times(run, "frame_time"), strength, color=BLUE, ls="none", marker="o", ms=size, mew=0.0
     )
     dots.set_label(f"solved at {run.frames} instants")
-    ax.set(ylabel=rf"largest field $|E|$ [{unit}]", ylim=_limits(strength, estimate))
+    ax.set(ylabel=rf"largest field $|E|$ [{unit}]", ylim=fitted(strength, estimate))
     _over_time(run, ax)
     legend_above(ax, [dots, thin, _high(run, ax)])
     return ax
@@ -128,17 +128,10 @@ def places(run: MotionRun, ax: Axes | None = None) -> Axes:
         across = np.abs(run.values("max_strength_y")) / b
         ax.plot(frames, across, color=ORANGE, ls="none", marker="x", ms=3.0, label="largest field, $|y|/b$")
         name, shown = "$x/b$, $|y|/b$", [*shown, across]
-    ax.set(ylabel=f"place {name}", ylim=_limits(*shown, least=0.5))
+    ax.set(ylabel=f"place {name}", ylim=fitted(*shown, least=0.5))
     legend_above(ax, columns=3)
     _over_time(run, ax)
     return ax
-
-
-def _limits(*values: Array, least: float = 0.0) -> tuple[float, float]:
-    """Ends of an axis that leave room around values, and are so far apart at least."""
-    low, high = (float(of([of(part) for part in values])) for of in (np.min, np.max))
-    room = max(0.08 * (high - low), 0.5 * (least - (high - low)), 1e-3 * abs(high))
-    return low - room, high + room
 
 
 def _times(run: MotionRun, name: str) -> Array:

@@ -48,6 +48,13 @@ def in_contact(run: MotionRun) -> IntArray:
     return np.flatnonzero(np.abs(run.x) <= 1.0)
 
 
+def fitted(*values: Array, least: float = 0.0) -> tuple[float, float]:
+    """Ends of an axis that leave room around values, those that are finite, and are ``least`` apart or more."""
+    low, high = (float(of([of(part) for part in values])) for of in (np.nanmin, np.nanmax))
+    room = max(0.08 * (high - low), 0.5 * (least - (high - low)), 1e-3 * max(abs(low), abs(high)))
+    return low - room, high + room
+
+
 def along_label(run: MotionRun, ax: Axes) -> None:
     """Label of an axis of positions along entrainment: on which line, and how long the half-width is."""
     b = run.conditions.half_width
