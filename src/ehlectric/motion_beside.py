@@ -46,7 +46,7 @@ def film_beside(run: MotionRun, ax: Axes | None = None) -> Axes:
     least = [f"least {factor * value:.3g} {unit}" for value in _extremes(run, "thickness", np.nanmin)]
     ax, lines = _three(run, ax, "thickness", factor, least)
     ax.set_ylabel(f"film thickness $h$ [{unit}]")
-    ax.set_ylim(*fitted(*(line[in_contact(run)] for line in lines)))
+    ax.set_ylim(*fitted(*(in_contact(run, line) for line in lines)))
     return ax
 
 
@@ -93,7 +93,7 @@ def field_beside(run: MotionRun, ax: Axes | None = None) -> Axes:
     most = [f"largest {factor * value:.3g} {unit}" for value in _extremes(run, "strength", np.nanmax)]
     ax, lines = _three(run, ax, "strength", factor, most)
     ax.set_ylabel(f"field $|E|$ [{unit}]")
-    ax.set_ylim(*fitted(*(line[in_contact(run)] for line in lines)))
+    ax.set_ylim(*fitted(*(in_contact(run, line) for line in lines)))
     return ax
 
 
@@ -140,7 +140,7 @@ def coincidence_text(run: MotionRun) -> str:
         return f"{text}, when the roughness lies as it is held still"
     factor, unit = unit_for(abs(late), "m", least=1.0)
     how = "past" if late > 0.0 else "short of"
-    return f"{text}, the roughness {factor * abs(late):.2g} {unit} {how} where it is held still"
+    return f"{text}, the roughness {factor * abs(late):.3g} {unit} {how} where it is held still"
 
 
 def _extremes(run: MotionRun, name: str, of: Callable[[Array], Any]) -> list[float]:
@@ -157,10 +157,14 @@ def _three(
     """Lines along entrainment of a variable: moving, held still and before the motion."""
     ax = axes_or_new(ax)
     lines = [run.along(name, run.coincident_frame), run.along(f"stationary_{name}"), run.along(name, 0)]
-    looks = (("moving", BLUE, "-", 1.1), ("held still", ORANGE, "--", 1.1), ("before", "black", ":", 0.9))
+    looks = (
+        ("moving", BLUE, "-"),
+        ("held still", ORANGE, "--"),
+        ("before the motion", "black", ":"),
+    )
     drawn = [factor * line for line in lines]
-    for line, note, (label, colour, style, width) in zip(drawn, notes, looks, strict=True):
-        ax.plot(run.x, line, color=colour, ls=style, lw=width, label=f"{label}, {note}")
+    for line, note, (label, colour, style) in zip(drawn, notes, looks, strict=True):
+        ax.plot(run.x, line, color=colour, ls=style, lw=1.0, label=f"{label}, {note}")
     ax.set_xlim(*shown_range(run))
     along_label(run, ax)
     legend_above(ax, columns=3)

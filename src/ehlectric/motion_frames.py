@@ -32,10 +32,11 @@ _SIZE = (6.3, 7.2)
 
 @dataclass(frozen=True)
 class Frames:
-    """A figure with its first instant, and what draws another one into it."""
+    """A figure with its first instant, what draws another one into it, and the names of its colour maps."""
 
     figure: Figure
     show: Callable[[int], None]
+    colours: tuple[str, ...] = ()
 
 
 def time_text(run: MotionRun, frame: int) -> str:
@@ -80,7 +81,7 @@ def _film(run: MotionRun, ax: Axes) -> Callable[[int], None]:
     """The gap filled with oil, and dotted that before the motion."""
     factor, unit = film_unit(run)
     thickness = factor * run.along("thickness")
-    low, high = fitted(thickness[:, in_contact(run)])
+    low, high = fitted(in_contact(run, thickness))
     ax.set(ylabel=f"film $h$ [{unit}]", ylim=(low, high), facecolor=BODY)
     ax.plot(run.x, thickness[0], color="black", lw=0.9, ls=":")
     (line,) = ax.plot(run.x, thickness[0], color="black")
@@ -104,22 +105,16 @@ def _pressure(run: MotionRun, ax: Axes) -> Callable[[int], None]:
 def _field(run: MotionRun, ax: Axes) -> Callable[[int], None]:
     """Field strength of the columns with its largest."""
     factor, unit = field_unit(run)
-    strength = factor * run.along("strength")
-    ax.set(
-        ylabel=f"field $|E|$ [{unit}]",
-        ylim=fitted(strength[:, in_contact(run)], factor * run.values("max_strength")),
-    )
+    strength, largest = factor * run.along("strength"), factor * run.values("max_strength")
+    ax.set(ylabel=f"field $|E|$ [{unit}]", ylim=fitted(in_contact(run, strength), largest))
     curve = _curve(run, ax, strength)
-    at, largest = (
-        run.values("max_strength_x") / run.conditions.half_width,
-        factor * run.values("max_strength"),
-    )
+    at = run.values("max_strength_x") / run.conditions.half_width
     (dot,) = ax.plot(at[:1], largest[:1], ls="none", marker="o", ms=4.0, color=ORANGE, clip_on=False)
 
     def show(frame: int) -> None:
         curve(frame)
         dot.set_data([at[frame]], [largest[frame]])
-        ax.set_title(f"largest {largest[frame]:.3g} {unit}", loc="right", color=ORANGE)
+        ax.set_title(f"largest {largest[frame]:#.3g} {unit}", loc="right", color=ORANGE)
 
     return show
 

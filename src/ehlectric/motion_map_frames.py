@@ -26,13 +26,15 @@ from ehlectric.point_drawing import (
 )
 from ehlectric.typing import Array, IntArray, Mask
 
+_FILM_COLOURS, _FIELD_COLOURS = "viridis", "inferno"
+
 # Part of the values in the Hertz ellipse, in per cent, that the colours may leave out on their open side.
 _BEYOND = 5.0
 
 
 @dataclass(frozen=True)
 class _Contact:
-    """What is drawn of a point contact: its nodes x, y [m] at which the field was solved, by their indices."""
+    """What is drawn of a point contact: the nodes, by their indices, at which the field was solved."""
 
     run: MotionRun
     conditions: PointConditions
@@ -91,7 +93,7 @@ def map_frames(run: MotionRun) -> Frames:
         film.set_title(time_text(run, frame), loc="left")
 
     show(0)
-    return Frames(figure_of(film), show)
+    return Frames(figure_of(film), show, (_FILM_COLOURS, _FIELD_COLOURS))
 
 
 def _film(contact: _Contact, ax: Axes) -> Callable[[int], None]:
@@ -102,7 +104,7 @@ def _film(contact: _Contact, ax: Axes) -> Callable[[int], None]:
         for frame in range(contact.run.frames)
     ]
     limits = float(np.min(ends)), float(np.max(ends))
-    show = _map(contact, ax, "thickness", unit, limits, "viridis")
+    show = _map(contact, ax, "thickness", unit, limits, _FILM_COLOURS)
     figure_of(ax).axes[-1].set_xlabel(f"film thickness $h$ [{unit[1]}]")
     hertz_ellipse(contact, ax)
     entrainment(contact, ax)
@@ -118,7 +120,7 @@ def _field(contact: _Contact, ax: Axes) -> Callable[[int], None]:
         for frame in range(run.frames)
     ]
     limits = float(np.nanmin(least)), float(np.max(largest))
-    show_map = _map(contact, ax, "strength", unit, limits, "inferno")
+    show_map = _map(contact, ax, "strength", unit, limits, _FIELD_COLOURS)
     figure_of(ax).axes[-1].set_xlabel(f"field strength $|E|$ [{unit[1]}]")
     hertz_ellipse(contact, ax, "white")
     at = np.column_stack([run.values("max_strength_x"), run.values("max_strength_y")])
@@ -129,7 +131,7 @@ def _field(contact: _Contact, ax: Axes) -> Callable[[int], None]:
         place = at[frame] / contact.conditions.half_width
         x, y = place[::-1] if turned(contact) else place
         cross.set_data([x], [y])
-        ax.set_title(f"largest (×) {unit[0] * largest[frame]:.3g} {unit[1]}", loc="right")
+        ax.set_title(f"largest (×) {unit[0] * largest[frame]:#.3g} {unit[1]}", loc="right")
 
     return show
 

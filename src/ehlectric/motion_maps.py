@@ -46,7 +46,7 @@ def film_map(run: MotionRun, ax: Axes | None = None) -> Axes:
     """
     factor, unit = film_unit(run)
     values = factor * run.along("thickness")
-    inside = values[:, in_contact(run)]
+    inside = in_contact(run, values)
     limits = (float(np.min(inside)), float(np.percentile(inside, 100.0 - _BEYOND)))
     return _map(run, values, ax, f"film thickness $h$ [{unit}]", limits, "viridis", "max")
 
@@ -89,8 +89,7 @@ def field_map(run: MotionRun, ax: Axes | None = None) -> Axes:
     """
     factor, unit = field_unit(run)
     values = factor * run.along("strength")
-    inside = values[:, in_contact(run)]
-    inside = inside[np.isfinite(inside)]
+    inside = in_contact(run, values)
     limits = (float(np.percentile(inside, _BEYOND)), float(np.nanmax(values)))
     return _map(run, values, ax, f"field strength $|E|$ [{unit}]", limits, "inferno", "min")
 

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 
 from ehlectric.drawing import figure_of, name_over, unit_for
 from ehlectric.motion_run import MotionRun
-from ehlectric.typing import Array, IntArray
+from ehlectric.typing import Array
 
 # Shown of the domain, in half-widths: around the contact, as in the figures of one at rest.
 _BEFORE, _BEHIND = -2.0, 1.5
@@ -43,13 +43,15 @@ def shown_range(run: MotionRun) -> tuple[float, float]:
     return max(float(run.x[0]), _BEFORE), min(float(run.x[-1]), _BEHIND)
 
 
-def in_contact(run: MotionRun) -> IntArray:
-    """Indices of the nodes along x from one edge of the Hertz zone to the other."""
-    return np.flatnonzero(np.abs(run.x) <= 1.0)
+def in_contact(run: MotionRun, values: Array) -> Array:
+    """Those of values (..., nx) that are finite in the Hertz zone, or anywhere where none are there."""
+    inside = values[..., np.abs(run.x) <= 1.0]
+    found = inside[np.isfinite(inside)]
+    return found if found.size else values[np.isfinite(values)]
 
 
 def fitted(*values: Array, least: float = 0.0) -> tuple[float, float]:
-    """Ends of an axis that leave room around values, those that are finite, and are ``least`` apart or more."""
+    """Ends of an axis, at least so far apart, that leave room around values, those that are finite."""
     low, high = (float(of([of(part) for part in values])) for of in (np.nanmin, np.nanmax))
     room = max(0.08 * (high - low), 0.5 * (least - (high - low)), 1e-3 * max(abs(low), abs(high)))
     return low - room, high + room
