@@ -43,8 +43,8 @@ def film_beside(run: MotionRun, ax: Axes | None = None) -> Axes:
         Of the films in the Hertz zone: those around it are thicker.
     """
     factor, unit = film_unit(run)
-    least = [f"least {factor * value:.3g} {unit}" for value in _extremes(run, "thickness", np.nanmin)]
-    ax, lines = _three(run, ax, "thickness", factor, least)
+    least = [f"{factor * value:.3g} {unit}" for value in _extremes(run, "thickness", np.nanmin)]
+    ax, lines = _three(run, ax, "thickness", factor, [f"least {least[0]}", *least[1:]])
     ax.set_ylabel(f"film thickness $h$ [{unit}]")
     ax.set_ylim(*fitted(*(in_contact(run, line) for line in lines)))
     return ax
@@ -67,8 +67,8 @@ def pressure_beside(run: MotionRun, ax: Axes | None = None) -> Axes:
     """
     highest = _extremes(run, "pressure", np.nanmax)
     factor, unit = unit_for(max(highest), "Pa")
-    most = [f"largest {factor * value:.3g} {unit}" for value in highest]
-    ax, lines = _three(run, ax, "pressure", factor, most)
+    most = [f"{factor * value:.3g} {unit}" for value in highest]
+    ax, lines = _three(run, ax, "pressure", factor, [f"largest {most[0]}", *most[1:]])
     ax.set_ylabel(f"pressure $p$ [{unit}]")
     ax.set_ylim(0.0, 1.06 * max(float(np.max(line)) for line in lines))
     return ax
@@ -90,8 +90,8 @@ def field_beside(run: MotionRun, ax: Axes | None = None) -> Axes:
         Of the fields in the Hertz zone: those around it are smaller.
     """
     factor, unit = field_unit(run)
-    most = [f"largest {factor * value:.3g} {unit}" for value in _extremes(run, "strength", np.nanmax)]
-    ax, lines = _three(run, ax, "strength", factor, most)
+    most = [f"{factor * value:.3g} {unit}" for value in _extremes(run, "strength", np.nanmax)]
+    ax, lines = _three(run, ax, "strength", factor, [f"largest {most[0]}", *most[1:]])
     ax.set_ylabel(f"field $|E|$ [{unit}]")
     ax.set_ylim(*fitted(*(in_contact(run, line) for line in lines)))
     return ax

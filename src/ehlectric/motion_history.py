@@ -48,7 +48,7 @@ def least_film(run: MotionRun, ax: Axes | None = None) -> Axes:
 
 
 def largest_field(run: MotionRun, ax: Axes | None = None) -> Axes:
-    """Largest field strength at the recorded instants, and the voltage over the least film at every step.
+    """Largest field strength at the recorded instants, with that of roughness held still.
 
     Parameters
     ----------
@@ -60,8 +60,8 @@ def largest_field(run: MotionRun, ax: Axes | None = None) -> Axes:
     Returns
     -------
     Axes
-        Over time. Shaded while it is above 90 % of the largest; ``MotionRun.strength`` says what it is
-        between the instants.
+        Over time, with the voltage over the least film at every step. Shaded while the field is above 90 % of
+        the largest; ``MotionRun.strength`` says what it is between the instants.
     """
     ax = axes_or_new(ax)
     factor, unit = field_unit(run)
@@ -75,9 +75,15 @@ def largest_field(run: MotionRun, ax: Axes | None = None) -> Axes:
         _times(run, "frame_time"), strength, color=BLUE, ls="none", marker="o", ms=size, mew=0.0
     )
     dots.set_label(f"solved at {run.frames} instants")
-    ax.set(ylabel=rf"largest field $|E|$ [{unit}]", ylim=fitted(strength, estimate))
+    handles, shown = [dots, thin, _high(run, ax)], [strength, estimate]
+    if "stationary_strength" in run.dataset:
+        still = factor * float(np.nanmax(run.values("stationary_strength")))
+        label = f"held still, {still:.3g} {unit}"
+        handles.append(ax.axhline(still, color=ORANGE, lw=0.9, ls="--", label=label))
+        shown.append(np.array([still]))
+    ax.set(ylabel=rf"largest field $|E|$ [{unit}]", ylim=fitted(*shown))
     _over_time(run, ax)
-    legend_above(ax, [dots, thin, _high(run, ax)])
+    legend_above(ax, handles)
     return ax
 
 

@@ -188,6 +188,10 @@ def test_history_has_the_film_before_and_held_still(run):
     assert line(ax, "before the motion").get_ydata()[0] == pytest.approx(0.5)
     assert line(ax, "held still").get_ydata()[0] == pytest.approx(0.7)
     assert line(ax, "contact covered").get_xdata()[0] == pytest.approx(1e3 * END / 2.0)
+    # Half of 1.1 V/h before the motion, in V/um.
+    ax = motion_history.largest_field(run)
+    assert line(ax, "held still").get_ydata()[0] == pytest.approx(0.5 * 1.1 * VOLTS / 0.5)
+    ax = motion_history.least_film(run)
     bare = motion_history.least_film(MotionRun.of(by_hand(still=False, covered_from=np.nan)))
     assert len(bare.get_lines()) == len(ax.get_lines()) - 2
 
@@ -258,9 +262,9 @@ def test_moving_lies_beside_held_still(run):
     np.testing.assert_allclose(line(ax, "moving").get_ydata(), 1e6 * run.along("thickness")[frame])
     still = line(ax, "held still")
     np.testing.assert_allclose(still.get_ydata(), 1e6 * (run.along("thickness")[0] + 0.2e-6))
-    assert still.get_label() == "held still, least 0.7 µm"
+    assert still.get_label() == "held still, 0.7 µm"
     field = motion_beside.field_beside(run)
-    assert line(field, "held still").get_label() == "held still, largest 2.2 V/µm"
+    assert line(field, "held still").get_label() == "held still, 2.2 V/µm"
 
 
 def test_what_is_not_quite_in_place_says_so(run):
