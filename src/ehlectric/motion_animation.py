@@ -17,7 +17,7 @@ from ehlectric.drawing import style
 from ehlectric.errors import InputError, shown
 from ehlectric.motion_frames import Frames, line_frames
 from ehlectric.motion_map_frames import map_frames
-from ehlectric.motion_run import MotionRun
+from ehlectric.motion_view import MotionRun
 from ehlectric.store import refuse_special, whole
 
 if TYPE_CHECKING:

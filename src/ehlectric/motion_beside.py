@@ -20,7 +20,7 @@ from ehlectric.motion_panels import (
     shown_range,
     time_unit,
 )
-from ehlectric.motion_run import MotionRun
+from ehlectric.motion_view import MotionRun
 from ehlectric.typing import Array
 
 # Parts of a half-width that roughness may be from where the case has it without a word.

@@ -23,7 +23,7 @@ from ehlectric.motion_panels import (
     shown_range,
     time_unit,
 )
-from ehlectric.motion_run import MotionRun
+from ehlectric.motion_view import MotionRun
 from ehlectric.typing import Array
 
 # Size of a frame [inches].

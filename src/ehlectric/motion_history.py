@@ -8,7 +8,7 @@ from matplotlib.lines import Line2D
 
 from ehlectric.drawing import BLUE, GREEN, GREY, ORANGE, axes_or_new, legend_above
 from ehlectric.motion_panels import field_unit, film_unit, fitted, time_unit
-from ehlectric.motion_run import MotionRun, intervals_above
+from ehlectric.motion_view import MotionRun, intervals_above
 from ehlectric.typing import Array
 
 # Part of the largest field of a run above which a field is high.

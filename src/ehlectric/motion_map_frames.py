@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from ehlectric.drawing import figure_of
 from ehlectric.motion_frames import Frames, time_text
 from ehlectric.motion_panels import Unit, field_unit, film_unit, name_run
-from ehlectric.motion_run import MotionRun
+from ehlectric.motion_view import MotionRun
 from ehlectric.point_conditions import PointConditions
 from ehlectric.point_drawing import (
     Range,

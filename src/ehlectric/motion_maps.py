@@ -13,7 +13,7 @@ from matplotlib.patheffects import withStroke
 
 from ehlectric.drawing import BODY, axes_or_new, figure_of, new_panels, unit_for
 from ehlectric.motion_panels import along_label, field_unit, film_unit, in_contact, time_unit
-from ehlectric.motion_run import MotionRun
+from ehlectric.motion_view import MotionRun
 from ehlectric.point_drawing import round_levels
 from ehlectric.typing import Array
 

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ehlectric.drawing import figure_of, name_over, unit_for
-from ehlectric.motion_run import MotionRun
+from ehlectric.motion_view import MotionRun
 from ehlectric.typing import Array
 
 # Shown of the domain, in half-widths: around the contact, as in the figures of one at rest.

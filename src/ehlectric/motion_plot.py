@@ -19,7 +19,7 @@ from ehlectric.motion_beside import (
 from ehlectric.motion_history import largest_field, least_film, places
 from ehlectric.motion_maps import map_figure, sampling_text
 from ehlectric.motion_panels import name_run, share_below
-from ehlectric.motion_run import MotionRun
+from ehlectric.motion_view import MotionRun
 from ehlectric.store import MOTION_FIGURE_FILES
 
 if TYPE_CHECKING:

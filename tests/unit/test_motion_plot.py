@@ -17,7 +17,7 @@ from ehlectric.motion_frames import line_frames
 from ehlectric.motion_map_frames import map_frames
 from ehlectric.motion_panels import speed_text
 from ehlectric.motion_plot import beside_stationary, history, maps, save_motion_figures
-from ehlectric.motion_run import MotionRun, intervals_above
+from ehlectric.motion_view import MotionRun, intervals_above
 from ehlectric.store import MOTION_FIGURE_FILES
 
 HISTORY, MAPS, BESIDE = MOTION_FIGURE_FILES
