@@ -6,7 +6,7 @@ import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 import matplotlib as mpl
 from matplotlib.artist import Artist
@@ -14,8 +14,8 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from ehlectric.point_result import PointResult
-from ehlectric.result import Result
+from ehlectric.conditions import Conditions
+from ehlectric.point_conditions import PointConditions
 from ehlectric.store import whole
 from ehlectric.typing import Array
 
@@ -39,6 +39,15 @@ _STYLE: dict[str, Any] = {
     "savefig.dpi": 300,
     "figure.constrained_layout.use": True,
 }
+
+
+class OfContact(Protocol):
+    """What has a half-width for its positions: a result, or a run of roughness that moves."""
+
+    @property
+    def conditions(self) -> Conditions | PointConditions:
+        """Those of the contact."""
+        ...
 
 
 @contextmanager
@@ -96,12 +105,12 @@ def legend_above(ax: Axes, handles: Sequence[Artist] | None = None, columns: int
     )
 
 
-def in_half_widths(result: Result | PointResult, x: Array) -> Array:
+def in_half_widths(result: OfContact, x: Array) -> Array:
     """Positions in half-widths."""
     return x / result.conditions.half_width
 
 
-def label_position(result: Result | PointResult, ax: Axes, axis: str = "x") -> None:
+def label_position(result: OfContact, ax: Axes, axis: str = "x") -> None:
     """Label of a horizontal axis of positions in half-widths, with the half-width."""
     factor, unit = unit_for(result.conditions.half_width, "m", least=1.0)
     ax.set_xlabel(f"${axis}/b$   ($b$ = {factor * result.conditions.half_width:.4g} {unit})")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, cast
+from typing import Any, Protocol, cast
 
 import numpy as np
 from matplotlib import patheffects
@@ -17,6 +17,7 @@ from matplotlib.ticker import MaxNLocator
 from matplotlib.transforms import Transform, offset_copy
 
 from ehlectric.drawing import figure_of, label_position, new_panels, unit_for
+from ehlectric.point_conditions import PointConditions
 from ehlectric.point_result import PointResult
 from ehlectric.typing import Array
 
@@ -43,7 +44,16 @@ _BEFORE, _BEHIND = -2.0, 1.5
 Range = tuple[float, float]
 
 
-def turned(result: PointResult) -> bool:
+class OfPointContact(Protocol):
+    """What lies on the page as a point contact does: its result, or a run of roughness that moves."""
+
+    @property
+    def conditions(self) -> PointConditions:
+        """Those of the contact."""
+        ...
+
+
+def turned(result: OfPointContact) -> bool:
     """Whether a contact is drawn with entrainment pointing down, y to the right."""
     return result.conditions.ratio > _TURNED
 
@@ -62,7 +72,9 @@ def field_window(result: PointResult) -> tuple[Range, Range]:
     return (float(x[0]), float(x[-1])), (float(y[0]), float(y[-1]))
 
 
-def map_panels(result: PointResult, number: int, window: tuple[Range, Range], *, rows: int = 0) -> list[Axes]:
+def map_panels(
+    result: OfPointContact, number: int, window: tuple[Range, Range], *, rows: int = 0
+) -> list[Axes]:
     """Axes of a new figure for maps of one window, of a size that they fill: beside or below each other.
 
     ``rows`` are those of a legend above them.
@@ -80,12 +92,12 @@ def map_panels(result: PointResult, number: int, window: tuple[Range, Range], *,
     return panels
 
 
-def on_low_page(result: PointResult, number: int, window: tuple[Range, Range]) -> bool:
+def on_low_page(result: OfPointContact, number: int, window: tuple[Range, Range]) -> bool:
     """Whether maps of one window take the width of the page, with their colour bar below them."""
     return _shape(result, number, window)[0] < _LOW
 
 
-def _shape(result: PointResult, number: int, window: tuple[Range, Range]) -> tuple[float, float]:
+def _shape(result: OfPointContact, number: int, window: tuple[Range, Range]) -> tuple[float, float]:
     """Height of each of several maps over its width, and the scale of its vertical axis.
 
     The scale is that by which it is stretched: 1, or more in steps of a half.
@@ -97,13 +109,13 @@ def _shape(result: PointResult, number: int, window: tuple[Range, Range]) -> tup
     return stretch * shape, stretch
 
 
-def _on_page(result: PointResult, along: Any, across: Any) -> tuple[Any, Any]:
+def _on_page(result: OfPointContact, along: Any, across: Any) -> tuple[Any, Any]:
     """What goes with the horizontal axis of a map and what with the vertical one."""
     return (across, along) if turned(result) else (along, across)
 
 
 def draw_map(
-    result: PointResult,
+    result: OfPointContact,
     ax: Axes,
     position: tuple[Array, Array],
     values: Array,
@@ -144,14 +156,14 @@ def film_unit(result: PointResult) -> tuple[float, str]:
     return unit_for(max(result.film.central_thickness, result.film.mean_thickness), "m", least=1.0)
 
 
-def on_page(result: PointResult, x: Array, y: Array) -> tuple[Array, Array]:
+def on_page(result: OfPointContact, x: Array, y: Array) -> tuple[Array, Array]:
     """Positions x, y [m] of the nodes of a grid on the page, in semi-axes b, shape (nx, ny)."""
     b = result.conditions.semi_axis_x
     along, across = np.meshgrid(x / b, y / b, indexing="ij")
     return _on_page(result, along, across)
 
 
-def _label_map(result: PointResult, ax: Axes, stretch: float) -> None:
+def _label_map(result: OfPointContact, ax: Axes, stretch: float) -> None:
     """Labels of the axes of a map."""
     horizontal, vertical = _on_page(result, "x", "y")
     label_position(result, ax, horizontal)
@@ -159,7 +171,7 @@ def _label_map(result: PointResult, ax: Axes, stretch: float) -> None:
 
 
 def colour_bar(
-    result: PointResult,
+    result: OfPointContact,
     mappable: ScalarMappable,
     axes: Sequence[Axes],
     label: str,
@@ -179,7 +191,7 @@ def colour_bar(
     return figure.colorbar(mappable, ax=list(axes), label=label, ticks=shown, extend=extend, **place)
 
 
-def hertz_ellipse(result: PointResult, ax: Axes, ink: str = "black") -> Ellipse:
+def hertz_ellipse(result: OfPointContact, ax: Axes, ink: str = "black") -> Ellipse:
     """The edge of the dry contact, dashed."""
     edge = Ellipse(
         (0.0, 0.0),
@@ -205,7 +217,7 @@ def _outlined(ink: str, width: float) -> list[patheffects.AbstractPathEffect]:
     return [patheffects.withStroke(linewidth=width, foreground=edge)]
 
 
-def mark(result: PointResult, ax: Axes, at: Array, label: str) -> Line2D:
+def mark(result: OfPointContact, ax: Axes, at: Array, label: str) -> Line2D:
     """Marker at positions x, y [m], shape (n, 2)."""
     along, across = (at / result.conditions.semi_axis_x).T
     (line,) = ax.plot(
@@ -227,7 +239,7 @@ def extreme_positions(x: Array, y: Array, values: Array) -> Array:
     return np.column_stack([x[i], y[j]])[[0, -1][: min(i.size, 2)]]
 
 
-def entrainment(result: PointResult, ax: Axes, ink: str = "black") -> None:
+def entrainment(result: OfPointContact, ax: Axes, ink: str = "black") -> None:
     """Arrow along entrainment in a corner of the inlet."""
     down = turned(result)
     corner = (0.0, 1.0) if down else (0.0, 0.0)

@@ -73,7 +73,7 @@ BEARING_FIGURE_FILES = (
 )
 # And over the speed of the shaft.
 SPEED_FIGURE_FILES = ("capacitance_over_speed.png", "breakdown_over_speed.png")
-# Of a contact whose roughness moves: over time, over place and time, and beside the same held still.
+# Of roughness that moves: over time, over position and time, and beside the same roughness held still.
 MOTION_FIGURE_FILES = ("motion_history.png", "motion_maps.png", "motion_beside_stationary.png")
 # A folder holds one result: what another one left of these goes.
 ALL_FIGURES = tuple(dict.fromkeys((*FIGURE_FILES, *POINT_FIGURE_FILES, ROUGHNESS_FIGURE)))

@@ -1,0 +1,198 @@
+"""A run of roughness that moves, as figures take it: what there is of it at steps, instants and nodes."""
+
+from __future__ import annotations
+
+import tomllib
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ehlectric.case import Case
+from ehlectric.conditions import Conditions, resolve
+from ehlectric.errors import InputError
+from ehlectric.point_conditions import PointConditions, resolve_point
+from ehlectric.typing import Array
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+_NEEDED = (
+    "time",
+    "minimum_thickness",
+    "thin_gap_strength",
+    "frame_time",
+    "thickness",
+    "pressure",
+    "strength",
+)
+
+
+@dataclass(frozen=True)
+class MotionRun:
+    """What was stored of a contact whose roughness moves, SI units.
+
+    Attributes
+    ----------
+    dataset : xarray.Dataset
+        Its steps and recorded instants, those that there are.
+    case : Case
+        What was solved.
+    conditions : Conditions or PointConditions
+        What the case means.
+    """
+
+    dataset: xr.Dataset
+    case: Case
+    conditions: Conditions | PointConditions
+
+    @classmethod
+    def of(cls, dataset: xr.Dataset) -> MotionRun:
+        """The run that a dataset holds; steps and instants still without a time are left out.
+
+        Parameters
+        ----------
+        dataset : xarray.Dataset
+            As a run was stored.
+
+        Raises
+        ------
+        InputError
+            Where it is none.
+        """
+        missing = [name for name in _NEEDED if name not in dataset]
+        if missing or "case" not in dataset.attrs:
+            lacks = missing[0] if missing else "case"
+            raise InputError(f"dataset: got one without {lacks!r}, takes that of roughness that moves")
+        case = Case.from_dict(tomllib.loads(dataset.attrs["case"]))
+        point = case.contact.geometry == "point"
+        there = {
+            "step": np.isfinite(dataset["time"].values),
+            "frame": np.isfinite(dataset["frame_time"].values),
+        }
+        kept = dataset.isel({name: np.flatnonzero(mask) for name, mask in there.items()})
+        if not kept.sizes["frame"]:
+            raise InputError("dataset: got no recorded instant, takes one at least")
+        return cls(kept, case, resolve_point(case) if point else resolve(case))
+
+    @property
+    def point(self) -> bool:
+        """Whether it is a point contact."""
+        return isinstance(self.conditions, PointConditions)
+
+    @property
+    def complete(self) -> bool:
+        """Whether it went to its end."""
+        return bool(self.dataset.attrs.get("complete", 1))
+
+    @cached_property
+    def speeds(self) -> dict[int, float]:
+        """Speed of each surface that is rough [m/s], by its number."""
+        mean, slide = self.conditions.entrainment_speed, 0.5 * self.conditions.slide_to_roll_ratio
+        speeds = {1: mean * (1.0 + slide), 2: mean * (1.0 - slide)}
+        return {k: speeds[k] for k in sorted({surface.surface for surface in self.case.roughness})}
+
+    @cached_property
+    def x(self) -> Array:
+        """Nodes of the film in half-widths, shape (nx,)."""
+        return np.asarray(self.dataset["x"].values / self.conditions.half_width)
+
+    @cached_property
+    def frame_time(self) -> Array:
+        """Times of the recorded instants [s], shape (frames,)."""
+        return self.values("frame_time")
+
+    @property
+    def frames(self) -> int:
+        """Number of recorded instants."""
+        return int(self.dataset.sizes["frame"])
+
+    def moment(self, name: str) -> float:
+        """A time among the attributes [s], not a number where it never comes."""
+        return float(self.dataset.attrs.get(name, np.nan))
+
+    def values(self, name: str) -> Array:
+        """All values of a variable as floats."""
+        return np.asarray(self.dataset[name].values, dtype=float)
+
+    def along(self, name: str, frame: int | None = None) -> Array:
+        """A variable along entrainment, of a point contact on the line of nodes nearest to y = 0.
+
+        Parameters
+        ----------
+        name : str
+            One with values at the nodes of the film.
+        frame : int, optional
+            Of this recorded instant; of all there are otherwise.
+
+        Returns
+        -------
+        ndarray, shape (frames, nx) or (nx,)
+        """
+        values = self.dataset[name]
+        if self.point:
+            values = values.isel(y=int(np.argmin(np.abs(self.values("y")))))
+        if frame is not None:
+            values = values.isel(frame=frame)
+        return np.asarray(values.values, dtype=float)
+
+    @cached_property
+    def strength(self) -> Array:
+        """Largest field at every step [V/m], shape (steps,).
+
+        That which was solved at the recorded instants; between them it goes as the voltage over the least
+        film does, of which it is a multiple that hardly changes.
+        """
+        time, estimate = self.values("time"), self.values("thin_gap_strength")
+        share = self.values("max_strength") / np.interp(self.frame_time, time, estimate)
+        return np.asarray(estimate * np.interp(time, self.frame_time, share))
+
+    @cached_property
+    def settled_from(self) -> float:
+        """When the roughness has filled the contact [s]; 0 where it does not while the run lasts."""
+        covered = self.moment("covered_from")
+        return covered if 0.0 <= covered < self.values("time")[-1] else 0.0
+
+    @cached_property
+    def coincident_frame(self) -> int | None:
+        """The recorded instant nearest to that at which the surfaces lie as the case has them.
+
+        None where that time is not in the run, or nothing is there to compare with.
+        """
+        time, at = self.frame_time, self.moment("coincident")
+        if "stationary_thickness" not in self.dataset or not time[0] <= at <= time[-1]:
+            return None
+        return int(np.argmin(np.abs(time - at)))
+
+
+def intervals_above(time: Array, values: Array, level: float) -> Array:
+    """When values are at least a level.
+
+    Parameters
+    ----------
+    time, values : ndarray, shape (n,)
+        Linear in between.
+    level : float
+        In the unit of the values.
+
+    Returns
+    -------
+    ndarray, shape (m, 2)
+        Starts and ends.
+
+    Examples
+    --------
+    >>> intervals_above(np.arange(5.0), np.array([2.0, 0.0, 2.0, 0.0, 0.0]), 1.0)
+    array([[0. , 0.5],
+           [1.5, 2.5]])
+    """
+    above = values >= level
+    before = np.flatnonzero(above[1:] != above[:-1])
+    share = (level - values[before]) / (values[before + 1] - values[before])
+    crossings = time[before] + share * (time[before + 1] - time[before])
+    ends = [time[:1]] if above[0] else []
+    ends.append(crossings)
+    ends += [time[-1:]] if above[-1] else []
+    intervals: Array = np.concatenate(ends).reshape(-1, 2)
+    return intervals
