@@ -95,9 +95,9 @@ def test_slow_roughness_tends_to_the_quasi_stationary_film(paper_case, slope):
 def test_a_shape_is_carried_through_the_flat_zone(paper_case, courant):
     """What a ridge makes of the film at X = -0.5 stands at X = 0.5 a time 1 later, within 1 %.
 
-    At 2 GPa, where nothing flows but with the surfaces: what H and rho H have over the smooth film's, along 0.6
-    half-widths, relative to its range. It is rho H that is carried; between places of one pressure, compression
-    leaves half a per cent of H.
+    At 2 GPa, where nothing flows but with the surfaces: what H and rho H have over the smooth film's, along
+    0.6 half-widths, relative to its range. It is rho H that is carried; between places of one pressure,
+    compression leaves half a per cent of H.
     """
     n = 500
     problem = problem_of(paper_case, n + 1, **{"contact.max_hertz_pressure": "2 GPa"})
@@ -131,7 +131,7 @@ def flow(problem, now, dx, node):
 
 @pytest.mark.parametrize("courant", [1.0, 0.7])
 def test_oil_is_kept(paper_case, slope, courant):
-    """What flows past X = -1.5 less what leaves the cavitated zone at 1.75 is what is gained, to second order.
+    """What flows past X = -1.5 less what leaves the cavitated zone at 1.75 is gained, to second order.
 
     By the trapezoidal rule in space and time, while a ridge passes the inlet.
     """
