@@ -10,6 +10,7 @@ from scipy.ndimage import maximum_filter
 
 from ehlectric.motion import Motion
 from ehlectric.motion_store import motion_of
+from ehlectric.motion_view import MotionRun
 from ehlectric.point_conditions import PointConditions
 from ehlectric.solution import plain
 from ehlectric.stress import dielectric_strength
@@ -114,7 +115,11 @@ def _field(motion: Motion, dataset: xr.Dataset) -> dict[str, Any]:
     maxima = local_maxima(dataset, within)
     capacitance = dataset["capacitance"].values[within]
     electric = motion.case.electric
-    share = time_above(time[within], strength[within], HIGH_FIELD * np.max(strength[within]))
+    # Of all steps, not of the instants alone, between which an asperity may have passed.
+    run = MotionRun.of(dataset)
+    at = run.values("time")
+    settled = at >= run.settled_from
+    share = time_above(at[settled], run.strength[settled], HIGH_FIELD * np.max(run.strength[settled]))
     return {
         "voltage": abs(electric.potential_2 - electric.potential_1),
         "before": strength[0],
@@ -123,7 +128,7 @@ def _field(motion: Motion, dataset: xr.Dataset) -> dict[str, Any]:
         "max_strength_position": place if len(place) > 1 else place[0],
         "max_thin_gap_strength": np.max(dataset["thin_gap_strength"].values),
         "share_above_90": share,
-        "time_above_90": share * float(np.ptp(time[within])),
+        "time_above_90": share * float(np.ptp(at[settled])),
         "local_maxima": maxima.size,
         "local_maxima_quantiles": list(np.quantile(maxima, QUANTILES)) if maxima.size else None,
         "capacitance_mean": np.mean(capacitance),

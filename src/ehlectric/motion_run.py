@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import time
 from collections.abc import Callable, Iterator
 from datetime import UTC, datetime
@@ -103,7 +104,9 @@ def _begin(file: MotionFile, contact: MovingContact) -> None:
     history = contact.start()
     first = contact.snapshot(history.now)
     attributes = {
-        "title": "Film and electric field of a contact whose roughness moves",
+        "title": motion.case.title,
+        "covered_from": _moment(motion, motion.covered),
+        "coincident": _moment(motion, motion.coincident),
         "case": motion.case.to_toml(),
         "version": __version__,
         "date": datetime.now(UTC).isoformat(timespec="seconds"),
@@ -115,6 +118,11 @@ def _begin(file: MotionFile, contact: MovingContact) -> None:
     file.create(first, attributes, _maps(still))
     file.append([Row.of(contact, history)], 0, first, history)
     file.add_seconds(time.perf_counter() - started)
+
+
+def _moment(motion: Motion, time: float) -> float:
+    """A time T in seconds, not a number where it never comes."""
+    return time * motion.course.time if math.isfinite(time) else math.nan
 
 
 def _maps(still: Result | PointResult) -> dict[str, Array]:
