@@ -33,9 +33,6 @@ TABLE = ROOT / "docs/data/amplitude_reduction.csv"
 FIGURE = ROOT / "docs/figures/amplitude_reduction.png"
 PUBLISHED = ROOT / "tests/published/data/amplitude_reduction.csv"
 
-# Their fit, eq. (5): A_d/A_i = 1/(1 + c1 n + c2 n^2).
-PUBLISHED_FIT = (0.17, 0.03)
-
 # Their oil, steel and radius; M and L follow from load and speed.
 RADIUS, MODULUS, VISCOSITY, ALPHA = 14.1e-3, 226e9, 0.04, 22e-9
 LUBRICANT = {"base": "paper", "roelands_pressure": 1.96e8}
@@ -178,19 +175,27 @@ def _central_films(
     return np.array(times), np.array(films)
 
 
+def published_fit(nabla: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Their eq. (5)."""
+    ratio: NDArray[np.float64] = 1.0 / (1.0 + 0.17 * nabla + 0.03 * nabla**2)
+    return ratio
+
+
 def fitted(nabla: NDArray[np.float64], ratio: NDArray[np.float64]) -> tuple[float, float]:
-    """c1 and c2 of 1/(1 + c1 n + c2 n^2), by least squares of the logarithms."""
+    """c and p of 1/(1 + c n^p), by least squares of the logarithms."""
 
-    def misses(c: NDArray[np.float64]) -> NDArray[np.float64]:
-        return np.log(ratio) + np.log1p(c[0] * nabla + c[1] * nabla**2)
+    def misses(parameters: NDArray[np.float64]) -> NDArray[np.float64]:
+        c, p = parameters
+        return np.log(ratio) + np.log1p(c * nabla**p)
 
-    c1, c2 = least_squares(misses, PUBLISHED_FIT).x
-    return float(c1), float(c2)
+    c, p = least_squares(misses, (0.1, 1.5)).x
+    return float(c), float(p)
 
 
-def scatter(nabla: NDArray[np.float64], ratio: NDArray[np.float64], fit: tuple[float, float]) -> float:
-    """Root mean square of the relative distance of points from a fit."""
-    return float(np.sqrt(np.mean((ratio * (1.0 + fit[0] * nabla + fit[1] * nabla**2) - 1.0) ** 2)))
+def scatter(ratio: NDArray[np.float64], fit: NDArray[np.float64]) -> str:
+    """Root mean square and largest of the relative distance of points from a fit."""
+    distance = 100.0 * (ratio / fit - 1.0)
+    return f"scatter {np.sqrt(np.mean(distance**2)):.1f} %, at most {np.max(np.abs(distance)):.0f} %"
 
 
 def study() -> list[Reduction]:
@@ -227,23 +232,21 @@ def read() -> list[Reduction]:
 
 def report(points: list[Reduction]) -> None:
     """Print fit and scatter, and draw the figure."""
+    points = sorted(points, key=lambda point: point.nabla)
     nabla = np.array([point.nabla for point in points])
     ratio = np.array([point.ratio for point in points])
-    fit = fitted(nabla, ratio)
+    c, p = fitted(nabla, ratio)
+    ours, theirs = 1.0 / (1.0 + c * nabla**p), published_fit(nabla)
     print(f"{len(points)} points, {len({(p.moes_m, p.moes_l) for p in points})} pairs of (M, L)")
-    print(f"fit 1/(1 + {fit[0]:.4f} n + {fit[1]:.5f} n^2), scatter {100 * scatter(nabla, ratio, fit):.1f} %")
-    print(
-        f"published fit {PUBLISHED_FIT}, scatter about it {100 * scatter(nabla, ratio, PUBLISHED_FIT):.1f} %"
-    )
-    for one in sorted(points, key=lambda p: p.nabla):
-        left = [
-            one.ratio * (1.0 + c1 * one.nabla + c2 * one.nabla**2) - 1.0 for c1, c2 in (fit, PUBLISHED_FIT)
-        ]
+    print(f"1/(1 + {c:.4f} n^{p:.3f}): {scatter(ratio, ours)}")
+    print(f"published fit: {scatter(ratio, theirs)}")
+    print("    M    L lambda/b      n  ratio    error  over ours  over theirs")
+    for one, own, other in zip(points, ours, theirs, strict=True):
         print(
-            f"{one.moes_m:5g} {one.moes_l:4g} {one.wavelength:6g} {one.nabla:6.2f} {one.ratio:.4f}"
-            f" +- {one.error:.4f}, over our fit {100 * left[0]:+.1f} %, over theirs {100 * left[1]:+.1f} %"
+            f"{one.moes_m:5g} {one.moes_l:4g} {one.wavelength:8g} {one.nabla:6.2f} {one.ratio:.4f} {one.error:8.4f}"
+            f" {100.0 * (one.ratio / own - 1.0):+8.1f} % {100.0 * (one.ratio / other - 1.0):+10.1f} %"
         )
-    draw(points, fit)
+    draw(points, (c, p))
 
 
 def draw(points: list[Reduction], fit: tuple[float, float]) -> None:
@@ -265,8 +268,10 @@ def draw(points: list[Reduction], fit: tuple[float, float]) -> None:
     nabla = [wavelength * 100**0.75 / 11**0.5 for wavelength, _ in printed]
     axes.plot(nabla, [ratio for _, ratio in printed], "k+", ms=9, label="Venner et al., M = 100, L = 11")
     n = np.geomspace(0.3, 60.0, 200)
-    for (c1, c2), style, name in ((PUBLISHED_FIT, "k--", "their fit"), (fit, "k-", "our fit")):
-        axes.plot(n, 1.0 / (1.0 + c1 * n + c2 * n**2), style, lw=1, label=f"{name}, {c1:.3g}, {c2:.3g}")
+    axes.plot(n, published_fit(n), "k--", lw=1, label="their fit")
+    axes.plot(
+        n, 1.0 / (1.0 + fit[0] * n ** fit[1]), "k-", lw=1, label=f"1/(1 + {fit[0]:.3f} n$^{{{fit[1]:.2f}}}$)"
+    )
     axes.set(xscale="log", ylim=(0.0, 1.02))
     axes.set(xlabel="(wavelength/b) M$^{3/4}$/L$^{1/2}$", ylabel="amplitude left, A$_d$/A$_i$")
     axes.legend(fontsize="small")
