@@ -30,7 +30,7 @@ STEP_TOLERANCE = 1e-6
 
 # Newton steps from the extrapolated film, and from the last one, before a time step is halved; and how often
 # that may be.
-FEW_ITERATIONS, MANY_ITERATIONS = 8, 30
+FEW_ITERATIONS, MANY_ITERATIONS = 4, 30
 MOST_HALVINGS = 6
 
 # Part of the last smallest gap below which an extrapolated one is no start.

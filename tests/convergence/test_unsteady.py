@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import PchipInterpolator
 
+from ehlectric import unsteady
 from ehlectric.reynolds import evaluate
 from tests.moving import histories, last, problem_of, ridge, steady
 
@@ -48,6 +49,19 @@ def test_order_in_space_and_time(paper_case, slope, courant):
         films.append(film[np.searchsorted(x, np.linspace(-0.5, 0.5, 41) - 1e-9)])
     differences = np.max(np.abs(np.diff(films, axis=0)), axis=1)
     assert slope(1.0 / intervals[:-1], differences) == pytest.approx(2.0, abs=0.1)
+
+
+def test_a_step_is_solved_far_below_its_error(paper_case, monkeypatch):
+    """Solved a thousand times as closely, the film differs by less than 1e-5 of itself.
+
+    The extrapolated film alone may meet the tolerance, and be wrong by a per cent.
+    """
+    problem = replace(problem_of(paper_case, 801), tolerance=1e-11)
+    gap, step, start = ridge(HEIGHT, 0.3, -2.0), 5.0 / 800, steady(problem)
+    loose = last(problem, gap, step, 240, start=start).state.thickness
+    monkeypatch.setattr(unsteady, "STEP_TOLERANCE", 1e-3 * unsteady.STEP_TOLERANCE)
+    close = last(problem, gap, step, 240, start=start).state.thickness
+    assert 0.0 < np.max(np.abs(loose / close - 1.0)) < 1e-5
 
 
 @pytest.mark.parametrize("gap", [ridge(0.0, 1.0, 0.0), ridge(HEIGHT, 0.1, 0.1, speed=0.0)])
