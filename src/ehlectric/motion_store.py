@@ -26,6 +26,7 @@ from ehlectric.case import Case
 from ehlectric.errors import InputError
 from ehlectric.field import Field
 from ehlectric.film import Film
+from ehlectric.interrupts import held_back
 from ehlectric.motion import Motion
 from ehlectric.motion_solver import MovingContact, Snapshot
 from ehlectric.newton import State
@@ -256,7 +257,7 @@ class MotionFile:
 
 @contextmanager
 def _opened(path: Path, mode: str) -> Iterator[Any]:
-    """A file, once nobody else has it open.
+    """A file, once nobody else has it open; who stops the program waits until it is closed.
 
     Raises
     ------
@@ -267,15 +268,18 @@ def _opened(path: Path, mode: str) -> Iterator[Any]:
 
     until = time.monotonic() + _PATIENCE
     while True:
-        try:
-            file = h5netcdf.File(path, mode)
-            break
-        except BlockingIOError:
-            if time.monotonic() > until:
-                raise InputError(f"{path}: is held open by another program, which must close it") from None
-            time.sleep(_AGAIN)
-    with file:
-        yield file
+        with held_back():
+            try:
+                file = h5netcdf.File(path, mode)
+            except BlockingIOError:
+                if time.monotonic() > until:
+                    told = f"{path}: is held open by another program, which must close it"
+                    raise InputError(told) from None
+            else:
+                with file:
+                    yield file
+                return
+        time.sleep(_AGAIN)
 
 
 def _state(file: Any) -> tuple[Any, int]:
@@ -377,6 +381,15 @@ def read_motion(path: str | Path) -> xr.Dataset:
     except (LookupError, TypeError, ValueError):
         raise damaged from None
     return dataset.isel(frame=slice(0, frames), step=slice(0, last + 1))
+
+
+def saved_steps(path: Path) -> int:
+    """Steps that a file of a run has, 0 where it has none or cannot be read."""
+    try:
+        with _opened(path, "r") as file:
+            return int(file.variables["frame_step"][: int(file.attrs["frames"])][-1])
+    except (OSError, LookupError, ValueError, RuntimeError):
+        return 0
 
 
 def motion_of(dataset: xr.Dataset) -> Motion:
