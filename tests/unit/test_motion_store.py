@@ -2,8 +2,9 @@
 
 import fcntl
 import re
+import signal
 from contextlib import suppress
-from threading import Timer
+from threading import Thread, Timer
 
 import h5netcdf
 import numpy as np
@@ -14,7 +15,7 @@ from ehlectric.errors import ConvergenceError
 from ehlectric.motion import Motion
 from ehlectric.motion_run import run_motion
 from ehlectric.motion_solver import MovingContact
-from ehlectric.motion_store import MOTION, MotionFile, column_strength, motion_of, read_motion
+from ehlectric.motion_store import MOTION, MotionFile, column_strength, motion_of, read_motion, saved_steps
 from ehlectric.unsteady import UnsteadyFilm
 from tests.motions import POINT, moving
 
@@ -481,3 +482,46 @@ def test_a_second_run_in_the_same_folder_is_refused(tmp_path, stopped, whole):
         run_motion(CASE, tmp_path, progress=progress)
     assert told == [of_step(4)]
     same(read_motion(tmp_path), whole)
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_a_signal_waits_until_an_instant_is_whole(tmp_path, monkeypatch, stopped, number):
+    stopped(4)
+    put, left = h5netcdf.Variable.__setitem__, 10
+
+    def signalled(self, key, value):
+        nonlocal left
+        left -= 1
+        if not left:
+            signal.raise_signal(number)
+        put(self, key, value)
+
+    def stop(came, _frame):
+        raise StoppedError(came)
+
+    before = signal.signal(number, stop)
+    try:
+        with monkeypatch.context() as patch:
+            patch.setattr(h5netcdf.Variable, "__setitem__", signalled)
+            with pytest.raises(StoppedError, match=f"^{int(number)}$"):
+                run_motion(CASE, tmp_path)
+        assert signal.getsignal(number) is stop
+    finally:
+        signal.signal(number, before)
+    assert read_motion(tmp_path)["frame_step"].values.tolist() == [0, 4, 8]
+    assert saved_steps(tmp_path / MOTION) == 8
+
+
+def test_in_another_thread_it_runs_too(tmp_path, stopped, whole):
+    stopped(8)
+    thread = Thread(target=run, args=(CASE, tmp_path))
+    thread.start()
+    thread.join()
+    same(read_motion(tmp_path), whole)
+
+
+def test_steps_that_are_saved(tmp_path, stopped):
+    assert saved_steps(tmp_path / MOTION) == 0
+    assert [saved_steps(stopped(step)) for step in (0, 4, 12)] == [0, 4, 12]
+    (tmp_path / MOTION).write_text("no file of a run")
+    assert saved_steps(tmp_path / MOTION) == 0
