@@ -61,19 +61,22 @@ def _told_where_it_stops(
     folder: Path, show: Callable[[int, int, str], None]
 ) -> Iterator[Callable[[int, int, str], None]]:
     """The progress to call; where the run is stopped, one line of what is saved."""
-    saved, steps = 0, 0
+    steps = 0
 
     def progress(done: int, of: int, text: str) -> None:
-        nonlocal saved, steps
-        saved, steps = done, of
+        nonlocal steps
+        steps = of
         show(done, of, text)
 
     try:
         yield progress
     except (KeyboardInterrupt, SystemExit):
         if steps:
-            text = f"{saved} of {steps} steps are saved in {folder}, the same command goes on with the others"
-            typer.echo(f"stopped; {text}", err=True)
+            from ehlectric.motion_store import MOTION, saved_steps
+
+            # Of the file, as the last instant may not have been told yet.
+            saved = f"{saved_steps(folder / MOTION)} of {steps} steps are saved in {folder}"
+            typer.echo(f"stopped; {saved}, the same command goes on with the others", err=True)
         raise
 
 

@@ -177,11 +177,10 @@ def local_maxima(dataset: xr.Dataset, within: Mask) -> Array:
         size: tuple[int, ...] = (1, 3, 3)
     else:
         inside, size = np.abs(x) < given.half_width, (1, 3)
-    highest = maximum_filter(strength, size=size, mode="constant", cval=-np.inf)
     neighbours = np.ones(size, dtype=bool)
     neighbours[tuple(n // 2 for n in size)] = False
     beside = maximum_filter(strength, footprint=neighbours, mode="constant", cval=-np.inf)
-    peaks: Array = strength[(strength == highest) & (strength > beside) & inside]
+    peaks: Array = strength[(strength > beside) & inside]
     return peaks.astype(float)
 
 

@@ -10,9 +10,11 @@ from __future__ import annotations
 
 import json
 import math
+import time
 import tomllib
 import zlib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -24,6 +26,7 @@ from ehlectric.case import Case
 from ehlectric.errors import InputError
 from ehlectric.field import Field
 from ehlectric.film import Film
+from ehlectric.interrupts import held_back
 from ehlectric.motion import Motion
 from ehlectric.motion_solver import MovingContact, Snapshot
 from ehlectric.newton import State
@@ -71,6 +74,10 @@ _OF_POINTS = ("minimum_y", "max_strength_y")
 _RESUME = ("pressure", "thickness", "mass", "density", "free")
 _TIMES = ("t", "h00")
 _PLACES = 2  # of what a run goes on from
+
+# What a run waits for those who read its file, and they for it [s].
+_PATIENCE = 30.0
+_AGAIN = 0.05
 _CHUNK = 1024
 
 
@@ -118,13 +125,12 @@ class MotionFile:
     def __init__(self, path: Path, contact: MovingContact) -> None:
         self._path, self._contact = path, contact
         self._point = contact.motion.case.contact.geometry == "point"
+        self._left: tuple[Any, int] | None = None
 
     def create(self, first: Snapshot, attributes: Mapping[str, Any], stationary: Mapping[str, Array]) -> None:
         """A file without instants; ``stationary`` has maps of the roughness held still."""
-        import h5netcdf
-
         nodes = ("x", "y") if self._point else ("x",)
-        with h5netcdf.File(self._path, "w") as file:
+        with _opened(self._path, "w") as file:
             axes = {name: np.asarray(getattr(first.film, name)) for name in nodes}
             file.dimensions = {"step": None, "frame": None} | {name: axes[name].size for name in nodes}
             for name, values in axes.items():
@@ -143,6 +149,7 @@ class MotionFile:
             file.attrs["frames"] = file.attrs["complete"] = 0
             for key, value in attributes.items():
                 file.attrs[key] = value
+            self._left = _state(file)
 
     def _unit(self, name: str, unit: str) -> str:
         return ("F" if self._point else "F/m") if name == "capacitance" else unit
@@ -169,8 +176,6 @@ class MotionFile:
 
     def append(self, rows: Sequence[Row], step: int, snapshot: Snapshot, history: History) -> None:
         """The steps since the last instant, the instant, and what goes on from it."""
-        import h5netcdf
-
         film, field = snapshot.film, snapshot.field
         maps = {
             "pressure": film.pressure,
@@ -186,7 +191,11 @@ class MotionFile:
             "max_strength": field.max_strength,
             "capacitance": field.capacitance,
         } | _place("max_strength", field.max_strength_position)
-        with h5netcdf.File(self._path, "a") as file:
+        with _opened(self._path, "a") as file:
+            if _state(file) != self._left:
+                raise InputError(
+                    f"{self._path}: is being written to by another run, takes a folder of its own"
+                )
             # By their numbers, not behind what there is: of an instant that was half written before.
             before = file.variables["frame_step"][: int(file.attrs["frames"])]
             frame = int(np.searchsorted(before, step))
@@ -199,12 +208,11 @@ class MotionFile:
             self._keep(file, history, frame % _PLACES)
             file.attrs["frames"] = frame + 1
             file.attrs["complete"] = int(step == self._contact.motion.course.steps)
+            self._left = _state(file)
 
     def add_seconds(self, seconds: float) -> None:
         """Time that was spent on it [s]."""
-        import h5netcdf
-
-        with h5netcdf.File(self._path, "a") as file:
+        with _opened(self._path, "a") as file:
             file.attrs["seconds"] = float(file.attrs["seconds"]) + seconds
 
     def _keep(self, file: Any, history: History, place: int) -> None:
@@ -228,18 +236,16 @@ class MotionFile:
 
     def resumed(self) -> tuple[int, History] | None:
         """The last step of an unfinished run of the same case and the film then, None without one."""
-        import h5netcdf
-
         if not self._path.is_file():
             return None
         try:
-            with h5netcdf.File(self._path, "r") as file:
+            with _opened(self._path, "r") as file:
                 if file.attrs["complete"] or not self._same(file.attrs):
                     return None
-                frames = int(file.attrs["frames"])
+                self._left, frames = _state(file), int(file.attrs["frames"])
                 kept = _kept(file.groups["resume"], frames)
                 return None if kept is None else (int(file.variables["frame_step"][frames - 1]), kept)
-        except (OSError, KeyError, ValueError, RuntimeError, zlib.error):
+        except (OSError, KeyError, ValueError, RuntimeError):
             return None  # not a run, or damaged: solved from the start
 
     def _same(self, attributes: Mapping[str, Any]) -> bool:
@@ -247,6 +253,38 @@ class MotionFile:
         motion = self._contact.motion
         known = {"case": motion.case.to_toml(), "version": __version__, "rough": described(motion)}
         return all(attributes[name] == value for name, value in known.items())
+
+
+@contextmanager
+def _opened(path: Path, mode: str) -> Iterator[Any]:
+    """A file, once nobody else has it open; who stops the program waits until it is closed.
+
+    Raises
+    ------
+    InputError
+        Where it stays open.
+    """
+    import h5netcdf
+
+    until = time.monotonic() + _PATIENCE
+    while True:
+        with held_back():
+            try:
+                file = h5netcdf.File(path, mode)
+            except BlockingIOError:
+                if time.monotonic() > until:
+                    told = f"{path}: is held open by another program, which must close it"
+                    raise InputError(told) from None
+            else:
+                with file:
+                    yield file
+                return
+        time.sleep(_AGAIN)
+
+
+def _state(file: Any) -> tuple[Any, int]:
+    """What changes where another run writes into a file."""
+    return file.attrs["date"], int(file.attrs["frames"])
 
 
 def described(motion: Motion) -> str:
@@ -328,16 +366,30 @@ def read_motion(path: str | Path) -> xr.Dataset:
         path.open("rb").close()
     except OSError as error:
         raise InputError(f"{path}: cannot be read, {(error.strerror or str(error)).lower()}") from None
+    damaged = InputError(f"{path}: is no motion of ehlectric, or damaged")
     try:
-        with xr.open_dataset(path, engine="h5netcdf") as file:
-            dataset = file.load()
+        with _opened(path, "r") as file:
+            dataset = xr.open_dataset(xr.backends.H5NetCDFStore(file)).load()
+    except InputError:
+        raise
+    except Exception:  # whatever HDF5 and its wrappers raise at damaged files
+        raise damaged from None
+    try:
         Case.from_dict(tomllib.loads(dataset.attrs["case"]))
         frames = int(dataset.attrs["frames"])
         last = int(dataset["frame_step"].values[:frames][-1])
-        dataset = dataset.isel(frame=slice(0, frames), step=slice(0, last + 1))
-    except Exception:  # whatever HDF5 and its wrappers raise at damaged files
-        raise InputError(f"{path}: is no motion of ehlectric, or damaged") from None
-    return dataset
+    except (LookupError, TypeError, ValueError):
+        raise damaged from None
+    return dataset.isel(frame=slice(0, frames), step=slice(0, last + 1))
+
+
+def saved_steps(path: Path) -> int:
+    """Steps that a file of a run has, 0 where it has none or cannot be read."""
+    try:
+        with _opened(path, "r") as file:
+            return int(file.variables["frame_step"][: int(file.attrs["frames"])][-1])
+    except (OSError, LookupError, ValueError, RuntimeError):
+        return 0
 
 
 def motion_of(dataset: xr.Dataset) -> Motion:

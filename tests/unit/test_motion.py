@@ -250,6 +250,14 @@ def test_a_duration_is_rounded_to_whole_steps_or_taken_as_it_is():
     assert (tiny.steps, tiny.recorded.tolist()) == (1, [0, 1])
 
 
+def test_rounding_moves_no_surface_and_loses_no_end():
+    nearly = Motion(moving(LINE, {SRR: 2.0 - 1e-10}, **rough((1, BUMP), (2, BUMP))))
+    assert (nearly.speed_of(1), nearly.speed_of(2)) == (pytest.approx(2.0), 0.0)
+    duration = 6.0 * (1.0 - 1e-12) * HALF_WIDTH / 4.0
+    assert Motion(moving(LINE, motion={"duration": duration, "steps": 49})).coincident == 6.0
+    assert Motion(moving(LINE, motion={"duration": 0.999 * duration, "steps": 49})).coincident == math.inf
+
+
 def test_a_step_may_be_as_long_as_eight_intervals():
     assert Motion(moving(LINE, motion={"passes": 1.0, "steps": 8})).course.courant == 8.0
 

@@ -10,11 +10,12 @@ from ehlectric import multigrid, reynolds
 from ehlectric.conditions import resolve
 from ehlectric.elastic import LINE, Deflection
 from ehlectric.film import solve_film
-from ehlectric.levels import COARSEST, hierarchy, interpolation
+from ehlectric.levels import COARSEST, DIPOLE, SECOND_DIFFERENCE, hierarchy, interpolation
 from ehlectric.lubricant import barus, incompressible
 from ehlectric.nested import FilmProblem
 from ehlectric.problems import film_problem
 from ehlectric.reynolds import Fluid, evaluate
+from ehlectric.unsteady import in_time
 
 
 @pytest.mark.parametrize(("coarse", "fine"), [(5, 9), (6, 10), (51, 100), (33, 64), (7, 7)])
@@ -83,6 +84,26 @@ def at_solution(problem):
     )
 
 
+def relinearised(jacobian, level):
+    """The Jacobian at a film that was made up, on a level that may be one of time."""
+    x = level.mesh.x[:, np.newaxis]
+    fluid = Fluid(
+        incompressible,
+        lambda p: barus(p, pressure_viscosity_coefficient=8.0),
+        velocity_parameter=0.05,
+        ambient_pressure=0.0,
+    )
+    pressure = np.where(jacobian.free, np.sqrt(np.clip(1.0 - x**2, 0.0, 1.0)), 0.0)
+    thickness = 0.1 + 0.5 * np.clip(np.abs(x) - 1.0, 0.0, None) ** 1.5
+    return multigrid.Linearised(
+        level,
+        evaluate(fluid, pressure, thickness),
+        pressure=pressure,
+        thickness=thickness,
+        free=jacobian.free,
+    )
+
+
 def three_lines(jacobian):
     """The same grid with three identical lines along x that do not feel each other."""
     level = jacobian.level
@@ -96,12 +117,38 @@ def three_lines(jacobian):
     )
     copy = multigrid.Linearised.__new__(multigrid.Linearised)
     copy.level, copy.half_band = wide, jacobian.half_band
-    for name in ("free", "dipole", "resolved"):
+    for name in ("free", "distributed", "resolved"):
         setattr(copy, name, np.repeat(getattr(jacobian, name), 3, axis=1))
     for name in ("by_p", "by_h"):
         coefficients = np.repeat(getattr(jacobian, name).coefficients, 3, axis=2)
         setattr(copy, name, reynolds.Stencil(coefficients))
     return copy
+
+
+@pytest.mark.parametrize("distribution", [DIPOLE, SECOND_DIFFERENCE])
+def test_a_line_is_relaxed_by_the_band_of_its_jacobian_in_distributed_unknowns(distribution):
+    """P = D q, where D adds parts of an unknown beside it: the band of J D, by elimination in full."""
+    line = jacobians(401)[1]
+    level = line.level
+    if distribution is SECOND_DIFFERENCE:
+        level = in_time(level, 1.0 / level.mesh.dx)
+    copy = relinearised(line, level)
+    n, free, distributed = level.nodes, copy.free[:, 0], copy.distributed[:, 0]
+    # Some are, and some are not: in the inlet the flow decides.
+    assert 0.1 < np.mean(distributed) < np.mean(free) < 1.0
+    changes = np.eye(n)
+    for j in np.flatnonzero(distributed):
+        assert all(free[j + offset] for offset, _ in distribution)
+        for offset, part in distribution:
+            changes[j + offset, j] = part
+    jacobian = np.stack([copy(unit[:, np.newaxis], 0.0)[0][:, 0] for unit in np.eye(n)], axis=1)
+    apart = np.abs(np.subtract.outer(np.arange(n), np.arange(n)))
+    band = np.where(apart <= copy.half_band, jacobian @ changes, 0.0)
+    band[~free] = np.eye(n)[~free]
+    r = np.where(free, np.random.default_rng(17).standard_normal(n), 0.0)
+    expected = np.where(free, changes @ np.linalg.solve(band, r), 0.0)
+    largest = np.max(np.abs(expected))
+    np.testing.assert_allclose(copy.relax(r[:, np.newaxis])[:, 0], expected, rtol=0.0, atol=1e-9 * largest)
 
 
 def test_lines_side_by_side_are_relaxed_as_one():

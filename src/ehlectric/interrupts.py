@@ -1,0 +1,45 @@
+"""Interrupts that wait until what is written is whole."""
+
+from __future__ import annotations
+
+import signal
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+_STOPPING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+
+
+@contextmanager
+def held_back() -> Iterator[None]:
+    """Signals that stop a program are held back, and delivered at the end.
+
+    In other threads than the main one nothing is to be done: no signal interrupts them.
+
+    Examples
+    --------
+    >>> try:
+    ...     with held_back():
+    ...         signal.raise_signal(signal.SIGINT)
+    ...         print("written")
+    ... except KeyboardInterrupt:
+    ...     print("stopped")
+    written
+    stopped
+    """
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    came: list[int] = []
+    before: dict[int, Any] = {}
+    try:
+        for number in _STOPPING:
+            before[number] = signal.signal(number, lambda number, _: came.append(number))
+        yield
+    finally:
+        for held, handler in before.items():
+            # None: one that was not set from Python, and cannot be set from it.
+            signal.signal(held, signal.SIG_DFL if handler is None else handler)
+        if came:
+            signal.raise_signal(came[0])

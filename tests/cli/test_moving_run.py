@@ -1,0 +1,343 @@
+"""Moving roughness as a user runs it: what is printed and written, refused, stopped and gone on with."""
+
+import json
+import os
+import random
+import signal
+import subprocess
+import time
+
+import h5netcdf
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from ehlectric.cli import app
+from ehlectric.errors import ConvergenceError
+from ehlectric.motion_store import read_motion
+from ehlectric.unsteady import UnsteadyFilm
+from tests.cli.conftest import COMMAND
+
+CASE = """\
+title = "Bump"
+[contact]
+reduced_radius = "14.1 mm"
+reduced_modulus = "226 GPa"
+max_hertz_pressure = "0.5 GPa"
+entrainment_speed = "4 m/s"
+[lubricant]
+base = "paper"
+[[roughness]]
+surface = 1
+generator = "asperity"
+height = "50 nm"
+width = "60 um"
+[grid]
+nodes = 65
+field_degree = 2
+[motion]
+passes = 0.375
+steps = 12
+record = 4
+"""
+# Five hundred instants, a hundredth of a second each, or so.
+LONG = CASE.replace("passes = 0.375\nsteps = 12\nrecord = 4", "passes = 20.0\nrecord = 400")
+STEPS = 20 * 64
+POINT = CASE.replace('reduced_radius = "14.1 mm"', 'geometry = "point"\nradius_x = 0.01\nradius_y = 0.01')
+
+
+@pytest.fixture
+def typed(tmp_path, monkeypatch):
+    """The command in this process, in an empty folder."""
+    monkeypatch.chdir(tmp_path)
+
+    def run(*words):
+        return CliRunner().invoke(app, [str(word) for word in words], env={"COLUMNS": "100"})
+
+    return run
+
+
+@pytest.fixture
+def case_file(tmp_path):
+    path = tmp_path / "case.toml"
+    path.write_text(CASE)
+    return path
+
+
+def files(folder):
+    return sorted(path.name for path in folder.iterdir())
+
+
+def test_a_moving_case_is_solved_written_and_told(ehlectric, tmp_path, case_file):
+    done = ehlectric("run", case_file, "-o", "out", "--no-plots")
+    assert done.returncode == 0
+    assert done.stdout.splitlines()[-1] == "written: out/summary.json, out/motion.nc"
+    assert files(tmp_path / "out") == ["motion.nc", "summary.json"]
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    assert (summary["schema"], summary["converged"], summary["title"]) == ("ehlectric.motion/1", True, "Bump")
+    assert done.stderr == "".join(f"warning: {text}\n" for text in summary["warnings"])
+    rows = {line[:26].strip(): line[26:].split() for line in done.stdout.splitlines()}
+    dataset = read_motion(tmp_path / "out")
+    assert dict(dataset.sizes) == {"x": 65, "step": 13, "frame": 4}
+    told = {
+        "time": (summary["motion"]["duration"] * 1e3, ["ms", "in", "12", "steps"]),
+        "smallest film": (float(dataset["minimum_thickness"].min()) * 1e6, ["µm"]),
+        "largest pressure": (float(dataset["max_pressure"].max()) / 1e9, ["GPa"]),
+        "largest field": (float(dataset["max_strength"].max()) / 1e6, ["V/µm"]),
+        "voltage": (2.0, ["V"]),
+    }
+    for name, (value, unit) in told.items():
+        assert float(rows[name][0]) == pytest.approx(value, rel=1e-3)
+        assert rows[name][1:] == unit
+
+
+def test_options_of_what_is_printed(typed, tmp_path, case_file):
+    quiet = typed("run", case_file, "-o", "out", "--no-plots", "-q")
+    assert (quiet.exit_code, quiet.stdout, quiet.stderr) == (0, "", "")
+    shown = typed("run", case_file, "-o", "out", "--no-plots", "-q", "--json")
+    assert (shown.exit_code, shown.stderr) == (0, "")
+    assert json.loads(shown.stdout) == json.loads((tmp_path / "out" / "summary.json").read_text())
+
+
+@pytest.mark.slow
+def test_a_point_contact_is_run_too(ehlectric, tmp_path, case_file):
+    case_file.write_text(POINT)
+    done = ehlectric("run", case_file, "-o", "out", "--no-plots")
+    assert done.returncode == 0, done.stderr
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    assert len(summary["film"]["minimum_position"]) == len(summary["field"]["max_strength_position"]) == 2
+
+
+# What is typed, changes of the case, and what is said.
+PASSES = "passes = 0.375\n"
+ALONE = (
+    "motion: got roughness on surfaces at rest alone; takes it on one that moves, or a case without motion"
+)
+ROUGH = CASE[CASE.index("[[roughness]]") : CASE.index("[grid]")]
+BAD = [
+    (
+        (PASSES, PASSES + 'duration = "1 ms"\n'),
+        "motion.passes: got passes and duration together, takes either",
+    ),
+    ((PASSES, ""), "motion.passes: missing, takes either passes or duration"),
+    (
+        (PASSES, 'duration = "1 m"\n'),
+        "motion.duration: got '1 m' (m is not a unit of this quantity), takes a",
+    ),
+    (("record = 4", "record = 1"), "motion.record: got 1, takes a whole number from 2 to 100000"),
+    (
+        ("steps = 12", "steps = 2"),
+        "motion.steps: got 2, in each of which oil would travel 12 grid spacings; ",
+    ),
+    ((ROUGH, ""), "motion: got it without roughness, which is what moves; takes a rough surface"),
+    (
+        ("nodes = 65", 'nodes = 65\nwedge = "first-order"'),
+        "grid.wedge: got 'first-order' beside motion, takes",
+    ),
+    (("nodes = 65", "nodes = 65\nrefine = 0.1"), "grid.refine: got it beside motion, which takes one grid"),
+    (("[lubricant]", "slide_to_roll_ratio = -2.0\n[lubricant]"), ALONE),
+]
+
+
+@pytest.mark.parametrize(("change", "message"), BAD)
+@pytest.mark.parametrize("command", ["run", "check"])
+def test_wrong_input_is_one_line_before_anything_is_made(
+    typed, tmp_path, case_file, command, change, message
+):
+    assert change[0] in CASE
+    case_file.write_text(CASE.replace(*change))
+    done = typed(command, case_file, *(["-o", "out"] if command == "run" else []))
+    assert (done.exit_code, done.stdout) == (2, "")
+    assert done.stderr.startswith(f"error: {message}")
+    assert done.stderr.count("\n") == 1
+    assert files(tmp_path) == ["case.toml"]
+
+
+@pytest.mark.parametrize(
+    ("name", "message"),
+    [
+        ("paper", "--solver: got 'paper' for a case with motion, takes 'ehlectric'"),
+        ("other", "--solver: got 'other', takes one of ehlectric, paper"),
+    ],
+)
+def test_other_solvers_know_no_motion(typed, tmp_path, case_file, name, message):
+    # A grid that the paper's solver takes.
+    case_file.write_text(CASE.replace("nodes = 65", "nodes = 129"))
+    done = typed("run", case_file, "-o", "out", "--solver", name)
+    assert (done.exit_code, done.stdout, done.stderr) == (2, "", f"error: {message}\n")
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_moving_case_is_checked(typed, case_file):
+    done = typed("check", case_file, "--json")
+    assert done.exit_code == 0
+    # b = 4 R p_h/E'.
+    assert json.loads(done.stdout)["hertz"]["half_width"] == pytest.approx(4 * 14.1e-3 * 0.5e9 / 226e9)
+
+
+def test_other_commands_refuse_it(typed, tmp_path, case_file):
+    (tmp_path / "sweep.toml").write_text(
+        'case = "case.toml"\n[vary]\ncontact.entrainment_speed = ["1 m/s", "2 m/s"]\n'
+    )
+    swept = typed("sweep", "sweep.toml", "-o", "out")
+    text = "error: case.motion: got it in a sweep, whose films are at rest; takes a case without it\n"
+    assert (swept.exit_code, swept.stdout, swept.stderr) == (2, "", text)
+    shown = typed("surface", case_file)
+    assert (shown.exit_code, shown.stdout, shown.stderr.count("\n")) == (2, "", 1)
+    assert shown.stderr.startswith(f"error: {case_file}: ")
+    assert files(tmp_path) == ["case.toml", "sweep.toml"]
+
+
+def test_a_motion_is_no_result_to_plot(typed, case_file):
+    assert typed("run", case_file, "-o", "out", "--no-plots", "-q").exit_code == 0
+    done = typed("plot", "out/motion.nc")
+    text = "error: out/motion.nc: is not a result of ehlectric, or damaged\n"
+    assert (done.exit_code, done.stdout, done.stderr) == (2, "", text)
+
+
+def test_a_folder_holds_one_result(typed, tmp_path, case_file):
+    """Of what is at rest or of what moves: the other one's files go, but not those of others."""
+    still = tmp_path / "still.toml"
+    still.write_text(CASE[: CASE.index("[motion]")])
+    out = tmp_path / "out"
+    assert typed("run", still, "-o", out, "--no-plots", "-q").exit_code == 0
+    (out / "film.png").write_text("of the film at rest")
+    (out / "notes.txt").write_text("mine")
+    at_rest = ["film.csv", "notes.txt", "result.nc", "summary.json"]
+    assert files(out) == sorted([*at_rest, "film.png"])
+    assert typed("run", case_file, "-o", out, "--no-plots", "-q").exit_code == 0
+    assert files(out) == ["motion.nc", "notes.txt", "summary.json"]
+    (out / "motion_maps.png").write_text("of what moves")
+    assert typed("run", still, "-o", out, "--no-plots", "-q").exit_code == 0
+    assert files(out) == at_rest
+
+
+def test_a_step_that_is_not_solved(typed, tmp_path, monkeypatch, case_file):
+    """What was found before is summed up all the same; the same command goes on, and fails again."""
+    advance, done_before = UnsteadyFilm.advance, []
+
+    def failing(self, history, step):
+        if history.now.time > 1.1:
+            raise ConvergenceError("film not found at T = 1.3125")
+        done_before.append(history.now.time)
+        return advance(self, history, step)
+
+    monkeypatch.setattr(UnsteadyFilm, "advance", failing)
+    for steps in (6, 2):
+        done = typed("run", case_file, "-o", "out", "--no-plots")
+        assert done.exit_code == 3
+        assert done.stderr.splitlines()[-1] == (
+            "error: not converged: step 7 of 12: film not found at T = 1.3125"
+        )
+        assert done.stdout.splitlines()[-1] == "written: out/summary.json, out/motion.nc"
+        summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+        assert (summary["converged"], summary["motion"]["steps_done"]) == (False, 4)
+        assert len(done_before) == steps
+        done_before.clear()
+
+
+def test_a_film_before_the_motion_that_is_not_found(typed, tmp_path, case_file):
+    case_file.write_text(CASE + "[solver]\nmax_iterations = 1\n")
+    done = typed("run", case_file, "-o", "out", "--no-plots")
+    assert (done.exit_code, done.stdout) == (3, "")
+    assert done.stderr.startswith("error: not converged: film before the motion ")
+    assert done.stderr.count("\n") == 1
+    assert files(tmp_path / "out") == []
+
+
+def begun(folder, frames=3, text=LONG):
+    """A long run with some instants kept, still running."""
+    (folder / "case.toml").write_text(text)
+    process = subprocess.Popen(
+        [COMMAND, "run", "case.toml", "-o", "out", "--no-plots"],
+        cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+    )  # fmt: skip
+    deadline = time.monotonic() + 60.0
+    while time.monotonic() < deadline:
+        assert process.poll() is None, process.communicate()
+        if kept(folder) >= frames:
+            return process
+        time.sleep(0.05)
+    raise AssertionError("nothing is kept")
+
+
+def kept(folder):
+    """Instants in the file of a run, 0 where it cannot be read now."""
+    try:
+        with h5netcdf.File(folder / "out" / "motion.nc", "r") as file:
+            return int(file.attrs["frames"])
+    except (OSError, KeyError):
+        return 0
+
+
+@pytest.mark.parametrize(
+    "number",
+    [
+        signal.SIGTERM,
+        pytest.param(signal.SIGINT, marks=pytest.mark.slow),
+        pytest.param(signal.SIGHUP, marks=pytest.mark.slow),
+    ],
+)
+def test_a_run_that_is_stopped_says_what_is_saved_and_goes_on(tmp_path, number):
+    process = begun(tmp_path)
+    process.send_signal(number)
+    out, errors = process.communicate(timeout=30)
+    assert (process.returncode, out) == (128 + number, "")
+    found = read_motion(tmp_path / "out")
+    steps, frames = found.sizes["step"] - 1, found.sizes["frame"]
+    assert steps > 0
+    assert errors == (
+        f"stopped; {steps} of {STEPS} steps are saved in out, the same command goes on with the others\n"
+    )
+    assert files(tmp_path / "out") == ["motion.nc"]
+    again = begun(tmp_path, frames + 1)
+    again.send_signal(number)
+    assert again.communicate(timeout=30)[1].startswith("stopped; ")
+    more = read_motion(tmp_path / "out")
+    # Without a gap: each step once, in equal times.
+    assert more.sizes["step"] - 1 > steps
+    np.testing.assert_allclose(np.diff(more["time"]), more["time"][1], rtol=1e-9)
+    assert more["minimum_thickness"].values.min() > 1e-7
+
+
+def test_stopped_before_anything_is_kept(typed, monkeypatch, case_file):
+    from ehlectric import motion_run
+
+    def stopping(*_, **__):
+        raise SystemExit(128 + signal.SIGTERM)
+
+    monkeypatch.setattr(motion_run, "_begin", stopping)
+    done = typed("run", case_file, "-o", "out", "--no-plots", "-q")
+    assert (done.exit_code, done.stdout) == (143, "")
+    assert done.stderr == (
+        "stopped; 0 of 12 steps are saved in out, the same command goes on with the others\n"
+    )
+
+
+@pytest.mark.slow
+def test_kills_lose_nothing_that_was_kept(tmp_path):
+    """Five times kill -9 at a random moment: it goes on, and ends as it would have."""
+    moment, steps = random.Random(3), 0
+    for _ in range(5):
+        process = begun(tmp_path, kept(tmp_path) + 1, LONG.replace("20.0", "8.0"))
+        time.sleep(moment.uniform(0.0, 0.3))
+        os.kill(process.pid, signal.SIGKILL)
+        process.communicate(timeout=30)
+        found = read_motion(tmp_path / "out")
+        assert found.sizes["step"] - 1 >= steps
+        steps = found.sizes["step"] - 1
+        np.testing.assert_allclose(np.diff(found["time"]), found["time"][1], rtol=1e-9)
+    done = subprocess.run(
+        [COMMAND, "run", "case.toml", "-o", "out", "--no-plots"],
+        cwd=tmp_path, capture_output=True, text=True, timeout=300, check=False,
+    )  # fmt: skip
+    assert done.returncode == 0
+    assert "Traceback" not in done.stderr
+    whole = subprocess.run(
+        [COMMAND, "run", "case.toml", "-o", "whole", "--no-plots", "-q"],
+        cwd=tmp_path, capture_output=True, text=True, timeout=300, check=False,
+    )  # fmt: skip
+    assert whole.returncode == 0
+    killed, expected = read_motion(tmp_path / "out"), read_motion(tmp_path / "whole")
+    for name in expected.variables:
+        np.testing.assert_array_equal(killed[name].values, expected[name].values, err_msg=str(name))
