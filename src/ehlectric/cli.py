@@ -1,4 +1,4 @@
-"""The command line: run, check, surface, init, plot, reproduce, sweep, map, sensitivity."""
+"""The command line: what each command takes, and what it hands on to."""
 
 from __future__ import annotations
 
