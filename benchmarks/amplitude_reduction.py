@@ -244,7 +244,8 @@ def report(points: list[Reduction]) -> None:
     for one, own, other in zip(points, ours, theirs, strict=True):
         print(
             f"{one.moes_m:5g} {one.moes_l:4g} {one.wavelength:8g} {one.nabla:6.2f} {one.ratio:.4f} "
-            f"{one.error:8.4f} {100.0 * (one.ratio / own - 1.0):+8.1f} % {100.0 * (one.ratio / other - 1.0):+10.1f} %"
+            f"{one.error:8.4f} {100.0 * (one.ratio / own - 1.0):+8.1f} % "
+            f"{100.0 * (one.ratio / other - 1.0):+10.1f} %"
         )
     draw(points, (c, p))
 
