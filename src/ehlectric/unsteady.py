@@ -271,7 +271,7 @@ def in_time(level: Level, rate: float) -> Level:
 def carried(values: Array, distance: float) -> Array:
     """Nodal values (nx, ny) carried along x by some grid spacings: exact by whole ones, else by a cubic.
 
-    What comes from before the first node is extrapolated by a parabola, as the gap there is about one.
+    What comes from beyond the ends is extrapolated by a parabola, as the gap there is about one.
 
     Examples
     --------
@@ -284,7 +284,8 @@ def carried(values: Array, distance: float) -> Array:
     steps = np.arange(-ghosts, 0.0)[:, np.newaxis]
     v0, v1, v2 = values[0], values[1], values[2]
     before = v0 + steps * (-1.5 * v0 + 2.0 * v1 - 0.5 * v2) + steps**2 * (0.5 * v0 - v1 + 0.5 * v2)
-    padded = np.concatenate([before, values, values[-1:]])
+    beyond = 3.0 * values[-1:] - 3.0 * values[-2:-1] + values[-3:-2]
+    padded = np.concatenate([before, values, beyond])
     start, n = ghosts - whole, values.shape[0]
     if abs(part) <= _SAME_NODE:
         moved: Array = padded[start : start + n].copy()
