@@ -241,11 +241,11 @@ def report(points: list[Reduction]) -> None:
     print(f"1/(1 + {c:.4f} n^{p:.3f}): {scatter(ratio, ours)}")
     print(f"published fit: {scatter(ratio, theirs)}")
     print("    M    L lambda/b      n  ratio    error  over ours  over theirs")
-    for one, own, other in zip(points, ours, theirs, strict=True):
+    over_ours, over_theirs = 100.0 * (ratio / ours - 1.0), 100.0 * (ratio / theirs - 1.0)
+    for one, own, other in zip(points, over_ours, over_theirs, strict=True):
         print(
-            f"{one.moes_m:5g} {one.moes_l:4g} {one.wavelength:8g} {one.nabla:6.2f} {one.ratio:.4f} "
-            f"{one.error:8.4f} {100.0 * (one.ratio / own - 1.0):+8.1f} % "
-            f"{100.0 * (one.ratio / other - 1.0):+10.1f} %"
+            f"{one.moes_m:5g} {one.moes_l:4g} {one.wavelength:8g} {one.nabla:6.2f}"
+            f" {one.ratio:.4f} {one.error:8.4f} {own:+8.1f} % {other:+10.1f} %"
         )
     draw(points, (c, p))
 

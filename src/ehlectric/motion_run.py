@@ -105,8 +105,6 @@ def _begin(file: MotionFile, contact: MovingContact) -> None:
     first = contact.snapshot(history.now)
     attributes = {
         "title": motion.case.title,
-        "covered_from": _moment(motion, motion.covered),
-        "coincident": _moment(motion, motion.coincident),
         "case": motion.case.to_toml(),
         "version": __version__,
         "date": datetime.now(UTC).isoformat(timespec="seconds"),
@@ -115,14 +113,15 @@ def _begin(file: MotionFile, contact: MovingContact) -> None:
         "rough": described(motion),
         "seconds": 0.0,
     }
-    file.create(first, attributes, _maps(still))
+    file.create(first, attributes | _moments(motion), _maps(still))
     file.append([Row.of(contact, history)], 0, first, history)
     file.add_seconds(time.perf_counter() - started)
 
 
-def _moment(motion: Motion, time: float) -> float:
-    """A time T in seconds, not a number where it never comes."""
-    return time * motion.course.time if math.isfinite(time) else math.nan
+def _moments(motion: Motion) -> dict[str, float]:
+    """Times that figures mark [s], those that come."""
+    moments = {"covered_from": motion.covered, "coincident": motion.coincident}
+    return {name: time * motion.course.time for name, time in moments.items() if math.isfinite(time)}
 
 
 def _maps(still: Result | PointResult) -> dict[str, Array]:

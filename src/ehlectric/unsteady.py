@@ -28,13 +28,16 @@ from ehlectric.typing import Array, Mask
 # A time step is solved to this residual, a pressure, far below what the step itself misses.
 STEP_TOLERANCE = 1e-6
 
-# Newton steps from the extrapolated film, and from the last one, before a time step is halved; and how often
-# that may be.
-FEW_ITERATIONS, MANY_ITERATIONS = 4, 30
+# Newton steps from the better of the extrapolated film and the last one, and from the other, before a time
+# step is halved; and how often that may be.
+FEW_ITERATIONS, MANY_ITERATIONS = 8, 30
 MOST_HALVINGS = 6
 
 # Part of the last smallest gap below which an extrapolated one is no start.
 LEAST_START = 0.3
+
+# Change of P in a step above which a spike passes a node, and nothing can be extrapolated there.
+MOST_CHANGE = 0.1
 
 # Grid spacings that oil may travel in a time step.
 MOST_COURANT = 8.0
@@ -180,7 +183,9 @@ class UnsteadyFilm:
         time = history.now.time + step
         levels = self._levels_at(history, step)
         effort = Effort()
-        for start, iterations, spike in self._starts(levels[0], history, step):
+        starts = self._starts(levels, history, step)
+        limits = [FEW_ITERATIONS, MANY_ITERATIONS][-len(starts) :]
+        for (start, spike), iterations in zip(starts, limits, strict=True):
             solution = newton(
                 self.problem.fluid,
                 levels,
@@ -196,23 +201,29 @@ class UnsteadyFilm:
                 return self._instant(time, solution), effort
         return None, effort
 
-    def _starts(self, level: Level, history: History, step: float) -> list[tuple[State, int, bool]]:
-        """States to start from, with the Newton steps they are worth, and whether a spike stands out.
+    def _starts(self, levels: list[Level], history: History, step: float) -> list[tuple[State, bool]]:
+        """States to start from, each with whether a spike stands out: the extrapolated film and the last one.
 
-        The extrapolated film first, then the last one.
+        The one of the smaller residual first: where short waves pass, nothing goes on as it did.
         """
         now, before = history.now.state, history.before.state
         ratio = step / (history.now.time - history.before.time)
         ambient = self.problem.fluid.ambient_pressure
-        pressure = np.maximum(now.pressure + ratio * (now.pressure - before.pressure), ambient)
+        change = ratio * (now.pressure - before.pressure)
+        change[np.abs(change) > MOST_CHANGE] = 0.0
+        pressure = np.maximum(now.pressure + change, ambient)
         h00 = now.h00 + ratio * (now.h00 - before.h00)
         least = LEAST_START * float(now.thickness.min())
-        last = State.of(level, now.pressure, now.h00).lifted(least)
-        starts = [(last, MANY_ITERATIONS, self.problem.width is None)]
-        extrapolated = State.of(level, pressure, h00)
+        last = State.of(levels[0], now.pressure, now.h00).lifted(least)
+        starts = [(last, self.problem.width is None)]
+        extrapolated = State.of(levels[0], pressure, h00)
         if float(extrapolated.thickness.min()) >= least:
-            starts.insert(0, (extrapolated, FEW_ITERATIONS, False))
-        return starts
+            starts.append((extrapolated, False))
+        return sorted(starts, key=lambda start: self._missed(levels, start[0]))
+
+    def _missed(self, levels: list[Level], state: State) -> float:
+        """Residual of a state."""
+        return newton(self.problem.fluid, levels, state, tolerance=0.0, max_iterations=0).final.norm
 
     def _levels_at(self, history: History, step: float) -> list[Level]:
         """All grids with the equation of one time step, backward differences over two along the lines X - T.
@@ -260,7 +271,7 @@ def in_time(level: Level, rate: float) -> Level:
 def carried(values: Array, distance: float) -> Array:
     """Nodal values (nx, ny) carried along x by some grid spacings: exact by whole ones, else by a cubic.
 
-    What comes from before the first node is extrapolated by a parabola, as the gap there is about one.
+    What comes from beyond the ends is extrapolated by a parabola, as the gap there is about one.
 
     Examples
     --------
@@ -273,7 +284,8 @@ def carried(values: Array, distance: float) -> Array:
     steps = np.arange(-ghosts, 0.0)[:, np.newaxis]
     v0, v1, v2 = values[0], values[1], values[2]
     before = v0 + steps * (-1.5 * v0 + 2.0 * v1 - 0.5 * v2) + steps**2 * (0.5 * v0 - v1 + 0.5 * v2)
-    padded = np.concatenate([before, values, values[-1:]])
+    beyond = 3.0 * values[-1:] - 3.0 * values[-2:-1] + values[-3:-2]
+    padded = np.concatenate([before, values, beyond])
     start, n = ghosts - whole, values.shape[0]
     if abs(part) <= _SAME_NODE:
         moved: Array = padded[start : start + n].copy()
