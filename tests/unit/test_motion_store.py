@@ -173,7 +173,7 @@ def test_the_held_roughness_is_that_of_the_case(whole):
     np.testing.assert_array_equal(whole["stationary_strength"], column_strength(still.film, still.field))
 
 
-@pytest.mark.parametrize("until", [0, 4, 8])
+@pytest.mark.parametrize("until", [pytest.param(0, marks=pytest.mark.slow), 4, 8])
 def test_a_run_that_was_stopped_goes_on_to_the_last_bit(tmp_path, whole, stopped, until):
     if until == 4:
         assert run(CASE, tmp_path, until)[-1] == of_step(until)
@@ -404,7 +404,7 @@ def test_warnings_are_of_the_grid_of_the_case(tmp_path):
 PITS = [{"surface": 1, "generator": "pit", "depth": "100 nm", "width": "90 um"}]
 
 
-@pytest.mark.parametrize("beside", [0.0, 3e-5])
+@pytest.mark.parametrize("beside", [0.0, pytest.param(3e-5, marks=pytest.mark.slow)])
 def test_a_point_contact(tmp_path, beside):
     """65 x 65 nodes, a pit in the middle or beside it; what is solved in one half is there in both."""
     rough = [PITS[0] | {"position_y": beside}]
@@ -484,7 +484,10 @@ def test_a_second_run_in_the_same_folder_is_refused(tmp_path, stopped, whole):
     same(read_motion(tmp_path), whole)
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+@pytest.mark.parametrize(
+    "number",
+    [signal.SIGTERM, *(pytest.param(n, marks=pytest.mark.slow) for n in (signal.SIGINT, signal.SIGHUP))],
+)
 def test_a_signal_waits_until_an_instant_is_whole(tmp_path, monkeypatch, stopped, number):
     stopped(4)
     put, left = h5netcdf.Variable.__setitem__, 10
@@ -518,6 +521,20 @@ def test_in_another_thread_it_runs_too(tmp_path, stopped, whole):
     thread.start()
     thread.join()
     same(read_motion(tmp_path), whole)
+
+
+def test_only_what_is_new_is_written(tmp_path, monkeypatch, stopped):
+    """Memory does not grow with the steps: each goes once."""
+    stopped(0)
+    append, written = MotionFile.append, []
+
+    def counted(self, rows, step, *others):
+        written.append((len(rows), step))
+        append(self, rows, step, *others)
+
+    monkeypatch.setattr(MotionFile, "append", counted)
+    run(CASE, tmp_path)
+    assert written == [(4, 4), (4, 8), (4, 12)]
 
 
 def test_steps_that_are_saved(tmp_path, stopped):
