@@ -455,6 +455,15 @@ def test_who_looks_at_a_run_does_not_end_it(tmp_path, whole, stopped):
     same(read_motion(tmp_path), whole)
 
 
+def test_a_run_from_the_start_leaves_the_old_file_to_who_reads_it(tmp_path, monkeypatch, stopped):
+    monkeypatch.setattr(motion_store, "_PATIENCE", 0.0)
+    with held(stopped(12)) as reader:
+        before = (tmp_path / MOTION).read_bytes()
+        assert run(CASE, tmp_path, 0) == ANEW[:2]
+        assert reader.read() == before
+    assert read_motion(tmp_path).sizes["frame"] == 1
+
+
 def test_who_does_not_close_it_is_told(tmp_path, monkeypatch, stopped):
     monkeypatch.setattr(motion_store, "_PATIENCE", 0.0)
     reader = held(stopped(8))
