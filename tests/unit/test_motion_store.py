@@ -195,7 +195,10 @@ def test_a_run_that_was_stopped_goes_on_to_the_last_bit(tmp_path, whole, stopped
 
 
 # What is written of an instant in succession: rows, maps, numbers, what is gone on from, its checksum.
-@pytest.mark.parametrize(("instant", "writes"), [(1, 22), (2, 1), (2, 10), (2, 20), (2, 27)])
+@pytest.mark.parametrize(
+    ("instant", "writes"),
+    [(1, 22), (2, 20), *(pytest.param(2, writes, marks=pytest.mark.slow) for writes in (1, 10, 27))],
+)
 def test_an_instant_that_is_half_written_does_not_count(
     tmp_path, monkeypatch, whole, stopped, instant, writes
 ):
