@@ -89,11 +89,11 @@ def run_motion(case: Case, folder: str | Path, *, progress: Progress = _quiet) -
     for step, latest in contact.run(history, done):
         rows.append(Row.of(contact, latest))
         if step in recorded:
-            file.append(rows, step, contact.snapshot(latest.now), latest)
+            snapshot = contact.snapshot(latest.now)
+            since, started = started, time.perf_counter()
+            file.append(rows, step, snapshot, latest, started - since)
             rows = []
             progress(step, motion.course.steps, "in time")
-            file.add_seconds(time.perf_counter() - started)
-            started = time.perf_counter()
     return path
 
 
@@ -114,8 +114,7 @@ def _begin(file: MotionFile, contact: MovingContact) -> None:
         "seconds": 0.0,
     }
     file.create(first, attributes | _moments(motion), _maps(still))
-    file.append([Row.of(contact, history)], 0, first, history)
-    file.add_seconds(time.perf_counter() - started)
+    file.append([Row.of(contact, history)], 0, first, history, time.perf_counter() - started)
 
 
 def _moments(motion: Motion) -> dict[str, float]:

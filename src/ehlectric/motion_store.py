@@ -174,8 +174,10 @@ class MotionFile:
         variable = file.create_variable(name, tuple(dimensions), kind, data=values, **how)
         variable.attrs["long_name"], variable.attrs["units"] = long_name, unit
 
-    def append(self, rows: Sequence[Row], step: int, snapshot: Snapshot, history: History) -> None:
-        """The steps since the last instant, the instant, and what goes on from it."""
+    def append(
+        self, rows: Sequence[Row], step: int, snapshot: Snapshot, history: History, seconds: float
+    ) -> None:
+        """The steps since the last instant, the instant, what goes on from it, and the time it took [s]."""
         film, field = snapshot.film, snapshot.field
         maps = {
             "pressure": film.pressure,
@@ -206,14 +208,10 @@ class MotionFile:
             for name, value in (*maps.items(), *numbers.items()):
                 file.variables[name][frame] = value
             self._keep(file, history, frame % _PLACES)
+            file.attrs["seconds"] = float(file.attrs["seconds"]) + seconds
             file.attrs["frames"] = frame + 1
             file.attrs["complete"] = int(step == self._contact.motion.course.steps)
             self._left = _state(file)
-
-    def add_seconds(self, seconds: float) -> None:
-        """Time that was spent on it [s]."""
-        with _opened(self._path, "a") as file:
-            file.attrs["seconds"] = float(file.attrs["seconds"]) + seconds
 
     def _keep(self, file: Any, history: History, place: int) -> None:
         """What a run goes on from."""

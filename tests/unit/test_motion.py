@@ -53,7 +53,7 @@ def of_case(case, *axes):
         (LINE, RANDOM),
         (LINE, BUMP | {"position": 5e-5}),
         (POINT, PIT | {"position_y": 4e-5}),
-        (POINT, RANDOM),
+        pytest.param(POINT, RANDOM, marks=pytest.mark.slow),
     ],
 )
 def test_once_everything_lies_as_the_case_has_it(table, shape, surface, ratio):

@@ -146,7 +146,11 @@ def test_maps_are_those_of_the_instants_within_single_precision(whole, stepped):
         np.testing.assert_array_equal(
             np.isnan(row["strength"]), abs(whole["x"]) > 1.25 * contact.motion.half_width
         )
-    assert np.any(whole["cavitated"].values)
+    # Behind the exit at ambient pressure, 0.1 MPa; in the Hertz zone full.
+    cavitated, x = whole["cavitated"].values.astype(bool), whole["x"].values / contact.motion.half_width
+    assert np.all(cavitated[:, x > 1.5])
+    assert not np.any(cavitated[:, np.abs(x) < 0.9])
+    np.testing.assert_allclose(whole["pressure"].values[cavitated], 1e5, rtol=1e-6)
     assert np.any(whole["roughness_1"].values[1:])
     assert not np.any(whole["roughness_2"].values)
 
@@ -173,7 +177,7 @@ def test_the_held_roughness_is_that_of_the_case(whole):
     np.testing.assert_array_equal(whole["stationary_strength"], column_strength(still.film, still.field))
 
 
-@pytest.mark.parametrize("until", [0, 4, 8])
+@pytest.mark.parametrize("until", [pytest.param(0, marks=pytest.mark.slow), 4, 8])
 def test_a_run_that_was_stopped_goes_on_to_the_last_bit(tmp_path, whole, stopped, until):
     if until == 4:
         assert run(CASE, tmp_path, until)[-1] == of_step(until)
@@ -191,7 +195,10 @@ def test_a_run_that_was_stopped_goes_on_to_the_last_bit(tmp_path, whole, stopped
 
 
 # What is written of an instant in succession: rows, maps, numbers, what is gone on from, its checksum.
-@pytest.mark.parametrize(("instant", "writes"), [(1, 22), (2, 1), (2, 10), (2, 20), (2, 27)])
+@pytest.mark.parametrize(
+    ("instant", "writes"),
+    [(1, 22), (2, 20), *(pytest.param(2, writes, marks=pytest.mark.slow) for writes in (1, 10, 27))],
+)
 def test_an_instant_that_is_half_written_does_not_count(
     tmp_path, monkeypatch, whole, stopped, instant, writes
 ):
@@ -404,7 +411,7 @@ def test_warnings_are_of_the_grid_of_the_case(tmp_path):
 PITS = [{"surface": 1, "generator": "pit", "depth": "100 nm", "width": "90 um"}]
 
 
-@pytest.mark.parametrize("beside", [0.0, 3e-5])
+@pytest.mark.parametrize("beside", [0.0, pytest.param(3e-5, marks=pytest.mark.slow)])
 def test_a_point_contact(tmp_path, beside):
     """65 x 65 nodes, a pit in the middle or beside it; what is solved in one half is there in both."""
     rough = [PITS[0] | {"position_y": beside}]
@@ -455,6 +462,15 @@ def test_who_looks_at_a_run_does_not_end_it(tmp_path, whole, stopped):
     same(read_motion(tmp_path), whole)
 
 
+def test_a_run_from_the_start_leaves_the_old_file_to_who_reads_it(tmp_path, monkeypatch, stopped):
+    monkeypatch.setattr(motion_store, "_PATIENCE", 0.0)
+    with held(stopped(12)) as reader:
+        before = (tmp_path / MOTION).read_bytes()
+        assert run(CASE, tmp_path, 0) == ANEW[:2]
+        assert reader.read() == before
+    assert read_motion(tmp_path).sizes["frame"] == 1
+
+
 def test_who_does_not_close_it_is_told(tmp_path, monkeypatch, stopped):
     monkeypatch.setattr(motion_store, "_PATIENCE", 0.0)
     reader = held(stopped(8))
@@ -484,7 +500,10 @@ def test_a_second_run_in_the_same_folder_is_refused(tmp_path, stopped, whole):
     same(read_motion(tmp_path), whole)
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+@pytest.mark.parametrize(
+    "number",
+    [signal.SIGTERM, *(pytest.param(n, marks=pytest.mark.slow) for n in (signal.SIGINT, signal.SIGHUP))],
+)
 def test_a_signal_waits_until_an_instant_is_whole(tmp_path, monkeypatch, stopped, number):
     stopped(4)
     put, left = h5netcdf.Variable.__setitem__, 10
@@ -518,6 +537,20 @@ def test_in_another_thread_it_runs_too(tmp_path, stopped, whole):
     thread.start()
     thread.join()
     same(read_motion(tmp_path), whole)
+
+
+def test_only_what_is_new_is_written(tmp_path, monkeypatch, stopped):
+    """Memory does not grow with the steps: each goes once."""
+    stopped(0)
+    append, written = MotionFile.append, []
+
+    def counted(self, rows, step, *others):
+        written.append((len(rows), step))
+        append(self, rows, step, *others)
+
+    monkeypatch.setattr(MotionFile, "append", counted)
+    run(CASE, tmp_path)
+    assert written == [(4, 4), (4, 8), (4, 12)]
 
 
 def test_steps_that_are_saved(tmp_path, stopped):

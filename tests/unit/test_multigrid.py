@@ -125,6 +125,13 @@ def three_lines(jacobian):
     return copy
 
 
+@pytest.mark.parametrize(("distribution", "moments"), [(DIPOLE, (0.0, 1.0)), (SECOND_DIFFERENCE, (0.0, 0.0))])
+def test_what_is_distributed_is_a_dipole_or_a_second_difference(distribution, moments):
+    """Neither carries load, and a second difference no moment."""
+    assert dict(distribution)[0] == 1.0
+    assert tuple(sum(part * offset**k for offset, part in distribution) for k in range(2)) == moments
+
+
 @pytest.mark.parametrize("distribution", [DIPOLE, SECOND_DIFFERENCE])
 def test_a_line_is_relaxed_by_the_band_of_its_jacobian_in_distributed_unknowns(distribution):
     """P = D q, where D adds parts of an unknown beside it: the band of J D, by elimination in full."""
