@@ -15,7 +15,7 @@ import typer
 from ehlectric.bearing_commands import bearing
 from ehlectric.errors import InputError, shown
 from ehlectric.map_commands import draw_maps, sensitivity
-from ehlectric.motion_commands import animate, run_moving
+from ehlectric.motion_commands import animate, plot_moving, run_moving
 from ehlectric.sweep_commands import sweep
 from ehlectric.terminal import (
     NOT_CONVERGED,
@@ -232,7 +232,7 @@ def init(
 
 @app.command()
 def plot(
-    result_file: Annotated[Path, typer.Argument(help="A result.nc.", show_default=False)],
+    result_file: Annotated[Path, typer.Argument(help="A result.nc, or a motion.nc.", show_default=False)],
     output: Annotated[
         Path | None,
         typer.Option("--output", "-o", metavar="DIR", help="Folder, default that of the file."),
@@ -241,8 +241,12 @@ def plot(
 ) -> None:
     """Draw the figures of a result again."""
     with user_errors():
+        from ehlectric.motion_store import MOTION
         from ehlectric.store import ALL_FIGURES, load, prepare
 
+        if result_file.name == MOTION:
+            plot_moving(result_file, result_file.parent if output is None else output, quiet=quiet)
+            return
         result = load(result_file)
         folder = prepare(result_file.parent if output is None else output, ALL_FIGURES)
         from ehlectric.figures import save_figures

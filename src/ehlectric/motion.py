@@ -8,6 +8,7 @@ in the case, never was: the roughness begins with a front, which rises over one 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -216,6 +217,12 @@ class Motion:
         return height
 
 
+def _fastest(case: Case, conditions: Conditions | PointConditions) -> float:
+    """Speed of the fastest rough surface over the mean speed."""
+    slide = 0.5 * conditions.slide_to_roll_ratio
+    return max(abs(1.0 + slide if table.surface == 1 else 1.0 - slide) for table in case.roughness)
+
+
 def _course(case: Case, conditions: Conditions | PointConditions) -> Course:
     assert case.motion is not None
     motion, grid = case.motion, case.grid
@@ -224,10 +231,17 @@ def _course(case: Case, conditions: Conditions | PointConditions) -> Course:
     length = grid.outlet - grid.inlet
     end = motion.passes * length if motion.passes is not None else (motion.duration or 0.0) / time
     spacing = length / (grid.nodes - 1)
-    # As long as the grid spacing: then the feet of the lines on which oil travels are nodes.
-    steps = motion.steps or max(1, round(end / spacing))
+    steps = motion.steps or round(end / spacing)
+    if not steps:
+        raise InputError(
+            f"motion.{'duration' if motion.passes is None else 'passes'}: got {end * time:.3g} s, in which "
+            f"oil travels less than a grid spacing; takes at least {spacing * time:.3g} s"
+        )
     if motion.steps is None:
+        # As long as the grid spacing: then the feet of the lines on which oil travels are nodes. Of surfaces
+        # that move some times as fast a whole part of it, for them to travel about a spacing too.
         end = steps * spacing
+        steps *= max(1, math.ceil(_fastest(case, conditions) - 0.5))
     courant = end / steps / spacing
     if courant > MOST_COURANT * (1.0 + 1e-9):
         least = int(np.ceil(end / spacing / MOST_COURANT))

@@ -36,15 +36,17 @@ def run_moving(case: Case, output: Path, *, solver: str, plots: bool, quiet: boo
     names = (*FILES, *ALL_FIGURES, *MOTION_FIGURE_FILES)
     folder = prepare(output, (MOTION, *names))
     failed: ConvergenceError | None = None
+    # Stopped behind its last step, a run is summed up alone.
+    again = (folder / SUMMARY).is_file()
     clear(folder, names)
     with progress_bar(shown=not quiet) as bar, _told_where_it_stops(folder, bar) as progress:
         try:
-            run_motion(case, folder, progress=progress)
+            run_motion(case, folder, again=again, progress=progress)
         except ConvergenceError as error:
             if not (folder / MOTION).is_file():
                 raise
             failed = error
-    summary, files = _written(read_motion(folder), folder, plots=plots)
+        summary, files = _written(read_motion(folder), folder, plots=plots)
     if as_json:
         typer.echo(json.dumps(summary, indent=2))
     elif not quiet:
@@ -75,8 +77,10 @@ def _told_where_it_stops(
             from ehlectric.motion_store import MOTION, saved_steps
 
             # Of the file, as the last instant may not have been told yet.
-            saved = f"{saved_steps(folder / MOTION)} of {steps} steps are saved in {folder}"
-            typer.echo(f"stopped; {saved}, the same command goes on with the others", err=True)
+            saved = saved_steps(folder / MOTION)
+            rest = "goes on with the others" if saved < steps else "sums them up"
+            told = f"{saved} of {steps} steps are saved in {folder}, the same command {rest}"
+            typer.echo(f"stopped; {told}", err=True)
         raise
 
 
@@ -95,6 +99,19 @@ def _written(dataset: xr.Dataset, folder: Path, *, plots: bool) -> tuple[dict[st
 
         files += save_motion_figures(dataset, folder)
     return summary, files
+
+
+def plot_moving(file: Path, output: Path, *, quiet: bool) -> None:
+    """Draw the figures of a run again."""
+    from ehlectric.motion_plot import save_motion_figures
+    from ehlectric.motion_store import read_motion
+    from ehlectric.store import MOTION_FIGURE_FILES, prepare
+
+    dataset = read_motion(file)
+    files = save_motion_figures(dataset, prepare(output, MOTION_FIGURE_FILES))
+    if not quiet:
+        typer.echo("written: " + ", ".join(str(path) for path in files))
+        warn(json.loads(dataset.attrs["warnings"]))
 
 
 def motion_table(summary: dict[str, Any]) -> Table:
@@ -128,6 +145,7 @@ def motion_table(summary: dict[str, Any]) -> Table:
         ("  held still", beside.get("minimum_thickness_stationary"), 1e6, "µm"),
         ("  largest field, moving", beside.get("maximum_strength"), 1e-6, "V/µm"),
         ("  held still", beside.get("maximum_strength_stationary"), 1e-6, "V/µm"),
+        ("time steps halved", course["halvings"] or None, 1.0, "times, where one was not found"),
         ("Newton steps a time step", course["newton_per_step"], 1.0, ""),
         ("took", summary["seconds"], 1.0, "s"),
     )
@@ -142,7 +160,7 @@ def animate(
     output: Annotated[
         Path, typer.Option("--output", "-o", metavar="FILE", help="GIF or MP4, by its suffix.")
     ] = Path("motion.gif"),
-    fps: Annotated[int, typer.Option(metavar="N", help="Pictures a second.", min=1, max=120)] = 25,
+    fps: Annotated[int, typer.Option(metavar="N", help="Pictures a second.", min=1, max=50)] = 25,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No progress.")] = False,
 ) -> None:
     """Draw the instants of a contact whose roughness moves as a moving picture."""

@@ -8,11 +8,8 @@ from matplotlib.lines import Line2D
 
 from ehlectric.drawing import BLUE, GREEN, GREY, ORANGE, axes_or_new, legend_above
 from ehlectric.motion_panels import field_unit, film_unit, fitted, time_unit
-from ehlectric.motion_view import MotionRun, intervals_above
+from ehlectric.motion_view import HIGH_FIELD, MotionRun, intervals_above
 from ehlectric.typing import Array
-
-# Part of the largest field of a run above which a field is high.
-HIGH = 0.9
 
 
 def least_film(run: MotionRun, ax: Axes | None = None) -> Axes:
@@ -92,7 +89,7 @@ def _high(run: MotionRun, ax: Axes) -> Line2D:
     factor, _ = field_unit(run)
     in_time, unit = time_unit(run)
     steps, last = run.values("time"), float(run.values("time")[-1])
-    level = HIGH * float(np.max(run.values("max_strength")))
+    level = run.high_field
     spans = intervals_above(steps, run.strength, level)
     bars = [(in_time * start, in_time * (end - start)) for start, end in spans]
     whole = ax.get_xaxis_transform()
@@ -100,7 +97,7 @@ def _high(run: MotionRun, ax: Axes) -> Line2D:
     settled = run.settled_from
     above = float(np.sum(np.diff(np.clip(spans, settled, last))))
     share = 100.0 * above / ((last - settled) or 1.0)
-    text = f"{100.0 * HIGH:g} % of the largest: above it {share:.0f} % of the time"
+    text = f"{100.0 * HIGH_FIELD:g} % of the largest: above it {share:.0f} % of the time"
     text += f" from {in_time * settled:.3g} {unit} on" if settled else ""
     return ax.axhline(factor * level, color=GREEN, lw=0.9, ls="--", label=text)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,7 +11,7 @@ from scipy.ndimage import maximum_filter
 
 from ehlectric.motion import Motion
 from ehlectric.motion_store import motion_of
-from ehlectric.motion_view import MotionRun
+from ehlectric.motion_view import HIGH_FIELD, MotionRun
 from ehlectric.point_conditions import PointConditions
 from ehlectric.solution import plain
 from ehlectric.stress import dielectric_strength
@@ -20,9 +21,6 @@ if TYPE_CHECKING:
     import xarray as xr
 
 SCHEMA = "ehlectric.motion/1"
-
-# Part of the largest field above which the time counts.
-HIGH_FIELD = 0.9
 
 QUANTILES = 0.05, 0.5, 0.95
 
@@ -62,7 +60,7 @@ def summary_of(dataset: xr.Dataset) -> dict[str, Any]:
         "version": str(attributes["version"]),
         "title": motion.case.title,
         "converged": complete,
-        "warnings": json.loads(attributes["warnings"]),
+        "warnings": [*json.loads(attributes["warnings"]), *_halved(dataset)],
         "inputs": motion.case.to_dict(),
         "motion": _course(motion, dataset),
         "film": _film(dataset),
@@ -75,6 +73,15 @@ def summary_of(dataset: xr.Dataset) -> dict[str, Any]:
     }
     summary: dict[str, Any] = plain(found)
     return summary
+
+
+def _halved(dataset: xr.Dataset) -> Iterator[str]:
+    halvings = dataset["halvings"].values
+    if np.any(halvings):
+        yield (
+            f"{np.count_nonzero(halvings)} time steps had to be halved, {int(halvings.sum())} times in all; "
+            "more motion.steps or a finer grid may be worth while"
+        )
 
 
 def _course(motion: Motion, dataset: xr.Dataset) -> dict[str, Any]:

@@ -45,7 +45,7 @@ def _quiet(_done: int, _of: int, _text: str) -> None:
     pass
 
 
-def run_motion(case: Case, folder: str | Path, *, progress: Progress = _quiet) -> Path:
+def run_motion(case: Case, folder: str | Path, *, again: bool = True, progress: Progress = _quiet) -> Path:
     """Solve a contact whose roughness moves, and write it as it goes.
 
     Parameters
@@ -55,6 +55,8 @@ def run_motion(case: Case, folder: str | Path, *, progress: Progress = _quiet) -
     folder : str or Path
         Where motion.nc goes; made if it is not there. An unfinished run of the same case there is gone on
         with from the last instant that was kept; anything else there is replaced.
+    again : bool
+        Solve anew what is there whole.
     progress : callable, optional
         Called with the steps done, all of them, and what is being done.
 
@@ -75,6 +77,8 @@ def run_motion(case: Case, folder: str | Path, *, progress: Progress = _quiet) -
     path = prepare(folder, (MOTION,)) / MOTION
     contact = MovingContact(motion)
     file = MotionFile(path, contact)
+    if not again and file.whole():
+        return path
     found = file.resumed()
     if found is None:
         path.unlink(missing_ok=True)

@@ -10,11 +10,9 @@ from __future__ import annotations
 
 import json
 import math
-import time
 import tomllib
 import zlib
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -26,9 +24,9 @@ from ehlectric.case import Case
 from ehlectric.errors import InputError
 from ehlectric.field import Field
 from ehlectric.film import Film
-from ehlectric.interrupts import held_back
 from ehlectric.motion import Motion
 from ehlectric.motion_solver import MovingContact, Snapshot
+from ehlectric.netcdf_files import check_space, opened, resize
 from ehlectric.newton import State
 from ehlectric.point_field import PointField
 from ehlectric.point_film import PointFilm
@@ -75,10 +73,10 @@ _RESUME = ("pressure", "thickness", "mass", "density", "free")
 _TIMES = ("t", "h00")
 _PLACES = 2  # of what a run goes on from
 
-# What a run waits for those who read its file, and they for it [s].
-_PATIENCE = 30.0
-_AGAIN = 0.05
 _CHUNK = 1024
+
+# What an instant takes at the most: a node of all maps and of what a run goes on from, and the steps besides.
+_NODE_BYTES, _CHUNK_BYTES = 256, 10_000_000
 
 
 @dataclass(frozen=True)
@@ -130,7 +128,7 @@ class MotionFile:
     def create(self, first: Snapshot, attributes: Mapping[str, Any], stationary: Mapping[str, Array]) -> None:
         """A file without instants; ``stationary`` has maps of the roughness held still."""
         nodes = ("x", "y") if self._point else ("x",)
-        with _opened(self._path, "w") as file:
+        with opened(self._path, "w") as file:
             axes = {name: np.asarray(getattr(first.film, name)) for name in nodes}
             file.dimensions = {"step": None, "frame": None} | {name: axes[name].size for name in nodes}
             for name, values in axes.items():
@@ -193,7 +191,8 @@ class MotionFile:
             "max_strength": field.max_strength,
             "capacitance": field.capacitance,
         } | _place("max_strength", field.max_strength_position)
-        with _opened(self._path, "a") as file:
+        check_space(self._path, _NODE_BYTES * film.pressure.size + _CHUNK_BYTES)
+        with opened(self._path, "a") as file:
             if _state(file) != self._left:
                 raise InputError(
                     f"{self._path}: is being written to by another run, takes a folder of its own"
@@ -201,7 +200,7 @@ class MotionFile:
             # By their numbers, not behind what there is: of an instant that was half written before.
             before = file.variables["frame_step"][: int(file.attrs["frames"])]
             frame = int(np.searchsorted(before, step))
-            _resize(file, {"step": step + 1, "frame": frame + 1})
+            resize(file, {"step": step + 1, "frame": frame + 1})
             for name in file.variables:
                 if name in _STEPS:
                     file.variables[name][step + 1 - len(rows) :] = [row.values[name] for row in rows]
@@ -232,12 +231,20 @@ class MotionFile:
             group.variables[name][place] = values
         group.variables["checksum"][place] = _checksum(found)
 
+    def whole(self) -> bool:
+        """Whether there is a run of the same case that went to its end."""
+        try:
+            with opened(self._path, "r") as file:
+                return bool(file.attrs["complete"]) and self._same(file.attrs)
+        except (OSError, KeyError, ValueError, RuntimeError):
+            return False  # none, not a run, or damaged
+
     def resumed(self) -> tuple[int, History] | None:
         """The last step of an unfinished run of the same case and the film then, None without one."""
         if not self._path.is_file():
             return None
         try:
-            with _opened(self._path, "r") as file:
+            with opened(self._path, "r") as file:
                 if file.attrs["complete"] or not self._same(file.attrs):
                     return None
                 self._left, frames = _state(file), int(file.attrs["frames"])
@@ -253,33 +260,6 @@ class MotionFile:
         return all(attributes[name] == value for name, value in known.items())
 
 
-@contextmanager
-def _opened(path: Path, mode: str) -> Iterator[Any]:
-    """A file, once nobody else has it open; who stops the program waits until it is closed.
-
-    Raises
-    ------
-    InputError
-        Where it stays open.
-    """
-    import h5netcdf
-
-    until = time.monotonic() + _PATIENCE
-    while True:
-        with held_back():
-            try:
-                file = h5netcdf.File(path, mode)
-            except BlockingIOError:
-                if time.monotonic() > until:
-                    told = f"{path}: is held open by another program, which must close it"
-                    raise InputError(told) from None
-            else:
-                with file:
-                    yield file
-                return
-        time.sleep(_AGAIN)
-
-
 def _state(file: Any) -> tuple[Any, int]:
     """What changes where another run writes into a file."""
     return file.attrs["date"], int(file.attrs["frames"])
@@ -288,12 +268,6 @@ def _state(file: Any) -> tuple[Any, int]:
 def described(motion: Motion) -> str:
     """The rough surfaces as JSON."""
     return json.dumps(plain([surface.describe() for surface in motion.rough]))
-
-
-def _resize(file: Any, sizes: Mapping[str, int]) -> None:
-    for name, size in sizes.items():
-        if file.dimensions[name].size != size:
-            file.resize_dimension(name, size)
 
 
 def _checksum(found: Mapping[str, Array]) -> int:
@@ -366,7 +340,7 @@ def read_motion(path: str | Path) -> xr.Dataset:
         raise InputError(f"{path}: cannot be read, {(error.strerror or str(error)).lower()}") from None
     damaged = InputError(f"{path}: is no motion of ehlectric, or damaged")
     try:
-        with _opened(path, "r") as file:
+        with opened(path, "r") as file:
             dataset = xr.open_dataset(xr.backends.H5NetCDFStore(file)).load()
     except InputError:
         raise
@@ -384,7 +358,7 @@ def read_motion(path: str | Path) -> xr.Dataset:
 def saved_steps(path: Path) -> int:
     """Steps that a file of a run has, 0 where it has none or cannot be read."""
     try:
-        with _opened(path, "r") as file:
+        with opened(path, "r") as file:
             return int(file.variables["frame_step"][: int(file.attrs["frames"])][-1])
     except (OSError, LookupError, ValueError, RuntimeError):
         return 0

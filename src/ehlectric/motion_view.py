@@ -29,6 +29,10 @@ _NEEDED = (
 )
 
 
+# Part of the largest field above which the time counts.
+HIGH_FIELD = 0.9
+
+
 @dataclass(frozen=True)
 class MotionRun:
     """What was stored of a contact whose roughness moves, SI units.
@@ -153,6 +157,12 @@ class MotionRun:
         """When the roughness has filled the contact [s]; 0 where it does not while the run lasts."""
         covered = self.moment("covered_from")
         return covered if 0.0 <= covered < self.values("time")[-1] else 0.0
+
+    @property
+    def high_field(self) -> float:
+        """Field strength above which the film is near its breakdown [V/m], of what counts."""
+        settled = self.values("time") >= self.settled_from
+        return HIGH_FIELD * float(np.max(self.strength[settled]))
 
     @cached_property
     def coincident_frame(self) -> int | None:

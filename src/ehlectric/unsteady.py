@@ -172,7 +172,9 @@ class UnsteadyFilm:
         if instant is not None:
             return History(instant, history.now, effort)
         if not halvings:
-            raise ConvergenceError(f"film not found at T = {history.now.time + step:.6g}")
+            raise ConvergenceError(
+                f"film not found at T = {history.now.time + step:.6g}, the step halved {MOST_HALVINGS} times"
+            )
         halved = replace(history, effort=effort + Effort(halvings=1))
         for _ in range(2):
             halved = self._advance(halved, 0.5 * step, halvings - 1)

@@ -15,6 +15,7 @@ from typer.testing import CliRunner
 from ehlectric.cli import app
 from ehlectric.errors import ConvergenceError
 from ehlectric.motion_store import motion_of, read_motion
+from ehlectric.store import MOTION_FIGURE_FILES
 from ehlectric.unsteady import UnsteadyFilm
 from tests.cli.conftest import COMMAND
 
@@ -188,11 +189,25 @@ def test_other_commands_refuse_it(typed, tmp_path, case_file):
     assert files(tmp_path) == ["case.toml", "sweep.toml"]
 
 
-def test_a_motion_is_no_result_to_plot(typed, case_file):
+def test_a_run_is_drawn_again(typed, tmp_path, case_file):
     assert typed("run", case_file, "-o", "out", "--no-plots", "-q").exit_code == 0
-    done = typed("plot", "out/motion.nc")
-    text = "error: out/motion.nc: is not a result of ehlectric, or damaged\n"
-    assert (done.exit_code, done.stdout, done.stderr) == (2, "", text)
+    done = typed("plot", "out/motion.nc", "-o", "figures")
+    assert done.exit_code == 0, done.stderr
+    drawn = {path.name for path in (tmp_path / "figures").iterdir()}
+    assert {"motion_history.png", "motion_maps.png"} <= drawn <= set(MOTION_FIGURE_FILES)
+
+
+def test_a_run_that_was_stopped_behind_its_last_step_is_summed_up(typed, tmp_path, case_file):
+    """Its file is whole, its summary is missing: nothing is solved again; with the summary there, all is."""
+    assert typed("run", case_file, "-o", "out", "--no-plots", "-q").exit_code == 0
+    first = (tmp_path / "out/motion.nc").read_bytes()
+    summary = (tmp_path / "out/summary.json").read_text()
+    (tmp_path / "out/summary.json").unlink()
+    assert typed("run", case_file, "-o", "out", "--no-plots", "-q").exit_code == 0
+    assert (tmp_path / "out/motion.nc").read_bytes() == first
+    assert (tmp_path / "out/summary.json").read_text() == summary
+    assert typed("run", case_file, "-o", "out", "--no-plots", "-q").exit_code == 0
+    assert (tmp_path / "out/motion.nc").read_bytes() != first
 
 
 def test_a_folder_holds_one_result(typed, tmp_path, case_file):

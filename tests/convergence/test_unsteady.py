@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from scipy.interpolate import PchipInterpolator
 
-from ehlectric import unsteady
+from ehlectric import ConvergenceError, unsteady
 from ehlectric.reynolds import evaluate
+from ehlectric.unsteady import Effort, UnsteadyFilm
 from tests.moving import histories, last, problem_of, ridge, steady
 
 HEIGHT = 0.03  # of ridges, about a third of the film
@@ -162,3 +163,44 @@ def test_oil_is_kept(paper_case, slope, courant):
         assert np.ptp(held) > 1e-3
         missing.append(abs(held[-1] - held[0] - np.trapezoid(net, dx=step)))
     assert slope(1.0 / intervals, missing) == pytest.approx(2.0, abs=0.2)
+
+
+def not_found_beyond(monkeypatch, longest):
+    """Time steps longer than that are not solved; those that were tried, in their order."""
+    stepped, tried = UnsteadyFilm._stepped, []
+
+    def few(self, history, step):
+        tried.append(step)
+        return stepped(self, history, step) if step <= longest else (None, Effort(newton=1))
+
+    monkeypatch.setattr(UnsteadyFilm, "_stepped", few)
+    return tried
+
+
+@pytest.mark.parametrize("halvings", [1, 2])
+def test_a_step_that_is_not_solved_is_halved(paper_case, monkeypatch, halvings):
+    """As often as it takes, to the same time and to the film that the shorter steps lead to, and counted."""
+    problem, gap, step = problem_of(paper_case, 201), ridge(HEIGHT, 0.3, -2.0), 5.0 / 200
+    film = UnsteadyFilm(problem, gap)
+    history = film.advance(film.start(steady(problem), step), step)
+    parts = 2**halvings
+    by_hand = history
+    for _ in range(parts):
+        by_hand = film.advance(by_hand, step / parts)
+    tried = not_found_beyond(monkeypatch, 1.001 * step / parts)
+    halved = film.advance(history, step)
+    assert halved.effort.halvings == parts - 1
+    assert halved.effort.newton >= parts + parts - 1
+    assert len(tried) == 2 * parts - 1
+    assert halved.now.time == pytest.approx(2.0 * step, rel=1e-12)
+    np.testing.assert_array_equal(halved.now.state.thickness, by_hand.now.state.thickness)
+    np.testing.assert_array_equal(halved.now.mass, by_hand.now.mass)
+
+
+def test_a_step_that_no_halving_solves_ends_the_run(paper_case, monkeypatch):
+    problem, step = problem_of(paper_case, 201), 5.0 / 200
+    film = UnsteadyFilm(problem, ridge(HEIGHT, 0.3, -2.0))
+    tried = not_found_beyond(monkeypatch, 0.0)
+    with pytest.raises(ConvergenceError, match=r"^film not found at T = .*, the step halved 6 times$"):
+        film.advance(film.start(steady(problem), step), step)
+    assert tried == [step / 2**k for k in range(7)]

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from ehlectric import generators
+from ehlectric import InputError, generators
 from ehlectric.conditions import resolve
 from ehlectric.motion import Motion
 from ehlectric.point_conditions import resolve_point
@@ -246,8 +246,22 @@ def test_a_duration_is_rounded_to_whole_steps_or_taken_as_it_is():
     course = Motion(moving(LINE, motion={"duration": 3.02 * time, "steps": 100})).course
     assert course.end == pytest.approx(3.02, rel=1e-12)
     assert course.courant == pytest.approx(3.02 / 100 * 64 / 6, rel=1e-12)
-    tiny = Motion(moving(LINE, motion={"duration": 1e-3 * time})).course
-    assert (tiny.steps, tiny.recorded.tolist()) == (1, [0, 1])
+    with pytest.raises(
+        InputError, match=r"^motion\.duration: got .* s, in which oil travels less than a grid"
+    ):
+        Motion(moving(LINE, motion={"duration": 1e-3 * time}))
+
+
+@pytest.mark.parametrize(
+    ("slide", "surfaces", "parts"),
+    [(0.0, (1,), 1), (0.8, (1,), 1), (2.0, (1,), 2), (4.0, (1,), 3), (4.0, (2,), 1), (-6.0, (1, 2), 4)],
+)
+def test_steps_are_shorter_for_surfaces_that_move_fast(slide, surfaces, parts):
+    """u1 = 1 + s/2 and u2 = 1 - s/2 mean speeds: the rough one travels about a grid spacing in a step."""
+    bumps = rough(*((surface, BUMP) for surface in surfaces))
+    course = Motion(moving(LINE, {SRR: slide}, motion={"passes": 1.0}, **bumps)).course
+    assert (course.steps, course.courant) == (64 * parts, pytest.approx(1.0 / parts, rel=1e-12))
+    assert course.end == pytest.approx(6.0, rel=1e-12)
 
 
 def test_rounding_moves_no_surface_and_loses_no_end():

@@ -10,7 +10,7 @@ import h5netcdf
 import numpy as np
 import pytest
 
-from ehlectric import InputError, motion_store
+from ehlectric import InputError, netcdf_files
 from ehlectric.errors import ConvergenceError
 from ehlectric.motion import Motion
 from ehlectric.motion_run import run_motion
@@ -463,7 +463,7 @@ def test_who_looks_at_a_run_does_not_end_it(tmp_path, whole, stopped):
 
 
 def test_a_run_from_the_start_leaves_the_old_file_to_who_reads_it(tmp_path, monkeypatch, stopped):
-    monkeypatch.setattr(motion_store, "_PATIENCE", 0.0)
+    monkeypatch.setattr(netcdf_files, "_PATIENCE", 0.0)
     with held(stopped(12)) as reader:
         before = (tmp_path / MOTION).read_bytes()
         assert run(CASE, tmp_path, 0) == ANEW[:2]
@@ -472,7 +472,7 @@ def test_a_run_from_the_start_leaves_the_old_file_to_who_reads_it(tmp_path, monk
 
 
 def test_who_does_not_close_it_is_told(tmp_path, monkeypatch, stopped):
-    monkeypatch.setattr(motion_store, "_PATIENCE", 0.0)
+    monkeypatch.setattr(netcdf_files, "_PATIENCE", 0.0)
     reader = held(stopped(8))
     text = f"{tmp_path}/motion.nc: is held open by another program, which must close it"
     with pytest.raises(InputError, match=f"^{re.escape(text)}$"):
