@@ -35,7 +35,7 @@ class Impedance:
 
     @property
     def magnitude(self) -> Array:
-        """|Z| [Ohm]."""
+        """abs(Z) [Ohm]."""
         return np.abs(self.values)
 
     @property
