@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 
 import numpy as np
@@ -9,6 +10,7 @@ import numpy as np
 from ehlectric.case import Case
 from ehlectric.errors import MemoryLimitError
 from ehlectric.inputs import Grid
+from ehlectric.motion_inputs import Motion
 
 # Peak memory [bytes], measured up to a million nodes: of the film by node, of the field by column and by the
 # square of its degree plus one.
@@ -24,8 +26,13 @@ KRYLOV_VECTORS = 121
 POINT_FIELD_BYTES = 790
 
 
+# Bytes of a node of an instant of roughness that moves: six maps in single precision as they are read again,
+# and those of them that figures take in double.
+RECORD_BYTES = 64
+
+
 def check_memory(case: Case) -> None:
-    """Refuse a grid that the memory of this machine cannot hold.
+    """Refuse a grid, or instants of a motion, that the memory of this machine cannot hold.
 
     Parameters
     ----------
@@ -37,6 +44,8 @@ def check_memory(case: Case) -> None:
     MemoryLimitError
         Where film and field would take more than the physical memory.
     """
+    if case.motion is not None:
+        _check_record(case.motion, case.grid, point=case.contact.geometry == "point")
     if case.contact.geometry == "point":
         _check_point(case)
         return
@@ -45,6 +54,18 @@ def check_memory(case: Case) -> None:
     film = FILM_BYTES * grid.nodes
     field = FIELD_BYTES * columns * (grid.field_degree + 1) ** 2
     _refuse_beyond(grid, (film, field), (f"{grid.nodes}", f"{columns}"))
+
+
+def _check_record(motion: Motion, grid: Grid, *, point: bool) -> None:
+    """The same for the instants that are kept of a motion, which are all read again at its end."""
+    nodes = grid.nodes * (grid.nodes_across if point else 1)
+    steps = motion.steps or (math.inf if motion.passes is None else motion.passes * grid.nodes)
+    available, needed = physical_memory(), RECORD_BYTES * nodes * min(motion.record, steps + 1)
+    if needed > available:
+        raise MemoryLimitError(
+            f"motion.record: got {motion.record} instants of {nodes} nodes, about {needed / 1e9:.0f} GB; "
+            f"takes at most {int(available / RECORD_BYTES / nodes)} on this machine of {available / 1e9:.0f} GB"
+        )
 
 
 def _check_point(case: Case) -> None:

@@ -358,3 +358,15 @@ def test_kills_lose_nothing_that_was_kept(tmp_path):
     killed, expected = read_motion(tmp_path / "out"), read_motion(tmp_path / "whole")
     for name in expected.variables:
         np.testing.assert_array_equal(killed[name].values, expected[name].values, err_msg=str(name))
+
+
+def test_check_says_what_moves_and_for_how_long(typed, case_file):
+    """Twelve steps of two grid spacings, of which four instants are kept, at 4 m/s."""
+    done = typed("check", case_file, "--json")
+    motion = json.loads(done.stdout)["motion"]
+    assert (motion["steps"], motion["courant"], motion["frames"]) == (12, 2.0, 4)
+    assert (motion["speed_ratio_1"], motion["speed_ratio_2"]) == (1.0, 1.0)
+    assert (motion["covered_from"], motion["coincident"]) == (None, None)
+    told = typed("check", case_file).stdout
+    assert "ms in 12 steps" in told
+    assert "surface 1, rough" in told

@@ -8,6 +8,7 @@ import pytest
 from ehlectric import Case, InputError
 from ehlectric.memory import KRYLOV_VECTORS, check_memory, physical_memory, point_memory
 from ehlectric.newton import KRYLOV_LIMIT
+from tests.motions import TABLES, moving
 
 POINT = {"geometry": "point", "radius_x": 0.01, "radius_y": 0.01, "load": 20.0, "reduced_modulus": 226e9}
 PIT = {"surface": 1, "generator": "pit", "depth": 1e-7, "width": 4e-5, "position_y": 3e-5}
@@ -76,3 +77,16 @@ def test_film_of_a_point_contact_takes_what_is_reckoned_with(nodes_y):
     reckoned, _ = point_memory(case.grid, rough=False)
     # Twenty iterations, where up to sixty are reckoned with: some half of it.
     assert reckoned / 3.0 < int(done.stdout) < reckoned
+
+
+def test_instants_of_a_motion_that_fit_into_no_memory_are_refused(monkeypatch):
+    """64 bytes a node and instant; no more instants than time steps and one are kept."""
+    monkeypatch.setattr("ehlectric.memory.physical_memory", lambda: 64e6)
+    check_memory(moving(motion={"passes": 1.0, "record": 20_000}))
+    with pytest.raises(InputError, match=r"^motion\.record: got 20000 .* at most 15384 on"):
+        check_memory(moving(motion={"duration": "1 s", "record": 20_000}))
+    ball = moving(TABLES["point"], motion={"duration": "1 s", "record": 300})
+    with pytest.raises(InputError, match=r"^motion\.record: got 300 instants of 4225 nodes"):
+        check_memory(ball)
+    monkeypatch.setattr("ehlectric.memory.physical_memory", lambda: 1e9)
+    check_memory(ball)
