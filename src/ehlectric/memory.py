@@ -64,7 +64,7 @@ def _check_record(motion: Motion, grid: Grid, *, point: bool) -> None:
     if needed > available:
         raise MemoryLimitError(
             f"motion.record: got {motion.record} instants of {nodes} nodes, about {needed / 1e9:.0f} GB; "
-            f"takes at most {int(available / RECORD_BYTES / nodes)} on this machine of {available / 1e9:.0f} GB"
+            f"takes at most {int(available / RECORD_BYTES / nodes)} in {available / 1e9:.0f} GB"
         )
 
 

@@ -83,7 +83,7 @@ def test_instants_of_a_motion_that_fit_into_no_memory_are_refused(monkeypatch):
     """64 bytes a node and instant; no more instants than time steps and one are kept."""
     monkeypatch.setattr("ehlectric.memory.physical_memory", lambda: 64e6)
     check_memory(moving(motion={"passes": 1.0, "record": 20_000}))
-    with pytest.raises(InputError, match=r"^motion\.record: got 20000 .* at most 15384 on"):
+    with pytest.raises(InputError, match=r"^motion\.record: got 20000 .* at most 15384 in"):
         check_memory(moving(motion={"duration": "1 s", "record": 20_000}))
     ball = moving(TABLES["point"], motion={"duration": "1 s", "record": 300})
     with pytest.raises(InputError, match=r"^motion\.record: got 300 instants of 4225 nodes"):
