@@ -28,16 +28,9 @@ QUANTILES = 0.05, 0.5, 0.95
 _NEAR = 0.6
 
 
-def counted_from(dataset: xr.Dataset) -> float:
-    """From when on instants count [s]: since the roughness has filled the Hertz zone, or from the first."""
-    motion, time = motion_of(dataset), dataset["frame_time"].values
-    since = motion.covered * motion.course.time
-    return since if np.count_nonzero(time >= since) > 1 else 0.0
-
-
 def counted(dataset: xr.Dataset) -> Mask:
     """Which instants count, shape (frames,)."""
-    return np.asarray(dataset["frame_time"].values >= counted_from(dataset))
+    return np.asarray(dataset["frame_time"].values >= MotionRun.of(dataset).settled_from)
 
 
 def summary_of(dataset: xr.Dataset) -> dict[str, Any]:
@@ -129,7 +122,7 @@ def _field(motion: Motion, dataset: xr.Dataset) -> dict[str, Any]:
     # Of all steps, not of the instants alone, between which an asperity may have passed.
     run = MotionRun.of(dataset)
     at = run.values("time")
-    settled = at >= counted_from(dataset)
+    settled = at >= run.settled_from
     share = time_above(at[settled], run.strength[settled], HIGH_FIELD * np.max(run.strength[settled]))
     return {
         "voltage": abs(electric.potential_2 - electric.potential_1),

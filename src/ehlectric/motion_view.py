@@ -154,9 +154,12 @@ class MotionRun:
 
     @cached_property
     def settled_from(self) -> float:
-        """When the roughness has filled the contact [s]; 0 where it does not while the run lasts."""
+        """From when on instants count [s]: since the roughness has filled the contact, or from the first.
+
+        Where fewer than two instants are kept since then, all of them count.
+        """
         covered = self.moment("covered_from")
-        return covered if 0.0 <= covered < self.values("time")[-1] else 0.0
+        return covered if np.count_nonzero(self.frame_time >= covered) > 1 else 0.0
 
     @property
     def high_field(self) -> float:

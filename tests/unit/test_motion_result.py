@@ -60,6 +60,7 @@ def made(case, *, times, x=None, y=None, frame_times=None, complete=True, statio
         "stationary": json.dumps({"minimum_thickness": 3e-7} if stationary else None),
         "rough": "[]",
         "seconds": 2.5,
+        "covered_from": motion.covered * scale,
     }
     return xr.Dataset(found, {name: b * axis for name, axis in axes.items()}, attributes)
 
