@@ -14,16 +14,18 @@ from ehlectric.bearing_solver import solve_bearing
 from ehlectric.errors import InputError
 
 # From which part of the case's speed to which, in how many steps of its logarithm.
-_LEAST, _MOST, _COUNT = 0.1, 4.0, 9
+_LEAST, _MOST, COUNT = 0.1, 4.0, 9
 
 
-def over_speed(case: BearingCase) -> tuple[list[tuple[float, dict[str, Any]]], list[str]]:
+def over_speed(case: BearingCase, count: int = COUNT) -> tuple[list[tuple[float, dict[str, Any]]], list[str]]:
     """A bearing at speeds around its own, its contacts by formula.
 
     Parameters
     ----------
     case : BearingCase
         The bearing; its temperature is held.
+    count : int
+        Number of speeds, from a tenth to four times its own.
 
     Returns
     -------
@@ -44,7 +46,7 @@ def over_speed(case: BearingCase) -> tuple[list[tuple[float, dict[str, Any]]], l
     ...         "lubricant": {"base": "paper", "viscosity": "20 mPa s"},
     ...     }
     ... )
-    >>> points, left_out = over_speed(case)
+    >>> points, left_out = over_speed(case, count=2)
     >>> slow, fast = points[0][1]["bearing"], points[-1][1]["bearing"]
     >>> slow["capacitance"] > fast["capacitance"], left_out
     (True, [])
@@ -53,7 +55,7 @@ def over_speed(case: BearingCase) -> tuple[list[tuple[float, dict[str, Any]]], l
     if changed is None:
         return [], left_out
     points = []
-    for part in np.geomspace(_LEAST, _MOST, _COUNT):
+    for part in np.geomspace(_LEAST, _MOST, count):
         speed = case.bearing.inner_speed * float(part)
         try:
             solution = solve_bearing(changed.replace({"bearing.inner_speed": speed}))

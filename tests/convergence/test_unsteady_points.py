@@ -37,6 +37,7 @@ def test_a_steady_film_stays():
     np.testing.assert_allclose(now.state.pressure, start.state.pressure, rtol=0.0, atol=1e-8)
 
 
+@pytest.mark.slow
 def test_order_in_time():
     """On one grid, steps of 4, 2 and 1 spacings while a broad ridge comes to the centre."""
     problem, n = problem_of(65), 64

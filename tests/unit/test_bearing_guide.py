@@ -15,6 +15,7 @@ ROOT = Path(__file__).parents[2]
 GUIDE = ROOT / "docs" / "guide" / "bearing.md"
 
 
+@pytest.mark.slow
 def test_the_script_of_the_guide_runs_as_a_file(tmp_path):
     """Interference presses all rollers nearly alike: few contacts to solve, and yet in several processes."""
     page = GUIDE.read_text(encoding="utf-8")
