@@ -127,30 +127,6 @@ def test_below_the_least_load_a_domain_is_at_its_end(tables):
     assert inlets[3] < 1.3 * inlets[1]
 
 
-@pytest.mark.slow
-def test_a_6208_in_parallel():
-    """A light load; films beside those of Chittenden et al., whose formula is for such ellipses."""
-    case = bearing_case(BALLS, bearing__radial_load="400 N", bearing__axial_load="60 N")
-    solution = solve_bearing(case)
-    result = BearingResult(solution)
-    assert result.converged
-    assert result.summary()["bearing"]["discretisation_error"] < 0.03
-    assert not [text for text in result.warnings() if "too short" in text or "does not cavitate" in text]
-    oil = solution.duty.lubricant
-    for race, curve in ((solution.inner, solution.inner_curve), (solution.outer, solution.outer_curve)):
-        radii = solution.duty.radii(race.angle, inner=race.inner)
-        for contact in curve.solutions:
-            formula = chittenden(
-                PointContact(
-                    radii.radius_x, radii.radius_y, solution.duty.modulus, contact.load, race.speed,
-                    oil.viscosity, oil.pressure_viscosity_coefficient,
-                )
-            )  # fmt: skip
-            if contact.moes_m > 100.0:
-                assert contact.central_thickness == pytest.approx(formula.central_thickness, rel=0.1)
-            assert contact.mismatch < 0.1
-
-
 @pytest.mark.parametrize("contacts", ["solved", "formula"])
 def test_a_load_wider_than_the_balls_is_refused_before_anything_is_solved(contacts):
     """200 kN on a ball bearing of 60 mm: dry contacts of a centimetre on balls of twelve millimetres."""
@@ -182,18 +158,34 @@ def test_an_oil_below_freezing_is_doubted():
 
 @pytest.mark.slow
 def test_a_6208_as_a_whole_and_between_the_loads_that_were_solved():
-    """Beside the whole by formula, whose films may be 30 % off; light contacts each beside its own solution.
+    """Beside the formulas, Chittenden's for such ellipses; light contacts each beside its own solution.
 
     Between 3.3 and 42 N the film of rigid bodies turns into that of bodies that deform; with no load between
     them it was up to a third off.
     """
     case = bearing_case(BALLS)
     solution = solve_bearing(case)
-    found = BearingResult(solution).summary()["bearing"]
+    result = BearingResult(solution)
+    found = result.summary()["bearing"]
+    assert result.converged
     assert found["discretisation_error"] < 0.03
+    assert not [text for text in result.warnings() if "too short" in text or "does not cavitate" in text]
     formula = BearingResult(solve_bearing(case.replace({"contacts": "formula"}))).summary()["bearing"]
     for key in ("capacitance", "capacitance_plate", "first_break", "through_breakdown", "lambda_ratio"):
         assert formula[key] == pytest.approx(found[key], rel=0.3), key
+    oil = solution.duty.lubricant
+    for race, curve in ((solution.inner, solution.inner_curve), (solution.outer, solution.outer_curve)):
+        radii = solution.duty.radii(race.angle, inner=race.inner)
+        for contact in curve.solutions:
+            film = chittenden(
+                PointContact(
+                    radii.radius_x, radii.radius_y, solution.duty.modulus, contact.load, race.speed,
+                    oil.viscosity, oil.pressure_viscosity_coefficient,
+                )
+            )  # fmt: skip
+            if contact.moes_m > 100.0:
+                assert contact.central_thickness == pytest.approx(film.central_thickness, rel=0.15)
+            assert contact.mismatch < 0.1
     curve, race = solution.outer_curve, solution.outer
     rest = {"discharge": case.discharge, "solver": case.solver.model_dump()}
     for load in (4.22, 5.35, 13.15):
