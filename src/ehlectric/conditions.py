@@ -163,6 +163,17 @@ def speeds_of(contact: Contact) -> tuple[float, float]:
     return mean, (contact.speed_1 - contact.speed_2) / mean
 
 
+def surface_ratios(slide_to_roll_ratio: float) -> tuple[float, float]:
+    """Speeds of both surfaces over the entrainment speed.
+
+    Examples
+    --------
+    >>> surface_ratios(0.5)
+    (1.25, 0.75)
+    """
+    return 1.0 + 0.5 * slide_to_roll_ratio, 1.0 - 0.5 * slide_to_roll_ratio
+
+
 def check_width(half_width: float, radius: float) -> None:
     """Refuse a dry contact as wide as its bodies, which no half-space or parabola describes."""
     if half_width > 0.5 * radius:

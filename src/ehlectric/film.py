@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ehlectric.elastic import Geometry
 from ehlectric.mesh import Mesh, at_centre
 from ehlectric.nested import FilmProblem, Scales, nested_iteration
-from ehlectric.newton import GridSolution, NewtonStep, Progress, Status
+from ehlectric.newton import GridSolution, NewtonStep, Progress, State, Status
 from ehlectric.reynolds import Fluid
 from ehlectric.threads import one_blas_thread
 from ehlectric.typing import Array, Mask
@@ -175,12 +175,11 @@ def found(
         # The way led over other films on this grid: the coarser one is not of the same surfaces.
         coarser = None
     state, final, level = finest.state, finest.final, finest.level
-    pressure = np.maximum(scales.pressure * state.pressure, scales.ambient_pressure)
     steps = tuple(step for solution in solutions for step in solution.steps)
     mass = final.coefficients.density * state.thickness
     return {
         "x": scales.length * level.mesh.x,
-        "pressure": shaped(np.where(final.free, pressure, scales.ambient_pressure)),
+        "pressure": shaped(pressure_of(scales, state, final.free)),
         "thickness": shaped(scales.thickness * state.thickness),
         "deflection": shaped(scales.thickness * level.deflection(state.pressure)),
         "density": shaped(final.coefficients.density),
@@ -195,6 +194,12 @@ def found(
         "discretisation_error": _discretisation_error(problem, finest, coarser),
         "inlet_deficit": inlet_deficit(problem.fluid, problem.geometry, level.mesh, state.pressure, mass),
     }
+
+
+def pressure_of(scales: Scales, state: State, free: Mask) -> Array:
+    """Pressure of a state [Pa], shape (nx, ny): ambient where it is held, and nowhere below."""
+    pressure = np.maximum(scales.pressure * state.pressure, scales.ambient_pressure)
+    return np.where(free, pressure, scales.ambient_pressure)
 
 
 def film_status(status: Status, mesh: Mesh, thickness: Array) -> Status:

@@ -135,12 +135,17 @@ class Electric(Table):
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        if abs(self.potential_2 - self.potential_1) < 1e-6:
+        if self.voltage < 1e-6:
             raise ValueError(
                 f"potential_2: got {self.potential_2:g} V, which is potential_1; takes one that "
                 "differs by at least 1 µV, as there is no field between equal potentials"
             )
         return self
+
+    @property
+    def voltage(self) -> float:
+        """Between the surfaces [V], above 0."""
+        return abs(self.potential_2 - self.potential_1)
 
 
 # Columns of the field below which the film's own nodes do not resolve it.

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from typing import Any
 
@@ -53,7 +52,7 @@ def meaning(case: Case) -> tuple[Table, dict[str, Any], list[str]]:
     table, summary, texts = _of_point(case) if case.contact.geometry == "point" else _of_line(case)
     if case.motion is not None:
         motion = Motion(case)
-        summary["motion"] = course_of(motion)
+        summary["motion"] = motion.described()
         for name, value, unit in _course_rows(motion):
             table.add_row(name, value, unit)
     return table, summary, texts
@@ -67,22 +66,8 @@ def _of_line(case: Case) -> tuple[Table, dict[str, Any], list[str]]:
     return conditions_table(case, conditions), conditions_summary(case, conditions), texts
 
 
-def course_of(motion: Motion) -> dict[str, Any]:
-    """How long and in which steps surfaces move, SI units; None where a time never comes."""
-    course = motion.course
-    moments = {"covered_from": motion.covered, "coincident": motion.coincident}
-    return {
-        "duration": course.end * course.time,
-        "steps": course.steps,
-        "courant": course.courant,
-        "frames": int(course.recorded.size),
-        "speed_ratio_1": motion.speed_of(1),
-        "speed_ratio_2": motion.speed_of(2),
-    } | {name: time * course.time if math.isfinite(time) else None for name, time in moments.items()}
-
-
 def _course_rows(motion: Motion) -> Iterator[tuple[str, str, str]]:
-    found = course_of(motion)
+    found = motion.described()
     yield "motion", f"{found['duration'] * 1e3:.4g}", f"ms in {found['steps']} steps"
     yield "  of oil in a step", f"{found['courant']:.3g}", "grid spacings"
     speed = motion.conditions.entrainment_speed

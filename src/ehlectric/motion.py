@@ -12,11 +12,12 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from ehlectric.case import Case
-from ehlectric.conditions import Conditions, resolve
+from ehlectric.conditions import Conditions, resolve, surface_ratios
 from ehlectric.errors import InputError
 from ehlectric.nested import FilmProblem
 from ehlectric.point_conditions import PointConditions, resolve_point
@@ -95,8 +96,7 @@ class Motion:
     @property
     def half_width(self) -> float:
         """b, of a point contact the semi-axis along entrainment [m]."""
-        given = self.conditions
-        return given.semi_axis_x if isinstance(given, PointConditions) else given.half_width
+        return self.conditions.half_width
 
     @property
     def domain(self) -> float:
@@ -105,8 +105,7 @@ class Motion:
 
     def speed_of(self, surface: int) -> float:
         """Speed of a surface over the mean speed; 0 where it is at rest."""
-        slide = 0.5 * self.conditions.slide_to_roll_ratio
-        speed = 1.0 + slide if surface == 1 else 1.0 - slide
+        speed = surface_ratios(self.conditions.slide_to_roll_ratio)[surface - 1]
         return speed if abs(speed) > _AT_REST else 0.0
 
     @property
@@ -159,6 +158,19 @@ class Motion:
         if isinstance(self.conditions, PointConditions):
             return rough_maps(case.roughness, domain_of(case, self.conditions))
         return rough_surfaces(case, self.conditions)
+
+    def described(self) -> dict[str, Any]:
+        """How long and in which steps it moves, SI units; None where a time never comes."""
+        course = self.course
+        moments = {"covered_from": self.covered, "coincident": self.coincident}
+        return {
+            "duration": course.end * course.time,
+            "steps": course.steps,
+            "courant": course.courant,
+            "frames": int(course.recorded.size),
+            "speed_ratio_1": self.speed_of(1),
+            "speed_ratio_2": self.speed_of(2),
+        } | {name: time * course.time if math.isfinite(time) else None for name, time in moments.items()}
 
     @cached_property
     def problem(self) -> FilmProblem:
@@ -219,15 +231,14 @@ class Motion:
 
 def _fastest(case: Case, conditions: Conditions | PointConditions) -> float:
     """Speed of the fastest rough surface over the mean speed."""
-    slide = 0.5 * conditions.slide_to_roll_ratio
-    return max(abs(1.0 + slide if table.surface == 1 else 1.0 - slide) for table in case.roughness)
+    ratios = surface_ratios(conditions.slide_to_roll_ratio)
+    return max(abs(ratios[table.surface - 1]) for table in case.roughness)
 
 
 def _course(case: Case, conditions: Conditions | PointConditions) -> Course:
     assert case.motion is not None
     motion, grid = case.motion, case.grid
-    b = conditions.semi_axis_x if isinstance(conditions, PointConditions) else conditions.half_width
-    time = b / conditions.entrainment_speed
+    time = conditions.half_width / conditions.entrainment_speed
     length = grid.outlet - grid.inlet
     end = motion.passes * length if motion.passes is not None else (motion.duration or 0.0) / time
     spacing = length / (grid.nodes - 1)

@@ -42,10 +42,7 @@ def film_beside(run: MotionRun, ax: Axes | None = None) -> Axes:
     Axes
         Of the films in the Hertz zone: those around it are thicker.
     """
-    factor, unit = film_unit(run)
-    least = [f"{factor * value:.3g} {unit}" for value in _extremes(run, "thickness", np.nanmin)]
-    ax, lines = _three(run, ax, "thickness", factor, [f"least {least[0]}", *least[1:]])
-    ax.set_ylabel(f"film thickness $h$ [{unit}]")
+    ax, lines = _three(run, ax, "thickness", film_unit(run), ("film thickness $h$", "least", np.nanmin))
     ax.set_ylim(*fitted(*(in_contact(run, line) for line in lines)))
     return ax
 
@@ -65,11 +62,8 @@ def pressure_beside(run: MotionRun, ax: Axes | None = None) -> Axes:
     Axes
         From no pressure.
     """
-    highest = _extremes(run, "pressure", np.nanmax)
-    factor, unit = unit_for(max(highest), "Pa")
-    most = [f"{factor * value:.3g} {unit}" for value in highest]
-    ax, lines = _three(run, ax, "pressure", factor, [f"largest {most[0]}", *most[1:]])
-    ax.set_ylabel(f"pressure $p$ [{unit}]")
+    unit = unit_for(max(_extremes(run, "pressure", np.nanmax)), "Pa")
+    ax, lines = _three(run, ax, "pressure", unit, ("pressure $p$", "largest", np.nanmax))
     ax.set_ylim(0.0, 1.06 * max(float(np.max(line)) for line in lines))
     return ax
 
@@ -89,10 +83,7 @@ def field_beside(run: MotionRun, ax: Axes | None = None) -> Axes:
     Axes
         Of the fields in the Hertz zone: those around it are smaller.
     """
-    factor, unit = field_unit(run)
-    most = [f"{factor * value:.3g} {unit}" for value in _extremes(run, "strength", np.nanmax)]
-    ax, lines = _three(run, ax, "strength", factor, [f"largest {most[0]}", *most[1:]])
-    ax.set_ylabel(f"field $|E|$ [{unit}]")
+    ax, lines = _three(run, ax, "strength", field_unit(run), ("field $|E|$", "largest", np.nanmax))
     ax.set_ylim(*fitted(*(in_contact(run, line) for line in lines)))
     return ax
 
@@ -152,20 +143,30 @@ def _extremes(run: MotionRun, name: str, of: Callable[[Array], Any]) -> list[flo
 
 
 def _three(
-    run: MotionRun, ax: Axes | None, name: str, factor: float, notes: list[str]
+    run: MotionRun,
+    ax: Axes | None,
+    name: str,
+    unit: Unit,
+    said: tuple[str, str, Callable[[Array], Any]],
 ) -> tuple[Axes, list[Array]]:
-    """Lines along entrainment of a variable: moving, held still and before the motion."""
-    ax = axes_or_new(ax)
+    """Lines along entrainment of a variable: moving, held still and before the motion.
+
+    ``said`` is what the axis calls it, and what the legend calls which extreme of it.
+    """
+    ax, (factor, suffix), (label, kind, extreme) = axes_or_new(ax), unit, said
     lines = [run.along(name, run.coincident_frame), run.along(f"stationary_{name}"), run.along(name, 0)]
     looks = (
-        ("moving", BLUE, "-"),
-        ("held still", ORANGE, "--"),
-        ("before the motion", "black", ":"),
+        ("moving", f"{kind} ", BLUE, "-"),
+        ("held still", "", ORANGE, "--"),
+        ("before the motion", "", "black", ":"),
     )
     drawn = [factor * line for line in lines]
-    for line, note, (label, colour, style) in zip(drawn, notes, looks, strict=True):
-        ax.plot(run.x, line, color=colour, ls=style, lw=1.0, label=f"{label}, {note}")
+    extremes = _extremes(run, name, extreme)
+    for line, value, (when, what, colour, style) in zip(drawn, extremes, looks, strict=True):
+        told = f"{when}, {what}{factor * value:.3g} {suffix}"
+        ax.plot(run.x, line, color=colour, ls=style, lw=1.0, label=told)
     ax.set_xlim(*shown_range(run))
+    ax.set_ylabel(f"{label} [{suffix}]")
     along_label(run, ax)
     legend_above(ax, columns=3)
     return ax, drawn

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.axes import Axes
 
+from ehlectric.conditions import surface_ratios
 from ehlectric.drawing import figure_of, name_over, unit_for
 from ehlectric.motion_view import MotionRun
 from ehlectric.typing import Array
@@ -78,12 +79,12 @@ def speed_text(run: MotionRun) -> str:
 
     Surfaces at one speed are said together.
     """
-    mean, slide = run.conditions.entrainment_speed, 0.5 * run.conditions.slide_to_roll_ratio
+    mean, slide = run.conditions.entrainment_speed, run.conditions.slide_to_roll_ratio
     rough = " and ".join(str(k) for k in run.speeds)
     what = f"surface {rough} rough" if len(run.speeds) == 1 else f"surfaces {rough} rough"
-    if abs(slide) < 1e-9:
+    if abs(slide) < 2e-9:
         return f"pure rolling at {mean:.4g} m/s, {what}"
-    first, second = (f"{mean * (1.0 + sign * slide):.4g}".replace("-", "−") for sign in (1.0, -1.0))
+    first, second = (f"{mean * ratio:.4g}".replace("-", "−") for ratio in surface_ratios(slide))
     return f"surface 1 at {first} m/s, surface 2 at {second} m/s, {what}"
 
 

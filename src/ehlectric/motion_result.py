@@ -78,17 +78,10 @@ def _halved(dataset: xr.Dataset) -> Iterator[str]:
 
 
 def _course(motion: Motion, dataset: xr.Dataset) -> dict[str, Any]:
-    course, steps = motion.course, dataset.sizes["step"] - 1
-    return {
-        "duration": course.end * course.time,
-        "steps": course.steps,
+    steps = dataset.sizes["step"] - 1
+    return motion.described() | {
         "steps_done": steps,
-        "courant": course.courant,
         "frames": dataset.sizes["frame"],
-        "speed_ratio_1": motion.speed_of(1),
-        "speed_ratio_2": motion.speed_of(2),
-        "covered_from": motion.covered * course.time,
-        "coincident": motion.coincident * course.time,
         "newton_per_step": float(dataset["newton_iterations"].values.sum()) / max(steps, 1),
         "krylov_per_step": float(dataset["krylov_iterations"].values.sum()) / max(steps, 1),
         "halvings": int(dataset["halvings"].values.sum()),
@@ -118,14 +111,13 @@ def _field(motion: Motion, dataset: xr.Dataset) -> dict[str, Any]:
     within = counted(dataset)
     maxima = local_maxima(dataset, within)
     capacitance = dataset["capacitance"].values[within]
-    electric = motion.case.electric
     # Of all steps, not of the instants alone, between which an asperity may have passed.
     run = MotionRun.of(dataset)
     at = run.values("time")
     settled = at >= run.settled_from
     share = time_above(at[settled], run.strength[settled], HIGH_FIELD * np.max(run.strength[settled]))
     return {
-        "voltage": abs(electric.potential_2 - electric.potential_1),
+        "voltage": motion.case.electric.voltage,
         "before": strength[0],
         "max_strength": strength[largest],
         "max_strength_time": time[largest],
@@ -173,7 +165,7 @@ def local_maxima(dataset: xr.Dataset, within: Mask) -> Array:
     ndarray, shape (n,)
         Of all those instants together.
     """
-    given = motion_of(dataset).conditions
+    given = MotionRun.of(dataset).conditions
     strength = np.nan_to_num(dataset["strength"].values[within], nan=-np.inf)
     x = dataset["x"].values
     if isinstance(given, PointConditions):
@@ -193,8 +185,7 @@ def _discharge(motion: Motion, dataset: xr.Dataset) -> dict[str, Any] | None:
     discharge = motion.case.discharge
     if discharge is None or discharge.dielectric_strength is None:
         return None
-    electric = motion.case.electric
-    voltage = abs(electric.potential_2 - electric.potential_1)
+    voltage = motion.case.electric.voltage
     strength = float(dielectric_strength(discharge, np.zeros(1))[0])
     voltages = strength * voltage / dataset["max_strength"].values
     least = int(np.argmin(voltages))

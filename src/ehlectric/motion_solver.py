@@ -12,13 +12,13 @@ from numpy.typing import NDArray
 from ehlectric.conditions import Conditions
 from ehlectric.errors import ConvergenceError
 from ehlectric.field import Field, solve_field
-from ehlectric.film import Film, quiet_solution
+from ehlectric.film import Film, pressure_of, quiet_solution
 from ehlectric.motion import Motion
 from ehlectric.nested import nested_iteration
 from ehlectric.newton import Progress
 from ehlectric.point_conditions import PointConditions
 from ehlectric.point_field import PointField, solve_point_field
-from ehlectric.point_film import PointFilm
+from ehlectric.point_film import PointFilm, semi_axis_across
 from ehlectric.point_problems import point_field_problem
 from ehlectric.problems import field_problem
 from ehlectric.typing import Array
@@ -112,20 +112,29 @@ class MovingContact:
             field = solve_field(field_problem(self.motion.case, conditions, film, roughness))
         return Snapshot(instant.time * self.motion.course.time, film, roughness, field)
 
+    def extremes(self, instant: Instant) -> tuple[float, tuple[float, ...], float]:
+        """Smallest film thickness [m] with its place [m], and the largest pressure [Pa], without the rest."""
+        mesh, scales = self._film.level.mesh, self.motion.problem.scales
+        thickness = self._shaped(scales.thickness * instant.state.thickness)
+        place = np.unravel_index(int(np.argmin(thickness)), thickness.shape)
+        axes = (scales.length * mesh.x, scales.length * mesh.whole_y)[: thickness.ndim]
+        highest = np.max(pressure_of(scales, instant.state, instant.free))
+        where = tuple(float(axis[k]) for axis, k in zip(axes, place, strict=True))
+        return float(np.min(thickness)), where, float(highest)
+
+    def _shaped(self, values: NDArray[Any]) -> NDArray[Any]:
+        """Values (nx, ny) in the shape that they have in the film."""
+        point = isinstance(self.motion.conditions, PointConditions)
+        return self._film.level.mesh.mirrored(values) if point else values[:, 0]
+
     def film(self, instant: Instant) -> Film:
         """The film at an instant in SI units."""
         level, scales, state = self._film.level, self.motion.problem.scales, instant.state
-        mesh = level.mesh
-        point = isinstance(self.motion.conditions, PointConditions)
-        pressure = np.maximum(scales.pressure * state.pressure, scales.ambient_pressure)
+        mesh, shaped = level.mesh, self._shaped
         load = float(np.vdot(level.weights, state.pressure))
-
-        def shaped(values: NDArray[Any]) -> NDArray[Any]:
-            return mesh.mirrored(values) if point else values[:, 0]
-
         film: dict[str, Any] = {
             "x": scales.length * mesh.x,
-            "pressure": shaped(np.where(instant.free, pressure, scales.ambient_pressure)),
+            "pressure": shaped(pressure_of(scales, state, instant.free)),
             "thickness": shaped(scales.thickness * state.thickness),
             "deflection": shaped(scales.thickness * level.deflection(state.pressure)),
             "density": shaped(instant.density),
@@ -140,9 +149,11 @@ class MovingContact:
             "discretisation_error": None,
             "inlet_deficit": 0.0,
         }
-        if not point:
+        if not isinstance(self.motion.conditions, PointConditions):
             return Film(**film)
-        across = 1.5 * self.motion.problem.geometry.load / np.pi
         return PointFilm(
-            **film, y=scales.length * mesh.whole_y, semi_axis_y=scales.length * across, side_deficit=0.0
+            **film,
+            y=scales.length * mesh.whole_y,
+            semi_axis_y=semi_axis_across(self.motion.problem),
+            side_deficit=0.0,
         )

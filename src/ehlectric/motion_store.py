@@ -89,24 +89,23 @@ class Row:
     def of(cls, contact: MovingContact, history: History) -> Row:
         """Of the last step of a history, SI units."""
         motion, instant = contact.motion, history.now
-        electric = motion.case.electric
-        film = contact.film(instant)
+        thinnest, where, highest = contact.extremes(instant)
         values: dict[str, float] = {
             "time": instant.time * motion.course.time,
-            "minimum_thickness": film.minimum_thickness,
-            "max_pressure": film.max_pressure,
-            "thin_gap_strength": abs(electric.potential_2 - electric.potential_1) / film.minimum_thickness,
+            "minimum_thickness": thinnest,
+            "max_pressure": highest,
+            "thin_gap_strength": motion.case.electric.voltage / thinnest,
             "newton_iterations": history.effort.newton,
             "krylov_iterations": history.effort.krylov,
             "halvings": history.effort.halvings,
         }
-        return cls(values | _place("minimum", film.minimum_position))
+        return cls(values | _place("minimum", where))
 
 
-def _place(name: str, place: float | tuple[float, float]) -> dict[str, float]:
-    if isinstance(place, tuple):
-        return {f"{name}_x": place[0], f"{name}_y": place[1]}
-    return {f"{name}_x": place}
+def _place(name: str, place: float | tuple[float, ...]) -> dict[str, float]:
+    """Along entrainment, and of a point contact across it."""
+    places = place if isinstance(place, tuple) else (place,)
+    return {f"{name}_{axis}": at for axis, at in zip("xy", places, strict=False)}
 
 
 class MotionFile:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ehlectric.case import Case
-from ehlectric.conditions import Conditions, resolve
+from ehlectric.conditions import Conditions, resolve, surface_ratios
 from ehlectric.errors import InputError
 from ehlectric.point_conditions import PointConditions, resolve_point
 from ehlectric.typing import Array
@@ -75,7 +75,8 @@ class MotionRun:
             "step": np.isfinite(dataset["time"].values),
             "frame": np.isfinite(dataset["frame_time"].values),
         }
-        kept = dataset.isel({name: np.flatnonzero(mask) for name, mask in there.items()})
+        left = {name: np.flatnonzero(mask) for name, mask in there.items() if not np.all(mask)}
+        kept = dataset.isel(left) if left else dataset
         if not kept.sizes["frame"]:
             raise InputError("dataset: got no recorded instant, takes one at least")
         return cls(kept, case, resolve_point(case) if point else resolve(case))
@@ -93,9 +94,8 @@ class MotionRun:
     @cached_property
     def speeds(self) -> dict[int, float]:
         """Speed of each surface that is rough [m/s], by its number."""
-        mean, slide = self.conditions.entrainment_speed, 0.5 * self.conditions.slide_to_roll_ratio
-        speeds = {1: mean * (1.0 + slide), 2: mean * (1.0 - slide)}
-        return {k: speeds[k] for k in sorted({surface.surface for surface in self.case.roughness})}
+        mean, ratios = self.conditions.entrainment_speed, surface_ratios(self.conditions.slide_to_roll_ratio)
+        return {k: mean * ratios[k - 1] for k in sorted({surface.surface for surface in self.case.roughness})}
 
     @cached_property
     def x(self) -> Array:

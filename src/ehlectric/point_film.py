@@ -134,9 +134,14 @@ def solve_point_film(problem: FilmProblem, *, progress: Progress | None = None) 
         return PointFilm(
             **found(problem, solutions, mesh.mirrored),
             y=problem.scales.length * mesh.whole_y,
-            semi_axis_y=problem.scales.length * 1.5 * problem.geometry.load / np.pi,
+            semi_axis_y=semi_axis_across(problem),
             side_deficit=side_deficit(problem, mesh, state.pressure, state.thickness),
         )
+
+
+def semi_axis_across(problem: FilmProblem) -> float:
+    """Semi-axis of the dry contact across entrainment [m], of the load that its ellipse carries."""
+    return problem.scales.length * 1.5 * problem.geometry.load / np.pi
 
 
 def side_deficit(problem: FilmProblem, mesh: Mesh, pressure: Array, thickness: Array) -> float:

@@ -59,7 +59,7 @@ def conditions_table(case: Case, conditions: Conditions) -> Table:
 
 def add_expected(table: Table, case: Case, films: Mapping[str, Thickness], names: Mapping[str, str]) -> None:
     """Rows of the voltage and of the films that the formulas give, before anything is solved."""
-    table.add_row("voltage", f"{abs(case.electric.potential_2 - case.electric.potential_1):.4g}", "V")
+    table.add_row("voltage", f"{case.electric.voltage:.4g}", "V")
     for name, thickness in films.items():
         for key, value in vars(thickness).items():
             if value is not None:
