@@ -88,16 +88,13 @@ def _high(run: MotionRun, ax: Axes) -> Line2D:
     """Level of a high field, and the time above it shaded."""
     factor, _ = field_unit(run)
     in_time, unit = time_unit(run)
-    steps, last = run.values("time"), float(run.values("time")[-1])
     level = run.high_field
-    spans = intervals_above(steps, run.strength, level)
+    spans = intervals_above(run.values("time"), run.strength, level)
     bars = [(in_time * start, in_time * (end - start)) for start, end in spans]
     whole = ax.get_xaxis_transform()
     ax.broken_barh(bars, (0.0, 1.0), transform=whole, color=GREEN, alpha=0.25, lw=0.0, zorder=0.5)
     settled = run.settled_from
-    above = float(np.sum(np.diff(np.clip(spans, settled, last))))
-    share = 100.0 * above / ((last - settled) or 1.0)
-    text = f"{100.0 * HIGH_FIELD:g} % of the largest: above it {share:.0f} % of the time"
+    text = f"{100.0 * HIGH_FIELD:g} % of the largest: above it {100.0 * run.share_high:.0f} % of the time"
     text += f" from {in_time * settled:.3g} {unit} on" if settled else ""
     return ax.axhline(factor * level, color=GREEN, lw=0.9, ls="--", label=text)
 

@@ -11,7 +11,7 @@ from scipy.ndimage import maximum_filter
 
 from ehlectric.motion import Motion
 from ehlectric.motion_store import motion_of
-from ehlectric.motion_view import HIGH_FIELD, MotionRun
+from ehlectric.motion_view import MotionRun
 from ehlectric.point_conditions import PointConditions
 from ehlectric.solution import plain
 from ehlectric.stress import dielectric_strength
@@ -111,11 +111,7 @@ def _field(motion: Motion, dataset: xr.Dataset) -> dict[str, Any]:
     within = counted(dataset)
     maxima = local_maxima(dataset, within)
     capacitance = dataset["capacitance"].values[within]
-    # Of all steps, not of the instants alone, between which an asperity may have passed.
     run = MotionRun.of(dataset)
-    at = run.values("time")
-    settled = at >= run.settled_from
-    share = time_above(at[settled], run.strength[settled], HIGH_FIELD * np.max(run.strength[settled]))
     return {
         "voltage": motion.case.electric.voltage,
         "before": strength[0],
@@ -123,31 +119,14 @@ def _field(motion: Motion, dataset: xr.Dataset) -> dict[str, Any]:
         "max_strength_time": time[largest],
         "max_strength_position": place if len(place) > 1 else place[0],
         "max_thin_gap_strength": np.max(dataset["thin_gap_strength"].values),
-        "share_above_90": share,
-        "time_above_90": share * float(np.ptp(at[settled])),
+        "share_above_90": run.share_high,
+        "time_above_90": run.share_high * run.settled_time,
         "local_maxima": maxima.size,
         "local_maxima_quantiles": list(np.quantile(maxima, QUANTILES)) if maxima.size else None,
         "capacitance_mean": np.mean(capacitance),
         "capacitance_least": np.min(capacitance),
         "capacitance_largest": np.max(capacitance),
     }
-
-
-def time_above(time: Array, values: Array, level: float) -> float:
-    """Part of the time in which a value, linear between its instants, is above a level.
-
-    Examples
-    --------
-    >>> round(time_above(np.array([0.0, 1.0, 2.0]), np.array([0.0, 1.0, 0.0]), 0.75), 9)
-    0.25
-    """
-    if time.size < 2:
-        return float(values[0] > level)
-    steps = np.diff(time)
-    low, high = np.minimum(values[:-1], values[1:]), np.maximum(values[:-1], values[1:])
-    span = np.where(high > low, high - low, 1.0)
-    part = np.where(high > low, np.clip((high - level) / span, 0.0, 1.0), (high > level).astype(float))
-    return float(part @ steps / np.sum(steps))
 
 
 def local_maxima(dataset: xr.Dataset, within: Mask) -> Array:

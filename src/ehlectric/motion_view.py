@@ -13,7 +13,7 @@ from ehlectric.case import Case
 from ehlectric.conditions import Conditions, resolve, surface_ratios
 from ehlectric.errors import InputError
 from ehlectric.point_conditions import PointConditions, resolve_point
-from ehlectric.typing import Array
+from ehlectric.typing import Array, Mask
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -161,11 +161,28 @@ class MotionRun:
         covered = self.moment("covered_from")
         return covered if np.count_nonzero(self.frame_time >= covered) > 1 else 0.0
 
+    @cached_property
+    def _settled(self) -> Mask:
+        """Which steps count, shape (steps,)."""
+        return np.asarray(self.values("time") >= self.settled_from)
+
+    @property
+    def settled_time(self) -> float:
+        """How long the steps that count last [s]."""
+        return float(np.ptp(self.values("time")[self._settled]))
+
     @property
     def high_field(self) -> float:
         """Field strength above which the film is near its breakdown [V/m], of what counts."""
-        settled = self.values("time") >= self.settled_from
-        return HIGH_FIELD * float(np.max(self.strength[settled]))
+        return HIGH_FIELD * float(np.max(self.strength[self._settled]))
+
+    @property
+    def share_high(self) -> float:
+        """Part of the time that counts in which the field is high.
+
+        Of all steps, not of the instants alone, between which an asperity may have passed.
+        """
+        return time_above(self.values("time")[self._settled], self.strength[self._settled], self.high_field)
 
     @cached_property
     def coincident_frame(self) -> int | None:
@@ -180,7 +197,7 @@ class MotionRun:
 
 
 def intervals_above(time: Array, values: Array, level: float) -> Array:
-    """When values are at least a level.
+    """When values are above a level.
 
     Parameters
     ----------
@@ -200,7 +217,7 @@ def intervals_above(time: Array, values: Array, level: float) -> Array:
     array([[0. , 0.5],
            [1.5, 2.5]])
     """
-    above = values >= level
+    above = values > level
     before = np.flatnonzero(above[1:] != above[:-1])
     share = (level - values[before]) / (values[before + 1] - values[before])
     crossings = time[before] + share * (time[before + 1] - time[before])
@@ -209,3 +226,16 @@ def intervals_above(time: Array, values: Array, level: float) -> Array:
     ends += [time[-1:]] if above[-1] else []
     intervals: Array = np.concatenate(ends).reshape(-1, 2)
     return intervals
+
+
+def time_above(time: Array, values: Array, level: float) -> float:
+    """Part of the time in which a value, linear between its instants, is above a level.
+
+    Examples
+    --------
+    >>> round(time_above(np.array([0.0, 1.0, 2.0]), np.array([0.0, 1.0, 0.0]), 0.75), 9)
+    0.25
+    """
+    if time.size < 2:
+        return float(values[0] > level)
+    return float(np.sum(np.diff(intervals_above(time, values, level))) / np.ptp(time))

@@ -13,10 +13,10 @@ from ehlectric.motion_result import (
     instant_beside,
     local_maxima,
     summary_of,
-    time_above,
 )
 from ehlectric.motion_run import run_motion
 from ehlectric.motion_store import read_motion
+from ehlectric.motion_view import time_above
 from tests.motions import LINE, POINT, moving
 
 
