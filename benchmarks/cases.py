@@ -14,6 +14,7 @@ from ehlectric.point_conditions import resolve_point
 from ehlectric.point_film import solve_point_film
 from ehlectric.poisson import FieldProblem
 from ehlectric.poisson_3d import PointFieldProblem
+from ehlectric.problems import line_domain_of
 from ehlectric.walls import rough_surfaces
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
@@ -30,7 +31,9 @@ def rough_film_problem(nodes: int) -> FilmProblem:
     """The film of the rough example on a grid of so many nodes."""
     case = Case.from_toml(EXAMPLE.with_name("rough_contact.toml")).replace({"grid.nodes": nodes})
     conditions = resolve(case)
-    return solver.film_problem(case, conditions, rough_surfaces(case, conditions))
+    return solver.film_problem(
+        case, conditions, rough_surfaces(case.roughness, line_domain_of(case, conditions))
+    )
 
 
 def field_problem(columns: int) -> FieldProblem:

@@ -9,8 +9,7 @@ from typing import Any
 import numpy as np
 from scipy.constants import epsilon_0
 
-from ehlectric.case import Case
-from ehlectric.conditions import Conditions, permittivity_law
+from ehlectric.conditions import permittivity_law
 from ehlectric.discharge import (
     CURRENT_DENSITY_LIMITS,
     LARGEST_PIT,
@@ -28,7 +27,7 @@ from ehlectric.discharge_inputs import Discharge
 from ehlectric.domain import axes_of, line_zone_areas, point_zone_areas
 from ehlectric.field import Field
 from ehlectric.film import Film
-from ehlectric.point_conditions import PointConditions
+from ehlectric.inputs import Lubricant
 from ehlectric.point_field import PointField
 from ehlectric.stress import Stress
 from ehlectric.zone_capacitance import zone_capacitances
@@ -128,19 +127,29 @@ class Assessment:
 
 
 def assess(
-    case: Case, conditions: Conditions | PointConditions, film: Film, field: Field | PointField
-) -> Assessment | None:
+    given: Discharge,
+    lubricant: Lubricant,
+    semi_axes: tuple[float, ...],
+    film: Film,
+    field: Field | PointField,
+) -> Assessment:
     """Assess the discharge of a solved contact.
 
     Parameters
     ----------
-    case, conditions, film, field
-        What was solved, and its solution.
+    given : Discharge
+        Strength of the lubricant, and what is connected to the contact.
+    lubricant : Lubricant
+        Its permittivity.
+    semi_axes : tuple of float
+        Half-width of a line contact, or both semi-axes of a point contact, along and across entrainment [m].
+    film, field
+        The solution.
 
     Returns
     -------
-    Assessment or None
-        None where the case has no ``[discharge]``.
+    Assessment
+        SI units.
 
     Examples
     --------
@@ -152,15 +161,12 @@ def assess(
     >>> round(result.discharge.breakdown_voltage, 1)
     11.1
     """
-    given = case.discharge
-    if given is None:
-        return None
-    size = _Size.of(conditions, given)
+    size = _Size.of(semi_axes, given)
     stress = Stress.of(given, film, field)
     breakdown = _breakdown(given, stress, field.voltage, size)
-    capacitances = _capacitances(case, conditions, film, field)
+    capacitances = _capacitances(given, lubricant, semi_axes, film, field)
     total = capacitances["capacitance"]
-    plate = epsilon_0 * case.lubricant.relative_permittivity * size.hertz / film.central_thickness
+    plate = epsilon_0 * lubricant.relative_permittivity * size.hertz / film.central_thickness
     return Assessment(
         **breakdown,
         **_zone(stress, size),
@@ -170,7 +176,7 @@ def assess(
         outlet=given.outlet,
         **_costs(given, size.whole(total), field.voltage, breakdown["breakdown_voltage"]),
         **_current(given, size),
-        **_leakage(given, case.lubricant.relative_permittivity),
+        **_leakage(given, lubricant.relative_permittivity),
     )
 
 
@@ -187,11 +193,11 @@ class _Size:
     line: bool
 
     @classmethod
-    def of(cls, conditions: Conditions | PointConditions, given: Discharge) -> _Size:
-        if isinstance(conditions, PointConditions):
-            area = np.pi * conditions.semi_axis_x * conditions.semi_axis_y
-            return cls(conditions.semi_axis_x, area, 1.0, line=False)
-        return cls(conditions.half_width, 2.0 * conditions.half_width, given.length, line=True)
+    def of(cls, semi_axes: tuple[float, ...], given: Discharge) -> _Size:
+        b = semi_axes[0]
+        if len(semi_axes) == 1:
+            return cls(b, 2.0 * b, given.length, line=True)
+        return cls(b, np.pi * b * semi_axes[1], 1.0, line=False)
 
     def whole(self, per_length: float) -> float | None:
         """Of the contact, what is given per length of a line."""
@@ -243,19 +249,17 @@ def _zone(stress: Stress, size: _Size) -> dict[str, Any]:
 
 
 def _capacitances(
-    case: Case, conditions: Conditions | PointConditions, film: Film, field: Field | PointField
+    given: Discharge,
+    lubricant: Lubricant,
+    semi_axes: tuple[float, ...],
+    film: Film,
+    field: Field | PointField,
 ) -> dict[str, Any]:
     """Capacitances by zone, and of the outlet by what fills it."""
-    nodes, columns = axes_of(film), axes_of(field)
-    if isinstance(conditions, PointConditions):
-        axes = conditions.semi_axis_x, conditions.semi_axis_y
-        zones = point_zone_areas(nodes, *axes), point_zone_areas(columns, *axes)
-    else:
-        b = conditions.half_width
-        zones = line_zone_areas(nodes, b), line_zone_areas(columns, b)
-    by_outlet = zone_capacitances(film, field, zones, permittivity_law(case.lubricant))
-    assert case.discharge is not None
-    chosen = by_outlet[case.discharge.outlet]
+    areas = line_zone_areas if len(semi_axes) == 1 else point_zone_areas
+    zones = areas(axes_of(film), *semi_axes), areas(axes_of(field), *semi_axes)
+    by_outlet = zone_capacitances(film, field, zones, permittivity_law(lubricant))
+    chosen = by_outlet[given.outlet]
     return {
         "capacitance": sum(chosen.values()),
         **{f"capacitance_{zone}": chosen.get(zone) for zone in ("hertz", "inlet", "outlet", "sides")},
@@ -303,9 +307,8 @@ def _leakage(given: Discharge, permittivity: float) -> dict[str, Any]:
     return {"relaxation_time": time, "corner_frequency": 1.0 / (2.0 * np.pi * time)}
 
 
-def discharge_findings(case: Case, film: Film) -> Iterator[str]:
-    """What a user should know of the discharge, one text each."""
-    given = case.discharge
+def discharge_findings(given: Discharge | None, film: Film) -> Iterator[str]:
+    """What a user should know of the discharge, one text each; nothing without a ``[discharge]``."""
     if given is None:
         return
     if film.minimum_thickness < TUNNELLING:

@@ -58,7 +58,6 @@ def _main(
     pass
 
 
-@app.command()
 def run(
     case_file: CaseFile,
     output: Annotated[
@@ -83,7 +82,7 @@ def run(
         # Before all that solving takes: what is wrong with a case is said at once.
         case = Case.from_toml(case_file)
 
-        from ehlectric.meaning import check_case
+        from ehlectric.meaning import check_case, check_motion
         from ehlectric.motion_store import MOTION
         from ehlectric.paper.solvers import SOLVERS
         from ehlectric.solver import solve
@@ -92,6 +91,7 @@ def run(
         if solver not in SOLVERS:
             raise InputError(f"--solver: got {shown(solver)}, takes one of {', '.join(SOLVERS)}")
         check_case(case)
+        check_motion(case)
         SOLVERS[solver].check(case)
         if case.motion is not None:
             run_moving(case, output, solver=solver, plots=plots, quiet=quiet, as_json=as_json)
@@ -132,7 +132,6 @@ def run(
         raise typer.Exit(NOT_CONVERGED)
 
 
-@app.command()
 def check(case_file: CaseFile, quiet: Quiet = False, as_json: Json = False) -> None:
     """Validate a case and say what it means: Hertz contact, groups, regime, film formulas."""
     with user_errors():
@@ -151,7 +150,6 @@ def check(case_file: CaseFile, quiet: Quiet = False, as_json: Json = False) -> N
         warn(texts)
 
 
-@app.command()
 def surface(
     file: Annotated[Path, typer.Argument(help="File of an instrument.", show_default=False)],
     x_unit: Annotated[str | None, typer.Option(help="Where the file does not say.")] = None,
@@ -206,7 +204,6 @@ def surface(
             typer.echo(f"written: {output}")
 
 
-@app.command()
 def init(
     path: Annotated[Path, typer.Argument(help="File to write.")] = Path("case.toml"),
     geometry: Annotated[str, typer.Option(metavar="NAME", help="Of the contact: line or point.")] = "line",
@@ -230,7 +227,6 @@ def init(
         typer.echo(f"written: {path}; solve it with: ehlectric run {path}")
 
 
-@app.command()
 def plot(
     result_file: Annotated[Path, typer.Argument(help="A result.nc, or a motion.nc.", show_default=False)],
     output: Annotated[
@@ -257,7 +253,6 @@ def plot(
         warn(result.warnings)
 
 
-@app.command()
 def reproduce(
     output: Annotated[
         Path, typer.Option("--output", "-o", metavar="DIR", help="Folder for the results.")
@@ -284,6 +279,12 @@ def reproduce(
         raise typer.Exit(NOT_CONVERGED)
 
 
+app.command()(run)
+app.command()(check)
+app.command()(surface)
+app.command()(init)
+app.command()(plot)
+app.command()(reproduce)
 app.command()(bearing)
 app.command()(sweep)
 app.command("map")(draw_maps)
@@ -303,7 +304,7 @@ def _stop(number: int, _: object) -> None:
     sys.exit(SIGNALLED + number)
 
 
-def _command() -> int:
+def _status() -> int:
     """Run the command; wrong words on the command line are one line too."""
     try:
         status = app(standalone_mode=False)
@@ -334,4 +335,4 @@ def main() -> None:
     for stream in (sys.stdout, sys.stderr):
         # A terminal that knows no micro sign must not end the run.
         stream.reconfigure(errors="replace")  # type: ignore[union-attr]
-    sys.exit(_command())
+    sys.exit(_status())

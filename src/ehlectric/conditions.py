@@ -59,6 +59,11 @@ class Conditions:
     formulas: film_formulas.LineContact
 
     @property
+    def semi_axes(self) -> tuple[float, ...]:
+        """Half-width of the dry contact [m]."""
+        return (self.half_width,)
+
+    @property
     def thickness_scale(self) -> float:
         """b^2/R, the film thickness of H = 1 [m]."""
         return self.half_width**2 / self.reduced_radius

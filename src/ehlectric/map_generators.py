@@ -14,6 +14,7 @@ from scipy import fft
 from ehlectric import generators
 from ehlectric.errors import InputError
 from ehlectric.roughness import convolved
+from ehlectric.surface_domain import turned
 from ehlectric.topography import Map
 from ehlectric.typing import Array
 
@@ -135,19 +136,6 @@ def pit(
     """
     distance = np.hypot(np.asarray(x, float) - position, np.asarray(y, float) - position_y)
     return generators.pit(distance, depth=depth, width=width, rim=rim)
-
-
-def turned(x: ArrayLike, y: ArrayLike, orientation: float) -> tuple[Array, Array]:
-    """Positions in axes that are turned counter-clockwise by an angle in degrees.
-
-    Examples
-    --------
-    >>> [round(float(value), 12) for value in turned(0.0, 1.0, 90.0)]
-    [1.0, 0.0]
-    """
-    angle = np.deg2rad(orientation)
-    x, y = np.asarray(x, float), np.asarray(y, float)
-    return x * np.cos(angle) + y * np.sin(angle), y * np.cos(angle) - x * np.sin(angle)
 
 
 def gaussian(

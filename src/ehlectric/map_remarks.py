@@ -6,9 +6,10 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from ehlectric.rough_maps import Domain, RoughMap
+from ehlectric.rough_maps import RoughMap
 from ehlectric.roughness import LEAST_POINTS
 from ehlectric.roughness_inputs import Roughness
+from ehlectric.surface_domain import Domain
 from ehlectric.topography import Map, statistics
 from ehlectric.walls import (
     LEAST_IN_CORRELATION,

@@ -16,6 +16,7 @@ from ehlectric.point_conditions import point_remarks, resolve_point
 from ehlectric.point_problems import domain_of, spacings
 from ehlectric.point_report import point_result_table, point_summary, point_table
 from ehlectric.point_result import PointResult
+from ehlectric.problems import line_domain_of, spacing
 from ehlectric.report import conditions_summary, conditions_table, line_result_table
 from ehlectric.result import Result
 from ehlectric.rough_maps import rough_maps
@@ -60,9 +61,13 @@ def meaning(case: Case) -> tuple[Table, dict[str, Any], list[str]]:
 
 def _of_line(case: Case) -> tuple[Table, dict[str, Any], list[str]]:
     conditions = resolve(case)
-    rough = rough_surfaces(case, conditions)
+    domain = line_domain_of(case, conditions)
+    rough = rough_surfaces(case.roughness, domain)
     check_memory(case)
-    texts = [*remarks(case, conditions), *rough_remarks(case, conditions, rough)]
+    texts = [
+        *remarks(case, conditions),
+        *rough_remarks(case.roughness, rough, domain, spacing(case, conditions)),
+    ]
     return conditions_table(case, conditions), conditions_summary(case, conditions), texts
 
 
@@ -89,9 +94,8 @@ def check_case(case: Case) -> None:
     if case.contact.geometry == "point":
         rough_maps(case.roughness, domain_of(case, resolve_point(case)))
     else:
-        rough_surfaces(case, resolve(case))
+        rough_surfaces(case.roughness, line_domain_of(case, resolve(case)))
     check_memory(case)
-    check_motion(case)
 
 
 def check_motion(case: Case) -> None:

@@ -22,7 +22,7 @@ from ehlectric.errors import InputError
 from ehlectric.nested import FilmProblem
 from ehlectric.point_conditions import PointConditions, resolve_point
 from ehlectric.point_problems import domain_of, point_film_problem
-from ehlectric.problems import film_problem
+from ehlectric.problems import film_problem, line_domain_of
 from ehlectric.rough_maps import RoughMap, rough_maps
 from ehlectric.typing import Array
 from ehlectric.unsteady import MOST_COURANT
@@ -157,7 +157,7 @@ class Motion:
         case = self.reached
         if isinstance(self.conditions, PointConditions):
             return rough_maps(case.roughness, domain_of(case, self.conditions))
-        return rough_surfaces(case, self.conditions)
+        return rough_surfaces(case.roughness, line_domain_of(case, self.conditions))
 
     def described(self) -> dict[str, Any]:
         """How long and in which steps it moves, SI units; None where a time never comes."""

@@ -24,6 +24,7 @@ from ehlectric.point_film import PointFilm
 from ehlectric.point_problems import domain_of, spacings
 from ehlectric.point_result import PointResult
 from ehlectric.poisson import ATOM
+from ehlectric.problems import line_domain_of, spacing
 from ehlectric.result import Result
 from ehlectric.rough_maps import RoughMap
 from ehlectric.solution import plain
@@ -161,7 +162,7 @@ def _remarks(motion: Motion, still: Result | PointResult) -> Iterator[str]:
         assert isinstance(given, Conditions)
         yield from remarks(motion.case, given)
         lines = [surface for surface in motion.rough if isinstance(surface, RoughSurface)]
-        yield from rough_remarks(case, given, lines)
+        yield from rough_remarks(case.roughness, lines, line_domain_of(case, given), spacing(case, given))
     yield from _unlike(motion, still)
     if not still.converged:
         yield f"the same roughness held still is not solved: {still.film.status}"

@@ -77,6 +77,11 @@ class PointConditions:
         return self.semi_axis_x
 
     @property
+    def semi_axes(self) -> tuple[float, ...]:
+        """Semi-axes of the dry contact along and across entrainment [m]."""
+        return self.semi_axis_x, self.semi_axis_y
+
+    @property
     def ratio(self) -> float:
         """Ratio k of the semi-axes, across over along entrainment."""
         return self.semi_axis_y / self.semi_axis_x

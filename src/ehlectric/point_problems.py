@@ -18,7 +18,8 @@ from ehlectric.point_formulas import nijenbanning_venner_moes
 from ehlectric.poisson import ATOM
 from ehlectric.poisson_3d import PointFieldProblem
 from ehlectric.problems import WIDEST, columns_within, heights_of, resampled, smooth_problem
-from ehlectric.rough_maps import Domain, RoughMap
+from ehlectric.rough_maps import RoughMap
+from ehlectric.surface_domain import Domain
 from ehlectric.typing import Array
 
 # Part of the largest height by which a surface may differ from its mirror image and be symmetric.

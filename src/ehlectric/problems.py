@@ -18,6 +18,7 @@ from ehlectric.point_conditions import PointConditions
 from ehlectric.poisson import ATOM, FieldProblem
 from ehlectric.reynolds import Fluid, FluidLaw
 from ehlectric.rough_maps import RoughMap
+from ehlectric.surface_domain import Domain
 from ehlectric.typing import Array
 from ehlectric.walls import RoughSurface
 
@@ -49,6 +50,17 @@ def fluid_of(lubricant: Lubricant, max_pressure: float, velocity_parameter: floa
         velocity_parameter=velocity_parameter,
         ambient_pressure=lubricant.ambient_pressure / max_pressure,
     )
+
+
+def line_domain_of(case: Case, conditions: Conditions) -> Domain:
+    """Where the film of a line contact is solved."""
+    b, grid = conditions.half_width, case.grid
+    return Domain(b * grid.inlet, b * grid.outlet)
+
+
+def spacing(case: Case, conditions: Conditions) -> float:
+    """Distance of the film's nodes [m]."""
+    return conditions.half_width * (case.grid.outlet - case.grid.inlet) / (case.grid.nodes - 1)
 
 
 def film_problem(case: Case, conditions: Conditions, rough: Sequence[RoughSurface] = ()) -> FilmProblem:

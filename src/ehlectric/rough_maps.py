@@ -17,10 +17,10 @@ import numpy as np
 from ehlectric import map_generators
 from ehlectric.continuation import MapHeight, continued_map
 from ehlectric.errors import InputError
-from ehlectric.map_generators import turned
 from ehlectric.roughness import Profile
 from ehlectric.roughness import statistics as of_profile
 from ehlectric.roughness_inputs import GENERATORS, SHAPES, Roughness
+from ehlectric.surface_domain import Domain, turned
 from ehlectric.surface_files import Surface, read_surface
 from ehlectric.topography import Map, processed_map, statistics
 from ehlectric.typing import Array
@@ -33,27 +33,6 @@ from ehlectric.walls import (
 
 # Points of a made map beyond the domain: the ends of a spline are felt no further, to 1e-18 of its heights.
 _MARGIN = 32
-
-
-@dataclass(frozen=True)
-class Domain:
-    """Where a surface is needed [m]: from inlet to outlet along x, ``side`` to either side along y."""
-
-    inlet: float
-    outlet: float
-    side: float
-
-    @property
-    def shorter(self) -> float:
-        """The shorter of its two lengths [m]."""
-        return min(self.outlet - self.inlet, 2.0 * self.side)
-
-    def reach(self, table: Roughness) -> tuple[float, float]:
-        """Distances from the middle of a shifted surface to which it is needed, along its own axes [m]."""
-        x = np.array([self.inlet, self.outlet]) - table.shift
-        y = np.array([-self.side, self.side]) - table.shift_y
-        along, across = turned(x[:, np.newaxis], y, table.orientation or 0.0)
-        return float(np.max(np.abs(along))), float(np.max(np.abs(across)))
 
 
 @dataclass(frozen=True)

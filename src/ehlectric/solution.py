@@ -120,7 +120,11 @@ class Solution(ABC, Generic[_Conditions, _Film, _Field]):
     @cached_property
     def discharge(self) -> Assessment | None:
         """Breakdown voltage, capacitance by zone, energy; None where the case has no ``[discharge]``."""
-        return assess(self.case, self.conditions, self.film, self.field)
+        if self.case.discharge is None:
+            return None
+        return assess(
+            self.case.discharge, self.case.lubricant, self.conditions.semi_axes, self.film, self.field
+        )
 
     @abstractmethod
     def _holds(self, position: Any) -> bool:

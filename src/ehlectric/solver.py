@@ -32,7 +32,7 @@ from ehlectric.point_problems import (
 )
 from ehlectric.point_result import PointResult
 from ehlectric.poisson import FieldProblem
-from ehlectric.problems import field_problem, film_problem, heights_of
+from ehlectric.problems import field_problem, film_problem, heights_of, line_domain_of, spacing
 from ehlectric.result import Result
 from ehlectric.rough_maps import rough_maps
 from ehlectric.solution import Smooth
@@ -136,7 +136,8 @@ def solve_line(
     """``solve`` for a line contact alone; an InputError for others."""
     conditions = resolve(case)
     check_memory(case)
-    rough = rough_surfaces(case, conditions)
+    domain = line_domain_of(case, conditions)
+    rough = rough_surfaces(case.roughness, domain)
     refined = _refined(
         case,
         lambda grid: solvers.film(film_problem(grid, conditions, rough), progress=progress),
@@ -158,11 +159,11 @@ def solve_line(
         field=field,
         warnings=(
             *remarks(case, conditions),
-            *rough_remarks(on_grid, conditions, rough),
+            *rough_remarks(case.roughness, rough, domain, spacing(on_grid, conditions)),
             *refined.remarks,
             *film_findings(case, film),
             *line_findings(case, film, field),
-            *discharge_findings(case, film),
+            *discharge_findings(case.discharge, film),
             *field_findings(field.max_strength),
         ),
         film_solver=solvers.name,
@@ -201,7 +202,7 @@ def _solve_point(case: Case, progress: Progress | None, *, demand: bool, beside_
             *refined.remarks,
             *film_findings(case, film),
             *point_findings(case, film, field),
-            *discharge_findings(case, film),
+            *discharge_findings(case.discharge, film),
             *field_findings(field.max_strength),
         ),
         film_solver=OWN.name,

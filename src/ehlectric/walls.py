@@ -17,11 +17,10 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from ehlectric import generators
-from ehlectric.case import Case
-from ehlectric.conditions import Conditions
 from ehlectric.errors import InputError
 from ehlectric.roughness import LEAST_POINTS, TAPER, Points, Processing, Profile, processed, rms, statistics
 from ehlectric.roughness_inputs import GENERATORS, SHAPES, Roughness
+from ehlectric.surface_domain import Domain
 from ehlectric.surface_files import Surface, read_surface
 from ehlectric.topography import Map
 from ehlectric.typing import Array
@@ -92,38 +91,36 @@ class RoughSurface:
         }
 
 
-def rough_surfaces(case: Case, conditions: Conditions) -> list[RoughSurface]:
-    """Read or make the roughness of a case.
+def rough_surfaces(tables: Sequence[Roughness], domain: Domain) -> list[RoughSurface]:
+    """Read or make the roughness of a line contact.
 
     Parameters
     ----------
-    case : Case
-        Whose ``roughness`` is asked for.
-    conditions : Conditions
-        Of the same case.
+    tables : sequence of Roughness
+        Of the case.
+    domain : Domain
+        Where the film is solved [m].
 
     Returns
     -------
     list of RoughSurface
-        As many as the case has.
+        As many as there are tables.
 
     Raises
     ------
     InputError
         Where a file cannot be used, or a shape does not fit the domain.
     """
-    return [_rough_surface(table, case, conditions) for table in case.roughness]
+    return [_rough_surface(table, domain) for table in tables]
 
 
-def _rough_surface(table: Roughness, case: Case, conditions: Conditions) -> RoughSurface:
-    b, grid = conditions.half_width, case.grid
-    domain = (grid.outlet - grid.inlet) * b
+def _rough_surface(table: Roughness, domain: Domain) -> RoughSurface:
     if table.generator in SHAPES:
-        return RoughSurface(table.surface, _shape(table, domain), None, [], np.inf)
+        return RoughSurface(table.surface, _shape(table, domain.length), None, [], np.inf)
     if table.file is not None:
         return measured(table)
-    reach = max(abs(b * end - table.shift) for end in (grid.inlet, grid.outlet))
-    return _of_profile(table, _random(table, domain, reach), None)
+    reach = max(abs(end - table.shift) for end in (domain.inlet, domain.outlet))
+    return _of_profile(table, _random(table, domain.length, reach), None)
 
 
 def measured(table: Roughness) -> RoughSurface:
@@ -223,13 +220,13 @@ def _random(table: Roughness, domain: float, reach: float) -> Profile:
         raise InputError(f"roughness.{error}") from None
 
 
-def remarks(case: Case, conditions: Conditions, rough: Sequence[RoughSurface]) -> Iterator[str]:
-    """What a user should know about the roughness of a case before it is solved, one text each."""
-    grid, b = case.grid, conditions.half_width
-    dx = b * (grid.outlet - grid.inlet) / (grid.nodes - 1)
-    for table, surface in zip(case.roughness, rough, strict=True):
+def remarks(
+    tables: Sequence[Roughness], rough: Sequence[RoughSurface], domain: Domain, dx: float
+) -> Iterator[str]:
+    """What a user should know about the roughness of a line contact before it is solved, one text each."""
+    for table, surface in zip(tables, rough, strict=True):
         yield from surface.remarks
-        ends = b * grid.inlet - table.shift, b * grid.outlet - table.shift
+        ends = domain.inlet - table.shift, domain.outlet - table.shift
         reach = 2.0 * max(map(abs, ends))
         if surface.extent < reach:
             yield (
@@ -240,7 +237,7 @@ def remarks(case: Case, conditions: Conditions, rough: Sequence[RoughSurface]) -
             yield from profile_remarks(surface.surface, surface.steps[-1][1], dx, ends)
         else:
             yield from _shape_remarks(table, dx, ends)
-    yield from same_seeds(case.roughness)
+    yield from same_seeds(tables)
 
 
 def same_seeds(tables: Iterable[Roughness]) -> Iterator[str]:

@@ -10,7 +10,7 @@ from ehlectric.conditions import resolve
 from ehlectric.motion import Motion
 from ehlectric.point_conditions import resolve_point
 from ehlectric.point_problems import domain_of
-from ehlectric.problems import heights_of
+from ehlectric.problems import heights_of, line_domain_of
 from ehlectric.rough_maps import rough_maps
 from ehlectric.walls import rough_surfaces
 from tests.motions import LINE, POINT, moving
@@ -41,7 +41,9 @@ def of_case(case, *axes):
         surfaces = rough_maps(case.roughness, domain_of(case, conditions))
         return heights_of(surfaces, *(conditions.semi_axis_x * axis for axis in axes))
     conditions = resolve(case)
-    return heights_of(rough_surfaces(case, conditions), conditions.half_width * axes[0])
+    return heights_of(
+        rough_surfaces(case.roughness, line_domain_of(case, conditions)), conditions.half_width * axes[0]
+    )
 
 
 @pytest.mark.parametrize("ratio", SPEEDS)

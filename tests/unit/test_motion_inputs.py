@@ -5,7 +5,7 @@ import re
 import pytest
 
 from ehlectric import Case, InputError, Sweep, solve
-from ehlectric.meaning import check_case, meaning
+from ehlectric.meaning import check_motion, meaning
 from ehlectric.motion import Motion
 from tests.motions import LINE, POINT, moving
 
@@ -83,7 +83,7 @@ def test_bad_combinations_are_one_line(table, tables, message):
     ("changes", "message"),
     [({"motion.steps": 7}, TOO_FEW), ({"contact.slide_to_roll_ratio": -2.0}, AT_REST)],
 )
-@pytest.mark.parametrize("refuse", [Motion, check_case, meaning])
+@pytest.mark.parametrize("refuse", [Motion, check_motion, meaning])
 def test_what_cannot_be_solved_is_refused_by_all_that_look(table, changes, message, refuse):
     with pytest.raises(InputError, match=f"^{re.escape(message)}$"):
         refuse(moving(table, changes))

@@ -5,6 +5,7 @@ import pytest
 
 from ehlectric import Case, InputError
 from ehlectric.conditions import resolve
+from ehlectric.problems import line_domain_of, spacing
 from ehlectric.roughness import Profile
 from ehlectric.walls import measured, remarks, rough_surfaces, variance_beyond
 from tests.conftest import PAPER_CONTACT
@@ -30,13 +31,15 @@ def case_of(*tables, load=3.925e5, **grid):
 
 def surfaces_of(*tables, **changes):
     case = case_of(*tables, **changes)
-    return rough_surfaces(case, resolve(case))
+    return rough_surfaces(case.roughness, line_domain_of(case, resolve(case)))
 
 
 def remarks_of(*tables, **changes):
     case = case_of(*tables, **changes)
     conditions = resolve(case)
-    return list(remarks(case, conditions, rough_surfaces(case, conditions)))
+    domain = line_domain_of(case, conditions)
+    rough = rough_surfaces(case.roughness, domain)
+    return list(remarks(case.roughness, rough, domain, spacing(case, conditions)))
 
 
 @pytest.mark.parametrize("table", [GAUSSIAN, SELF_AFFINE], ids=["gaussian", "self-affine"])
