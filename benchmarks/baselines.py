@@ -8,13 +8,15 @@ from scipy.constants import epsilon_0
 from scipy.linalg import lu_factor, lu_solve
 from scipy.sparse.linalg import splu
 
-from ehlectric import film, newton
-from ehlectric.film import Film
-from ehlectric.multigrid import Level, Linearised
-from ehlectric.nested import FilmProblem
-from ehlectric.poisson import FieldProblem
-from ehlectric.reynolds import OFFSETS, Fluid
-from ehlectric.typing import Array
+from ehlectric.arrays import Array
+from ehlectric.field.poisson import FieldProblem
+from ehlectric.film import line as film
+from ehlectric.film import newton
+from ehlectric.film.levels import Level
+from ehlectric.film.line import Film
+from ehlectric.film.multigrid import Linearised
+from ehlectric.film.problem import FilmProblem
+from ehlectric.film.reynolds import OFFSETS, Fluid
 
 
 def dense_direction(

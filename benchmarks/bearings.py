@@ -10,9 +10,9 @@ import platform
 from pathlib import Path
 
 from benchmarks.measure import best, processor
-from ehlectric.bearing_case import BearingCase
-from ehlectric.bearing_result import BearingResult
-from ehlectric.bearing_solver import solve_bearing
+from ehlectric.bearing.result import BearingResult
+from ehlectric.bearing.solver import solve_bearing
+from ehlectric.cases.bearing_case import BearingCase
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "bearing_6208.toml"
 

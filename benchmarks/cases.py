@@ -6,16 +6,16 @@ from pathlib import Path
 
 import numpy as np
 
-from ehlectric import point_problems, solver
-from ehlectric.case import Case
-from ehlectric.conditions import resolve
-from ehlectric.nested import FilmProblem
-from ehlectric.point_conditions import resolve_point
-from ehlectric.point_film import solve_point_film
-from ehlectric.poisson import FieldProblem
-from ehlectric.poisson_3d import PointFieldProblem
-from ehlectric.problems import line_domain_of
-from ehlectric.walls import rough_surfaces
+from ehlectric.cases.case import Case
+from ehlectric.contact import problems as point_problems
+from ehlectric.contact import solver
+from ehlectric.contact.conditions import resolve, resolve_point
+from ehlectric.contact.problems import line_domain_of
+from ehlectric.field.poisson import FieldProblem
+from ehlectric.field.poisson_3d import PointFieldProblem
+from ehlectric.film.point import solve_point_film
+from ehlectric.film.problem import FilmProblem
+from ehlectric.surfaces.rough_profiles import rough_surfaces
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 EXAMPLE = EXAMPLES / "line_contact.toml"

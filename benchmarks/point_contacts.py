@@ -16,10 +16,10 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 
 from benchmarks import cases
 from benchmarks.measure import best, command, peak_memory
-from ehlectric.film import Film
-from ehlectric.newton import LINEAR_TOLERANCE
-from ehlectric.point_field import PointField, solve_point_field
-from ehlectric.point_film import solve_point_film
+from ehlectric.field.point import PointField, solve_point_field
+from ehlectric.film.line import Film
+from ehlectric.film.newton import LINEAR_TOLERANCE
+from ehlectric.film.point import solve_point_film
 
 CONTACTS = {"20 N circle": "ball_contact", "6208 ball": "ball_bearing"}
 WEDGES = {"20 N circle": ("second-order", "first-order"), "6208 ball": ("second-order",)}

@@ -16,11 +16,11 @@ from typing import Any
 from benchmarks.cases import EXAMPLE
 from benchmarks.measure import processor
 from ehlectric import run_sweep
-from ehlectric.solver import solve
-from ehlectric.sweep_engine import solve_point
-from ehlectric.sweep_inputs import Sweep
-from ehlectric.sweep_results import SweepResults
-from ehlectric.sweep_store import Store, plan
+from ehlectric.contact.solver import solve
+from ehlectric.sweep.engine import solve_point
+from ehlectric.sweep.inputs import Sweep
+from ehlectric.sweep.results import SweepResults
+from ehlectric.sweep.store import Store, plan
 
 # 500 points of the paper's contact, 25 speeds and 20 loads.
 POINTS = (25, 20)

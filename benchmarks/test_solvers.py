@@ -3,10 +3,10 @@
 import pytest
 
 from benchmarks import baselines, cases
-from ehlectric.field import solve_field
-from ehlectric.film import solve_film
-from ehlectric.point_field import solve_point_field
-from ehlectric.point_film import solve_point_film
+from ehlectric.field.line import solve_field
+from ehlectric.field.point import solve_point_field
+from ehlectric.film.line import solve_film
+from ehlectric.film.point import solve_point_film
 
 
 @pytest.mark.parametrize("nodes", [801, 3201, 25_601, 102_401])

@@ -13,10 +13,11 @@ import numpy as np
 
 from benchmarks import cases
 from benchmarks.measure import processor
-from ehlectric.film import quiet_solution
-from ehlectric.mesh import at_centre
-from ehlectric.nested import FilmProblem, nested_iteration
-from ehlectric.unsteady import Effort, UnsteadyFilm
+from ehlectric.film.line import quiet_solution
+from ehlectric.film.mesh import at_centre
+from ehlectric.film.nested import nested_iteration
+from ehlectric.film.problem import FilmProblem
+from ehlectric.film.unsteady import Effort, UnsteadyFilm
 
 # Problem, its nodes, and time steps.
 CONTACTS = (

@@ -10,7 +10,7 @@ side of earth. This is the first contact of Morris, Leighton and Morris, `Lubric
 import matplotlib.pyplot as plt
 
 import ehlectric
-from ehlectric import plot
+from ehlectric.figures.contact import line as plot
 
 case = ehlectric.Case.from_dict(
     {

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.lines import Line2D
 
 import ehlectric
-from ehlectric.film_formulas import FORMULAS
+from ehlectric.formulas.film_line import FORMULAS
 
 case = ehlectric.Case.from_dict(
     {

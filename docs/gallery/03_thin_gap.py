@@ -10,7 +10,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import ehlectric
-from ehlectric import plot
+from ehlectric.figures.contact import line as plot
 
 case = ehlectric.Case.from_dict(
     {

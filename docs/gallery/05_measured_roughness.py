@@ -9,7 +9,7 @@ are taken out first; ``ehlectric surface`` shows the same steps without solving.
 import matplotlib.pyplot as plt
 
 import ehlectric
-from ehlectric import plot
+from ehlectric.figures.contact import line as plot
 
 case = ehlectric.Case.from_dict(
     {

@@ -9,7 +9,8 @@ point contact, whose dry contact is a circle. Film and field are maps over the p
 import matplotlib.pyplot as plt
 
 import ehlectric
-from ehlectric import point_cuts, point_plot
+from ehlectric.figures.contact import cuts as point_cuts
+from ehlectric.figures.contact import point as point_plot
 
 case = ehlectric.Case.from_dict(
     {

@@ -11,7 +11,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import ehlectric
-from ehlectric import point_plot
+from ehlectric.figures.contact import point as point_plot
 
 case = ehlectric.Case.from_dict(
     {

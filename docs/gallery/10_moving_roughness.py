@@ -14,9 +14,10 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import ehlectric
-from ehlectric.motion_result import instant_beside, summary_of
-from ehlectric.motion_run import run_motion
-from ehlectric.motion_store import motion_of, read_motion
+from ehlectric.motion.file import motion_of
+from ehlectric.motion.record import read_motion
+from ehlectric.motion.run import run_motion
+from ehlectric.motion.summary import instant_beside, summary_of
 
 case = ehlectric.Case.from_dict(
     {

@@ -11,16 +11,22 @@ from typing import TYPE_CHECKING, Any
 from ehlectric.version import __version__
 
 if TYPE_CHECKING:
-    from ehlectric.case import Case
+    from ehlectric.bearing.solver import solve_bearing
+    from ehlectric.cases.bearing_case import BearingCase
+    from ehlectric.cases.case import Case
+    from ehlectric.contact.files import load, save
+    from ehlectric.contact.results import Result
+    from ehlectric.contact.solver import solve
     from ehlectric.errors import ConvergenceError, InputError
-    from ehlectric.result import Result
-    from ehlectric.solver import solve
-    from ehlectric.store import load, save
-    from ehlectric.sweep import run_sweep
-    from ehlectric.sweep_inputs import Sweep
-    from ehlectric.sweep_store import read_sweep
+    from ehlectric.figures.contact.save import save_figures
+    from ehlectric.motion.record import read_motion
+    from ehlectric.motion.run import run_motion
+    from ehlectric.sweep.inputs import Sweep
+    from ehlectric.sweep.run import run_sweep
+    from ehlectric.sweep.store import read_sweep
 
 __all__ = [
+    "BearingCase",
     "Case",
     "ConvergenceError",
     "InputError",
@@ -28,23 +34,32 @@ __all__ = [
     "Sweep",
     "__version__",
     "load",
+    "read_motion",
     "read_sweep",
+    "run_motion",
     "run_sweep",
     "save",
+    "save_figures",
     "solve",
+    "solve_bearing",
 ]
 
 _HOMES = {
-    "Case": "case",
+    "BearingCase": "cases.bearing_case",
+    "Case": "cases.case",
     "ConvergenceError": "errors",
     "InputError": "errors",
-    "Result": "result",
-    "Sweep": "sweep_inputs",
-    "load": "store",
-    "read_sweep": "sweep_store",
-    "run_sweep": "sweep",
-    "save": "store",
-    "solve": "solver",
+    "Result": "contact.results",
+    "Sweep": "sweep.inputs",
+    "load": "contact.files",
+    "read_motion": "motion.record",
+    "read_sweep": "sweep.store",
+    "run_motion": "motion.run",
+    "run_sweep": "sweep.run",
+    "save": "contact.files",
+    "save_figures": "figures.contact.save",
+    "solve": "contact.solver",
+    "solve_bearing": "bearing.solver",
 }
 
 

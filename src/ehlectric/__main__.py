@@ -1,5 +1,5 @@
 """``python -m ehlectric`` is the ``ehlectric`` command."""
 
-from ehlectric.cli import main
+from ehlectric.commands.app import main
 
 main()

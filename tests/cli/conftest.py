@@ -5,8 +5,6 @@ from pathlib import Path
 import pytest
 
 COMMAND = Path(sys.executable).with_name("ehlectric")
-EXAMPLES = Path(__file__).parents[2] / "examples"
-SURFACES = Path(__file__).parents[1] / "data" / "surfaces"
 
 CASE = """\
 title = "Test"

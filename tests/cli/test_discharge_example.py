@@ -5,7 +5,7 @@ import json
 import pytest
 
 from ehlectric import Case
-from tests.cli.conftest import EXAMPLES
+from tests.helpers.places import EXAMPLES
 
 
 def test_discharge_example(ehlectric, tmp_path):

@@ -9,9 +9,9 @@ import typer
 from typer.testing import CliRunner
 
 from ehlectric import InputError
-from ehlectric.map_commands import draw_maps, sensitivity
-from ehlectric.sweep_results import Range
-from tests.sweep_models import LOAD, POTENTIAL, SPEED, breakdown, grid, sobol
+from ehlectric.commands.maps import draw_maps, sensitivity
+from ehlectric.sweep.results import Range
+from tests.helpers.sweep_models import LOAD, POTENTIAL, SPEED, breakdown, grid, sobol
 
 VALUE = "discharge.breakdown_voltage"
 GRID = grid({SPEED: (1.0, 2.0, 4.0), LOAD: (5e5, 1e6), POTENTIAL: (1.0, 4.0)})
@@ -34,9 +34,9 @@ def command(monkeypatch, tmp_path):
             raise InputError(f"{folder}: holds no sweep")
         return sweeps[folder.name]
 
-    store = types.ModuleType("ehlectric.sweep_store")
+    store = types.ModuleType("ehlectric.sweep.store")
     store.read_sweep = read_sweep
-    monkeypatch.setitem(sys.modules, "ehlectric.sweep_store", store)
+    monkeypatch.setitem(sys.modules, "ehlectric.sweep.store", store)
     monkeypatch.chdir(tmp_path)
     app = typer.Typer()
     app.command("map")(draw_maps)

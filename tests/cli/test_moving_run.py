@@ -12,11 +12,12 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from ehlectric.cli import app
+from ehlectric.commands.app import app
 from ehlectric.errors import ConvergenceError
-from ehlectric.motion_store import motion_of, read_motion
-from ehlectric.store import MOTION_FIGURE_FILES
-from ehlectric.unsteady import UnsteadyFilm
+from ehlectric.figures.names import MOTION_FIGURE_FILES
+from ehlectric.film.unsteady import UnsteadyFilm
+from ehlectric.motion.file import motion_of
+from ehlectric.motion.record import read_motion
 from tests.cli.conftest import COMMAND
 
 CASE = """\
@@ -316,7 +317,7 @@ def test_a_run_that_is_stopped_says_what_is_saved_and_goes_on(tmp_path, number):
 
 
 def test_stopped_before_anything_is_kept(typed, monkeypatch, case_file):
-    from ehlectric import motion_run
+    from ehlectric.motion.motion import run as motion_run
 
     def stopping(*_, **__):
         raise SystemExit(128 + signal.SIGTERM)

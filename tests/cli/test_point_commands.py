@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from ehlectric import load
-from ehlectric.store import POINT_FIGURE_FILES, ROUGHNESS_FIGURE
+from ehlectric.figures.names import POINT_FIGURE_FILES, ROUGHNESS_FIGURE
 from tests.cli.test_commands import DATA, one_line
 
 POINT = """\

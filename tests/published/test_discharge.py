@@ -8,7 +8,7 @@ from scipy.constants import epsilon_0
 from scipy.integrate import quad
 
 from ehlectric import solve
-from ehlectric.conditions import density_law, permittivity_law
+from ehlectric.cases.lubricant import density_law, permittivity_law
 from tests.reference.field import near
 
 LOADS = {"1 GPa": 3.925e5, "2 GPa": 1.57e6}

@@ -7,10 +7,10 @@ import pandas as pd
 import pytest
 
 from ehlectric import solve
-from ehlectric.conditions import resolve
-from ehlectric.nested import nested_iteration
+from ehlectric.contact.conditions import resolve
+from ehlectric.contact.problems import film_problem
+from ehlectric.film.nested import nested_iteration
 from ehlectric.paper.contacts import table_3
-from ehlectric.problems import film_problem
 
 DATA = Path(__file__).parent / "data"
 FILMS = pd.read_csv(DATA / "line_contact_films.csv", comment="#").to_dict("records")

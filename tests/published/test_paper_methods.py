@@ -5,12 +5,12 @@ import pandas as pd
 import pytest
 
 from ehlectric import ConvergenceError, solve
-from ehlectric.conditions import resolve
-from ehlectric.field import solve_field
-from ehlectric.film import solve_film
+from ehlectric.contact.conditions import resolve
+from ehlectric.contact.problems import field_problem, film_problem
+from ehlectric.field.line import solve_field
+from ehlectric.film.line import solve_film
 from ehlectric.paper import fas, relaxation, sor
 from ehlectric.paper.solvers import PAPER
-from ehlectric.problems import field_problem, film_problem
 from tests.published.test_paper_contacts import FILMS, row_name
 
 

@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from ehlectric import Case, solve
-from tests.cli.conftest import EXAMPLES
+from tests.helpers.places import EXAMPLES
 
 MICRO = 1e-6
 FILMS = pd.read_csv(Path(__file__).parent / "data" / "point_contact_films.csv", comment="#", dtype=str)

@@ -1,14 +1,12 @@
 """The paper's eight contacts with a measured profile, and its conclusion about them."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 from ehlectric import Case, solve
 from tests.conftest import PAPER_CONTACT
+from tests.helpers.places import DEKTAK
 
-DEKTAK = Path(__file__).parents[2] / "examples" / "surfaces" / "dektak-1.csv"
 PROFILE = {"file": str(DEKTAK), "form": "parabola", "cutoff_long": 80e-6, "truncate": 0.05e-6}
 
 

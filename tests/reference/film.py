@@ -11,9 +11,10 @@ import numpy as np
 import sympy
 from numpy.polynomial import chebyshev, polynomial
 
-from ehlectric.lubricant import dowson_higginson, roelands
-from ehlectric.nested import FilmProblem
-from ehlectric.reynolds import Fluid
+from ehlectric.film.problem import FilmProblem
+from ehlectric.film.reynolds import Fluid
+from ehlectric.lubricant.density import dowson_higginson
+from ehlectric.lubricant.viscosity import roelands
 
 INLET, OUTLET = -1.9, 1.3
 MIDDLE, HALF = 0.5 * (INLET + OUTLET), 0.5 * (OUTLET - INLET)

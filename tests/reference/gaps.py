@@ -2,13 +2,13 @@
 
 import numpy as np
 
-from ehlectric.field import solve_field
-from ehlectric.film import Film
-from ehlectric.nested import Scales
-from ehlectric.point_field import solve_point_field
-from ehlectric.point_film import PointFilm
-from ehlectric.poisson import FieldProblem
-from ehlectric.poisson_3d import PointFieldProblem
+from ehlectric.field.line import solve_field
+from ehlectric.field.point import solve_point_field
+from ehlectric.field.poisson import FieldProblem
+from ehlectric.field.poisson_3d import PointFieldProblem
+from ehlectric.film.line import Film
+from ehlectric.film.point import PointFilm
+from ehlectric.film.problem import Scales
 
 
 def _film(kind, thickness, pressure, density, exit_node, **axes):

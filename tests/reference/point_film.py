@@ -13,11 +13,12 @@ from functools import cache
 import numpy as np
 import sympy
 
-from ehlectric.elastic import point_geometry
-from ehlectric.lubricant import dowson_higginson, roelands
-from ehlectric.mesh import Width
-from ehlectric.nested import FilmProblem
-from ehlectric.reynolds import Fluid
+from ehlectric.film.deflection import point_geometry
+from ehlectric.film.mesh import Width
+from ehlectric.film.problem import FilmProblem
+from ehlectric.film.reynolds import Fluid
+from ehlectric.lubricant.density import dowson_higginson
+from ehlectric.lubricant.viscosity import roelands
 
 INLET, OUTLET, SIDE = -1.9, 1.3, 1.8
 MIDDLE, HALF = 0.5 * (INLET + OUTLET), 0.5 * (OUTLET - INLET)

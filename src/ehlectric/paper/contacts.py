@@ -9,13 +9,12 @@ from dataclasses import dataclass
 from importlib import resources
 from pathlib import Path
 
-from ehlectric.case import Case
+from ehlectric.cases.case import Case
 
 # Nodes for smooth contacts as in the paper, and for rough ones: the correlation length of the profile is
 # 1.5 µm, and 3201 nodes over six half-widths are 0.5 to 0.9 µm apart.
 SMOOTH_NODES = 3201
 ROUGH_NODES = 12_801
-
 _CONTACT = {"reduced_radius": 14.1e-3, "reduced_modulus": 226e9}
 
 
@@ -96,12 +95,10 @@ class PaperContact:
 
 # Table 2 gives the load of 2 GPa; that of 1 GPa follows from w = 2 pi R p_h^2/E'.
 LOADS = {1: 3.925e5, 2: 1.57e6}
-
 _PRINTED = {
     1: ("M12L15", "M17L13", "M24L11", "M34L9"),
     2: ("M49L15", "M68L13", "M98L11", "M139L9"),
 }
-
 CONTACTS = tuple(
     PaperContact(gigapascal, u_s, LOADS[gigapascal], label, printed)
     for gigapascal, names in _PRINTED.items()

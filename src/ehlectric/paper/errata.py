@@ -7,17 +7,17 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ehlectric.conditions import resolve
+from ehlectric.contact.conditions import resolve
+from ehlectric.contact.problems import field_problem, film_problem
 from ehlectric.errors import ConvergenceError
-from ehlectric.field import solve_field
-from ehlectric.lubricant import roelands_exponent
-from ehlectric.nested import FilmProblem
+from ehlectric.field.line import solve_field
+from ehlectric.film.problem import FilmProblem
+from ehlectric.lubricant.viscosity import roelands_exponent
 from ehlectric.paper import fas, relaxation
 from ehlectric.paper.contacts import CONTACTS, SMOOTH_NODES
 from ehlectric.paper.film_equations import FilmEquations, Iterate
 from ehlectric.paper.sor import ROWS
 from ehlectric.paper.study import Study, readings_differ_by
-from ehlectric.problems import field_problem, film_problem
 
 
 @dataclass(frozen=True)

@@ -11,16 +11,18 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ehlectric.elastic import LINE
 from ehlectric.errors import InputError
-from ehlectric.film import Film, film_status, inlet_deficit, richardson
-from ehlectric.hertz import line_pressure
-from ehlectric.mesh import Mesh
-from ehlectric.nested import FIRST_GRID, NESTED_TOLERANCE, FilmProblem
-from ehlectric.newton import ROUNDING, NewtonStep, Progress, Status
+from ehlectric.film.deflection import LINE
+from ehlectric.film.estimates import inlet_deficit, richardson
+from ehlectric.film.line import Film, film_status
+from ehlectric.film.mesh import Mesh
+from ehlectric.film.nested import FIRST_GRID, NESTED_TOLERANCE
+from ehlectric.film.newton import ROUNDING, NewtonStep, Progress, Status
+from ehlectric.film.problem import FilmProblem
+from ehlectric.formulas.hertz_line import line_pressure
 from ehlectric.paper.film_equations import FilmEquations, Iterate
 from ehlectric.paper.relaxation import relax, solve_coarsest
-from ehlectric.threads import one_blas_thread
+from ehlectric.runtime.threads import one_blas_thread
 
 # Relaxations of a grid before and after its coarse-grid correction.
 BEFORE, AFTER = 3, 2
@@ -62,7 +64,7 @@ def solve_film(problem: FilmProblem, *, progress: Progress | None = None) -> Fil
     Returns
     -------
     Film
-        As ``ehlectric.film.solve_film`` gives it; its ``newton_iterations`` are V-cycles.
+        As ``ehlectric.film.line.solve_film`` gives it; its ``newton_iterations`` are V-cycles.
 
     Raises
     ------

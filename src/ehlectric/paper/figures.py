@@ -10,13 +10,13 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ehlectric import plot
-from ehlectric.drawing import BODY, figure_of, new_panels
+from ehlectric.arrays import Array
+from ehlectric.contact.results import Result
+from ehlectric.figures.contact import line as plot
+from ehlectric.figures.style import BODY, figure_of, new_panels
 from ehlectric.paper import schematics
 from ehlectric.paper.contacts import CONTACTS, PaperContact
 from ehlectric.paper.study import Study, readings_differ_by, straight_line
-from ehlectric.result import Result
-from ehlectric.typing import Array
 
 # Curves of one panel by speed, apart for colour-blind readers, and none too dark for a black line on it.
 _COLOURS = ("#0072b2", "#009e73", "#cc79a7", "#e69f00")

@@ -19,8 +19,8 @@ from functools import cached_property
 import numpy as np
 from scipy.linalg import matmul_toeplitz, toeplitz
 
-from ehlectric.reynolds import Fluid
-from ehlectric.typing import Array, Mask
+from ehlectric.arrays import Array, Mask
+from ehlectric.film.reynolds import Fluid
 
 # Nodes that a row of eq. (7) couples, relative to its own.
 NEIGHBOURS = (-2, -1, 0, 1)

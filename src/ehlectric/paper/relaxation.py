@@ -11,8 +11,8 @@ from dataclasses import replace
 import numpy as np
 from scipy.linalg import solve_banded
 
+from ehlectric.arrays import Array, Mask
 from ehlectric.paper.film_equations import NEIGHBOURS, Coefficients, FilmEquations, Iterate
-from ehlectric.typing import Array, Mask
 
 # Nodes on each side whose pressures a relaxation changes together with a node's own.
 HALF_BAND = 6

@@ -6,13 +6,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from ehlectric.drawing import style
 from ehlectric.errors import InputError
+from ehlectric.figures.style import style
 from ehlectric.paper import report
 from ehlectric.paper.figures import FIGURES
 from ehlectric.paper.study import run_study
 from ehlectric.paper.tables import TABLES, PaperTable
-from ehlectric.store import clear, prepare, whole
+from ehlectric.runtime.files import clear, prepare, whole
 
 REPORT = "report.html"
 

@@ -6,8 +6,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ehlectric.drawing import BODY, OIL, figure_of, new_panels
-from ehlectric.typing import Array
+from ehlectric.arrays import Array
+from ehlectric.figures.style import BODY, OIL, figure_of, new_panels
 
 _INK = "black"
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from ehlectric.case import Case
+from ehlectric.cases.case import Case
+from ehlectric.contact.solver import OWN, Solvers
 from ehlectric.errors import InputError
 from ehlectric.paper import fas, sor
-from ehlectric.solver import OWN, Solvers
 
 
 def _check(case: Case) -> None:
@@ -19,5 +19,4 @@ def _check(case: Case) -> None:
 
 
 PAPER = Solvers("paper", fas.solve_film, sor.solve_field, check=_check)
-
 SOLVERS = {solvers.name: solvers for solvers in (OWN, PAPER)}

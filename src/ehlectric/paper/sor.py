@@ -18,17 +18,16 @@ import numpy as np
 from scipy.constants import epsilon_0
 from scipy.interpolate import CubicSpline
 
+from ehlectric.arrays import Array, IntArray
 from ehlectric.errors import ConvergenceError
-from ehlectric.field import Field, field_from_potential
-from ehlectric.poisson import FieldProblem, lobatto_nodes
-from ehlectric.typing import Array, IntArray
+from ehlectric.field.line import Field, field_from_potential
+from ehlectric.field.poisson import FieldProblem, lobatto_nodes
 
 # Rows in the least gap: across a film the potential is nearly linear, and the error is that of the columns.
 ROWS = 8
 
 # Residual of eq. (16), over the voltage, at which the sweeps stop.
 TOLERANCE = 1e-10
-
 MOST_SWEEPS = 100_000
 
 # Nodes of the Cartesian grid, those in the bodies with them.
@@ -36,7 +35,6 @@ MOST_NODES = 3e7
 
 # A node this near to a surface, in rows, is on it.
 _ON_SURFACE = 1e-9
-
 EAST, NORTH, WEST, SOUTH = range(4)
 
 
@@ -301,8 +299,8 @@ def solve_field(problem: FieldProblem, *, rows: int = ROWS) -> Field:
     Returns
     -------
     Field
-        As ``ehlectric.field.solve_field`` gives it, at the same places: the potential between the rows by
-        cubic splines along the columns. ``capacitance`` is that of the energy of all arms,
+        As ``ehlectric.field.line.solve_field`` gives it, at the same places: the potential between the
+        rows by cubic splines along the columns. ``capacitance`` is that of the energy of all arms,
         ``capacitance_by_charge`` that of the field on wall 1; they agree to the error of the grid.
 
     Raises

@@ -13,17 +13,17 @@ from typing import Any
 
 import numpy as np
 
-from ehlectric.case import Case
-from ehlectric.conditions import resolve
-from ehlectric.field import solve_field
-from ehlectric.film import solve_film
+from ehlectric.arrays import Array
+from ehlectric.cases.case import Case
+from ehlectric.contact.conditions import resolve
+from ehlectric.contact.problems import field_problem, film_problem
+from ehlectric.contact.results import Result
+from ehlectric.contact.solver import solve_line
+from ehlectric.field.line import solve_field
+from ehlectric.film.line import solve_film
 from ehlectric.paper import fas, sor
 from ehlectric.paper.contacts import CONTACTS, ROUGH_NODES, SMOOTH_NODES, PaperContact, measured_profile
-from ehlectric.problems import field_problem, film_problem
-from ehlectric.result import Result
-from ehlectric.solver import solve_line
-from ehlectric.typing import Array
-from ehlectric.workers import run_all
+from ehlectric.runtime.workers import run_all
 
 # Residual to which the paper's multigrid is counted.
 COUNTED = 1e-6

@@ -9,11 +9,11 @@ from pathlib import Path
 
 import numpy as np
 
-from ehlectric.conditions import density_law, permittivity_law
+from ehlectric.cases.lubricant import density_law, permittivity_law
+from ehlectric.contact.results import Result
 from ehlectric.paper.contacts import PaperContact, table_3
 from ehlectric.paper.study import Study
-from ehlectric.result import Result
-from ehlectric.store import whole
+from ehlectric.runtime.files import whole
 
 MICRO = 1e6
 

@@ -1,0 +1,1 @@
+"""Capacitance of the gaps outside the loaded contacts, from their geometry."""

@@ -1,0 +1,73 @@
+"""Impedance of a solved bearing over frequency, where its oil leaks. SI units."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ehlectric.arrays import Array
+from ehlectric.bearing.circuit import leaking_admittance
+from ehlectric.bearing.result import BearingResult
+
+# Frequencies that it is given up to [Hz], and from, over that of the oil's corner; how many.
+_HIGHEST, _BELOW_CORNER, _COUNT = 1e7, 1e-2, 400
+
+
+@dataclass(frozen=True)
+class Impedance:
+    """Impedance of a bearing over frequency.
+
+    Attributes
+    ----------
+    frequency : ndarray, shape (n,)
+        [Hz].
+    values : ndarray of complex, shape (n,)
+        [Ohm], of the mean admittance over the positions of the cage.
+    corner : float
+        1/(2 pi tau) of the oil alone [Hz]: that of the bearing where the oil fills it, and above the
+        bearing's own where there is air, which does not leak.
+    """
+
+    frequency: Array
+    values: Array
+    corner: float
+
+    @property
+    def magnitude(self) -> Array:
+        """abs(Z) [Ohm]."""
+        return np.abs(self.values)
+
+    @property
+    def phase(self) -> Array:
+        """From 0, a resistor, to -90 degrees, a capacitor."""
+        return np.degrees(np.angle(self.values))
+
+
+def impedance_of(result: BearingResult) -> Impedance | None:
+    """Impedance of a bearing, around its films what ``fill`` says.
+
+    Parameters
+    ----------
+    result : BearingResult
+        A solved bearing.
+
+    Returns
+    -------
+    Impedance or None
+        None without a conductivity, where surfaces touch, and of ceramic elements.
+    """
+    tau = result.impedance_time()
+    if tau is None or result.ceramic or result.lubrication == "conducting":
+        return None
+    corner = 1.0 / (2.0 * np.pi * tau)
+    frequency = np.geomspace(_BELOW_CORNER * corner, max(_HIGHEST, corner / _BELOW_CORNER), _COUNT)
+    fill = result.solution.case.bearing.fill
+    y = np.zeros(frequency.shape, dtype=complex)
+    for position in result.solution.positions:
+        inner, outer = (
+            (race.capacitance(fill), race.capacitance("oil") if fill == "oil" else race.inside)
+            for race in (position.inner, position.outer)
+        )
+        y = y + leaking_admittance(inner, outer, tau, frequency)
+    return Impedance(frequency, len(result.solution.positions) / y, corner)

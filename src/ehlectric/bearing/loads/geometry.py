@@ -1,0 +1,292 @@
+"""Internal geometry of ball and roller bearings, and of the contacts in them. SI units.
+
+A groove is a circular arc somewhat wider than the ball. Its centre lies beyond the ball's: that of the inner
+groove further out, that of the outer groove further in. Both centres and the ball tell all about their
+contacts. Angles are from the radial plane, positive where the inner ring is pushed towards positive axial
+positions. Raceways of roller bearings are cylinders.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ehlectric.arrays import Array
+from ehlectric.errors import InputError, shown
+from ehlectric.formulas.hertz_line import reduced_radius
+
+PROFILES = ("none", "logarithmic")
+
+# Rollers up to this length over their diameter take the first profile of the standard.
+_SHORT = 2.5
+
+
+@dataclass(frozen=True)
+class ContactRadii:
+    """Radii of element and ring at their contact, positive where convex, infinite where straight.
+
+    Attributes
+    ----------
+    element_x, element_y : float
+        Of the rolling element, in the rolling direction and across it [m].
+    ring_x, ring_y : float
+        Of the ring [m].
+    """
+
+    element_x: float
+    element_y: float
+    ring_x: float
+    ring_y: float
+
+    @property
+    def radius_x(self) -> float:
+        """Reduced radius in the rolling direction [m]."""
+        return reduced_radius(self.element_x, self.ring_x)
+
+    @property
+    def radius_y(self) -> float:
+        """Reduced radius across [m]; infinite in a line contact."""
+        if math.isinf(self.element_y) and math.isinf(self.ring_y):
+            return math.inf
+        return reduced_radius(self.element_y, self.ring_y)
+
+
+def _rolling_radius(element_diameter: float, pitch_diameter: float, angle: float, *, inner: bool) -> float:
+    """Radius of a raceway in the rolling direction, that of the cone that touches it there [m]."""
+    cosine = math.cos(angle)
+    sign = 1.0 if inner else -1.0
+    curvature = sign * 2.0 * cosine / (pitch_diameter - sign * element_diameter * cosine)
+    return 1.0 / curvature if curvature != 0.0 else math.inf
+
+
+def _refuse_overlap(elements: int, diameter: float, pitch_diameter: float) -> None:
+    """Raise InputError where the elements do not fit on their pitch circle, or are too few for a shaft."""
+    most = int(math.pi / math.asin(diameter / pitch_diameter)) if diameter < pitch_diameter else 0
+    if most < 3:
+        raise InputError(
+            f"pitch_diameter: got {pitch_diameter:g} m, takes one that three of {diameter:g} m fit on"
+        )
+    if not 3 <= elements <= most:
+        raise InputError(
+            f"elements: got {elements}, takes 3 to {most}, the most of {diameter:g} m that a pitch circle of "
+            f"{pitch_diameter:g} m holds"
+        )
+
+
+@dataclass(frozen=True)
+class BallBearing:
+    """Deep-groove or angular-contact ball bearing, one row.
+
+    Either the radial clearance or the free contact angle is given; the other follows.
+
+    Attributes
+    ----------
+    elements : int
+        Number of balls.
+    ball_diameter, pitch_diameter : float
+        D and d_m, the mean of both raceways' diameters at the bottom of the groove [m].
+    inner_groove, outer_groove : float
+        f_i and f_o, radius of the groove's arc over the ball's diameter, above 0.5.
+    radial_clearance : float or None
+        P_d, full diametral play of the inner ring without load [m]; negative with a radial preload.
+    contact_angle : float or None
+        a_0 at which ball and grooves just touch, without load [rad].
+
+    Raises
+    ------
+    InputError
+        Where this is no bearing.
+
+    Notes
+    -----
+    T. A. Harris and M. N. Kotzalas, Essential Concepts of Bearing Technology, 5th ed., 2006, chapter 2,
+    doi:10.1201/9781420006599.
+
+    Examples
+    --------
+    A 6208 of 10 um clearance:
+
+    >>> bearing = BallBearing(9, 11.906e-3, 60e-3, 0.52, 0.52, radial_clearance=10e-6)
+    >>> round(bearing.groove_distance * 1e3, 5), round(math.degrees(bearing.free_angle), 2)
+    (0.47624, 8.31)
+    >>> round(bearing.endplay * 1e6)
+    138
+    """
+
+    elements: int
+    ball_diameter: float
+    pitch_diameter: float
+    inner_groove: float
+    outer_groove: float
+    radial_clearance: float | None = None
+    contact_angle: float | None = None
+
+    def __post_init__(self) -> None:
+        _refuse_overlap(self.elements, self.ball_diameter, self.pitch_diameter)
+        for key in ("inner_groove", "outer_groove"):
+            if not 0.5 < getattr(self, key) <= 1.0:
+                raise InputError(f"{key}: got {getattr(self, key):g}, takes one above 0.5, up to 1")
+        if (self.radial_clearance is None) == (self.contact_angle is None):
+            raise InputError("radial_clearance, contact_angle: takes one of both")
+        if self.contact_angle is not None and not 0.0 < self.contact_angle < math.pi / 2.0:
+            raise InputError(f"contact_angle: got {self.contact_angle:g} rad, takes one between 0 and 90 deg")
+        if self.clearance >= 2.0 * self.groove_distance:
+            raise InputError(
+                f"radial_clearance: got {self.clearance:g} m, takes one below "
+                f"{2.0 * self.groove_distance:g} m, at which the balls leave the grooves"
+            )
+
+    @property
+    def groove_distance(self) -> float:
+        """Distance of both groove centres where ball and grooves just touch, A = (f_i + f_o - 1) D [m]."""
+        return (self.inner_groove + self.outer_groove - 1.0) * self.ball_diameter
+
+    @property
+    def clearance(self) -> float:
+        """Full diametral play P_d = 2 A (1 - cos a_0), as given or of the free contact angle [m]."""
+        if self.radial_clearance is not None:
+            return self.radial_clearance
+        assert self.contact_angle is not None
+        return 4.0 * self.groove_distance * math.sin(self.contact_angle / 2.0) ** 2
+
+    @property
+    def radial_distance(self) -> float:
+        """Radial distance of the groove centres, rings concentric: A - P_d/2 = A cos a_0 [m]."""
+        return self.groove_distance - self.clearance / 2.0
+
+    @property
+    def free_angle(self) -> float:
+        """Free contact angle, cos a_0 = 1 - P_d/(2 A) [rad]; 0 with a radial preload."""
+        if self.contact_angle is not None:
+            return self.contact_angle
+        return 2.0 * math.asin(math.sqrt(max(0.0, self.clearance) / (4.0 * self.groove_distance)))
+
+    @property
+    def endplay(self) -> float:
+        """Free axial play from one end to the other, 2 A sin a_0 [m]."""
+        return 2.0 * self.groove_distance * math.sin(self.free_angle)
+
+    @property
+    def offsets(self) -> tuple[float, float]:
+        """Distance from the ball's centre to either groove's where they touch, (f - 1/2) D [m]."""
+        inner, outer = self.inner_groove - 0.5, self.outer_groove - 0.5
+        return inner * self.ball_diameter, outer * self.ball_diameter
+
+    @property
+    def inner_centre_radius(self) -> float:
+        """Radius of the circle of inner groove centres, d_m/2 + (f_i - 1/2) D cos a_0 [m]."""
+        cosine = self.radial_distance / self.groove_distance
+        return 0.5 * self.pitch_diameter + self.offsets[0] * cosine
+
+    def gamma(self, angle: float) -> float:
+        """D cos a/d_m at a contact angle [rad]."""
+        return self.ball_diameter * math.cos(angle) / self.pitch_diameter
+
+    def radii(self, angle: float, *, inner: bool) -> ContactRadii:
+        """Radii of ball and groove at the inner or outer contact, at a contact angle [rad].
+
+        Examples
+        --------
+        >>> bearing = BallBearing(9, 11.906e-3, 60e-3, 0.52, 0.52, radial_clearance=10e-6)
+        >>> radii = bearing.radii(0.0, inner=True)
+        >>> round(radii.radius_x * 1e3, 4), round(radii.radius_y * 1e3, 3)
+        (4.7717, 154.778)
+        """
+        groove = self.inner_groove if inner else self.outer_groove
+        ball, pitch = self.ball_diameter, self.pitch_diameter
+        rolling = _rolling_radius(ball, pitch, angle, inner=inner)
+        return ContactRadii(ball / 2.0, ball / 2.0, rolling, -groove * ball)
+
+    def element_mass(self, density: float) -> float:
+        """Mass of a ball of a density [kg/m^3], rho pi D^3/6 [kg]."""
+        return density * math.pi * self.ball_diameter**3 / 6.0
+
+
+@dataclass(frozen=True)
+class RollerBearing:
+    """Cylindrical roller bearing, one row.
+
+    Attributes
+    ----------
+    elements : int
+        Number of rollers.
+    roller_diameter, pitch_diameter : float
+        D and d_m, the mean of both raceways' diameters [m].
+    roller_length : float
+        Effective length L of the rollers [m].
+    radial_clearance : float
+        P_d, full diametral play [m]; negative with a radial preload.
+    profile : str
+        "none", or "logarithmic" for the rollers of ISO 16281.
+
+    Raises
+    ------
+    InputError
+        Where this is no bearing.
+
+    Examples
+    --------
+    >>> bearing = RollerBearing(14, 11e-3, 60e-3, 11e-3, 20e-6)
+    >>> [round(bearing.radii(inner=inner).radius_x * 1e3, 4) for inner in (True, False)]
+    [4.4917, 6.5083]
+    """
+
+    elements: int
+    roller_diameter: float
+    pitch_diameter: float
+    roller_length: float
+    radial_clearance: float
+    profile: str = "logarithmic"
+
+    def __post_init__(self) -> None:
+        _refuse_overlap(self.elements, self.roller_diameter, self.pitch_diameter)
+        if self.profile not in PROFILES:
+            raise InputError(f"profile: got {shown(self.profile)}, takes one of {', '.join(PROFILES)}")
+
+    def relief(self, position: ArrayLike) -> Array:
+        """By how much the roller's radius is smaller than in its middle.
+
+        P(x) = 0.00035 D ln(1/(1 - (2 x/L)^2)) for L up to 2.5 D. Longer rollers are straight but for an end
+        of 1.25 D on either side, P = 0.0005 D ln(1/(1 - ((2 abs(x) - L)/(2.5 D) + 1)^2)) there.
+
+        Parameters
+        ----------
+        position : array_like, shape (n,)
+            x along the roller from its middle, within L/2 [m].
+
+        Returns
+        -------
+        ndarray, shape (n,)
+            [m]; it grows without bound towards the ends.
+
+        Notes
+        -----
+        ISO/TS 16281:2008, profile functions of cylindrical rollers.
+
+        Examples
+        --------
+        >>> bearing = RollerBearing(14, 11e-3, 60e-3, 11e-3, 20e-6)
+        >>> [round(float(p) * 1e6, 3) for p in bearing.relief([0.0, 2.75e-3, 5e-3])]
+        [0.0, 1.108, 6.742]
+        """
+        x = np.abs(np.asarray(position, dtype=float))
+        if self.profile == "none":
+            return np.zeros_like(x)
+        if self.roller_length <= _SHORT * self.roller_diameter:
+            depth, outward = 0.00035, 2.0 * x / self.roller_length
+        else:
+            end = _SHORT * self.roller_diameter
+            depth, outward = 0.0005, np.maximum(0.0, (2.0 * x - self.roller_length) / end + 1.0)
+        return np.asarray(-depth * self.roller_diameter * np.log1p(-(outward**2)))
+
+    def radii(self, *, inner: bool) -> ContactRadii:
+        """Radii of roller and ring at the inner or outer contact: a line contact."""
+        rolling = _rolling_radius(self.roller_diameter, self.pitch_diameter, 0.0, inner=inner)
+        return ContactRadii(self.roller_diameter / 2.0, math.inf, rolling, math.inf)
+
+    def element_mass(self, density: float) -> float:
+        """Mass of a roller of a density [kg/m^3], rho pi D^2 L/4 [kg]."""
+        return density * math.pi * self.roller_diameter**2 * self.roller_length / 4.0

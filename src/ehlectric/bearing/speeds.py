@@ -1,0 +1,81 @@
+"""A bearing over the speed of its shaft, its contacts by formula."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ehlectric.bearing.by_formula import check_formula
+from ehlectric.bearing.result import BearingResult
+from ehlectric.bearing.solver import solve_bearing
+from ehlectric.cases.bearing import BearingDischarge
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.errors import InputError
+
+# From which part of the case's speed to which, in how many steps of its logarithm.
+_LEAST, _MOST, COUNT = 0.1, 4.0, 9
+
+
+def over_speed(case: BearingCase, count: int = COUNT) -> tuple[list[tuple[float, dict[str, Any]]], list[str]]:
+    """A bearing at speeds around its own, its contacts by formula.
+
+    Parameters
+    ----------
+    case : BearingCase
+        The bearing; its temperature is held.
+    count : int
+        Number of speeds, from a tenth to four times its own.
+
+    Returns
+    -------
+    points : list of (float, dict)
+        Speed of the inner ring [rad/s], and the summary at it.
+    left_out : list of str
+        What could not be found, and why.
+
+    Examples
+    --------
+    >>> case = BearingCase.from_dict(
+    ...     {
+    ...         "bearing": {
+    ...             "base": "6208", "radial_clearance": "10 um", "element_material": "steel",
+    ...             "ring_material": "steel", "radial_load": "1 kN", "inner_speed": "1000 rpm",
+    ...             "temperature": "70 degC", "composite_rq": "0.03 um", "fill": "oil", "film_factor": "none",
+    ...         },
+    ...         "lubricant": {"base": "paper", "viscosity": "20 mPa s"},
+    ...     }
+    ... )
+    >>> points, left_out = over_speed(case, count=2)
+    >>> slow, fast = points[0][1]["bearing"], points[-1][1]["bearing"]
+    >>> slow["capacitance"] > fast["capacitance"], left_out
+    (True, [])
+    """
+    changed, left_out = _by_formula(case)
+    if changed is None:
+        return [], left_out
+    points = []
+    for part in np.geomspace(_LEAST, _MOST, count):
+        speed = case.bearing.inner_speed * float(part)
+        try:
+            solution = solve_bearing(changed.replace({"bearing.inner_speed": speed}))
+        except InputError as error:
+            left_out.append(f"over speed, {speed * 30.0 / np.pi:.4g} rpm: {error}")
+        else:
+            points.append((speed, BearingResult(solution).summary()))
+    return points, left_out
+
+
+def _by_formula(case: BearingCase) -> tuple[BearingCase | None, list[str]]:
+    """The case with contacts by formula, if need be without a strength, and what the formulas do not take."""
+    lubricant = case.lubricant.at(case.bearing.temperature)
+    left_out: list[str] = []
+    for discharge in (case.discharge, BearingDischarge(conductivity=case.discharge.conductivity)):
+        try:
+            check_formula(discharge.at(case.bearing.temperature), lubricant)
+        except InputError as error:
+            left_out = [f"over speed: {error}"]
+        else:
+            changed = case.replace({"contacts": "formula"})
+            return changed.model_copy(update={"discharge": discharge}), left_out
+    return None, left_out

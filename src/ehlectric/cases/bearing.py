@@ -1,0 +1,241 @@
+"""What a bearing file takes: the bearing and its duty, its oil over temperature, the motor around it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import AfterValidator, BeforeValidator, model_validator
+
+from ehlectric.cases import library
+from ehlectric.cases.discharge import Discharge
+from ehlectric.cases.lubricant import Lubricant, library_name, with_lubricant
+from ehlectric.cases.quantity import Count, Quantity
+from ehlectric.cases.table import Table
+from ehlectric.errors import InputError, shown
+from ehlectric.lubricant.temperature import Walther, density, roelands_alpha
+
+ROLLERS = "cylindrical roller"
+ANGULAR = "angular-contact ball"
+_Length = Annotated[float, Quantity("m", least=1e-4, most=10.0, reason="of a machine's bearing")]
+_Groove = Annotated[float, Quantity("", above=0.5, most=1.0, reason="groove radius over ball diameter")]
+_Capacitance = Annotated[float, Quantity("F", above=0.0, most=1e-3, reason="of an electric machine")]
+_Viscosity = Annotated[float, Quantity("m**2/s", least=1e-7, most=1.0, reason="kinematic")]
+_Absolute = Annotated[float, Quantity("Pa*s", least=1e-7, most=1e6, reason="at ambient pressure")]
+_Load = Annotated[float, Quantity("N", least=0.0, most=1e8, reason="on the inner ring")]
+
+# Keys of bearings with balls and of those with rollers, and those of them that have a default.
+_OF_BALLS = ("inner_groove", "outer_groove", "shoulder_height", "contact_angle")
+_OF_ROLLERS = ("roller_length", "profile")
+
+
+def _material(name: str) -> str:
+    names = library.solid_names()
+    if name not in names:
+        raise ValueError(f"got {shown(name)}, takes one of the library: {', '.join(names)}")
+    return name
+
+
+def _film_factor(given: Any) -> float | str:
+    if given in ("none", "inlet-shear"):
+        return str(given)
+    if isinstance(given, bool) or not isinstance(given, int | float) or not 0.0 < given <= 1.0:
+        raise ValueError(
+            f"got {shown(given)}, takes 'none', 'inlet-shear', or a number above 0 and at most 1"
+        )
+    return float(given)
+
+
+_Material = Annotated[str, AfterValidator(_material)]
+
+
+class Bearing(Table):
+    """Internal geometry, materials, load, speed and temperature of a rolling bearing."""
+
+    base: str | None = None
+    kind: Literal["deep-groove ball", "angular-contact ball", "cylindrical roller"]
+    elements: Annotated[int, Count(3, 1000, "rolling elements of one row")]
+    element_diameter: _Length
+    pitch_diameter: _Length
+    inner_groove: _Groove | None = None
+    outer_groove: _Groove | None = None
+    roller_length: _Length | None = None
+    profile: Literal["none", "logarithmic"] | None = None
+    shoulder_height: (
+        Annotated[float, Quantity("", above=0.0, most=0.5, reason="of the element diameter")] | None
+    ) = None
+    radial_clearance: (
+        Annotated[float, Quantity("m", least=-1e-3, most=1e-2, reason="full diametral play")] | None
+    ) = None
+    contact_angle: (
+        Annotated[float, Quantity("rad", above=0.0, below=0.5 * math.pi, reason="free of load")] | None
+    ) = None
+    element_material: _Material = "steel"
+    ring_material: _Material = "steel"
+    element_capacitance: _Capacitance | None = None
+    radial_load: _Load = 0.0
+    axial_load: _Load = 0.0
+    inner_speed: Annotated[float, Quantity("rad/s", above=0.0, most=1e5, reason="of the inner ring")]
+    temperature: Annotated[float, Quantity("K", least=200.0, most=600.0, reason="absolute, of the oil")]
+    composite_rq: Annotated[float, Quantity("m", above=0.0, most=1e-4, reason="of both surfaces together")]
+    fill: Literal["oil", "air"] = "oil"
+    film_factor: Annotated[float | str, BeforeValidator(_film_factor)] = "none"
+
+    @model_validator(mode="before")
+    @classmethod
+    def _from_base(cls, table: Any) -> Any:
+        """The named bearing of the library, with what the file gives in place of its values."""
+        if not isinstance(table, Mapping) or table.get("base") is None:
+            return table
+        name = library_name(table["base"], library.bearing_names())
+        return {**library.bearing(name), **table}
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        self._check_kind()
+        if self.radial_load == 0.0 and self.axial_load == 0.0:
+            raise ValueError("radial_load: missing, takes a load, radial or axial")
+        ceramic = not library.solid(self.element_material)["conducting"]
+        if self.element_capacitance is not None and not ceramic:
+            raise ValueError(
+                "element_capacitance: got it for elements that conduct, whose capacitance is computed; takes "
+                "it for ceramic ones"
+            )
+        if not library.solid(self.ring_material)["conducting"]:
+            raise ValueError(f"ring_material: got {shown(self.ring_material)}, takes one that conducts")
+        return self
+
+    def _check_kind(self) -> None:
+        rollers = self.kind == ROLLERS
+        needed = {
+            "deep-groove ball": ("inner_groove", "outer_groove", "shoulder_height", "radial_clearance"),
+            ANGULAR: ("inner_groove", "outer_groove", "shoulder_height", "contact_angle"),
+            ROLLERS: ("roller_length", "profile", "radial_clearance"),
+        }[self.kind]
+        for key in needed:
+            if getattr(self, key) is None:
+                raise ValueError(f"{key}: missing, a bearing of kind {self.kind!r} takes it")
+        for key in {*_OF_BALLS, *_OF_ROLLERS, "radial_clearance"} - set(needed):
+            if getattr(self, key) is not None:
+                raise ValueError(f"{key}: got it in a bearing of kind {self.kind!r}, which has no use for it")
+        if rollers and self.axial_load:
+            raise ValueError(
+                f"axial_load: got {self.axial_load:g} N, takes 0 in a cylindrical roller bearing, whose "
+                "rollers carry none"
+            )
+
+
+class OilTemperature(Table):
+    """Kinematic viscosity at two temperatures, and density, of an oil."""
+
+    kinematic_viscosity_40: _Viscosity
+    kinematic_viscosity_100: _Viscosity
+    density_15: Annotated[float, Quantity("kg/m**3", least=500.0, most=2000.0, reason="of an oil")]
+    # D. Dowson and G. R. Higginson, Elasto-Hydrodynamic Lubrication, Pergamon, 1966, as quoted since.
+    expansion: Annotated[float, Quantity("1/K", least=1e-5, most=2e-3, reason="thermal, of an oil")] = 6.5e-4
+    thermal_conductivity: (
+        Annotated[float, Quantity("W/m/K", least=0.01, most=1.0, reason="of an oil")] | None
+    ) = None
+
+
+class BearingLubricant(Lubricant):
+    """Lubricant of a bearing: with ``temperature`` its viscosity is that of the bearing's temperature."""
+
+    viscosity: _Absolute | None = None  # type: ignore[assignment]
+    temperature: OilTemperature | None = None
+
+    @model_validator(mode="before")
+    @classmethod
+    def _from_base(cls, table: Any) -> Any:
+        """The named lubricant, without the viscosity that ``temperature`` gives."""
+        full = with_lubricant(table)
+        if not isinstance(table, Mapping) or table.get("temperature") is None or full is table:
+            return full
+        over_temperature = ("viscosity", "pressure_viscosity_coefficient")
+        return {key: value for key, value in full.items() if key in table or key not in over_temperature}
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if (self.viscosity is None) == (self.temperature is None):
+            state = "missing" if self.viscosity is None else "got viscosity and temperature together"
+            raise ValueError(f"viscosity: {state}, takes either viscosity or temperature")
+        return self
+
+    def at(self, temperature: float) -> Lubricant:
+        """The lubricant at an absolute temperature [K].
+
+        Raises
+        ------
+        InputError
+            Where the oil has no viscosity there, or lacks what its laws take.
+        """
+        table = self.model_dump(exclude_none=True, exclude={"temperature", "base"})
+        oil = self.temperature
+        if oil is not None:
+            viscosity = self.walther().viscosity(temperature) * density(
+                oil.density_15, oil.expansion, temperature
+            )
+            table["viscosity"] = viscosity
+            if self.pressure_viscosity_coefficient is None and self.viscosity_law != "constant":
+                table["pressure_viscosity_coefficient"] = self._alpha(viscosity)
+        try:
+            return Lubricant.from_dict(table)
+        except InputError as error:
+            raise InputError(f"lubricant.{error}") from None
+
+    def walther(self) -> Walther:
+        """Kinematic viscosity over temperature."""
+        assert self.temperature is not None
+        return Walther.of(self.temperature.kinematic_viscosity_40, self.temperature.kinematic_viscosity_100)
+
+    def _alpha(self, viscosity: float) -> float:
+        z, p0 = self.roelands_z, self.roelands_pressure
+        if z is None or p0 is None:
+            raise InputError(
+                "lubricant.pressure_viscosity_coefficient: missing, takes it, or roelands_z and "
+                "roelands_pressure, from which it follows at the temperature"
+            )
+        return roelands_alpha(viscosity, z, p0)
+
+
+class BearingDischarge(Discharge):
+    """Discharge of a bearing: a strength over temperature is that of the bearing's temperature."""
+
+    def _check_temperature(self) -> None:
+        if self.temperature is not None:
+            raise ValueError(
+                f"temperature: got {self.temperature:g} K for a bearing, takes bearing.temperature in its "
+                "place, at which the strength is taken"
+            )
+
+    def at(self, temperature: float) -> Discharge:
+        """The discharge at an absolute temperature [K].
+
+        Raises
+        ------
+        InputError
+            Where a table of the strength does not reach there.
+
+        Examples
+        --------
+        >>> table = {"temperature": ["20 degC", "120 degC"], "strength": ["20 V/um", "10 V/um"]}
+        >>> BearingDischarge.from_dict({"strength_table": table}).at(343.15).temperature
+        343.15
+        """
+        table = self.model_dump(exclude_none=True)
+        if self.strength_table is not None and self.strength_table.over == "temperature":
+            table["temperature"] = temperature
+        try:
+            return Discharge.from_dict(table)
+        except InputError as error:
+            raise InputError(f"bearing.{error}") from None
+
+
+class Motor(Table):
+    """Capacitances of the machine around the bearing."""
+
+    common_mode_voltage: Annotated[float, Quantity("V", above=0.0, most=1e6, reason="peak")]
+    winding_rotor_capacitance: _Capacitance
+    rotor_frame_capacitance: _Capacitance
+    second_bearing_capacitance: _Capacitance | None = None

@@ -1,0 +1,92 @@
+"""A bearing file: bearing, lubricant, discharge and motor, read from TOML."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, Literal, Self
+
+from pydantic import model_validator
+
+from ehlectric.cases.bearing import Bearing, BearingDischarge, BearingLubricant, Motor
+from ehlectric.cases.case import Title
+from ehlectric.cases.changes import Groups, displace, set_keys
+from ehlectric.cases.discharge import STRENGTHS, TABLES
+from ehlectric.cases.grid import Solver
+from ehlectric.cases.table import Table, read_toml
+from ehlectric.errors import InputError
+
+# What displaces each other where a key changes.
+_ALTERNATIVES: dict[str, Groups] = {
+    "lubricant": ((("viscosity",), ("temperature",)),),
+    "discharge": (STRENGTHS, TABLES),
+}
+
+# Of [discharge], what a bearing gives itself.
+_NOT_OF_BEARINGS = ("length", "external_capacitance", "peak_current", "pit")
+
+
+class BearingCase(Table):
+    """A rolling bearing in its machine: everything its capacitance and breakdown voltage depend on."""
+
+    title: Title = ""
+    contacts: Literal["solved", "formula"] = "solved"
+    bearing: Bearing
+    lubricant: BearingLubricant
+    discharge: BearingDischarge = BearingDischarge()
+    motor: Motor | None = None
+    solver: Solver = Solver()
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        for key in _NOT_OF_BEARINGS:
+            if getattr(self.discharge, key) is not None:
+                raise ValueError(f"discharge.{key}: got it for a bearing, which has no use for it")
+        if self.bearing.film_factor == "inlet-shear":
+            oil = self.lubricant.temperature
+            if oil is None or oil.thermal_conductivity is None:
+                raise ValueError(
+                    "lubricant.temperature.thermal_conductivity: missing, film_factor 'inlet-shear' takes it"
+                )
+        return self
+
+    @classmethod
+    def from_toml(cls, path: str | Path) -> Self:
+        """Bearing of a TOML file.
+
+        Raises
+        ------
+        InputError
+            Where the file cannot be read, is not TOML, or is not a bearing.
+        """
+        table = read_toml(path)
+        if "contact" in table and "bearing" not in table:
+            raise InputError(
+                f"{path}: is the file of a contact, takes that of a bearing; ehlectric run solves it"
+            )
+        return cls.from_dict(table)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Nested tables of all values that are set, SI floats."""
+        return self.model_dump(mode="json", exclude_none=True)
+
+    def to_toml(self) -> str:
+        """TOML text that ``from_toml`` reads back to an equal case."""
+        import tomli_w
+
+        return tomli_w.dumps(self.to_dict())
+
+    def replace(self, changes: Mapping[str, Any]) -> Self:
+        """A changed copy, with new values by dotted key; a new key displaces its alternative.
+
+        Raises
+        ------
+        InputError
+            As for a bearing file.
+        """
+        table = self.to_dict()
+        if "lubricant.base" in changes:
+            table["lubricant"] = {}
+        displace(table, changes, _ALTERNATIVES)
+        set_keys(table, changes)
+        return self.from_dict(table)

@@ -1,0 +1,202 @@
+"""A case: what is solved, read from TOML, written back, and changed.
+
+A case is frozen and holds SI floats. Alternatives (two radii or the reduced one, load or Hertz pressure,
+entrainment speed or two speeds) stay as they were given; ``ehlectric.contact.conditions`` resolves them.
+"""
+
+from __future__ import annotations
+
+import unicodedata
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Annotated, Any, Self
+
+from pydantic import AfterValidator, model_validator
+
+from ehlectric.cases.changes import displace, drop, flattened, set_keys
+from ehlectric.cases.contact import CONTACT_ALTERNATIVES, ONLY, Contact
+from ehlectric.cases.discharge import STRENGTHS, TABLES, Discharge
+from ehlectric.cases.grid import POINT_GRID, POINT_GRID_KEYS, Electric, Grid, Solver
+from ehlectric.cases.lubricant import Lubricant
+from ehlectric.cases.motion import Motion
+from ehlectric.cases.roughness import Roughness, check_geometry
+from ehlectric.cases.table import Table, read_toml
+from ehlectric.errors import InputError, shown
+
+
+def _title(text: str) -> str:
+    if len(text) > 200 or any(unicodedata.category(letter) == "Cc" for letter in text):
+        raise ValueError(f"got {shown(text)}, takes at most 200 printable characters on one line")
+    return text
+
+
+# One line, as a file or a figure is headed.
+Title = Annotated[str, AfterValidator(_title)]
+
+
+class Case(Table):
+    """A charged line or point contact: everything a solution depends on.
+
+    Examples
+    --------
+    >>> case = Case.model_validate(
+    ...     {
+    ...         "contact": {
+    ...             "reduced_radius": "14.1 mm",
+    ...             "reduced_modulus": "226 GPa",
+    ...             "max_hertz_pressure": "1 GPa",
+    ...             "entrainment_speed": "4 m/s",
+    ...         },
+    ...         "lubricant": {"base": "paper"},
+    ...     }
+    ... )
+    >>> case.replace({"contact.entrainment_speed": "2 m/s"}).contact.entrainment_speed
+    2.0
+    """
+
+    title: Title = ""
+    contact: Contact
+    lubricant: Lubricant
+    roughness: tuple[Roughness, ...] = ()
+    electric: Electric = Electric()
+    discharge: Discharge | None = None
+    motion: Motion | None = None
+    grid: Grid = Grid()
+    solver: Solver = Solver()
+
+    @model_validator(mode="before")
+    @classmethod
+    def _point_grid(cls, table: Any) -> Any:
+        """The grid of a point contact, with its own defaults where the case gives none."""
+        if not isinstance(table, Mapping) or _geometry(table.get("contact")) != "point":
+            return table
+        grid = table.get("grid", {})
+        if isinstance(grid, Grid):
+            grid = grid.model_dump(exclude_unset=True)
+        return {**table, "grid": {**POINT_GRID, **grid}} if isinstance(grid, Mapping) else table
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if self.contact.geometry != "point":
+            for key in POINT_GRID_KEYS:
+                if getattr(self.grid, key) is not None:
+                    raise ValueError(
+                        f"grid.{key}: got it in a line contact, which has no use for it; takes it where "
+                        "contact.geometry is 'point'"
+                    )
+        check_geometry(self.roughness, self.contact.geometry)
+        if self.discharge is not None:
+            self.discharge.check_geometry(self.contact.geometry)
+        self._check_motion()
+        return self
+
+    def _check_motion(self) -> None:
+        if self.motion is None:
+            return
+        if not self.roughness:
+            raise ValueError("motion: got it without roughness, which is what moves; takes a rough surface")
+        if self.grid.wedge != "second-order":
+            raise ValueError(f"grid.wedge: got {self.grid.wedge!r} beside motion, takes 'second-order'")
+        if self.grid.refine is not None:
+            raise ValueError("grid.refine: got it beside motion, which takes one grid; takes grid.nodes")
+
+    @classmethod
+    def from_toml(cls, path: str | Path) -> Self:
+        """Case of a TOML file.
+
+        Raises
+        ------
+        InputError
+            Where the file cannot be read, is not TOML, or is not a case.
+        """
+        table = read_toml(path)
+        if "bearing" in table and "contact" not in table:
+            raise InputError(
+                f"{path}: is the file of a bearing, takes that of a contact; ehlectric bearing solves it"
+            )
+        find_files(table, Path(path).parent)
+        return cls.from_dict(table)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Nested tables of all values that are set, SI floats."""
+        return self.model_dump(mode="json", exclude_none=True)
+
+    def to_toml(self) -> str:
+        """TOML text that ``from_toml`` reads back to an equal case."""
+        import tomli_w
+
+        return tomli_w.dumps(self.to_dict())
+
+    def replace(self, changes: Mapping[str, Any] | None = None, /, **tables: Any) -> Self:
+        """A changed copy.
+
+        Parameters
+        ----------
+        changes : mapping, optional
+            New values by dotted key, as in ``{"contact.entrainment_speed": "2 m/s"}``; of rough surfaces with
+            their number from 1, as in ``{"roughness.1.rescale_rq": "50 nm"}``.
+        **tables
+            Whole keys of the case, or tables of what changes in them, as in
+            ``contact={"entrainment_speed": "2 m/s"}``.
+
+        Returns
+        -------
+        Case
+            A new key displaces its alternative: a Hertz pressure the load, two radii the reduced one, a
+            lubricant base all that was given of the old lubricant. A new geometry drops what only the old one
+            has, and the lengths and nodes of its grid.
+
+        Raises
+        ------
+        InputError
+            As for a case file.
+        """
+        flat = {**flattened(tables), **(changes or {})}
+        table = self.to_dict()
+        geometry = flattened(flat).get("contact.geometry", self.contact.geometry)
+        if geometry != self.contact.geometry:
+            _drop_geometry(table, self.contact.geometry)
+        _displace(table, flat, geometry)
+        set_keys(table, flat)
+        return self.from_dict(table)
+
+
+def find_files(table: dict[str, Any], folder: Path) -> None:
+    """Files named in a case lie relative to it; their names hold wherever the case is written to."""
+    rough = table.get("roughness")
+    for surface in rough if isinstance(rough, list) else []:
+        if isinstance(surface, dict) and isinstance(surface.get("file"), str):
+            surface["file"] = str((folder / surface["file"]).absolute())
+
+
+def _geometry(contact: Any) -> Any:
+    if isinstance(contact, Mapping):
+        return contact.get("geometry")
+    return getattr(contact, "geometry", None)
+
+
+# What a grid keeps where the geometry changes: no lengths, which are in other units there, and no nodes.
+_GRID_OF_ANY = ("wedge", "field_degree", "refine")
+
+
+def _drop_geometry(table: dict[str, Any], geometry: str) -> None:
+    """Drop what only contacts of this geometry have."""
+    for key in ONLY[geometry]:
+        drop(table["contact"], key)
+    drop(table, "discharge.length")
+    table["grid"] = {key: value for key, value in table["grid"].items() if key in _GRID_OF_ANY}
+
+
+def _displace(table: dict[str, Any], changes: Mapping[str, Any], geometry: object) -> None:
+    """Drop from ``table`` what the changes are alternatives to."""
+    if "lubricant.base" in changes:
+        table["lubricant"] = {}
+    alternatives = {
+        "contact": (
+            *CONTACT_ALTERNATIVES.get(str(geometry), ()),
+            (("slide_to_roll_ratio",), ("speed_1", "speed_2")),
+        ),
+        "discharge": (STRENGTHS, TABLES),
+        "motion": ((("passes",), ("duration",)),),
+    }
+    displace(table, changes, alternatives)

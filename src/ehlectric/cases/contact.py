@@ -1,0 +1,165 @@
+"""The contact of a case: geometry, elasticity, load and speed, each with its unit and its bounds."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import model_validator
+
+from ehlectric.cases.quantity import Quantity
+from ehlectric.cases.table import Table
+
+_Radius = Annotated[float, Quantity("m", least=1e-6, most=1e3, reason="larger bodies are planes to a film")]
+_SignedRadius = Annotated[float, Quantity("m", least=-1e3, most=1e3, reason="negative for a concave body")]
+_Modulus = Annotated[float, Quantity("Pa", least=1e5, most=2e12, reason="from soft rubber to diamond")]
+_Speed = Annotated[float, Quantity("m/s", least=-1e4, most=1e4, reason="surface speeds of machines")]
+
+
+class Body(Table):
+    """Elastic constants of one body and, of a point contact, its radii in both planes."""
+
+    youngs_modulus: _Modulus | None = None
+    poissons_ratio: (
+        Annotated[float, Quantity("", above=-1.0, most=0.5, reason="0.5 is an incompressible body")] | None
+    ) = None
+    radius_x: _SignedRadius | None = None
+    radius_y: _SignedRadius | None = None
+
+
+# Alternatives of each geometry: exactly one row of each group is given, whole. A line takes its bodies
+# whole, a point their radii and their elastic constants each for itself.
+Alternatives = tuple[tuple[tuple[str, ...], ...], ...]
+_SPEEDS = (("entrainment_speed",), ("speed_1", "speed_2"))
+_BODIES = ("body_1", "body_2")
+CONTACT_ALTERNATIVES: dict[str, Alternatives] = {
+    "line": (
+        (("reduced_radius",), ("radius_1", "radius_2")),
+        (("reduced_modulus",), _BODIES),
+        (("load_per_length",), ("max_hertz_pressure",)),
+        _SPEEDS,
+    ),
+    "point": (
+        (
+            ("radius_x", "radius_y"),
+            tuple(f"{body}.{key}" for body in _BODIES for key in ("radius_x", "radius_y")),
+        ),
+        (
+            ("reduced_modulus",),
+            tuple(f"{body}.{key}" for body in _BODIES for key in ("youngs_modulus", "poissons_ratio")),
+        ),
+        (("load",), ("max_hertz_pressure",)),
+        _SPEEDS,
+    ),
+}
+
+# Keys of one geometry that the other has no use for.
+ONLY: dict[str, tuple[str, ...]] = {
+    "line": ("reduced_radius", "radius_1", "radius_2", "load_per_length"),
+    "point": (
+        *("radius_x", "radius_y", "load"),
+        *(f"{body}.{key}" for body in _BODIES for key in ("radius_x", "radius_y")),
+    ),
+}
+OTHER = {"line": "point", "point": "line"}
+
+
+class Contact(Table):
+    """Geometry, elasticity, load and speed of the contact."""
+
+    geometry: Literal["line", "point"] = "line"
+    radius_x: _Radius | None = None
+    radius_y: _Radius | None = None
+    reduced_radius: _Radius | None = None
+    radius_1: _SignedRadius | None = None
+    radius_2: _SignedRadius | None = None
+    reduced_modulus: _Modulus | None = None
+    body_1: Body | None = None
+    body_2: Body | None = None
+    load: (
+        Annotated[float, Quantity("N", least=1e-6, most=1e9, reason="a contact carries some load")] | None
+    ) = None
+    load_per_length: (
+        Annotated[float, Quantity("N/m", least=1e-2, most=1e9, reason="a contact carries some load")] | None
+    ) = None
+    max_hertz_pressure: (
+        Annotated[float, Quantity("Pa", least=1e4, most=2e10, reason="twice what any solid carries")] | None
+    ) = None
+    entrainment_speed: (
+        Annotated[
+            float,
+            Quantity("m/s", least=1e-9, most=1e4, reason="(u1 + u2)/2, positive along x"),
+        ]
+        | None
+    ) = None
+    slide_to_roll_ratio: (
+        Annotated[float, Quantity("", least=-1e3, most=1e3, reason="(u1 - u2)/entrainment_speed")] | None
+    ) = None
+    speed_1: _Speed | None = None
+    speed_2: _Speed | None = None
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        self._check_geometry()
+        for group in CONTACT_ALTERNATIVES[self.geometry]:
+            self._check_alternatives(group)
+        self._check_radii()
+        self._check_speeds()
+        return self
+
+    def value(self, key: str) -> Any:
+        """What a dotted key of this table gives, None where it is not there."""
+        table, _, leaf = key.rpartition(".")
+        part = getattr(self, table) if table else self
+        return None if part is None else getattr(part, leaf)
+
+    def _check_geometry(self) -> None:
+        """Refuse keys of the other geometry, and bodies of a line with a part missing."""
+        for key in ONLY[OTHER[self.geometry]]:
+            if self.value(key) is not None:
+                radii, _, load, _ = CONTACT_ALTERNATIVES[self.geometry]
+                takes = " or ".join(" and ".join(row) for row in (load if "load" in key else radii))
+                raise ValueError(
+                    f"{key}: got it in a {self.geometry} contact, which has no use for it; takes {takes}"
+                )
+        for name in _BODIES if self.geometry == "line" else ():
+            body = getattr(self, name)
+            keys = () if body is None else ("youngs_modulus", "poissons_ratio")
+            missing = [key for key in keys if getattr(body, key) is None]
+            if missing:
+                more = f"; missing too: {missing[1]}" if missing[1:] else ""
+                raise ValueError(f"{name}.{missing[0]}: missing, takes a value{more}")
+
+    def _check_radii(self) -> None:
+        names = ("radius_1", "radius_2", *ONLY["point"][3:])
+        for name in names:
+            radius = self.value(name)
+            if radius is not None and abs(radius) < 1e-6:
+                raise ValueError(
+                    f"{name}: got {radius:g} m, takes at least 1e-06 m, negative for a concave body"
+                )
+
+    def _check_speeds(self) -> None:
+        if self.speed_1 is not None and self.speed_2 is not None:
+            if self.slide_to_roll_ratio is not None:
+                raise ValueError(
+                    "slide_to_roll_ratio: got it beside speed_1 and speed_2, which fix it; takes one "
+                    "of the two"
+                )
+            if self.speed_1 + self.speed_2 <= 0.0:
+                raise ValueError(
+                    f"speed_1, speed_2: got {self.speed_1:g} and {self.speed_2:g} m/s, takes speeds "
+                    "whose mean is positive: x runs along entrainment"
+                )
+
+    def _check_alternatives(self, group: tuple[tuple[str, ...], ...]) -> None:
+        given = [[name for name in row if self.value(name) is not None] for row in group]
+        choices = " or ".join(" and ".join(row) for row in group)
+        used = [k for k, names in enumerate(given) if names]
+        if len(used) > 1:
+            both = ", ".join(name for names in given for name in names)
+            raise ValueError(f"{given[0][0]}: got {both} together, takes either {choices}")
+        if not used:
+            raise ValueError(f"{group[0][0]}: missing, takes either {choices}")
+        for name in group[used[0]]:
+            if name not in given[used[0]]:
+                raise ValueError(f"{name}: missing, takes either {choices}")

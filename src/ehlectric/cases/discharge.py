@@ -1,0 +1,164 @@
+"""What a discharge takes beside film and field: the strength of the film, conductivity, what is connected."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, Self
+
+from pydantic import model_validator
+
+from ehlectric.cases.quantity import Quantities, Quantity
+from ehlectric.cases.table import Table
+
+_STRENGTH = Quantity("V/m", least=1e4, most=1e10, reason="of the film, not of the oil in bulk")
+_PRESSURE = Quantity("Pa", least=0.0, most=2e10, reason="in the film")
+_TEMPERATURE = Quantity("K", least=100.0, most=1000.0, reason="absolute, of the film")
+
+# Alternatives of the strength, and of what a table of it is over: keys of at the most one of them are given.
+STRENGTHS = (("dielectric_strength",), ("strength_table", "temperature"), ("weibull",))
+TABLES = (("strength_table.pressure",), ("strength_table.temperature", "temperature"))
+
+# Keys for which a line contact must know its length.
+_OF_LENGTH = ("weibull", "external_capacitance", "peak_current", "pit")
+
+
+class StrengthTable(Table):
+    """Dielectric strength over the pressure in the film, or over its temperature; linear in between."""
+
+    pressure: Annotated[tuple[float, ...], Quantities(_PRESSURE, least=2)] | None = None
+    temperature: Annotated[tuple[float, ...], Quantities(_TEMPERATURE, least=2)] | None = None
+    strength: Annotated[tuple[float, ...], Quantities(_STRENGTH, least=2)]
+
+    @property
+    def over(self) -> Literal["pressure", "temperature"]:
+        """What the strength is given over."""
+        return "pressure" if self.temperature is None else "temperature"
+
+    @property
+    def places(self) -> tuple[float, ...]:
+        """Pressures [Pa] or temperatures [K] of the table."""
+        places = self.pressure if self.temperature is None else self.temperature
+        assert places is not None
+        return places
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if (self.pressure is None) == (self.temperature is None):
+            state = "missing" if self.pressure is None else "got pressure and temperature together"
+            raise ValueError(f"pressure: {state}, takes either pressure or temperature")
+        if any(b <= a for a, b in zip(self.places, self.places[1:], strict=False)):
+            raise ValueError(f"{self.over}: got {list(self.places)}, takes increasing values")
+        if len(self.strength) != len(self.places):
+            raise ValueError(
+                f"strength: got {len(self.strength)} values over {len(self.places)} of {self.over}, takes as "
+                "many"
+            )
+        return self
+
+
+class Weibull(Table):
+    """Probability of breakdown 1 - exp(-integral of (E/scale)^shape dA/reference_area)."""
+
+    scale: Annotated[float, _STRENGTH]
+    shape: Annotated[float, Quantity("", least=0.5, most=200.0, reason="the larger, the less it scatters")]
+    reference_area: Annotated[
+        float, Quantity("m**2", least=1e-18, most=1.0, reason="at which the scale was measured")
+    ]
+
+
+class Pit(Table):
+    """What the energy of a discharge melts."""
+
+    efficiency: Annotated[
+        float,
+        Quantity("", above=0.0, most=1.0, reason="part of the energy that melts one surface", fraction=True),
+    ]
+    melting_energy: Annotated[
+        float, Quantity("J/m**3", least=1e8, most=1e12, reason="to heat and melt a volume of the surface")
+    ]
+
+
+class Discharge(Table):
+    """Assessment of the discharge: nothing has a default that is a property of a material."""
+
+    dielectric_strength: Annotated[float, _STRENGTH] | None = None
+    strength_table: StrengthTable | None = None
+    weibull: Weibull | None = None
+    temperature: Annotated[float, _TEMPERATURE] | None = None
+    outlet: Literal["full", "fingers", "layers"] = "full"
+    conductivity: (
+        Annotated[
+            float, Quantity("S/m", least=1e-20, most=1e2, reason="of the lubricant, at its temperature")
+        ]
+        | None
+    ) = None
+    external_capacitance: (
+        Annotated[float, Quantity("F", least=0.0, most=1.0, reason="discharged with the contact: the rotor")]
+        | None
+    ) = None
+    length: Annotated[float, Quantity("m", least=1e-6, most=1e2, reason="of a line contact")] | None = None
+    peak_current: (
+        Annotated[float, Quantity("A", least=0.0, most=1e6, reason="through the contact")] | None
+    ) = None
+    pit: Pit | None = None
+
+    @property
+    def has_strength(self) -> bool:
+        """Whether there is a strength that a field reaches or not: a constant or a table of it."""
+        return self.dielectric_strength is not None or self.strength_table is not None
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        names = [row[0] for row in STRENGTHS]
+        given = [name for name in names if getattr(self, name) is not None]
+        if len(given) > 1:
+            together, takes = " and ".join(given), ", ".join(names)
+            raise ValueError(f"{given[0]}: got {together} together, takes one of {takes}")
+        if self.pit is not None and self.external_capacitance is None:
+            raise ValueError(
+                "external_capacitance: missing, pit takes it: the spark discharges what is connected to the "
+                "contact too, 0 where nothing is"
+            )
+        self._check_temperature()
+        return self
+
+    def _check_temperature(self) -> None:
+        table = self.strength_table
+        if table is None or table.over == "pressure":
+            if self.temperature is not None:
+                raise ValueError(
+                    f"temperature: got {self.temperature:g} K, takes a strength_table over temperature too"
+                )
+            return
+        low, high = table.places[0], table.places[-1]
+        if self.temperature is None:
+            raise ValueError("temperature: missing, a strength_table over temperature takes it")
+        if not low <= self.temperature <= high:
+            raise ValueError(
+                f"temperature: got {self.temperature:g} K, takes one within the strength_table, {low:g} to "
+                f"{high:g} K"
+            )
+
+    def check_geometry(self, geometry: str) -> None:
+        """Refuse a length where there is none, and what needs it without it.
+
+        Parameters
+        ----------
+        geometry : str
+            Of the contact, "line" or "point".
+
+        Raises
+        ------
+        ValueError
+            With the key, what it got and what it takes.
+        """
+        if geometry == "point":
+            if self.length is not None:
+                raise ValueError(
+                    "discharge.length: got it for a point contact, which has none; takes it for a line"
+                )
+        elif self.length is None:
+            needing = [name for name in _OF_LENGTH if getattr(self, name) is not None]
+            if needing:
+                raise ValueError(
+                    f"discharge.length: missing, {needing[0]} takes it: the length of the line contact"
+                )

@@ -1,0 +1,177 @@
+"""Lubricant, potentials, grid and solver of a case: every input with its unit, its bounds and its default."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import model_validator
+
+from ehlectric.cases.quantity import Count, Quantity
+from ehlectric.cases.table import Table
+
+
+class Electric(Table):
+    """Potentials of the two surfaces; surface 1 is the lower one."""
+
+    potential_1: Annotated[float, Quantity("V", least=-1e7, most=1e7, reason="of the lower surface")] = -1.0
+    potential_2: Annotated[float, Quantity("V", least=-1e7, most=1e7, reason="of the upper surface")] = 1.0
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if self.voltage < 1e-6:
+            raise ValueError(
+                f"potential_2: got {self.potential_2:g} V, which is potential_1; takes one that "
+                "differs by at least 1 µV, as there is no field between equal potentials"
+            )
+        return self
+
+    @property
+    def voltage(self) -> float:
+        """Between the surfaces [V], above 0."""
+        return abs(self.potential_2 - self.potential_1)
+
+
+# Columns of the field below which the film's own nodes do not resolve it.
+_LEAST_COLUMNS = 16
+_FieldEnd = Annotated[float, Quantity("", least=-100.0, most=100.0, reason="in half-widths")]
+
+# What a grid of a point contact has where the case does not say; lengths in its semi-axes.
+POINT_GRID: dict[str, Any] = {"nodes": 257, "inlet": -4.5, "outlet": 1.5, "field_side": 1.25}
+
+# Keys of a point contact alone.
+POINT_GRID_KEYS = ("nodes_y", "side", "field_side", "field_nodes_y")
+
+# Nodes across a point contact's Hertz zone below which its film has no shape, and along an axis above which a
+# film takes more memory than a workstation has.
+LEAST_ACROSS = 16
+_MOST_AXIS = 4097
+
+
+class Grid(Table):
+    """Discretisation of the film and of the field.
+
+    Lengths are in half-widths of a line contact; of a point contact in the semi-axis along entrainment, but
+    those of ``side`` and ``field_side`` in the semi-axis across.
+    """
+
+    nodes: Annotated[
+        int,
+        Count(65, 10_000_001, "fewer do not resolve the Hertz zone, more are atoms apart"),
+    ] = 3201
+    nodes_y: (
+        Annotated[int, Count(33, _MOST_AXIS, "fewer do not resolve the Hertz zone, more fill the memory")]
+        | None
+    ) = None
+    inlet: Annotated[float, Quantity("", least=-1000.0, below=-1.0, reason="ahead of the Hertz zone")] = -4.0
+    outlet: Annotated[float, Quantity("", above=1.0, most=1000.0, reason="behind the Hertz zone")] = 2.0
+    side: Annotated[float, Quantity("", above=1.0, most=100.0, reason="beside the Hertz zone")] | None = None
+    wedge: Literal["second-order", "first-order"] = "second-order"
+    field_range: tuple[_FieldEnd, _FieldEnd] = (-1.25, 1.25)
+    field_side: (
+        Annotated[float, Quantity("", least=1e-3, most=100.0, reason="in semi-axes across entrainment")]
+        | None
+    ) = None
+    field_nodes: (
+        Annotated[
+            int,
+            Count(17, 10_000_001, "fewer do not resolve the exit, more are atoms apart"),
+        ]
+        | None
+    ) = None
+    field_nodes_y: (
+        Annotated[int, Count(17, _MOST_AXIS, "fewer do not resolve the sides, more fill the memory")] | None
+    ) = None
+    field_degree: Annotated[int, Count(2, 20, "the potential is nearly linear across the film")] = 6
+    refine: (
+        Annotated[
+            float,
+            Quantity("", least=1e-4, most=0.5, reason="error of the film to refine to", fraction=True),
+        ]
+        | None
+    ) = None
+
+    @property
+    def of_point(self) -> bool:
+        """Whether this is a point contact's grid: a case gives each of them a ``field_side``."""
+        return self.field_side is not None
+
+    @property
+    def nodes_across(self) -> int:
+        """Nodes across a point contact, as many as along it where the case does not say."""
+        return self.nodes if self.nodes_y is None else self.nodes_y
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        domain = self.outlet - self.inlet
+        if self.nodes < 8.0 * domain:
+            lengths = "semi-axes" if self.of_point else "half-widths"
+            raise ValueError(
+                f"nodes: got {self.nodes} over {domain:g} {lengths}, takes at least "
+                f"{int(8.0 * domain) + 1} there: sixteen in the Hertz zone"
+            )
+        self._check_field_range(domain)
+        if self.of_point:
+            self._check_point()
+        return self
+
+    def _check_field_range(self, domain: float) -> None:
+        start, stop = self.field_range
+        default = "" if "field_range" in self.model_fields_set else ", its default"
+        if not self.inlet <= start < stop <= self.outlet:
+            raise ValueError(
+                f"field_range: got [{start:g}, {stop:g}]{default}, takes two increasing numbers within inlet "
+                f"and outlet, [{self.inlet:g}, {self.outlet:g}]"
+            )
+        columns = (stop - start) / domain * (self.nodes - 1)
+        if self.field_nodes is None and columns < _LEAST_COLUMNS:
+            raise ValueError(
+                f"field_range: got [{start:g}, {stop:g}]{default}, which holds {int(columns)} nodes of the "
+                f"film; takes a range with at least {_LEAST_COLUMNS}, or field_nodes"
+            )
+        if stop - start < 1e-3:
+            raise ValueError(f"field_range: got [{start:g}, {stop:g}], takes a range of at least 0.001")
+
+    def _check_point(self) -> None:
+        for key in ("nodes", "field_nodes"):
+            nodes = getattr(self, key)
+            if nodes is not None and nodes > _MOST_AXIS:
+                raise ValueError(
+                    f"{key}: got {nodes} in a point contact, takes at most {_MOST_AXIS} along an axis: more "
+                    "fill the memory"
+                )
+        if self.side is not None:
+            self.check_across(self.side)
+
+    def check_across(self, side: float) -> None:
+        """Refuse a point contact's grid that is too coarse across entrainment, or less wide than its field.
+
+        Parameters
+        ----------
+        side : float
+            Half of the domain's width, in semi-axes across.
+
+        Raises
+        ------
+        ValueError
+            With the key, what it got and what it takes.
+        """
+        assert self.field_side is not None
+        if self.field_side > side:
+            raise ValueError(f"field_side: got {self.field_side:g}, takes at most side, {side:g}")
+        nodes, key = self.nodes_across, "nodes" if self.nodes_y is None else "nodes_y"
+        least = math.ceil(LEAST_ACROSS * side) + 1
+        if nodes < least:
+            raise ValueError(
+                f"{key}: got {nodes} across {2.0 * side:g} semi-axes, takes at least {least} there: sixteen "
+                "in the Hertz zone"
+            )
+
+
+class Solver(Table):
+    """When the iteration of the film stops."""
+
+    tolerance: Annotated[
+        float, Quantity("", least=1e-11, most=1e-3, reason="of the largest scaled residual")
+    ] = 1e-9
+    max_iterations: Annotated[int, Count(1, 1000, "Newton steps on each grid")] = 30

@@ -1,0 +1,35 @@
+"""How long rough surfaces move through a contact, and what is kept of it."""
+
+from __future__ import annotations
+
+from typing import Annotated, Self
+
+from pydantic import model_validator
+
+from ehlectric.cases.quantity import Count, Quantity
+from ehlectric.cases.table import Table
+
+
+class Motion(Table):
+    """Roughness that moves with its surface.
+
+    Examples
+    --------
+    >>> Motion.from_dict({"duration": "2 ms"}).duration
+    0.002
+    """
+
+    passes: (
+        Annotated[float, Quantity("", above=0.0, most=1e4, reason="lengths of the domain at the mean speed")]
+        | None
+    ) = None
+    duration: Annotated[float, Quantity("s", above=0.0, most=1e4, reason="of the motion")] | None = None
+    steps: Annotated[int, Count(1, 100_000_000, "of time")] | None = None
+    record: Annotated[int, Count(2, 100_000, "stored instants")] = 200
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if (self.passes is None) == (self.duration is None):
+            state = "missing" if self.passes is None else "got passes and duration together"
+            raise ValueError(f"passes: {state}, takes either passes or duration")
+        return self

@@ -1,0 +1,159 @@
+"""The rough surfaces of a case: files and generators, and what is done to them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Annotated, Literal, Self
+
+from pydantic import AfterValidator, model_validator
+
+from ehlectric.cases.quantity import Count, Quantity, length_unit
+from ehlectric.cases.table import Table
+from ehlectric.errors import shown
+
+_Height = Annotated[float, Quantity("m", least=1e-12, most=1e-3, reason="of a surface, not of a body")]
+_Length = Annotated[float, Quantity("m", least=1e-9, most=1.0, reason="of waves and features on a surface")]
+_LengthUnit = Annotated[str, AfterValidator(length_unit)]
+_Place = Annotated[float, Quantity("m", least=-1.0, most=1.0, reason="along entrainment, 0 at the centre")]
+_Side = Annotated[float, Quantity("m", least=-1.0, most=1.0, reason="across entrainment, 0 at the centre")]
+_Angle = Annotated[
+    float, Quantity("deg", least=-180.0, most=180.0, reason="from the x axis, counter-clockwise")
+]
+
+# What each generator needs, and what it may have beside that.
+GENERATORS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
+    "sinusoid": (("amplitude", "wavelength"), ("phase", "orientation")),
+    "gaussian": (("rq", "correlation_length", "seed"), ("correlation_length_y", "orientation")),
+    "self-affine": (("rq", "hurst", "rolloff_wavelength", "seed"), ("shortest_wavelength",)),
+    "pit": (("depth", "width"), ("rim", "position", "position_y")),
+    "asperity": (("height", "width"), ("position", "position_y")),
+}
+_FILE_KEYS = ("x_unit", "z_unit", "line", "along", "direction", "assume_transverse")
+SHAPES = ("sinusoid", "pit", "asperity")
+_POINT_KEYS = ("correlation_length_y", "orientation", "position_y", "shift_y")
+_STEPS = ("form", "cutoff_long", "cutoff_short", "trim", "rescale_rq", "truncate", "extend")
+
+
+class Roughness(Table):
+    """One rough surface: from a file or made, and what is done to it."""
+
+    surface: Literal[1, 2]
+    file: str | None = None
+    x_unit: _LengthUnit | None = None
+    z_unit: _LengthUnit | None = None
+    line: Annotated[int, Count(0, 1_000_000, "of a map, from 0")] | None = None
+    along: Literal["row", "column"] = "row"
+    direction: Literal["x", "y"] = "x"
+    assume_transverse: bool = False
+    generator: str | None = None
+    amplitude: _Height | None = None
+    wavelength: _Length | None = None
+    phase: Annotated[float, Quantity("", least=-1e3, most=1e3, reason="in rad")] | None = None
+    rq: _Height | None = None
+    correlation_length: _Length | None = None
+    correlation_length_y: _Length | None = None
+    orientation: _Angle | None = None
+    hurst: Annotated[float, Quantity("", least=0.0, most=1.0, reason="1 is the smoothest")] | None = None
+    rolloff_wavelength: _Length | None = None
+    shortest_wavelength: _Length | None = None
+    seed: Annotated[int, Count(0, 2**32, "of the random numbers")] | None = None
+    depth: _Height | None = None
+    height: _Height | None = None
+    width: _Length | None = None
+    rim: Annotated[float, Quantity("m", least=0.0, most=1e-3, reason="height of the rim")] | None = None
+    position: _Place | None = None
+    position_y: _Side | None = None
+    form: Literal["none", "mean", "line", "parabola"] = "none"
+    cutoff_long: _Length | None = None
+    cutoff_short: _Length | None = None
+    trim: Annotated[float, Quantity("m", least=0.0, most=1.0, reason="taken off each end")] | None = None
+    rescale_rq: _Height | None = None
+    truncate: _Height | None = None
+    shift: _Place = 0.0
+    shift_y: _Side = 0.0
+    extend: Literal["mirror", "repeat", "flat"] = "mirror"
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if (self.file is None) == (self.generator is None):
+            state = "missing" if self.file is None else "got file and generator together"
+            raise ValueError(f"file: {state}, takes either file or generator")
+        allowed = {"surface", "shift", "shift_y"}
+        allowed |= {"file", *_FILE_KEYS, *_STEPS} if self.generator is None else self._check_generator()
+        for name in sorted(self._given() - allowed):
+            what = f"the generator {self.generator!r}" if self.generator else "a file"
+            raise ValueError(f"{name}: got it with {what}, which has no use for it")
+        return self
+
+    def _given(self) -> set[str]:
+        """Names of what differs from its default."""
+        fields = type(self).model_fields.items()
+        return {name for name, field in fields if getattr(self, name) != field.default}
+
+    def _check_generator(self) -> set[str]:
+        """Names of what the generator may have."""
+        if self.generator not in GENERATORS:
+            raise ValueError(
+                f"generator: got {shown(self.generator)}, takes one of {', '.join(map(repr, GENERATORS))}"
+            )
+        needed, optional = GENERATORS[self.generator]
+        for name in needed:
+            if getattr(self, name) is None:
+                raise ValueError(f"{name}: missing, the generator {self.generator!r} takes it")
+        rolloff, shortest = self.rolloff_wavelength, self.shortest_wavelength
+        if rolloff is not None and shortest is not None and shortest >= rolloff:
+            raise ValueError(
+                f"shortest_wavelength: got {shortest:g} m, takes less than rolloff_wavelength, {rolloff:g} m"
+            )
+        round_waves = self.generator == "gaussian" and self.correlation_length_y is None
+        if round_waves and self.orientation is not None:
+            raise ValueError(
+                f"orientation: got {self.orientation:g} deg for a surface that is alike in all directions, "
+                "takes correlation_length_y beside it"
+            )
+        return {"generator", *needed, *optional, *(() if self.generator in SHAPES else _STEPS)}
+
+    def check_geometry(self, geometry: str) -> None:
+        """Refuse what means something to the other kind of contact only.
+
+        Parameters
+        ----------
+        geometry : str
+            Of the contact, "line" or "point".
+
+        Raises
+        ------
+        ValueError
+            Without ``roughness.`` before the key.
+        """
+        if geometry == "line":
+            for name in _POINT_KEYS:
+                if name in self._given():
+                    raise ValueError(
+                        f"{name}: got it for a line contact, which knows no y; takes it for a point contact"
+                    )
+            if self.direction == "y" and not self.assume_transverse:
+                raise ValueError(
+                    "direction: got 'y', measured across entrainment; a line contact sees every profile as "
+                    "ridges across it, takes assume_transverse = true to use it so all the same"
+                )
+        elif self.assume_transverse:
+            raise ValueError(
+                "assume_transverse: got it for a point contact, which knows both directions; takes it for a "
+                "line contact"
+            )
+
+
+def check_geometry(tables: Iterable[Roughness], geometry: str) -> None:
+    """Refuse surfaces that do not fit the contact.
+
+    Raises
+    ------
+    ValueError
+        With the key, what it got and what it takes.
+    """
+    for table in tables:
+        try:
+            table.check_geometry(geometry)
+        except ValueError as error:
+            raise ValueError(f"roughness.{error}") from None

@@ -1,0 +1,59 @@
+"""Table of a rough surface and what was done to it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rich.table import Table
+from rich.text import Text
+
+# Columns of the statistics of a profile and of a map: head, key, and how the number is written.
+_PROFILE_COLUMNS = (
+    ("Rq\n[nm]", "rq", "height"),
+    ("Ra\n[nm]", "ra", "height"),
+    ("Rsk", "rsk", ".2f"),
+    ("Rku", "rku", ".1f"),
+    ("corr.\n[µm]", "correlation_length", "length"),
+    ("max.\nslope", "largest_slope", ".2g"),
+)
+_MAP_COLUMNS = (
+    ("Sq\n[nm]", "sq", "height"),
+    ("Sa\n[nm]", "sa", "height"),
+    ("Ssk", "ssk", ".2f"),
+    ("Sku", "sku", ".1f"),
+    ("corr.\nx [µm]", "correlation_length_x", "length"),
+    ("corr.\ny [µm]", "correlation_length_y", "length"),
+    ("max.\nslope", "largest_slope", ".2g"),
+)
+
+
+def surface_table(surface: dict[str, Any]) -> Table:
+    """What was read of a surface, and its statistics after every step: of a profile or of a map."""
+    first = surface["steps"][0]
+    of_map = "sq" in first
+    size = "made" if surface["size"] is None else " x ".join(str(n) for n in surface["size"]) + " points"
+    void = "" if surface["voids"] is None else f", {100 * surface['voids']:.2g} % void"
+    if surface["height_step"] is not None:
+        void += f", heights in steps of {surface['height_step'] * 1e9:.2g} nm"
+    source = f"{surface['source']}: " if surface["source"] else ""
+    axes = ("spacing_x", "spacing_y") if of_map else ("spacing",)
+    spacing = " x ".join(f"{first[axis] * 1e6:.6g}" for axis in axes)
+    title = f"surface {surface['surface']}, {source}{size}, spacing {spacing} µm{void}"
+    table = Table(title=Text(title), title_justify="left", box=None, padding=(0, 1, 0, 0))
+    table.add_column("step", no_wrap=True)
+    columns = _MAP_COLUMNS if of_map else _PROFILE_COLUMNS
+    for name in ("points", *(head for head, _, _ in columns)):
+        table.add_column(Text(name), justify="right", no_wrap=True)
+    for step in surface["steps"]:
+        points = f"{step['points_x']}x{step['points_y']}" if of_map else str(step["points"])
+        table.add_row(step["step"], points, *(_statistic(step[key], how) for _, key, how in columns))
+    return table
+
+
+def _statistic(value: float, how: str) -> str:
+    match how:
+        case "height":
+            return f"{value * 1e9:.{1 if value < 1e-6 else 0}f}"
+        case "length":
+            return f"{value * 1e6:.3g}"
+    return format(value, how)

@@ -1,0 +1,1 @@
+"""One line or point contact: operating conditions, the problems to solve, the solution, and its files."""

@@ -1,0 +1,66 @@
+"""What a contact says of its two bodies: elasticity and speeds, and where the model ends."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ehlectric.cases.contact import Body, Contact
+from ehlectric.cases.lubricant import Lubricant, density_law, permittivity_law
+from ehlectric.errors import InputError
+from ehlectric.formulas import hertz_line as hertz
+
+
+def modulus_of(contact: Contact) -> tuple[float, float]:
+    """Reduced modulus, and the part of 2/E' that is surface 1's: a half where only E' is known."""
+    if contact.reduced_modulus is not None:
+        return contact.reduced_modulus, 0.5
+    assert contact.body_1 is not None and contact.body_2 is not None
+    first, second = (_compliance(body) for body in (contact.body_1, contact.body_2))
+    return hertz.reduced_modulus(first, second), first / (first + second)
+
+
+def _compliance(body: Body) -> float:
+    assert body.youngs_modulus is not None and body.poissons_ratio is not None
+    return hertz.body_compliance(body.youngs_modulus, body.poissons_ratio)
+
+
+def speeds_of(contact: Contact) -> tuple[float, float]:
+    """Entrainment speed and slide-to-roll ratio."""
+    if contact.entrainment_speed is not None:
+        return contact.entrainment_speed, contact.slide_to_roll_ratio or 0.0
+    assert contact.speed_1 is not None and contact.speed_2 is not None
+    mean = 0.5 * (contact.speed_1 + contact.speed_2)
+    return mean, (contact.speed_1 - contact.speed_2) / mean
+
+
+def surface_ratios(slide_to_roll_ratio: float) -> tuple[float, float]:
+    """Speeds of both surfaces over the entrainment speed.
+
+    Examples
+    --------
+    >>> surface_ratios(0.5)
+    (1.25, 0.75)
+    """
+    return 1.0 + 0.5 * slide_to_roll_ratio, 1.0 - 0.5 * slide_to_roll_ratio
+
+
+def check_width(half_width: float, radius: float) -> None:
+    """Refuse a dry contact as wide as its bodies, which no half-space or parabola describes."""
+    if half_width > 0.5 * radius:
+        raise InputError(
+            f"contact: the dry contact would be {half_width:.3g} m wide on each side, more than half of the "
+            f"smallest radius {radius:.3g} m; takes less load, a larger modulus or less conforming bodies"
+        )
+
+
+def check_pressure(pressure: float, lubricant: Lubricant) -> None:
+    """Refuse a Hertz pressure near the ambient one, or one at which the permittivity has no value."""
+    least = max(1e4, 10.0 * lubricant.ambient_pressure)
+    if pressure < least:
+        raise InputError(
+            f"contact: the Hertz pressure would be {pressure:.3g} Pa, takes a load that gives at least "
+            f"{least:.3g} Pa, well above the ambient {lubricant.ambient_pressure:.3g} Pa"
+        )
+    # A permittivity law that fails at the Hertz pressure does so here; one that fails at the pressure spike
+    # alone can only do so when the film is there.
+    permittivity_law(lubricant)(density_law(lubricant)(np.array([pressure]))[0])

@@ -1,0 +1,198 @@
+"""Film and field as variables of a dataset and back: names, dimensions, long names and units."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ehlectric.arrays import Array
+from ehlectric.film.newton import NewtonStep
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+# Name in the file: (attribute of the film or field, dimensions, long name, unit).
+Variables = Mapping[str, tuple[str, tuple[str, ...], str, str]]
+
+
+@dataclass(frozen=True)
+class Layout:
+    """How the arrays of one kind of contact lie in a file.
+
+    ``film_grid`` and ``field_grid`` are the dimensions of values at the film's nodes and at the columns of
+    the field; ``film_numbers`` and ``field_numbers`` name what is no array.
+    """
+
+    title: str
+    film: Variables
+    field: Variables
+    film_grid: tuple[str, ...]
+    field_grid: tuple[str, ...]
+    film_numbers: tuple[str, ...]
+    field_numbers: tuple[str, ...]
+    coordinates: tuple[str, ...]
+
+
+def on_nodes(*grid: str) -> Variables:
+    """What every film has at its nodes."""
+    return {
+        "pressure": ("pressure", grid, "pressure", "Pa"),
+        "thickness": ("thickness", grid, "film thickness", "m"),
+        "density": ("density", grid, "density over that at zero pressure", "1"),
+        "deflection": ("deflection", grid, "gap opened by the pressure, up to a rigid displacement", "m"),
+        "reynolds_residual": (
+            "reynolds_residual",
+            grid,
+            "residual of the Reynolds equation in units of p/p_h",
+            "1",
+        ),
+        "cavitated": ("cavitated", grid, "pressure held at ambient", "1"),
+    }
+
+
+def on_columns(*grid: str) -> Variables:
+    """What every field has at its columns."""
+    return {
+        "permittivity": ("permittivity", (*grid, "s"), "relative permittivity", "1"),
+        "potential": ("potential", (*grid, "s"), "electric potential", "V"),
+        "field_x": ("field_x", (*grid, "s"), "electric field along x", "V/m"),
+        "field_y": ("field_y", (*grid, "s"), "electric field along y", "V/m"),
+        "strength": ("strength", (*grid, "s"), "electric field strength", "V/m"),
+        "middle_strength": ("middle_strength", grid, "electric field strength at mid-film", "V/m"),
+        "thin_gap_strength": ("thin_gap_strength", grid, "voltage over film thickness", "V/m"),
+    }
+
+
+X = {"x": ("x", ("x",), "position along entrainment", "m")}
+X_FIELD = {"x_field": ("x", ("x_field",), "position along entrainment, columns of the field", "m")}
+S = {"s": ("s", ("s",), "fraction of the gap, from surface 1 to surface 2", "1")}
+FILM_NUMBERS = (
+    "status",
+    "residual",
+    "load_residual",
+    "newton_iterations",
+    "discretisation_error",
+    "inlet_deficit",
+)
+FIELD_NUMBERS = ("voltage", "capacitance", "capacitance_by_charge", "thin_gap_capacitance")
+LINE_LAYOUT = Layout(
+    title="Film and electric field of a line contact",
+    film={**X, **on_nodes("x")},
+    field={
+        **X_FIELD,
+        **S,
+        "y": ("y", ("x_field", "s"), "height", "m"),
+        **on_columns("x_field"),
+        "capacitance_density": (
+            "capacitance_density",
+            ("x_field",),
+            "charge of a surface by voltage, length and width",
+            "F/m^2",
+        ),
+    },
+    film_grid=("x",),
+    field_grid=("x_field",),
+    film_numbers=FILM_NUMBERS,
+    field_numbers=FIELD_NUMBERS,
+    coordinates=("x", "x_field", "s", "y"),
+)
+POINT_LAYOUT = Layout(
+    title="Film and electric field of a point contact",
+    film={**X, "y": ("y", ("y",), "position across entrainment", "m"), **on_nodes("x", "y")},
+    field={
+        **X_FIELD,
+        "y_field": ("y", ("y_field",), "position across entrainment, columns of the field", "m"),
+        **S,
+        "z": ("z", ("x_field", "y_field", "s"), "height", "m"),
+        **on_columns("x_field", "y_field"),
+        "field_z": ("field_z", ("x_field", "y_field", "s"), "electric field along z", "V/m"),
+        "capacitance_density": (
+            "capacitance_density",
+            ("x_field", "y_field"),
+            "charge of surface 2 by voltage and area",
+            "F/m^2",
+        ),
+    },
+    film_grid=("x", "y"),
+    field_grid=("x_field", "y_field"),
+    film_numbers=(*FILM_NUMBERS, "semi_axis_y", "side_deficit"),
+    field_numbers=(*FIELD_NUMBERS, "iterations"),
+    coordinates=("x", "y", "x_field", "y_field", "s", "z"),
+)
+_HISTORY = {
+    "step_nodes": ("nodes", "nodes of the grid of a Newton step"),
+    "step_residual": ("residual", "scaled residual before a Newton step"),
+    "step_krylov_iterations": ("krylov_iterations", "GMRES iterations of a Newton step"),
+}
+_SMOOTH = {
+    "pressure": ("film_grid", "pressure", "Pa"),
+    "thickness": ("film_grid", "film thickness", "m"),
+    "middle_strength": ("field_grid", "electric field strength at mid-film", "V/m"),
+}
+
+
+def variables(
+    layout: Layout, film: Any, field: Any, roughness: Array, smooth: Mapping[str, Array] | None
+) -> dict[str, Any]:
+    """All arrays, as xarray takes them: dimensions, values, and long name and unit."""
+    named: dict[str, Any] = {}
+    for part, table in ((film, layout.film), (field, layout.field)):
+        for name, (attribute, dimensions, long_name, unit) in table.items():
+            values = np.asarray(getattr(part, attribute))
+            values = values.astype(np.int8) if values.dtype == bool else values
+            named[name] = (dimensions, values, {"long_name": long_name, "units": unit})
+    for name, (attribute, long_name) in _HISTORY.items():
+        values = np.array([getattr(step, attribute) for step in film.steps])
+        named[name] = ("step", values, {"long_name": long_name, "units": "1"})
+    for k, heights in enumerate(roughness, 1):
+        about = {"long_name": f"roughness of surface {k}, out of the body", "units": "m"}
+        named[f"roughness_{k}"] = (layout.film_grid, heights, about)
+    for name, values in (smooth or {}).items():
+        grid, what, unit = _SMOOTH[name]
+        about = {"long_name": f"{what} of smooth surfaces", "units": unit}
+        named[f"smooth_{name}"] = (getattr(layout, grid), values, about)
+    return named
+
+
+def smooth_of(dataset: xr.Dataset) -> dict[str, Array] | None:
+    """Arrays of the smooth contact, where there is one."""
+    if "smooth_pressure" not in dataset:
+        return None
+    return {name: dataset[f"smooth_{name}"].values for name in _SMOOTH}
+
+
+def roughness_of(dataset: xr.Dataset) -> Array:
+    """The roughness a dataset was made of."""
+    return np.stack([dataset["roughness_1"].values, dataset["roughness_2"].values])
+
+
+def attributes(layout: Layout, film: Any, field: Any) -> dict[str, str]:
+    """What is no array, as JSON."""
+    return {
+        "film": json.dumps({name: getattr(film, name) for name in layout.film_numbers}),
+        "field": json.dumps({name: getattr(field, name) for name in layout.field_numbers}),
+    }
+
+
+def film_parts(layout: Layout, dataset: xr.Dataset) -> dict[str, Any]:
+    """What the film of a dataset was made of, but its scales."""
+    arrays: dict[str, Any] = dict(_arrays(dataset, layout.film))
+    arrays["cavitated"] = arrays["cavitated"].astype(bool)
+    history = zip(*(dataset[name].values for name in _HISTORY), strict=True)
+    steps = tuple(NewtonStep(int(n), float(residual), int(krylov)) for n, residual, krylov in history)
+    return {**arrays, **json.loads(dataset.attrs["film"]), "steps": steps}
+
+
+def field_parts(layout: Layout, dataset: xr.Dataset) -> dict[str, Any]:
+    """What the field of a dataset was made of."""
+    return {**dict(_arrays(dataset, layout.field)), **json.loads(dataset.attrs["field"])}
+
+
+def _arrays(dataset: xr.Dataset, table: Variables) -> Iterator[tuple[str, Any]]:
+    for name, (attribute, *_) in table.items():
+        yield attribute, dataset[name].values

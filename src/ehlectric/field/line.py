@@ -1,0 +1,230 @@
+"""The electric field in the gap between two conductors: strength, capacitance, zone of high field."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.constants import epsilon_0
+
+from ehlectric.arrays import Array, Mask
+from ehlectric.field.poisson import (
+    Across,
+    BandedSolver,
+    Elements,
+    FieldProblem,
+    Quadrature,
+    mean_permittivity,
+    nodal_values,
+)
+from ehlectric.field.strength import GapField
+from ehlectric.field.zones import HIGH_FIELD, interval_above, part_widths
+from ehlectric.runtime.threads import one_blas_thread
+
+
+@dataclass(frozen=True)
+class Field(GapField):
+    """Potential and field strength between the walls, SI units.
+
+    Attributes
+    ----------
+    x, s : ndarray, shapes (nx,), (ns,)
+        Position along the gap [m] and fraction of the gap from the lower wall.
+    y, potential, field_x, field_y, strength : ndarray, shape (nx, ns)
+        Height [m], potential [V], components of E = -grad V and its magnitude [V/m].
+    middle_strength : ndarray, shape (nx,)
+        abs(E) at s = 1/2 [V/m].
+    thin_gap_strength : ndarray, shape (nx,)
+        voltage/h(x) [V/m].
+    capacitance, capacitance_by_charge : float
+        Per length, from the energy of the field and from the charge of a wall [F/m]; without the free charge.
+        They agree unless the end faces have given potentials.
+    thin_gap_capacitance : float
+        Integral of eps0 eps/h [F/m].
+    capacitance_density : ndarray, shape (nx,)
+        Charge of a wall by voltage, length and width [F/m^2]; its integral by the trapezoidal rule is
+        ``capacitance_by_charge``.
+    """
+
+    x: Array
+    s: Array
+    y: Array
+    permittivity: Array
+    potential: Array
+    field_x: Array
+    field_y: Array
+    strength: Array
+    middle_strength: Array
+    thin_gap_strength: Array
+    voltage: float
+    capacitance: float
+    capacitance_by_charge: float
+    thin_gap_capacitance: float
+    capacitance_density: Array
+
+    @property
+    def max_strength_position(self) -> float:
+        """Position of the largest abs(E) [m]."""
+        return float(self.x[np.argmax(self.column_strength)])
+
+    @property
+    def inner(self) -> Mask:
+        """Columns more than three gaps from the ends of the range, whose faces disturb the field."""
+        gap = self.voltage / self.thin_gap_strength
+        inner: Mask = (self.x > self.x[0] + 3.0 * gap[0]) & (self.x < self.x[-1] - 3.0 * gap[-1])
+        return inner
+
+    @property
+    def high_field_zone(self) -> tuple[float, float]:
+        """Ends of the contiguous interval around its maximum where the mid-film abs(E) is at least
+        95 % of that maximum [m], interpolated between nodes.
+        """
+        level = HIGH_FIELD * float(np.max(self.middle_strength))
+        return interval_above(self.x, self.middle_strength, level)
+
+    @property
+    def high_field_width(self) -> float:
+        """Width of the high-field zone [m]."""
+        start, stop = self.high_field_zone
+        return stop - start
+
+    def strength_at(self, height: float) -> Array:
+        """Field strength along a straight line of constant height.
+
+        Parameters
+        ----------
+        height : float
+            The line's y [m].
+
+        Returns
+        -------
+        ndarray, shape (nx,)
+            abs(E) [V/m], not a number where the line is outside the gap.
+        """
+        lower, upper = self.y[:, 0], self.y[:, -1]
+        at = ((height - lower) / (upper - lower))[:, np.newaxis]
+        basis = np.ones_like(self.y)
+        for k, node in enumerate(self.s):
+            others = np.delete(self.s, k)
+            basis[:, k] = np.prod((at - others) / (node - others), axis=1)
+        strength = np.hypot(np.sum(basis * self.field_x, axis=1), np.sum(basis * self.field_y, axis=1))
+        return np.where((lower <= height) & (height <= upper), strength, np.nan)
+
+
+def solve_field(problem: FieldProblem) -> Field:
+    """Solve the Poisson problem between two conducting walls.
+
+    Parameters
+    ----------
+    problem : FieldProblem
+        Geometry, permittivity, potentials and charge, SI units.
+
+    Returns
+    -------
+    Field
+        Potential, field and what follows from them.
+
+    Notes
+    -----
+    Eq. (15) of Morris et al. (2022), doi:10.3390/lubricants10050087, with Dirichlet walls. The charge of
+    a wall is the residual of its nodes, so that energy and charge give one capacitance.
+
+    Examples
+    --------
+    A plate capacitor, 1 mm wide with a gap of 1 um: eps0 times a thousand.
+
+    >>> import numpy as np
+    >>> x = np.linspace(0.0, 1e-3, 11)
+    >>> plates = FieldProblem(x, 0.0 * x, 0.0 * x + 1e-6, 1.0 + 0.0 * x, 0.0, 1.0)
+    >>> round(solve_field(plates).capacitance * 1e9, 6)
+    8.854188
+    """
+    voltage = problem.potential_2 - problem.potential_1
+    with one_blas_thread():
+        quadrature = Quadrature.of(problem)
+        elements = quadrature.elements()
+        solver = BandedSolver(elements, fixed_ends=problem.end_potentials is not None)
+        # Relative to wall 1: a large common potential must not cost digits of the field.
+        lifted = _lift(problem, quadrature.across.nodes)
+        free = _solve(solver, elements, lifted, np.zeros_like(lifted))
+        potential = free
+        if problem.charge_density is not None:
+            load = quadrature.charge(problem.charge_density)
+            potential = _solve(solver, elements, lifted, load)
+    charges = epsilon_0 * elements.apply(free)[:, -1]
+    return field_from_potential(
+        problem,
+        potential,
+        capacitance=epsilon_0 * quadrature.energy(free) / voltage**2,
+        capacitance_density=charges / voltage / part_widths(problem.x, -np.inf, np.inf),
+    )
+
+
+def _lift(problem: FieldProblem, s: Array) -> Array:
+    """Potential above wall 1 that meets the boundary conditions: linear across, or given on the end faces."""
+    linear = (problem.potential_2 - problem.potential_1) * s
+    lifted = np.repeat(linear[np.newaxis], problem.x.size, axis=0)
+    if problem.end_potentials is not None:
+        left, right = problem.end_potentials
+        lifted[0, 1:-1] = left[1:-1] - problem.potential_1
+        lifted[-1, 1:-1] = right[1:-1] - problem.potential_1
+    return lifted
+
+
+def _solve(solver: BandedSolver, elements: Elements, lifted: Array, load: Array) -> Array:
+    """Nodal potential above wall 1 with the boundary values of ``lifted``."""
+    potential = lifted.copy()
+    potential[:, 1:-1] += solver((load - elements.apply(lifted))[:, 1:-1])
+    return potential
+
+
+def field_from_potential(
+    problem: FieldProblem, potential: Array, *, capacitance: float, capacitance_density: Array
+) -> Field:
+    """Field strength by differentiation of a potential, and the thin-gap estimates.
+
+    Parameters
+    ----------
+    problem : FieldProblem
+        What was solved.
+    potential : ndarray, shape (nx, degree + 1)
+        Potential above wall 1 at the nodes [V].
+    capacitance : float
+        Per length, from the energy [F/m].
+    capacitance_density : ndarray, shape (nx,)
+        Charge of a wall by voltage, length and width [F/m^2].
+
+    Returns
+    -------
+    Field
+        All that follows from them.
+    """
+    across = Across.of_degree(problem.degree)
+    x, s = problem.x, across.nodes
+    gap = problem.upper - problem.lower
+    slope = np.gradient(problem.lower, x, edge_order=2)[:, np.newaxis] + (
+        np.gradient(gap, x, edge_order=2)[:, np.newaxis] * s
+    )
+    by_s = potential @ across.derivative.T / gap[:, np.newaxis]
+    field_y = -by_s
+    field_x = slope * by_s - np.gradient(potential, x, axis=0, edge_order=2)
+    voltage = abs(problem.potential_2 - problem.potential_1)
+    middle = np.hypot(field_x @ across.at_middle, field_y @ across.at_middle)
+    permittivity = nodal_values(problem.permittivity, s.size)
+    return Field(
+        x=x,
+        s=s,
+        y=problem.lower[:, np.newaxis] + gap[:, np.newaxis] * s,
+        permittivity=permittivity,
+        potential=problem.potential_1 + potential,
+        field_x=field_x,
+        field_y=field_y,
+        strength=np.hypot(field_x, field_y),
+        middle_strength=middle,
+        thin_gap_strength=voltage / gap,
+        voltage=voltage,
+        capacitance=capacitance,
+        capacitance_by_charge=float(np.trapezoid(capacitance_density, x)),
+        thin_gap_capacitance=float(np.trapezoid(epsilon_0 * mean_permittivity(permittivity) / gap, x)),
+        capacitance_density=capacitance_density,
+    )

@@ -1,0 +1,263 @@
+"""Poisson's equation between two conductors, discretised in mapped coordinates.
+
+div(eps grad V) = -rho_q/eps0 between y1(x) and y2(x), with s = (y - y1)/h, so that both walls are grid lines.
+Galerkin: linear elements along x, one polynomial of a few degrees across the gap on Gauss-Lobatto-Legendre
+nodes. The matrix is symmetric, banded and factorised directly.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+from scipy.constants import epsilon_0
+from scipy.linalg import cho_solve_banded, cholesky_banded
+from scipy.special import eval_legendre, roots_jacobi
+
+from ehlectric.arrays import Array
+
+# Two Gauss points along an element: more would not raise the order of linear elements.
+GAUSS = np.array([0.5 - 0.5 / np.sqrt(3.0), 0.5 + 0.5 / np.sqrt(3.0)])
+
+# Gap below which walls count as this far apart [m]: the size of an atom.
+ATOM = 1e-10
+
+
+def lobatto_nodes(degree: int) -> Array:
+    """Gauss-Lobatto-Legendre nodes on [0, 1], ascending, shape (degree + 1,).
+
+    Examples
+    --------
+    >>> [float(s) for s in lobatto_nodes(2)]
+    [0.0, 0.5, 1.0]
+    """
+    interior = roots_jacobi(degree - 1, 1.0, 1.0)[0] if degree > 1 else np.empty(0)
+    return 0.5 * (1.0 + np.concatenate([[-1.0], interior, [1.0]]))
+
+
+@dataclass(frozen=True)
+class Across:
+    """Nodes, weights and differentiation across the gap, and the element matrices made of them."""
+
+    nodes: Array  # (ns,)
+    weights: Array  # (ns,)
+    derivative: Array  # (ns, ns), d/ds at the nodes
+    at_middle: Array  # (ns,), interpolation to s = 1/2
+    slope: Array  # (ns, ns, ns): by quadrature point, product of two derivatives
+    mixed: Array  # value of the first times derivative of the second
+    mass: Array  # product of two values
+
+    @classmethod
+    @cache
+    def of_degree(cls, degree: int) -> Across:
+        """Everything across the gap that depends on the degree alone."""
+        s = lobatto_nodes(degree)
+        t = 2.0 * s - 1.0
+        weights = 1.0 / (degree * (degree + 1) * eval_legendre(degree, t) ** 2)
+        difference = s[:, np.newaxis] - s + np.eye(s.size)
+        barycentric = 1.0 / np.prod(difference, axis=1)
+        derivative = barycentric / barycentric[:, np.newaxis] / difference
+        np.fill_diagonal(derivative, 0.0)
+        np.fill_diagonal(derivative, -derivative.sum(axis=1))
+        at_middle = np.array(
+            [np.prod((0.5 - np.delete(s, k)) / (s[k] - np.delete(s, k))) for k in range(s.size)]
+        )
+        values = np.eye(s.size)
+        return cls(
+            nodes=s,
+            weights=weights,
+            derivative=derivative,
+            at_middle=at_middle,
+            slope=np.einsum("qk,ql->qkl", derivative, derivative),
+            mixed=np.einsum("qk,ql->qkl", values, derivative),
+            mass=np.einsum("qk,ql->qkl", values, values),
+        )
+
+
+@dataclass(frozen=True)
+class FieldProblem:
+    """Two conductors and what is between them.
+
+    Parameters
+    ----------
+    x : ndarray, shape (nx,)
+        Positions along the gap [m], increasing, any spacing.
+    lower, upper : ndarray, shape (nx,)
+        Surfaces y1(x) < y2(x) [m], at ``potential_1`` and ``potential_2``.
+    permittivity : ndarray, shape (nx,) or (nx, degree + 1)
+        Relative permittivity, uniform across the gap or at its nodes.
+    potential_1, potential_2 : float
+        Potentials of the walls [V], different.
+    degree : int
+        Polynomial degree across the gap, at least 2.
+    charge_density : ndarray, shape (nx, degree + 1), optional
+        Free charge in the gap [C/m^3], at the nodes s = ``lobatto_nodes(degree)``.
+    end_potentials : pair of ndarray, shape (degree + 1,), optional
+        Potential on the end faces [V]; without it no flux leaves there.
+    """
+
+    x: Array
+    lower: Array
+    upper: Array
+    permittivity: Array
+    potential_1: float
+    potential_2: float
+    degree: int = 6
+    charge_density: Array | None = None
+    end_potentials: tuple[Array, Array] | None = None
+
+
+@dataclass(frozen=True)
+class Elements:
+    """Element matrices between the two columns of every element, each (nx - 1, ns, ns)."""
+
+    left: Array
+    cross: Array  # rows of the left column, columns of the right
+    right: Array
+
+    def apply(self, v: Array) -> Array:
+        """The assembled operator times nodal values (nx, ns)."""
+        a, b = v[:-1], v[1:]
+        product = np.zeros_like(v)
+        product[:-1] += _rows(self.left, a) + _rows(self.cross, b)
+        product[1:] += _rows(np.swapaxes(self.cross, 1, 2), a) + _rows(self.right, b)
+        return product
+
+
+def _rows(matrices: Array, vectors: Array) -> Array:
+    product: Array = np.matmul(matrices, vectors[:, :, np.newaxis])[:, :, 0]
+    return product
+
+
+@dataclass(frozen=True)
+class Quadrature:
+    """Geometry and permittivity at the quadrature points of the elements."""
+
+    across: Across
+    dx: Array  # (ne,)
+    shapes: Array  # (2 nodes, 2 Gauss points)
+    gap: Array  # (ne, 2 Gauss points)
+    slope: Array  # (ne, ns), dy/dx at fixed s
+    permittivity: Array  # (ne, 2 Gauss points, ns)
+
+    @classmethod
+    def of(cls, problem: FieldProblem) -> Quadrature:
+        """The quadrature of a problem."""
+        across = Across.of_degree(problem.degree)
+        dx = np.diff(problem.x)
+        gap = problem.upper - problem.lower
+        slope = (np.diff(problem.lower)[:, np.newaxis] + np.diff(gap)[:, np.newaxis] * across.nodes) / dx[
+            :, np.newaxis
+        ]
+        shapes = np.stack([1.0 - GAUSS, GAUSS])
+        nodal = nodal_values(problem.permittivity, across.nodes.size)
+        return cls(
+            across=across,
+            dx=dx,
+            shapes=shapes,
+            gap=np.stack([gap[:-1], gap[1:]], axis=1) @ shapes,
+            slope=slope,
+            permittivity=np.einsum("aeq,ag->egq", np.stack([nodal[:-1], nodal[1:]]), shapes),
+        )
+
+    def elements(self) -> Elements:
+        """Element matrices of the integral of eps grad W . grad V over x and y.
+
+        With the slope m of the lines of constant s, grad = (d/dx - (m/h) d/ds, (1/h) d/ds) and
+        dx dy = h dx ds.
+        """
+        return Elements(self._matrix(0, 0), self._matrix(0, 1), self._matrix(1, 1))
+
+    def _matrix(self, a: int, b: int) -> Array:
+        across, shapes = self.across, self.shapes
+        sign = (-1.0, 1.0)
+        half = 0.5 * self.dx[:, np.newaxis] * across.weights
+        eps_a = half * np.einsum("egq,g->eq", self.permittivity, shapes[a])
+        eps_b = half * np.einsum("egq,g->eq", self.permittivity, shapes[b])
+        eps_h = half * np.einsum("egq,eg->eq", self.permittivity, self.gap)
+        eps_ab = half * np.einsum("egq,eg->eq", self.permittivity, shapes[a] * shapes[b] / self.gap)
+        per_dx = 1.0 / self.dx[:, np.newaxis]
+        coefficients = np.concatenate(
+            [
+                eps_ab * (1.0 + self.slope**2),
+                -sign[a] * per_dx * self.slope * eps_b,
+                -sign[b] * per_dx * self.slope * eps_a,
+                sign[a] * sign[b] * per_dx**2 * eps_h,
+            ],
+            axis=1,
+        )
+        ns = across.nodes.size
+        reference = np.concatenate([across.slope, across.mixed, np.swapaxes(across.mixed, 1, 2), across.mass])
+        matrix: Array = (coefficients @ reference.reshape(4 * ns, ns * ns)).reshape(-1, ns, ns)
+        return matrix
+
+    def charge(self, density: Array) -> Array:
+        """Right side of a charge density (nx, ns): the integral of W rho_q/eps0."""
+        load = np.zeros_like(density)
+        pair = np.stack([density[:-1], density[1:]])
+        at_points = np.einsum("aeq,ag->egq", pair, self.shapes) * self.gap[:, :, np.newaxis]
+        half = 0.5 * self.dx[:, np.newaxis] * self.across.weights / epsilon_0
+        load[:-1] += half * np.einsum("egq,g->eq", at_points, self.shapes[0])
+        load[1:] += half * np.einsum("egq,g->eq", at_points, self.shapes[1])
+        return load
+
+    def energy(self, v: Array) -> float:
+        """Integral of eps abs(grad V)^2, from the gradients at the quadrature points [V^2]."""
+        derivative = v @ self.across.derivative.T
+        total = 0.0
+        along = np.diff(v, axis=0) / self.dx[:, np.newaxis]
+        for g in range(GAUSS.size):
+            h = self.gap[:, g, np.newaxis]
+            ds = self.shapes[0, g] * derivative[:-1] + self.shapes[1, g] * derivative[1:]
+            square = (along - self.slope / h * ds) ** 2 + (ds / h) ** 2
+            cell = 0.5 * self.dx[:, np.newaxis] * self.across.weights * h
+            total += float(np.sum(cell * self.permittivity[:, g] * square))
+        return total
+
+
+def nodal_values(values: Array, ns: int) -> Array:
+    """Values at the nodes (nx, ns), of values by column or by node."""
+    return values if values.ndim == 2 else np.repeat(values[:, np.newaxis], ns, axis=1)
+
+
+def mean_permittivity(permittivity: Array) -> Array:
+    """Relative permittivity of a gap, of that at its nodes across (..., ns).
+
+    Layers of different permittivity are in series: their reciprocals average across the gap.
+    """
+    mean: Array = 1.0 / ((1.0 / permittivity) @ Across.of_degree(permittivity.shape[-1] - 1).weights)
+    return mean
+
+
+class BandedSolver:
+    """Banded Cholesky factors of the interior unknowns, ordered column by column."""
+
+    def __init__(self, elements: Elements, *, fixed_ends: bool) -> None:
+        inner = slice(1, -1)
+        columns, ns = elements.left.shape[0] + 1, elements.left.shape[1] - 2
+        diagonal = np.zeros((columns, ns, ns))
+        diagonal[:-1] += elements.left[:, inner, inner]
+        diagonal[1:] += elements.right[:, inner, inner]
+        below = np.swapaxes(elements.cross[:, inner, inner], 1, 2).copy()
+        if fixed_ends:
+            diagonal[[0, -1]] = np.eye(ns)
+            below[[0, -1]] = 0.0
+        self.columns, self.ns, self.fixed_ends = columns, ns, fixed_ends
+        band = np.zeros((2 * ns, columns, ns))
+        for k in range(ns):
+            for row in range(ns):
+                if row >= k:
+                    band[row - k, :, k] = diagonal[:, row, k]
+                band[ns + row - k, :-1, k] = below[:, row, k]
+        self.factor = cholesky_banded(
+            band.reshape(2 * ns, columns * ns), lower=True, overwrite_ab=True, check_finite=False
+        )
+
+    def __call__(self, right: Array) -> Array:
+        """Interior values (nx, ns) with the assembled operator times them equal to ``right``."""
+        r = right.copy()
+        if self.fixed_ends:
+            r[[0, -1]] = 0.0
+        solution = cho_solve_banded((self.factor, True), r.reshape(-1), check_finite=False)
+        return solution.reshape(self.columns, self.ns)

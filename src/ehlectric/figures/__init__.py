@@ -1,0 +1,1 @@
+"""All figures; no other package draws."""

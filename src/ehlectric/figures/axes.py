@@ -1,0 +1,153 @@
+"""Axes of figures: ticks, levels and colours of linear and of logarithmic values."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from matplotlib import colormaps
+from matplotlib.axes import Axes
+from matplotlib.axis import Axis
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Colormap, ListedColormap, LogNorm, Normalize
+from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullFormatter, NullLocator
+
+from ehlectric.arrays import Array
+from ehlectric.figures.style import figure_of
+
+COLOURS = colormaps["viridis"]
+
+# For lines and dots on white: without the lightest, which is hardly seen there.
+DARK_COLOURS = ListedColormap(COLOURS(np.linspace(0.0, 0.85, 256)))
+
+# Values that differ by more than this ratio have logarithmic colours or axes.
+WIDE = 20.0
+
+# How many values, of how many letters at most, are the ticks of their axis.
+_FEW_VALUES, _SHORT = 8, 4
+
+# Round numbers in a decade, few, some and many.
+_FEW, _SOME = (1.0, 2.0, 5.0), (1.0, 1.5, 2.0, 3.0, 5.0, 7.0)
+_MANY = (1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0)
+
+
+def scale_axis(axis: Axis, text: str, *, values: Array, log: bool) -> None:
+    """Label an axis; where it is logarithmic, with ticks at round numbers.
+
+    Parameters
+    ----------
+    axis : Axis
+        The x or y axis.
+    text : str
+        Its label.
+    values : ndarray
+        What is drawn along it, in its unit.
+    log : bool
+        Whether it is logarithmic.
+    """
+    axis.set_label_text(text)
+    if not log:
+        return
+    ax = axis.axes
+    assert ax is not None
+    (ax.set_xscale if axis.axis_name == "x" else ax.set_yscale)("log")  # type: ignore[attr-defined]
+    finite = values[np.isfinite(values)]
+    axis.set_major_locator(FixedLocator(list(_ticks(np.unique(finite)))))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axis.set_minor_locator(NullLocator())
+    axis.set_minor_formatter(NullFormatter())
+
+
+def _ticks(values: Array) -> Array:
+    """The values themselves where they are few and short, else round numbers."""
+    if values.size <= _FEW_VALUES and all(len(f"{value:g}") <= _SHORT for value in values):
+        return values
+    return np.asarray(round_numbers(float(values[0]), float(values[-1])))
+
+
+def round_numbers(low: float, high: float) -> Array:
+    """Four or more round numbers from ``low`` to ``high``, evenly in their logarithm; decades of wide ranges.
+
+    Examples
+    --------
+    >>> round_numbers(0.2, 2.0)
+    array([0.2, 0.5, 1. , 2. ])
+    """
+    decades = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
+    slack = 1e-9
+    found = np.empty(0)
+    for steps in ((1.0,), _FEW, _SOME, _MANY):
+        all_steps = np.array([float(f"{step}e{decade}") for decade in decades for step in steps])
+        found = all_steps[(all_steps >= low * (1.0 - slack)) & (all_steps <= high * (1.0 + slack))]
+        if found.size >= 4:
+            return found
+    return np.asarray(MaxNLocator(5).tick_values(low, high))
+
+
+def is_wide(values: Array) -> bool:
+    """Whether values, those that are finite, are positive and differ widely."""
+    return by_logarithm(values, log_axis=False)
+
+
+def by_logarithm(values: Array, *, log_axis: bool) -> bool:
+    """Whether it is the logarithm of values that is linear between points.
+
+    Film and breakdown voltage go nearly with powers of speed and load; straight lines over a logarithmic axis
+    would overstate them between the points.
+
+    Parameters
+    ----------
+    values : ndarray
+        Those that are not finite do not count.
+    log_axis : bool
+        Whether an axis that they lie over is logarithmic.
+
+    Examples
+    --------
+    >>> by_logarithm(np.array([1.0, 2.0]), log_axis=False), by_logarithm(np.array([1.0, 2.0]), log_axis=True)
+    (False, True)
+    """
+    finite = values[np.isfinite(values)]
+    if not finite.size or finite.min() <= 0.0:
+        return False
+    return log_axis or bool(finite.max() > WIDE * finite.min())
+
+
+def levels_of(values: Array, *, log: bool) -> Array:
+    """Round levels from the least of values or below to the largest or above; not finite ones do not count.
+
+    Examples
+    --------
+    >>> levels_of(np.array([3.0, 9.5]), log=False)
+    array([3. , 3.5, 4. , 4.5, 5. , 5.5, 6. , 6.5, 7. , 7.5, 8. , 8.5, 9. ,
+           9.5])
+    >>> levels_of(np.array([0.03, 20.0]), log=True)
+    array([ 0.02,  0.05,  0.1 ,  0.2 ,  0.5 ,  1.  ,  2.  ,  5.  , 10.  ,
+           20.  ])
+    """
+    finite = values[np.isfinite(values)]
+    low, high = float(finite.min()), float(finite.max())
+    if log:
+        steps = (1.0,) if high > 1e5 * low else _FEW if high > 300.0 * low else _SOME
+        decades = range(math.floor(math.log10(low)) - 1, math.ceil(math.log10(high)) + 2)
+        found = np.array([float(f"{step}e{decade}") for decade in decades for step in steps])
+    else:
+        room = 0.0 if high - low > 1e-6 * abs(high) else 0.01 * abs(high) or 1.0
+        found = np.asarray(MaxNLocator(14, steps=[1, 2, 2.5, 5, 10]).tick_values(low - room, high + room))
+        low, high = low - room, high + room
+    first = int(np.searchsorted(found, low, side="right")) - 1
+    last = int(np.searchsorted(found, high, side="left"))
+    return found[max(first, 0) : max(last, first + 1) + 1]
+
+
+def norm_of(levels: Array, *, log: bool) -> Normalize:
+    """Colours from the first level to the last."""
+    return LogNorm(levels[0], levels[-1]) if log else Normalize(levels[0], levels[-1])
+
+
+def colour_bar(ax: Axes, norm: Normalize, text: str, levels: Array, colours: Colormap = COLOURS) -> None:
+    """Colour bar with round levels, every second or third one named where they are many."""
+    bar = figure_of(ax).colorbar(ScalarMappable(norm, colours), ax=ax, label=text, pad=0.02)
+    ticks = levels if levels.size <= 9 else levels[:: 2 if levels.size <= 18 else 3]
+    bar.set_ticks(list(ticks), labels=[f"{level:.6g}" for level in ticks])
+    bar.ax.minorticks_off()

@@ -1,0 +1,302 @@
+"""Figures of cuts through a point contact: pressure, film and field over x and y, sections of the film."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+from numpy.typing import NDArray
+
+from ehlectric.arrays import Array, Mask
+from ehlectric.cases.quantity import unit_for
+from ehlectric.contact.results import PointResult
+from ehlectric.field.point import PointField
+from ehlectric.figures.contact.maps import film_unit, film_window, round_levels
+from ehlectric.figures.section import draw_section
+from ehlectric.figures.style import (
+    BLUE,
+    GREY,
+    ORANGE,
+    axes_or_new,
+    figure_of,
+    label_position,
+    legend_above,
+    new_panels,
+)
+
+# Of the lines through the centre and through the least film or the largest field.
+_LOOKS = ((BLUE, "-"), (ORANGE, (0, (4.0, 1.2))))
+
+
+@dataclass(frozen=True)
+class Cut:
+    """A straight cut along the axis "x" or "y" of a map: its line is at the node nearest to a position.
+
+    ``index`` is that of the node on the other axis, ``position`` [m] where it is there.
+    """
+
+    along: str
+    index: int
+    position: float
+
+    @classmethod
+    def near(cls, along: str, at: tuple[float, float], x: Array, y: Array) -> Cut:
+        """The cut along an axis of nodes x, y [m] that passes nearest to a point (x, y) [m]."""
+        axis, position = (y, at[1]) if along == "x" else (x, at[0])
+        index = int(np.argmin(np.abs(axis - position)))
+        return cls(along, index, float(axis[index]))
+
+    def of(self, values: NDArray[Any]) -> NDArray[Any]:
+        """Values (nx, ny, ...) on the line."""
+        return values[:, self.index] if self.along == "x" else values[self.index]
+
+    def away(self, field: PointField) -> Mask:
+        """Which of the columns on the line are away from the side faces; all, where the line is along one."""
+        on: Mask = self.of(field.inner)
+        return on if np.count_nonzero(on) > 2 else np.ones_like(on)
+
+    def name(self, result: PointResult) -> str:
+        """Where it is."""
+        axis = "y" if self.along == "x" else "x"
+        at = round(self.position / result.conditions.semi_axis_x, 6) + 0.0  # no 1e-17 at the centre, no -0
+        return f"${axis}/b$ = {at:.3g}".replace("-", "−")
+
+
+def pressure_cut(result: PointResult, ax: Axes | None = None, *, along: str = "x") -> Axes:
+    """Pressure on the line through the centre and on that through the least film, with the Hertz pressure.
+
+    Parameters
+    ----------
+    result : PointResult
+        What to draw.
+    ax : Axes, optional
+        Where to; new axes otherwise.
+    along : str
+        "x", along entrainment, or "y", across it.
+
+    Returns
+    -------
+    Axes
+        With a legend above them.
+    """
+    ax = axes_or_new(ax)
+    film, conditions = result.film, result.conditions
+    factor, unit = unit_for(film.max_pressure, "Pa")
+    across = np.linspace(-1.0, 1.0, 401)
+    hertz = factor * conditions.max_pressure * np.sqrt(1.0 - across**2)
+    lines = ax.plot(
+        _semi_axis(result, along) * across, hertz, color=GREY, ls=":", lw=0.9, label="Hertz pressure, centre"
+    )
+    lines += _film_lines(result, ax, along, factor * film.pressure)
+    ax.set_ylabel(f"pressure $p$ [{unit}]")
+    ax.set_ylim(0.0, 1.05 * factor * max(film.max_pressure, conditions.max_pressure))
+    legend_above(ax, lines, 1)
+    return ax
+
+
+def film_cut(result: PointResult, ax: Axes | None = None, *, along: str = "x") -> Axes:
+    """Film thickness on the line through the centre and on that through the least film.
+
+    Parameters
+    ----------
+    result : PointResult
+        What to draw.
+    ax : Axes, optional
+        Where to; new axes otherwise.
+    along : str
+        "x", along entrainment, or "y", across it.
+
+    Returns
+    -------
+    Axes
+        Up to twice the central or the mean film; smooth surfaces dotted beside rough ones.
+    """
+    ax, film = axes_or_new(ax), result.film
+    factor, unit = film_unit(result)
+    if result.smooth is not None:
+        for cut in _film_cuts(result, along):
+            smooth = factor * cut.of(result.smooth.thickness)
+            (line,) = ax.plot(_axis(result, along), smooth, color="black", lw=0.9, ls=":")
+        line.set_label("smooth surfaces")
+        legend_above(ax, [line])
+    _film_lines(result, ax, along, factor * film.thickness)
+    ax.set_ylabel(f"film thickness $h$ [{unit}]")
+    ax.set_ylim(0.0, 2.0 * factor * max(film.central_thickness, film.mean_thickness))
+    return ax
+
+
+def field_cut(result: PointResult, ax: Axes | None = None, *, along: str = "x") -> Axes:
+    """Field strength at mid-film on the lines through the centre and the largest field, with V12/h behind it.
+
+    Parameters
+    ----------
+    result : PointResult
+        What to draw.
+    ax : Axes, optional
+        Where to; new axes otherwise.
+    along : str
+        "x", along entrainment, or "y", across it.
+
+    Returns
+    -------
+    Axes
+        Without the edges of the range of the field, whose faces disturb it.
+    """
+    ax, field = axes_or_new(ax), result.field
+    factor, unit = unit_for(field.max_strength, "V/m")
+    places = ((0.0, 0.0), field.max_strength_position)
+    at = (field.x if along == "x" else field.y) / result.conditions.semi_axis_x
+    for place, (color, line) in zip(places, _LOOKS, strict=True):
+        cut = Cut.near(along, place, field.x, field.y)
+        on = cut.away(field)
+        ax.plot(at[on], factor * cut.of(field.thin_gap_strength)[on], color=color, lw=4.0, alpha=0.25)
+        (last,) = ax.plot(at[on], factor * cut.of(field.middle_strength)[on], color=color, ls=line)
+    last.set_label(f"largest field, {cut.name(result)}")
+    band = Line2D([], [], color=GREY, lw=4.0, alpha=0.4, label="$V_{12}/h$, behind the lines")
+    legend_above(ax, [last, band], 1)
+    ax.set_ylabel(f"mid-film field $|E|$ [{unit}]")
+    ax.set_ylim(0.0, 1.08 * factor * field.max_strength)
+    return ax
+
+
+def _axis(result: PointResult, along: str) -> Array:
+    """Positions of the film's nodes along a cut, in semi-axes b."""
+    film = result.film
+    at: Array = (film.x if along == "x" else film.y) / result.conditions.semi_axis_x
+    return at
+
+
+def _semi_axis(result: PointResult, along: str) -> float:
+    """Half of the dry contact along a cut, in semi-axes b."""
+    return 1.0 if along == "x" else result.conditions.ratio
+
+
+def _film_cuts(result: PointResult, along: str) -> list[Cut]:
+    film = result.film
+    return [Cut.near(along, at, film.x, film.y) for at in ((0.0, 0.0), film.minimum_position)]
+
+
+def _film_lines(result: PointResult, ax: Axes, along: str, values: Array) -> list[Line2D]:
+    lines: list[Line2D] = []
+    for cut, name, (color, line) in zip(
+        _film_cuts(result, along), ("centre", "least film"), _LOOKS, strict=True
+    ):
+        label = f"{name}, {cut.name(result)}"
+        lines += ax.plot(_axis(result, along), cut.of(values), color=color, ls=line, label=label)
+    return lines
+
+
+def cuts(result: PointResult, axes: Sequence[Axes] | None = None) -> Axes:
+    """Pressure, film and field on lines along and across entrainment, through the centre and the least film.
+
+    Parameters
+    ----------
+    result : PointResult
+        What to draw.
+    axes : sequence of Axes, optional
+        Where to: six, in three rows of two; new axes otherwise.
+
+    Returns
+    -------
+    Axes
+        The first of them.
+    """
+    axes = new_panels(3, 2, (7.0, 6.6)) if axes is None else axes
+    for number, draw in enumerate((pressure_cut, film_cut, field_cut)):
+        for along, ax, window in zip("xy", axes[2 * number :], film_window(result), strict=False):
+            draw(result, ax, along=along)
+            ax.set_xlim(*window)
+            label_position(result, ax, along)
+            ax.label_outer()
+    return axes[0]
+
+
+def field_section(result: PointResult, ax: Axes | None = None, *, along: str = "x") -> Axes:
+    """Section of the film through the largest field, coloured by the field strength, with equipotentials.
+
+    Parameters
+    ----------
+    result : PointResult
+        What to draw.
+    ax : Axes, optional
+        Where to; new axes otherwise.
+    along : str
+        "x", along entrainment, or "y", across it.
+
+    Returns
+    -------
+    Axes
+        Heights are those above the middle between the smooth surfaces: that of unequal bodies is bent.
+    """
+    ax, field, electric = axes_or_new(ax), result.field, result.case.electric
+    cut = Cut.near(along, field.max_strength_position, field.x, field.y)
+    on = cut.away(field)
+    at = (field.x if along == "x" else field.y)[on] / result.conditions.semi_axis_x
+    factor, unit = film_unit(result)
+    strength_factor, strength_unit = unit_for(field.max_strength, "V/m")
+    heights = factor * _levelled(result, cut)[on]
+    filled = draw_section(
+        ax,
+        at,
+        heights,
+        strength_factor * cut.of(field.strength)[on],
+        limits=(0.0, strength_factor * field.max_strength),
+        potentials=(electric.potential_1, electric.potential_2),
+    )
+    low, high = sorted((electric.potential_1, electric.potential_2))
+    ax.contour(
+        np.broadcast_to(at[:, np.newaxis], heights.shape),
+        heights,
+        cut.of(field.potential)[on],
+        np.linspace(low, high, 12)[1:-1],
+        colors="black",
+        linewidths=0.4,
+        alpha=0.6,
+        linestyles="-",
+    )
+    ax.set_ylabel(f"height $z$ [{unit}]")
+    label_position(result, ax, along)
+    ax.set_title(cut.name(result), loc="right")
+    bar = figure_of(ax).colorbar(filled, ax=ax, label=f"$|E|$ [{strength_unit}]", pad=0.02)
+    ticks = round_levels(0.0, strength_factor * field.max_strength, 6)
+    bar.set_ticks(list(ticks[ticks <= strength_factor * field.max_strength]))
+    return ax
+
+
+def _levelled(result: PointResult, cut: Cut) -> Array:
+    """Heights on a cut above the middle between the smooth surfaces [m], shape (n, ns)."""
+    field, film = result.field, result.film
+    z = cut.of(field.z)
+    middle = 0.5 * (z[:, :1] + z[:, -1:])
+    nodes, fixed = (film.x, film.y) if cut.along == "x" else (film.y, film.x)
+    index = int(np.argmin(np.abs(fixed - cut.position)))
+    uneven = 0.5 * (result.roughness[0] - result.roughness[1])
+    line = uneven[:, index] if cut.along == "x" else uneven[index]
+    at = field.x if cut.along == "x" else field.y
+    levelled: Array = z - middle + np.interp(at, nodes, line)[:, np.newaxis]
+    return levelled
+
+
+def field_sections(result: PointResult, axes: Sequence[Axes] | None = None) -> Axes:
+    """Sections of the film along and across entrainment through the largest field, coloured by its strength.
+
+    Parameters
+    ----------
+    result : PointResult
+        What to draw.
+    axes : sequence of Axes, optional
+        Where to, two of them; new axes otherwise.
+
+    Returns
+    -------
+    Axes
+        The first of them.
+    """
+    axes = new_panels(2, 1, (6.3, 5.6)) if axes is None else axes
+    for ax, along in zip(axes, "xy", strict=True):
+        field_section(result, ax, along=along)
+    return axes[0]

@@ -1,0 +1,142 @@
+"""Roughness that moves through a contact as an animation, one recorded instant after the other."""
+
+from __future__ import annotations
+
+import subprocess
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib import colormaps
+from matplotlib.animation import FFMpegWriter
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from PIL import Image
+
+from ehlectric.errors import InputError, shown
+from ehlectric.figures.motion.line_frames import Frames, line_frames
+from ehlectric.figures.motion.point_frames import map_frames
+from ehlectric.figures.style import style
+from ehlectric.motion.record import MotionRun
+from ehlectric.runtime.files import refuse_special, whole
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+# Instants a second: a GIF holds hundredths of a second, and viewers slow down what is faster than this.
+_SLOWEST, _FASTEST = 0.1, 50.0
+
+# Colours of a GIF of maps that lines and letters have.
+_GREYS = 24
+
+# Called with the number of frames that are done and of all.
+Progress = Callable[[int, int], None]
+
+
+def save_animation(
+    dataset: xr.Dataset,
+    path: str | Path,
+    *,
+    fps: float = 25.0,
+    dpi: int = 110,
+    progress: Progress | None = None,
+) -> None:
+    """Draw the recorded instants of roughness that moves as an animation.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        As a run was stored, whether it is complete or not.
+    path : str or Path
+        A .gif, or an .mp4, which takes ffmpeg.
+    fps : float
+        Instants a second, from 0.1 to 50.
+    dpi : int
+        Pixels of an inch: a line contact is 6.3 by 7.2 of them.
+    progress : callable, optional
+        Called with the number of frames that are drawn and of all.
+
+    Raises
+    ------
+    InputError
+        Where the file has another suffix, ffmpeg is needed and not there or fails, the dataset is no such
+        run, or the instants a second are out of range.
+    """
+    path = Path(path)
+    if not _SLOWEST <= fps <= _FASTEST:
+        raise InputError(f"fps: got {fps:g}, takes {_SLOWEST:g} to {_FASTEST:g} instants a second")
+    write = _writer(path)
+    refuse_special(path)
+    run = MotionRun.of(dataset)
+    with style():
+        drawn = map_frames(run) if run.point else line_frames(run)
+        drawn.figure.set_dpi(dpi)
+        # Numbers on the axes that come and go must not shift the panels.
+        drawn.figure.draw_without_rendering()
+        drawn.figure.set_layout_engine("none")
+        with whole(path) as beside:
+            try:
+                write(beside, _instants(drawn, run.frames, progress), fps)
+            except (BrokenPipeError, subprocess.CalledProcessError):
+                raise InputError(f"{path}: cannot be written, ffmpeg failed; a .gif takes none") from None
+
+
+def _instants(drawn: Frames, frames: int, progress: Progress | None) -> Iterator[Frames]:
+    """What is drawn, with an instant after the other."""
+    for frame in range(frames):
+        drawn.show(frame)
+        yield drawn
+        if progress is not None:
+            progress(frame + 1, frames)
+
+
+def _writer(path: Path) -> Callable[[Path, Iterator[Frames], float], None]:
+    suffix = path.suffix.lower()
+    if suffix == ".gif":
+        return _write_gif
+    if suffix != ".mp4":
+        raise InputError(f"animation: got {shown(path.name)}, takes a name that ends in .gif or .mp4")
+    if not FFMpegWriter.isAvailable():
+        raise InputError(f"animation: got {shown(path.name)} and no ffmpeg is found, takes a name in .gif")
+    return _write_mp4
+
+
+def _write_gif(path: Path, instants: Iterator[Frames], fps: float) -> None:
+    # In 256 colours, one after the other: matplotlib's own writer keeps all of them in full.
+    images = (_image(drawn) for drawn in instants)
+    duration = round(1000.0 / fps)
+    # A file of its own would stay open where one of the images is not made.
+    with path.open("wb") as file:
+        next(images).save(file, "GIF", save_all=True, append_images=images, duration=duration, loop=0)
+
+
+def _image(drawn: Frames) -> Image.Image:
+    canvas = drawn.figure.canvas
+    assert isinstance(canvas, FigureCanvasAgg)
+    canvas.draw()  # type: ignore[no-untyped-call]
+    pixels = np.asarray(canvas.buffer_rgba())  # type: ignore[no-untyped-call]
+    image = Image.fromarray(pixels).convert("RGB")
+    if not drawn.colours:
+        return image.quantize(256)
+    # Of the colours of a map few are left otherwise, and others from one instant to the next.
+    return image.quantize(palette=_palette(drawn.colours), dither=Image.Dither.NONE)
+
+
+def _palette(colours: tuple[str, ...]) -> Image.Image:
+    """An image whose 256 colours are those of colour maps, and greys for lines and letters."""
+    each = (256 - _GREYS) // len(colours)
+    parts = [colormaps[name](np.linspace(0.0, 1.0, each)) for name in colours]
+    parts.append(colormaps["gray"](np.linspace(0.0, 1.0, 256 - each * len(colours))))
+    image = Image.new("P", (1, 1))
+    image.putpalette(np.round(255.0 * np.concatenate(parts)[:, :3]).astype(np.uint8).tobytes())
+    return image
+
+
+def _write_mp4(path: Path, instants: Iterator[Frames], fps: float) -> None:
+    writer = FFMpegWriter(fps=fps)  # type: ignore[arg-type]
+    figure = next(instants).figure
+    with writer.saving(figure, str(path), figure.dpi):
+        writer.grab_frame()
+        for _ in instants:
+            writer.grab_frame()

@@ -1,0 +1,149 @@
+"""A contact over time while roughness moves through it: least film, largest field, where they are."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+
+from ehlectric.arrays import Array
+from ehlectric.figures.motion.panels import field_unit, film_unit, fitted, time_unit
+from ehlectric.figures.style import BLUE, GREEN, GREY, ORANGE, axes_or_new, legend_above
+from ehlectric.motion.record import HIGH_FIELD, MotionRun, intervals_above
+
+
+def least_film(run: MotionRun, ax: Axes | None = None) -> Axes:
+    """Least film thickness at every step, with that before the motion and that of roughness held still.
+
+    Parameters
+    ----------
+    run : MotionRun
+        What to draw.
+    ax : Axes, optional
+        Where to; new axes otherwise.
+
+    Returns
+    -------
+    Axes
+        Over time.
+    """
+    ax = axes_or_new(ax)
+    factor, unit = film_unit(run)
+    thickness = factor * run.values("minimum_thickness")
+    ax.plot(_times(run, "time"), thickness, color=BLUE, lw=0.9, label="at every step")
+    before = f"before the motion, {thickness[0]:.3g} {unit}"
+    ax.axhline(thickness[0], color="black", lw=0.9, ls=":", label=before)
+    shown = [thickness]
+    if "stationary_thickness" in run.dataset:
+        still = factor * float(np.min(run.values("stationary_thickness")))
+        ax.axhline(still, color=ORANGE, lw=0.9, ls="--", label=f"held still, {still:.3g} {unit}")
+        shown.append(np.array([still]))
+    ax.set(ylabel=rf"least film $h_\mathrm{{min}}$ [{unit}]", ylim=fitted(*shown))
+    _over_time(run, ax)
+    legend_above(ax)
+    return ax
+
+
+def largest_field(run: MotionRun, ax: Axes | None = None) -> Axes:
+    """Largest field strength at the recorded instants, with that of roughness held still.
+
+    Parameters
+    ----------
+    run : MotionRun
+        What to draw.
+    ax : Axes, optional
+        Where to; new axes otherwise.
+
+    Returns
+    -------
+    Axes
+        Over time, with the voltage over the least film at every step. Shaded while the field is above 90 % of
+        the largest; ``MotionRun.strength`` says what it is between the instants.
+    """
+    ax = axes_or_new(ax)
+    factor, unit = field_unit(run)
+    strength = factor * run.values("max_strength")
+    estimate = factor * run.values("thin_gap_strength")
+    (thin,) = ax.plot(_times(run, "time"), estimate, color=GREY, lw=0.6)
+    thin.set_label(r"$V_{12}/h_\mathrm{min}$ at every step")
+    # Between few instants a line would show a course that is none.
+    size = 2.4 if run.frames <= 400 else 1.4
+    (dots,) = ax.plot(
+        _times(run, "frame_time"), strength, color=BLUE, ls="none", marker="o", ms=size, mew=0.0
+    )
+    dots.set_label(f"solved at {run.frames} instants")
+    handles, shown = [dots, thin, _high(run, ax)], [strength, estimate]
+    if "stationary_strength" in run.dataset:
+        still = factor * float(np.nanmax(run.values("stationary_strength")))
+        label = f"held still, {still:.3g} {unit}"
+        handles.append(ax.axhline(still, color=ORANGE, lw=0.9, ls="--", label=label))
+        shown.append(np.array([still]))
+    ax.set(ylabel=rf"largest field $|E|$ [{unit}]", ylim=fitted(*shown))
+    _over_time(run, ax)
+    legend_above(ax, handles)
+    return ax
+
+
+def _high(run: MotionRun, ax: Axes) -> Line2D:
+    """Level of a high field, and the time above it shaded."""
+    factor, _ = field_unit(run)
+    in_time, unit = time_unit(run)
+    level = run.high_field
+    spans = intervals_above(run.values("time"), run.strength, level)
+    bars = [(in_time * start, in_time * (end - start)) for start, end in spans]
+    whole = ax.get_xaxis_transform()
+    ax.broken_barh(bars, (0.0, 1.0), transform=whole, color=GREEN, alpha=0.25, lw=0.0, zorder=0.5)
+    settled = run.settled_from
+    text = f"{100.0 * HIGH_FIELD:g} % of the largest: above it {100.0 * run.share_high:.0f} % of the time"
+    text += f" from {in_time * settled:.3g} {unit} on" if settled else ""
+    return ax.axhline(factor * level, color=GREEN, lw=0.9, ls="--", label=text)
+
+
+def places(run: MotionRun, ax: Axes | None = None) -> Axes:
+    """Where along entrainment the field is largest at the recorded instants, and where the film is least.
+
+    Parameters
+    ----------
+    run : MotionRun
+        What to draw.
+    ax : Axes, optional
+        Where to; new axes otherwise.
+
+    Returns
+    -------
+    Axes
+        Over time; of a point contact also across entrainment.
+    """
+    ax = axes_or_new(ax)
+    b = run.conditions.half_width
+    time, frames = _times(run, "time"), _times(run, "frame_time")
+    least = run.values("minimum_x") / b
+    ax.plot(time, least, color=GREY, ls="none", marker="o", ms=1.0, mew=0.0)
+    largest = run.values("max_strength_x") / b
+    ax.plot(frames, largest, color=BLUE, ls="none", marker="o", ms=2.4, mew=0.0, label="largest field")
+    # Dots as small as those are not seen in a legend.
+    ax.plot([], [], color=GREY, ls=":", label="least film, every step")
+    name, shown = "$x/b$", [least, largest]
+    if run.point and "max_strength_y" in run.dataset:
+        across = np.abs(run.values("max_strength_y")) / b
+        ax.plot(frames, across, color=ORANGE, ls="none", marker="x", ms=3.0, label="largest field, $|y|/b$")
+        name, shown = "$x/b$, $|y|/b$", [*shown, across]
+    ax.set(ylabel=f"place {name}", ylim=fitted(*shown, least=0.5))
+    legend_above(ax, columns=3)
+    _over_time(run, ax)
+    return ax
+
+
+def _times(run: MotionRun, name: str) -> Array:
+    factor, _ = time_unit(run)
+    return factor * run.values(name)
+
+
+def _over_time(run: MotionRun, ax: Axes) -> None:
+    """Axis of time, and a line on it when the roughness has filled the contact."""
+    factor, unit = time_unit(run)
+    ax.set(xlabel=f"time $t$ [{unit}]", xlim=(0.0, factor * float(run.values("time")[-1]) or 1.0))
+    if run.settled_from:
+        covered = factor * run.settled_from
+        label = f"contact covered from {covered:.3g} {unit} on"
+        ax.axvline(covered, color="black", lw=0.7, ls=(0, (6.0, 3.0)), label=label)

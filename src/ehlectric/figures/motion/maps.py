@@ -1,0 +1,194 @@
+"""Maps over position and time of roughness that moves: film, pressure and field along entrainment."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from matplotlib.patheffects import withStroke
+
+from ehlectric.arrays import Array
+from ehlectric.cases.quantity import unit_for
+from ehlectric.figures.contact.maps import round_levels
+from ehlectric.figures.motion.panels import along_label, field_unit, film_unit, in_contact, time_unit
+from ehlectric.figures.style import BODY, axes_or_new, figure_of, new_panels
+from ehlectric.motion.record import MotionRun
+
+# Shown of the domain on either side, in half-widths: behind it there is no field, before it no change.
+_REACH = 1.5
+
+# Parts of the run after which lines of the speeds cross at x = 0.
+_CROSSINGS = (0.35, 0.75)
+
+# Part of the values in the Hertz zone, in per cent, that the colours may leave out on their open side.
+_BEYOND = 5.0
+_SIZE = (7.2, 5.4)
+
+
+def film_map(run: MotionRun, ax: Axes | None = None) -> Axes:
+    """Film thickness over position and time.
+
+    Parameters
+    ----------
+    run : MotionRun
+        What to draw.
+    ax : Axes, optional
+        Where to; new axes otherwise.
+
+    Returns
+    -------
+    Axes
+        With a colour bar of the films in the Hertz zone: that of the inlet is thicker than it reaches.
+    """
+    factor, unit = film_unit(run)
+    values = factor * run.along("thickness")
+    inside = in_contact(run, values)
+    limits = (float(np.min(inside)), float(np.percentile(inside, 100.0 - _BEYOND)))
+    return _map(run, values, ax, f"film thickness $h$ [{unit}]", limits, "viridis", "max")
+
+
+def pressure_map(run: MotionRun, ax: Axes | None = None) -> Axes:
+    """Pressure over position and time.
+
+    Parameters
+    ----------
+    run : MotionRun
+        What to draw.
+    ax : Axes, optional
+        Where to; new axes otherwise.
+
+    Returns
+    -------
+    Axes
+        With a colour bar to the largest pressure shown.
+    """
+    values = run.along("pressure")
+    factor, unit = unit_for(float(np.max(values)), "Pa")
+    limits = (0.0, factor * float(np.max(values)))
+    return _map(run, factor * values, ax, f"pressure $p$ [{unit}]", limits, "magma", "neither")
+
+
+def field_map(run: MotionRun, ax: Axes | None = None) -> Axes:
+    """Largest field strength of the column over position and time.
+
+    Parameters
+    ----------
+    run : MotionRun
+        What to draw.
+    ax : Axes, optional
+        Where to; new axes otherwise.
+
+    Returns
+    -------
+    Axes
+        With a colour bar of the fields in the Hertz zone; grey where the field was not solved.
+    """
+    factor, unit = field_unit(run)
+    values = factor * run.along("strength")
+    inside = in_contact(run, values)
+    limits = (float(np.percentile(inside, _BEYOND)), float(np.nanmax(values)))
+    return _map(run, values, ax, f"field strength $|E|$ [{unit}]", limits, "inferno", "min")
+
+
+def map_figure(run: MotionRun) -> Axes:
+    """Film, pressure and field over position and time beside each other, with lines of the speeds.
+
+    Parameters
+    ----------
+    run : MotionRun
+        With two recorded instants or more.
+
+    Returns
+    -------
+    Axes
+        The first of three.
+    """
+    axes = new_panels(1, 3, _SIZE)
+    for draw, ax in zip((film_map, pressure_map, field_map), axes, strict=True):
+        draw(run, ax)
+    for ax in axes[1:]:
+        ax.set_ylabel("")
+        ax.tick_params(labelleft=False)
+    for ax in axes[::2]:
+        ax.set_xlabel("$x/b$")
+    figure_of(axes[0]).legend(handles=_handles(run), loc="outside lower left", ncols=4, frameon=False)
+    return axes[0]
+
+
+def _map(
+    run: MotionRun,
+    values: Array,
+    ax: Axes | None,
+    label: str,
+    limits: tuple[float, float],
+    colours: str,
+    extend: str,
+) -> Axes:
+    """Values (frames, nx) as colours, time upwards."""
+    ax = axes_or_new(ax)
+    factor, unit = time_unit(run)
+    shown = np.flatnonzero(np.abs(run.x) <= _REACH)
+    ax.set_facecolor(BODY)
+    mesh = ax.pcolormesh(
+        run.x[shown],
+        factor * run.frame_time,
+        np.ma.masked_invalid(values[:, shown]),
+        shading="nearest",
+        cmap=colours,
+        vmin=limits[0],
+        vmax=limits[1],
+        rasterized=True,
+    )
+    times = factor * run.frame_time
+    ax.set(ylabel=f"time $t$ [{unit}]", xlim=run.x[shown[[0, -1]]], ylim=(times[0], times[-1]))
+    along_label(run, ax)
+    ticks = round_levels(*limits, 5)
+    ticks = ticks[(ticks >= limits[0]) & (ticks <= limits[1])]
+    figure_of(ax).colorbar(mesh, ax=ax, location="bottom", label=label, ticks=ticks, extend=extend, pad=0.02)
+    for speed, look in _speeds(run):
+        for part in _CROSSINGS:
+            at = part * factor * run.frame_time[-1]
+            # b of travel takes this long; a surface at rest stays where it is.
+            slope = np.inf if speed == 0.0 else factor * run.conditions.half_width / speed
+            ax.axline((0.0, at), slope=slope, **look)
+    return ax
+
+
+def _speeds(run: MotionRun) -> list[tuple[float, dict[str, Any]]]:
+    """The mean speed and those of rough surfaces that differ from it [m/s], and how their lines look."""
+    mean = run.conditions.entrainment_speed
+    edge = [withStroke(linewidth=1.8, foreground="black", alpha=0.6)]
+    plain: dict[str, Any] = {"color": "white", "lw": 0.8, "path_effects": edge}
+    same = [k for k, speed in run.speeds.items() if abs(speed - mean) <= 1e-9 * mean]
+    name = ", also of both surfaces" if len(same) == 2 else f", also of surface {same[0]}" if same else ""
+    found = [(mean, {"ls": "--", "label": f"mean speed{name}", **plain})]
+    looks = {1: "-", 2: ":"}
+    for k, speed in run.speeds.items():
+        if k not in same:
+            found.append((speed, {"ls": looks[k], "label": f"speed of surface {k}", **plain}))
+    return found
+
+
+def _handles(run: MotionRun) -> list[Artist]:
+    """Entries of a legend on white."""
+    handles: list[Artist] = [
+        Line2D([], [], color="black", lw=0.9, ls=look["ls"], label=look["label"]) for _, look in _speeds(run)
+    ]
+    strength = run.along("strength", 0)[np.abs(run.x) <= _REACH]
+    if not np.all(np.isfinite(strength)):
+        handles.append(Patch(facecolor=BODY, label="field not solved"))
+    return handles
+
+
+def sampling_text(run: MotionRun) -> str:
+    """How many instants there are, and how far oil and roughness travel between two: that blurs waves."""
+    apart = float(np.max(np.diff(run.frame_time)))
+    fastest = max(run.conditions.entrainment_speed, *(abs(speed) for speed in run.speeds.values()))
+    factor, unit = unit_for(fastest * apart, "m", least=1.0)
+    return (
+        f"{run.frames} instants, {factor * fastest * apart:.3g} {unit} of travel at most from one to the next"
+    )

@@ -1,0 +1,151 @@
+"""Frames of a point contact whose roughness moves: maps of film and field."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from ehlectric.arrays import Array, IntArray, Mask
+from ehlectric.contact.conditions import PointConditions
+from ehlectric.figures.contact.maps import (
+    Range,
+    draw_map,
+    entrainment,
+    hertz_ellipse,
+    map_panels,
+    mark,
+    round_levels,
+    turned,
+)
+from ehlectric.figures.motion.line_frames import Frames, time_text
+from ehlectric.figures.motion.panels import Unit, field_unit, film_unit, name_run
+from ehlectric.figures.style import figure_of
+from ehlectric.motion.record import MotionRun
+
+_FILM_COLOURS, _FIELD_COLOURS = "viridis", "inferno"
+
+# Part of the values in the Hertz ellipse, in per cent, that the colours may leave out on their open side.
+_BEYOND = 5.0
+
+
+@dataclass(frozen=True)
+class _Contact:
+    """What is drawn of a point contact: the nodes, by their indices, at which the field was solved."""
+
+    run: MotionRun
+    conditions: PointConditions
+    nodes: tuple[IntArray, IntArray]
+
+    @property
+    def axes(self) -> tuple[Array, Array]:
+        return tuple(self.run.values(name)[at] for name, at in zip("xy", self.nodes, strict=True))  # type: ignore[return-value]
+
+    @property
+    def window(self) -> tuple[Range, Range]:
+        """Ranges of x/b and y/b."""
+        x, y = (axis / self.conditions.half_width for axis in self.axes)
+        return (float(x[0]), float(x[-1])), (float(y[0]), float(y[-1]))
+
+    @property
+    def inside(self) -> Mask:
+        """Nodes in the Hertz ellipse, shape (nx, ny)."""
+        x, y = self.axes
+        of = self.conditions
+        inside: Mask = (x[:, np.newaxis] / of.semi_axis_x) ** 2 + (y / of.semi_axis_y) ** 2 <= 1.0
+        return inside
+
+    def values(self, name: str, frame: int) -> Array:
+        """A variable at an instant, shape (nx, ny)."""
+        found = self.run.dataset[name].isel(frame=frame).values[np.ix_(*self.nodes)]
+        return np.asarray(found, dtype=float)
+
+
+def map_frames(run: MotionRun) -> Frames:
+    """Film thickness and field strength as maps, where the field was solved.
+
+    Parameters
+    ----------
+    run : MotionRun
+        Of a point contact.
+
+    Returns
+    -------
+    Frames
+        With the first instant drawn.
+    """
+    assert isinstance(run.conditions, PointConditions)
+    known = np.isfinite(run.dataset["strength"].isel(frame=0).values)
+    nodes = np.flatnonzero(known.any(axis=1)), np.flatnonzero(known.any(axis=0))
+    contact = _Contact(run, run.conditions, nodes)
+    # Their colour bars lie below them, where this has room for the rows of a legend.
+    film, field = map_panels(contact, 2, contact.window, rows=4)
+    parts = [_film(contact, film), _field(contact, field)]
+    field.label_outer()
+    name_run(film, run)
+
+    def show(frame: int) -> None:
+        for part in parts:
+            part(frame)
+        film.set_title(time_text(run, frame), loc="left")
+
+    show(0)
+    return Frames(figure_of(film), show, (_FILM_COLOURS, _FIELD_COLOURS))
+
+
+def _film(contact: _Contact, ax: Axes) -> Callable[[int], None]:
+    """Film thickness, and where it is least."""
+    unit = film_unit(contact.run)
+    ends = [
+        np.percentile(contact.values("thickness", frame)[contact.inside], [0.0, 100.0 - _BEYOND])
+        for frame in range(contact.run.frames)
+    ]
+    limits = float(np.min(ends)), float(np.max(ends))
+    show = _map(contact, ax, "thickness", unit, limits, _FILM_COLOURS)
+    figure_of(ax).axes[-1].set_xlabel(f"film thickness $h$ [{unit[1]}]")
+    hertz_ellipse(contact, ax)
+    entrainment(contact, ax)
+    return show
+
+
+def _field(contact: _Contact, ax: Axes) -> Callable[[int], None]:
+    """Largest field strength of the columns, and where it is largest."""
+    run, unit = contact.run, field_unit(contact.run)
+    largest = run.values("max_strength")
+    least = [
+        np.percentile(contact.values("strength", frame)[contact.inside], _BEYOND)
+        for frame in range(run.frames)
+    ]
+    limits = float(np.nanmin(least)), float(np.max(largest))
+    show_map = _map(contact, ax, "strength", unit, limits, _FIELD_COLOURS)
+    figure_of(ax).axes[-1].set_xlabel(f"field strength $|E|$ [{unit[1]}]")
+    hertz_ellipse(contact, ax, "white")
+    at = np.column_stack([run.values("max_strength_x"), run.values("max_strength_y")])
+    cross = mark(contact, ax, at[:1], "largest")
+
+    def show(frame: int) -> None:
+        show_map(frame)
+        place = at[frame] / contact.conditions.half_width
+        x, y = place[::-1] if turned(contact) else place
+        cross.set_data([x], [y])
+        ax.set_title(f"largest (×) {unit[0] * largest[frame]:#.3g} {unit[1]}", loc="right")
+
+    return show
+
+
+def _map(
+    contact: _Contact, ax: Axes, name: str, unit: Unit, limits: Range, colours: str
+) -> Callable[[int], None]:
+    """Colours of a variable with their bar, which is open where they may leave values out."""
+    factor = unit[0]
+    ends = factor * limits[0], factor * limits[1]
+    look: dict[str, Any] = {"colours": colours, "limits": ends, "window": contact.window, "number": 2}
+    mesh = draw_map(contact, ax, contact.axes, factor * contact.values(name, 0), **look)
+    ticks = round_levels(*ends, 5)
+    ticks = ticks[(ticks >= ends[0]) & (ticks <= ends[1])]
+    extend = "max" if name == "thickness" else "min"
+    figure_of(ax).colorbar(mesh, ax=ax, ticks=ticks, extend=extend, location="bottom", pad=0.03)
+    return lambda frame: mesh.set_array(factor * contact.values(name, frame))

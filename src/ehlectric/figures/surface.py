@@ -1,0 +1,102 @@
+"""Figures of a surface by itself, as read and after its last step: a profile or a map."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from ehlectric.cases.quantity import unit_for
+from ehlectric.figures.style import BLUE, axes_or_new, figure_of, new_panels, save_figure, style
+from ehlectric.surfaces.maps import Map
+from ehlectric.surfaces.profiles import Profile, rms, statistics
+
+# Part of the heights of a map that may lie beyond either end of its colours: dust would take them all.
+_BEYOND = 0.1
+
+
+def profile(drawn: Profile, ax: Axes | None = None) -> Axes:
+    """Heights of a profile about their mean, with its Rq.
+
+    Parameters
+    ----------
+    drawn : Profile
+        What to draw.
+    ax : Axes, optional
+        Where to; new axes otherwise.
+
+    Returns
+    -------
+    Axes
+        With the unit of height that fits.
+    """
+    ax = axes_or_new(ax)
+    heights = drawn.heights - np.mean(drawn.heights)
+    factor, unit = unit_for(float(np.max(np.abs(heights))), "m", least=1.0)
+    along, length = unit_for(drawn.length, "m")
+    ax.plot(along * drawn.x, factor * heights, color=BLUE, lw=0.7)
+    s = statistics(drawn)
+    scale, prefixed = unit_for(s.rq, "m", least=1.0)
+    amplitudes = f"Rq {scale * s.rq:.3g} {prefixed}, Ra {scale * s.ra:.3g} {prefixed}"
+    ax.set_title(f"{amplitudes}, Rsk {s.rsk:.2f}, Rku {s.rku:.1f}", loc="right")
+    ax.set(xlabel=f"$x$ [{length}]", ylabel=f"height [{unit}]")
+    ax.set_xlim(along * drawn.x[0], along * drawn.x[-1])
+    return ax
+
+
+def height_map(drawn: Map, ax: Axes | None = None) -> Axes:
+    """Heights of a map about their mean as colours, with its Sq; both axes to the same scale.
+
+    Parameters
+    ----------
+    drawn : Map
+        What to draw.
+    ax : Axes, optional
+        Where to; new axes otherwise.
+
+    Returns
+    -------
+    Axes
+        With a colour bar of the heights, whose ends leave out a thousandth of the points each.
+    """
+    ax = axes_or_new(ax)
+    heights = drawn.heights - np.mean(drawn.heights)
+    low, high = np.percentile(heights, [_BEYOND, 100.0 - _BEYOND])
+    size, unit = unit_for(max(drawn.length_x, drawn.length_y), "m", least=1.0)
+    factor, height_unit = unit_for(max(-low, high, 1e-12), "m", least=1.0)
+    half_x = 0.5 * size * (drawn.length_x + drawn.spacing_x)
+    half_y = 0.5 * size * (drawn.length_y + drawn.spacing_y)
+    image = ax.imshow(
+        factor * heights.T,
+        origin="lower",
+        extent=(-half_x, half_x, -half_y, half_y),
+        vmin=factor * low,
+        vmax=factor * high,
+        cmap="viridis",
+        aspect="equal",
+        interpolation="antialiased",
+    )
+    bar = figure_of(ax).colorbar(image, ax=ax, extend="both", pad=0.03)
+    bar.set_label(f"height [{height_unit}], Sq = {factor * rms(heights):.3g} {height_unit}")
+    ax.set_xlabel(f"$x$ [{unit}]")
+    ax.set_ylabel(f"$y$ [{unit}]")
+    return ax
+
+
+def save_surface(steps: Sequence[tuple[str, Profile | Map]], path: Path) -> None:
+    """Draw a profile or map as read and after its last step as a PNG file."""
+    with style():
+        shown = [steps[0], steps[-1]] if len(steps) > 1 else [steps[0]]
+        of_map = isinstance(steps[0][1], Map)
+        # Maps stand side by side, profiles one above the other.
+        rows, columns = (1, len(shown)) if of_map else (len(shown), 1)
+        panels = new_panels(rows, columns, (3.6 * columns, 3.4) if of_map else (6.3, 4.2))
+        if of_map:
+            # Colour bars as high as their maps, whose axes shrink to keep their scale.
+            figure_of(panels[0]).set_layout_engine("compressed")
+        for ax, (name, step) in zip(panels, shown, strict=True):
+            drawn = height_map(step, ax) if isinstance(step, Map) else profile(step, ax)
+            drawn.set_title(name if step is steps[0][1] else "after the last step", loc="left")
+        save_figure(panels[0], path)

@@ -1,0 +1,1 @@
+"""Reynolds equation, deflection, cavitation and load: from a dimensionless problem to a film."""

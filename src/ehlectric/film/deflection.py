@@ -1,0 +1,240 @@
+"""Elastic deflection of two half-spaces under a pressure on a uniform grid.
+
+Dimensionless: X = x/b, Y = y/b, P = p/p_h, H = h R/b^2. The deflection is the discrete convolution of the
+pressure with influence coefficients, evaluated by zero-padded real FFTs in O(N log N).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy import fft
+
+from ehlectric.arrays import Array, ComplexArray
+from ehlectric.film.mesh import Mesh
+from ehlectric.formulas.hertz_line import line_pressure
+
+
+def line_influence(nodes: int, dx: float) -> Array:
+    """Gap opened at distance k dX by a unit pressure on one cell of a line contact.
+
+    Parameters
+    ----------
+    nodes : int
+        Number of nodes along x.
+    dx : float
+        Grid spacing dX, dimensionless.
+
+    Returns
+    -------
+    ndarray, shape (nodes, 1)
+        -K_k/pi for k = 0 ... nodes - 1, dimensionless. The undetermined rigid displacement of a line
+        contact is part of H00.
+
+    Notes
+    -----
+    Eqs. (1) and (5) of Morris et al. (2022), doi:10.3390/lubricants10050087: the integral of ln|X| over
+    the cell. H follows with the reduced modulus of 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> bool(np.isclose(line_influence(8, 0.5)[0, 0], -0.5 * (np.log(0.25) - 1.0) / np.pi))
+    True
+    """
+    distance = (np.arange(nodes + 1) - 0.5) * dx
+    antiderivative = distance * (np.log(np.abs(distance)) - 1.0)
+    influence: Array = (-np.diff(antiderivative) / np.pi)[:, np.newaxis]
+    return influence
+
+
+def point_influence(nodes: tuple[int, int], dx: float, dy: float) -> Array:
+    """Displacement at a distance (k dX, l dY) by a unit pressure on one cell of a point contact.
+
+    Parameters
+    ----------
+    nodes : tuple of int
+        Distances along x and y that are asked for, from 0 on.
+    dx, dy : float
+        Grid spacings, dimensionless.
+
+    Returns
+    -------
+    ndarray, shape (nodes[0], nodes[1])
+        Integral of 1/sqrt(X^2 + Y^2) over the cell.
+
+    Notes
+    -----
+    A. E. H. Love, Phil. Trans. R. Soc. Lond. A 228 (1929) 377-420, doi:10.1098/rsta.1929.0009, at the
+    surface. H follows with the factor 2 p_h Rx/(pi E' b), 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2, which is
+    2/pi^2 for a circle.
+
+    Examples
+    --------
+    Far away the cell is a point:
+
+    >>> float(round(point_influence((101, 1), 0.5, 0.5)[100, 0] * 50.0 / 0.25, 4))
+    1.0
+    """
+    x, y = ((np.arange(n + 1) - 0.5) * d for n, d in zip(nodes, (dx, dy), strict=True))
+    x = x[:, np.newaxis]
+    antiderivative = x * np.arcsinh(y / np.abs(x)) + y * np.arcsinh(x / np.abs(y))
+    influence: Array = np.diff(np.diff(antiderivative, axis=0), axis=1)
+    return influence
+
+
+@dataclass(frozen=True)
+class Geometry:
+    """What tells one kind of contact from another in the film equations.
+
+    Attributes
+    ----------
+    influence : callable
+        Influence coefficients of the deflection: distances along x and y, dX and dY -> (nx, ny).
+    dry_gap : callable
+        Gap of the undeformed bodies that just touch: X (nx,), Y (ny,) -> H (nx, ny).
+    dry_pressure : callable
+        Hertz pressure: X (nx,), Y (ny,) -> P (nx, ny).
+    load : float
+        Integral of P over the contact.
+    radius_ratio : float
+        Reduced radius along entrainment over that across, zero for a line contact.
+    """
+
+    influence: Callable[[tuple[int, int], float, float], Array]
+    dry_gap: Callable[[Array, Array], Array]
+    dry_pressure: Callable[[Array, Array], Array]
+    load: float
+    radius_ratio: float
+
+
+LINE = Geometry(
+    influence=lambda nodes, dx, _dy: line_influence(nodes[0], dx),
+    dry_gap=lambda x, _y: 0.5 * x[:, np.newaxis] ** 2,
+    dry_pressure=lambda x, _y: line_pressure(x)[:, np.newaxis],
+    load=0.5 * np.pi,
+    radius_ratio=0.0,
+)
+RIGID_LINE = replace(LINE, influence=lambda nodes, _dx, _dy: np.zeros((nodes[0], 1)))
+
+
+def point_geometry(*, radius_ratio: float, ellipse_ratio: float, compliance: float) -> Geometry:
+    """Geometry of an elliptical contact, lengths in semi-axes b along entrainment.
+
+    Parameters
+    ----------
+    radius_ratio : float
+        Rx/Ry of the reduced radii along and across entrainment.
+    ellipse_ratio : float
+        Semi-axis of the dry contact across entrainment over that along it.
+    compliance : float
+        2 p_h Rx/(pi E' b), zero for rigid bodies.
+
+    Returns
+    -------
+    Geometry
+        With H = H00 + X^2/2 + (Rx/Ry) Y^2/2 + deflection, and the load 2 pi/3 times the ratio.
+
+    Examples
+    --------
+    >>> circle = point_geometry(radius_ratio=1.0, ellipse_ratio=1.0, compliance=2.0 / np.pi**2)
+    >>> circle.dry_gap(np.array([1.0]), np.array([0.0, 1.0]))
+    array([[0.5, 1. ]])
+    """
+    return Geometry(
+        influence=lambda nodes, dx, dy: compliance * point_influence(nodes, dx, dy),
+        dry_gap=lambda x, y: 0.5 * (x[:, np.newaxis] ** 2 + radius_ratio * y**2),
+        dry_pressure=lambda x, y: np.sqrt(
+            np.maximum(0.0, 1.0 - x[:, np.newaxis] ** 2 - (y / ellipse_ratio) ** 2)
+        ),
+        load=2.0 * np.pi * ellipse_ratio / 3.0,
+        radius_ratio=radius_ratio,
+    )
+
+
+@dataclass(frozen=True)
+class Deflection:
+    """The deflection operator of one grid: call it with a pressure (nx, ny).
+
+    Examples
+    --------
+    A Hertz pressure opens the gap of a line contact by (1/2)(ln 2 + 1/2) - X^2/2 inside the contact:
+
+    >>> import numpy as np
+    >>> x = np.linspace(-2.0, 2.0, 1601)
+    >>> hertz = np.sqrt(np.maximum(0.0, 1.0 - x**2))[:, np.newaxis]
+    >>> opened = Deflection.from_influence(line_influence(1601, x[1] - x[0]))(hertz)
+    >>> round(float(opened[800, 0]), 3), round(0.5 * float(np.log(2.0) + 0.5), 3)
+    (0.597, 0.597)
+    """
+
+    influence: Array
+    spectrum: Array
+    padded: tuple[int, int]
+    symmetric: bool = False
+
+    @classmethod
+    def on(cls, mesh: Mesh, geometry: Geometry) -> Deflection:
+        """Operator of a contact on a mesh."""
+        nx, ny = mesh.shape
+        # The mirror image of the last line is twice as far from it as the first.
+        lines = 2 * ny - 1 if mesh.symmetric else ny
+        influence = geometry.influence((nx, lines), mesh.dx, mesh.dy or 0.0)
+        return cls.from_influence(influence, symmetric=mesh.symmetric)
+
+    @classmethod
+    def from_influence(cls, influence: Array, *, symmetric: bool = False) -> Deflection:
+        """Operator of influence coefficients given for non-negative distances, shape (nx, ny).
+
+        On the half y >= 0 of a symmetric contact they reach to the mirror image, shape (nx, 2 ny - 1).
+        """
+        nx, lines = influence.shape
+        mx = fft.next_fast_len(2 * nx - 1, real=True)
+        # Periods of even sequences, of which one half is kept.
+        my = fft.next_fast_len(lines - 1) if symmetric else fft.next_fast_len(2 * lines - 1)
+        my = 1 if lines == 1 else my
+        wrapped = np.zeros((mx, my + 1 if symmetric else my))
+        wrapped[:nx, :lines] = influence
+        wrapped[mx - nx + 1 :] = wrapped[nx - 1 : 0 : -1]
+        if lines > 1 and not symmetric:
+            wrapped[:, my - lines + 1 :] = wrapped[:, lines - 1 : 0 : -1]
+        # The coefficients are even along both axes, and their transform is real.
+        spectrum = _transform(wrapped, wrapped.shape, symmetric=symmetric).real.copy()
+        return cls(influence, spectrum, (mx, wrapped.shape[1]), symmetric)
+
+    def matrix(self) -> Array:
+        """The dense operator on the nodes in order, shape (nx ny, nx ny)."""
+        nx, lines = self.influence.shape
+        ny = (lines + 1) // 2 if self.symmetric else lines
+        x, y = np.divmod(np.arange(nx * ny), ny)
+        along = np.abs(x[:, np.newaxis] - x)
+        matrix: Array = self.influence[along, np.abs(y[:, np.newaxis] - y)]
+        if self.symmetric:
+            matrix += np.where(y > 0, self.influence[along, y[:, np.newaxis] + y], 0.0)
+        return matrix
+
+    def __call__(self, pressure: Array) -> Array:
+        """Gap opened by ``pressure``, dimensionless, shape (nx, ny)."""
+        nx, ny = pressure.shape
+        mx, my = self.padded
+        product = _transform(pressure, self.padded, symmetric=self.symmetric)
+        product *= self.spectrum
+        if my > 1 and not self.symmetric:
+            product = fft.ifft(product, my, axis=1, overwrite_x=True)
+        opened: Array = fft.irfft(product, mx, axis=0)[:nx]
+        if self.symmetric:
+            opened = fft.idct(opened, 1, my, axis=1)
+        return opened[:, :ny]
+
+
+def _transform(values: Array, padded: tuple[int, int], *, symmetric: bool) -> ComplexArray:
+    """Zero-padded transform, real along x; along y only where there is a y."""
+    mx, my = padded
+    if symmetric:
+        values = fft.dct(values, 1, my, axis=1)
+    transform: ComplexArray = fft.rfft(values, mx, axis=0)
+    if my > 1 and not symmetric:
+        transform = fft.fft(transform, my, axis=1, overwrite_x=True)
+    return transform

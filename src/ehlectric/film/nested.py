@@ -1,0 +1,179 @@
+"""Nested iteration for the film: every grid starts from the solution on the next coarser.
+
+Where a grid is not solved so, it starts from the Hertz pressure; where the film is of the order of its
+roughness, the roughness is raised in steps.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+from scipy.interpolate import PchipInterpolator
+
+from ehlectric.film.levels import Level, hierarchy
+from ehlectric.film.mesh import Mesh, at_centre
+from ehlectric.film.newton import GridSolution, Progress, State, newton
+from ehlectric.film.problem import FilmProblem
+from ehlectric.film.reynolds import wedge_stencil
+
+# The coarser grids are solved to this residual, far below their discretisation error.
+NESTED_TOLERANCE = 1e-6
+
+# The nested iteration starts from the Hertz pressure on the coarsest grid of at least this many nodes:
+# a quarter of them do not resolve a thin film.
+FIRST_GRID = 201
+FIRST_GRID_POINT = 33
+
+# Parts of the roughness it is raised by, first and least, and the residual on the way.
+FIRST_RISE = 0.2
+LEAST_RISE = 0.01
+RISE_TOLERANCE = 1e-3
+
+
+def nested_iteration(problem: FilmProblem, progress: Progress | None) -> list[GridSolution]:
+    """Solutions from the coarsest grid used to the finest, which is the last.
+
+    Where a grid is not solved, it and the next finer one start from the Hertz pressure.
+    """
+    solutions: list[GridSolution] = []
+    for levels in reversed(_grids(problem)):
+        best = None
+        if solutions and solutions[-1].status == "converged":
+            best = _from_coarser(problem, levels, solutions[-1], progress)
+        # What is nearly solved is not worth starting again.
+        if best is None or best.final.norm > NESTED_TOLERANCE:
+            *warm_up, restarted = _from_hertz(problem, levels, progress)
+            solutions.extend(warm_up)
+            attempts = [restarted] if best is None else [restarted, best]
+            *others, best = sorted(attempts, key=lambda solution: -solution.final.norm)
+            solutions.extend(others)
+        solutions.append(best)
+    if problem.added_gap is not None and solutions[-1].final.norm > NESTED_TOLERANCE:
+        smooth = nested_iteration(replace(problem, added_gap=None), progress)
+        solutions += [*smooth, *_raise_roughness(problem, smooth[-1], progress)]
+    return solutions
+
+
+def _grids(problem: FilmProblem) -> list[list[Level]]:
+    """The grids to solve on, from the finest, each with the coarser ones of its preconditioner.
+
+    Two at least, for the error estimate. Each has half the intervals of the one before along both axes, which
+    those of a preconditioner need not have.
+    """
+    least = FIRST_GRID if problem.width is None else FIRST_GRID_POINT
+    grids = [_levels(problem, roughness=1.0)]
+    while len(grids) < 2 or problem.nodes // 2 + 1 >= least:
+        width = None if problem.width is None else problem.width.coarser()
+        problem = replace(problem, nodes=problem.nodes // 2 + 1, width=width)
+        coarser = grids[-1][1:]
+        shape = Mesh.over(problem.nodes, problem.inlet, problem.outlet, width).shape
+        known = len(coarser) > 0 and coarser[0].mesh.shape == shape
+        grids.append(coarser if known else _levels(problem, roughness=1.0))
+    return grids
+
+
+def _levels(problem: FilmProblem, *, roughness: float) -> list[Level]:
+    """The grids, with a part of the roughness."""
+    added, geometry = problem.added_gap, problem.geometry
+    if added is not None:
+        smooth = geometry.dry_gap
+        geometry = replace(geometry, dry_gap=lambda x, y: smooth(x, y) + roughness * added(x, y))
+    return hierarchy(
+        problem.nodes,
+        inlet=problem.inlet,
+        outlet=problem.outlet,
+        geometry=geometry,
+        second_order=problem.second_order,
+        width=problem.width,
+        source=problem.source,
+    )
+
+
+def _raise_roughness(
+    problem: FilmProblem, smooth: GridSolution, progress: Progress | None
+) -> Iterator[GridSolution]:
+    """Roughness raised from nothing to its height, each solution the start of the next.
+
+    Gives up at the first part of the height that cannot be gone beyond.
+    """
+    best, reached, step = smooth, 0.0, FIRST_RISE
+    while best.status == "converged" and reached < 1.0:
+        part = min(1.0, reached + step)
+        levels = _levels(problem, roughness=part)
+        start = State.of(levels[0], best.state.pressure, best.state.h00)
+        start = start.lifted(0.3 * float(best.state.thickness.min()))
+        solution = _solve_grid(
+            problem if part == 1.0 else replace(problem, tolerance=RISE_TOLERANCE),
+            levels,
+            start,
+            progress,
+            spike=True,
+        )
+        if solution.status == "converged":
+            best, reached, step = solution, part, 1.5 * step
+            yield solution
+        elif step > LEAST_RISE:
+            step *= 0.5
+        else:
+            yield solution
+            return
+
+
+def _solve_grid(
+    problem: FilmProblem,
+    levels: list[Level],
+    state: State,
+    progress: Progress | None,
+    *,
+    spike: bool,
+) -> GridSolution:
+    finest = levels[0].nodes == problem.nodes
+    return newton(
+        problem.fluid,
+        levels,
+        state,
+        tolerance=problem.tolerance if finest else max(problem.tolerance, NESTED_TOLERANCE),
+        max_iterations=problem.max_iterations,
+        progress=progress,
+        # The spike of a point contact is a ridge, and no single line of it can be solved by itself.
+        eliminate_spike=spike and problem.width is None,
+    )
+
+
+def _from_coarser(
+    problem: FilmProblem, levels: list[Level], coarse: GridSolution, progress: Progress | None
+) -> GridSolution:
+    """Start from the next coarser grid: a monotone cubic is smooth and does not overshoot."""
+    level, of = levels[0], coarse.level.mesh
+    pressure = PchipInterpolator(of.x, coarse.state.pressure, axis=0)(level.mesh.x)
+    if of.y.size > 1:
+        pressure = PchipInterpolator(of.whole_y, of.mirrored(pressure), axis=1)(level.mesh.y)
+    state = State.of(level, pressure, coarse.state.h00)
+    state = state.lifted(0.5 * float(coarse.state.thickness.min()))
+    return _solve_grid(problem, levels, state, progress, spike=True)
+
+
+def _from_hertz(
+    problem: FilmProblem, levels: list[Level], progress: Progress | None
+) -> Iterator[GridSolution]:
+    """Start from the Hertz pressure: with the first-order wedge, then with the one asked for.
+
+    The first-order scheme is monotone and converges from further away.
+    """
+    level = levels[0]
+    hertz = problem.geometry.dry_pressure(level.mesh.x, level.mesh.y)
+    state = State.of(level, np.maximum(hertz, problem.fluid.ambient_pressure), 0.0)
+    centre = at_centre(level.mesh, state.thickness)
+    state = State.of(level, state.pressure, problem.thickness_guess - centre)
+    state = state.lifted(0.5 * problem.thickness_guess)
+    if problem.second_order:
+        monotone = [
+            replace(level, wedge=wedge_stencil(level.mesh.shape, level.mesh.dx, second_order=False))
+            for level in levels
+        ]
+        start = _solve_grid(problem, monotone, state, progress, spike=False)
+        yield start
+        state = start.state if start.status == "converged" else state
+    yield _solve_grid(problem, levels, state, progress, spike=False)

@@ -1,0 +1,1 @@
+"""Closed formulas that need no grid: Hertzian contact, film thickness and lubrication regimes."""

@@ -1,0 +1,82 @@
+"""Permittivity of the lubricant over density: pure functions."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ehlectric.arrays import Array
+from ehlectric.errors import InputError
+from ehlectric.lubricant.law import Law
+
+
+def clausius_mossotti(density_ratio: ArrayLike, *, relative_permittivity: float) -> Array:
+    """Relative permittivity of a compressed dielectric liquid.
+
+    eps = (eps_r + 2 + 2 (eps_r - 1) rho)/(eps_r + 2 - (eps_r - 1) rho)
+
+    Parameters
+    ----------
+    density_ratio : array_like, shape (...)
+        rho/rho0, dimensionless, > 0.
+    relative_permittivity : float
+        eps_r at the reference density, dimensionless, >= 1.
+
+    Returns
+    -------
+    ndarray, shape (...)
+        Relative permittivity, dimensionless.
+
+    Raises
+    ------
+    InputError
+        Where the density reaches the pole of the law, (eps_r + 2)/(eps_r - 1).
+
+    Notes
+    -----
+    Eq. (14) of Morris et al. (2022), doi:10.3390/lubricants10050087. The law is for molecules without a
+    dipole moment; polar liquids need a constant.
+
+    Examples
+    --------
+    >>> round(float(clausius_mossotti(1.2138, relative_permittivity=2.4)), 3)
+    2.888
+    """
+    rho = np.asarray(density_ratio, dtype=float)
+    denominator = relative_permittivity + 2.0 - (relative_permittivity - 1.0) * rho
+    if np.any(denominator <= 0.0):
+        raise InputError(
+            "lubricant.permittivity_law: 'clausius-mossotti' has a pole at the density ratio "
+            f"{(relative_permittivity + 2.0) / (relative_permittivity - 1.0):.4g}, and the film reaches "
+            f"{np.max(rho):.4g}; a polar liquid takes 'constant'"
+        )
+    return (relative_permittivity + 2.0 + 2.0 * (relative_permittivity - 1.0) * rho) / denominator
+
+
+def constant_permittivity(density_ratio: ArrayLike, *, relative_permittivity: float) -> Array:
+    """Relative permittivity that does not change with density.
+
+    Parameters
+    ----------
+    density_ratio : array_like, shape (...)
+        rho/rho0, dimensionless.
+    relative_permittivity : float
+        eps_r, dimensionless.
+
+    Returns
+    -------
+    ndarray, shape (...)
+        Relative permittivity, dimensionless.
+
+    Examples
+    --------
+    >>> float(constant_permittivity(1.2, relative_permittivity=2.4))
+    2.4
+    """
+    return np.full_like(np.asarray(density_ratio, dtype=float), relative_permittivity)
+
+
+PERMITTIVITY_LAWS = {
+    "clausius-mossotti": Law(clausius_mossotti, ("relative_permittivity",)),
+    "constant": Law(constant_permittivity, ("relative_permittivity",)),
+}

@@ -1,0 +1,176 @@
+"""An oil over temperature: viscosity, density, pressure-viscosity coefficient, heat of the inlet. SI."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from ehlectric.errors import InputError
+from ehlectric.lubricant.viscosity import ROELANDS_CONSTANT
+
+# Absolute temperatures of 15, 40 and 100 degC [K].
+REFERENCE = 288.15
+COLD, HOT = 313.15, 373.15
+
+# What ASTM D341 adds to a kinematic viscosity in mm^2/s, and below what viscosity that no longer does.
+_ADDED, _LEAST = 0.7, 2.0
+
+
+@dataclass(frozen=True)
+class Walther:
+    """Kinematic viscosity over temperature, log10 log10(nu + 0.7) = A - B log10 T, nu in mm^2/s and T in K.
+
+    ASTM D341, its form for 2 mm^2/s and more.
+
+    Attributes
+    ----------
+    a, b : float
+        Constants, dimensionless.
+
+    Examples
+    --------
+    >>> oil = Walther.of(46e-6, 6.8e-6)
+    >>> round(oil.viscosity(343.15) * 1e6, 2)
+    14.85
+    """
+
+    a: float
+    b: float
+
+    @classmethod
+    def of(cls, at_40: float, at_100: float) -> Walther:
+        """Through the kinematic viscosities at 40 and 100 degC [m^2/s].
+
+        Raises
+        ------
+        InputError
+            Where the oil does not thin, or is too thin for the equation.
+        """
+        if not at_40 > at_100:
+            raise InputError(
+                f"lubricant.temperature.kinematic_viscosity_100: got {at_100:g} m^2/s, takes less than "
+                f"kinematic_viscosity_40, {at_40:g} m^2/s"
+            )
+        if at_100 < 1e-6 * _LEAST:
+            raise InputError(
+                f"lubricant.temperature.kinematic_viscosity_100: got {at_100:g} m^2/s, takes at least "
+                f"{1e-6 * _LEAST:g} m^2/s, for which ASTM D341 holds in its short form"
+            )
+        cold, hot = (math.log10(math.log10(1e6 * nu + _ADDED)) for nu in (at_40, at_100))
+        b = (cold - hot) / math.log10(HOT / COLD)
+        return cls(cold + b * math.log10(COLD), b)
+
+    def viscosity(self, temperature: float) -> float:
+        """Kinematic viscosity at an absolute temperature [K], [m^2/s].
+
+        Raises
+        ------
+        InputError
+            Where it is below what the equation holds for.
+        """
+        double = math.pow(10.0, self.a - self.b * math.log10(temperature))
+        if double > 300.0:
+            raise InputError(f"bearing.temperature: got {temperature:g} K, at which the oil is solid")
+        nu = math.pow(10.0, double) - _ADDED
+        if nu < _LEAST:
+            raise InputError(
+                f"bearing.temperature: got {temperature:g} K, at which the oil has {nu:.3g} mm^2/s; takes "
+                f"one at which it has {_LEAST:g} mm^2/s or more, for which ASTM D341 holds in its short form"
+            )
+        return 1e-6 * nu
+
+    def slope(self, temperature: float) -> float:
+        """-d ln(nu)/dT at an absolute temperature [K], [1/K]."""
+        total = 1e6 * self.viscosity(temperature) + _ADDED
+        return math.log(total) * self.b * total / ((total - _ADDED) * temperature)
+
+
+def density(at_15: float, expansion: float, temperature: float) -> float:
+    """Density of an oil at a temperature, rho_15 (1 - a (T - 288.15 K)).
+
+    Parameters
+    ----------
+    at_15 : float
+        Density at 15 degC [kg/m^3].
+    expansion : float
+        Coefficient a of thermal expansion [1/K].
+    temperature : float
+        Absolute temperature [K].
+
+    Returns
+    -------
+    float
+        [kg/m^3].
+
+    Examples
+    --------
+    >>> round(density(870.0, 6.5e-4, 343.15), 1)
+    838.9
+    """
+    return at_15 * (1.0 - expansion * (temperature - REFERENCE))
+
+
+def roelands_alpha(viscosity: float, roelands_z: float, roelands_pressure: float) -> float:
+    """Pressure-viscosity coefficient of Roelands' law, alpha = z (ln eta0 + 9.67)/p0.
+
+    Parameters
+    ----------
+    viscosity : float
+        eta0 at the temperature [Pa s].
+    roelands_z : float
+        Exponent z, which hardly changes with temperature.
+    roelands_pressure : float
+        p0 [Pa].
+
+    Returns
+    -------
+    float
+        [1/Pa].
+
+    Notes
+    -----
+    C. J. A. Roelands, Correlational aspects of the viscosity-temperature-pressure relationship of
+    lubricating oils, thesis, Delft, 1966.
+
+    Examples
+    --------
+    >>> round(roelands_alpha(0.04, 0.67, 0.198e9) * 1e9, 2)
+    21.83
+    """
+    return roelands_z * (math.log(viscosity) + ROELANDS_CONSTANT) / roelands_pressure
+
+
+def inlet_shear_factor(viscosity: float, slope: float, speed: float, conductivity: float) -> float:
+    """Part of the isothermal film that the heat of shearing in the inlet leaves, in pure rolling.
+
+    C = 1/(1 + 0.241 L^0.64) with L = eta0 beta u^2/k
+
+    Parameters
+    ----------
+    viscosity : float
+        eta0 at the temperature of the inlet [Pa s].
+    slope : float
+        beta = -d ln(eta0)/dT [1/K].
+    speed : float
+        u, mean of both surfaces' [m/s].
+    conductivity : float
+        k, thermal conductivity of the oil [W/(m K)].
+
+    Returns
+    -------
+    float
+        C, from 0 to 1, of the central film.
+
+    Notes
+    -----
+    W. R. D. Wilson and S. Sheu, Effect of inlet shear heating due to sliding on elastohydrodynamic film
+    thickness, ASME J. Lubr. Technol. 105 (1983) 187, at no sliding: a line contact's inlet, used for
+    ellipses too.
+
+    Examples
+    --------
+    >>> round(inlet_shear_factor(0.0125, 0.0309, 15.1, 0.14), 3)
+    0.848
+    """
+    loading = viscosity * slope * speed**2 / conductivity
+    return float(1.0 / (1.0 + 0.241 * loading**0.64))

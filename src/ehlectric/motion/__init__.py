@@ -1,0 +1,1 @@
+"""Transient contacts: roughness that moves with its surface, solved step by step and stored as it goes."""

@@ -1,0 +1,1 @@
+"""Surface roughness: read from files, generated, filtered, and continued over the contact."""

@@ -1,0 +1,273 @@
+"""Measured surfaces from the files instruments write: text profiles, ISO 25178-72 X3P and Alicona AL3D.
+
+What is doubtful is refused by name: spacings that are not uniform, slopes absurd for the spacing, lines
+without data. Other formats are read by SurfaceTopography where it is installed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ehlectric.arrays import Array
+from ehlectric.errors import InputError
+from ehlectric.surfaces.instrument_files import HeightMap, read_al3d, read_x3p
+from ehlectric.surfaces.maps import Map
+from ehlectric.surfaces.profiles import LEAST_POINTS, Profile
+from ehlectric.surfaces.text_files import is_text, read_text
+from ehlectric.surfaces.voids import filled, without_void_borders
+
+# Largest believable slope between neighbours: beyond 5 (79 degrees) no instrument sees a flank.
+STEEPEST = 5.0
+
+# Part of a line or map that may be void and is then filled.
+MOST_VOID = 0.2
+
+# Points of a map beyond which it is not processed: each step of many keeps a copy of it.
+MOST_MAP_POINTS = 20_000_000
+
+# Part of the slopes of a map that may be steeper than any: a few pixels of dust or noise.
+_MOST_STEEP = 0.01
+
+# Spacings and heights between which something is a measured surface [m].
+FINEST, COARSEST = 1e-12, 1e-3
+_HIGHEST = 10.0
+
+
+@dataclass(frozen=True)
+class Surface:
+    """Heights as read [m], rows along the first axis, NaN where the instrument saw nothing.
+
+    A profile is a map of one row. ``spacing_x`` is the distance of neighbours in a row, ``spacing_y`` that
+    of rows, None where there is but one. ``remarks`` say what is doubtful.
+    """
+
+    heights: Array  # (rows, columns)
+    spacing_x: float
+    spacing_y: float | None
+    source: str
+    remarks: tuple[str, ...] = ()
+
+    @property
+    def voids(self) -> float:
+        """Part of the points without data."""
+        return float(np.mean(np.isnan(self.heights)))
+
+    def line_voids(self, index: int = 0, *, along: str = "row") -> float:
+        """Part of the points of one line without data."""
+        lines = self.heights if along == "row" else self.heights.T
+        return float(np.mean(np.isnan(lines[index])))
+
+    @property
+    def height_step(self) -> float | None:
+        """Step in which the heights are stored [m], None where they are not coarse enough to show one."""
+        levels = np.unique(self.heights[np.isfinite(self.heights)])
+        if levels.size < 2 or levels.size > 0.5 * self.heights.size:
+            return None
+        return float(np.median(np.diff(levels)))
+
+    def line(self, index: int = 0, *, along: str = "row") -> Profile:
+        """One line of the surface as a profile, its voids filled by straight lines.
+
+        Parameters
+        ----------
+        index : int
+            Number of the row or column, from 0.
+        along : str
+            "row" or "column".
+
+        Returns
+        -------
+        Profile
+            Ready to be processed.
+
+        Raises
+        ------
+        InputError
+            Where there is no such line, or too much of it is void.
+        """
+        lines, spacing = self.heights, self.spacing_x
+        if along == "column":
+            if self.spacing_y is None:
+                raise InputError(f"{self.source}: is a profile and has no columns, takes along = 'row'")
+            lines, spacing = self.heights.T, self.spacing_y
+        if not 0 <= index < lines.shape[0]:
+            raise InputError(f"line: got {index}, takes a {along} from 0 to {lines.shape[0] - 1}")
+        z = lines[index]
+        there = np.isfinite(z)
+        if np.mean(~there) > MOST_VOID or there.sum() < LEAST_POINTS:
+            raise InputError(
+                f"{self.source}: {along} {index} has data at {there.sum()} of {z.size} points, takes a line "
+                f"with at least {LEAST_POINTS} and {100 * (1 - MOST_VOID):.0f} %"
+            )
+        x = np.arange(z.size)
+        # Voids at the ends hold nothing to go on: they are left out.
+        first, last = x[there][[0, -1]]
+        whole = np.interp(x, x[there], z[there])[first : last + 1]
+        return _checked(Profile(spacing, whole), self.source)
+
+    def map(self, *, along: str = "row") -> Map:
+        """The whole surface as a map, its voids filled by a harmonic function.
+
+        Parameters
+        ----------
+        along : str
+            What lies along x: "row", and then y runs with the number of the row; or "column", and then y runs
+            against that of the column: the surface is turned, not mirrored.
+
+        Returns
+        -------
+        Map
+            Less the borders that are void throughout, ready to be processed.
+
+        Raises
+        ------
+        InputError
+            Where it is a single line, has too many points, or too much of it is void.
+        """
+        if self.spacing_y is None:
+            raise InputError(f"{self.source}: is a profile, takes a map of several rows")
+        if self.heights.size > MOST_MAP_POINTS:
+            raise InputError(
+                f"{self.source}: has {self.heights.size:.3g} points, takes a map of at most "
+                f"{MOST_MAP_POINTS:.0e}; cut it where it was measured, or take a line of it"
+            )
+        rows = without_void_borders(self.heights)
+        there = int(np.isfinite(rows).sum())
+        if min(rows.shape) < LEAST_POINTS or there < (1.0 - MOST_VOID) * rows.size:
+            raise InputError(
+                f"{self.source}: has data at {there} of {rows.shape[0]} x {rows.shape[1]} points, takes a "
+                f"map with at least {LEAST_POINTS} each way and {100 * (1 - MOST_VOID):.0f} %"
+            )
+        if along == "row":
+            dx, dy, heights = self.spacing_x, self.spacing_y, rows.T
+        else:
+            dx, dy, heights = self.spacing_y, self.spacing_x, rows[:, ::-1]
+        return _checked_map(Map(dx, dy, filled(np.ascontiguousarray(heights), dx, dy)), self.source)
+
+
+def _checked(profile: Profile, source: str) -> Profile:
+    """The profile, unless its heights cannot be those of a surface."""
+    slope = float(np.max(np.abs(np.diff(profile.heights)))) / profile.spacing
+    if slope > STEEPEST:
+        raise InputError(
+            f"{source}: the largest slope between neighbours is {slope:.3g}, takes one up to {STEEPEST:g}; "
+            "are x_unit and z_unit right?"
+        )
+    height = float(np.ptp(profile.heights))
+    if height > profile.length:
+        raise InputError(
+            f"{source}: the heights range over {height:.3g} m, the line over {profile.length:.3g} m, takes "
+            "a surface, whose heights range over less than its length; are x_unit and z_unit right?"
+        )
+    return profile
+
+
+def _checked_map(surface: Map, source: str) -> Map:
+    """The map, unless its heights cannot be those of a surface."""
+    z = surface.heights
+    slopes = [np.abs(np.diff(z, axis=0)) / surface.spacing_x, np.abs(np.diff(z, axis=1)) / surface.spacing_y]
+    steep = max(float(np.mean(slope > STEEPEST)) for slope in slopes)
+    if steep > _MOST_STEEP:
+        raise InputError(
+            f"{source}: {100 * steep:.2g} % of the slopes between neighbours are above {STEEPEST:g}, takes "
+            f"a map with up to {100 * _MOST_STEEP:g} %; are its units right?"
+        )
+    height, length = float(np.ptp(z)), max(surface.length_x, surface.length_y)
+    if height > length:
+        raise InputError(
+            f"{source}: the heights range over {height:.3g} m, the map over {length:.3g} m, takes a surface, "
+            "whose heights range over less than its length; are its units right?"
+        )
+    return surface
+
+
+def read_surface(path: str | Path, *, x_unit: str | None = None, z_unit: str | None = None) -> Surface:
+    """Read a measured surface.
+
+    Parameters
+    ----------
+    path : str or Path
+        A text profile (.csv, .txt, .asc, .dat, .hfm), .x3p or .al3d; other formats go to SurfaceTopography.
+    x_unit, z_unit : str, optional
+        Units of a text file that does not state them; they may not contradict it.
+
+    Returns
+    -------
+    Surface
+        Heights in m.
+
+    Raises
+    ------
+    InputError
+        Where the file cannot be read, or what it holds cannot be a surface.
+    """
+    path = Path(path)
+    content = _content(path)
+    suffix = path.suffix.lower()
+    if suffix == ".x3p" or content.startswith(b"PK\x03\x04"):
+        surface = _of_map(path, read_x3p(path, content), x_unit, z_unit)
+    elif suffix == ".al3d" or content.startswith(b"AliconaImaging"):
+        surface = _of_map(path, read_al3d(path, content), x_unit, z_unit)
+    elif is_text(content):
+        text = read_text(path, content, x_unit, z_unit)
+        surface = Surface(text.heights[np.newaxis], text.spacing, None, str(path), text.remarks)
+    else:
+        surface = _of_map(path, _read_other(path), x_unit, z_unit)
+    _check_scale(surface)
+    return surface
+
+
+def _content(path: Path) -> bytes:
+    try:
+        # A pipe would be waited for, for ever.
+        if path.exists() and not (path.is_file() or path.is_dir()):
+            raise InputError(f"{path}: is no regular file")
+        return path.read_bytes()
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read, {(error.strerror or str(error)).lower()}") from None
+    except ValueError as error:
+        raise error if isinstance(error, InputError) else InputError(f"{path!r}: is no path") from None
+
+
+def _of_map(path: Path, heights: HeightMap, x_unit: str | None, z_unit: str | None) -> Surface:
+    for name, given in (("x_unit", x_unit), ("z_unit", z_unit)):
+        if given is not None:
+            raise InputError(f"{name}: got {given!r}, but {path} is in a format that has its own unit")
+    return Surface(*heights, str(path))
+
+
+def _check_scale(surface: Surface) -> None:
+    for axis, spacing in (("x", surface.spacing_x), ("y", surface.spacing_y)):
+        if spacing is not None and not FINEST <= spacing <= COARSEST:
+            raise InputError(
+                f"{surface.source}: its points are {spacing:.3g} m apart along {axis}, takes {FINEST:g} to "
+                f"{COARSEST:g} m; is the unit right?"
+            )
+    highest = np.max(np.abs(surface.heights), initial=0.0, where=~np.isnan(surface.heights))
+    if highest > _HIGHEST:
+        raise InputError(
+            f"{surface.source}: holds heights of {highest:.3g} m, takes up to {_HIGHEST:g} m; is the unit "
+            "right?"
+        )
+
+
+def _read_other(path: Path) -> HeightMap:
+    """Whatever SurfaceTopography knows."""
+    try:
+        from SurfaceTopography import open_topography  # type: ignore[import-not-found]
+    except ImportError:
+        raise InputError(
+            f"{path}: is neither text, X3P nor AL3D; other formats take the extra ehlectric[instruments]"
+        ) from None
+    try:
+        topography = open_topography(str(path)).topography().to_unit("m")
+        heights: Array = np.ma.filled(np.ma.asarray(topography.heights(), dtype=float), np.nan)
+        spacing = np.atleast_1d(topography.pixel_size)
+    except Exception as error:  # readers of forty formats raise whatever they like
+        raise InputError(f"{path}: cannot be read by SurfaceTopography, {str(error)[:80]}") from None
+    if heights.ndim == 1:
+        return heights[np.newaxis], float(spacing[0]), None
+    return heights.T, float(spacing[0]), float(spacing[1])

@@ -1,0 +1,228 @@
+"""Binary height maps of instruments: ISO 25178-72 X3P and Alicona AL3D.
+
+Nothing in a file is trusted: sizes are checked before anything of that size is read.
+"""
+
+from __future__ import annotations
+
+import io
+import lzma
+import struct
+import zipfile
+import zlib
+from pathlib import Path
+from typing import TypeAlias
+from xml.etree import ElementTree
+
+import numpy as np
+
+from ehlectric.arrays import Array
+from ehlectric.errors import InputError, shown
+
+# Points of a map, and bytes of the description of one, beyond which a file is not read.
+MOST_POINTS = 100_000_000
+_MOST_XML = 10_000_000
+
+# Heights (rows, columns) [m], NaN where void; spacing of neighbours in a row, and of rows if there are some.
+HeightMap: TypeAlias = tuple[Array, float, float | None]
+
+# What Python's readers of archives and XML raise at bytes that are no such thing.
+_BROKEN = (
+    zipfile.BadZipFile,
+    zlib.error,
+    lzma.LZMAError,
+    struct.error,
+    ElementTree.ParseError,
+    RuntimeError,  # encrypted
+    NotImplementedError,  # packed in a way Python does not know
+    LookupError,
+    ValueError,
+    OSError,
+    EOFError,
+    OverflowError,
+)
+_KINDS = {"D": "<f8", "F": "<f4", "L": "<i4", "I": "<i2"}
+
+
+def read_x3p(path: Path, content: bytes) -> HeightMap:
+    """ISO 25178-72: a zip of main.xml, a binary block of heights, and perhaps one of valid points.
+
+    Heights are Offset + Increment times what is stored, as the schema of openGPS has it. It asks for the
+    increment of integers only; floats have 1 where it is absent, and it is applied where it is there, as
+    SurfaceTopography does. Valid points are one bit each, the lowest of a byte first, in the heights' order.
+
+    Parameters
+    ----------
+    path : Path
+        For messages.
+    content : bytes
+        Of the file.
+
+    Returns
+    -------
+    HeightMap
+        As read.
+
+    Raises
+    ------
+    InputError
+        Where the file is broken, or holds something else than heights over a regular grid.
+    """
+    try:
+        archive = zipfile.ZipFile(io.BytesIO(content))
+        description = _member(archive, "main.xml", _MOST_XML)
+        root = ElementTree.fromstring(description)
+    except _BROKEN:
+        raise InputError(f"{path}: is no whole X3P file") from None
+    _check_axes(path, root)
+    columns, rows, layers = (_whole(path, root, f"MatrixDimension/Size{axis}") for axis in "XYZ")
+    if layers != 1:
+        raise InputError(f"{path}: has {layers} heights at each point, takes one")
+    if columns * rows > MOST_POINTS:
+        raise InputError(f"{path}: says it has {rows} x {columns} points, takes at most {MOST_POINTS}")
+    kind = np.dtype(_KINDS[_text(root, "CZ/DataType")])
+    points = rows * columns
+    data = _block(path, archive, root, "PointDataLink", points * kind.itemsize)
+    assert data is not None
+    increment = _number(path, root, "CZ/Increment", None if kind.kind == "i" else 1.0)
+    if increment <= 0.0:
+        raise InputError(f"{path}: the increment of its heights is {increment:g}, takes a positive one")
+    # Numbers that are none become voids.
+    with np.errstate(all="ignore"):
+        heights = np.frombuffer(data, kind).astype(float) * increment + _number(path, root, "CZ/Offset", 0.0)
+    heights[~np.isfinite(heights)] = np.nan
+    mask = _block(path, archive, root, "ValidPointsLink", -(-points // 8))
+    if mask is not None:
+        bits = np.unpackbits(np.frombuffer(mask, np.uint8), count=points, bitorder="little")
+        heights[bits == 0] = np.nan
+    dx = _number(path, root, "CX/Increment", None)
+    # A single row has no neighbour, whatever is said of its distance.
+    dy = None if rows == 1 else _number(path, root, "CY/Increment", None)
+    return heights.reshape(rows, columns), dx, dy
+
+
+def _member(archive: zipfile.ZipFile, name: str, most: int) -> bytes:
+    if archive.getinfo(name).file_size > most:
+        raise ValueError(name)
+    return archive.read(name)
+
+
+def _text(root: ElementTree.Element, place: str) -> str:
+    return (root.findtext(f".//{place}") or "").strip()
+
+
+def _check_axes(path: Path, root: ElementTree.Element) -> None:
+    """Positions are counted, heights are stored: nothing else is a map of heights."""
+    kind = _text(root, "FeatureType")
+    if kind not in ("", "SUR", "PRF"):
+        raise InputError(f"{path}: is of the type {shown(kind)}, takes a surface, SUR, or a profile, PRF")
+    for axis, wanted in (("CX", "I"), ("CY", "I"), ("CZ", "A")):
+        found = _text(root, f"{axis}/AxisType")
+        if found != wanted and not (axis == "CY" and not found):
+            what = "equally spaced positions" if wanted == "I" else "heights as stored"
+            raise InputError(f"{path}: its axis {axis} is of type {shown(found)}, takes {wanted!r}, {what}")
+    if _text(root, "CZ/DataType") not in _KINDS:
+        given = shown(_text(root, "CZ/DataType"))
+        raise InputError(f"{path}: its heights are of type {given}, takes one of {', '.join(_KINDS)}")
+
+
+def _whole(path: Path, root: ElementTree.Element, place: str) -> int:
+    try:
+        number = int(_text(root, place))
+        if not 1 <= number <= MOST_POINTS:
+            raise ValueError
+    except ValueError:
+        raise InputError(
+            f"{path}: its {place} is {shown(_text(root, place))}, takes a whole number from 1 to "
+            f"{MOST_POINTS}"
+        ) from None
+    return number
+
+
+def _number(path: Path, root: ElementTree.Element, place: str, default: float | None) -> float:
+    """A finite number, or the default where the file says nothing."""
+    text = _text(root, place)
+    if not text and default is not None:
+        return default
+    try:
+        number = float(text)
+        if not np.isfinite(number):
+            raise ValueError
+    except ValueError:
+        raise InputError(f"{path}: its {place} is {shown(text)}, takes a number") from None
+    return number
+
+
+def _block(
+    path: Path, archive: zipfile.ZipFile, root: ElementTree.Element, link: str, size: int
+) -> bytes | None:
+    """A binary block of the archive; None where the mask of valid points is not named."""
+    name = _text(root, link)
+    if not name and link == "ValidPointsLink":
+        return None
+    try:
+        held = archive.getinfo(name).file_size
+        data = archive.read(name) if held == size else b""
+    except _BROKEN:
+        raise InputError(f"{path}: its {link} is {shown(name)}, which cannot be read from it") from None
+    if held != size:
+        raise InputError(f"{path}: {shown(name)} has {held} bytes, takes {size} for the size of the map")
+    return data
+
+
+def read_al3d(path: Path, content: bytes) -> HeightMap:
+    """Alicona's format: tags of 52 bytes, 20 for the name, 30 for the value, then a block of float32.
+
+    Parameters
+    ----------
+    path : Path
+        For messages.
+    content : bytes
+        Of the file.
+
+    Returns
+    -------
+    HeightMap
+        As read.
+
+    Raises
+    ------
+    InputError
+        Where the header lacks something, or the heights are cut off.
+    """
+    if not content.startswith(b"AliconaImaging"):
+        raise InputError(f"{path}: is no AL3D file")
+    tags = _al3d_tags(content)
+    try:
+        columns, rows, offset = (int(tags[name]) for name in ("Cols", "Rows", "DepthImageOffset"))
+        dx, dy = float(tags["PixelSizeXMeter"]), float(tags["PixelSizeYMeter"])
+        void = float(tags.get("InvalidPixelValue", "nan"))
+    except (KeyError, ValueError):
+        raise InputError(f"{path}: its header lacks a size, a spacing or an offset") from None
+    if min(columns, rows) < 1 or offset < 1:
+        raise InputError(
+            f"{path}: says it has {rows} x {columns} points at the byte {offset}, takes positive numbers"
+        )
+    # Rows are padded to eight bytes.
+    stride = -(-columns * 4 // 8) * 8
+    if offset + stride * rows > len(content):
+        raise InputError(
+            f"{path}: is {len(content)} bytes long, takes {offset + stride * rows} for its header"
+        )
+    block = np.frombuffer(content, "<f4", stride // 4 * rows, offset).reshape(rows, stride // 4)
+    # Numbers that are none become voids.
+    with np.errstate(all="ignore"):
+        heights = block[:, :columns].astype(float)
+        heights[np.isclose(heights, void, rtol=1e-6, atol=0.0) | ~np.isfinite(heights)] = np.nan
+    return heights, dx, None if rows == 1 else dy
+
+
+def _al3d_tags(content: bytes) -> dict[str, str]:
+    tags: dict[str, str] = {}
+    for start in range(17, min(len(content), 17 + 52 * 200), 52):
+        name = content[start : start + 20].split(b"\0")[0].decode("latin-1").strip()
+        value = content[start + 20 : start + 50].split(b"\0")[0].decode("latin-1").strip()
+        if not name:
+            break
+        tags.setdefault(name, value)
+    return tags

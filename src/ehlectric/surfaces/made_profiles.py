@@ -1,0 +1,223 @@
+"""Made surfaces: exact shapes as functions of position, and seeded random profiles.
+
+Heights are positive out of the body.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy import fft
+
+from ehlectric.arrays import Array
+from ehlectric.errors import InputError
+from ehlectric.surfaces.profiles import Profile, convolved
+
+_FOUR_LN_2 = 4.0 * np.log(2.0)
+
+# Points of a made profile in a correlation length, and in the shortest wave of a self-affine one.
+POINTS_IN_CORRELATION, POINTS_IN_SHORTEST = 16, 4
+
+# Points of a made profile beyond which it is refused: some 1 GB is then in use.
+MOST_POINTS = 10_000_000
+
+# Roll-off wavelengths after which the kernel of a self-affine profile is cut: less than a thousandth of Rq is
+# beyond.
+_REACH = 8.0
+
+
+def sinusoid(x: ArrayLike, *, amplitude: float, wavelength: float, phase: float = 0.0) -> Array:
+    """Sinusoidal waviness, amplitude sin(2 pi x/wavelength + phase).
+
+    Parameters
+    ----------
+    x : array_like, shape (...)
+        Position [m], zero at the centre of the contact.
+    amplitude, wavelength : float
+        Amplitude and wavelength [m].
+    phase : float
+        Phase at x = 0 [rad].
+
+    Returns
+    -------
+    ndarray, shape (...)
+        Height [m].
+
+    Examples
+    --------
+    >>> float(sinusoid(1e-5, amplitude=2e-8, wavelength=4e-5))
+    2e-08
+    """
+    height: Array = amplitude * np.sin(2.0 * np.pi * np.asarray(x, dtype=float) / wavelength + phase)
+    return height
+
+
+def asperity(x: ArrayLike, *, height: float, width: float, position: float = 0.0) -> Array:
+    """A single Gaussian asperity, height exp(-4 ln 2 ((x - position)/width)^2).
+
+    Parameters
+    ----------
+    x : array_like, shape (...)
+        Position [m].
+    height, width : float
+        Height, and width at half of it [m].
+    position : float
+        Where its top is [m].
+
+    Returns
+    -------
+    ndarray, shape (...)
+        Height [m].
+
+    Examples
+    --------
+    >>> round(float(asperity(0.5e-6, height=1e-7, width=1e-6)) / 1e-7, 9)
+    0.5
+    """
+    distance = (np.asarray(x, dtype=float) - position) / width
+    heights: Array = height * np.exp(-_FOUR_LN_2 * distance**2)
+    return heights
+
+
+def pit(x: ArrayLike, *, depth: float, width: float, rim: float = 0.0, position: float = 0.0) -> Array:
+    """A single pit with a rim, as a discharge leaves it.
+
+    A Gaussian bowl of ``depth`` below the surface and ``width`` at half of it, and on each side a Gaussian
+    rim of height ``rim`` and half that width, one width from the middle.
+
+    Parameters
+    ----------
+    x : array_like, shape (...)
+        Position [m].
+    depth, width, rim : float
+        Depth, width at half depth and height of the rim [m].
+    position : float
+        Where its middle is [m].
+
+    Returns
+    -------
+    ndarray, shape (...)
+        Height [m].
+
+    Examples
+    --------
+    >>> round(float(pit(0.0, depth=1e-7, width=2e-6)) / 1e-7, 9)
+    -1.0
+    """
+    left = asperity(x, height=rim, width=0.5 * width, position=position - width)
+    right = asperity(x, height=rim, width=0.5 * width, position=position + width)
+    return left + right - asperity(x, height=depth, width=width, position=position)
+
+
+def gaussian(*, rq: float, correlation_length: float, length: float, seed: int) -> Profile:
+    """A random profile of Gaussian heights with the autocorrelation exp(-(distance/correlation_length)^2).
+
+    Parameters
+    ----------
+    rq : float
+        Root mean square height of all such profiles together [m]; a short one has another of its own.
+    correlation_length : float
+        Distance at which the autocorrelation is 1/e [m].
+    length : float
+        Length of the profile [m], at the least.
+    seed : int
+        The same seed, rq and correlation length give the same height at the same position, whatever the
+        length.
+
+    Returns
+    -------
+    Profile
+        With sixteen points a correlation length, one of them at x = 0.
+
+    Raises
+    ------
+    InputError
+        Where that would be too many points.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> heights = gaussian(rq=1e-8, correlation_length=1e-5, length=1.0, seed=1).heights
+    >>> round(float(np.std(heights)) * 1e9, 1)
+    10.0
+    """
+    spacing = correlation_length / POINTS_IN_CORRELATION
+    # Two of these Gaussians folded give the autocorrelation; at four lengths they are 1e-14.
+    kernel = np.exp(-2.0 * (np.arange(-64, 65) / POINTS_IN_CORRELATION) ** 2)
+    return _folded(kernel, spacing, length, rq, seed, "correlation_length")
+
+
+def self_affine(
+    *, rq: float, hurst: float, rolloff_wavelength: float, length: float, seed: int, shortest: float
+) -> Profile:
+    """A random self-affine profile: power spectrum constant below the roll-off, then q^(-1 - 2 hurst).
+
+    Parameters
+    ----------
+    rq : float
+        Root mean square height of all such profiles together [m]; a short one has another of its own.
+    hurst : float
+        Hurst exponent, from 0 (rough) to 1 (smooth).
+    rolloff_wavelength : float
+        Wavelength above which the spectrum is flat [m].
+    length : float
+        Length of the profile [m], at the least.
+    seed : int
+        With the same seed and wavelengths the height at a position is the same, whatever the length.
+    shortest : float
+        Shortest wavelength [m]; shorter ones are weaker by some orders of magnitude.
+
+    Returns
+    -------
+    Profile
+        With four points in the shortest wavelength, one of them at x = 0.
+
+    Raises
+    ------
+    InputError
+        Where that would be too many points.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> made = dict(rq=1e-8, hurst=0.8, rolloff_wavelength=1e-4, length=1.0, seed=1, shortest=1e-5)
+    >>> round(float(np.std(self_affine(**made).heights)) * 1e9, 1)
+    10.0
+    """
+    spacing = shortest / POINTS_IN_SHORTEST
+    reach = int(np.ceil(_REACH * rolloff_wavelength / spacing))
+    _check_points(2 * reach, spacing, 2.0 * reach * spacing, "shortest_wavelength")
+    # The kernel is the inverse cosine transform of the spectrum's root, over four times what is kept of it.
+    n = fft.next_fast_len(8 * reach, real=True)
+    q = fft.rfftfreq(n, spacing)
+    root = np.maximum(q, 1.0 / rolloff_wavelength) ** (-0.5 - hurst) * (q <= 1.0 / shortest)
+    # Faded over its outer half, so that it has no step at its ends.
+    fade = np.clip(2.0 - 2.0 * np.arange(reach + 1) / reach, 0.0, 1.0)
+    half = fft.irfft(root, n)[: reach + 1] * (0.5 - 0.5 * np.cos(np.pi * fade))
+    return _folded(np.concatenate([half[:0:-1], half]), spacing, length, rq, seed, "shortest_wavelength")
+
+
+def _folded(kernel: Array, spacing: float, length: float, rq: float, seed: int, key: str) -> Profile:
+    """White noise folded with a symmetric kernel, on points counted from x = 0.
+
+    The noise to the right and to the left are two streams, so that a longer profile only adds to its ends.
+    The variance is that of theory, the sum of the kernel's squares.
+    """
+    reach = kernel.size // 2
+    half = int(np.ceil(0.5 * length / spacing))
+    _check_points(2 * (half + reach), spacing, length, key)
+    right, left = (
+        np.random.default_rng(stream).standard_normal(half + reach + side)
+        for side, stream in zip((1, 0), np.random.SeedSequence(seed).spawn(2), strict=True)
+    )
+    noise = np.concatenate([left[::-1], right])
+    heights = convolved(noise, kernel)[kernel.size - 1 : noise.size]
+    return Profile(spacing, heights * (rq / np.sqrt(np.sum(kernel**2))))
+
+
+def _check_points(points: int, spacing: float, length: float, key: str) -> None:
+    if points > MOST_POINTS:
+        raise InputError(
+            f"{key}: asks for {points:.3g} points, {spacing:.3g} m apart over {length:.3g} m; takes a longer "
+            f"one, which needs at most {MOST_POINTS:.0e}"
+        )

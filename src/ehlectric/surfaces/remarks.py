@@ -1,0 +1,271 @@
+"""What is doubtful about rough surfaces before any film is solved."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+
+import numpy as np
+
+from ehlectric.cases.roughness import Roughness
+from ehlectric.surfaces.domain import Domain
+from ehlectric.surfaces.maps import Map, statistics
+from ehlectric.surfaces.profiles import LEAST_POINTS, Profile
+from ehlectric.surfaces.profiles import statistics as profiles_statistics
+from ehlectric.surfaces.rough_maps import RoughMap
+from ehlectric.surfaces.rough_profiles import RoughSurface
+
+# Grid spacings in a correlation length, and in a wavelength or the width of a feature, below which they are
+# not resolved, and the part of a profile's variance that a grid may miss.
+LEAST_IN_CORRELATION = 2.0
+LEAST_IN_SHAPE = 8.0
+MOST_MISSED = 0.01
+
+
+def map_surface_remarks(
+    tables: Sequence[Roughness], rough: Sequence[RoughMap], domain: Domain, dx: float, dy: float
+) -> Iterator[str]:
+    """What a user should know about the roughness of a point contact before it is solved, one text each.
+
+    Parameters
+    ----------
+    tables, rough : sequences
+        Of the case, and what ``rough_maps`` made of them.
+    domain : Domain
+        Where the film is solved [m].
+    dx, dy : float
+        Spacings of the film's nodes [m].
+
+    Yields
+    ------
+    str
+        About files and steps, continuation, and what is finer than the grid.
+    """
+    for table, surface in zip(tables, rough, strict=True):
+        yield from surface.remarks
+        yield from _continued(table, surface, domain)
+        if not surface.steps:
+            yield from _map_shape_remarks(table, domain, dx, dy)
+            continue
+        last = surface.steps[-1][1]
+        if isinstance(last, Map):
+            yield from _map_remarks(table, surface, last, domain, (dx, dy))
+        elif table.direction == "y":
+            ends = -domain.side - table.shift_y, domain.side - table.shift_y
+            yield from profile_remarks(surface.surface, last, dy, ends)
+        else:
+            ends = domain.inlet - table.shift, domain.outlet - table.shift
+            yield from profile_remarks(surface.surface, last, dx, ends)
+    yield from same_seeds(tables)
+
+
+def _continued(table: Roughness, surface: RoughMap, domain: Domain) -> Iterator[str]:
+    needed = [2.0 * reach for reach in domain.reach(table)]
+    short = [k for k in (0, 1) if surface.extent[k] < needed[k]]
+    if short:
+        axis = short[0]
+        yield (
+            f"surface {surface.surface} is {surface.extent[axis] * 1e6:.4g} µm long along {'xy'[axis]} and "
+            f"the domain needs {needed[axis] * 1e6:.4g} µm"
+            + (", and it is too short along y too" if len(short) == 2 else "")
+            + f": it was continued by extend = {table.extend!r}"
+        )
+
+
+def _map_shape_remarks(table: Roughness, domain: Domain, dx: float, dy: float) -> Iterator[str]:
+    """Exact shapes finer than the grid, where they lie within the domain."""
+    whose = f"the {table.generator} of surface {table.surface}"
+    if table.wavelength is not None:
+        turn = np.deg2rad(table.orientation or 0.0)
+        axes = (("x", dx, abs(np.cos(turn))), ("y", dy, abs(np.sin(turn))))
+        name, spacing, waves = max(axes, key=lambda axis: axis[1] * axis[2])
+        if spacing * waves > table.wavelength / LEAST_IN_SHAPE:
+            yield unresolved(spacing, f"{whose}, whose wavelength along {name}", table.wavelength / waves)
+        return
+    assert table.width is not None
+    x, y = (table.position or 0.0) + table.shift, (table.position_y or 0.0) + table.shift_y
+    near = 2.0 * table.width
+    if not (domain.inlet - near < x < domain.outlet + near and abs(y) < domain.side + near):
+        return
+    # The rim of a pit is half as wide as the pit.
+    finest = 0.5 * table.width if table.rim else table.width
+    if max(dx, dy) > finest / LEAST_IN_SHAPE:
+        whose = f"the rim of the pit of surface {table.surface}" if table.rim else whose
+        yield unresolved(max(dx, dy), f"{whose}, whose width", finest)
+
+
+def _map_remarks(
+    table: Roughness, surface: RoughMap, last: Map, domain: Domain, spacing: tuple[float, float]
+) -> Iterator[str]:
+    """Maps finer than the grid, along its axes."""
+    found = statistics(last)
+    inverse = 1.0 / found.correlation_length_x**2, 1.0 / found.correlation_length_y**2
+    turn = np.deg2rad(surface.orientation)
+    squares = np.cos(turn) ** 2, np.sin(turn) ** 2
+    lengths = [float((squares[k] * inverse[0] + squares[1 - k] * inverse[1]) ** -0.5) for k in (0, 1)]
+    worst = max((0, 1), key=lambda k: spacing[k] / lengths[k])
+    if spacing[worst] > lengths[worst] / LEAST_IN_CORRELATION:
+        whose = f"the map of surface {surface.surface}, whose correlation length along {'xy'[worst]}"
+        yield unresolved(spacing[worst], whose, lengths[worst])
+    within = _inside(table, last, domain)
+    missed = map_variance_beyond(within, 0.5 / spacing[0], 0.5 / spacing[1], surface.orientation)
+    if missed > MOST_MISSED:
+        coarser = max(spacing)
+        yield (
+            f"the grid, {spacing[0] * 1e6:.3g} x {spacing[1] * 1e6:.3g} µm, misses {100 * missed:.2g} % of "
+            f"the variance of surface {surface.surface}, in waves shorter than two spacings; take more "
+            f"grid.nodes, or a cutoff_short of {4e6 * coarser:.3g} µm or more"
+        )
+
+
+def _inside(table: Roughness, last: Map, domain: Domain) -> Map:
+    """The part of a map within the domain; all of it where it is turned, or too little is within."""
+    x, y = last.x + table.shift, last.y + table.shift_y
+    rows = np.flatnonzero((x >= domain.inlet) & (x <= domain.outlet))
+    columns = np.flatnonzero(np.abs(y) <= domain.side)
+    if table.orientation or min(rows.size, columns.size) < LEAST_POINTS:
+        return last
+    return last.with_heights(last.heights[np.ix_(rows, columns)])
+
+
+def map_variance_beyond(
+    surface: Map, frequency_x: float, frequency_y: float, orientation: float = 0.0
+) -> float:
+    """Part of a map's variance in waves that one axis of a grid has no place for, from its periodogram.
+
+    Parameters
+    ----------
+    surface : Map
+        Heights.
+    frequency_x, frequency_y : float
+        Waves per length along the grid's axes, beyond either of which a wave counts [1/m].
+    orientation : float
+        Angle of the map's own x axis to that of the grid, counter-clockwise [degrees].
+
+    Returns
+    -------
+    float
+        From 0 to 1.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> k = np.arange(800)
+    >>> waves = 3e-8 * np.sin(k / 20)[:, np.newaxis] + 1e-8 * np.sin(k[:200] / 2)
+    >>> [round(map_variance_beyond(Map(1e-7, 1e-7, waves), 1e9, f), 3) for f in (4e5, 1e6)]
+    [0.1, 0.0]
+    """
+    z = surface.heights - np.mean(surface.heights)
+    # Hann's window, so that a step from one side to the other counts for nothing.
+    power = np.abs(np.fft.rfft2(z * np.outer(*(np.hanning(n) for n in z.shape)))) ** 2
+    # All waves but those along x stand for their negative too.
+    power[:, 1 : (z.shape[1] + 1) // 2] *= 2.0
+    own_x = np.fft.fftfreq(z.shape[0], surface.spacing_x)[:, np.newaxis]
+    own_y = np.fft.rfftfreq(z.shape[1], surface.spacing_y)
+    turn = np.deg2rad(orientation)
+    waves_x = own_x * np.cos(turn) - own_y * np.sin(turn)
+    waves_y = own_x * np.sin(turn) + own_y * np.cos(turn)
+    beyond = (np.abs(waves_x) > frequency_x) | (np.abs(waves_y) > frequency_y)
+    total = float(np.sum(power))
+    return float(np.sum(power[beyond])) / total if total > 0.0 else 0.0
+
+
+def profile_surface_remarks(
+    tables: Sequence[Roughness], rough: Sequence[RoughSurface], domain: Domain, dx: float
+) -> Iterator[str]:
+    """What a user should know about the roughness of a line contact before it is solved, one text each."""
+    for table, surface in zip(tables, rough, strict=True):
+        yield from surface.remarks
+        ends = domain.inlet - table.shift, domain.outlet - table.shift
+        reach = 2.0 * max(map(abs, ends))
+        if surface.extent < reach:
+            yield (
+                f"the profile of surface {surface.surface} is {surface.extent * 1e6:.4g} µm long and the "
+                f"domain needs {reach * 1e6:.4g} µm: it was continued by extend = {table.extend!r}"
+            )
+        if surface.steps:
+            yield from profile_remarks(surface.surface, surface.steps[-1][1], dx, ends)
+        else:
+            yield from _profile_shape_remarks(table, dx, ends)
+    yield from same_seeds(tables)
+
+
+def same_seeds(tables: Iterable[Roughness]) -> Iterator[str]:
+    """Made surfaces that are not independent of each other."""
+    for seed, times in Counter(table.seed for table in tables if table.seed is not None).items():
+        if times > 1:
+            yield (
+                f"{times} rough surfaces have the seed {seed}: they are made of the same random numbers and "
+                "are not independent of each other"
+            )
+
+
+def unresolved(dx: float, what: str, length: float) -> str:
+    """That a grid is too coarse for something; the text before its length is ``what``."""
+    return (
+        f"the grid, {dx * 1e6:.3g} µm, does not resolve {what} is {length * 1e6:.3g} µm: its error estimate "
+        "means nothing yet"
+    )
+
+
+def _profile_shape_remarks(table: Roughness, dx: float, ends: tuple[float, float]) -> Iterator[str]:
+    """Exact shapes finer than the grid, where they lie within the domain."""
+    name, length = ("wavelength", table.wavelength) if table.wavelength else ("width", table.width)
+    assert length is not None
+    position = table.position or 0.0
+    if name == "width" and not ends[0] - 2.0 * length < position < ends[1] + 2.0 * length:
+        return
+    # The rim of a pit is half as wide as the pit.
+    finest = 0.5 * length if table.rim else length
+    if dx > finest / LEAST_IN_SHAPE:
+        whose = f"the {'rim of the ' if table.rim else ''}{table.generator} of surface {table.surface}"
+        yield unresolved(dx, f"{whose}, whose {name}", finest)
+
+
+def profile_remarks(surface: int, last: Profile, dx: float, ends: tuple[float, float]) -> Iterator[str]:
+    """A surface whose profile, after the last step, is finer than the grid."""
+    length = profiles_statistics(last).correlation_length
+    if dx > length / LEAST_IN_CORRELATION:
+        whose = f"the profile of surface {surface}, whose correlation length"
+        yield unresolved(dx, whose, length)
+    missed = profile_variance_beyond(last, 0.5 / dx, ends)
+    if missed > MOST_MISSED:
+        yield (
+            f"the grid, {dx * 1e6:.3g} µm, misses {100 * missed:.2g} % of the variance of surface "
+            f"{surface}, in waves shorter than two spacings; take more grid.nodes, or a cutoff_short "
+            f"of {4e6 * dx:.3g} µm or more"
+        )
+
+
+def profile_variance_beyond(profile: Profile, frequency: float, ends: tuple[float, float]) -> float:
+    """Part of a profile's variance in waves of more than a spatial frequency [1/m], from its periodogram.
+
+    Parameters
+    ----------
+    profile : Profile
+        Heights.
+    frequency : float
+        Waves per length [1/m].
+    ends : tuple of float
+        Between which it counts [m]; all of it where it has no sixteen points there.
+
+    Returns
+    -------
+    float
+        From 0 to 1.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> k = np.arange(4000)
+    >>> two_waves = Profile(1e-7, 3e-8 * np.sin(k / 50) + 1e-8 * np.sin(k / 2))
+    >>> round(profile_variance_beyond(two_waves, 1e5, (-1.0, 1.0)), 3)
+    0.1
+    """
+    inside = (profile.x >= ends[0]) & (profile.x <= ends[1])
+    z = profile.heights[inside] if np.count_nonzero(inside) >= LEAST_POINTS else profile.heights
+    # Hann's window, so that a step from the last to the first point counts for nothing.
+    power = np.abs(np.fft.rfft((z - np.mean(z)) * np.hanning(z.size))) ** 2
+    total = float(np.sum(power))
+    waves = np.fft.rfftfreq(z.size, profile.spacing)
+    return float(np.sum(power[waves > frequency])) / total if total > 0.0 else 0.0

@@ -1,0 +1,299 @@
+"""Text profiles: position and height in two columns, under any header.
+
+One separator a file: a semicolon, a tab, a comma, or white space. A comma is the decimal mark where it is
+not the separator. What can be read in two ways is refused.
+"""
+
+from __future__ import annotations
+
+import codecs
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlectric.arrays import Array
+from ehlectric.cases.quantity import length_unit, to_si
+from ehlectric.errors import InputError, shown
+from ehlectric.surfaces.profiles import LEAST_POINTS
+
+_EXPONENT = r"(?:[eE][-+]?[0-9]{1,4})?"
+_NUMBER = {
+    ".": re.compile(r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)" + _EXPONENT),
+    ",": re.compile(r"[-+]?(?:[0-9]+,?[0-9]*|,[0-9]+)" + _EXPONENT),
+}
+_SPACED_NUMBER = re.compile(r"[-+]?(?:[0-9]+[.,]?[0-9]+|[0-9]+\.?|\.[0-9]+)" + _EXPONENT)
+_WHOLE_PAIR = re.compile(r"\s*[-+]?[0-9]+,[0-9]+\s*")
+_UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
+_UNITS = dict.fromkeys(("m", "mm", "um", "nm")) | {"µm": "um", "μm": "um"}
+_UNIT_WORDS = {
+    prefix + ending: unit
+    for prefix, unit in (("", "m"), ("milli", "mm"), ("micro", "um"), ("nano", "nm"))
+    for ending in ("metre", "meter", "metres", "meters")
+}
+_BRACKETED = re.compile(r"[\[(]([^\[\]()]*)[\])]")
+_VALIDITY = re.compile(r"valid(ity)?", re.IGNORECASE)
+
+# Positions and heights beyond which nothing is a surface [m].
+_FARTHEST = 10.0
+
+
+@dataclass(frozen=True)
+class TextProfile:
+    """Heights [m], NaN where void, their spacing [m], and what is doubtful about them."""
+
+    heights: Array  # (n,)
+    spacing: float
+    remarks: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class _Layout:
+    separator: str | None  # None is white space
+    decimal: str
+
+    def fields(self, line: str) -> list[str]:
+        return [field.strip() for field in line.strip().split(self.separator)]
+
+    def is_row(self, line: str) -> bool:
+        first, *rest = self.fields(line) or [""]
+        number = _NUMBER[self.decimal].fullmatch
+        return bool(rest and number(first)) and all(not field or number(field) for field in rest)
+
+    def value(self, field: str) -> float:
+        return float(field.replace(",", ".")) if field else np.nan
+
+    def decimals(self, field: str) -> int:
+        mantissa, _, exponent = field.lower().partition("e")
+        return len(mantissa.partition(self.decimal)[2]) - int(exponent or 0)
+
+
+@dataclass(frozen=True)
+class _Block:
+    layout: _Layout
+    header: list[str]
+    rows: list[list[str]]  # all of the same width
+    numbers: list[int]  # of their lines
+
+
+def is_text(content: bytes) -> bool:
+    """Whether the content of a file looks like text."""
+    return content[:2] in _UTF_16 or b"\0" not in content[:4096]
+
+
+def read_text(path: Path, content: bytes, x_unit: str | None, z_unit: str | None) -> TextProfile:
+    """Profile of a text file.
+
+    Parameters
+    ----------
+    path : Path
+        For messages.
+    content : bytes
+        Two columns, position and height; a third one of 0 and 1, headed "valid", tells what is valid. An
+        empty height is void.
+    x_unit, z_unit : str or None
+        Units of the columns where the header does not state them.
+
+    Returns
+    -------
+    TextProfile
+        As read, in m.
+
+    Raises
+    ------
+    InputError
+        Where it cannot be read, can be read in two ways, or its units are not known or contradict.
+    """
+    block = _block(path, _decoded(path, content))
+    if len(block.rows) < LEAST_POINTS:
+        raise InputError(f"{path}: has {len(block.rows)} points, takes at least {LEAST_POINTS}")
+    width = len(block.rows[0])
+    if width > 2 and not (width == 3 and _has_validity(block)):
+        raise InputError(
+            f"{path}: has {width} columns, takes two, position and height, and perhaps a third headed 'valid'"
+        )
+    stated = _stated_units(block, width)
+    values = _values(path, block)
+    factors = [
+        to_si(f"1 {_unit_of(path, name, given, found)}", "m")
+        for name, given, found in zip(("x_unit", "z_unit"), (x_unit, z_unit), stated, strict=True)
+    ]
+    x, z = values[:, 0], values[:, 1] * factors[1]
+    if max(np.max(np.abs(x)) * factors[0], np.max(np.abs(z), initial=0.0, where=~np.isnan(z))) > _FARTHEST:
+        raise InputError(f"{path}: holds lengths above {_FARTHEST:g} m; are x_unit and z_unit right?")
+    if width > 2:
+        z = np.where(_valid(path, block), z, np.nan)
+    digits = max(block.layout.decimals(row[0]) for row in block.rows)
+    spacing, remarks = _spacing(path, x, 10.0 ** -min(max(digits, -12), 30))
+    return TextProfile(z, spacing * factors[0], remarks)
+
+
+def _decoded(path: Path, content: bytes) -> str:
+    """Text in UTF-8, or in what instruments on Windows write."""
+    codes = ("utf-16",) if content[:2] in _UTF_16 else ("utf-8-sig", "cp1252")
+    for code in codes:
+        try:
+            return content.decode(code)
+        except UnicodeDecodeError:
+            continue
+    raise InputError(f"{path}: is no text in UTF-8, UTF-16 or Windows-1252")
+
+
+def _block(path: Path, text: str) -> _Block:
+    """The block of numbers at the end of a file, with the lines before it."""
+    lines = text.splitlines()
+    separator = _separator(next((line for line in reversed(lines) if line.strip()), ""))
+    layouts = [_Layout(separator, decimal) for decimal in ("." if separator == "," else ".,")]
+    rows = ((n, line) for n, line in enumerate(lines) if any(layout.is_row(line) for layout in layouts))
+    first, _ = next(rows, (len(lines), ""))
+    below = [(n, line) for n, line in enumerate(lines[first:], first + 1) if line.strip()]
+    if not below:
+        raise InputError(f"{path}: holds no two columns of numbers")
+    if separator == "," and all(_WHOLE_PAIR.fullmatch(line) for _, line in below):
+        raise InputError(
+            f"{path}: line {below[0][0]} is {shown(below[0][1].strip())}, one number with a decimal comma or "
+            "two whole ones; takes a semicolon or a tab between columns"
+        )
+    layout = next((each for each in layouts if all(each.is_row(line) for _, line in below)), None)
+    if layout is None:
+        raise InputError(_bad_line(path, below, layouts))
+    fields = [layout.fields(line) for _, line in below]
+    numbers = [number for number, _ in below]
+    return _Block(layout, lines[:first], _rectangle(path, fields, numbers), numbers)
+
+
+def _separator(line: str) -> str | None:
+    """What separates the columns, from the last line of a file."""
+    for separator in (";", "\t"):
+        if separator in line.strip():
+            return separator
+    tokens = line.split()
+    spaced = len(tokens) > 1 and all(_SPACED_NUMBER.fullmatch(token) for token in tokens)
+    return "," if "," in line and not spaced else None
+
+
+def _bad_line(path: Path, below: list[tuple[int, str]], layouts: list[_Layout]) -> str:
+    for number, line in below:
+        if not any(layout.is_row(line) for layout in layouts):
+            text = shown(line.strip())
+            return f"{path}: line {number} is {text}, takes numbers of one kind down to the end"
+    return f"{path}: mixes decimal points and decimal commas, takes one of the two"
+
+
+def _rectangle(path: Path, fields: list[list[str]], numbers: list[int]) -> list[list[str]]:
+    """Rows of one width; only empty fields at their ends may be too many."""
+    width = max(2, *(max(k for k, field in enumerate(row, 1) if field) for row in fields))
+    for row, number in zip(fields, numbers, strict=True):
+        if len(row) < width:
+            raise InputError(f"{path}: line {number} has {len(row)} columns, takes {width} as in other lines")
+    return [row[:width] for row in fields]
+
+
+def _values(path: Path, block: _Block) -> Array:
+    """Positions and heights as written, NaN where a height is empty."""
+    values = np.array([[block.layout.value(field) for field in row[:2]] for row in block.rows])
+    infinite = np.any(np.isinf(values), axis=1)
+    if np.any(infinite):
+        raise InputError(
+            f"{path}: line {block.numbers[int(np.argmax(infinite))]} holds a number that is too large"
+        )
+    return values
+
+
+def _heads(block: _Block) -> list[list[str]]:
+    """Fields of the last two lines above the block, without the mark of a comment."""
+    lines = [line.strip().lstrip("#%/ ") for line in block.header if line.strip()]
+    return [block.layout.fields(line) for line in lines[-2:]]
+
+
+def _has_validity(block: _Block) -> bool:
+    """Whether the third column is headed as one of validity."""
+    return any(len(head) > 2 and _VALIDITY.fullmatch(head[2].strip("\"' ")) for head in _heads(block))
+
+
+def _valid(path: Path, block: _Block) -> NDArray[np.bool_]:
+    flags = [row[2] for row in block.rows]
+    for flag, number in zip(flags, block.numbers, strict=True):
+        if flag not in ("0", "1"):
+            raise InputError(f"{path}: line {number} has the validity {shown(flag)}, takes 0 or 1")
+    return np.array([flag == "1" for flag in flags])
+
+
+def _stated_units(block: _Block, width: int) -> tuple[str | None, str | None]:
+    """Units of the two columns, where the line above them states one for each column and nothing else.
+
+    Such as "Lateral um,Raw Micrometer", "[mm];[mm]" or, between white space, "x [um] z [nm]".
+    """
+    lines = [line.strip().lstrip("#%/ ") for line in block.header if line.strip()]
+    if not lines:
+        return None, None
+    fields = block.layout.fields(lines[-1])
+    while fields and not fields[-1]:
+        fields.pop()
+    if len(fields) != width:
+        fields = re.findall(r"[^\[\]()]*[\[(][^\[\]()]*[\])]", lines[-1])
+        if len(fields) != width or "".join(fields) != lines[-1]:
+            return None, None
+    return _unit_in(fields[0]), _unit_in(fields[1])
+
+
+def _unit_in(field: str) -> str | None:
+    """The one unit of length in the head of a column; none beside a number, as a value has one."""
+    brackets = _BRACKETED.findall(field)
+    if brackets:
+        candidates = [inner.strip() for inner in brackets]
+        if re.search(r"[0-9]\s*[\[(]", field):
+            return None
+    elif re.search(r"[0-9]", field):
+        return None
+    else:
+        candidates = re.findall(r"[^\W\d_]+", field)
+    units = [_UNIT_WORDS.get(word.lower(), word) for word in candidates]
+    units = [_UNITS[unit] or unit for unit in units if unit in _UNITS]
+    return units[0] if len(units) == 1 else None
+
+
+def _unit_of(path: Path, name: str, given: str | None, stated: str | None) -> str:
+    if given is not None:
+        try:
+            length_unit(given)
+        except ValueError as error:
+            raise InputError(f"{name}: {error}") from None
+    if given is not None and stated is not None and to_si(f"1 {given}", "m") != to_si(f"1 {stated}", "m"):
+        raise InputError(f"{name}: got {given!r}, but {path} states {stated!r}")
+    unit = stated if given is None else given
+    if unit is None:
+        raise InputError(f"{name}: missing, {path} does not state the unit of its column without doubt")
+    return unit
+
+
+def _spacing(path: Path, x: Array, step: float) -> tuple[float, tuple[str, ...]]:
+    """Spacing of positions that are equal up to rounding: from the whole length, not from neighbours.
+
+    ``step`` is the decimal step in which they are written.
+    """
+    steps = np.diff(x)
+    if not np.all(steps > 0.0):
+        bad = int(np.argmin(steps > 0.0))
+        raise InputError(f"{path}: positions {bad} and {bad + 1} do not increase")
+    spacing = float((x[-1] - x[0]) / (x.size - 1))
+    largest = float(np.max(np.abs(x - (x[0] + spacing * np.arange(x.size)))))
+    # Positions that are rounded lie within a step of the line, and neighbours are one of two distances apart.
+    if largest > 1.01 * max(step, 1e-3 * spacing) or np.ptp(steps) > 1.01 * max(step, 4e-3 * spacing):
+        raise InputError(
+            f"{path}: the spacing is not uniform, positions deviate by up to {largest / spacing:.2g} of it "
+            f"and neighbours are {np.min(steps):.4g} to {np.max(steps):.4g} apart"
+        )
+    # Only where the longer of the two is twice the shorter may it be a sample that is missing.
+    long = steps > 1.5 * np.min(steps)
+    if 0 < np.count_nonzero(long) <= 0.05 * steps.size:
+        where = int(np.argmax(long))
+        remark = (
+            f"{path}: positions are written in steps of their spacing, and {np.count_nonzero(long)} of the "
+            f"{steps.size} distances are twice the others, the first behind point {where}: rounding, or "
+            "samples that are missing; all were taken as equally spaced"
+        )
+        return spacing, (remark,)
+    return spacing, ()

@@ -1,0 +1,149 @@
+"""Designs of a sweep: which values the varied inputs take together, point by point."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from itertools import product
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ehlectric.arrays import Array
+from ehlectric.sweep.results import Range
+
+
+def grid(axes: Mapping[str, Sequence[Any]]) -> Iterator[dict[str, Any]]:
+    """Every value of each key with every value of the others, the last key fastest.
+
+    Examples
+    --------
+    >>> list(grid({"a": [1, 2], "b": [3, 4]}))
+    [{'a': 1, 'b': 3}, {'a': 1, 'b': 4}, {'a': 2, 'b': 3}, {'a': 2, 'b': 4}]
+    """
+    for values in product(*axes.values()):
+        yield dict(zip(axes, values, strict=True))
+
+
+def paired(axes: Mapping[str, Sequence[Any]]) -> Iterator[dict[str, Any]]:
+    """The first values of all keys together, then the second ones, and so on.
+
+    Examples
+    --------
+    >>> list(paired({"a": [1, 2], "b": [3, 4]}))
+    [{'a': 1, 'b': 3}, {'a': 2, 'b': 4}]
+    """
+    for values in zip(*axes.values(), strict=True):
+        yield dict(zip(axes, values, strict=True))
+
+
+def sobol(
+    ranges: Mapping[str, Range], samples: int, seed: int, whole: Collection[str] = ()
+) -> Iterator[dict[str, Any]]:
+    """The points from which first-order and total sensitivity indices are estimated.
+
+    Parameters
+    ----------
+    ranges : mapping
+        Range of each key.
+    samples : int
+        Rows n of the matrices A and B, a power of two.
+    seed : int
+        Of the scrambling of Sobol's sequence: the same seed makes the same points.
+    whole : collection of str
+        Keys that take whole numbers, each of their range with the same share.
+
+    Yields
+    ------
+    dict
+        Inputs of a point: n(d + 2) of them for d keys, the rows of A, those of B, then, for each key, those
+        of A with the column of that key from B.
+
+    Notes
+    -----
+    A and B are the halves of a scrambled Sobol sequence in 2d dimensions. Saltelli et al., Comput. Phys.
+    Commun. 181 (2010) 259, doi:10.1016/j.cpc.2009.09.018, table 2; ``scipy.stats.sobol_indices`` takes what
+    is computed there as its f_A, f_B and f_AB.
+
+    Examples
+    --------
+    >>> points = list(sobol({"a": Range(0.0, 1.0), "b": Range(1.0, 100.0, "log")}, 4, seed=0))
+    >>> len(points), points[8] == {"a": points[4]["a"], "b": points[0]["b"]}
+    (16, True)
+    """
+    from scipy.stats import qmc
+
+    count = len(ranges)
+    engine = qmc.Sobol(2 * count, scramble=True, seed=np.random.default_rng(seed))
+    # A power of two keeps the balance of the sequence.
+    unit = engine.random_base2(samples.bit_length() - 1)
+    first, second = unit[:, :count], unit[:, count:]
+    yield from _rows(ranges, first, whole)
+    yield from _rows(ranges, second, whole)
+    for k in range(count):
+        mixed = first.copy()
+        mixed[:, k] = second[:, k]
+        yield from _rows(ranges, mixed, whole)
+
+
+def _rows(ranges: Mapping[str, Range], unit: Array, whole: Collection[str]) -> Iterator[dict[str, Any]]:
+    """Points of rows of the unit cube."""
+    columns = [
+        (shares if key in whole else between)(over, unit[:, k]).tolist()
+        for k, (key, over) in enumerate(ranges.items())
+    ]
+    for values in zip(*columns, strict=True):
+        yield dict(zip(ranges, values, strict=True))
+
+
+def between(over: Range, unit: ArrayLike) -> Array:
+    """Values of a range.
+
+    Parameters
+    ----------
+    over : Range
+        Its ends and its spacing.
+    unit : array_like
+        Where in the range, from 0 at its start to 1 at its end.
+
+    Returns
+    -------
+    ndarray
+        In the unit of the range, its ends exact.
+
+    Examples
+    --------
+    >>> between(Range(1.0, 100.0, "log"), [0.0, 0.5, 1.0])
+    array([  1.,  10., 100.])
+    """
+    unit = np.asarray(unit, dtype=float)
+    if over.spacing == "log":
+        values = over.start ** (1.0 - unit) * over.stop**unit
+    else:
+        values = (1.0 - unit) * over.start + unit * over.stop
+    return np.clip(values, over.start, over.stop)
+
+
+def shares(over: Range, unit: ArrayLike) -> Array:
+    """Whole numbers of a range, each with its share of the unit interval.
+
+    Parameters
+    ----------
+    over : Range
+        Its ends, whole numbers, and its spacing.
+    unit : array_like
+        From 0 to 1.
+
+    Returns
+    -------
+    ndarray of int
+        Rounding alone would give the ends half a share.
+
+    Examples
+    --------
+    >>> shares(Range(1, 3), [0.0, 0.3, 0.4, 0.6, 0.7, 1.0])
+    array([1, 1, 2, 2, 3, 3])
+    """
+    wider = Range(over.start - 0.5, over.stop + 0.5, over.spacing)
+    rounded = np.floor(between(wider, unit) + 0.5)
+    return np.clip(rounded, over.start, over.stop).astype(np.int64)

@@ -1,0 +1,273 @@
+"""What a sweep file asks for: a base case, what varies in it and over what, and the design of its points."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Annotated, Any, Literal, Self
+
+import numpy as np
+from pydantic import ValidationInfo, create_model, field_validator, model_validator
+from pydantic.fields import FieldInfo
+
+from ehlectric.cases.any_case import AnyCase, case_of_dict, case_of_file
+from ehlectric.cases.case import Case, Title, find_files
+from ehlectric.cases.keys import input_field, number_of
+from ehlectric.cases.quantity import Count, Quantity
+from ehlectric.cases.table import Table, nearest, read_toml
+from ehlectric.errors import InputError, shown
+from ehlectric.sweep import design as sweep_design
+from ehlectric.sweep.results import Range
+
+# With their summaries and tables so many take some 4 GB, 20 kB each.
+MOST_POINTS = 200_000
+_RANGE_KEYS = ("from", "to", "count", "spacing")
+_SPACINGS = ("linear", "log")
+
+
+class Sweep(Table):
+    """Many cases: a base case, and what varies in it.
+
+    ``vary`` holds, by dotted key of the case, the values in SI, or the ``Range`` of a "sobol" design; rough
+    surfaces count from 1, as in "roughness.1.rescale_rq". A varied key displaces its alternative.
+
+    Examples
+    --------
+    >>> contact = {"reduced_radius": "14.1 mm", "reduced_modulus": "226 GPa"}
+    >>> contact |= {"max_hertz_pressure": "1 GPa", "entrainment_speed": "4 m/s"}
+    >>> case = case_of_dict({"contact": contact, "lubricant": {"base": "paper"}})
+    >>> vary = {"contact.entrainment_speed": ["1 m/s", "2 m/s"], "grid.nodes": [1601, 3201]}
+    >>> sweep = Sweep.from_dict({"case": case, "vary": vary})
+    >>> sweep.size, list(sweep.points())[1]
+    (4, {'contact.entrainment_speed': 1.0, 'grid.nodes': 3201})
+    """
+
+    title: Title = ""
+    case: AnyCase
+    design: Literal["grid", "paired", "sobol"] = "grid"
+    vary: Mapping[str, Any]
+    samples: Annotated[int, Count(2, 2**16, "rows of each matrix of a sobol design")] | None = None
+    seed: Annotated[int, Count(0, 2**32, "of the random numbers of a sobol design")] = 0
+
+    @field_validator("vary", mode="before")
+    @classmethod
+    def _parsed(cls, given: Any, info: ValidationInfo) -> Any:
+        """Values in SI; left as they are where the case or the design are wrong already."""
+        case, design = info.data.get("case"), info.data.get("design")
+        if not isinstance(given, Mapping) or case is None or design is None:
+            return given
+        flat = _flattened(given)
+        if not flat:
+            raise ValueError("got no key, takes at least one key of the case with its values or its range")
+        return {key: _axis(key, value, design) for key, value in flat.items()}
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if isinstance(self.case, Case) and self.case.motion is not None:
+            raise ValueError(
+                "case.motion: got it in a sweep, whose films are at rest; takes a case without it"
+            )
+        if self.design == "sobol":
+            if self.samples is None:
+                raise ValueError("samples: missing, a sobol design takes it: a power of two")
+            if self.samples & (self.samples - 1):
+                raise ValueError(f"samples: got {self.samples}, takes a power of two, such as 64 or 1024")
+        for name in ("samples", "seed") if self.design != "sobol" else ():
+            if name in self.model_fields_set:
+                raise ValueError(f"{name}: got it in a {self.design} design, which has no use for it")
+        lengths = {key: len(axis) for key, axis in self.axes.items()}
+        if self.design == "paired" and len(set(lengths.values())) > 1:
+            counts = ", ".join(f"{length} of {key}" for key, length in lengths.items())
+            raise ValueError(f"vary: got {counts}, takes as many of each in a paired design")
+        if self.size > MOST_POINTS:
+            raise ValueError(f"vary: got {self.size} points, takes at most {MOST_POINTS}")
+        return self
+
+    @classmethod
+    def from_toml(cls, path: str | Path) -> Self:
+        """Sweep of a TOML file; files that it names lie relative to it.
+
+        Raises
+        ------
+        InputError
+            Where it or its case cannot be read, is not TOML, or is not a sweep.
+        """
+        table, folder = read_toml(path), Path(path).parent
+        match table.get("case"):
+            case str(name):
+                table["case"] = str(folder / name)
+            case dict(inner):
+                find_files(inner, folder)
+        if isinstance(table.get("vary"), dict):
+            _locate(table["vary"], folder)
+        return cls.from_dict(table)
+
+    @classmethod
+    def from_dict(cls, table: Mapping[str, Any]) -> Self:
+        """Sweep of nested tables, whose ``case`` is a Case, its tables, or the path of its file.
+
+        Raises
+        ------
+        InputError
+            One line with the key, what it got and what it takes.
+        """
+        case = table.get("case")
+        try:
+            if isinstance(case, str | Path):
+                table = {**table, "case": case_of_file(case)}
+            elif isinstance(case, Mapping):
+                table = {**table, "case": case_of_dict(case)}
+            elif case is not None and not isinstance(case, AnyCase):
+                raise InputError(f"case: got {shown(case)}, takes a table or the name of a file")
+        except InputError as error:
+            text, there = str(error), f"{case}: " if isinstance(case, str | Path) else "case."
+            raise InputError(text if text.startswith((there, "case:")) else f"{there}{text}") from None
+        return super().from_dict(table)
+
+    @property
+    def axes(self) -> dict[str, tuple[Any, ...]]:
+        """Values of each varied key, SI; of a "sobol" design empty."""
+        return {} if self.design == "sobol" else dict(self.vary)
+
+    @property
+    def ranges(self) -> dict[str, Range]:
+        """Of a "sobol" design, the range of each varied key."""
+        return dict(self.vary) if self.design == "sobol" else {}
+
+    @property
+    def size(self) -> int:
+        """Number of points."""
+        if self.design == "sobol":
+            return (self.samples or 0) * (len(self.vary) + 2)
+        lengths = [len(axis) for axis in self.axes.values()]
+        return math.prod(lengths) if self.design == "grid" else lengths[0]
+
+    def points(self) -> Iterator[dict[str, Any]]:
+        """Inputs of every point by dotted key, SI, in the order of the design."""
+        if self.design == "sobol":
+            whole = [key for key in self.vary if isinstance(number_of(input_field(key)), Count)]
+            return sweep_design.sobol(self.ranges, self.samples or 0, self.seed, whole)
+        return {"grid": sweep_design.grid, "paired": sweep_design.paired}[self.design](self.axes)
+
+
+def _flattened(tables: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
+    """Values and ranges by dotted key, from keys that are dotted and tables that are nested."""
+    flat: dict[str, Any] = {}
+    for key, value in tables.items():
+        inner = (
+            _flattened(value, f"{prefix}{key}.")
+            if isinstance(value, Mapping) and not {"from", "to"} & set(value)
+            else {f"{prefix}{key}": value}
+        )
+        for name in inner.keys() & flat.keys():
+            raise ValueError(f"{name}: got it twice, takes it once")
+        flat |= inner
+    return flat
+
+
+def _locate(tables: dict[str, Any], folder: Path, prefix: str = "") -> None:
+    """Files among the values lie relative to the sweep, wherever it is written to."""
+    for name, value in tables.items():
+        key = prefix + name
+        if isinstance(value, dict):
+            _locate(value, folder, f"{key}.")
+        elif isinstance(value, list) and key.startswith("roughness.") and key.endswith(".file"):
+            tables[name] = [str((folder / v).absolute()) if isinstance(v, str) else v for v in value]
+
+
+def _axis(key: str, given: Any, design: str) -> tuple[Any, ...] | Range:
+    """Values of a varied key, or its range in a sobol design."""
+    if key.partition(".")[0] == "motion":
+        raise ValueError(f"{key}: got it in a sweep, whose films are at rest; takes other keys of the case")
+    field = input_field(key)
+    if isinstance(given, Mapping):
+        return _range(key, given, number_of(field), design)
+    if isinstance(given, Range):
+        given = {"from": given.start, "to": given.stop, "spacing": given.spacing}
+        return _range(key, given, number_of(field), design)
+    if design == "sobol":
+        raise ValueError(f"{key}: got {shown(given)}, takes a table with from and to in a sobol design")
+    if isinstance(given, str) or not isinstance(given, Sequence) or len(given) == 0:
+        raise ValueError(f"{key}: got {shown(given)}, takes a list of values or a table with from and to")
+    values = tuple(_values(key, field, given))
+    texts = [json.dumps(value) for value in values]
+    for k, text in enumerate(texts) if design == "grid" else ():
+        if text in texts[:k]:
+            raise ValueError(
+                f"{key}: got {shown(values[k])} twice, takes values that differ in a grid design"
+            )
+    return values
+
+
+def _values(key: str, field: FieldInfo, given: Sequence[Any]) -> Iterator[Any]:
+    """The values as the case holds them."""
+    table, _, leaf = key.rpartition(".")
+    annotation = Annotated[field.annotation, *field.metadata] if field.metadata else field.annotation
+    keys: Any = {leaf: (annotation, ...)}
+    value_of: type[Table] = create_model("Value", __base__=Table, **keys)
+    for value in given:
+        try:
+            parsed = value_of.from_dict({leaf: value}).model_dump(mode="json")[leaf]
+        except InputError as error:
+            raise ValueError(".".join(filter(None, [table, str(error)]))) from None
+        yield parsed
+
+
+def _range(
+    key: str, given: Mapping[str, Any], number: Quantity | Count | None, design: str
+) -> tuple[Any, ...] | Range:
+    if number is None:
+        raise ValueError(f"{key}: got a range, takes a list of values: it is no number")
+    for name in given:
+        if name not in _RANGE_KEYS:
+            near = nearest(str(name), _RANGE_KEYS)
+            raise ValueError(f"{key}.{name}: unknown key; the nearest known one is {key}.{near}")
+    over = _over(key, given, number)
+    if design == "sobol":
+        if "count" in given:
+            raise ValueError(
+                f"{key}.count: got it in a sobol design, which takes samples for all of its keys"
+            )
+        return over
+    count = given.get("count")
+    if isinstance(count, bool) or not isinstance(count, int) or not 2 <= count <= MOST_POINTS:
+        got = "missing" if count is None else f"got {shown(count)}"
+        raise ValueError(f"{key}.count: {got}, takes how many values, a whole number from 2 to {MOST_POINTS}")
+    values = sweep_design.between(over, np.linspace(0.0, 1.0, count))
+    if isinstance(number, Quantity):
+        return tuple(values.tolist())
+    rounded = tuple(np.floor(values + 0.5).astype(int).tolist())
+    if design == "grid" and len(set(rounded)) < count:
+        raise ValueError(
+            f"{key}.count: got {count}, takes at most the whole numbers from {over.start:g} to {over.stop:g}"
+        )
+    return rounded
+
+
+def _over(key: str, given: Mapping[str, Any], number: Quantity | Count) -> Range:
+    """The ends of a range by the unit of its key, and its spacing."""
+    ends = []
+    for name in ("from", "to"):
+        if name not in given:
+            raise ValueError(f"{key}.{name}: missing, takes {_takes(number)}")
+        try:
+            ends.append(number.parse(given[name]))
+        except ValueError as error:
+            raise ValueError(f"{key}.{name}: {error}") from None
+    start, stop = ends
+    spacing = given.get("spacing", "linear")
+    if spacing not in _SPACINGS:
+        raise ValueError(f"{key}.spacing: got {shown(spacing)}, takes 'linear' or 'log'")
+    if not start < stop:
+        raise ValueError(f"{key}.to: got {shown(given['to'])}, takes more than from, {shown(given['from'])}")
+    if spacing == "log" and start <= 0.0:
+        raise ValueError(f"{key}.from: got {shown(given['from'])}, takes more than 0 with spacing 'log'")
+    return Range(start, stop, spacing)
+
+
+def _takes(number: Quantity | Count) -> str:
+    if isinstance(number, Quantity):
+        return number.takes
+    return f"a whole number from {number.least} to {number.most}"

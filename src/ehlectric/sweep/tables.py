@@ -1,0 +1,226 @@
+"""A sweep as tables: CSV, Parquet where pyarrow is there, and NetCDF, gridded where its points are a grid."""
+
+from __future__ import annotations
+
+import csv
+import json
+from collections.abc import Mapping
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ehlectric.cases.keys import kind_of
+from ehlectric.runtime.files import clear, prepare, whole
+from ehlectric.sweep.labels import label_of
+from ehlectric.sweep.results import SweepResults, as_number, flat
+from ehlectric.version import __version__
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+CSV = "sweep.csv"
+PARQUET = "sweep.parquet"
+NETCDF = "sweep.nc"
+FILES = (CSV, PARQUET, NETCDF)
+
+# Texts of a summary that change from point to point.
+_TEXTS = ("bearing.lubrication", "bearing.first_break_at")
+
+# What is said of a point beside its inputs and numbers, with attributes as CF has them.
+_OWN = {
+    "number": {"long_name": "number of the point in the order of the design", "units": "1"},
+    "status": {"long_name": "what became of the point"},
+    "reason": {"long_name": "why it is not solved"},
+    "warnings": {"long_name": "what to know before using its numbers"},
+    "seconds": {"long_name": "time it took", "units": "s"},
+}
+
+
+def write_tables(results: SweepResults, folder: str | Path) -> list[Path]:
+    """Write sweep.csv, sweep.nc and, where pyarrow is there, sweep.parquet.
+
+    Parameters
+    ----------
+    results : SweepResults
+        As ``read_sweep`` gives it, finished or not.
+    folder : str or Path
+        Where to; made if it is not there.
+
+    Returns
+    -------
+    list of Path
+        The files written.
+
+    Raises
+    ------
+    InputError
+        Where the folder cannot be written to.
+    """
+    folder = prepare(folder, FILES)
+    columns = columns_of(results)
+    clear(folder, FILES)
+    files = [folder / CSV, folder / NETCDF]
+    with whole(files[0]) as path, path.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(columns)
+        writer.writerows(zip(*(map(_cell, column) for column in columns.values()), strict=True))
+    with whole(files[1]) as path:
+        to_xarray(results).to_netcdf(path, engine="h5netcdf")
+    if find_spec("pyarrow") is not None:
+        import pyarrow
+        from pyarrow import parquet
+
+        files.append(folder / PARQUET)
+        with whole(files[-1]) as path:
+            parquet.write_table(pyarrow.table({key: _plain(column) for key, column in columns.items()}), path)
+    return files
+
+
+def columns_of(results: SweepResults) -> dict[str, list[Any]]:
+    """One row a point: its number, what became of it, what was varied, and what the summary has.
+
+    Parameters
+    ----------
+    results : SweepResults
+        A sweep, finished or not.
+
+    Returns
+    -------
+    dict
+        Columns by name, those of inputs and results by their dotted key, SI; before them number, status,
+        reason, warnings, joined by "; ", and seconds. Results are None where a point is not solved, or has no
+        such value; of the inputs that the summary resolves, those that vary. A value of the summary that has
+        the key of one that was varied, as a film factor, has no column: the input has it.
+    """
+    points = results.points
+    columns: dict[str, list[Any]] = {
+        "number": [point.number for point in points],
+        "status": [point.status for point in points],
+        "reason": [point.reason for point in points],
+        "warnings": ["; ".join(point.warnings) for point in points],
+        "seconds": [point.seconds for point in points],
+    }
+    columns |= {key: [point.inputs[key] for point in points] for key in results.varied}
+    found = texts_of(results) | numbers_of(results)
+    return columns | {key: values for key, values in found.items() if key not in columns}
+
+
+def texts_of(results: SweepResults) -> dict[str, list[str | None]]:
+    """Texts of the summaries by dotted key, a list over the points each, those of bearings that change."""
+    rows = [flat(point.summary) if point.solved and point.summary else {} for point in results.points]
+    return {key: [row.get(key) for row in rows] for key in _TEXTS if any(key in row for row in rows)}
+
+
+def numbers_of(results: SweepResults) -> dict[str, list[float | None]]:
+    """The numbers of all summaries by dotted key, a list over the points each."""
+    rows = [_numbers(point.summary) if point.solved and point.summary else {} for point in results.points]
+    keys = dict.fromkeys(key for row in rows for key in row)
+    found = {key: [row.get(key) for row in rows] for key in keys}
+    # Of what the summary repeats of its case, that which was not given and yet varies.
+    given = {f"inputs.{key}" for key in results.varied}
+    return {
+        key: values
+        for key, values in found.items()
+        if not key.startswith("inputs.") or (key not in given and len({*values} - {None}) > 1)
+    }
+
+
+def _numbers(summary: Mapping[str, Any]) -> dict[str, float]:
+    return {
+        key: value
+        for key, value in flat(summary).items()
+        if isinstance(value, int | float) and not isinstance(value, bool)
+    }
+
+
+def to_xarray(results: SweepResults) -> xr.Dataset:
+    """A sweep as a dataset, SI.
+
+    Parameters
+    ----------
+    results : SweepResults
+        A sweep, finished or not.
+
+    Returns
+    -------
+    xarray.Dataset
+        Of a "grid" over the varied keys, else over ``point``, with the numbers of the summary by dotted key,
+        not a number where a point is not solved; ``status``, ``reason`` and ``warnings`` as texts, and those
+        of a bearing's lubrication and first contact to break.
+    """
+    import xarray as xr
+
+    gridded = results.design == "grid"
+    dimensions = results.varied if gridded else ("point",)
+    shape = tuple(len(axis) for axis in results.axes.values()) if gridded else (len(results.points),)
+
+    def laid(values: list[Any]) -> tuple[tuple[str, ...], Any]:
+        return dimensions, _array(values).reshape(shape)
+
+    columns = columns_of(results)
+    own = {name: (*laid(columns.pop(name)), attributes) for name, attributes in _OWN.items()}
+    inputs = {key: columns.pop(key) for key in results.varied}
+    coordinates = {
+        key: (
+            key if gridded else "point",
+            _array(list(results.axes[key] if gridded else values)),
+            _attributes(key, results),
+        )
+        for key, values in inputs.items()
+    }
+    found = {
+        key: (*laid(values if key in _TEXTS else list(map(as_number, values))), _attributes(key, results))
+        for key, values in columns.items()
+    }
+    return xr.Dataset(
+        own | found,
+        coords=coordinates,
+        attrs={
+            "Conventions": "CF-1.11",
+            "title": results.title or results.case.title or "Sweep of a lubricated contact",
+            "source": f"ehlectric {__version__}",
+            "comment": "SI units; not a number where a point is not solved; warnings say what not to use",
+            "case": results.case.to_toml(),
+            "design": results.design,
+            "ranges": json.dumps({key: vars(over) for key, over in results.ranges.items()}),
+            "samples": results.samples,
+            "seed": results.seed,
+        },
+    )
+
+
+def _array(values: list[Any]) -> Any:
+    """Whole numbers and floats as such, texts and lists as texts."""
+    numeric = [isinstance(value, int | float) and not isinstance(value, bool) for value in values]
+    if all(numeric):
+        return np.array(values)
+    return np.array([_cell(value) for value in values], dtype=object)
+
+
+def _plain(column: list[Any]) -> list[Any]:
+    """A column of one type, for Parquet."""
+    texts = any(isinstance(value, str | list | bool) for value in column)
+    if texts:
+        return [None if value is None else _cell(value) for value in column]
+    if any(isinstance(value, float) for value in column):
+        return [None if value is None else float(value) for value in column]
+    return column
+
+
+def _cell(value: Any) -> Any:
+    """A value as text is written where it is no number: lists as JSON, nothing as nothing."""
+    if value is None or isinstance(value, str):
+        return value or ""
+    return repr(value) if isinstance(value, float) else json.dumps(value)
+
+
+def _attributes(key: str, results: SweepResults) -> dict[str, str]:
+    """Name and unit of an input or of a number of the summary; no unit where it is no number."""
+    label = label_of(key, results.case)
+    found = {"long_name": label.name}
+    if key in _TEXTS or (key in results.varied and kind_of(key) is None):
+        return found
+    return found | {"units": label.unit.replace("**", "^").replace("*", " ") or "1"}

@@ -1,0 +1,82 @@
+"""Bearing files that tests change: a 6208 and a roller bearing that is nobody's."""
+
+import copy
+
+from ehlectric.cases.bearing_case import BearingCase
+
+OIL = {
+    "base": "paper",
+    "temperature": {
+        "kinematic_viscosity_40": "46 mm^2/s",
+        "kinematic_viscosity_100": "6.8 mm^2/s",
+        "density_15": "870 kg/m^3",
+    },
+}
+DUTY = {
+    "inner_speed": "3000 rpm",
+    "temperature": "70 degC",
+    "composite_rq": "0.03 um",
+}
+OTHERS = {
+    "lubricant": OIL,
+    "discharge": {"dielectric_strength": "15 V/um", "conductivity": "1 pS/m"},
+    "motor": {
+        "common_mode_voltage": "300 V",
+        "winding_rotor_capacitance": "20 pF",
+        "rotor_frame_capacitance": "1 nF",
+    },
+}
+
+# Groove radii of ISO 76, clearance within the class CN of ISO 5753.
+BALLS = {
+    "bearing": DUTY
+    | {
+        "kind": "deep-groove ball",
+        "elements": 9,
+        "element_diameter": "11.906 mm",
+        "pitch_diameter": "60 mm",
+        "inner_groove": 0.52,
+        "outer_groove": 0.52,
+        "shoulder_height": 0.2,
+        "radial_clearance": "10 um",
+        "radial_load": "1800 N",
+        "axial_load": "300 N",
+    },
+    **OTHERS,
+}
+
+# About the size of an NU 208, whose internal geometry is not published: made up.
+ROLLERS = {
+    "bearing": DUTY
+    | {
+        "kind": "cylindrical roller",
+        "elements": 14,
+        "element_diameter": "11 mm",
+        "pitch_diameter": "60 mm",
+        "roller_length": "10 mm",
+        "profile": "logarithmic",
+        "radial_clearance": "20 um",
+        "radial_load": "3 kN",
+    },
+    **OTHERS,
+}
+
+
+def changed(tables, **changes):
+    """A copy of nested tables with values at keys such as ``bearing__fill`` in place; None takes one out."""
+    found = copy.deepcopy(tables)
+    for key, value in changes.items():
+        *path, last = key.split("__")
+        table = found
+        for name in path:
+            table = table.setdefault(name, {})
+        if value is None:
+            table.pop(last, None)
+        else:
+            table[last] = value
+    return found
+
+
+def bearing_case(tables, **changes):
+    """The case of changed tables."""
+    return BearingCase.from_dict(changed(tables, **changes))

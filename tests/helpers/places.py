@@ -1,0 +1,8 @@
+"""Folders that tests read from."""
+
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+EXAMPLES = ROOT / "examples"
+DEKTAK = EXAMPLES / "surfaces" / "dektak-1.csv"
+SURFACES = ROOT / "tests" / "data" / "surfaces"

@@ -1,0 +1,39 @@
+"""Small sweeps, and what solves their points in ways that tests ask for."""
+
+import os
+import signal
+import time
+
+from ehlectric import Case
+from ehlectric.sweep.engine import solve_point
+from ehlectric.sweep.inputs import Sweep
+from tests.conftest import PAPER_CONTACT
+
+SPEED, LOAD, NODES = "contact.entrainment_speed", "contact.load_per_length", "grid.nodes"
+PRESSURE = "contact.max_hertz_pressure"
+
+# On 129 nodes a point takes some hundredths of a second; the film is rough and right.
+TABLE = {"contact": PAPER_CONTACT, "lubricant": {"base": "paper"}, "grid": {"nodes": 129}}
+CASE = Case.from_dict(TABLE)
+
+# A point with so many nodes kills the process that solves it.
+DEADLY = 131
+# And one with so many takes its time.
+SLOW = 133
+
+
+def sweep_over(vary, **keys):
+    return Sweep.from_dict({"case": CASE, "vary": vary} | keys)
+
+
+def speeds(count):
+    return sweep_over({SPEED: [1.0 + k for k in range(count)]})
+
+
+def solve_or_die(table):
+    """``solve_point``, but for points that are deadly or slow."""
+    if table["grid"]["nodes"] == DEADLY:
+        os.kill(os.getpid(), signal.SIGKILL)
+    if table["grid"]["nodes"] == SLOW:
+        time.sleep(0.5)
+    return solve_point(table)

@@ -1,0 +1,52 @@
+"""Films in time for the tests: a contact, a ridge that moves, and the steps in between."""
+
+import numpy as np
+
+from ehlectric.contact.conditions import resolve
+from ehlectric.contact.problems import film_problem
+from ehlectric.film.line import quiet_solution
+from ehlectric.film.nested import nested_iteration
+from ehlectric.film.unsteady import UnsteadyFilm
+
+
+def problem_of(paper_case, nodes, **values):
+    """A line contact of the paper's oil at 0.8 GPa and 1 m/s, X from -3 to 2, or with other values."""
+    contact = {"contact.max_hertz_pressure": "0.8 GPa", "contact.entrainment_speed": "1 m/s"}
+    grid = {"grid.nodes": nodes, "grid.inlet": -3.0, "grid.outlet": 2.0}
+    case = paper_case.replace(contact | grid | values)
+    return film_problem(case, resolve(case))
+
+
+def steady(problem):
+    """The stationary film."""
+    with quiet_solution():
+        solution = nested_iteration(problem, None)[-1]
+    assert solution.status == "converged"
+    return solution
+
+
+def ridge(height, width, start, speed=1.0):
+    """A ridge as wide as a bell curve, at X = start + speed T; its height in units of H."""
+
+    def gap(time, x, y):
+        bell = -height * np.exp(-(((x - start - speed * time) / width) ** 2))
+        return bell[:, np.newaxis] + np.zeros_like(y)
+
+    return gap
+
+
+def histories(problem, gap, step, steps, start=None):
+    """The histories from 0 to ``steps`` time steps, from a steady film."""
+    film = UnsteadyFilm(problem, gap)
+    with quiet_solution():
+        history = film.start(steady(problem) if start is None else start, step)
+        yield history
+        for _ in range(steps):
+            history = film.advance(history, step)
+            yield history
+
+
+def last(*arguments, **keywords):
+    """The instant after all time steps."""
+    *_, history = histories(*arguments, **keywords)
+    return history.now

@@ -1,0 +1,129 @@
+"""Domains of a bearing's contacts: as long as what their pressure builds up over, sqrt(2 R h), by hand."""
+
+import math
+
+import numpy as np
+import pytest
+
+from ehlectric.bearing.conditions import BearingDuty
+from ehlectric.bearing.contacts import contact_case
+from ehlectric.bearing.domain import least_load, line_domain, point_domain
+from ehlectric.bearing.ring_contacts import Race
+from ehlectric.contact.conditions import resolve, resolve_point
+from ehlectric.formulas.film_line import LineContact, moes
+from ehlectric.formulas.film_point import PointContact, nijenbanning_venner_moes
+from ehlectric.formulas.hertz_point import dry_contact
+from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, changed
+
+D, PITCH, ROLLER, LENGTH = 11.906e-3, 60e-3, 11e-3, 10e-3
+MODULUS = 208e9 / (1.0 - 0.3**2)
+VISCOSITY = 14.847e-6 * 838.90
+ALPHA = 0.67 * (math.log(VISCOSITY) + 9.67) / 0.198e9
+SPEED = 4.5
+UNLIKE = changed(BALLS, bearing__outer_groove=0.53)
+
+
+def of(tables, *, inner):
+    return BearingDuty.of(bearing_case(tables)), Race(inner, 0.0, SPEED)
+
+
+def roller(load, *, inner):
+    """Half-width and the length sqrt(2 R h) of a roller's contact [m]."""
+    sign = 1.0 if inner else -1.0
+    radius = 1.0 / (2.0 / ROLLER + sign * 2.0 / (PITCH - sign * ROLLER))
+    film = moes(LineContact(radius, MODULUS, load / LENGTH, SPEED, VISCOSITY, ALPHA)).central_thickness
+    return math.sqrt(8.0 * load / LENGTH * radius / (math.pi * MODULUS)), math.sqrt(2.0 * radius * film)
+
+
+def ball(load, *, inner):
+    """Semi-axes and the lengths along and across of a ball's contact [m]."""
+    sign, groove = (1.0, 0.52) if inner else (-1.0, 0.53)
+    rx = 1.0 / (2.0 / D + sign * 2.0 / (PITCH - sign * D))
+    ry = 1.0 / (2.0 / D - 1.0 / (groove * D))
+    contact = PointContact(rx, ry, MODULUS, load, SPEED, VISCOSITY, ALPHA)
+    film = nijenbanning_venner_moes(contact).central_thickness
+    dry = dry_contact(load, rx, ry, MODULUS)
+    return dry.semi_axis_x, dry.semi_axis_y, math.sqrt(2.0 * rx * film), math.sqrt(2.0 * ry * film)
+
+
+@pytest.mark.parametrize("inner", [True, False])
+def test_heavy_contacts_have_the_domain_of_others(inner):
+    """4 and 2 half-widths of a roller; 4.5 and 1.5 semi-axes of a ball, across 1.6 + 1.4/k of them."""
+    assert line_domain(*of(ROLLERS, inner=inner), 20e3) == {
+        "inlet": -4.0, "outlet": 2.0, "nodes": 3201, "field_range": [-1.25, 1.25],
+    }  # fmt: skip
+    found = point_domain(*of(UNLIKE, inner=inner), 5000.0)
+    b, a, _, _ = ball(5000.0, inner=inner)
+    assert (found["inlet"], found["outlet"], found["nodes"]) == (-4.5, 1.5, 257)
+    assert found["side"] == pytest.approx(1.6 + 1.4 * b / a, rel=1e-9, abs=0.0)
+
+
+@pytest.mark.parametrize("inner", [True, False])
+def test_a_light_rollers_domain(inner):
+    """Ten lengths before it and two behind, with sixteen nodes over its contact."""
+    load = 60.0
+    found = line_domain(*of(ROLLERS, inner=inner), load)
+    b, length = roller(load, inner=inner)
+    assert length > b
+    assert -found["inlet"] * b == pytest.approx(10.0 * length, rel=1e-4, abs=0.0)
+    assert found["outlet"] * b == pytest.approx(2.0 * length, rel=1e-4, abs=0.0)
+    assert 2.0 * (found["nodes"] - 1) / (found["outlet"] - found["inlet"]) >= 16.0
+    np.testing.assert_allclose(np.array(found["field_range"]) * b, [-length, length], rtol=1e-4)
+    # A hardly loaded one has eight lengths beyond a hundred half-widths, and three hundred at the most.
+    for hardly in (5.0, 1.6):
+        b, length = roller(hardly, inner=inner)
+        expected = min(10.0 * length, max(100.0 * b, 8.0 * length), 300.0 * b)
+        inlet = -line_domain(*of(ROLLERS, inner=inner), hardly)["inlet"] * b
+        assert inlet == pytest.approx(expected, rel=1e-4, abs=0.0)
+        # Where the roller falls away from its parabola, at half of its radius, the domain would end too.
+        assert inlet < 0.25 * ROLLER
+
+
+@pytest.mark.parametrize("inner", [True, False])
+def test_a_light_balls_domain(inner):
+    """Ten lengths before it and one behind; beside it four of those across, from the ellipse's end."""
+    load = 10.0
+    found = point_domain(*of(UNLIKE, inner=inner), load)
+    b, a, along, across = ball(load, inner=inner)
+    assert -found["inlet"] * b == pytest.approx(10.0 * along, rel=1e-4, abs=0.0)
+    assert found["outlet"] * b == pytest.approx(max(1.5 * b, along), rel=1e-4, abs=0.0)
+    assert found["side"] * a == pytest.approx(a + 4.0 * across, rel=1e-4, abs=0.0)
+    # Eight cells over each semi-axis, or 256 in all.
+    assert found["nodes"] - 1 >= 8.0 * (found["outlet"] - found["inlet"])
+    assert found["nodes"] - 1 >= 16.0 * found["side"]
+    # What a grid holds: 48 semi-axes before and 24 beside.
+    hardly = point_domain(*of(UNLIKE, inner=inner), 1e-3)
+    ends = [hardly["inlet"], hardly["outlet"], hardly["side"]]
+    assert ends == pytest.approx([-48.0, 4.8, 24.0], rel=1e-12, abs=0.0)
+
+
+@pytest.mark.parametrize("inner", [True, False])
+def test_the_least_load_is_the_first_that_fits(inner):
+    """Found among powers of 10^0.1: its lengths fit into the domain's end, those of a tenth less do not."""
+    least = least_load(*of(ROLLERS, inner=inner))
+
+    def fits(load):
+        b, length = roller(load, inner=inner)
+        return min(10.0 * length, max(100.0 * b, 8.0 * length)) <= min(0.25 * ROLLER, 300.0 * b)
+
+    assert fits(1.0001 * least)
+    assert not fits(10**-0.1 * least)
+
+
+@pytest.mark.parametrize("inner", [True, False])
+@pytest.mark.parametrize("load", [1e-3, 1.0, 30.0, 900.0])
+def test_cases_take_these_domains(inner, load):
+    """In the units of the case: half-widths, or semi-axes along and across."""
+    for tables in (UNLIKE, ROLLERS):
+        case = bearing_case(tables)
+        duty, race = of(tables, inner=inner)
+        made = contact_case(duty, race, load, case.discharge, case.solver.model_dump())
+        # Grids are refined until the estimated error of the least film is below 3 %.
+        assert made.grid.refine == 0.03
+        if tables is ROLLERS:
+            assert resolve(made).half_width == pytest.approx(roller(load, inner=inner)[0], rel=1e-9, abs=0.0)
+        else:
+            conditions, (b, a, *_) = resolve_point(made), ball(load, inner=inner)
+            assert [conditions.semi_axis_x, conditions.semi_axis_y] == pytest.approx(
+                [b, a], rel=1e-9, abs=0.0
+            )

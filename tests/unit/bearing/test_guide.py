@@ -1,0 +1,36 @@
+"""What the guide to a whole bearing prints, as a user runs it."""
+
+import re
+import subprocess
+import sys
+
+import pytest
+
+from ehlectric.bearing.result import BearingResult
+from ehlectric.bearing.solver import solve_bearing
+from tests.helpers.bearings import ROLLERS, bearing_case
+from tests.helpers.places import ROOT
+
+GUIDE = ROOT / "docs" / "guide" / "bearing.md"
+
+
+@pytest.mark.slow
+def test_the_script_of_the_guide_runs_as_a_file(tmp_path):
+    """Interference presses all rollers nearly alike: few contacts to solve, and yet in several processes."""
+    page = GUIDE.read_text(encoding="utf-8")
+    (script,) = re.findall(r"^```python\n(.*?)^```", page, flags=re.S | re.M)
+    (named,) = re.findall(r'from_toml\("(.*?)"\)', script)
+    assert (ROOT / named).is_file()
+    changes = {"bearing__radial_clearance": "-20 um", "bearing__radial_load": "1 N"}
+    case = bearing_case(ROLLERS, **changes)
+    (tmp_path / named).parent.mkdir()
+    (tmp_path / named).write_text(case.to_toml(), encoding="utf-8")
+    (tmp_path / "script.py").write_text(script, encoding="utf-8")
+    done = subprocess.run(
+        [sys.executable, "script.py"], cwd=tmp_path, capture_output=True, text=True, timeout=120
+    )
+    assert done.returncode == 0, done.stderr
+    assert done.stderr == ""
+    result = BearingResult(solve_bearing(case, workers=1))
+    expected = result.capacitance("oil"), result.breaks()["first_break"]
+    assert [float(text) for text in done.stdout.split()] == pytest.approx(expected, rel=1e-6, abs=0.0)

@@ -1,0 +1,73 @@
+"""Impedance of a bearing of contacts made by hand: its ends, its corner, and the file it goes into."""
+
+import numpy as np
+import pytest
+import tomli_w
+from typer.testing import CliRunner
+
+from ehlectric.bearing.circuit import impedance
+from ehlectric.bearing.impedance import impedance_of
+from ehlectric.commands.app import app
+from ehlectric.figures.bearing import circuit as bearing_circuit_plot
+from tests.unit.figures.bearing.test_save import TABLE, by_hand
+
+
+@pytest.fixture(scope="module")
+def result():
+    return by_hand()
+
+
+def test_impedance_is_that_of_the_capacitance_where_all_is_oil(result):
+    """Then every contact has the same time constant, and so has the bearing."""
+    frequency, magnitude = bearing_circuit_plot.impedance_magnitude(result).get_lines()[0].get_data()
+    tau = result.impedance_time()
+    z = impedance(result.capacitance("oil"), tau, frequency)
+    np.testing.assert_allclose(magnitude, np.abs(z), rtol=1e-9)
+    corner = 1.0 / (2.0 * np.pi * tau)
+    assert frequency[0] == pytest.approx(0.01 * corner, rel=1e-9)
+    assert frequency[-1] == pytest.approx(1e7, rel=1e-9)
+    ax = bearing_circuit_plot.impedance_phase(result)
+    curve, mark = ax.get_lines()
+    assert mark.get_xdata()[0] == pytest.approx(corner, rel=1e-12)
+    at_corner = np.interp(np.log(corner), np.log(curve.get_xdata()), curve.get_ydata())
+    assert at_corner == pytest.approx(-45.0, abs=0.05)
+
+
+def test_air_does_not_leak():
+    """High up the impedance is that of all capacitances, far down it is above what oil alone would have."""
+    result = by_hand(bearing={"fill": "air"})
+    frequency, magnitude = bearing_circuit_plot.impedance_magnitude(result).get_lines()[0].get_data()
+    assert magnitude[-1] * 2.0 * np.pi * frequency[-1] * result.capacitance("air") == pytest.approx(
+        1.0, rel=1e-6
+    )
+    assert magnitude[0] > 1.1 * result.impedance_time() / result.capacitance("oil")
+
+
+def test_the_impedance_of_an_earlier_bearing_is_taken_away(monkeypatch, tmp_path):
+    """With a conductivity it is written, without one there is none."""
+    file, out = tmp_path / "bearing.toml", tmp_path / "out"
+    file.write_text(tomli_w.dumps(TABLE), encoding="utf-8")
+    for changes, there in (({}, True), ({"discharge": None}, False)):
+        solution = by_hand(positions=1, **changes).solution
+        monkeypatch.setattr("ehlectric.bearing.solver.solve_bearing", lambda *_, s=solution, **__: s)
+        done = CliRunner().invoke(app, ["bearing", str(file), "-o", str(out), "-q", "--no-plots"])
+        assert done.exit_code == 0, done.output
+        assert (out / "impedance.csv").exists() == there
+
+
+def test_with_air_the_bearing_has_a_corner_below_that_of_the_oil():
+    """More of it is a capacitor than of its oil: beyond -45 degrees where the oil alone has them."""
+    found = impedance_of(by_hand(bearing={"fill": "air"}))
+    at_corner = np.interp(np.log(found.corner), np.log(found.frequency), found.phase)
+    assert -90.0 < at_corner < -45.5
+    own = np.interp(45.0, -found.phase, found.frequency)
+    assert 0.1 * found.corner < own < found.corner
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [{"discharge": None}, {"film": 0.02e-6}, {"bearing": {"element_material": "silicon-nitride"}}],
+    ids=["no conductivity", "surfaces touch", "ceramic"],
+)
+def test_where_there_is_none(changes):
+    assert impedance_of(by_hand(positions=1, **changes)) is None

@@ -1,0 +1,159 @@
+"""Duties that no bearing has, and what is warned of, against grooves, films and weights by hand."""
+
+import math
+
+import numpy as np
+import pytest
+
+from ehlectric import ConvergenceError, InputError
+from ehlectric.bearing.conditions import BearingDuty
+from ehlectric.bearing.limits import check_film, shoulder_angle
+from ehlectric.bearing.loads.balls import ball_equilibrium
+from ehlectric.bearing.loads.ring import Duty
+from ehlectric.bearing.result import BearingResult
+from ehlectric.bearing.ring_contacts import Race
+from ehlectric.bearing.solver import check_bearing, solve_bearing
+from tests.helpers.bearings import BALLS, ROLLERS, bearing_case
+
+ANGULAR = {
+    "bearing__kind": "angular-contact ball",
+    "bearing__contact_angle": "40 deg",
+    "bearing__radial_clearance": None,
+}
+VG_460 = {
+    "lubricant__temperature__kinematic_viscosity_40": "460 mm^2/s",
+    "lubricant__temperature__kinematic_viscosity_100": "30 mm^2/s",
+}
+
+
+def by_formula(tables, **changes):
+    return BearingResult(solve_bearing(bearing_case(tables, contacts="formula", **changes)))
+
+
+def refusal(tables, **changes):
+    """The line that both the check and the solution refuse a bearing with, its contacts solved or not."""
+    texts = set()
+    for contacts in ("formula", "solved"):
+        case = bearing_case(tables, contacts=contacts, **changes)
+        for refused in (check_bearing, solve_bearing):
+            with pytest.raises(InputError) as found:
+                refused(case)
+            texts.add(str(found.value))
+    assert len(texts) == 1
+    return texts.pop()
+
+
+def about(result, word):
+    return [text for text in result.warnings() if word in text]
+
+
+@pytest.mark.parametrize(("radial", "axial"), [(1e-30, 0.0), (1e-6, 1e-4), (1e-4, 1e-4), (0.06, 0.0)])
+def test_a_load_is_more_than_the_weight_of_a_ball(radial, axial):
+    """A steel ball of 11.906 mm: 7830 kg/m^3 pi D^3/6 9.807 m/s^2 = 0.0679 N."""
+    text = refusal(BALLS, bearing__radial_load=radial, bearing__axial_load=axial)
+    assert text.startswith("bearing.radial_load: got ")
+    assert "takes more than 0.068 N, the weight of an element" in text
+
+
+@pytest.mark.parametrize("load", [0.07, 1.0])
+def test_light_loads_balance_beside_the_centrifugal_force(load):
+    """The rings' balance again from the contacts, to 1e-9 of F_c = 3.3 N and the load."""
+    case = bearing_case(BALLS, bearing__radial_load=load, bearing__axial_load=0.0)
+    for at in BearingDuty.of(case).equilibria(case.bearing, 8):
+        lifted = at.inner_load * np.cos(at.inner_angle) * np.cos(at.position)
+        assert np.sum(lifted) == pytest.approx(load, abs=1e-9 * (load + at.centrifugal_force))
+        assert at.residual < 1e-9
+        assert at.centrifugal_force > 3.0
+
+
+def test_a_load_of_next_to_nothing_has_no_balance():
+    """From Python, where nothing is refused before: no error of division."""
+    geometry = BearingDuty.of(bearing_case(BALLS)).geometry
+    try:
+        state = ball_equilibrium(geometry, Duty(1e-30, 0.0, 314.0), 226e9, 7800.0)
+    except ConvergenceError:
+        return
+    assert state.residual < 1e-9
+
+
+@pytest.mark.parametrize("temperature", ["-70 degC", "-30 degC"])
+def test_films_without_room_are_refused(temperature):
+    """A tenth of (0.52 - 0.5) 11.906 mm is 23.8 um."""
+    text = refusal(BALLS, bearing__temperature=temperature)
+    assert text.startswith("bearing: got an inner film of ")
+    assert text.endswith("for at most 23.8 um, beyond which the bodies leave it no room")
+    assert refusal(BALLS, **VG_460, bearing__temperature="0 degC", bearing__inner_speed="10000 rpm")
+
+
+def test_a_roller_is_a_parabola_as_far_as_its_film_builds_up():
+    """sqrt(2 R h) = 0.1 r: of 5.5 mm on 24.5 mm, R = 4.4917 mm, 33.7 um."""
+    duty = BearingDuty.of(bearing_case(ROLLERS))
+    for load in (0.2, 0.3, 0.5):
+        # Of rigid bodies without a pressure-viscosity effect (Martin), h = 4.896 eta u R L/Q.
+        film = 4.896 * duty.lubricant.viscosity * 4.55 * 4.4917e-3 * 0.01 / load
+        if film > 33.7e-6:
+            with pytest.raises(InputError, match=r"for at most 33\.7 um"):
+                check_film(duty, Race(True, 0.0, 4.55), load)
+        else:
+            check_film(duty, Race(True, 0.0, 4.55), load)
+
+
+@pytest.mark.parametrize(("temperature", "warned"), [("20 degC", True), ("70 degC", False)])
+def test_films_that_take_up_the_clearance_are_warned_of(temperature, warned):
+    """A third of 10 um; the films again from the rows of the ball on the load line."""
+    result = by_formula(BALLS, **VG_460, bearing__temperature=temperature)
+    films = sum(row["central_thickness"] for row in result.contacts()[:2])
+    assert (films > 10e-6 / 3.0) == warned
+    texts = about(result, "clearance")
+    assert len(texts) == warned
+    if warned:
+        assert f"{1e6 * films:.2g} um, beside a clearance of 10 um" in texts[0]
+
+
+def test_films_of_preloaded_elements_stand_beside_their_approach():
+    changes = {"bearing__radial_clearance": "-2 um", "bearing__radial_load": "1 kN"}
+    changes |= {"bearing__axial_load": 0.0}
+    thick = by_formula(BALLS, **VG_460, bearing__temperature="20 degC", **changes)
+    assert len(about(thick, "elements pressed in by")) == 1
+    assert not about(by_formula(BALLS, **changes), "pressed in by")
+
+
+def test_the_shoulder_is_as_high_as_it_says():
+    """H = f D (1 - cos) of the angle is shoulder_height D."""
+    bearing = bearing_case(BALLS, bearing__outer_groove=0.53, bearing__shoulder_height=0.19).bearing
+    for inner, groove in ((True, 0.52), (False, 0.53)):
+        angle = shoulder_angle(bearing, inner=inner)
+        assert groove * (1.0 - math.cos(angle)) == pytest.approx(0.19, rel=1e-12, abs=0.0)
+
+
+@pytest.mark.parametrize(
+    ("changes", "rings"),
+    [
+        (ANGULAR | {"bearing__radial_load": "3 kN", "bearing__axial_load": "10 kN"}, 2),
+        ({"bearing__shoulder_height": 0.01}, 2),
+        ({}, 0),
+        (ANGULAR | {"bearing__radial_load": 0.0, "bearing__axial_load": "100 N"}, 0),
+    ],
+)
+def test_ellipses_over_the_shoulder_are_warned_of(changes, rings):
+    """Angle and half of the ellipse over f D, from the rows, beside arccos(1 - H/f)."""
+    result = by_formula(BALLS, **changes)
+    texts = about(result, "the shoulder cuts it off")
+    assert len(texts) == rings
+    end = math.acos(1.0 - changes.get("bearing__shoulder_height", 0.2) / 0.52)
+    rows = [row for row in result.contacts() if row["load"] > 0.0]
+    over = {
+        row["ring"] for row in rows if row["contact_angle"] + row["semi_axis_y"] / (0.52 * 11.906e-3) > end
+    }
+    assert over == {text.split()[0] for text in texts}
+
+
+def test_contacts_beyond_the_shoulder_are_refused():
+    """Balls pressed up by an axial load alone: all at the same angle, which is the refusal's."""
+    changes = ANGULAR | {"bearing__radial_load": 0.0, "bearing__axial_load": "10 kN"}
+    angle = by_formula(BALLS, **changes).contacts()[0]["contact_angle"]
+    height = 0.52 * (1.0 - math.cos(angle))
+    text = refusal(BALLS, **changes, bearing__shoulder_height=0.98 * height)
+    assert text.startswith("bearing.shoulder_height: got ")
+    assert f"a contact at {math.degrees(angle):.1f} deg" in text
+    by_formula(BALLS, **changes, bearing__shoulder_height=1.02 * height)

@@ -1,0 +1,369 @@
+"""Bearing files: what is read out of them, and every mistake told in one line."""
+
+import math
+import tomllib
+from importlib import resources
+
+import numpy as np
+import pytest
+
+from ehlectric import InputError
+from ehlectric.bearing.conditions import BearingDuty, Solid
+from ehlectric.bearing.loads.geometry import BallBearing, RollerBearing
+from ehlectric.bearing.result import BearingResult
+from ehlectric.bearing.solver import check_bearing, solve_bearing
+from ehlectric.cases import library
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.formulas.film_point import PointContact, hamrock_dowson
+from ehlectric.lubricant.temperature import inlet_shear_factor
+from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, changed
+
+AS_ROLLERS = {
+    "bearing__kind": "cylindrical roller",
+    "bearing__inner_groove": None,
+    "bearing__outer_groove": None,
+    "bearing__shoulder_height": None,
+    "bearing__roller_length": "10 mm",
+    "bearing__profile": "none",
+}
+NO_VISCOSITY = {"viscosity_law": "constant", "density_law": "incompressible", "relative_permittivity": 2.4}
+CERAMIC = {"bearing__element_material": "silicon-nitride"}
+
+
+def test_temperature_is_absolute():
+    """70 degC is 343.15 K, and 343.15 without a unit is the same."""
+    for given in ("70 degC", "343.15 K", 343.15):
+        assert bearing_case(BALLS, bearing__temperature=given).bearing.temperature == pytest.approx(
+            343.15, rel=1e-12, abs=0.0
+        )
+
+
+def test_units_and_defaults():
+    case = bearing_case(BALLS)
+    bearing = case.bearing
+    assert bearing.inner_speed == pytest.approx(3000.0 * 2.0 * math.pi / 60.0, rel=1e-12, abs=0.0)
+    assert bearing.radial_clearance == pytest.approx(10e-6, rel=1e-12, abs=0.0)
+    assert (bearing.element_material, bearing.ring_material) == ("steel", "steel")
+    assert (bearing.fill, bearing.film_factor) == ("oil", "none")
+    assert case.lubricant.temperature.expansion == 6.5e-4
+    # What is read back in is the same bearing.
+    assert BearingCase.from_dict(case.to_dict()) == case
+
+
+@pytest.mark.parametrize("kind", ["balls", "angular", "rollers"])
+def test_every_kind_has_its_geometry(kind):
+    if kind == "rollers":
+        geometry = BearingDuty.of(bearing_case(ROLLERS)).geometry
+        assert geometry == RollerBearing(14, 11e-3, 60e-3, 10e-3, pytest.approx(20e-6), "logarithmic")
+        return
+    angle = {"bearing__kind": "angular-contact ball", "bearing__contact_angle": "25 deg"}
+    tables = changed(BALLS, **angle, bearing__radial_clearance=None) if kind == "angular" else BALLS
+    geometry = BearingDuty.of(BearingCase.from_dict(tables)).geometry
+    assert isinstance(geometry, BallBearing)
+    if kind == "angular":
+        assert geometry.free_angle == pytest.approx(math.radians(25.0), rel=1e-9, abs=0.0)
+    else:
+        # cos a = 1 - P/(2 A), A = (0.52 + 0.52 - 1) D.
+        cosine = 1.0 - 10e-6 / (2.0 * 0.04 * 11.906e-3)
+        assert geometry.free_angle == pytest.approx(math.acos(cosine), rel=1e-9, abs=0.0)
+
+
+MISTAKES = [
+    # Both of what only one may be given, and what another kind takes.
+    (
+        {"bearing__contact_angle": "25 deg"},
+        "bearing.contact_angle: got it in a bearing of kind 'deep-groove ball', which has no use for it",
+    ),
+    (
+        {"bearing__kind": "angular-contact ball", "bearing__contact_angle": "25 deg"},
+        "bearing.radial_clearance: got it in a bearing of kind 'angular-contact ball', which has no use for",
+    ),
+    (
+        {"bearing__kind": "angular-contact ball", "bearing__radial_clearance": None},
+        "bearing.contact_angle: missing, a bearing of kind 'angular-contact ball' takes it",
+    ),
+    ({"bearing__roller_length": "10 mm"}, "bearing.roller_length: got it in a bearing of kind 'deep-groove"),
+    ({"bearing__profile": "none"}, "bearing.profile: got it in a bearing of kind 'deep-groove ball'"),
+    ({"bearing__inner_groove": None}, "bearing.inner_groove: missing, a bearing of kind 'deep-groove ball'"),
+    ({"bearing__outer_groove": None}, "bearing.outer_groove: missing, a bearing of kind 'deep-groove ball'"),
+    ({"bearing__shoulder_height": None}, "bearing.shoulder_height: missing, a bearing of kind"),
+    ({"bearing__radial_clearance": None}, "bearing.radial_clearance: missing, a bearing of kind"),
+    ({"bearing__kind": "cylindrical roller"}, "bearing.roller_length: missing, a bearing of kind 'cylindr"),
+    (AS_ROLLERS, "bearing.axial_load: got 300 N, takes 0 in a cylindrical roller bearing"),
+    ({**AS_ROLLERS, "bearing__profile": "crowned"}, "bearing.profile: got 'crowned', takes 'none' or 'loga"),
+    # Values.
+    ({"bearing__kind": "tapered"}, "bearing.kind: got 'tapered', takes 'deep-groove ball', 'angular-contact"),
+    ({"bearing__elements": 2}, "bearing.elements: got 2, takes a whole number from 3"),
+    ({"bearing__elements": 9.5}, "bearing.elements: got 9.5, takes a whole number"),
+    ({"bearing__inner_groove": 0.5}, "bearing.inner_groove: got 0.5, takes a number, above 0.5"),
+    ({"bearing__shoulder_height": 0.6}, "bearing.shoulder_height: got 0.6, takes a number, above 0"),
+    ({"bearing__composite_rq": None}, "bearing.composite_rq: missing, takes a value"),
+    ({"bearing__composite_rq": "0 um"}, "bearing.composite_rq: got '0 um', takes a number in m"),
+    ({"bearing__temperature": "70"}, "bearing.temperature: got '70' (it has no unit), takes a number in K"),
+    ({"bearing__temperature": 70}, "bearing.temperature: got 70, takes a number in K"),
+    ({"bearing__inner_speed": "0 rpm"}, "bearing.inner_speed: got '0 rpm', takes a number in rad/s"),
+    ({"bearing__inner_speed": "3000 m/s"}, "bearing.inner_speed: got '3000 m/s'"),
+    ({"bearing__radial_load": "-5 N"}, "bearing.radial_load: got '-5 N', takes a number in N"),
+    ({"bearing__radial_load": 0, "bearing__axial_load": 0}, "bearing.radial_load: missing, takes a load"),
+    ({"bearing__radial_load": None, "bearing__axial_load": None}, "bearing.radial_load: missing, takes a"),
+    ({"bearing__fill": "grease"}, "bearing.fill: got 'grease', takes 'oil' or 'air'"),
+    ({"bearing__film_factor": 2}, "bearing.film_factor: got 2, takes 'none', 'inlet-shear', or a number"),
+    ({"bearing__film_factor": 0}, "bearing.film_factor: got 0, takes 'none'"),
+    ({"bearing__film_factor": True}, "bearing.film_factor: got True, takes 'none'"),
+    ({"bearing__film_factor": math.nan}, "bearing.film_factor: got nan, takes 'none'"),
+    ({"bearing__film_factor": "0.8"}, "bearing.film_factor: got '0.8', takes 'none'"),
+    ({"bearing__film_factor": "inlet-shear"}, "lubricant.temperature.thermal_conductivity: missing, film"),
+    # Materials and names.
+    ({"bearing__ring_material": "silicon-nitride"}, "bearing.ring_material: got 'silicon-nitride', takes"),
+    ({"bearing__element_material": "brass"}, "bearing.element_material: got 'brass', takes one of the libra"),
+    ({"bearing__element_capacitance": "10 pF"}, "bearing.element_capacitance: got it for elements that"),
+    ({**CERAMIC, "bearing__element_capacitance": "0 pF"}, "bearing.element_capacitance: got '0 pF', takes a"),
+    (
+        {"bearing__base": "6209"},
+        "bearing.base: got '6209', takes a name of the library: 209-hamrock, 6208, nu-215",
+    ),
+    (
+        {"bearing__base": 6208},
+        "bearing.base: got 6208, takes a text, a name of the library: 209-hamrock, 6208, nu-215",
+    ),
+    ({"lubricant__base": "papier"}, "lubricant.base: got 'papier', takes"),
+    ({"lubricant__base": 46}, "lubricant.base: got 46, takes a text, a name of the library: "),
+    ({"bearing__groove": 0.52}, "bearing.groove: unknown key; the nearest known one is bearing."),
+    ({"grid__nodes": 257}, "grid: unknown key; the nearest known one is"),
+    ({"bearing": None}, "bearing: missing, takes a table"),
+    ({"motor": 3}, "motor: got 3, takes a table"),
+    # The oil.
+    ({"lubricant__viscosity": "0.02 Pa s"}, "lubricant.viscosity: got viscosity and temperature together"),
+    (
+        {"lubricant": NO_VISCOSITY},
+        "lubricant.viscosity: missing, takes either viscosity or temperature",
+    ),
+    (
+        {"lubricant__temperature__kinematic_viscosity_100": None},
+        "lubricant.temperature.kinematic_viscosity_100: missing, takes a value",
+    ),
+    ({"lubricant__temperature__density_15": "870 g/m^3"}, "lubricant.temperature.density_15: got '870"),
+    # Discharge and motor.
+    ({"discharge__length": "10 mm"}, "discharge.length: got it for a bearing, which has no use for it"),
+    ({"discharge__external_capacitance": "1 nF"}, "discharge.external_capacitance: got it for a bearing"),
+    (
+        {"discharge__dielectric_strength": None, "discharge__temperature": "40 degC"},
+        "discharge.temperature: got 313.15 K for a bearing, takes bearing.temperature in its place",
+    ),
+    ({"motor__winding_rotor_capacitance": None}, "motor.winding_rotor_capacitance: missing, takes a value"),
+    ({"motor__common_mode_voltage": "-300 V"}, "motor.common_mode_voltage: got '-300 V', takes a number"),
+]
+
+
+@pytest.mark.parametrize(("changes", "text"), MISTAKES, ids=[text.split(",")[0] for _, text in MISTAKES])
+def test_mistakes_are_one_line(changes, text):
+    """Key, what it got, what it takes."""
+    with pytest.raises(InputError) as error:
+        bearing_case(BALLS, **changes)
+    assert str(error.value).startswith(text)
+    assert "\n" not in str(error.value)
+    assert "more)" not in str(error.value)
+
+
+# What only shows when the numbers meet.
+CONTRADICTIONS = [
+    ({"bearing__elements": 16}, "bearing.elements: got 16, takes 3 to 15"),
+    ({"bearing__radial_clearance": "2 mm"}, "bearing.radial_clearance: got 0.002 m, takes one below"),
+    ({"bearing__temperature": "300 degC"}, "bearing.temperature: got 573.15 K, at which the oil has 0.814"),
+    (
+        {"lubricant__temperature__kinematic_viscosity_100": "60 mm^2/s"},
+        "lubricant.temperature.kinematic_viscosity_100: got 6e-05 m^2/s, takes less than",
+    ),
+    (
+        {"lubricant__roelands_pressure": "1 kg"},
+        "lubricant.roelands_pressure: got '1 kg'",
+    ),
+]
+
+
+@pytest.mark.parametrize(
+    ("changes", "text"), CONTRADICTIONS, ids=[t.split(",")[0] for _, t in CONTRADICTIONS]
+)
+def test_contradictions_are_one_line(changes, text):
+    with pytest.raises(InputError) as error:
+        BearingDuty.of(bearing_case(BALLS, **changes))
+    assert str(error.value).startswith(text)
+    assert "\n" not in str(error.value)
+
+
+ANGULAR = {
+    "bearing__kind": "angular-contact ball",
+    "bearing__contact_angle": "25 deg",
+    "bearing__radial_clearance": None,
+}
+
+
+@pytest.mark.parametrize("contacts", ["solved", "formula"])
+@pytest.mark.parametrize(
+    ("changes", "text"),
+    [
+        (
+            {**ANGULAR, "bearing__axial_load": None},
+            "bearing.axial_load: got 0 N, takes one above 0: an an",
+        ),
+        # Semi-axes go with the cube root of the load: 1.44 mm at 876 N, over a fourth of the ball at 10 kN.
+        ({"bearing__radial_load": "3 MN"}, "bearing: inner contact at "),
+    ],
+)
+def test_what_a_bearing_cannot_carry_is_said_of_the_bearing(changes, text, contacts):
+    """No word of a table ``contact``, which a bearing file has not."""
+    with pytest.raises(InputError) as error:
+        check_bearing(bearing_case(BALLS, **changes, contacts=contacts))
+    assert str(error.value).startswith(text)
+    assert "contact:" not in str(error.value)
+    assert "\n" not in str(error.value)
+
+
+def test_the_oil_at_its_temperature():
+    """46 and 6.8 mm^2/s give 14.85 at 70 degC, times 838.9 kg/m^3; alpha by Roelands at that viscosity."""
+    lubricant = bearing_case(BALLS).lubricant.at(343.15)
+    assert lubricant.viscosity == pytest.approx(14.85e-6 * 838.9, rel=5e-4, abs=0.0)
+    alpha = 0.67 * (math.log(14.85e-6 * 838.9) + 9.67) / 0.198e9
+    assert lubricant.pressure_viscosity_coefficient == pytest.approx(alpha, rel=5e-4, abs=0.0)
+    # The base's own viscosity and alpha, of another temperature, are gone; its other laws are there.
+    assert lubricant.relative_permittivity == 2.4
+    assert lubricant.viscosity_law == "roelands"
+
+
+def test_a_given_alpha_and_a_given_viscosity_stay():
+    tables = changed(BALLS, lubricant__pressure_viscosity_coefficient="15 1/GPa")
+    assert BearingCase.from_dict(tables).lubricant.at(343.15).pressure_viscosity_coefficient == pytest.approx(
+        15e-9, rel=1e-12, abs=0.0
+    )
+    without = bearing_case(BALLS, lubricant__temperature=None, lubricant__viscosity="0.02 Pa s").lubricant
+    assert without.at(343.15).viscosity == 0.02
+    assert without.at(343.15).pressure_viscosity_coefficient == 22e-9
+    assert bearing_case(BALLS, lubricant__temperature=None).lubricant.at(343.15).viscosity == 0.04
+
+
+def test_an_oil_without_constants_of_roelands_needs_its_alpha():
+    barus = {
+        "base": None,
+        "viscosity_law": "barus",
+        "density_law": "incompressible",
+        "relative_permittivity": 2.4,
+    }
+    changes = {f"lubricant__{key}": value for key, value in barus.items()}
+    with pytest.raises(InputError, match=r"lubricant\.pressure_viscosity_coefficient: missing, takes it, or"):
+        bearing_case(BALLS, **changes).lubricant.at(343.15)
+
+
+def test_film_factor_goes_through_the_entrainment_product():
+    """Films of Hamrock and Dowson go with (eta0 u)^0.67 but for eta0's part in alpha, which stays."""
+    assert BearingDuty.of(bearing_case(BALLS)).entrainment_factor == 1.0
+    duty = BearingDuty.of(bearing_case(BALLS, bearing__film_factor=0.7))
+    assert duty.film_factor == 0.7
+    contact = [
+        PointContact(5e-3, 50e-3, duty.modulus, 500.0, 4.0 * factor, 0.0125, 18e-9)
+        for factor in (1.0, duty.entrainment_factor)
+    ]
+    full, less = (hamrock_dowson(c).central_thickness for c in contact)
+    assert less / full == pytest.approx(0.7, rel=1e-9, abs=0.0)
+
+
+def test_inlet_shear_factor_of_a_bearing():
+    """Of the speed n pi (d_m^2 - D^2)/(2 d_m) at zero angle, the inner race's against the cage."""
+    changes = {
+        "bearing__film_factor": "inlet-shear",
+        "lubricant__temperature__thermal_conductivity": "0.14 W/m/K",
+    }
+    case = bearing_case(BALLS, **changes)
+    duty = BearingDuty.of(case)
+    n = 3000.0 / 60.0
+    speed = math.pi * n * (0.06**2 - 0.011906**2) / (2.0 * 0.06)
+    # -d ln eta/dT of viscosity times density, by a difference over 0.1 K.
+    eta = [case.lubricant.at(343.15 + d).viscosity for d in (-0.05, 0.05)]
+    factor = inlet_shear_factor(duty.lubricant.viscosity, math.log(eta[0] / eta[1]) / 0.1, speed, 0.14)
+    assert 0.9 < factor < 1.0
+    assert duty.film_factor == pytest.approx(factor, rel=2e-4, abs=0.0)
+
+
+@pytest.mark.parametrize("kind", ["lubricant", "solid", "bearing"])
+def test_library_says_where_its_numbers_are_from(kind):
+    names = getattr(library, f"{kind}_names")()
+    assert names
+    for name in names:
+        folder = resources.files("ehlectric.cases.library") / f"{kind}s"
+        table = tomllib.loads((folder / f"{name}.toml").read_text(encoding="utf-8"))
+        assert set(table) == {"source", kind}
+        assert len(table["source"]["citation"]) > 20
+
+
+@pytest.mark.parametrize("name", library.bearing_names())
+def test_library_bearings_carry_a_load(name):
+    changes = {"base": name, "radial_load": "500 N", "inner_speed": "1000 rpm", "temperature": "40 degC"}
+    bearing = changes | {"composite_rq": "0.1 um", "radial_clearance": "15 um"}
+    if library.bearing(name)["kind"] == "cylindrical roller":
+        bearing["profile"] = "logarithmic"
+    case = BearingCase.from_dict({"bearing": bearing, "lubricant": BALLS["lubricant"]})
+    at = BearingDuty.of(case).equilibria(case.bearing, 1)[0]
+    # Vertical balance of the ring.
+    vertical = at.inner_load @ np.cos(at.position)
+    assert vertical == pytest.approx(500.0, rel=1e-6, abs=0.0)
+    # What a file gives stands before what the library has.
+    assert BearingCase.from_dict(
+        {"bearing": bearing | {"elements": 7}, "lubricant": BALLS["lubricant"]}
+    ).bearing.elements == 7  # fmt: skip
+
+
+def test_ball_bearing_6208_of_the_library_has_its_balls_on_its_pitch_circle():
+    """Bore 40 mm and outside diameter 80 mm of ISO 15: the pitch circle is in the middle of them."""
+    table = library.bearing("6208")
+    assert table["pitch_diameter"] == "60 mm" == f"{(40 + 80) // 2} mm"
+
+
+@pytest.mark.parametrize("name", library.solid_names())
+def test_library_solids(name):
+    """Steel and ceramic of rolling elements; E between those of aluminium and tungsten carbide."""
+    solid = Solid.of(name)
+    assert 70e9 < solid.youngs_modulus < 700e9
+    assert 0.2 < solid.poissons_ratio < 0.35
+    assert 2e3 < solid.density < 2e4
+    assert solid.conducting == (name == "steel")
+    assert solid.compliance == pytest.approx(
+        (1.0 - solid.poissons_ratio**2) / solid.youngs_modulus, rel=1e-12
+    )
+
+
+def over_temperature(*temperatures):
+    """A strength from 20 to 10 V/um over two temperatures, and no other."""
+    table = {"temperature": list(temperatures), "strength": ["20 V/um", "10 V/um"]}
+    return {"discharge__dielectric_strength": None, "discharge__strength_table": table}
+
+
+def test_a_strength_over_temperature_is_that_of_the_bearing():
+    """Linear from 20 V/um at 20 degC to 10 at 120 degC: 15 at 70 degC; swept with bearing.temperature."""
+    case = bearing_case(BALLS, contacts="formula", **over_temperature("20 degC", "120 degC"))
+    assert BearingCase.from_dict(case.to_dict()) == case
+    for celsius, strength in ((70.0, 15e6), (45.0, 17.5e6)):
+        at = case.replace({"bearing.temperature": 273.15 + celsius})
+        found = solve_bearing(at).inner_curve.solutions[-1]
+        expected = strength * found.minimum_thickness
+        assert found.breakdown_voltage == pytest.approx(expected, rel=1e-9, abs=0.0)
+
+
+def test_a_strength_does_not_reach_beyond_its_temperatures():
+    case = bearing_case(BALLS, contacts="formula", **over_temperature("20 degC", "60 degC"))
+    line = r"^bearing\.temperature: got 343\.15 K, takes one within the strength_table, 293\.15 to 333\.15 K$"
+    for refused in (check_bearing, solve_bearing):
+        with pytest.raises(InputError, match=line):
+            refused(case)
+
+
+def test_a_given_viscosity_knows_no_temperature():
+    """Warned of, since films at any bearing.temperature are the same."""
+    given = {"lubricant__temperature": None, "lubricant__viscosity": "20 mPa s", "contacts": "formula"}
+    results = [
+        BearingResult(solve_bearing(bearing_case(BALLS, bearing__temperature=at, **given)))
+        for at in ("70 degC", "20 degC")
+    ]
+    assert results[0].lambda_ratio == results[1].lambda_ratio
+    for result in results:
+        assert any(text.startswith("lubricant.viscosity is given:") for text in result.warnings())
+    over = BearingResult(solve_bearing(bearing_case(BALLS, contacts="formula")))
+    assert not any("lubricant.viscosity" in text for text in over.warnings())

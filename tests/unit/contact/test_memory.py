@@ -1,0 +1,93 @@
+"""Grids that fit, and grids that do not."""
+
+import subprocess
+import sys
+
+import pytest
+
+from ehlectric import Case, InputError
+from ehlectric.contact.memory import KRYLOV_VECTORS, check_memory, point_memory
+from ehlectric.film.newton import KRYLOV_LIMIT
+from ehlectric.runtime.memory import physical_memory
+from tests.helpers.moving_cases import TABLES, moving
+
+POINT = {"geometry": "point", "radius_x": 0.01, "radius_y": 0.01, "load": 20.0, "reduced_modulus": 226e9}
+PIT = {"surface": 1, "generator": "pit", "depth": 1e-7, "width": 4e-5, "position_y": 3e-5}
+
+
+def point(*roughness, **grid):
+    contact = POINT | {"entrainment_speed": 2.0}
+    oil = {"base": "paper"}
+    return Case.from_dict({"contact": contact, "lubricant": oil, "grid": grid, "roughness": list(roughness)})
+
+
+def test_grids_that_do_not_fit_into_memory(monkeypatch, paper_case):
+    monkeypatch.setattr("ehlectric.contact.memory.physical_memory", lambda: 1e9)
+    check_memory(paper_case)
+    with pytest.raises(InputError, match=r"grid\.nodes: got 5000001 .* GB; takes a grid .* 1 GB"):
+        check_memory(paper_case.replace({"grid.nodes": 5_000_001}))
+    with pytest.raises(InputError, match=r"grid\.field_nodes: got 1000001 with field_degree 8"):
+        check_memory(paper_case.replace({"grid.field_nodes": 1_000_001, "grid.field_degree": 8}))
+
+
+def test_machine_has_memory():
+    assert physical_memory() > 1e8
+
+
+def test_contacts_that_are_no_mirror_image_of_themselves_take_twice_as_much(monkeypatch):
+    whole, half = (sum(point_memory(point(nodes=513).grid, rough=rough)) for rough in (True, False))
+    assert whole == pytest.approx(2.0 * half, rel=0.01)  # but for the line they share
+    assert sum(point_memory(point(nodes=512).grid, rough=False)) == pytest.approx(whole, rel=0.01)
+    monkeypatch.setattr("ehlectric.contact.memory.physical_memory", lambda: 0.7 * whole)
+    check_memory(point(nodes=513))
+    with pytest.raises(InputError, match=r"grid\.nodes: got 513 x 513"):
+        check_memory(point(PIT, nodes=513))
+
+
+def test_krylov_space_that_is_reckoned_with():
+    # Flexible GMRES keeps every direction and its preconditioned one, and the first residual.
+    assert KRYLOV_VECTORS == 2 * KRYLOV_LIMIT + 1
+
+
+# Solves in a fresh process; what the system counts as its highest memory, before and after.
+MEASURED = """
+from ehlectric import Case
+from ehlectric.contact.conditions import resolve_point
+from ehlectric.film.point import solve_point_film
+from ehlectric.contact.problems import point_film_problem
+
+def highest():
+    with open("/proc/self/status") as status:
+        return next(1024 * int(line.split()[1]) for line in status if line.startswith("VmHWM"))
+
+case = Case.from_dict({table})
+problem = point_film_problem(case, resolve_point(case))
+before = highest()
+solve_point_film(problem)
+print(highest() - before)
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="reads /proc")
+@pytest.mark.parametrize("nodes_y", [513, 512])
+def test_film_of_a_point_contact_takes_what_is_reckoned_with(nodes_y):
+    case = point(nodes=513, nodes_y=nodes_y)
+    code = MEASURED.replace("{table}", repr(case.model_dump(exclude_unset=True)))
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    reckoned, _ = point_memory(case.grid, rough=False)
+    # Twenty iterations, where up to sixty are reckoned with: some half of it.
+    assert reckoned / 3.0 < int(done.stdout) < reckoned
+
+
+def test_instants_of_a_motion_that_fit_into_no_memory_are_refused(monkeypatch):
+    """64 bytes a node and instant; no more instants than time steps and one are kept."""
+    monkeypatch.setattr("ehlectric.contact.memory.physical_memory", lambda: 64e6)
+    check_memory(moving(motion={"passes": 1.0, "record": 20_000}))
+    with pytest.raises(InputError, match=r"^motion\.record: got 20000 .* at most 15384 in"):
+        check_memory(moving(motion={"duration": "1 s", "record": 20_000}))
+    ball = moving(TABLES["point"], motion={"duration": "1 s", "record": 300})
+    with pytest.raises(InputError, match=r"^motion\.record: got 300 instants of 4225 nodes"):
+        check_memory(ball)
+    monkeypatch.setattr("ehlectric.contact.memory.physical_memory", lambda: 1e9)
+    check_memory(ball)

@@ -1,0 +1,47 @@
+"""The window around the pressure spike against the solution it is cut out of."""
+
+import numpy as np
+
+from ehlectric.film.levels import hierarchy
+from ehlectric.film.line import solve_film
+from ehlectric.film.newton import GAP_STEP, PRESSURE_STEP
+from ehlectric.film.reynolds import evaluate, poiseuille_weight, residual
+from ehlectric.film.spike import relax_spike
+from tests.reference import film as exact
+
+
+def relaxed(dent):
+    """What the window makes of the solution of the manufactured film with a dent in its pressure."""
+    problem = exact.problem(801, second_order=True)
+    level, *_ = hierarchy(
+        801, inlet=exact.INLET, outlet=exact.OUTLET, geometry=problem.geometry, second_order=True,
+        source=problem.source,
+    )  # fmt: skip
+    film = solve_film(problem)
+    solved, thickness = film.pressure[:, np.newaxis], film.thickness[:, np.newaxis]
+    change = np.zeros_like(solved)
+    change[400:405] = dent
+    pressure, gap = solved + change, thickness + level.deflection(change)
+    coefficients = evaluate(problem.fluid, pressure, gap)
+    r = residual(coefficients, level.wedge, pressure, gap, level.mesh) - level.source
+    diagonal = poiseuille_weight(coefficients, level.mesh) + 1.0
+    return solved, relax_spike(
+        problem.fluid,
+        level,
+        pressure=pressure,
+        thickness=gap,
+        free=~film.cavitated[:, np.newaxis],
+        scaled_residual=r / diagonal,
+        pressure_step=PRESSURE_STEP,
+        gap_step=GAP_STEP,
+    )
+
+
+def test_dent_is_filled():
+    solved, filled = relaxed(-0.1)
+    np.testing.assert_allclose(filled, solved, atol=1e-4)
+
+
+def test_what_is_smooth_is_left():
+    _, nothing = relaxed(0.0)
+    assert nothing is None

@@ -1,0 +1,563 @@
+"""The file of a moving contact: what is read back, and every way in which a run goes on or does not."""
+
+import fcntl
+import re
+import signal
+from contextlib import suppress
+from threading import Thread, Timer
+
+import h5netcdf
+import numpy as np
+import pytest
+
+from ehlectric import InputError
+from ehlectric.errors import ConvergenceError
+from ehlectric.film.unsteady import UnsteadyFilm
+from ehlectric.motion.file import MotionFile, column_strength, motion_of
+from ehlectric.motion.motion import Motion
+from ehlectric.motion.record import MOTION, read_motion, saved_steps
+from ehlectric.motion.run import run_motion
+from ehlectric.motion.solver import MovingContact
+from ehlectric.runtime import netcdf as netcdf_files
+from tests.helpers.moving_cases import POINT, moving
+
+# Twelve steps of two grid spacings, kept are 0, 4, 8 and 12.
+SHORT = {"passes": 0.375, "steps": 12, "record": 4}
+CASE = moving(motion=SHORT)
+MAPS = ("pressure", "thickness", "strength", "roughness_1", "roughness_2", "cavitated")
+
+
+class StoppedError(Exception):
+    """As a signal stops a run."""
+
+
+def run(case, folder, until=None):
+    """Run into a folder, stopped once so many steps are done; what the progress was told."""
+    told = []
+
+    def progress(done, of, text):
+        told.append((done, of, text))
+        if until is not None and done >= until and text == "in time":
+            raise StoppedError
+
+    with suppress(StoppedError):
+        run_motion(case, folder, progress=progress)
+    return told
+
+
+def of_step(done, of=12):
+    return (done, of, "in time")
+
+
+ANEW = [(0, 12, "before the motion"), of_step(0), of_step(4), of_step(8), of_step(12)]
+
+
+def same(one, other):
+    """Whether all that does not tell the time of day is alike to the last bit."""
+    assert list(one.variables) == list(other.variables)
+    for name in one.variables:
+        np.testing.assert_array_equal(one[name].values, other[name].values, err_msg=name)
+    told = {"date", "seconds"}
+    assert {k: v for k, v in one.attrs.items() if k not in told} == {
+        k: v for k, v in other.attrs.items() if k not in told
+    }
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory):
+    """A run from its beginning to its end: its dataset, and its file as it stands after each kept instant."""
+    folder = tmp_path_factory.mktemp("whole")
+    told, files = [], {}
+
+    def progress(*what):
+        told.append(what)
+        if what[2] == "in time":
+            files[what[0]] = (folder / MOTION).read_bytes()
+
+    run_motion(CASE, folder, progress=progress)
+    assert told == ANEW
+    return read_motion(folder), files
+
+
+@pytest.fixture(scope="module")
+def whole(written):
+    return written[0]
+
+
+@pytest.fixture
+def stopped(written, tmp_path):
+    """Puts the file of a run that was stopped after a step into the folder of the test."""
+
+    def put(step):
+        (tmp_path / MOTION).write_bytes(written[1][step])
+        return tmp_path / MOTION
+
+    return put
+
+
+@pytest.fixture(scope="module")
+def stepped():
+    """The same without a file: instants by their steps."""
+    contact = MovingContact(Motion(CASE))
+    history = contact.start()
+    return contact, {0: history, **dict(contact.run(history))}
+
+
+def test_all_steps_and_the_instants_are_there(whole, stepped):
+    contact, histories = stepped
+    motion = contact.motion
+    assert dict(whole.sizes) == {"x": 65, "step": 13, "frame": 4}
+    assert whole["frame_step"].values.tolist() == [0, 4, 8, 12]
+    # T = 0.375 passes of six half-widths, b/u each.
+    times = np.linspace(0.0, 2.25, 13) * motion.course.time
+    np.testing.assert_allclose(whole["time"], times, rtol=1e-12)
+    np.testing.assert_allclose(whole["frame_time"], times[::4], rtol=1e-12)
+    np.testing.assert_allclose(whole["x"], np.linspace(-4.0, 2.0, 65) * motion.half_width, rtol=1e-12)
+    for step, history in histories.items():
+        film, row = contact.film(history.now), whole.isel(step=step)
+        assert row["minimum_thickness"] == np.min(film.thickness)
+        assert row["minimum_x"] == film.x[np.argmin(film.thickness)]
+        assert row["max_pressure"] == np.max(film.pressure)
+        assert row["thin_gap_strength"] == 2.0 / np.min(film.thickness)
+        effort = history.effort
+        found = [int(row[f"{name}_iterations"]) for name in ("newton", "krylov")]
+        assert [*found, int(row["halvings"])] == [effort.newton, effort.krylov, effort.halvings]
+    assert whole["newton_iterations"].values[1:].min() >= 1
+
+
+def test_maps_are_those_of_the_instants_within_single_precision(whole, stepped):
+    contact, histories = stepped
+    for frame, step in enumerate([0, 4, 8, 12]):
+        shot = contact.snapshot(histories[step].now)
+        film, field, row = shot.film, shot.field, whole.isel(frame=frame)
+        expected = {
+            "pressure": film.pressure,
+            "thickness": film.thickness,
+            "strength": column_strength(film, field),
+            "roughness_1": shot.roughness[0],
+            "roughness_2": shot.roughness[1],
+        }
+        for name, values in expected.items():
+            assert row[name].dtype == np.float32
+            np.testing.assert_allclose(row[name], values, rtol=2.0**-24, atol=1e-40, err_msg=name)
+        np.testing.assert_array_equal(row["cavitated"].values.astype(bool), film.cavitated)
+        # Numbers are in double precision, and within the maps.
+        assert row["max_strength"] == field.max_strength
+        assert row["max_strength_x"] == field.max_strength_position
+        assert row["capacitance"] == field.capacitance
+        np.testing.assert_array_equal(
+            np.isnan(row["strength"]), abs(whole["x"]) > 1.25 * contact.motion.half_width
+        )
+    # Behind the exit at ambient pressure, 0.1 MPa; in the Hertz zone full.
+    cavitated, x = whole["cavitated"].values.astype(bool), whole["x"].values / contact.motion.half_width
+    assert np.all(cavitated[:, x > 1.5])
+    assert not np.any(cavitated[:, np.abs(x) < 0.9])
+    np.testing.assert_allclose(whole["pressure"].values[cavitated], 1e5, rtol=1e-6)
+    assert np.any(whole["roughness_1"].values[1:])
+    assert not np.any(whole["roughness_2"].values)
+
+
+def test_everything_has_its_name_and_unit(whole):
+    units = {name: variable.attrs["units"] for name, variable in whole.variables.items()}
+    assert all(variable.attrs["long_name"] for variable in whole.variables.values())
+    assert units["frame_time"] == units["time"] == "s"
+    assert units["capacitance"] == "F/m"
+    assert units["strength"] == units["stationary_strength"] == units["max_strength"] == "V/m"
+    assert units["pressure"] == units["stationary_pressure"] == "Pa"
+    assert units["x"] == units["minimum_x"] == units["thickness"] == units["roughness_1"] == "m"
+    assert motion_of(whole).case == CASE
+    assert (whole.attrs["complete"], whole.attrs["frames"]) == (1, 4)
+    assert whole.attrs["seconds"] > 0.0
+
+
+def test_the_held_roughness_is_that_of_the_case(whole):
+    from ehlectric import solve
+
+    still = solve(CASE.replace(motion=None))
+    np.testing.assert_array_equal(whole["stationary_thickness"], still.film.thickness)
+    np.testing.assert_array_equal(whole["stationary_pressure"], still.film.pressure)
+    np.testing.assert_array_equal(whole["stationary_strength"], column_strength(still.film, still.field))
+
+
+@pytest.mark.parametrize("until", [pytest.param(0, marks=pytest.mark.slow), 4, 8])
+def test_a_run_that_was_stopped_goes_on_to_the_last_bit(tmp_path, whole, stopped, until):
+    if until == 4:
+        assert run(CASE, tmp_path, until)[-1] == of_step(until)
+    else:
+        stopped(until)
+    part = read_motion(tmp_path)
+    assert (part.sizes["step"], part.sizes["frame"], part.attrs["complete"]) == (until + 1, until // 4 + 1, 0)
+    same_part = whole.isel(step=slice(0, until + 1), frame=slice(0, until // 4 + 1))
+    np.testing.assert_array_equal(part["pressure"], same_part["pressure"])
+    spent = part.attrs["seconds"]
+    assert run(CASE, tmp_path) == [of_step(step) for step in (0, 4, 8, 12) if step >= until]
+    done = read_motion(tmp_path)
+    same(done, whole)
+    assert done.attrs["seconds"] > spent
+
+
+# What is written of an instant in succession: rows, maps, numbers, what is gone on from, its checksum.
+@pytest.mark.parametrize(
+    ("instant", "writes"),
+    [(1, 22), (2, 20), *(pytest.param(2, writes, marks=pytest.mark.slow) for writes in (1, 10, 27))],
+)
+def test_an_instant_that_is_half_written_does_not_count(
+    tmp_path, monkeypatch, whole, stopped, instant, writes
+):
+    stopped(4 * (instant - 1))
+    put, left = h5netcdf.Variable.__setitem__, writes
+
+    def torn(self, key, value):
+        nonlocal left
+        left -= 1
+        if not left:
+            raise StoppedError
+        put(self, key, value)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(h5netcdf.Variable, "__setitem__", torn)
+        run(CASE, tmp_path)
+    assert left == 0  # the last of 27 writes is the checksum
+    part = read_motion(tmp_path)
+    assert part["frame_step"].values.tolist() == [0, 4, 8][:instant]
+    assert part.sizes["step"] == 4 * (instant - 1) + 1
+    assert part.attrs["complete"] == 0
+    assert run(CASE, tmp_path) == [of_step(step) for step in (0, 4, 8, 12) if step >= 4 * (instant - 1)]
+    same(read_motion(tmp_path), whole)
+
+
+def changed(path, change):
+    with h5netcdf.File(path, "a") as file:
+        change(file)
+
+
+def found(path, case):
+    """What a run of a case would go on from."""
+    return MotionFile(path, MovingContact(Motion(case))).resumed()
+
+
+def spoil(name):
+    def change(file):
+        # Of both instants that are kept: nothing is known of which is meant.
+        variable = file.groups["resume"].variables[name]
+        variable[:] = np.asarray(variable[:]) + 1
+
+    return change
+
+
+def set_attribute(name, value):
+    return lambda file: file.attrs.__setitem__(name, value)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        set_attribute("version", "0.0.0"),
+        set_attribute("rough", "[]"),
+        set_attribute("frames", 0),
+        lambda file: file.attrs.__delitem__("case"),
+        spoil("pressure"),
+        spoil("thickness"),
+        spoil("mass"),
+        spoil("density"),
+        spoil("free"),
+        spoil("t"),
+        spoil("h00"),
+        spoil("checksum"),
+    ],
+)
+def test_what_is_not_this_run_or_damaged_is_not_gone_on_with(stopped, change):
+    path = stopped(4)
+    assert found(path, CASE)[0] == 4
+    changed(path, change)
+    assert found(path, CASE) is None
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [{"electric.potential_2": 3.0}, {"motion.record": 5}, {"grid.field_degree": 3}, {"title": "Other"}],
+)
+def test_another_case_is_not_gone_on_with(stopped, changes):
+    path = stopped(4)
+    assert found(path, CASE)[0] == 4
+    assert found(path, CASE.replace(changes)) is None
+
+
+def test_another_case_is_solved_in_the_place_of_the_first(tmp_path, stopped):
+    stopped(4)
+    other = CASE.replace({"electric.potential_2": 3.0})
+    assert run(other, tmp_path, 0) == ANEW[:2]
+    replaced = read_motion(tmp_path)
+    assert motion_of(replaced).case == other
+    assert dict(replaced.sizes) == {"x": 65, "step": 1, "frame": 1}
+
+
+def test_a_surface_that_was_measured_again_is_solved_anew(tmp_path):
+    heights = np.random.default_rng(1).normal(0.0, 1e-8, 400)
+    x = 5e-6 * np.arange(400)
+
+    def measure(values):
+        np.savetxt(tmp_path / "profile.csv", np.column_stack([x, values]), delimiter=",")
+
+    measure(heights)
+    rough = {"surface": 1, "file": str(tmp_path / "profile.csv"), "x_unit": "m", "z_unit": "m"}
+    case = moving(roughness=[rough | {"cutoff_short": "1 mm"}], motion=SHORT)
+    run(case, tmp_path, 0)
+    assert found(tmp_path / MOTION, case)[0] == 0
+    measure(1.1 * heights)
+    assert found(tmp_path / MOTION, case) is None
+
+
+def test_a_run_that_is_complete_is_solved_anew(tmp_path, stopped):
+    stopped(12)
+    assert run(CASE, tmp_path, 0) == ANEW[:2]
+
+
+@pytest.mark.parametrize("size", [0, 100, 20_000])
+def test_a_file_cut_short_is_solved_anew(tmp_path, stopped, size):
+    path = stopped(4)
+    path.write_bytes(path.read_bytes()[:size])
+    with pytest.raises(InputError, match=r"is no motion of ehlectric, or damaged$"):
+        read_motion(tmp_path)
+    assert found(path, CASE) is None
+    if size == 20_000:
+        assert run(CASE, tmp_path, 0) == ANEW[:2]
+        assert read_motion(path).sizes["frame"] == 1
+
+
+def test_what_cannot_be_read_is_said(tmp_path):
+    with pytest.raises(InputError, match=r"motion\.nc: cannot be read, no such file or directory$"):
+        read_motion(tmp_path)
+    other = tmp_path / "text.nc"
+    other.write_text("mine\n" * 100)
+    with pytest.raises(InputError, match=r"text\.nc: is no motion of ehlectric, or damaged$"):
+        read_motion(other)
+    with h5netcdf.File(tmp_path / "other.nc", "w") as file:
+        file.dimensions = {"x": 3}
+        file.create_variable("x", ("x",), "f8")
+    with pytest.raises(InputError, match=r"other\.nc: is no motion of ehlectric, or damaged$"):
+        read_motion(tmp_path / "other.nc")
+
+
+@pytest.mark.parametrize("change", [set_attribute("frames", 0), set_attribute("case", "title = 3")])
+def test_a_motion_without_an_instant_or_a_case_is_none(stopped, change):
+    path = stopped(4)
+    changed(path, change)
+    with pytest.raises(InputError, match=r"is no motion of ehlectric, or damaged$"):
+        read_motion(path)
+
+
+def test_a_step_that_is_not_solved_leaves_what_was_found(tmp_path, monkeypatch, whole, stopped):
+    stopped(0)
+    advance, solved = UnsteadyFilm.advance, []
+
+    def failing(self, history, step):
+        if len(solved) == 6:
+            raise ConvergenceError("film not found at T = 1.3")
+        solved.append(step)
+        return advance(self, history, step)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(UnsteadyFilm, "advance", failing)
+        with pytest.raises(ConvergenceError, match=r"^step 7 of 12: film not found at T = 1\.3$"):
+            run(CASE, tmp_path)
+    part = read_motion(tmp_path)
+    assert part["frame_step"].values.tolist() == [0, 4]
+    assert (part.sizes["step"], part.attrs["complete"]) == (5, 0)
+    assert run(CASE, tmp_path) == [of_step(4), of_step(8), of_step(12)]
+    same(read_motion(tmp_path), whole)
+
+
+def test_a_film_before_the_motion_that_is_not_found(tmp_path):
+    case = CASE.replace({"solver.max_iterations": 1})
+    with pytest.raises(ConvergenceError, match=r"^film before the motion "):
+        run(case, tmp_path)
+    assert not (tmp_path / MOTION).exists()
+
+
+def test_roughness_that_is_not_solved_held_still_has_no_maps(tmp_path, monkeypatch):
+    from ehlectric import solve
+    from ehlectric.motion import run as motion_run
+
+    def never(case, **keys):
+        return solve(case.replace({"solver.max_iterations": 1}), **keys)
+
+    monkeypatch.setattr(motion_run, "solve", never)
+    run(CASE, tmp_path, 0)
+    part = read_motion(tmp_path)
+    assert not [name for name in part.variables if str(name).startswith("stationary")]
+    assert part.attrs["stationary"] == "null"
+    assert "the same roughness held still is not solved: " in part.attrs["warnings"]
+
+
+def test_roughness_that_is_another_one_held_still_is_said(tmp_path):
+    """Its Rq is of all that is made: three passes of it are another sample than one domain."""
+    rough = {"surface": 1, "generator": "gaussian", "rq": 1e-9, "correlation_length": 6e-5, "seed": 1}
+    said = "of its height off that held still"
+    for extra, expected in (({}, False), ({"rescale_rq": 1e-9}, True)):
+        case = moving(roughness=[rough | extra], motion={"passes": 3.0, "steps": 24, "record": 2})
+        run(case, tmp_path, 0)
+        assert (said in read_motion(tmp_path).attrs["warnings"]) == expected
+
+
+def test_warnings_are_of_the_grid_of_the_case(tmp_path):
+    """Eight intervals in a wave: as many as resolve it, however far it travels."""
+    wave = 8.0 * 6.0 / 64.0 * Motion(CASE).half_width
+    rough = {"surface": 1, "generator": "sinusoid", "amplitude": 1e-9, "wavelength": 1.001 * wave}
+    motion = {"passes": 3.0, "steps": 24, "record": 2}
+    run(moving(roughness=[rough], motion=motion), tmp_path, 0)
+    assert "does not resolve" not in read_motion(tmp_path).attrs["warnings"]
+    run(moving(roughness=[rough | {"wavelength": 0.95 * wave}], motion=motion), tmp_path, 0)
+    assert "does not resolve" in read_motion(tmp_path).attrs["warnings"]
+
+
+PITS = [{"surface": 1, "generator": "pit", "depth": "100 nm", "width": "90 um"}]
+
+
+@pytest.mark.parametrize("beside", [0.0, pytest.param(3e-5, marks=pytest.mark.slow)])
+def test_a_point_contact(tmp_path, beside):
+    """65 x 65 nodes, a pit in the middle or beside it; what is solved in one half is there in both."""
+    rough = [PITS[0] | {"position_y": beside}]
+    case = moving(POINT, roughness=rough, motion={"passes": 0.5, "steps": 4, "record": 3})
+    run(case, tmp_path, 2)
+    told = run(case, tmp_path)
+    assert told == [of_step(2, 4), of_step(4, 4)]
+    shown = read_motion(tmp_path)
+    assert dict(shown.sizes) == {"x": 65, "y": 65, "step": 5, "frame": 3}
+    motion = Motion(case)
+    assert motion.problem.width.symmetric == (beside == 0.0)
+    a = motion.half_width
+    np.testing.assert_allclose(shown["y"], np.linspace(-3.0, 3.0, 65) * a, rtol=1e-12, atol=1e-18)
+    assert shown["capacitance"].attrs["units"] == "F"
+    thickness, pressure = shown["thickness"].values, shown["pressure"].values
+    alike = np.array_equal(thickness, thickness[:, :, ::-1])
+    assert alike == (beside == 0.0)
+    # The load, 20 N, carried at every instant; 65 nodes and single precision.
+    weights = np.outer(np.gradient(shown["x"].values), np.gradient(shown["y"].values))
+    np.testing.assert_allclose(np.sum(pressure * weights, axis=(1, 2)), 20.0, rtol=2e-2)
+    for frame in range(3):
+        depth = shown["roughness_1"].values[frame]
+        at = shown["frame_time"].values[frame] / motion.course.time
+        expected = motion.heights(at, shown["x"].values / a, shown["y"].values / a)[0]
+        np.testing.assert_allclose(depth, expected, rtol=1e-6, atol=1e-20)
+    least = shown.isel(step=-1)
+    last = thickness[-1]
+    i, j = np.unravel_index(np.argmin(last), last.shape)
+    assert least["minimum_thickness"] == pytest.approx(last[i, j], rel=1e-6)
+    assert least["minimum_x"] == shown["x"][i]
+    assert abs(least["minimum_y"]) == abs(shown["y"][j])
+    inside = np.isfinite(shown["strength"].values[-1])
+    x, y = np.meshgrid(shown["x"] / a, shown["y"] / a, indexing="ij")
+    np.testing.assert_array_equal(inside, (np.abs(x) <= 1.25 + 1e-9) & (np.abs(y) <= 1.25 + 1e-9))
+
+
+def held(path):
+    """A reader that has a file open, as HDF5 locks it."""
+    reader = path.open("rb")
+    fcntl.flock(reader, fcntl.LOCK_SH)
+    return reader
+
+
+def test_who_looks_at_a_run_does_not_end_it(tmp_path, whole, stopped):
+    reader = held(stopped(8))
+    Timer(0.3, reader.close).start()
+    assert run(CASE, tmp_path) == [of_step(8), of_step(12)]
+    same(read_motion(tmp_path), whole)
+
+
+def test_a_run_from_the_start_leaves_the_old_file_to_who_reads_it(tmp_path, monkeypatch, stopped):
+    monkeypatch.setattr(netcdf_files, "_PATIENCE", 0.0)
+    with held(stopped(12)) as reader:
+        before = (tmp_path / MOTION).read_bytes()
+        assert run(CASE, tmp_path, 0) == ANEW[:2]
+        assert reader.read() == before
+    assert read_motion(tmp_path).sizes["frame"] == 1
+
+
+def test_who_does_not_close_it_is_told(tmp_path, monkeypatch, stopped):
+    monkeypatch.setattr(netcdf_files, "_PATIENCE", 0.0)
+    reader = held(stopped(8))
+    text = f"{tmp_path}/motion.nc: is held open by another program, which must close it"
+    with pytest.raises(InputError, match=f"^{re.escape(text)}$"):
+        run(CASE, tmp_path)
+    assert read_motion(tmp_path).sizes["frame"] == 3
+    fcntl.flock(reader, fcntl.LOCK_EX)
+    with pytest.raises(InputError, match=f"^{re.escape(text)}$"):
+        read_motion(tmp_path)
+    reader.close()
+
+
+def test_a_second_run_in_the_same_folder_is_refused(tmp_path, stopped, whole):
+    """Whichever comes to write after the other has."""
+    stopped(4)
+    told = []
+
+    def progress(*what):
+        told.append(what)
+        if what[0] == 4:
+            run(CASE, tmp_path)
+
+    with pytest.raises(InputError, match=r"motion\.nc: is being written to by another run, takes a "):
+        run_motion(CASE, tmp_path, progress=progress)
+    assert told == [of_step(4)]
+    same(read_motion(tmp_path), whole)
+
+
+@pytest.mark.parametrize(
+    "number",
+    [signal.SIGTERM, *(pytest.param(n, marks=pytest.mark.slow) for n in (signal.SIGINT, signal.SIGHUP))],
+)
+def test_a_signal_waits_until_an_instant_is_whole(tmp_path, monkeypatch, stopped, number):
+    stopped(4)
+    put, left = h5netcdf.Variable.__setitem__, 10
+
+    def signalled(self, key, value):
+        nonlocal left
+        left -= 1
+        if not left:
+            signal.raise_signal(number)
+        put(self, key, value)
+
+    def stop(came, _frame):
+        raise StoppedError(came)
+
+    before = signal.signal(number, stop)
+    try:
+        with monkeypatch.context() as patch:
+            patch.setattr(h5netcdf.Variable, "__setitem__", signalled)
+            with pytest.raises(StoppedError, match=f"^{int(number)}$"):
+                run_motion(CASE, tmp_path)
+        assert signal.getsignal(number) is stop
+    finally:
+        signal.signal(number, before)
+    assert read_motion(tmp_path)["frame_step"].values.tolist() == [0, 4, 8]
+    assert saved_steps(tmp_path / MOTION) == 8
+
+
+def test_in_another_thread_it_runs_too(tmp_path, stopped, whole):
+    stopped(8)
+    thread = Thread(target=run, args=(CASE, tmp_path))
+    thread.start()
+    thread.join()
+    same(read_motion(tmp_path), whole)
+
+
+def test_only_what_is_new_is_written(tmp_path, monkeypatch, stopped):
+    """Memory does not grow with the steps: each goes once."""
+    stopped(0)
+    append, written = MotionFile.append, []
+
+    def counted(self, rows, step, *others):
+        written.append((len(rows), step))
+        append(self, rows, step, *others)
+
+    monkeypatch.setattr(MotionFile, "append", counted)
+    run(CASE, tmp_path)
+    assert written == [(4, 4), (4, 8), (4, 12)]
+
+
+def test_steps_that_are_saved(tmp_path, stopped):
+    assert saved_steps(tmp_path / MOTION) == 0
+    assert [saved_steps(stopped(step)) for step in (0, 4, 12)] == [0, 4, 12]
+    (tmp_path / MOTION).write_text("no file of a run")
+    assert saved_steps(tmp_path / MOTION) == 0

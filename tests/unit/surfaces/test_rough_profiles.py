@@ -1,0 +1,182 @@
+"""The roughness of a case: what is put on the contact, what is refused, and what is said beforehand."""
+
+import numpy as np
+import pytest
+
+from ehlectric import Case, InputError
+from ehlectric.contact.conditions import resolve
+from ehlectric.contact.problems import line_domain_of, spacing
+from ehlectric.surfaces.profiles import Profile
+from ehlectric.surfaces.remarks import profile_surface_remarks as remarks
+from ehlectric.surfaces.remarks import profile_variance_beyond as variance_beyond
+from ehlectric.surfaces.rough_profiles import measured, rough_surfaces
+from tests.conftest import PAPER_CONTACT
+from tests.helpers.surface_writers import MAP, al3d
+from tests.unit.surfaces.test_files import DATA, DEKTAK
+
+GAUSSIAN = {"surface": 1, "generator": "gaussian", "rq": "10 nm", "correlation_length": "10 um", "seed": 3}
+SELF_AFFINE = {
+    "surface": 1, "generator": "self-affine", "rq": "10 nm", "hurst": 0.8, "rolloff_wavelength": "50 um",
+    "seed": 3,
+}  # fmt: skip
+CONTOUR = {"surface": 1, "file": str(DATA / "hfm-1.hfm")}
+X = np.linspace(-3e-4, 3e-4, 1001)
+
+
+def case_of(*tables, load=3.925e5, **grid):
+    """A contact of 1 GPa: half-width 0.25 mm, domain 1.5 mm."""
+    contact = PAPER_CONTACT | {"load_per_length": load}
+    return Case.from_dict(
+        {"contact": contact, "lubricant": {"base": "paper"}, "roughness": list(tables), "grid": grid}
+    )
+
+
+def surfaces_of(*tables, **changes):
+    case = case_of(*tables, **changes)
+    return rough_surfaces(case.roughness, line_domain_of(case, resolve(case)))
+
+
+def remarks_of(*tables, **changes):
+    case = case_of(*tables, **changes)
+    conditions = resolve(case)
+    domain = line_domain_of(case, conditions)
+    rough = rough_surfaces(case.roughness, domain)
+    return list(remarks(case.roughness, rough, domain, spacing(case, conditions)))
+
+
+@pytest.mark.parametrize("table", [GAUSSIAN, SELF_AFFINE], ids=["gaussian", "self-affine"])
+@pytest.mark.parametrize(
+    "changes", [{"load": 4.2e5}, {"inlet": -6.0}, {"outlet": 2.3}, {"nodes": 801}], ids=str
+)
+def test_a_seed_is_one_surface_whatever_the_contact(table, changes):
+    (one,), (other,) = surfaces_of(table), surfaces_of(table, **changes)
+    np.testing.assert_allclose(other.height(X), one.height(X), rtol=0.0, atol=1e-18)
+
+
+@pytest.mark.parametrize("steps", [{}, {"shift": "1 mm"}, {"cutoff_long": "80 um"}, {"trim": "0.1 mm"}])
+def test_made_surfaces_need_no_continuation(steps):
+    assert remarks_of(GAUSSIAN | steps) == []
+    (plain,), (other,) = surfaces_of(GAUSSIAN), surfaces_of(GAUSSIAN | steps)
+    if "shift" in steps:
+        # The same surface, moved, where the one that is not still has its own points.
+        at = X[X > 0.0]
+        np.testing.assert_allclose(other.height(at), plain.height(at - 1e-3), rtol=0.0, atol=1e-18)
+
+
+LONG_WAVES = [
+    (
+        GAUSSIAN | {"correlation_length": "0.16 mm"},
+        "roughness.correlation_length: got 0.00016 m, takes at most",
+    ),
+    (
+        SELF_AFFINE | {"rolloff_wavelength": "1 m"},
+        "roughness.rolloff_wavelength: got 1 m, takes at most 0.00015",
+    ),
+    (GAUSSIAN | {"correlation_length": "1 nm"}, "roughness.correlation_length: asks for 3.2"),
+    (SELF_AFFINE | {"shortest_wavelength": "1 nm"}, "roughness.shortest_wavelength: asks for"),
+]
+
+
+@pytest.mark.parametrize(("table", "message"), LONG_WAVES)
+def test_waves_too_long_or_too_short_are_refused(table, message):
+    with pytest.raises(InputError, match=message) as caught:
+        surfaces_of(table)
+    assert "\n" not in str(caught.value)
+
+
+def test_where_the_instrument_has_its_zero_means_nothing():
+    """Heights near 106 mm: a cut at 50 nm once made a plane of them."""
+    raw, cut = surfaces_of(CONTOUR)[0], surfaces_of(CONTOUR | {"truncate": "1 um"})[0]
+    assert [name for name, _ in raw.steps] == ["as read", "form: mean"]
+    assert np.mean(raw.steps[0][1].heights) == pytest.approx(0.1066, rel=1e-3, abs=0.0)
+    assert np.mean(raw.steps[1][1].heights) == pytest.approx(0.0, abs=1e-15)
+    np.testing.assert_allclose(cut.height(X), np.clip(raw.height(X), -1e-6, 1e-6), rtol=0.0, atol=1e-12)
+    assert np.std(cut.height(np.linspace(-2.3e-3, 2.3e-3, 5001))) > 5e-7
+
+
+def test_a_cut_that_takes_much_is_said():
+    (said,) = [text for text in remarks_of(CONTOUR | {"truncate": "50 nm"}) if "truncate" in text]
+    share = np.mean(np.abs(surfaces_of(CONTOUR)[0].steps[1][1].heights) > 50e-9)
+    assert f"truncate cuts {100 * share:.2g} % of the points" in said
+    paper = {
+        "surface": 1,
+        "file": str(DEKTAK),
+        "form": "parabola",
+        "cutoff_long": "80 um",
+        "truncate": "50 nm",
+    }
+    assert not any("truncate" in text for text in remarks_of(paper, nodes=6401))
+
+
+@pytest.mark.parametrize("extend", ["mirror", "repeat", "flat"])
+def test_nothing_is_above_a_cut(extend):
+    """A spline through cut heights overshoots them by some per cent between the points."""
+    table = {
+        "surface": 1,
+        "file": str(DEKTAK),
+        "form": "parabola",
+        "cutoff_long": "80 um",
+        "truncate": "50 nm",
+    }
+    (surface,) = surfaces_of(table | {"extend": extend})
+    heights = surface.height(np.linspace(-7e-4, 7e-4, 200_001))
+    assert np.max(np.abs(heights)) == 50e-9
+
+
+def test_voids_of_the_line_that_is_used(tmp_path):
+    heights = MAP.copy()
+    heights[2, 7:10] = 1e30
+    path = str(al3d(tmp_path / "a.al3d", heights))
+    (first, third) = surfaces_of({"surface": 1, "file": path}, {"surface": 2, "file": path, "line": 2})
+    assert (first.describe()["voids"], first.remarks) == (0.0, ())
+    assert third.describe()["voids"] == pytest.approx(3 / 31)
+    assert "9.7 % of the line of surface 2 is void" in third.remarks[0]
+    assert measured(case_of({"surface": 2, "file": path, "line": 2}).roughness[0]).remarks == third.remarks
+
+
+SINUSOID = {"surface": 1, "generator": "sinusoid", "amplitude": "20 nm"}
+ASPERITY = {"surface": 2, "generator": "asperity", "height": "20 nm"}
+PIT = {"surface": 1, "generator": "pit", "depth": "20 nm"}
+
+# 1601 nodes are 0.936 um apart; 8 of them are 7.49 um.
+SHAPES = [
+    (SINUSOID | {"wavelength": "7.4 um"}, "the sinusoid of surface 1, whose wavelength is 7.4 µm"),
+    (SINUSOID | {"wavelength": "7.6 um"}, None),
+    (ASPERITY | {"width": "7.4 um"}, "the asperity of surface 2, whose width is 7.4 µm"),
+    (ASPERITY | {"width": "7.6 um"}, None),
+    (ASPERITY | {"width": "1 um", "position": "90 mm"}, None),
+    (PIT | {"width": "7.6 um"}, None),
+    (PIT | {"width": "7.6 um", "rim": "5 nm"}, "the rim of the pit of surface 1, whose width is 3.8 µm"),
+    (PIT | {"width": "15.2 um", "rim": "5 nm"}, None),
+]
+
+
+@pytest.mark.parametrize(("table", "message"), SHAPES)
+def test_shapes_finer_than_the_grid_are_said(table, message):
+    said = remarks_of(table, nodes=1601)
+    if message is None:
+        assert said == []
+    else:
+        assert len(said) == 1
+        assert f"does not resolve {message}: its error estimate means nothing yet" in said[0]
+
+
+def test_variance_that_the_grid_misses_is_said():
+    """Of two waves 9 to 1 in power: a tenth lies beyond the grid's two spacings, or none."""
+    k = np.arange(6000)
+    profile = Profile(0.1e-6, 3e-8 * np.sin(2 * np.pi * k / 200) + 1e-8 * np.sin(2 * np.pi * k / 15))
+    assert variance_beyond(profile, 1 / 2e-6, (-1.0, 1.0)) == pytest.approx(0.1, rel=1e-2, abs=0.0)
+    assert variance_beyond(profile, 1 / 1e-6, (-1.0, 1.0)) < 1e-6
+    rough = SELF_AFFINE | {"hurst": 0.3, "shortest_wavelength": "1 um"}
+    (said,) = remarks_of(rough, nodes=1601)
+    assert "of the variance of surface 1" in said
+    assert "cutoff_short of 3.75 µm" in said
+    # That cutoff does it: nothing beyond is left.
+    assert remarks_of(rough | {"cutoff_short": "3.75 um"}, nodes=1601) == []
+    assert remarks_of(rough, nodes=12_801) == []
+
+
+def test_one_seed_for_two_surfaces_is_said():
+    (said,) = remarks_of(GAUSSIAN, GAUSSIAN | {"surface": 2})
+    assert "2 rough surfaces have the seed 3" in said
+    assert remarks_of(GAUSSIAN, GAUSSIAN | {"surface": 2, "seed": 4}) == []

@@ -1,0 +1,171 @@
+"""Text profiles as instruments and spreadsheets write them: what is read, and what is refused for doubt."""
+
+import numpy as np
+import pytest
+
+from ehlectric import InputError
+from ehlectric.surfaces.files import read_surface
+from tests.unit.surfaces.test_files import DEKTAK
+
+K = np.arange(200)
+# Heights of a sine in nm, over steps of half a micrometre: every reading of the same numbers must give these.
+X, Z = 0.5 * K, 12.3 * np.sin(K / 5)
+
+
+def written(path, header, rows, code="utf-8"):
+    path.write_bytes("\n".join([*header, *rows]).encode(code))
+    return path
+
+
+def assert_read(surface):
+    assert surface.spacing_x == pytest.approx(0.5e-6, rel=1e-12, abs=0.0)
+    np.testing.assert_allclose(surface.heights[0], 1e-9 * Z, rtol=0.0, atol=1e-13)
+
+
+def rows_of(separator, point=".", x_digits=2, z_scale=1.0):
+    lines = [f"{x:.{x_digits}f}{separator}{z_scale * z:.7f}" for x, z in zip(X, Z, strict=True)]
+    return [line.replace(".", point) for line in lines]
+
+
+@pytest.mark.parametrize("code", ["utf-8", "utf-8-sig", "cp1252", "latin-1", "utf-16"])
+def test_micro_sign_in_any_code(tmp_path, code):
+    """In Windows' codes it is the byte 0xB5, which is no UTF-8: the column is not in metres for that."""
+    path = written(tmp_path / "a.txt", ["x [µm];z [µm]"], rows_of(";", z_scale=1e-3), code)
+    assert_read(read_surface(path))
+
+
+def test_no_text_of_any_kind(tmp_path):
+    (tmp_path / "a.txt").write_bytes(b"\x81\x8d;\x90" * 100)
+    with pytest.raises(InputError, match="is no text in UTF-8, UTF-16 or Windows-1252"):
+        read_surface(tmp_path / "a.txt")
+
+
+@pytest.mark.parametrize("separator", [";", "\t", " ", "   "])
+@pytest.mark.parametrize("point", [".", ","])
+def test_decimal_mark(tmp_path, separator, point):
+    path = written(tmp_path / "a.txt", [], rows_of(separator, point))
+    assert_read(read_surface(path, x_unit="um", z_unit="nm"))
+
+
+def test_decimal_comma_beside_whole_numbers(tmp_path):
+    """A row such as 0;0,0000 was once three columns."""
+    rows = [f"{k};{z:.4f}".replace(".", ",") for k, z in zip(K, Z, strict=True)]
+    surface = read_surface(written(tmp_path / "a.txt", ["x [um];z [nm]"], rows))
+    assert surface.spacing_x == pytest.approx(1e-6)
+    np.testing.assert_allclose(surface.heights[0], 1e-9 * Z, atol=1e-13)
+
+
+VALIDITY = ["X;Y;valid", "[um];[nm];[1/0]"]
+
+# Files that can be read in two ways, or are none, with a part of what they are told.
+DOUBTFUL = [
+    (
+        ["x [um],z [um]"],
+        [f"{k},{k + 5}" for k in K],
+        "line 2 is '0,5', one number with a decimal comma or two",
+    ),
+    ([], [f"{k},{k % 7},{k},5" for k in K], "has 4 columns, takes two"),
+    ([], [*rows_of(";")[:-1], "99,50;1"], "mixes decimal points and decimal commas"),
+    ([], [*rows_of(";")[:-1], "1.234,5;1"], "holds no two columns|line 200 is"),
+    (["x [um];y [um];z [nm]"], [f"{x};0.0;{z:.4f}" for x, z in zip(X, Z, strict=True)], "has 3 columns"),
+    (["X;Y;invalid", "[um];[nm];[1/0]"], [line + ";0" for line in rows_of(";")], "has 3 columns"),
+    (["x;y;is it", "valid;or;not"], [line + ";1" for line in rows_of(";")], "has 3 columns"),
+    (VALIDITY, [*[line + ";1" for line in rows_of(";")[:-1]], "99.50;1"], "line 202 has 2 columns, takes 3"),
+    (VALIDITY, [line + ";2" for line in rows_of(";")], "line 3 has the validity '2', takes 0 or 1"),
+    (VALIDITY, [*[line + ";1" for line in rows_of(";")[:-1]], "99.50;1;"], "has the validity '', takes 0"),
+    ([], [*rows_of(";")[:-1], "1e999;1"], "line 200 holds a number that is too large"),
+    ([], [*rows_of(";")[:-1], "9e99;1"], "lengths above 10 m"),
+]
+
+
+@pytest.mark.parametrize(("header", "rows", "message"), DOUBTFUL)
+def test_doubtful_files_are_refused(tmp_path, header, rows, message):
+    path = written(tmp_path / "a.txt", header, rows)
+    with pytest.raises(InputError, match=message):
+        read_surface(path, x_unit="um", z_unit=None if "[nm]" in "".join(header) else "um")
+
+
+def test_empty_fields_are_voids_in_their_column(tmp_path):
+    rows = [line + ";1" for line in rows_of(";")]
+    rows[50], rows[80] = "25.00;;0", "40.00;9.9;0"
+    surface = read_surface(written(tmp_path / "a.txt", VALIDITY, rows))
+    assert np.flatnonzero(np.isnan(surface.heights[0])).tolist() == [50, 80]
+    rows = rows_of(";")
+    rows[50] = "25.00;"
+    surface = read_surface(written(tmp_path / "a.txt", ["x [um];z [nm]"], rows))
+    assert np.flatnonzero(np.isnan(surface.heights[0])).tolist() == [50]
+    # As the Dektak writes them, with separators at the end that separate nothing.
+    rows = [line + ",," for line in rows_of(",")]
+    assert_read(read_surface(written(tmp_path / "a.txt", ["Lateral um,Raw Nanometer,"], rows)))
+
+
+HEADS = [
+    (";", "x [um];z [nm]", (True, True)),
+    (";", "# x/um; z in nm", (True, True)),
+    (";", "Z1 (um);Z2 (nm)", (False, False)),
+    (" ", "x [um] z [nm]", (True, True)),
+    (" ", "x[um] z[nm]", (True, True)),
+    (" ", "# Cutoff 0.8 mm, tip 2 um", (False, False)),
+    (";", "Cutoff 0.8 mm; tip 2 um", (False, False)),
+    (";", "Cutoff 0.8 [mm]; tip 2 [um]", (False, False)),
+    (" ", "x z [nm]", (False, False)),
+    (";", "x um or mm;z [nm]", (False, True)),
+    (";", "x [um];z [V] nm", (True, False)),
+    (";", "x;z", (False, False)),
+    (";", "x [um];z [nm];remark", (False, False)),
+]
+
+
+@pytest.mark.parametrize(("separator", "head", "stated"), HEADS)
+def test_units_are_those_of_their_own_column(tmp_path, separator, head, stated):
+    """One unit for each column in their order, on the line above them, or none is believed."""
+    path = written(tmp_path / "a.txt", [head], rows_of(separator))
+    given = {"x_unit": "um", "z_unit": "nm"}
+    for name, known in zip(given, stated, strict=True):
+        rest = {other: unit for other, unit in given.items() if other != name}
+        if known:
+            assert_read(read_surface(path, **rest))
+            with pytest.raises(InputError, match=f"{name}: got 'mm', but .* states"):
+                read_surface(path, **rest, **{name: "mm"})
+        else:
+            with pytest.raises(InputError, match=f"{name}: missing"):
+                read_surface(path, **rest)
+    assert_read(read_surface(path, **given))
+
+
+@pytest.mark.parametrize("unit", ["foo", "kg", "", "um; rm", "1", "1/um"])
+def test_units_that_are_no_length(tmp_path, unit):
+    path = written(tmp_path / "a.txt", [], rows_of(";"))
+    with pytest.raises(InputError, match=r"z_unit: got .* takes a unit of length"):
+        read_surface(path, x_unit="um", z_unit=unit)
+
+
+@pytest.mark.parametrize("unit", ["m", "pm"])
+def test_spacings_that_are_none(tmp_path, unit):
+    """Half a metre or half a picometre between points is no measurement."""
+    path = written(tmp_path / "a.txt", [], rows_of(";"))
+    with pytest.raises(InputError, match=r"its points are 5e-.* m apart along x|lengths above 10 m"):
+        read_surface(path, x_unit=unit, z_unit="pm")
+
+
+def positions(path, x):
+    return written(path, ["x[um];z[nm]"], [f"{v};{np.sin(v / 90):.4f}" for v in x])
+
+
+def test_samples_that_may_be_missing(tmp_path):
+    """Where positions are whole spacings, a gap looks like rounding: it is said; elsewhere it is refused."""
+    whole = read_surface(positions(tmp_path / "a.txt", np.delete(np.arange(200), 100)))
+    assert len(whole.remarks) == 1
+    assert "1 of the 198 distances are twice the others, the first behind point 99" in whole.remarks[0]
+    for step in (0.5, 10.0):
+        with pytest.raises(InputError, match="spacing is not uniform"):
+            read_surface(positions(tmp_path / "a.txt", step * np.delete(np.arange(200), 100)))
+
+
+def test_rounded_positions_are_no_gap(tmp_path):
+    """The Dektak writes 0.15625 um in steps of 0.1: neighbours are 0.1 or 0.2 apart, at three missing 0.3."""
+    assert read_surface(DEKTAK).remarks == ()
+    lines = DEKTAK.read_bytes().splitlines(keepends=True)
+    (tmp_path / "a.csv").write_bytes(b"".join(lines[:5000] + lines[5001:]))
+    with pytest.raises(InputError, match="spacing is not uniform"):
+        read_surface(tmp_path / "a.csv")
