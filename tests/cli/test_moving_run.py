@@ -317,7 +317,7 @@ def test_a_run_that_is_stopped_says_what_is_saved_and_goes_on(tmp_path, number):
 
 
 def test_stopped_before_anything_is_kept(typed, monkeypatch, case_file):
-    from ehlectric.motion.motion import run as motion_run
+    from ehlectric.motion import run as motion_run
 
     def stopping(*_, **__):
         raise SystemExit(128 + signal.SIGTERM)
