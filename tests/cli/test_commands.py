@@ -9,7 +9,8 @@ import time
 import pytest
 
 from ehlectric import Case, load
-from tests.cli.conftest import CASE, COMMAND
+from tests.cli.conftest import CASE
+from tests.helpers.commands import COMMAND
 from tests.helpers.places import EXAMPLES, SURFACES
 
 FIGURES = {"film.png", "potential.png", "field_strength.png", "field_profiles.png", "field_deviation.png"}

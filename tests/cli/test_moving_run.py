@@ -18,7 +18,7 @@ from ehlectric.figures.names import MOTION_FIGURE_FILES
 from ehlectric.film.unsteady import UnsteadyFilm
 from ehlectric.motion.file import motion_of
 from ehlectric.motion.record import read_motion
-from tests.cli.conftest import COMMAND
+from tests.helpers.commands import COMMAND
 
 CASE = """\
 title = "Bump"
