@@ -30,11 +30,11 @@ class InputError(ValueError):
     Attributes
     ----------
     key : str or None
-        As given.
+        What is wrong; None where the error is about no single input.
     text : str
         The line without the key.
     got : object
-        The value or the words in its place; None where the value is missing.
+        The value, or the words in its place; None where the value is missing or not told.
     takes : str or None
         What is allowed, None where the line does not say.
 
@@ -64,12 +64,14 @@ class InputError(ValueError):
         takes: str | None = None,
     ) -> None:
         if says is None and got is None and takes is None:
-            key, says = None, "" if key is None else str(key)
-        found = says if says is not None else "missing" if got is None else f"got {got}"
+            key, found = None, "" if key is None else str(key)
+        else:
+            found = says if says is not None else "missing" if got is None else f"got {got}"
+            got = says if got is None else got
         comma = "" if found.endswith(";") else ","
         self.text = _line(found if takes is None else f"{found}{comma} takes {takes}")
         self.key = None if key is None else _line(str(key))
-        self.got = says if got is None else got
+        self.got = got.removesuffix(";") if isinstance(got, str) else got
         self.takes = takes
         super().__init__(self.text if self.key is None else f"{self.key}: {self.text}")
 
@@ -107,7 +109,7 @@ class InputError(ValueError):
         return self.worded(key, text, got=self.got, takes=self.takes)
 
     def under(self, table: str) -> Self:
-        """Copy of the error with the key of a table before its own; without a table, or a key, the other.
+        """Copy of the error whose key lies in a table; an error without a key gets the table as its key.
 
         Examples
         --------
