@@ -41,15 +41,17 @@ def check_formula(discharge: Discharge, lubricant: Lubricant) -> None:
     """
     if lubricant.viscosity_law == "constant":
         raise InputError(
-            "lubricant.viscosity_law: got 'constant' with contacts by formula, which are for "
-            "piezoviscous oils; takes another law, or solved contacts"
+            "lubricant.viscosity_law",
+            got="'constant' with contacts by formula, which are for piezoviscous oils;",
+            takes="another law, or solved contacts",
         )
     table = discharge.strength_table
     if discharge.weibull is not None or (table is not None and table.over == "pressure"):
         key = "weibull" if discharge.weibull is not None else "strength_table"
         raise InputError(
-            f"discharge.{key}: got it with contacts by formula, which know no field; takes "
-            "dielectric_strength, a table over temperature, or solved contacts"
+            f"discharge.{key}",
+            got="it with contacts by formula, which know no field;",
+            takes="dielectric_strength, a table over temperature, or solved contacts",
         )
 
 

@@ -129,7 +129,7 @@ def _keys_of_bearing() -> Iterator[None]:
     try:
         yield
     except InputError as error:
-        raise InputError(f"bearing.{error}") from None
+        raise error.under("bearing") from None
 
 
 def geometry_of(bearing: Bearing) -> BallBearing | RollerBearing:

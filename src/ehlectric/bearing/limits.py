@@ -42,8 +42,9 @@ def check_load(bearing: Bearing, duty: BearingDuty) -> None:
     weight = duty.geometry.element_mass(duty.element.density) * gravity
     if math.hypot(bearing.radial_load, bearing.axial_load) < weight:
         raise InputError(
-            f"bearing.radial_load: got {bearing.radial_load:g} N, with {bearing.axial_load:g} N axial; takes "
-            f"more than {weight:.2g} N, the weight of an element, which is left out"
+            "bearing.radial_load",
+            got=f"{bearing.radial_load:g} N, with {bearing.axial_load:g} N axial;",
+            takes=f"more than {weight:.2g} N, the weight of an element, which is left out",
         )
 
 
@@ -94,9 +95,10 @@ def check_shoulders(bearing: Bearing, at: Equilibrium) -> None:
         end = shoulder_angle(bearing, inner=name == "inner")
         if furthest >= end:
             raise InputError(
-                f"bearing.shoulder_height: got {_shoulder_height(bearing):g}, an {name} groove that ends "
-                f"{math.degrees(end):.1f} deg up, and a contact at {math.degrees(furthest):.1f} deg; takes a "
-                "higher shoulder, a smaller contact angle, or less axial load"
+                "bearing.shoulder_height",
+                got=f"{_shoulder_height(bearing):g}, an {name} groove that ends {math.degrees(end):.1f} "
+                f"deg up, and a contact at {math.degrees(furthest):.1f} deg;",
+                takes="a higher shoulder, a smaller contact angle, or less axial load",
             )
 
 
@@ -127,7 +129,9 @@ def check_film(duty: BearingDuty, race: Race, load: float) -> None:
     if film > most:
         name, oil = "inner" if race.inner else "outer", duty.lubricant.viscosity
         raise InputError(
-            f"bearing: got an {name} film of {1e6 * film:.3g} um, at {load:.3g} N, {race.speed:.3g} m/s and "
-            f"{oil:.3g} Pa s; takes a load, a speed and an oil at its temperature for at most "
-            f"{1e6 * most:.3g} um, beyond which the bodies leave it no room"
+            "bearing",
+            got=f"an {name} film of {1e6 * film:.3g} um, at {load:.3g} N, {race.speed:.3g} m/s and "
+            f"{oil:.3g} Pa s;",
+            takes=f"a load, a speed and an oil at its temperature for at most {1e6 * most:.3g} um, "
+            "beyond which the bodies leave it no room",
         )

@@ -52,7 +52,7 @@ def of_contact(race: Race, load: float) -> Iterator[None]:
     Examples
     --------
     >>> with of_contact(Race(inner=True, angle=0.0, speed=1.0), 800.0):
-    ...     raise InputError("contact: the dry contact would be too wide")
+    ...     raise InputError("contact", "the dry contact would be too wide")
     Traceback (most recent call last):
         ...
     ehlectric.errors.InputError: bearing: inner contact at 800 N: the dry contact would be too wide
@@ -60,11 +60,11 @@ def of_contact(race: Race, load: float) -> Iterator[None]:
     try:
         yield
     except InputError as error:
-        text = str(error)
-        if not text.startswith(("contact", "grid")):
+        table = (error.key or "").partition(".")[0]
+        if table not in ("contact", "contact_angle", "grid"):
             raise
-        where = f"bearing: {race.ring} contact at {load:.4g} N: "
-        raise type(error)(where + text.removeprefix("contact: ")) from None
+        text = error.text if error.key == "contact" else str(error)
+        raise error.retold("bearing", f"{race.ring} contact at {load:.4g} N: {text}") from None
 
 
 def point_contact(duty: BearingDuty, race: Race, load: float) -> PointContact:

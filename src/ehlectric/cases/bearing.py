@@ -33,7 +33,7 @@ _OF_ROLLERS = ("roller_length", "profile")
 def _material(name: str) -> str:
     names = library.solid_names()
     if name not in names:
-        raise ValueError(f"got {shown(name)}, takes one of the library: {', '.join(names)}")
+        raise InputError(got=shown(name), takes=f"one of the library: {', '.join(names)}")
     return name
 
 
@@ -41,9 +41,7 @@ def _film_factor(given: Any) -> float | str:
     if given in ("none", "inlet-shear"):
         return str(given)
     if isinstance(given, bool) or not isinstance(given, int | float) or not 0.0 < given <= 1.0:
-        raise ValueError(
-            f"got {shown(given)}, takes 'none', 'inlet-shear', or a number above 0 and at most 1"
-        )
+        raise InputError(got=shown(given), takes="'none', 'inlet-shear', or a number above 0 and at most 1")
     return float(given)
 
 
@@ -95,15 +93,16 @@ class Bearing(Table):
     def _check(self) -> Self:
         self._check_kind()
         if self.radial_load == 0.0 and self.axial_load == 0.0:
-            raise ValueError("radial_load: missing, takes a load, radial or axial")
+            raise InputError.missing("radial_load", "a load, radial or axial")
         ceramic = not library.solid(self.element_material)["conducting"]
         if self.element_capacitance is not None and not ceramic:
-            raise ValueError(
-                "element_capacitance: got it for elements that conduct, whose capacitance is computed; takes "
-                "it for ceramic ones"
+            raise InputError(
+                "element_capacitance",
+                got="it for elements that conduct, whose capacitance is computed;",
+                takes="it for ceramic ones",
             )
         if not library.solid(self.ring_material)["conducting"]:
-            raise ValueError(f"ring_material: got {shown(self.ring_material)}, takes one that conducts")
+            raise InputError("ring_material", got=shown(self.ring_material), takes="one that conducts")
         return self
 
     def _check_kind(self) -> None:
@@ -115,14 +114,15 @@ class Bearing(Table):
         }[self.kind]
         for key in needed:
             if getattr(self, key) is None:
-                raise ValueError(f"{key}: missing, a bearing of kind {self.kind!r} takes it")
+                raise InputError.worded(key, f"missing, a bearing of kind {self.kind!r} takes it")
         for key in {*_OF_BALLS, *_OF_ROLLERS, "radial_clearance"} - set(needed):
             if getattr(self, key) is not None:
-                raise ValueError(f"{key}: got it in a bearing of kind {self.kind!r}, which has no use for it")
+                raise InputError(key, got=f"it in a bearing of kind {self.kind!r}, which has no use for it")
         if rollers and self.axial_load:
-            raise ValueError(
-                f"axial_load: got {self.axial_load:g} N, takes 0 in a cylindrical roller bearing, whose "
-                "rollers carry none"
+            raise InputError(
+                "axial_load",
+                got=f"{self.axial_load:g} N",
+                takes="0 in a cylindrical roller bearing, whose rollers carry none",
             )
 
 
@@ -158,8 +158,8 @@ class BearingLubricant(Lubricant):
     @model_validator(mode="after")
     def _check(self) -> Self:
         if (self.viscosity is None) == (self.temperature is None):
-            state = "missing" if self.viscosity is None else "got viscosity and temperature together"
-            raise ValueError(f"viscosity: {state}, takes either viscosity or temperature")
+            both = None if self.viscosity is None else "viscosity and temperature together"
+            raise InputError("viscosity", got=both, takes="either viscosity or temperature")
         return self
 
     def at(self, temperature: float) -> Lubricant:
@@ -182,7 +182,7 @@ class BearingLubricant(Lubricant):
         try:
             return Lubricant.from_dict(table)
         except InputError as error:
-            raise InputError(f"lubricant.{error}") from None
+            raise error.under("lubricant") from None
 
     def walther(self) -> Walther:
         """Kinematic viscosity over temperature."""
@@ -192,9 +192,9 @@ class BearingLubricant(Lubricant):
     def _alpha(self, viscosity: float) -> float:
         z, p0 = self.roelands_z, self.roelands_pressure
         if z is None or p0 is None:
-            raise InputError(
-                "lubricant.pressure_viscosity_coefficient: missing, takes it, or roelands_z and "
-                "roelands_pressure, from which it follows at the temperature"
+            raise InputError.missing(
+                "lubricant.pressure_viscosity_coefficient",
+                "it, or roelands_z and roelands_pressure, from which it follows at the temperature",
             )
         return roelands_alpha(viscosity, z, p0)
 
@@ -204,9 +204,10 @@ class BearingDischarge(Discharge):
 
     def _check_temperature(self) -> None:
         if self.temperature is not None:
-            raise ValueError(
-                f"temperature: got {self.temperature:g} K for a bearing, takes bearing.temperature in its "
-                "place, at which the strength is taken"
+            raise InputError(
+                "temperature",
+                got=f"{self.temperature:g} K for a bearing",
+                takes="bearing.temperature in its place, at which the strength is taken",
             )
 
     def at(self, temperature: float) -> Discharge:
@@ -229,7 +230,7 @@ class BearingDischarge(Discharge):
         try:
             return Discharge.from_dict(table)
         except InputError as error:
-            raise InputError(f"bearing.{error}") from None
+            raise error.under("bearing") from None
 
 
 class Motor(Table):

@@ -41,7 +41,7 @@ def input_field(key: str) -> FieldInfo:
     if names[0] == "roughness":
         if len(names) < 3 or not names[1].isdecimal():
             raise InputError(
-                f"{key}: is a list of tables, takes a key of one of them, as roughness.1.rescale_rq"
+                key, "is a list of tables", takes="a key of one of them, as roughness.1.rescale_rq"
             )
         within, names = names[1:2], [names[0], *names[2:]]
     field: FieldInfo | None = None
@@ -51,11 +51,11 @@ def input_field(key: str) -> FieldInfo:
         if field is None:
             known = nearest_key(".".join(names), model).split(".")
             known[1:1] = within if known[0] == "roughness" and len(known) > 1 else []
-            raise InputError(f"{key}: unknown key; the nearest known one is {'.'.join(known)}")
+            raise InputError.unknown(key, ".".join(known))
         inner = table_of(field.annotation)
     if field is None or inner is not None:
         raise InputError(
-            f"{key}: is a table, takes one of its keys, as {key}.{next(iter(inner.model_fields))}"
+            key, "is a table", takes=f"one of its keys, as {key}.{next(iter(inner.model_fields))}"
         )
     return field
 

@@ -13,7 +13,7 @@ from ehlectric.arrays import Array
 from ehlectric.cases import library
 from ehlectric.cases.quantity import Quantity
 from ehlectric.cases.table import Table, nearest
-from ehlectric.errors import shown
+from ehlectric.errors import InputError, shown
 from ehlectric.lubricant.density import DENSITY_LAWS
 from ehlectric.lubricant.law import Law
 from ehlectric.lubricant.permittivity import PERMITTIVITY_LAWS
@@ -52,8 +52,8 @@ def _law(laws: Mapping[str, object]) -> AfterValidator:
     def known(name: str) -> str:
         if name not in laws:
             known_names = ", ".join(repr(law) for law in laws)
-            raise ValueError(
-                f"got {shown(name)}, takes one of {known_names}; nearest is {nearest(name, laws)!r}"
+            raise InputError(
+                got=shown(name), takes=f"one of {known_names}; nearest is {nearest(name, laws)!r}"
             )
         return name
 
@@ -83,9 +83,9 @@ def library_name(base: Any, names: Sequence[str]) -> str:
         Where the library has none of that name.
     """
     if not isinstance(base, str):
-        raise ValueError(f"base: got {shown(base)}, takes a text, a name of the library: {', '.join(names)}")
+        raise InputError("base", got=shown(base), takes=f"a text, a name of the library: {', '.join(names)}")
     if base not in names:
-        raise ValueError(f"base: got {shown(base)}, takes a name of the library: {', '.join(names)}")
+        raise InputError("base", got=shown(base), takes=f"a name of the library: {', '.join(names)}")
     return base
 
 
@@ -135,8 +135,8 @@ class Lubricant(Table):
             missing = [name for name in laws[law].parameters if getattr(self, name) is None]
             if missing:
                 also = f" with {', '.join(missing[1:])}" if missing[1:] else ""
-                raise ValueError(
-                    f"{missing[0]}: missing, {key} {law!r} takes it{also}{self._roelands_hint()}"
+                raise InputError.worded(
+                    missing[0], f"missing, {key} {law!r} takes it{also}{self._roelands_hint()}"
                 )
         return self
 

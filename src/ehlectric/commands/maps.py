@@ -106,9 +106,9 @@ def _held(given: Sequence[str]) -> dict[str, str]:
     for text in given:
         key, sign, value = (part.strip() for part in text.partition("="))
         if not (sign and key and value):
-            raise InputError(f"at: got {shown(text)}, takes KEY=VALUE")
+            raise InputError("at", got=shown(text), takes="KEY=VALUE")
         if key in held:
-            raise InputError(f"at: got {key} twice, takes each key once")
+            raise InputError("at", got=f"{key} twice", takes="each key once")
         held[key] = value
     return held
 

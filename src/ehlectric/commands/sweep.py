@@ -86,9 +86,9 @@ def _workers(text: str | None, scheduler: str | None) -> int | None:
     if text is None:
         return None
     if scheduler is not None:
-        raise InputError("--workers: got it beside --scheduler, takes one of the two")
+        raise InputError("--workers", got="it beside --scheduler", takes="one of the two")
     if not text.isdecimal() or not 1 <= int(text) <= _MOST_WORKERS:
-        raise InputError(f"--workers: got {shown(text)}, takes a whole number from 1 to {_MOST_WORKERS}")
+        raise InputError("--workers", got=shown(text), takes=f"a whole number from 1 to {_MOST_WORKERS}")
     return int(text)
 
 

@@ -60,8 +60,9 @@ def _check_record(motion: Motion, grid: Grid, *, point: bool) -> None:
     available, needed = physical_memory(), RECORD_BYTES * nodes * min(motion.record, steps + 1)
     if needed > available:
         raise MemoryLimitError(
-            f"motion.record: got {motion.record} instants of {nodes} nodes, about {needed / 1e9:.0f} GB; "
-            f"takes at most {int(available / RECORD_BYTES / nodes)} in {available / 1e9:.0f} GB"
+            "motion.record",
+            got=f"{motion.record} instants of {nodes} nodes, about {needed / 1e9:.0f} GB;",
+            takes=f"at most {int(available / RECORD_BYTES / nodes)} in {available / 1e9:.0f} GB",
         )
 
 
@@ -80,9 +81,9 @@ def _refuse_beyond(grid: Grid, needed: tuple[float, float], sizes: tuple[str, st
         of_film = grid.field_nodes is None or film > field
         key, size = ("nodes", sizes[0]) if of_film else ("field_nodes", sizes[1])
         raise MemoryLimitError(
-            f"grid.{key}: got {size} with field_degree {grid.field_degree}, about "
-            f"{(film + field) / 1e9:.0f} GB; takes a grid that fits into the {available / 1e9:.0f} GB of "
-            "this machine"
+            f"grid.{key}",
+            got=f"{size} with field_degree {grid.field_degree}, about {(film + field) / 1e9:.0f} GB;",
+            takes=f"a grid that fits into the {available / 1e9:.0f} GB of this machine",
         )
 
 

@@ -116,7 +116,7 @@ def solve(
     solvers.check(case)
     if case.motion is not None:
         raise InputError(
-            "motion: got it where a film at rest is solved; takes run_motion, or a case without it"
+            "motion", got="it where a film at rest is solved;", takes="run_motion, or a case without it"
         )
     if case.contact.geometry == "point":
         return _solve_point(case, progress, demand=require_convergence, beside_smooth=beside_smooth)

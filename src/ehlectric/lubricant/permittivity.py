@@ -45,10 +45,12 @@ def clausius_mossotti(density_ratio: ArrayLike, *, relative_permittivity: float)
     rho = np.asarray(density_ratio, dtype=float)
     denominator = relative_permittivity + 2.0 - (relative_permittivity - 1.0) * rho
     if np.any(denominator <= 0.0):
-        raise InputError(
-            "lubricant.permittivity_law: 'clausius-mossotti' has a pole at the density ratio "
-            f"{(relative_permittivity + 2.0) / (relative_permittivity - 1.0):.4g}, and the film reaches "
-            f"{np.max(rho):.4g}; a polar liquid takes 'constant'"
+        raise InputError.worded(
+            "lubricant.permittivity_law",
+            "'clausius-mossotti' has a pole at the density ratio "
+            f"{(relative_permittivity + 2.0) / (relative_permittivity - 1.0):.4g}, and the film "
+            f"reaches {np.max(rho):.4g}; a polar liquid takes 'constant'",
+            takes="'constant'",
         )
     return (relative_permittivity + 2.0 + 2.0 * (relative_permittivity - 1.0) * rho) / denominator
 

@@ -48,13 +48,15 @@ class Walther:
         """
         if not at_40 > at_100:
             raise InputError(
-                f"lubricant.temperature.kinematic_viscosity_100: got {at_100:g} m^2/s, takes less than "
-                f"kinematic_viscosity_40, {at_40:g} m^2/s"
+                "lubricant.temperature.kinematic_viscosity_100",
+                got=f"{at_100:g} m^2/s",
+                takes=f"less than kinematic_viscosity_40, {at_40:g} m^2/s",
             )
         if at_100 < 1e-6 * _LEAST:
             raise InputError(
-                f"lubricant.temperature.kinematic_viscosity_100: got {at_100:g} m^2/s, takes at least "
-                f"{1e-6 * _LEAST:g} m^2/s, for which ASTM D341 holds in its short form"
+                "lubricant.temperature.kinematic_viscosity_100",
+                got=f"{at_100:g} m^2/s",
+                takes=f"at least {1e-6 * _LEAST:g} m^2/s, for which ASTM D341 holds in its short form",
             )
         cold, hot = (math.log10(math.log10(1e6 * nu + _ADDED)) for nu in (at_40, at_100))
         b = (cold - hot) / math.log10(HOT / COLD)
@@ -70,12 +72,14 @@ class Walther:
         """
         double = math.pow(10.0, self.a - self.b * math.log10(temperature))
         if double > 300.0:
-            raise InputError(f"bearing.temperature: got {temperature:g} K, at which the oil is solid")
+            raise InputError("bearing.temperature", got=f"{temperature:g} K, at which the oil is solid")
         nu = math.pow(10.0, double) - _ADDED
         if nu < _LEAST:
             raise InputError(
-                f"bearing.temperature: got {temperature:g} K, at which the oil has {nu:.3g} mm^2/s; takes "
-                f"one at which it has {_LEAST:g} mm^2/s or more, for which ASTM D341 holds in its short form"
+                "bearing.temperature",
+                got=f"{temperature:g} K, at which the oil has {nu:.3g} mm^2/s;",
+                takes=f"one at which it has {_LEAST:g} mm^2/s or more, for which ASTM D341 holds in its "
+                "short form",
             )
         return 1e-6 * nu
 

@@ -192,7 +192,7 @@ class MotionFile:
         with opened(self._path, "a") as file:
             if _state(file) != self._left:
                 raise InputError(
-                    f"{self._path}: is being written to by another run, takes a folder of its own"
+                    self._path, "is being written to by another run", takes="a folder of its own"
                 )
             # By their numbers, not behind what there is: of an instant that was half written before.
             before = file.variables["frame_step"][: int(file.attrs["frames"])]

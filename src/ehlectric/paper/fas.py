@@ -122,9 +122,11 @@ def grid_sizes(nodes: int) -> list[int]:
     while sizes[-1] > COARSEST and sizes[-1] % 2 == 1:
         sizes.append(sizes[-1] // 2 + 1)
     if sizes[-1] > LARGEST_COARSEST:
-        raise InputError(
-            f"grid.nodes: got {nodes}, the paper's multigrid takes a number whose intervals can be halved "
-            f"down to at most {LARGEST_COARSEST - 1}, such as 801, 1601 or 3201"
+        raise InputError.worded(
+            "grid.nodes",
+            f"got {nodes}, the paper's multigrid takes a number whose intervals can be halved "
+            f"down to at most {LARGEST_COARSEST - 1}, such as 801, 1601 or 3201",
+            got=nodes,
         )
     return sizes
 

@@ -285,6 +285,7 @@ def _tile(i: int, j: int, seed: int) -> Array:
 def _check_points(points: tuple[int, int], spacing: tuple[float, float], key: str) -> None:
     if points[0] * points[1] > MOST_POINTS:
         raise InputError(
-            f"{key}: asks for {points[0]} x {points[1]} points, {spacing[0]:.3g} and {spacing[1]:.3g} m "
-            f"apart; takes a longer one, which needs at most {MOST_POINTS:.0e} in all"
+            key,
+            f"asks for {points[0]} x {points[1]} points, {spacing[0]:.3g} and {spacing[1]:.3g} m apart;",
+            takes=f"a longer one, which needs at most {MOST_POINTS:.0e} in all",
         )

@@ -218,6 +218,7 @@ def _folded(kernel: Array, spacing: float, length: float, rq: float, seed: int, 
 def _check_points(points: int, spacing: float, length: float, key: str) -> None:
     if points > MOST_POINTS:
         raise InputError(
-            f"{key}: asks for {points:.3g} points, {spacing:.3g} m apart over {length:.3g} m; takes a longer "
-            f"one, which needs at most {MOST_POINTS:.0e}"
+            key,
+            f"asks for {points:.3g} points, {spacing:.3g} m apart over {length:.3g} m;",
+            takes=f"a longer one, which needs at most {MOST_POINTS:.0e}",
         )

@@ -170,10 +170,12 @@ def whole_map(table: Roughness, read: Surface | None = None) -> RoughMap:
     """
     assert table.file is not None
     if table.line is not None:
-        raise InputError(f"line: got {table.line} for a whole map, takes one or the other")
+        raise InputError("line", got=f"{table.line} for a whole map", takes="one or the other")
     if table.direction == "y":
         raise InputError(
-            "roughness.direction: got 'y' for a whole map, takes along = 'column' to turn it, or a line of it"
+            "roughness.direction",
+            got="'y' for a whole map",
+            takes="along = 'column' to turn it, or a line of it",
         )
     if read is None:
         read = read_surface(table.file, x_unit=table.x_unit, z_unit=table.z_unit)
@@ -221,8 +223,9 @@ def _shape(table: Roughness, domain: Domain) -> MapHeight:
     }
     if values.get("width", 0.0) > domain.shorter:
         raise InputError(
-            f"roughness.width: got {values['width']:.3g} m, takes less than the shorter side of the domain, "
-            f"{domain.shorter:.3g} m"
+            "roughness.width",
+            got=f"{values['width']:.3g} m",
+            takes=f"less than the shorter side of the domain, {domain.shorter:.3g} m",
         )
     made: MapHeight = partial(getattr(map_generators, str(table.generator)), **values)
     return lambda x, y: made(x - table.shift, y - table.shift_y)
@@ -261,13 +264,15 @@ def _random(table: Roughness, domain: Domain) -> Map:
             shortest=shortest,
         )
     except InputError as error:
-        raise InputError(f"roughness.{error}") from None
+        raise error.under("roughness") from None
 
 
 def _check_waves(key: str, length: float, domain: Domain) -> None:
     most = MOST_OF_DOMAIN * domain.shorter
     if length > most:
         raise InputError(
-            f"{key}: got {length:.3g} m, takes at most {most:.3g} m, a tenth of the shorter side of the "
-            "domain: the heights of fewer waves are those of chance"
+            key,
+            got=f"{length:.3g} m",
+            takes=f"at most {most:.3g} m, a tenth of the shorter side of the domain: the heights of "
+            "fewer waves are those of chance",
         )

@@ -142,7 +142,7 @@ def _shape(table: Roughness, domain: float) -> Height:
     }
     if values.get("width", 0.0) > domain:
         raise InputError(
-            f"roughness.width: got {values['width']:.3g} m, takes less than the domain, {domain:.3g} m"
+            "roughness.width", got=f"{values['width']:.3g} m", takes=f"less than the domain, {domain:.3g} m"
         )
     return _shifted(partial(getattr(generators, str(table.generator)), **values), table.shift)
 
@@ -158,8 +158,10 @@ def _random(table: Roughness, domain: float, reach: float) -> Profile:
     longest = getattr(table, key)
     if longest > MOST_OF_DOMAIN * domain:
         raise InputError(
-            f"roughness.{key}: got {longest:.3g} m, takes at most {MOST_OF_DOMAIN * domain:.3g} m, a tenth "
-            "of the domain: the heights of fewer waves are those of chance"
+            f"roughness.{key}",
+            got=f"{longest:.3g} m",
+            takes=f"at most {MOST_OF_DOMAIN * domain:.3g} m, a tenth of the domain: the heights of "
+            "fewer waves are those of chance",
         )
     trim = table.trim if table.trim is not None else max(table.cutoff_long or 0.0, table.cutoff_short or 0.0)
     common: dict[str, Any] = {"rq": table.rq, "seed": table.seed}
@@ -177,4 +179,4 @@ def _random(table: Roughness, domain: float, reach: float) -> Profile:
             hurst=table.hurst, rolloff_wavelength=longest, shortest=shortest, **common
         )
     except InputError as error:
-        raise InputError(f"roughness.{error}") from None
+        raise error.under("roughness") from None

@@ -108,7 +108,7 @@ def planned_points(sweep: Sweep) -> list[Planned]:
     """
     planned = list(plan(sweep))
     if all(point.key is None for point in planned):
-        raise InputError(f"vary: no point is a case; of the first, {planned[0].refused}")
+        raise InputError("vary", f"no point is a case; of the first, {planned[0].refused}")
     return planned
 
 
