@@ -22,37 +22,17 @@ EARLIER = Path(__file__).parents[2] / "data" / "earlier"
 words = st.one_of(st.text(), st.sampled_from(["do not use this film", "the film may be 32 % off"]))
 lists = st.lists(st.builds(ResultWarning, st.sampled_from(list(CODES)), words))
 
-# Warnings as versions without codes wrote them.
-TEXTS = {
-    "not-converged": "do not use this film, it is no solution: film collapsed at the residual 3.7e-01; try more "
-    "grid.nodes, a lower grid.inlet, or more solver.max_iterations",
-    "coarser-grid-unsolved": "do not use this film: the next coarser grid was not solved, so that nothing is known "
-    "of its discretisation error, which is large; take more grid.nodes",
-    "grid-far-too-coarse": "inner contact at 800 N: the film may be 47 % off or more on this grid; do not use it",
-    "grid-too-coarse": "the film may be 5.4 % off or more on this grid; take more grid.nodes",
-    "inlet-far-too-short": "the inlet is too short: 31 % of the pressure is built up before it, do not use this "
-    "film; lower grid.inlet",
-    "inlet-too-short": "the inlet is too short: 3 % of the pressure is built up before it, the film is about that "
-    "much off; lower grid.inlet",
-    "domain-far-too-small": "the domain is too small: 30 % of the pressure is built up before it and 2 % would be at "
-    "its sides, which makes the film too thin, do not use it; lower grid.inlet and raise grid.side",
-    "domain-too-small": "the domain is too small: 3 % of the pressure is built up before it and 2 % would be at its "
-    "sides, which makes the film too thin, by about 5 %; lower grid.inlet and raise grid.side",
-    "regime": "isoviscous-elastic regime: the film formulas but Moes' are for piezoviscous-elastic contacts",
-    "ambient-pressure": "the ambient pressure carries 8.6 % of the load over this domain; "
-    "lubricant.ambient_pressure = 0 leaves it out",
-    "refine-not-reached": "grid.refine: 1 % was not reached with 257 nodes; nothing is known of its error on 3 grids "
-    "in succession",
-    "error-unknown": "nothing is known of the discretisation error, as the roughness had to be raised in steps; "
-    "compare with more grid.nodes",
-    "stationary-error": "held still, the film may be 2 % off on this grid, and moving about as much",
-    "stationary-not-converged": "the same roughness held still is not solved: stalled",
-    "touching": "lambda is 0.9: surfaces touch and conduct, nothing breaks down, and no shaft voltage is stated",
-    "partial-film": "lambda is 2.1: surfaces may touch, voltages are upper bounds",
-    "capacitance-bound": "the elements are ceramic: the capacitance is an upper bound, that of conducting ones, and "
-    "no shaft voltage follows from it; bearing.element_capacitance gives one",
-    "not-usable": "do not use the third digit",
-    "unclassified": "mind the gap",
+# Warnings as versions without codes wrote them, by the code that each has.
+TEXTS = json.loads((EARLIER / "warnings.json").read_text(encoding="utf-8"))
+# Codes of warnings that no file has: the commands alone tell them.
+UNSTORED = {
+    "speed-left-out",
+    "points-with-warnings",
+    "points-not-usable",
+    "points-of-another-version",
+    "rows-dropped",
+    "rows-not-usable",
+    "intervals-wide",
 }
 
 
@@ -89,6 +69,10 @@ def test_prose_decides_nothing(code, text, doubtful):
 def test_codes_of_texts_without_one(code, text):
     assert code_of_text(text) == code
     assert warnings_of({"warnings": [text]}) == (ResultWarning(code, text),)
+
+
+def test_every_code_of_stored_warnings_has_a_text():
+    assert set(CODES) - set(TEXTS) == UNSTORED
 
 
 def test_codes_of_later_versions_are_read_by_their_text():
