@@ -53,6 +53,9 @@ def test_rollers_are_solved(rollers):
         text for text in map(str, rollers.warnings()) if "inlet is too short" in text or "do not use" in text
     ]
     found = strict(rollers.summary())
+    told = rollers.warnings()
+    assert found["warnings"] == [warning.text for warning in told]
+    assert found["warning_codes"] == [warning.code for warning in told]
     assert found["schema"] == "ehlectric.bearing/1"
     assert found["converged"]
     assert found["bearing"]["discretisation_error"] < 0.03
@@ -291,12 +294,16 @@ def test_a_contact_that_is_not_converged(rollers):
     assert not strict(failed.summary())["converged"]
 
 
+# Of warnings that contacts are given here.
+CODE = "outlet-too-short"
+
+
 def warned(result, name, texts):
     """The result with warnings of the contacts with one ring, a list for each."""
     curve = getattr(result.solution, f"{name}_curve")
     contacts = zip(curve.solutions, texts, strict=True)
     changed = tuple(
-        dataclasses.replace(contact, warnings=tuple(ResultWarning("regime", text) for text in found))
+        dataclasses.replace(contact, warnings=tuple(ResultWarning(CODE, text) for text in found))
         for contact, found in contacts
     )
     curve = dataclasses.replace(curve, solutions=changed)
@@ -308,6 +315,7 @@ def test_what_contacts_share_is_said_once(axial):
     loads = [c.solutions[0].load for c in (axial.solution.inner_curve, axial.solution.outer_curve)]
     both = warned(warned(axial, "inner", [["thin oil", "a"]]), "outer", [["thin oil", "b"]])
     told = [text for text in map(str, both.warnings()) if text.endswith(("thin oil", ": a", ": b"))]
+    assert [warning.code for warning in both.warnings()].count(CODE) == 3
     assert told == [
         "thin oil",
         f"inner contact at {loads[0]:.4g} N: a",

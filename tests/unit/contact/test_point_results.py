@@ -239,24 +239,29 @@ def test_any_result_survives_the_disk(table, tmp_path_factory):
 
 
 WARNINGS = [
-    ({"grid.inlet": -1.6}, "the domain is too small: .* % of the pressure is built up before"),
-    SLOW({"grid.side": 1.3, "grid.field_side": 1.2}, "too small: .* lower grid.inlet and raise grid.side"),
-    ({"grid.outlet": 1.01, "grid.field_range": [-1.1, 1.0]}, "does not cavitate"),
-    ({"contact.entrainment_speed": 0.5}, "% off or more on this grid; do not use it"),
-    SLOW({"contact.entrainment_speed": 0.1}, "do not use this film: the next coarser grid was not solved"),
-    SLOW({"grid.field_nodes": 20}, "grid.field_nodes is coarser than the film"),
-    ({"grid.field_nodes_y": 20}, "grid.field_nodes_y is coarser than the film"),
-    ({"solver.max_iterations": 1}, "do not use this film, it is no solution: stalled"),
-    SLOW({"contact.load": 0.02}, "isoviscous-rigid regime"),
-    SLOW({"grid.field_side": 0.5}, "edge of grid.field_range or grid.field_side"),
-    ({"electric.potential_2": 1e4}, "no insulator withstands"),
+    ({"grid.inlet": -1.6}, "the domain is too small: .* % of the pressure is built up before",
+     "domain-too-small"),
+    SLOW({"grid.side": 1.3, "grid.field_side": 1.2}, "too small: .* lower grid.inlet and raise grid.side",
+         "domain-too-small"),
+    ({"grid.outlet": 1.01, "grid.field_range": [-1.1, 1.0]}, "does not cavitate", "outlet-too-short"),
+    ({"contact.entrainment_speed": 0.5}, "% off or more on this grid; do not use it", "grid-far-too-coarse"),
+    SLOW({"contact.entrainment_speed": 0.1}, "do not use this film: the next coarser grid was not solved",
+         "coarser-grid-unsolved"),
+    SLOW({"grid.field_nodes": 20}, "grid.field_nodes is coarser than the film", "field-grid-too-coarse"),
+    ({"grid.field_nodes_y": 20}, "grid.field_nodes_y is coarser than the film", "field-grid-too-coarse"),
+    ({"solver.max_iterations": 1}, "do not use this film, it is no solution: stalled", "not-converged"),
+    SLOW({"contact.load": 0.02}, "isoviscous-rigid regime", "regime"),
+    SLOW({"grid.field_side": 0.5}, "edge of grid.field_range or grid.field_side", "field-range-too-narrow"),
+    ({"electric.potential_2": 1e4}, "no insulator withstands", "field-above-insulators"),
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("keys", "message"), WARNINGS)
-def test_warnings(keys, message):
-    warnings = [str(warning) for warning in solve(point(grid={"nodes": 65}).replace(keys)).warnings]
-    assert any(re.search(message, text) for text in warnings), warnings
+@pytest.mark.parametrize(("keys", "message", "code"), WARNINGS)
+def test_warnings(keys, message, code):
+    result = solve(point(grid={"nodes": 65}).replace(keys))
+    found = [warning.code for warning in result.warnings if re.search(message, warning.text)]
+    assert code in found, result.warnings
+    assert result.summary()["warning_codes"] == [warning.code for warning in result.warnings]
 
 
 @pytest.mark.slow
