@@ -10,11 +10,12 @@ from pathlib import Path
 from textwrap import fill
 from typing import Any
 
-import ehlectric
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import FancyArrowPatch, FancyBboxPatch
 from sphinx.application import Sphinx
+
+import ehlectric
 
 PACKAGE = Path(ehlectric.__file__).parent
 _WIDTH, _HEIGHT, _FLOOR = 2.9, 0.78, 1.25  # of a box, and from layer to layer, in units of the picture

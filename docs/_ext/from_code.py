@@ -38,6 +38,7 @@ from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.lubricant import density_law, permittivity_law
 from ehlectric.cases.quantity import Count, Quantities, Quantity
 from ehlectric.commands.app import app as commands
+from ehlectric.errors import CODES
 from ehlectric.lubricant.density import DENSITY_LAWS
 from ehlectric.lubricant.permittivity import PERMITTIVITY_LAWS
 from ehlectric.lubricant.viscosity import VISCOSITY_LAWS
@@ -222,6 +223,10 @@ def _write(app: Sphinx) -> None:
     pages |= {f"library_{kind}": _library(kind) for kind in ("bearings", "solids")}
     for name, file in (("bearing", "bearing_6208"), ("motion", "moving_roughness")):
         pages[f"{name}_example"] = _example(Path(app.srcdir).parent / "examples" / f"{file}.toml")
+    pages["warning_codes"] = _table(
+        ["code", "severity", "what it means"],
+        [[f"`{code}`", cause.severity, cause.meaning] for code, cause in CODES.items()],
+    )
     _check_bearing(app)
     for geometry in _CONTACTS:
         result = solve(_small(geometry))

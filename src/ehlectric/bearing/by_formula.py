@@ -7,17 +7,16 @@ from scipy.constants import epsilon_0
 
 from ehlectric.arrays import Array
 from ehlectric.bearing.conditions import BearingDuty
-from ehlectric.bearing.contacts import ContactSolution, contact_case, warnings_of
+from ehlectric.bearing.contacts import ContactSolution, contact_case, without_regime
 from ehlectric.bearing.loads.geometry import RollerBearing
 from ehlectric.bearing.ring_contacts import Race, around_ball, around_roller, of_contact
 from ehlectric.cases.bearing import Bearing
 from ehlectric.cases.discharge import Discharge
 from ehlectric.cases.lubricant import Lubricant, density_law, permittivity_law
+from ehlectric.contact.case_warnings import line_case_warnings, point_case_warnings
 from ehlectric.contact.conditions import default_side, resolve, resolve_point
-from ehlectric.contact.remarks import line_remarks as remarks
-from ehlectric.contact.remarks import point_remarks
 from ehlectric.discharge.utilisation import dielectric_strength
-from ehlectric.errors import InputError
+from ehlectric.errors import InputError, ResultWarning
 from ehlectric.field.zones import areas
 from ehlectric.formulas.film_line import pan_hamrock
 from ehlectric.formulas.film_point import chittenden
@@ -125,7 +124,7 @@ def _ball(
         area=np.pi * a * b,
         moes=(contact.moes_m, contact.moes_l),
         mismatch=mismatch,
-        warnings=warnings_of(point_remarks(case, conditions), conditions),
+        warnings=without_regime(point_case_warnings(case, conditions)),
     )
 
 
@@ -152,7 +151,7 @@ def _roller(duty: BearingDuty, race: Race, load: float, discharge: Discharge) ->
         area=2.0 * b * length,
         moes=(contact.moes_m, contact.moes_l),
         mismatch=0.0,
-        warnings=warnings_of(remarks(case, conditions), conditions),
+        warnings=without_regime(line_case_warnings(case, conditions)),
     )
 
 
@@ -175,7 +174,7 @@ def _solution(
     area: float,
     moes: tuple[float, float],
     mismatch: float,
-    warnings: tuple[str, ...],
+    warnings: tuple[ResultWarning, ...],
 ) -> ContactSolution:
     """What the formulas of either contact give; integrals of eps_r dA/h and dA/h are not yet times eps0."""
     strength = float(dielectric_strength(discharge, np.zeros(1))[0])

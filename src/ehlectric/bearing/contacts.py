@@ -17,10 +17,9 @@ from ehlectric.bearing.ring_contacts import Race, around_ball, around_roller, of
 from ehlectric.cases.bearing import Bearing
 from ehlectric.cases.case import Case
 from ehlectric.cases.discharge import Discharge
-from ehlectric.contact.conditions import Conditions, PointConditions
-from ehlectric.contact.remarks import point_regime_remarks, regime_remarks
 from ehlectric.contact.results import PointResult
 from ehlectric.contact.solver import solve
+from ehlectric.errors import ResultWarning
 
 # Error of the minimum film that grids are refined to.
 REFINE = 0.03
@@ -52,7 +51,7 @@ class ContactSolution:
         Moes' groups.
     mismatch : float
         Largest difference of the gaps at the edge of the film's domain, relative.
-    warnings : tuple of str
+    warnings : tuple of ResultWarning
         Of its solution.
     """
 
@@ -73,7 +72,7 @@ class ContactSolution:
     moes_l: float
     mismatch: float
     converged: bool
-    warnings: tuple[str, ...]
+    warnings: tuple[ResultWarning, ...]
 
 
 def contact_case(
@@ -181,17 +180,13 @@ def solve_contact(
         moes_l=formulas.moes_l,
         mismatch=mismatch,
         converged=result.converged,
-        warnings=warnings_of(result.warnings, result.conditions),
+        warnings=without_regime(result.warnings),
     )
 
 
-def warnings_of(texts: Iterable[str], conditions: Conditions | PointConditions) -> tuple[str, ...]:
-    """Warnings of a contact but for those of its regime: the domain of a light one is chosen for that."""
-    if isinstance(conditions, PointConditions):
-        regime = set(point_regime_remarks(conditions))
-    else:
-        regime = set(regime_remarks(conditions))
-    return tuple(text for text in texts if text not in regime)
+def without_regime(warnings: Iterable[ResultWarning]) -> tuple[ResultWarning, ...]:
+    """Warnings of a contact but for those of its regime: the domain of a light contact is chosen for it."""
+    return tuple(warning for warning in warnings if warning.code != "regime")
 
 
 @dataclass(frozen=True)

@@ -12,10 +12,12 @@ import numpy as np
 from ehlectric.bearing.circuit import Circuit, bearing_voltage_ratio, series
 from ehlectric.bearing.loads.balls import BallEquilibrium
 from ehlectric.bearing.loads.totals import mechanics_of
-from ehlectric.bearing.remarks import clearance_remarks, contact_remarks, edge_remarks
 from ehlectric.bearing.solver import BearingSolution
+from ehlectric.bearing.warnings import clearance_warnings, contact_warnings, edge_warnings
 from ehlectric.discharge.laws import relaxation_time
+from ehlectric.errors import ResultWarning
 from ehlectric.runtime.files import plain
+from ehlectric.runtime.stored_warnings import texts_and_codes
 from ehlectric.version import __version__
 
 SCHEMA = "ehlectric.bearing/1"
@@ -166,50 +168,58 @@ class BearingResult:
             totals.append(float(np.sum(series(inner[loaded], outer[loaded]))))
         return float(np.mean(totals))
 
-    def warnings(self) -> list[str]:
-        """What a user should know before using it, each text once."""
+    def warnings(self) -> list[ResultWarning]:
+        """Warnings of films, voltages and contacts, each once."""
         return list(dict.fromkeys([*self._of_films(), *self._of_voltages(), *self._of_contacts()]))
 
-    def _of_films(self) -> Iterator[str]:
-        """What to know of the films of the whole bearing."""
+    def _of_films(self) -> Iterator[ResultWarning]:
+        """Warnings of the films of the whole bearing."""
         solution = self.solution
         if solution.case.contacts == "formula":
-            yield "contacts by formula: films may be 30 % off, and fields are voltages over the minimum film"
+            text = "contacts by formula: films may be 30 % off, and fields are voltages over the minimum film"
+            yield ResultWarning("formula-contacts", text)
         if solution.duty.film_factor == 1.0:
             given = solution.case.bearing.film_factor
             name = given if isinstance(given, str) else f"{given:g}"
-            yield f"film_factor {name}: the film is isothermal and fully flooded, voltages are upper bounds"
+            text = f"film_factor {name}: the film is isothermal and fully flooded, voltages are upper bounds"
+            yield ResultWarning("isothermal-film", text)
         if solution.case.lubricant.temperature is None:
-            yield "lubricant.viscosity is given: bearing.temperature has no part in the films"
+            text = "lubricant.viscosity is given: bearing.temperature has no part in the films"
+            yield ResultWarning("temperature-unused", text)
         elif solution.case.bearing.temperature < _COLD:
             cold = solution.case.bearing.temperature - 273.15
-            yield f"bearing.temperature is {cold:.3g} °C: the viscosity from 40 and 100 °C may be far off"
+            text = f"bearing.temperature is {cold:.3g} °C: the viscosity from 40 and 100 °C may be far off"
+            yield ResultWarning("temperature-low", text)
         first = solution.positions[0]
-        yield from clearance_remarks(solution.duty, first.equilibrium, first.inner, first.outer)
+        yield from clearance_warnings(solution.duty, first.equilibrium, first.inner, first.outer)
 
-    def _of_voltages(self) -> Iterator[str]:
-        """What to know of capacitance and voltages."""
+    def _of_voltages(self) -> Iterator[ResultWarning]:
+        """Warnings of capacitance and voltages."""
         touching = f"lambda is {self.lambda_ratio:.2g}: surfaces"
         if self.lubrication == "conducting":
-            yield f"{touching} touch and conduct, nothing breaks down, and no shaft voltage is stated"
+            text = f"{touching} touch and conduct, nothing breaks down, and no shaft voltage is stated"
+            yield ResultWarning("touching", text)
         elif self.lubrication == "touching":
-            yield f"{touching} touch, and the elements insulate"
+            yield ResultWarning("touching", f"{touching} touch, and the elements insulate")
         elif self.lubrication == "partial film":
-            yield f"{touching} may touch" + ("" if self.ceramic else ", voltages are upper bounds")
+            text = f"{touching} may touch" + ("" if self.ceramic else ", voltages are upper bounds")
+            yield ResultWarning("partial-film", text)
         if self.bounded:
-            yield (
+            yield ResultWarning(
+                "capacitance-bound",
                 "the elements are ceramic: the capacitance is an upper bound, that of conducting ones, and "
-                "no shaft voltage follows from it; bearing.element_capacitance gives one"
+                "no shaft voltage follows from it; bearing.element_capacitance gives one",
             )
         if self.solution.case.discharge.weibull is not None and self.insulating:
-            yield "first break and through breakdown are voltages at a probability of 63.2 % (Weibull)"
+            text = "first break and through breakdown are voltages at a probability of 63.2 % (Weibull)"
+            yield ResultWarning("weibull-voltage", text)
 
-    def _of_contacts(self) -> Iterator[str]:
-        """What to know of single contacts, and of those at the edge of their groove."""
+    def _of_contacts(self) -> Iterator[ResultWarning]:
+        """Warnings of single contacts, and of those at the edge of their groove."""
         solution = self.solution
         states = [(position.equilibrium, position.inner, position.outer) for position in solution.positions]
-        yield from edge_remarks(solution.case.bearing, states)
-        yield from contact_remarks(
+        yield from edge_warnings(solution.case.bearing, states)
+        yield from contact_warnings(
             {"inner": solution.inner_curve.solutions, "outer": solution.outer_curve.solutions}
         )
 
@@ -271,7 +281,7 @@ class BearingResult:
             "version": __version__,
             "title": case.title,
             "converged": self.converged,
-            "warnings": self.warnings(),
+            **texts_and_codes(self.warnings()),
             "inputs": case.to_dict(),
             "lubricant": {
                 "temperature": case.bearing.temperature,

@@ -15,6 +15,7 @@ from ehlectric.commands.terminal import NOT_CONVERGED, print_table, progress_bar
 
 if TYPE_CHECKING:
     from ehlectric.bearing.result import BearingResult
+    from ehlectric.errors import ResultWarning
 
 
 SUMMARY, CONTACTS, IMPEDANCE = "summary.json", "contacts.csv", "impedance.csv"
@@ -58,7 +59,7 @@ def bearing(
         summary = result.summary()
         clear(folder, names)
         files = _write(result, summary, folder)
-        left_out: list[str] = []
+        left_out: list[ResultWarning] = []
         if plots:
             from ehlectric.bearing.speeds import over_speed
             from ehlectric.figures.bearing.save import save_bearing_figures, save_speed_figures

@@ -65,7 +65,7 @@ def surface(
         typer.echo(json.dumps(described, indent=2))
     else:
         print_table(surface_table(described))
-        warn(rough.remarks)
+        warn(rough.warnings)
         if output is not None:
             typer.echo(f"written: {output}")
 

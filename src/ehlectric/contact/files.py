@@ -30,6 +30,7 @@ from ehlectric.field.point import PointField
 from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
 from ehlectric.runtime.files import prepare, whole
+from ehlectric.runtime.stored_warnings import of_attributes
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -160,7 +161,7 @@ def _provenance(dataset: xr.Dataset) -> dict[str, Any]:
         "roughness": roughness_of(dataset),
         "rough": tuple(json.loads(attributes["rough"])),
         "smooth": Smooth(**smooth) if smooth else None,
-        "warnings": tuple(json.loads(attributes["warnings"])),
+        "warnings": of_attributes(attributes),
         "film_solver": str(attributes["film_solver"]),
         "field_solver": str(attributes["field_solver"]),
         "film_seconds": film_seconds,

@@ -27,6 +27,7 @@ from ehlectric.discharge.laws import (
     stored_energy,
 )
 from ehlectric.discharge.utilisation import Stress
+from ehlectric.errors import ResultWarning
 from ehlectric.field.line import Field
 from ehlectric.field.point import PointField
 from ehlectric.field.zones import line_zone_areas, point_zone_areas
@@ -307,21 +308,23 @@ def _leakage(given: Discharge, permittivity: float) -> dict[str, Any]:
     return {"relaxation_time": time, "corner_frequency": 1.0 / (2.0 * np.pi * time)}
 
 
-def discharge_findings(given: Discharge | None, film: Film) -> Iterator[str]:
-    """What a user should know of the discharge, one text each; nothing without a ``[discharge]``."""
+def discharge_warnings(given: Discharge | None, film: Film) -> Iterator[ResultWarning]:
+    """Warnings of the discharge; none without a ``[discharge]``."""
     if given is None:
         return
     if film.minimum_thickness < TUNNELLING:
-        yield (
+        yield ResultWarning(
+            "tunnelling",
             f"the film is {film.minimum_thickness * 1e9:.2g} nm thin: below about {TUNNELLING * 1e9:g} nm "
-            "electrons tunnel through it, which is not in the model"
+            "electrons tunnel through it, which is not in the model",
         )
     table = given.strength_table
     if table is not None and table.over == "pressure":
         low, high = table.places[0], table.places[-1]
         least, most = float(np.min(film.pressure)), film.max_pressure
         if least < low or most > high:
-            yield (
+            yield ResultWarning(
+                "strength-table-exceeded",
                 f"the pressure in the film, {least / 1e9:.3g} to {most / 1e9:.3g} GPa, leaves "
-                f"discharge.strength_table, {low / 1e9:.3g} to {high / 1e9:.3g} GPa, whose ends hold there"
+                f"discharge.strength_table, {low / 1e9:.3g} to {high / 1e9:.3g} GPa, whose ends hold there",
             )

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.errors import InputError
+from ehlectric.errors import InputError, ResultWarning
 from ehlectric.surfaces.instrument_files import HeightMap, read_al3d, read_x3p
 from ehlectric.surfaces.maps import Map
 from ehlectric.surfaces.profiles import LEAST_POINTS, Profile
@@ -41,14 +41,14 @@ class Surface:
     """Heights as read [m], rows along the first axis, NaN where the instrument saw nothing.
 
     A profile is a map of one row. ``spacing_x`` is the distance of neighbours in a row, ``spacing_y`` that
-    of rows, None where there is but one. ``remarks`` say what is doubtful.
+    of rows, None where there is but one. ``warnings`` say what is unreliable.
     """
 
     heights: Array  # (rows, columns)
     spacing_x: float
     spacing_y: float | None
     source: str
-    remarks: tuple[str, ...] = ()
+    warnings: tuple[ResultWarning, ...] = ()
 
     @property
     def voids(self) -> float:
@@ -221,7 +221,7 @@ def read_surface(path: str | Path, *, x_unit: str | None = None, z_unit: str | N
         surface = _of_map(path, read_al3d(path, content), x_unit, z_unit)
     elif is_text(content):
         text = read_text(path, content, x_unit, z_unit)
-        surface = Surface(text.heights[np.newaxis], text.spacing, None, str(path), text.remarks)
+        surface = Surface(text.heights[np.newaxis], text.spacing, None, str(path), text.warnings)
     else:
         surface = _of_map(path, _read_other(path), x_unit, z_unit)
     _check_scale(surface)

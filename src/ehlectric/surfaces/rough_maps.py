@@ -17,7 +17,7 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.cases.roughness import GENERATORS, SHAPES, Roughness
-from ehlectric.errors import InputError
+from ehlectric.errors import InputError, ResultWarning
 from ehlectric.surfaces import made_maps as map_generators
 from ehlectric.surfaces.continuation import MapHeight, continued_map
 from ehlectric.surfaces.domain import Domain, turned
@@ -26,7 +26,7 @@ from ehlectric.surfaces.maps import Map, processed_map, statistics
 from ehlectric.surfaces.profiles import Profile
 from ehlectric.surfaces.profiles import statistics as of_profile
 from ehlectric.surfaces.rough_profiles import measured
-from ehlectric.surfaces.steps import MOST_OF_DOMAIN, processing_of, step_remarks
+from ehlectric.surfaces.steps import MOST_OF_DOMAIN, processing_of, step_warnings
 
 # Points of a made map beyond the domain: the ends of a spline are felt no further, to 1e-18 of its heights.
 _MARGIN = 32
@@ -53,8 +53,8 @@ class RoughMap:
         Angle of the map's own x axis, counter-clockwise [degrees].
     voids : float or None
         Part of the points used where the file has no data.
-    remarks : tuple of str
-        What is doubtful about the file and the steps.
+    warnings : tuple of ResultWarning
+        What is unreliable about the file and the steps.
     """
 
     surface: int
@@ -64,7 +64,7 @@ class RoughMap:
     extent: tuple[float, float]
     orientation: float = 0.0
     voids: float | None = None
-    remarks: tuple[str, ...] = ()
+    warnings: tuple[ResultWarning, ...] = ()
 
     def height(self, x: Array, y: Array) -> Array:
         """Heights at the nodes of a grid [m].
@@ -194,7 +194,7 @@ def _extended(table: Roughness) -> RoughMap:
 
     extent = (np.inf, line.extent) if across else (line.extent, np.inf)
     return RoughMap(
-        table.surface, at, line.surface_read, line.steps, extent, voids=line.voids, remarks=line.remarks
+        table.surface, at, line.surface_read, line.steps, extent, voids=line.voids, warnings=line.warnings
     )
 
 
@@ -210,10 +210,9 @@ def _of_map(table: Roughness, made: Map, read: Surface | None) -> RoughMap:
         return heights if table.truncate is None else np.clip(heights, -table.truncate, table.truncate)
 
     voids = None if read is None else read.voids
-    doubts = (*(read.remarks if read else ()), *step_remarks(table, steps, voids))
-    return RoughMap(
-        table.surface, at, read, steps, (last.length_x, last.length_y), turn, voids=voids, remarks=doubts
-    )
+    warnings = (*(read.warnings if read else ()), *step_warnings(table, steps, voids))
+    extent = last.length_x, last.length_y
+    return RoughMap(table.surface, at, read, steps, extent, turn, voids=voids, warnings=warnings)
 
 
 def _shape(table: Roughness, domain: Domain) -> MapHeight:

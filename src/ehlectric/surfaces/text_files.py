@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from ehlectric.arrays import Array
 from ehlectric.cases.quantity import length_unit, to_si
-from ehlectric.errors import InputError, shown
+from ehlectric.errors import InputError, ResultWarning, shown
 from ehlectric.surfaces.profiles import LEAST_POINTS
 
 _EXPONENT = r"(?:[eE][-+]?[0-9]{1,4})?"
@@ -42,11 +42,11 @@ _FARTHEST = 10.0
 
 @dataclass(frozen=True)
 class TextProfile:
-    """Heights [m], NaN where void, their spacing [m], and what is doubtful about them."""
+    """Heights [m], NaN where void, their spacing [m], and the warnings about them."""
 
     heights: Array  # (n,)
     spacing: float
-    remarks: tuple[str, ...]
+    warnings: tuple[ResultWarning, ...]
 
 
 @dataclass(frozen=True)
@@ -126,8 +126,8 @@ def read_text(path: Path, content: bytes, x_unit: str | None, z_unit: str | None
     if width > 2:
         z = np.where(_valid(path, block), z, np.nan)
     digits = max(block.layout.decimals(row[0]) for row in block.rows)
-    spacing, remarks = _spacing(path, x, 10.0 ** -min(max(digits, -12), 30))
-    return TextProfile(z, spacing * factors[0], remarks)
+    spacing, warnings = _spacing(path, x, 10.0 ** -min(max(digits, -12), 30))
+    return TextProfile(z, spacing * factors[0], warnings)
 
 
 def _decoded(path: Path, content: bytes) -> str:
@@ -273,7 +273,7 @@ def _unit_of(path: Path, name: str, given: str | None, stated: str | None) -> st
     return unit
 
 
-def _spacing(path: Path, x: Array, step: float) -> tuple[float, tuple[str, ...]]:
+def _spacing(path: Path, x: Array, step: float) -> tuple[float, tuple[ResultWarning, ...]]:
     """Spacing of positions that are equal up to rounding: from the whole length, not from neighbours.
 
     ``step`` is the decimal step in which they are written.
@@ -295,10 +295,10 @@ def _spacing(path: Path, x: Array, step: float) -> tuple[float, tuple[str, ...]]
     long = steps > 1.5 * np.min(steps)
     if 0 < np.count_nonzero(long) <= 0.05 * steps.size:
         where = int(np.argmax(long))
-        remark = (
+        text = (
             f"{path}: positions are written in steps of their spacing, and {np.count_nonzero(long)} of the "
             f"{steps.size} distances are twice the others, the first behind point {where}: rounding, or "
             "samples that are missing; all were taken as equally spaced"
         )
-        return spacing, (remark,)
+        return spacing, (ResultWarning("spacing-irregular", text),)
     return spacing, ()

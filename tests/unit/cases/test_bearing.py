@@ -364,6 +364,6 @@ def test_a_given_viscosity_knows_no_temperature():
     ]
     assert results[0].lambda_ratio == results[1].lambda_ratio
     for result in results:
-        assert any(text.startswith("lubricant.viscosity is given:") for text in result.warnings())
+        assert any(text.startswith("lubricant.viscosity is given:") for text in map(str, result.warnings()))
     over = BearingResult(solve_bearing(bearing_case(BALLS, contacts="formula")))
-    assert not any("lubricant.viscosity" in text for text in over.warnings())
+    assert not any("lubricant.viscosity" in text for text in map(str, over.warnings()))

@@ -250,7 +250,7 @@ def test_pressures_beyond_the_table_are_said():
     """2 GPa in the contact, 1 GPa in the table, whose last value holds."""
     table = {"pressure": ["0 GPa", "1 GPa"], "strength": ["15 V/um", "15 V/um"]}
     result = solve(line({"strength_table": table}))
-    texts = [text for text in result.warnings if "discharge.strength_table" in text]
+    texts = [text for text in map(str, result.warnings) if "discharge.strength_table" in text]
     assert len(texts) == 1
     assert result.discharge.breakdown_voltage == near(15e6 * 2.0 / result.field.max_strength, 1e-12)
 

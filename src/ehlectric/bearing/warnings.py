@@ -1,4 +1,4 @@
-"""What is to be warned of in a solved bearing."""
+"""Warnings of a solved bearing."""
 
 from __future__ import annotations
 
@@ -14,12 +14,13 @@ from ehlectric.bearing.loads.balls import BallEquilibrium
 from ehlectric.bearing.loads.geometry import RollerBearing
 from ehlectric.bearing.state import RaceState
 from ehlectric.cases.bearing import Bearing
+from ehlectric.errors import ResultWarning
 
 
-def edge_remarks(
+def edge_warnings(
     bearing: Bearing, states: Sequence[tuple[Equilibrium, RaceState, RaceState]]
-) -> Iterator[str]:
-    """What to say of ellipses that reach over the shoulder of a groove, of the heaviest with each ring.
+) -> Iterator[ResultWarning]:
+    """Warnings of contact ellipses that reach over the shoulder of a groove, one for each ring.
 
     Parameters
     ----------
@@ -41,17 +42,18 @@ def edge_remarks(
             if over[heaviest] > load:
                 load, reached = float(over[heaviest]), float(ends[heaviest])
         if load > 0.0:
-            yield (
+            yield ResultWarning(
+                "shoulder-reached",
                 f"{name} ring: the contact with {load:.3g} N would reach {math.degrees(reached):.1f} deg up "
                 f"a groove that ends at {math.degrees(shoulder):.1f} deg: the shoulder cuts it off, and the "
-                "pressure on that edge is not in this"
+                "pressure on that edge is not in this",
             )
 
 
-def clearance_remarks(
+def clearance_warnings(
     duty: BearingDuty, at: Equilibrium, inner: RaceState, outer: RaceState
-) -> Iterator[str]:
-    """What to say of films that take up the clearance, of which the equilibrium knows nothing.
+) -> Iterator[ResultWarning]:
+    """Warning of films that take up the clearance, which the equilibrium leaves out.
 
     Parameters
     ----------
@@ -71,14 +73,15 @@ def clearance_remarks(
         # Preloaded elements have none, but are pressed in.
         room, beside = float(at.inner_approach[most] + at.outer_approach[most]), "elements pressed in by"
     if films > TAKEN * room:
-        yield (
+        yield ResultWarning(
+            "clearance-taken-up",
             f"both films of the most loaded element are {1e6 * films:.2g} um, beside {beside} "
-            f"{1e6 * room:.2g} um: loads are those of dry contacts, which such films change"
+            f"{1e6 * room:.2g} um: loads are those of dry contacts, which such films change",
         )
 
 
-def contact_remarks(rings: Mapping[str, Sequence[ContactSolution]]) -> list[str]:
-    """Warnings of contacts, those that say the same in one line.
+def contact_warnings(rings: Mapping[str, Sequence[ContactSolution]]) -> list[ResultWarning]:
+    """Warnings of the contacts of a bearing, equal ones of several contacts as one.
 
     Parameters
     ----------
@@ -87,21 +90,23 @@ def contact_remarks(rings: Mapping[str, Sequence[ContactSolution]]) -> list[str]
 
     Returns
     -------
-    list of str
-        In the order in which they come up. What all contacts share, as a doubt about their oil, names none
-        of them; other texts name ring and load.
+    list of ResultWarning
+        In the order in which they come up. A warning that all contacts share, such as one about their oil,
+        names none of them; other texts name ring and load.
     """
-    told: dict[str, dict[str, list[float]]] = {}
+    told: dict[ResultWarning, dict[str, list[float]]] = {}
     for ring, contacts in rings.items():
         for contact in contacts:
-            for text in dict.fromkeys(contact.warnings):
-                told.setdefault(text, {}).setdefault(ring, []).append(contact.load)
+            for warning in dict.fromkeys(contact.warnings):
+                told.setdefault(warning, {}).setdefault(ring, []).append(contact.load)
     every = sum(map(len, rings.values()))
     return [
-        text
+        warning
         if sum(map(len, loads.values())) == every
-        else ", ".join(_named(ring, those) for ring, those in loads.items()) + f": {text}"
-        for text, loads in told.items()
+        else ResultWarning(
+            warning.code, ", ".join(_named(ring, those) for ring, those in loads.items()) + f": {warning}"
+        )
+        for warning, loads in told.items()
     ]
 
 

@@ -1,4 +1,4 @@
-"""What to know of a contact before it is solved."""
+"""Warnings of a contact that are known before it is solved."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import numpy as np
 from ehlectric.cases.case import Case
 from ehlectric.cases.lubricant import Lubricant
 from ehlectric.contact.conditions import Conditions, PointConditions
+from ehlectric.errors import ResultWarning
 from ehlectric.formulas import film_line as film_formulas
 from ehlectric.formulas import film_point as point_formulas
 from ehlectric.lubricant.viscosity import roelands_exponent
@@ -23,34 +24,37 @@ _RIGID_INLET = 14.0
 _POINT_PERMANENT = 4.2e9
 
 
-def line_remarks(case: Case, conditions: Conditions) -> Iterator[str]:
-    """What a user should know about a case before it is solved, one text each."""
-    yield from regime_remarks(conditions)
+def line_case_warnings(case: Case, conditions: Conditions) -> Iterator[ResultWarning]:
+    """Warnings of a line contact that are known before it is solved."""
+    yield from regime_warnings(conditions)
     width = (case.grid.outlet - case.grid.inlet) / (0.5 * np.pi)
-    yield from pressure_remarks(case.lubricant, conditions.max_pressure, width, "line", _LINE_PERMANENT)
+    yield from pressure_warnings(case.lubricant, conditions.max_pressure, width, "line", _LINE_PERMANENT)
 
 
-def regime_remarks(conditions: Conditions) -> Iterator[str]:
-    """What to know of a line contact far from those that the film formulas were made for."""
+def regime_warnings(conditions: Conditions) -> Iterator[ResultWarning]:
+    """Warning of a line contact in a regime that the film formulas were not made for."""
     regime = film_formulas.regime(conditions.formulas)
     if regime == "isoviscous-rigid":
-        yield rigid_remark("half-width", "half-widths", _RIGID_INLET / conditions.formulas.moes_m)
+        yield rigid_warning("half-width", "half-widths", _RIGID_INLET / conditions.formulas.moes_m)
     elif regime != "piezoviscous-elastic":
-        yield f"{regime} regime: the film formulas but Moes' are for piezoviscous-elastic contacts"
+        yield ResultWarning(
+            "regime", f"{regime} regime: the film formulas but Moes' are for piezoviscous-elastic contacts"
+        )
 
 
-def rigid_remark(length: str, lengths: str, reach: float) -> str:
-    """What to know of a film of rigid bodies, which builds up over ``reach`` of those lengths."""
-    return (
+def rigid_warning(length: str, lengths: str, reach: float) -> ResultWarning:
+    """Warning of a film between rigid bodies, which builds up over ``reach`` of those lengths."""
+    return ResultWarning(
+        "regime",
         f"isoviscous-rigid regime: the bodies hardly deform, and {length} and Hertz pressure scale "
-        f"nothing; the film builds up over about {reach:.2g} {lengths}, which grid.inlet must hold"
+        f"nothing; the film builds up over about {reach:.2g} {lengths}, which grid.inlet must hold",
     )
 
 
-def pressure_remarks(
+def pressure_warnings(
     lubricant: Lubricant, pressure: float, domain: float, kind: str, permanent: float
-) -> Iterator[str]:
-    """What to know of a contact of that Hertz pressure [Pa], one text each.
+) -> Iterator[ResultWarning]:
+    """Warnings of a contact that follow from its Hertz pressure [Pa] and its lubricant.
 
     ``domain`` is the load of a unit pressure over the whole domain, in that of the dry contact at a unit
     Hertz pressure; ``permanent`` the Hertz pressure above which bearing steel deforms permanently in contacts
@@ -58,39 +62,45 @@ def pressure_remarks(
     """
     ambient_load = lubricant.ambient_pressure / pressure * domain
     if ambient_load > 0.01:
-        yield (
+        yield ResultWarning(
+            "ambient-pressure",
             f"the ambient pressure carries {100 * ambient_load:.1f} % of the load over this domain; "
-            "lubricant.ambient_pressure = 0 leaves it out"
+            "lubricant.ambient_pressure = 0 leaves it out",
         )
     if pressure > permanent:
-        yield (
+        yield ResultWarning(
+            "plastic-deformation",
             f"the Hertz pressure is {pressure / 1e9:.3g} GPa: bearing steel deforms "
             f"permanently above {permanent / 1e9:g} GPa in {kind} contacts, and the bodies are elastic here; "
-            "are load and radii right?"
+            "are load and radii right?",
         )
     if lubricant.viscosity_law == "barus" and pressure > 0.5e9:
-        yield "Barus' law overstates the viscosity above some 0.5 GPa by orders of magnitude"
+        yield ResultWarning(
+            "barus-pressure",
+            "Barus' law overstates the viscosity above some 0.5 GPa by orders of magnitude",
+        )
     if lubricant.viscosity_law == "roelands":
         alpha, p0 = lubricant.pressure_viscosity_coefficient, lubricant.roelands_pressure
         assert alpha is not None and p0 is not None and lubricant.roelands_z is not None
         z = roelands_exponent(lubricant.viscosity, alpha, p0)
         if abs(z / lubricant.roelands_z - 1.0) > 0.1:
-            yield (
+            yield ResultWarning(
+                "roelands-z",
                 f"roelands_z is {lubricant.roelands_z:g}; Roelands' own relation gives {z:.3g} for this "
-                "viscosity and pressure-viscosity coefficient"
+                "viscosity and pressure-viscosity coefficient",
             )
 
 
-def point_remarks(case: Case, conditions: PointConditions) -> Iterator[str]:
-    """What a user should know about a point contact before it is solved, one text each."""
-    yield from point_regime_remarks(conditions)
+def point_case_warnings(case: Case, conditions: PointConditions) -> Iterator[ResultWarning]:
+    """Warnings of a point contact that are known before it is solved."""
+    yield from point_regime_warnings(conditions)
     area = (case.grid.outlet - case.grid.inlet) * 2.0 * conditions.side
     domain = area / (2.0 * np.pi / 3.0)
-    yield from pressure_remarks(case.lubricant, conditions.max_pressure, domain, "point", _POINT_PERMANENT)
+    yield from pressure_warnings(case.lubricant, conditions.max_pressure, domain, "point", _POINT_PERMANENT)
 
 
-def point_regime_remarks(conditions: PointConditions) -> Iterator[str]:
-    """What to know of a point contact far from those that the film formulas were made for."""
+def point_regime_warnings(conditions: PointConditions) -> Iterator[ResultWarning]:
+    """Warning of a point contact in a regime that the film formulas were not made for."""
     formulas = conditions.formulas
     regime = point_formulas.regime(formulas)
     if regime == "isoviscous-rigid":
@@ -98,9 +108,10 @@ def point_regime_remarks(conditions: PointConditions) -> Iterator[str]:
         assert film is not None
         # A rigid film builds up over some ten sqrt(2 R h).
         reach = 10.0 * float(np.sqrt(2.0 * formulas.radius_x * film)) / conditions.semi_axis_x
-        yield rigid_remark("semi-axis", "semi-axes", reach)
+        yield rigid_warning("semi-axis", "semi-axes", reach)
     elif regime == "isoviscous-elastic":
-        yield (
+        yield ResultWarning(
+            "regime",
             f"{regime} regime: the film formulas but that of Nijenbanning, Venner and Moes are for "
-            "piezoviscous contacts"
+            "piezoviscous contacts",
         )
