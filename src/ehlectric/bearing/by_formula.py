@@ -12,7 +12,7 @@ from ehlectric.bearing.loads.geometry import RollerBearing
 from ehlectric.bearing.ring_contacts import Race, around_ball, around_roller, of_contact
 from ehlectric.cases.bearing import Bearing
 from ehlectric.cases.discharge import Discharge
-from ehlectric.cases.lubricant import Lubricant, density_law, permittivity_law
+from ehlectric.cases.lubricant import Lubricant, density_law, effective_alpha, permittivity_law
 from ehlectric.contact.conditions import default_side, resolve, resolve_point
 from ehlectric.contact.remarks import line_remarks as remarks
 from ehlectric.contact.remarks import point_remarks
@@ -39,10 +39,10 @@ def check_formula(discharge: Discharge, lubricant: Lubricant) -> None:
         For a Weibull law and a table over pressure, which take more of a field than its largest value, and
         for a viscosity that does not grow with pressure.
     """
-    if lubricant.viscosity_law == "constant":
+    if effective_alpha(lubricant) == 0.0:
         raise InputError(
-            "lubricant.viscosity_law: got 'constant' with contacts by formula, which are for "
-            "piezoviscous oils; takes another law, or solved contacts"
+            f"lubricant.viscosity_law: got {lubricant.viscosity_law!r} with contacts by formula, which are "
+            "for piezoviscous oils; takes another law, or solved contacts"
         )
     table = discharge.strength_table
     if discharge.weibull is not None or (table is not None and table.over == "pressure"):
@@ -156,8 +156,7 @@ def _roller(duty: BearingDuty, race: Race, load: float, discharge: Discharge) ->
 
 def _permittivity(duty: BearingDuty, pressure: Array) -> Array:
     """Relative permittivity of the oil under pressure [Pa]."""
-    permittivity: Array = permittivity_law(duty.lubricant)(density_law(duty.lubricant)(pressure)[0])
-    return permittivity
+    return permittivity_law(duty.lubricant)(density_law(duty.lubricant)(pressure)[0])
 
 
 def _solution(

@@ -22,6 +22,7 @@ from ehlectric.film.problem import FilmProblem, Scales
 from ehlectric.film.reynolds import Fluid, FluidLaw
 from ehlectric.formulas.film_line import Thickness, moes
 from ehlectric.formulas.film_point import nijenbanning_venner_moes
+from ehlectric.lubricant.law import PressureLaw
 from ehlectric.surfaces.domain import Domain
 from ehlectric.surfaces.rough_maps import RoughMap
 from ehlectric.surfaces.rough_profiles import RoughSurface
@@ -169,8 +170,8 @@ def point_surfaces(conditions: PointConditions, film: PointFilm, roughness: Arra
     return lower, lower + film.thickness
 
 
-def _dimensionless(law: Callable[[Array], tuple[Array, Array]], scale: float) -> FluidLaw:
-    """A law of the pressure in Pa as one of P = p/scale."""
+def _dimensionless(law: PressureLaw, scale: float) -> FluidLaw:
+    """A law of the pressure in Pa, at the temperature of the case, as one of P = p/scale."""
 
     def of_dimensionless(pressure: Array) -> tuple[Array, Array]:
         value, slope = law(scale * pressure)

@@ -7,11 +7,10 @@ from collections.abc import Iterator
 import numpy as np
 
 from ehlectric.cases.case import Case
-from ehlectric.cases.lubricant import Lubricant
+from ehlectric.cases.lubricant import Lubricant, law_doubts
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.formulas import film_line as film_formulas
 from ehlectric.formulas import film_point as point_formulas
-from ehlectric.lubricant.viscosity import roelands_exponent
 
 # Hertz pressure at which bearing steel deforms permanently, of line contacts (ISO 76) [Pa].
 _LINE_PERMANENT = 4e9
@@ -68,17 +67,7 @@ def pressure_remarks(
             f"permanently above {permanent / 1e9:g} GPa in {kind} contacts, and the bodies are elastic here; "
             "are load and radii right?"
         )
-    if lubricant.viscosity_law == "barus" and pressure > 0.5e9:
-        yield "Barus' law overstates the viscosity above some 0.5 GPa by orders of magnitude"
-    if lubricant.viscosity_law == "roelands":
-        alpha, p0 = lubricant.pressure_viscosity_coefficient, lubricant.roelands_pressure
-        assert alpha is not None and p0 is not None and lubricant.roelands_z is not None
-        z = roelands_exponent(lubricant.viscosity, alpha, p0)
-        if abs(z / lubricant.roelands_z - 1.0) > 0.1:
-            yield (
-                f"roelands_z is {lubricant.roelands_z:g}; Roelands' own relation gives {z:.3g} for this "
-                "viscosity and pressure-viscosity coefficient"
-            )
+    yield from (doubt.text for doubt in law_doubts(lubricant, pressure))
 
 
 def point_remarks(case: Case, conditions: PointConditions) -> Iterator[str]:
