@@ -101,7 +101,6 @@ def _ball(
     dry = dry_contact(load, rx, ry, duty.modulus)
     b, a = dry.semi_axis_x, dry.semi_axis_y
     film = chittenden(contact)
-    assert film.central_thickness is not None and film.minimum_thickness is not None
     side = a * default_side(a / b)
     x, y = b * np.linspace(*_POINT, _NODES[0]), np.linspace(-side, side, _NODES[1])
     at_x, at_y = x[:, np.newaxis], y
@@ -134,7 +133,6 @@ def _roller(duty: BearingDuty, race: Race, load: float, discharge: Discharge) ->
     contact, length = conditions.formulas, duty.geometry.roller_length
     radius, b, highest = contact.reduced_radius, conditions.half_width, conditions.max_pressure
     film = pan_hamrock(contact)
-    assert film.central_thickness is not None and film.minimum_thickness is not None
     x = np.linspace(*_LINE, _LINE_NODES)
     gap = film.central_thickness + b**2 / radius * line_gap(x)
     inside = np.vdot(areas((b * x,)), _permittivity(duty, highest * line_pressure(x)) / gap)

@@ -84,7 +84,6 @@ def point_regime_remarks(conditions: PointConditions) -> Iterator[str]:
     regime = point_formulas.regime(formulas)
     if regime == "isoviscous-rigid":
         film = point_formulas.nijenbanning_venner_moes(formulas).central_thickness
-        assert film is not None
         # A rigid film builds up over some ten sqrt(2 R h).
         reach = 10.0 * float(np.sqrt(2.0 * formulas.radius_x * film)) / conditions.semi_axis_x
         yield rigid_remark("semi-axis", "semi-axes", reach)

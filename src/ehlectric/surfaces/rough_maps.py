@@ -224,7 +224,7 @@ def _shape(table: Roughness, domain: Domain) -> MapHeight:
             f"roughness.width: got {values['width']:.3g} m, takes less than the shorter side of the domain, "
             f"{domain.shorter:.3g} m"
         )
-    made: MapHeight = partial(getattr(map_generators, str(table.generator)), **values)
+    made: MapHeight = partial(map_generators.SHAPES[str(table.generator)], **values)
     return lambda x, y: made(x - table.shift, y - table.shift_y)
 
 
