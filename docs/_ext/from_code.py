@@ -1,8 +1,9 @@
 """Tables written from the code before every build: keys of a case, commands, variables, the paper's contacts.
 
-What the code knows (units, bounds, defaults, options) is read from it. What a key is for stands in
-``keys.toml``; a key without a line there, or a line without a key, ends the build. So do a key of
-summary.json that the nomenclature does not have, and a page that names a test that is not there.
+What the code knows (units, bounds, defaults, options, the meaning of a law's parameter) is read from it. What
+other keys are for stands in ``keys.toml``; a key without a line there, or a line without a key, ends the
+build. So do a key of summary.json that the nomenclature does not have, and a page that names a test that is
+not there.
 """
 
 from __future__ import annotations
@@ -35,13 +36,10 @@ from ehlectric.cases import motion as motion_inputs
 from ehlectric.cases import roughness as roughness_inputs
 from ehlectric.cases import table as validation
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.cases.lubricant import density_law, permittivity_law
+from ehlectric.cases.lubricant import LAWS, density_law, law_parameters, permittivity_law
 from ehlectric.cases.quantity import Count, Quantities, Quantity
 from ehlectric.commands.app import app as commands
 from ehlectric.errors import CODES
-from ehlectric.lubricant.density import DENSITY_LAWS
-from ehlectric.lubricant.permittivity import PERMITTIVITY_LAWS
-from ehlectric.lubricant.viscosity import VISCOSITY_LAWS
 from ehlectric.motion.record import read_motion
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.summary import summary_of
@@ -69,9 +67,7 @@ _TABLES = {
 }
 # Keys that take a name, by what the names stand in.
 _NAMES: dict[str, Iterable[str]] = {
-    "viscosity_law": VISCOSITY_LAWS,
-    "density_law": DENSITY_LAWS,
-    "permittivity_law": PERMITTIVITY_LAWS,
+    **LAWS,
     "generator": roughness_inputs.GENERATORS,
     "element_material": library.solid_names(),
     "ring_material": [name for name in library.solid_names() if library.solid(name)["conducting"]],
@@ -165,10 +161,13 @@ def _default(field: Any) -> str:
 
 
 def _keys(table: str, model: type[validation.Table], meanings: dict[str, str]) -> Iterator[list[str]]:
-    if set(meanings) != set(model.model_fields):
-        odd = ", ".join(sorted(set(meanings) ^ set(model.model_fields)))
+    known = model.known_keys()
+    if table == "lubricant":
+        meanings = {p.name: p.meaning for p in law_parameters().values()} | meanings
+    if set(meanings) != set(known):
+        odd = ", ".join(sorted(set(meanings) ^ set(known)))
         raise ExtensionError(f"docs/_ext/keys.toml and the keys of [{table}] differ in: {odd}")
-    for name, field in model.model_fields.items():
+    for name, field in known.items():
         found = _find(field.annotation, field.metadata)
         takes = _takes(name, found, pair=get_origin(field.annotation) is tuple)
         yield [f"`{name}`", meanings[name], takes, _default(field)]

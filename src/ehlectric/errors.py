@@ -161,7 +161,7 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "regime": Cause("The contact is in a regime that most film formulas were not made for."),
         "ambient-pressure": Cause("The ambient pressure carries more than 1 % of the load."),
         "plastic-deformation": Cause("The Hertz pressure deforms bearing steel permanently."),
-        "barus-pressure": Cause("Barus' law overstates the viscosity at this Hertz pressure."),
+        "law-range": Cause("A law of the lubricant is not reliable at this Hertz pressure."),
         "roelands-z": Cause("The exponent roelands_z does not fit the viscosity and its coefficient."),
         # Rough surfaces
         "spacing-irregular": Cause("Positions in a file of heights may lack samples."),

@@ -12,7 +12,7 @@ from ehlectric.bearing.loads.geometry import RollerBearing
 from ehlectric.bearing.ring_contacts import Race, around_ball, around_roller, of_contact
 from ehlectric.cases.bearing import Bearing
 from ehlectric.cases.discharge import Discharge
-from ehlectric.cases.lubricant import Lubricant, density_law, permittivity_law
+from ehlectric.cases.lubricant import Lubricant, density_law, effective_alpha, permittivity_law
 from ehlectric.contact.case_warnings import line_case_warnings, point_case_warnings
 from ehlectric.contact.conditions import default_side, resolve, resolve_point
 from ehlectric.discharge.utilisation import dielectric_strength
@@ -38,10 +38,10 @@ def check_formula(discharge: Discharge, lubricant: Lubricant) -> None:
         For a Weibull law and a table over pressure, which take more of a field than its largest value, and
         for a viscosity that does not grow with pressure.
     """
-    if lubricant.viscosity_law == "constant":
+    if effective_alpha(lubricant) == 0.0:
         raise InputError(
             "lubricant.viscosity_law",
-            got="'constant' with contacts by formula, which are for piezoviscous oils;",
+            got=f"{lubricant.viscosity_law!r} with contacts by formula, which are for piezoviscous oils;",
             takes="another law, or solved contacts",
         )
     table = discharge.strength_table
@@ -102,7 +102,6 @@ def _ball(
     dry = dry_contact(load, rx, ry, duty.modulus)
     b, a = dry.semi_axis_x, dry.semi_axis_y
     film = chittenden(contact)
-    assert film.central_thickness is not None and film.minimum_thickness is not None
     side = a * default_side(a / b)
     x, y = b * np.linspace(*_POINT, _NODES[0]), np.linspace(-side, side, _NODES[1])
     at_x, at_y = x[:, np.newaxis], y
@@ -135,7 +134,6 @@ def _roller(duty: BearingDuty, race: Race, load: float, discharge: Discharge) ->
     contact, length = conditions.formulas, duty.geometry.roller_length
     radius, b, highest = contact.reduced_radius, conditions.half_width, conditions.max_pressure
     film = pan_hamrock(contact)
-    assert film.central_thickness is not None and film.minimum_thickness is not None
     x = np.linspace(*_LINE, _LINE_NODES)
     gap = film.central_thickness + b**2 / radius * line_gap(x)
     inside = np.vdot(areas((b * x,)), _permittivity(duty, highest * line_pressure(x)) / gap)
@@ -157,8 +155,7 @@ def _roller(duty: BearingDuty, race: Race, load: float, discharge: Discharge) ->
 
 def _permittivity(duty: BearingDuty, pressure: Array) -> Array:
     """Relative permittivity of the oil under pressure [Pa]."""
-    permittivity: Array = permittivity_law(duty.lubricant)(density_law(duty.lubricant)(pressure)[0])
-    return permittivity
+    return permittivity_law(duty.lubricant)(density_law(duty.lubricant)(pressure)[0])
 
 
 def _solution(

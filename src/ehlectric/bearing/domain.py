@@ -32,7 +32,6 @@ def _line_length(duty: BearingDuty, race: Race, load: float) -> float:
     """Length sqrt(2 R h) over which a roller's pressure builds up, in half-widths; load in N."""
     contact = line_contact(duty, race, load)
     film = moes(contact).central_thickness
-    assert film is not None
     return math.sqrt(2.0 * contact.reduced_radius * film) / _half_width(contact)
 
 
@@ -67,7 +66,6 @@ def _point_lengths(duty: BearingDuty, race: Race, load: float) -> tuple[float, f
     """Lengths sqrt(2 R h) over which a ball's pressure builds up, in semi-axes, and the ratio of these."""
     contact = point_contact(duty, race, load)
     film = nijenbanning_venner_moes(contact).central_thickness
-    assert film is not None
     dry = dry_contact(load, contact.radius_x, contact.radius_y, duty.modulus)
     along, across = (
         math.sqrt(2.0 * radius * film) / axis

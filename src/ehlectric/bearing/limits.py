@@ -125,7 +125,6 @@ def check_film(duty: BearingDuty, race: Race, load: float) -> None:
     else:
         film = nijenbanning_venner_moes(point_contact(duty, race, load)).central_thickness
         most = _ROOM * duty.geometry.offsets[0 if race.inner else 1]
-    assert film is not None
     if film > most:
         name, oil = "inner" if race.inner else "outer", duty.lubricant.viscosity
         raise InputError(

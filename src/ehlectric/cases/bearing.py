@@ -10,11 +10,12 @@ from pydantic import AfterValidator, BeforeValidator, model_validator
 
 from ehlectric.cases import library
 from ehlectric.cases.discharge import Discharge
-from ehlectric.cases.lubricant import Lubricant, library_name, with_lubricant
+from ehlectric.cases.lubricant import Lubricant, law_parameters, library_name, with_lubricant
 from ehlectric.cases.quantity import Count, Quantity
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError, shown
-from ehlectric.lubricant.temperature import Walther, density, roelands_alpha
+from ehlectric.lubricant.temperature import Walther, density
+from ehlectric.lubricant.viscosity import VISCOSITY_LAWS
 
 ROLLERS = "cylindrical roller"
 ANGULAR = "angular-contact ball"
@@ -145,14 +146,14 @@ class BearingLubricant(Lubricant):
     viscosity: _Absolute | None = None  # type: ignore[assignment]
     temperature: OilTemperature | None = None
 
-    @model_validator(mode="before")
     @classmethod
-    def _from_base(cls, table: Any) -> Any:
-        """The named lubricant, without the viscosity that ``temperature`` gives."""
+    def _with_base(cls, table: Any) -> Any:
+        """The named lubricant, without the viscosity that ``temperature`` gives and what follows from it."""
         full = with_lubricant(table)
         if not isinstance(table, Mapping) or table.get("temperature") is None or full is table:
             return full
-        over_temperature = ("viscosity", "pressure_viscosity_coefficient")
+        derived = [name for name, parameter in law_parameters().items() if parameter.derivation]
+        over_temperature = ("viscosity", *derived)
         return {key: value for key, value in full.items() if key in table or key not in over_temperature}
 
     @model_validator(mode="after")
@@ -177,8 +178,7 @@ class BearingLubricant(Lubricant):
                 oil.density_15, oil.expansion, temperature
             )
             table["viscosity"] = viscosity
-            if self.pressure_viscosity_coefficient is None and self.viscosity_law != "constant":
-                table["pressure_viscosity_coefficient"] = self._alpha(viscosity)
+            table |= self._derived(viscosity)
         try:
             return Lubricant.from_dict(table)
         except InputError as error:
@@ -189,14 +189,22 @@ class BearingLubricant(Lubricant):
         assert self.temperature is not None
         return Walther.of(self.temperature.kinematic_viscosity_40, self.temperature.kinematic_viscosity_100)
 
-    def _alpha(self, viscosity: float) -> float:
-        z, p0 = self.roelands_z, self.roelands_pressure
-        if z is None or p0 is None:
-            raise InputError.missing(
-                "lubricant.pressure_viscosity_coefficient",
-                "it, or roelands_z and roelands_pressure, from which it follows at the temperature",
-            )
-        return roelands_alpha(viscosity, z, p0)
+    def _derived(self, viscosity: float) -> dict[str, float]:
+        """Parameters of the viscosity law that are not given and follow from the viscosity [Pa s]."""
+        derived = {}
+        for parameter in VISCOSITY_LAWS[self.viscosity_law].parameters:
+            rule = parameter.derivation
+            if rule is None or self.parameter(parameter.name) is not None:
+                continue
+            given = map(self.parameter, rule.parameters)
+            values = [value for value in given if value is not None]
+            if len(values) < len(rule.parameters):
+                raise InputError.missing(
+                    f"lubricant.{parameter.name}",
+                    f"it, or {' and '.join(rule.parameters)}, from which it follows at the temperature",
+                )
+            derived[parameter.name] = rule.function(viscosity, *values)
+        return derived
 
 
 class BearingDischarge(Discharge):

@@ -47,7 +47,7 @@ def input_field(key: str) -> FieldInfo:
     field: FieldInfo | None = None
     inner: Any = model
     for name in names:
-        field = None if inner is None else inner.model_fields.get(name)
+        field = None if inner is None else inner.known_keys().get(name)
         if field is None:
             known = nearest_key(".".join(names), model).split(".")
             known[1:1] = within if known[0] == "roughness" and len(known) > 1 else []
@@ -55,7 +55,7 @@ def input_field(key: str) -> FieldInfo:
         inner = table_of(field.annotation)
     if field is None or inner is not None:
         raise InputError(
-            key, "is a table", takes=f"one of its keys, as {key}.{next(iter(inner.model_fields))}"
+            key, "is a table", takes=f"one of its keys, as {key}.{next(iter(inner.known_keys()))}"
         )
     return field
 

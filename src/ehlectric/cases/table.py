@@ -10,6 +10,7 @@ from types import UnionType
 from typing import Any, Self, Union, get_args, get_origin
 
 from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
 from ehlectric.errors import InputError, shown
@@ -33,6 +34,11 @@ class Table(BaseModel):
             return cls.model_validate(dict(table))
         except ValidationError as error:
             raise first_error(error, cls) from None
+
+    @classmethod
+    def known_keys(cls) -> dict[str, FieldInfo]:
+        """Keys of the table, each with its annotation and default."""
+        return dict(cls.model_fields)
 
 
 def read_toml(path: str | Path) -> dict[str, Any]:
@@ -61,7 +67,7 @@ def nearest(name: str, known: Iterable[str]) -> str:
     return difflib.get_close_matches(name, list(known), n=1, cutoff=0.0)[0]
 
 
-def first_error(error: ValidationError, model: type[BaseModel]) -> InputError:
+def first_error(error: ValidationError, model: type[Table]) -> InputError:
     """The first thing to mend: an unknown key before a missing one, which it often is."""
     first, *others = sorted(error.errors(), key=lambda e: e["type"] != "extra_forbidden")
     wrong, more = _error(first, model), ""
@@ -75,7 +81,7 @@ def first_error(error: ValidationError, model: type[BaseModel]) -> InputError:
     return wrong.retold(wrong.key, wrong.text + more)
 
 
-def _error(detail: ErrorDetails, model: type[BaseModel]) -> InputError:
+def _error(detail: ErrorDetails, model: type[Table]) -> InputError:
     # The place within a list is of no use to somebody who wrote the list.
     key = ".".join(_shown_key(part) for part in detail["loc"] if isinstance(part, str))
     given = shown(detail["input"])
@@ -107,7 +113,7 @@ def _shown_key(key: str) -> str:
     return key if key and key.isprintable() and len(key) <= 60 else shown(key)
 
 
-def nearest_key(key: str, model: type[BaseModel]) -> str:
+def nearest_key(key: str, model: type[Table]) -> str:
     """The known key nearest to an unknown one: in its own table, or of the same name elsewhere."""
     table, _, leaf = key.rpartition(".")
     known = list(_keys(model))
@@ -117,23 +123,23 @@ def nearest_key(key: str, model: type[BaseModel]) -> str:
     return nearest(key, [name for name in known if name.rpartition(".")[0] == table] or known)
 
 
-def _keys(model: type[BaseModel], prefix: str = "") -> Iterator[str]:
-    for name, field in model.model_fields.items():
+def _keys(model: type[Table], prefix: str = "") -> Iterator[str]:
+    for name, field in model.known_keys().items():
         yield prefix + name
         inner = table_of(field.annotation)
         if inner is not None:
             yield from _keys(inner, f"{prefix}{name}.")
 
 
-def _kind(key: str, model: type[BaseModel]) -> str:
+def _kind(key: str, model: type[Table]) -> str:
     """Whether a key is a table or a value."""
     return "table" if any(name.startswith(key + ".") for name in _keys(model)) else "value"
 
 
-def table_of(annotation: Any) -> type[BaseModel] | None:
+def table_of(annotation: Any) -> type[Table] | None:
     """The table that an annotation holds, alone, as an alternative or in a list; None where it holds none."""
     candidates = get_args(annotation) if get_origin(annotation) in (Union, UnionType, tuple) else [annotation]
     for candidate in candidates:
-        if isinstance(candidate, type) and issubclass(candidate, BaseModel):
+        if isinstance(candidate, type) and issubclass(candidate, Table):
             return candidate
     return None

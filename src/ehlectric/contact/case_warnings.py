@@ -7,12 +7,11 @@ from collections.abc import Iterator
 import numpy as np
 
 from ehlectric.cases.case import Case
-from ehlectric.cases.lubricant import Lubricant
+from ehlectric.cases.lubricant import Lubricant, law_warnings
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.errors import ResultWarning
 from ehlectric.formulas import film_line as film_formulas
 from ehlectric.formulas import film_point as point_formulas
-from ehlectric.lubricant.viscosity import roelands_exponent
 
 # Hertz pressure at which bearing steel deforms permanently, of line contacts (ISO 76) [Pa].
 _LINE_PERMANENT = 4e9
@@ -74,21 +73,7 @@ def pressure_warnings(
             f"permanently above {permanent / 1e9:g} GPa in {kind} contacts, and the bodies are elastic here; "
             "are load and radii right?",
         )
-    if lubricant.viscosity_law == "barus" and pressure > 0.5e9:
-        yield ResultWarning(
-            "barus-pressure",
-            "Barus' law overstates the viscosity above some 0.5 GPa by orders of magnitude",
-        )
-    if lubricant.viscosity_law == "roelands":
-        alpha, p0 = lubricant.pressure_viscosity_coefficient, lubricant.roelands_pressure
-        assert alpha is not None and p0 is not None and lubricant.roelands_z is not None
-        z = roelands_exponent(lubricant.viscosity, alpha, p0)
-        if abs(z / lubricant.roelands_z - 1.0) > 0.1:
-            yield ResultWarning(
-                "roelands-z",
-                f"roelands_z is {lubricant.roelands_z:g}; Roelands' own relation gives {z:.3g} for this "
-                "viscosity and pressure-viscosity coefficient",
-            )
+    yield from law_warnings(lubricant, pressure)
 
 
 def point_case_warnings(case: Case, conditions: PointConditions) -> Iterator[ResultWarning]:
@@ -105,7 +90,6 @@ def point_regime_warnings(conditions: PointConditions) -> Iterator[ResultWarning
     regime = point_formulas.regime(formulas)
     if regime == "isoviscous-rigid":
         film = point_formulas.nijenbanning_venner_moes(formulas).central_thickness
-        assert film is not None
         # A rigid film builds up over some ten sqrt(2 R h).
         reach = 10.0 * float(np.sqrt(2.0 * formulas.radius_x * film)) / conditions.semi_axis_x
         yield rigid_warning("semi-axis", "semi-axes", reach)

@@ -1,4 +1,4 @@
-"""An oil over temperature: viscosity, density, pressure-viscosity coefficient, heat of the inlet. SI."""
+"""An oil over temperature: viscosity, density, heat of the inlet. SI."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ import math
 from dataclasses import dataclass
 
 from ehlectric.errors import InputError
-from ehlectric.lubricant.viscosity import ROELANDS_CONSTANT
 
 # Absolute temperatures of 15, 40 and 100 degC [K].
 REFERENCE = 288.15
@@ -112,36 +111,6 @@ def density(at_15: float, expansion: float, temperature: float) -> float:
     838.9
     """
     return at_15 * (1.0 - expansion * (temperature - REFERENCE))
-
-
-def roelands_alpha(viscosity: float, roelands_z: float, roelands_pressure: float) -> float:
-    """Pressure-viscosity coefficient of Roelands' law, alpha = z (ln eta0 + 9.67)/p0.
-
-    Parameters
-    ----------
-    viscosity : float
-        eta0 at the temperature [Pa s].
-    roelands_z : float
-        Exponent z, which hardly changes with temperature.
-    roelands_pressure : float
-        p0 [Pa].
-
-    Returns
-    -------
-    float
-        [1/Pa].
-
-    Notes
-    -----
-    C. J. A. Roelands, Correlational aspects of the viscosity-temperature-pressure relationship of
-    lubricating oils, thesis, Delft, 1966.
-
-    Examples
-    --------
-    >>> round(roelands_alpha(0.04, 0.67, 0.198e9) * 1e9, 2)
-    21.83
-    """
-    return roelands_z * (math.log(viscosity) + ROELANDS_CONSTANT) / roelands_pressure
 
 
 def inlet_shear_factor(viscosity: float, slope: float, speed: float, conductivity: float) -> float:

@@ -22,7 +22,7 @@ _WORDS = (
     (" regime: the ", "regime"),
     ("the ambient pressure carries", "ambient-pressure"),
     ("bearing steel deforms permanently", "plastic-deformation"),
-    ("Barus' law overstates", "barus-pressure"),
+    ("Barus' law overstates", "law-range"),
     ("Roelands' own relation gives", "roelands-z"),
     ("positions are written in steps of their spacing", "spacing-irregular"),
     ("voids within it were filled", "voids-filled"),

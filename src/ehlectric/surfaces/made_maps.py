@@ -7,6 +7,8 @@ own that its place and the seed choose: a larger map only has more of them.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy import fft
@@ -135,6 +137,10 @@ def pit(
     """
     distance = np.hypot(np.asarray(x, float) - position, np.asarray(y, float) - position_y)
     return generators.pit(distance, depth=depth, width=width, rim=rim)
+
+
+# Shapes by the name of their generator in a case; their keywords are its keys.
+SHAPES: dict[str, Callable[..., Array]] = {"sinusoid": sinusoid, "pit": pit, "asperity": asperity}
 
 
 def gaussian(

@@ -5,6 +5,8 @@ Heights are positive out of the body.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy import fft
@@ -107,6 +109,10 @@ def pit(x: ArrayLike, *, depth: float, width: float, rim: float = 0.0, position:
     left = asperity(x, height=rim, width=0.5 * width, position=position - width)
     right = asperity(x, height=rim, width=0.5 * width, position=position + width)
     return left + right - asperity(x, height=depth, width=width, position=position)
+
+
+# Shapes by the name of their generator in a case; their keywords are its keys.
+SHAPES: dict[str, Callable[..., Array]] = {"sinusoid": sinusoid, "pit": pit, "asperity": asperity}
 
 
 def gaussian(*, rq: float, correlation_length: float, length: float, seed: int) -> Profile:

@@ -226,7 +226,7 @@ def _shape(table: Roughness, domain: Domain) -> MapHeight:
             got=f"{values['width']:.3g} m",
             takes=f"less than the shorter side of the domain, {domain.shorter:.3g} m",
         )
-    made: MapHeight = partial(getattr(map_generators, str(table.generator)), **values)
+    made: MapHeight = partial(map_generators.SHAPES[str(table.generator)], **values)
     return lambda x, y: made(x - table.shift, y - table.shift_y)
 
 

@@ -144,7 +144,7 @@ def _shape(table: Roughness, domain: float) -> Height:
         raise InputError(
             "roughness.width", got=f"{values['width']:.3g} m", takes=f"less than the domain, {domain:.3g} m"
         )
-    return _shifted(partial(getattr(generators, str(table.generator)), **values), table.shift)
+    return _shifted(partial(generators.SHAPES[str(table.generator)], **values), table.shift)
 
 
 def _shifted(height: Height, shift: float) -> Height:

@@ -11,9 +11,10 @@ from ehlectric.arrays import Array
 from ehlectric.cases.any_case import AnyCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.keys import kind_of
+from ehlectric.cases.lubricant import law_parameters
 from ehlectric.cases.quantity import Quantity
 
-# Name and symbol of inputs; their units stand in the case.
+# Name and symbol of inputs; their units stand in the case. Parameters of laws bring their own.
 _INPUTS = {
     "contact.entrainment_speed": ("entrainment speed", r"$(u_1 + u_2)/2$"),
     "contact.speed_1": ("speed of surface 1", "$u_1$"),
@@ -28,10 +29,6 @@ _INPUTS = {
     "contact.reduced_modulus": ("reduced modulus", "$E'$"),
     "lubricant.base": ("lubricant", ""),
     "lubricant.viscosity": ("viscosity", r"$\eta_0$"),
-    "lubricant.pressure_viscosity_coefficient": ("pressure-viscosity coefficient", r"$\alpha$"),
-    "lubricant.roelands_z": ("Roelands' exponent", "$z$"),
-    "lubricant.roelands_pressure": ("Roelands' constant", "$p_0$"),
-    "lubricant.relative_permittivity": ("relative permittivity", r"$\varepsilon_\mathrm{r}$"),
     "electric.potential_1": ("potential of surface 1", "$V_1$"),
     "electric.potential_2": ("potential of surface 2", "$V_2$"),
     "bearing.inner_speed": ("speed of the inner ring", ""),
@@ -236,6 +233,9 @@ def label_of(key: str, case: AnyCase) -> Label:
     kind = kind_of(own)
     if kind is not None or own in _INPUTS:
         unit = kind.unit if isinstance(kind, Quantity) else ""
+        parameter = law_parameters().get(own.removeprefix("lubricant."))
+        if parameter is not None:
+            return Label(parameter.title, parameter.symbol, unit)
         return Label(*_INPUTS.get(own, (own, "")), unit)
     name, symbol = _VALUES.get(key) or _VALUES.get(key.rstrip("0123456789").rstrip("."), (key, ""))
     return Label(name, symbol, _unit_of(key, case))
