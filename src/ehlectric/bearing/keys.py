@@ -67,17 +67,18 @@ _CAPACITANCES: Keys = {
         "capacitance over capacitance_plate; null for ceramic elements", "", "capacitance over that of plates"
     ),
     "lambda_ratio": ResultKey(
-        "smallest film of all loaded contacts over composite_rq", "", "least film over roughness", r"$\lambda$"
+        "smallest film of all loaded contacts over composite_rq",
+        "",
+        "least film over roughness",
+        r"$\lambda$",
     ),
     "lubrication": ResultKey(
-        'state of lubrication: "conducting" for a lambda below 1, or "touching" of ceramic elements, "partial '
-        'film" below 3, "full film"',
+        'state of lubrication: "conducting" for a lambda below 1, or "touching" of ceramic elements, '
+        '"partial film" below 3, "full film"',
         "",
         "state of lubrication",
     ),
-    "film_factor": ResultKey(
-        'factor on the isothermal, fully flooded film; 1 for "none"', "", "film factor"
-    ),
+    "film_factor": ResultKey('factor on the isothermal, fully flooded film; 1 for "none"', "", "film factor"),
 }
 _VOLTAGES: Keys = {
     "first_break": ResultKey(
@@ -91,7 +92,9 @@ _VOLTAGES: Keys = {
         "mean of first_break over the positions", "V", "first break, mean over a pitch"
     ),
     "first_break_at": ResultKey(
-        "contact that breaks down first, or by a Weibull strength the likeliest", "", "contact that breaks first"
+        "contact that breaks down first, or by a Weibull strength the likeliest",
+        "",
+        "contact that breaks first",
     ),
     "through_breakdown": ResultKey(
         "bearing voltage at which the first element breaks down through both contacts; by a Weibull strength "
@@ -171,9 +174,7 @@ CONTACT_KEYS: Keys = {
     "ring": ResultKey('"inner" or "outer"'),
     "position": ResultKey("angle of the element from the direction of the load", "rad"),
     "load": ResultKey("load of the contact", "N"),
-    "contact_angle": ResultKey(
-        "contact angle; where there is no contact that of the narrowest place", "rad"
-    ),
+    "contact_angle": ResultKey("contact angle; where there is no contact that of the narrowest place", "rad"),
     "max_pressure": ResultKey("largest pressure of the dry contact; null without load", "Pa"),
     "semi_axis_x": ResultKey(
         "semi-axis of the dry contact along entrainment, of a roller its half-width; null without load", "m"
@@ -197,8 +198,8 @@ CONTACT_KEYS: Keys = {
     ),
     "max_strength": ResultKey("that field strength at the shaft voltage; null without a motor", "V/m"),
     "breakdown_voltage": ResultKey(
-        "breakdown voltage of the contact by itself; null without a strength, for a conducting bearing and for "
-        "ceramic elements",
+        "breakdown voltage of the contact by itself; null without a strength, for a conducting bearing and "
+        "for ceramic elements",
         "V",
     ),
     "solved": ResultKey("whether there is a film; a gap of rigid bodies otherwise"),
@@ -210,7 +211,9 @@ BEARING_KEYS: Keys = {
     **under("bearing", _CAPACITANCES),
     **under("bearing", _VOLTAGES),
     **under("mechanics", _MECHANICS),
-    "contacts": ResultKey("list with each contact, the cage in its first position; contacts.csv has the same"),
+    "contacts": ResultKey(
+        "list with each contact, the cage in its first position; contacts.csv has the same"
+    ),
     **under("contacts", CONTACT_KEYS),
     "seconds": ResultKey("time that the run took", "s"),
 }

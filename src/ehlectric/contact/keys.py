@@ -130,7 +130,8 @@ _POINT_FIELD: Keys = {
     ),
     "columns": ResultKey("columns [along, across] of the field's grid"),
     "high_field_area": ResultKey(
-        "area in which mid-film abs(E) is at least 95 % of its maximum, of both side lobes where there are two",
+        "area in which mid-film abs(E) is at least 95 % of its maximum, of both side lobes where there are "
+        "two",
         "m**2",
         "area above 95 % of the largest field",
     ),
@@ -162,12 +163,17 @@ _SECONDS: Keys = {
 def _roughness(zone: str) -> Keys:
     """Keys of the roughness over the Hertz zone of a contact, its surfaces and statistics left out."""
     return {
-        "surfaces": ResultKey("for each rough surface its source, size, voids and statistics after every step"),
+        "surfaces": ResultKey(
+            "for each rough surface its source, size, voids and statistics after every step"
+        ),
         "rq_1": ResultKey(f"root-mean-square height of surface 1 over the {zone}", "m"),
         "rq_2": ResultKey(f"root-mean-square height of surface 2 over the {zone}", "m"),
         "rq_combined": ResultKey(f"root-mean-square height of z1 + z2 over the {zone}", "m"),
         "lambda_ratio": ResultKey(
-            "minimum_thickness/rq_combined; null where that is below 10⁻¹² m", "", "lambda ratio", r"$\Lambda$"
+            "minimum_thickness/rq_combined; null where that is below 10⁻¹² m",
+            "",
+            "lambda ratio",
+            r"$\Lambda$",
         ),
         "lambda_ratio_smooth": ResultKey(
             "smooth_minimum_thickness/rq_combined, as film formulas give it; null where the smooth contact "

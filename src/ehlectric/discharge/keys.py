@@ -133,7 +133,10 @@ def _capacitances(unit: str) -> Keys:
 
 _COSTS: Keys = {
     "contact_energy": ResultKey(
-        "energy C V²/2 of the contact at the voltage of the case", "J", "energy of the contact", "$C V_{12}^2/2$"
+        "energy C V²/2 of the contact at the voltage of the case",
+        "J",
+        "energy of the contact",
+        "$C V_{12}^2/2$",
     ),
     "discharge_energy": ResultKey(
         "the same energy with the external capacitance", "J", "energy of the discharge", "$W$"

@@ -22,8 +22,8 @@ _COURSE: Keys = {
     "speed_ratio_1": ResultKey("speed of surface 1 over the mean speed"),
     "speed_ratio_2": ResultKey("speed of surface 2 over the mean speed"),
     "covered_from": ResultKey(
-        "time from which the roughness that moves fills the Hertz zone, its front gone; null where it does not "
-        "in time",
+        "time from which the roughness that moves fills the Hertz zone, its front gone; null where it does "
+        "not in time",
         "s",
     ),
     "coincident": ResultKey(
@@ -60,8 +60,8 @@ _FIELD: Keys = {
     "max_strength_position": ResultKey("position of max_strength", "m"),
     "max_thin_gap_strength": ResultKey("voltage over the smallest film thickness of all steps", "V/m"),
     "share_above_90": ResultKey(
-        "share of the time in which the largest field is above 90 % of its largest value since `covered_from`, "
-        "of all time steps: between the kept instants it goes as the voltage over the smallest film"
+        "share of the time of all steps in which the largest field is above 90 % of its largest value "
+        "since `covered_from`; between the kept instants it goes as the voltage over the smallest film"
     ),
     "time_above_90": ResultKey("how long that is", "s"),
     "local_maxima": ResultKey(
@@ -116,8 +116,8 @@ def _keys(capacitance: str, surface: Keys) -> Keys:
         "stationary": ResultKey("the same roughness held still; null where that was not solved"),
         **under("stationary", _stationary(capacitance)),
         "beside_stationary": ResultKey(
-            "moving and stationary roughness within abs(x) < b, at the kept instant next to `coincident`; null "
-            "where none is within 0.6 of a step, or nothing was solved to be set beside"
+            "moving and stationary roughness within abs(x) < b, at the kept instant next to `coincident`; "
+            "null where none is within 0.6 of a step, or nothing was solved to be set beside"
         ),
         **under("beside_stationary", _BESIDE),
         "rough": ResultKey("for each rough surface its source, size, voids and statistics after every step"),

@@ -1,4 +1,4 @@
-"""Labels of inputs and results: name, symbol and unit of a dotted key, and the unit its values are shown in."""
+"""Labels of inputs and results: name, symbol and unit of a dotted key, and how values are shown."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ def label_of(key: str, case: AnyCase) -> Label:
     Returns
     -------
     Label
-        A key that is neither an input nor in the tables of result keys has its dotted key as name, and no unit.
+        A key that is neither an input nor in the tables of result keys has itself as name, and no unit.
     """
     own = key.removeprefix("inputs.")
     if kind_of(own) is not None or own in INPUT_NAMES:
