@@ -1,5 +1,6 @@
 """Labels of inputs and results: every key that a summary has is in a table with its unit."""
 
+import csv
 from pathlib import Path
 
 import pytest
@@ -7,11 +8,13 @@ import pytest
 from ehlectric import Case, solve
 from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solver import solve_bearing
+from ehlectric.cases.keys import INPUT_NAMES, input_field
+from ehlectric.cases.quantity import to_si
 from ehlectric.cases.result_key import key_of
 from ehlectric.motion.record import read_motion
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.summary import summary_of
-from ehlectric.sweep.labels import result_keys
+from ehlectric.sweep.labels import label_of, result_keys
 from ehlectric.sweep.results import flat
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case
 from tests.helpers.moving_cases import TABLES, moving
