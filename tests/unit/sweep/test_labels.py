@@ -40,7 +40,8 @@ def case_of(kind):
         return contact(kind)
     if kind in ("balls", "rollers"):
         return bearing_case(BALLS if kind == "balls" else ROLLERS, contacts="formula")
-    return moving(TABLES[kind.removeprefix("moving ")], {"discharge": {"dielectric_strength": "15 V/um"}})
+    few = {"motion.steps": 24, "discharge": {"dielectric_strength": "15 V/um"}}
+    return moving(TABLES[kind.removeprefix("moving ")], few)
 
 
 def summary(kind, folder):
