@@ -15,6 +15,11 @@ _SHORT.maxstring = _SHORT.maxother = _SHORT.maxlong = 60
 Severity = Literal["note", "warning", "severe"]
 
 
+def _line(text: str) -> str:
+    """The text without line breaks."""
+    return " ".join(text.splitlines())
+
+
 class InputError(ValueError):
     """The input is wrong: one line that names the key, the value it got and what it takes.
 
@@ -140,11 +145,6 @@ class ConvergenceError(RuntimeError):
 def shown(value: object) -> str:
     """What was given, short enough for a one-line message."""
     return _SHORT.repr(value)
-
-
-def _line(text: str) -> str:
-    """The text without line breaks."""
-    return " ".join(text.splitlines())
 
 
 @dataclass(frozen=True)
