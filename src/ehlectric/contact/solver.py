@@ -37,8 +37,8 @@ from ehlectric.field.line import Field, solve_field
 from ehlectric.field.point import solve_point_field
 from ehlectric.field.poisson import FieldProblem
 from ehlectric.film.line import Film, solve_film
-from ehlectric.film.newton import Progress
 from ehlectric.film.point import PointFilm, solve_point_film
+from ehlectric.film.state import Progress
 from ehlectric.surfaces.remarks import map_surface_remarks as map_remarks
 from ehlectric.surfaces.remarks import profile_surface_remarks as rough_remarks
 from ehlectric.surfaces.rough_maps import rough_maps

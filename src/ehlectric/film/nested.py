@@ -14,9 +14,10 @@ from scipy.interpolate import PchipInterpolator
 
 from ehlectric.film.levels import Level, hierarchy
 from ehlectric.film.mesh import Mesh, at_centre
-from ehlectric.film.newton import GridSolution, Progress, State, newton
+from ehlectric.film.newton import newton
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.reynolds import wedge_stencil
+from ehlectric.film.state import GridSolution, Progress, State
 
 # The coarser grids are solved to this residual, far below their discretisation error.
 NESTED_TOLERANCE = 1e-6

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 from ehlectric.arrays import Array
 from ehlectric.film.deflection import LINE, Geometry
+from ehlectric.film.flow import Fluid
 from ehlectric.film.mesh import Width
-from ehlectric.film.reynolds import Fluid
 
 
 @dataclass(frozen=True)
