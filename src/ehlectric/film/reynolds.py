@@ -19,8 +19,8 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.film.flow import Flow
 from ehlectric.film.mesh import Mesh
 
-# Neighbours that a row of a stencil couples, as steps along x and y: four along x and, in a point contact, two
-# across it.
+# Neighbours that a row of a stencil couples, as steps along x and y: four along x and, in a point contact,
+# two across it.
 OFFSETS = ((-2, 0), (-1, 0), (0, 0), (1, 0), (0, -1), (0, 1))
 ALONG, ACROSS = 4, 6
 
