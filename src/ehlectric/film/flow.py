@@ -5,8 +5,9 @@ term. For a Newtonian fluid, dimensionless,
 
     F = eps dP/dX,   eps = rho H^3/(eta lambda)
 
-along entrainment, and the same with dP/dY across it. A face lies half-way between two nodes; what is known
-at nodes enters as the mean of the two. This module is the only place that takes this mean.
+along entrainment, and the same with dP/dY across it. F is the mass flux towards smaller X or Y: oil flows
+from high to low pressure. A face lies half-way between two nodes, and quantities that are known at nodes enter
+as the mean of the two. This module is the only place that takes this mean.
 
 Another relation between flux and pressure gradient, for example that of a shear-thinning fluid, is one more
 function in ``FLOWS``.
@@ -81,9 +82,9 @@ class Dependence:
     by_thickness: Array
 
     def outflow(self, of_node: Array) -> tuple[Array, Array, Array]:
-        """Change of the flux in less the flux out of each inner node, by the nodes before, at and after it.
+        """Derivatives of -dF/dX at the inner nodes by an unknown of the node before, at and after.
 
-        ``of_node`` (n, m) is the derivative of q at a node by the unknown there; the results are (n - 2, m).
+        ``of_node`` (n, m) is the derivative of q at a node by its unknown; the results are (n - 2, m) each.
         """
         before, after = self.by_value[:-1], self.by_value[1:]
         return of_node[:-2] * before, -of_node[1:-1] * (after - before), -of_node[2:] * after
@@ -99,11 +100,11 @@ class FaceFlow:
     Attributes
     ----------
     flux : ndarray, shape (n - 1, m)
-        F, positive where the pressure rises.
+        F over the spacing, positive where the pressure rises with X or Y.
     conductance : ndarray, shape (n - 1, m)
         Derivative of the flux by the pressure difference of the two nodes, at fixed nodal quantities.
     dependences : tuple of Dependence
-        Nodal quantities that the flux depends on besides.
+        Nodal quantities that the flux depends on, besides the pressure difference.
     """
 
     flux: Array
