@@ -254,7 +254,7 @@ class ResultWarning:
 
     def __post_init__(self) -> None:
         if self.code not in CODES:
-            raise ValueError(f"code: got {self.code!r}, takes one of {', '.join(CODES)}")
+            raise ValueError(f"{self.code!r} is no code of a warning; takes one of {', '.join(CODES)}")
 
     def __str__(self) -> str:
         return self.text

@@ -8,6 +8,7 @@ from ehlectric.cases.case import Case
 from ehlectric.cases.grid import Grid
 from ehlectric.cases.motion import Motion
 from ehlectric.errors import MemoryLimitError
+from ehlectric.film.newton import KRYLOV_LIMIT
 from ehlectric.runtime.memory import physical_memory
 
 # Peak memory [bytes], measured up to a million nodes: of the film by node, of the field by column and by the
@@ -20,7 +21,7 @@ FIELD_BYTES = 64
 # is solved for and degree plus one. Measured on 129 x 129 to 1025 x 1025 nodes, halves and wholes, a circle
 # and an ellipse, at degrees 3 to 12: 790 to 950 bytes beside those vectors, and 580 to 660. A fifth is added.
 POINT_FILM_BYTES = 1140
-KRYLOV_VECTORS = 121
+KRYLOV_VECTORS = 2 * KRYLOV_LIMIT + 1
 POINT_FIELD_BYTES = 790
 
 # Bytes of a node of an instant of roughness that moves: six maps in single precision as they are read again,

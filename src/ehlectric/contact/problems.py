@@ -15,11 +15,11 @@ from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.field.poisson import ATOM, FieldProblem
 from ehlectric.field.poisson_3d import PointFieldProblem
 from ehlectric.film.deflection import Geometry, point_geometry
+from ehlectric.film.flow import Fluid, FluidLaw
 from ehlectric.film.line import Film
 from ehlectric.film.mesh import Width
 from ehlectric.film.point import PointFilm
 from ehlectric.film.problem import FilmProblem, Scales
-from ehlectric.film.reynolds import Fluid, FluidLaw
 from ehlectric.formulas.film_line import CentralThickness, moes
 from ehlectric.formulas.film_point import nijenbanning_venner_moes
 from ehlectric.lubricant.law import PressureLaw

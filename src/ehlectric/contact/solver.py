@@ -41,8 +41,8 @@ from ehlectric.field.line import Field, solve_field
 from ehlectric.field.point import solve_point_field
 from ehlectric.field.poisson import FieldProblem
 from ehlectric.film.line import Film, solve_film
-from ehlectric.film.newton import Progress
 from ehlectric.film.point import PointFilm, solve_point_film
+from ehlectric.film.state import Progress
 from ehlectric.surfaces.rough_maps import rough_maps
 from ehlectric.surfaces.rough_profiles import rough_surfaces
 from ehlectric.surfaces.warnings import map_surface_warnings, profile_surface_warnings

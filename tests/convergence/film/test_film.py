@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from ehlectric.film.deflection import RIGID_LINE
+from ehlectric.film.flow import Fluid
 from ehlectric.film.line import solve_film
 from ehlectric.film.problem import FilmProblem
-from ehlectric.film.reynolds import Fluid
 from ehlectric.lubricant.density import incompressible
 from ehlectric.lubricant.viscosity import constant_viscosity
 from tests.helpers.films import film_alone
