@@ -94,7 +94,7 @@ def _crew(client: Any, executor: Executor) -> Crew:
                 raise LostError(" ".join(str(error).split())) from None
         return max(_LEAST, 3 * threads)
 
-    return Crew(executor.submit, width, remark=lambda: "" if threads else "no workers yet")
+    return Crew(executor.submit, width, waiting=lambda: "" if threads else "no workers yet")
 
 
 def _silence() -> None:

@@ -52,13 +52,13 @@ class Crew:
     """Those who solve points.
 
     ``submit`` hands over a call, ``width`` is how many points may be in flight, ``renew`` makes good for
-    processes that died, and ``remark`` says what holds them up.
+    processes that died, and ``waiting`` says what holds them up.
     """
 
     submit: Callable[..., Future[Any]]
     width: Callable[[], int]
     renew: Callable[[], None] = lambda: None
-    remark: Callable[[], str] = str
+    waiting: Callable[[], str] = str
 
 
 def solve_point(table: Mapping[str, Any]) -> Outcome:

@@ -122,8 +122,8 @@ def _solve(sweep: Sweep, store: Store, planned: Sequence[Planned], solvers: Crew
             counts[outcome.status] += points[key]
             counts["open"] -= points[key]
         told = [f"{counts[status]} {status}" for status in ("not converged", "failed") if counts[status]]
-        remark = solvers.remark()
-        progress(len(planned) - counts["open"], len(planned), ", ".join([*told, *filter(None, [remark])]))
+        waiting = solvers.waiting()
+        progress(len(planned) - counts["open"], len(planned), ", ".join([*told, *filter(None, [waiting])]))
 
     def tasks() -> Iterator[Task]:
         for key, inputs in store.open_points():
