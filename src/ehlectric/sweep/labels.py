@@ -234,7 +234,7 @@ def label_of(key: str, case: AnyCase) -> Label:
     if kind is not None or own in _INPUTS:
         unit = kind.unit if isinstance(kind, Quantity) else ""
         parameter = law_parameters().get(own.removeprefix("lubricant."))
-        if parameter is not None:
+        if parameter is not None and parameter.title:
             return Label(parameter.title, parameter.symbol, unit)
         return Label(*_INPUTS.get(own, (own, "")), unit)
     name, symbol = _VALUES.get(key) or _VALUES.get(key.rstrip("0123456789").rstrip("."), (key, ""))
