@@ -10,8 +10,10 @@ from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solver import solve_bearing
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.changes import flattened
-from ehlectric.cases.lubricant import effective_alpha
+from ehlectric.cases.lubricant import effective_alpha, viscosity_law
 from ehlectric.commands.check import meaning
+from ehlectric.contact.conditions import resolve
+from ehlectric.contact.problems import film_problem
 from ehlectric.errors import ResultWarning
 from ehlectric.formulas import film_line, film_point
 from ehlectric.formulas.film_line import CentralThickness, Formula
@@ -35,9 +37,7 @@ DOUBLING = Parameter(
     most=1e9,
     reason="an oil has some 30 MPa",
 )
-BULK = Parameter(
-    "bulk_modulus", "Pa", title="bulk modulus", symbol="$K$", meaning="of the oil", above=1e7, most=1e12
-)
+BULK = Parameter("bulk_modulus", "Pa", meaning="of the oil", above=1e7, most=1e12)
 P_2 = math.log(2.0) / 22e-9
 
 
@@ -178,10 +178,12 @@ def test_sweep_over_a_parameter_of_a_new_law():
     ]
     label = label_of("inputs.lubricant.doubling_pressure", case)
     assert label.axis(label.scaled(np.array([2e7, 4e7]))) == "doubling pressure $p_2$ [MPa]"
+    # Without a title the key stands there.
+    assert label_of("inputs.lubricant.bulk_modulus", case).name == "lubricant.bulk_modulus"
 
 
 def test_a_new_permittivity_law(monkeypatch):
-    excess = Parameter("excess", "", title="excess", symbol="", meaning="of it", least=0.0, most=10.0)
+    excess = Parameter("excess", "", meaning="share of the square", least=0.0, most=10.0)
     (eps_r,) = PERMITTIVITY_LAWS["constant"].parameters
     monkeypatch.setitem(PERMITTIVITY_LAWS, "squared", Law(squared, (eps_r, excess)))
     oil = {"base": "paper", "permittivity_law": "squared", "excess": 0.5}
@@ -192,6 +194,27 @@ def test_a_new_permittivity_law(monkeypatch):
     assert across == pytest.approx(2.4 + 0.5 * (rho**2 - 1.0), rel=1e-3)
     with pytest.raises(InputError, match=r"lubricant\.excess: missing, permittivity_law 'squared' takes it"):
         case.replace({"lubricant": {"base": "paper", "permittivity_law": "squared"}})
+
+
+def test_a_law_may_depend_on_the_temperature(monkeypatch):
+    """Without a temperature it is that of the case, which is what the film takes."""
+
+    def thinning(pressure, temperature=None):
+        alpha = 20e-9 if temperature is None else 20e-9 * 300.0 / np.asarray(temperature)
+        return alpha * np.asarray(pressure), alpha * np.ones_like(pressure)
+
+    monkeypatch.setitem(VISCOSITY_LAWS, "thinning", Law(thinning))
+    case = Case.from_dict(
+        {"contact": PAPER_CONTACT, "lubricant": {"base": "paper", "viscosity_law": "thinning"}}
+    )
+    assert effective_alpha(case.lubricant) == 20e-9
+    pressure = np.array([[1e8], [2e8]])
+    value, slope = viscosity_law(case.lubricant)(pressure, np.array([300.0, 600.0]))
+    np.testing.assert_allclose(value, [[2.0, 1.0], [4.0, 2.0]])
+    np.testing.assert_allclose(slope, [[20e-9, 10e-9]] * 2)
+    assert film_problem(case, resolve(case)).fluid.log_viscosity(np.ones(1))[1] == pytest.approx(
+        20e-9 * resolve(case).max_pressure
+    )
 
 
 def bearing(**oil):

@@ -66,10 +66,10 @@ class Parameter:
         Key of the case file, and keyword of the law's function.
     unit : str
         SI unit as pint writes it; empty where there is none.
-    title, symbol : str
-        Name and symbol on the axis of a figure.
     meaning : str
         One sentence for the table of keys, in Markdown.
+    title, symbol : str
+        Name and symbol on the axis of a figure; the dotted key stands there without a title.
     least, most, above, below : float
         Bounds in ``unit``; ``above`` and ``below`` are not allowed themselves.
     reason : str
@@ -80,16 +80,16 @@ class Parameter:
 
     Examples
     --------
-    >>> limit = Parameter("limiting_stress", "Pa", "limiting stress", "", "of the oil", least=1e5, most=1e9)
+    >>> limit = Parameter("limiting_stress", "Pa", "of the oil", least=1e5, most=1e9)
     >>> limit.unit, limit.above
     ('Pa', -inf)
     """
 
     name: str
     unit: str
-    title: str
-    symbol: str
     meaning: str
+    title: str = ""
+    symbol: str = ""
     least: float = -math.inf
     most: float = math.inf
     above: float = -math.inf
