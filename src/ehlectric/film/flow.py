@@ -6,8 +6,8 @@ term. For a Newtonian fluid, dimensionless,
     F = eps dP/dX,   eps = rho H^3/(eta lambda)
 
 along entrainment, and the same with dP/dY across it. F is the mass flux towards smaller X or Y: oil flows
-from high to low pressure. A face lies half-way between two nodes, and quantities known at nodes enter as the
-mean of the two. This module is the only place that takes this mean.
+from high to low pressure. A face lies half-way between two nodes. Quantities that are known at nodes enter as
+the mean of the two, and this module is the only place that takes this mean.
 
 Another relation between flux and pressure gradient, for example that of a shear-thinning fluid, is one more
 function in ``FLOWS``.

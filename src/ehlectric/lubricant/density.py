@@ -73,6 +73,8 @@ def incompressible(pressure: ArrayLike, temperature: ArrayLike | None = None) ->
 _C1 = Parameter(
     "density_c1",
     "Pa",
+    title="Dowson and Higginson's first constant",
+    symbol="$C_1$",
     meaning="$C_1$ of Dowson and Higginson",
     least=1e7,
     most=1e11,
@@ -81,6 +83,8 @@ _C1 = Parameter(
 _C2 = Parameter(
     "density_c2",
     "",
+    title="Dowson and Higginson's second constant",
+    symbol="$C_2$",
     meaning="$C_2$ of Dowson and Higginson",
     least=1.0,
     most=3.0,
