@@ -30,6 +30,9 @@ _SLOWEST, _FASTEST = 0.1, 50.0
 # Colours of a GIF of maps that lines and letters have.
 _GREYS = 24
 
+# Frames of a run by its kind of contact.
+_FRAMES = {"line": line_frames, "point": map_frames}
+
 # Called with the number of frames that are done and of all.
 Progress = Callable[[int, int], None]
 
@@ -70,7 +73,7 @@ def save_animation(
     refuse_special(path)
     run = MotionRun.of(dataset)
     with style():
-        drawn = map_frames(run) if run.point else line_frames(run)
+        drawn = _FRAMES[run.kind.name](run)
         drawn.figure.set_dpi(dpi)
         # Numbers on the axes that come and go must not shift the panels.
         drawn.figure.draw_without_rendering()

@@ -22,7 +22,7 @@ from ehlectric.figures.motion.panels import (
     time_unit,
 )
 from ehlectric.figures.style import BLUE, GREY, ORANGE, axes_or_new, legend_above
-from ehlectric.motion.record import MotionRun
+from ehlectric.motion.record import MotionRun, coincident_frame
 
 # Parts of a half-width that roughness may be from where the case has it without a word.
 _SAME_PLACE = 1e-6
@@ -122,7 +122,7 @@ def roughness_at(run: MotionRun, frame: int, ax: Axes | None = None, *, unit: Un
 
 def coincidence_text(run: MotionRun) -> str:
     """When the surfaces lie as the case has them, and how far they are from it at the instant drawn."""
-    frame = run.coincident_frame
+    frame = coincident_frame(run)
     assert frame is not None
     factor, unit = time_unit(run)
     text = f"at t = {factor * run.frame_time[frame]:.4g} {unit}"
@@ -137,7 +137,7 @@ def coincidence_text(run: MotionRun) -> str:
 
 def _extremes(run: MotionRun, name: str, of: Callable[[Array], Any]) -> list[float]:
     """An extreme of a variable on all nodes: moving, held still and before the motion."""
-    frame = run.coincident_frame
+    frame = coincident_frame(run)
     found = [run.dataset[name].isel(frame=frame), run.dataset[f"stationary_{name}"]]
     found.append(run.dataset[name].isel(frame=0))
     return [float(of(values.values)) for values in found]
@@ -155,7 +155,7 @@ def _three(
     ``said`` is what the axis calls it, and what the legend calls which extreme of it.
     """
     ax, (factor, suffix), (label, kind, extreme) = axes_or_new(ax), unit, said
-    lines = [run.along(name, run.coincident_frame), run.along(f"stationary_{name}"), run.along(name, 0)]
+    lines = [run.along(name, coincident_frame(run)), run.along(f"stationary_{name}"), run.along(name, 0)]
     looks = (
         ("moving", f"{kind} ", BLUE, "-"),
         ("held still", "", ORANGE, "--"),

@@ -9,7 +9,8 @@ from matplotlib.lines import Line2D
 from ehlectric.arrays import Array
 from ehlectric.figures.motion.panels import field_unit, film_unit, fitted, time_unit
 from ehlectric.figures.style import BLUE, GREEN, GREY, ORANGE, axes_or_new, legend_above
-from ehlectric.motion.record import HIGH_FIELD, MotionRun, intervals_above
+from ehlectric.motion.field_history import NEAR_MAXIMUM, intervals_above
+from ehlectric.motion.record import MotionRun
 
 
 def least_film(run: MotionRun, ax: Axes | None = None) -> Axes:
@@ -88,13 +89,14 @@ def _high(run: MotionRun, ax: Axes) -> Line2D:
     """Level of a high field, and the time above it shaded."""
     factor, _ = field_unit(run)
     in_time, unit = time_unit(run)
-    level = run.high_field
-    spans = intervals_above(run.values("time"), run.strength, level)
+    history = run.field_history
+    level = history.near_maximum
+    spans = intervals_above(history.time, history.strength, level)
     bars = [(in_time * start, in_time * (end - start)) for start, end in spans]
     whole = ax.get_xaxis_transform()
     ax.broken_barh(bars, (0.0, 1.0), transform=whole, color=GREEN, alpha=0.25, lw=0.0, zorder=0.5)
-    settled = run.settled_from
-    text = f"{100.0 * HIGH_FIELD:g} % of the largest: above it {100.0 * run.share_high:.0f} % of the time"
+    settled, share = history.settled_from, 100.0 * history.share_near_maximum
+    text = f"{100.0 * NEAR_MAXIMUM:g} % of the largest: above it {share:.0f} % of the time"
     text += f" from {in_time * settled:.3g} {unit} on" if settled else ""
     return ax.axhline(factor * level, color=GREEN, lw=0.9, ls="--", label=text)
 
@@ -124,7 +126,7 @@ def places(run: MotionRun, ax: Axes | None = None) -> Axes:
     # Dots as small as those are not seen in a legend.
     ax.plot([], [], color=GREY, ls=":", label="least film, every step")
     name, shown = "$x/b$", [least, largest]
-    if run.point and "max_strength_y" in run.dataset:
+    if "max_strength_y" in run.dataset:
         across = np.abs(run.values("max_strength_y")) / b
         ax.plot(frames, across, color=ORANGE, ls="none", marker="x", ms=3.0, label="largest field, $|y|/b$")
         name, shown = "$x/b$, $|y|/b$", [*shown, across]
@@ -143,7 +145,7 @@ def _over_time(run: MotionRun, ax: Axes) -> None:
     """Axis of time, and a line on it when the roughness has filled the contact."""
     factor, unit = time_unit(run)
     ax.set(xlabel=f"time $t$ [{unit}]", xlim=(0.0, factor * float(run.values("time")[-1]) or 1.0))
-    if run.settled_from:
-        covered = factor * run.settled_from
+    if settled := run.field_history.settled_from:
+        covered = factor * settled
         label = f"contact covered from {covered:.3g} {unit} on"
         ax.axvline(covered, color="black", lw=0.7, ls=(0, (6.0, 3.0)), label=label)

@@ -16,6 +16,11 @@ from ehlectric.motion.record import MotionRun
 
 # Shown of the domain, in half-widths: around the contact, as in the figures of one at rest.
 _BEFORE, _BEHIND = -2.0, 1.5
+
+# Smallest value of a film thickness that is drawn in a unit, and the line along which maps are drawn, by the
+# kind of contact: films of interferograms are in nanometres.
+_LEAST_FILM = {"line": 0.1, "point": 1.0}
+_ALONG = {"line": "", "point": "on $y$ = 0, "}
 Unit = tuple[float, str]
 
 
@@ -26,7 +31,7 @@ def time_unit(run: MotionRun) -> Unit:
 
 def film_unit(run: MotionRun) -> Unit:
     """Factor and unit of film thicknesses; those of interferograms are in nanometres."""
-    return unit_for(float(run.values("minimum_thickness")[0]), "m", least=1.0 if run.point else 0.1)
+    return unit_for(float(run.values("minimum_thickness")[0]), "m", least=_LEAST_FILM[run.kind.name])
 
 
 def field_unit(run: MotionRun) -> Unit:
@@ -62,7 +67,7 @@ def along_label(run: MotionRun, ax: Axes) -> None:
     """Label of an axis of positions along entrainment: on which line, and how long the half-width is."""
     b = run.conditions.half_width
     factor, unit = unit_for(b, "m", least=1.0)
-    line = "on $y$ = 0, " if run.point else ""
+    line = _ALONG[run.kind.name]
     ax.set_xlabel(f"$x/b$   ({line}$b$ = {factor * b:.4g} {unit})")
 
 

@@ -20,7 +20,7 @@ from ehlectric.figures.motion.maps import map_figure, sampling_text
 from ehlectric.figures.motion.panels import name_run, share_below
 from ehlectric.figures.names import MOTION_FIGURE_FILES
 from ehlectric.figures.style import new_panels, save_figure, style
-from ehlectric.motion.record import MotionRun
+from ehlectric.motion.record import MotionRun, coincident_frame
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -85,8 +85,9 @@ def beside_stationary(run: MotionRun) -> Axes:
     axes = _stack(4)
     for draw, ax in zip((film_beside, pressure_beside, field_beside), axes[:3], strict=True):
         draw(run, ax)
-    assert run.coincident_frame is not None
-    roughness_at(run, run.coincident_frame, axes[3])
+    frame = coincident_frame(run)
+    assert frame is not None
+    roughness_at(run, frame, axes[3])
     share_below(axes)
     name_run(axes[0], run, coincidence_text(run))
     return axes[0]
@@ -117,7 +118,7 @@ def save_motion_figures(dataset: xr.Dataset, folder: Path) -> list[Path]:
     drawn = dict(zip(MOTION_FIGURE_FILES, (history, maps, beside_stationary), strict=True))
     if run.frames < 2:
         del drawn[MOTION_FIGURE_FILES[1]]
-    if run.coincident_frame is None:
+    if coincident_frame(run) is None:
         del drawn[MOTION_FIGURE_FILES[2]]
     files = []
     with style():
