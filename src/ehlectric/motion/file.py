@@ -116,8 +116,7 @@ class Record:
 
 def _place(name: str, place: float | tuple[float, ...]) -> dict[str, float]:
     """Position along each axis, by the name of its variable."""
-    places = place if isinstance(place, tuple) else (place,)
-    return {f"{name}_{axis}": at for axis, at in zip("xy", places, strict=False)}
+    return {f"{name}_{axis}": at for axis, at in zip("xy", np.atleast_1d(place).tolist(), strict=False)}
 
 
 class MotionFile:

@@ -1,13 +1,17 @@
 """What is said of a run: statistics of made-up fields against values by hand, and JSON without a NaN."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
 import xarray as xr
 
+from ehlectric import Case
 from ehlectric.contact.conditions import resolve, resolve_point
-from ehlectric.motion import schedule
+from ehlectric.figures.motion.save import save_motion_figures
+from ehlectric.figures.names import MOTION_FIGURE_FILES
+from ehlectric.motion import kinds, schedule
 from ehlectric.motion.field_history import time_above
 from ehlectric.motion.record import MotionRun, read_motion
 from ehlectric.motion.run import run_motion
@@ -397,3 +401,38 @@ def test_a_run_is_told_as_it_was_solved(tmp_path):
     assert held["capacitance"] == pytest.approx(summary["field"]["capacitance_mean"], rel=0.1)
     assert summary["film"]["before"] == dataset["minimum_thickness"].values[0]
     assert [surface["surface"] for surface in summary["rough"]] == [1]
+
+
+@pytest.mark.parametrize("table", [LINE, POINT], ids=["line", "point"])
+def test_a_stored_run_needs_no_surface_file(tmp_path, table):
+    """Reading, summary and figures work after the file of the profile is deleted."""
+    profile = tmp_path / "profile.csv"
+    x = 5e-6 * np.arange(400)
+    np.savetxt(profile, np.column_stack([x, 1e-8 * np.sin(x / 3e-5)]), delimiter=",")
+    rough = {"surface": 1, "file": str(profile), "x_unit": "m", "z_unit": "m"}
+    case = moving(table, roughness=[rough], motion={"passes": 0.25, "steps": 2, "record": 2})
+    run_motion(case, tmp_path)
+    before = summary_of(read_motion(tmp_path))
+    assert before["motion"]["steps_done"] == 2
+    profile.unlink()
+    dataset = read_motion(tmp_path)
+    assert summary_of(dataset) == before
+    assert [file.name for file in save_motion_figures(dataset, tmp_path)] == list(MOTION_FIGURE_FILES[:2])
+
+
+def test_a_summary_parses_and_resolves_its_case_once(monkeypatch):
+    dataset, calls = beside(), []
+    parse, resolves = Case.from_dict.__func__, kinds.LINE.resolve
+
+    def parsed(cls, *values):
+        calls.append("parsed")
+        return parse(cls, *values)
+
+    def resolved(case):
+        calls.append("resolved")
+        return resolves(case)
+
+    monkeypatch.setattr(Case, "from_dict", classmethod(parsed))
+    monkeypatch.setitem(kinds.KINDS, "line", replace(kinds.LINE, resolve=resolved))
+    assert summary_of(dataset)["beside_stationary"] is not None
+    assert calls == ["parsed", "resolved"]

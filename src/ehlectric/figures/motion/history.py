@@ -1,4 +1,4 @@
-"""A contact over time while roughness moves through it: least film, largest field, where they are."""
+"""History of a transient contact: smallest film, largest field strength and their places over time."""
 
 from __future__ import annotations
 
@@ -14,19 +14,19 @@ from ehlectric.motion.record import MotionRun
 
 
 def least_film(run: MotionRun, ax: Axes | None = None) -> Axes:
-    """Least film thickness at every step, with that before the motion and that of roughness held still.
+    """Draw the smallest film over time, with that before the motion and that of stationary roughness.
 
     Parameters
     ----------
     run : MotionRun
-        What to draw.
+        The run to draw.
     ax : Axes, optional
-        Where to; new axes otherwise.
+        Axes to draw on; new axes by default.
 
     Returns
     -------
     Axes
-        Over time.
+        Axes over time.
     """
     ax = axes_or_new(ax)
     factor, unit = film_unit(run)
@@ -46,20 +46,20 @@ def least_film(run: MotionRun, ax: Axes | None = None) -> Axes:
 
 
 def largest_field(run: MotionRun, ax: Axes | None = None) -> Axes:
-    """Largest field strength at the recorded instants, with that of roughness held still.
+    """Draw the largest field strength over time, with that of stationary roughness.
 
     Parameters
     ----------
     run : MotionRun
-        What to draw.
+        The run to draw.
     ax : Axes, optional
-        Where to; new axes otherwise.
+        Axes to draw on; new axes by default.
 
     Returns
     -------
     Axes
-        Over time, with the voltage over the least film at every step. Shaded while the field is above 90 % of
-        the largest; ``MotionRun.strength`` says what it is between the instants.
+        Axes over time, with the voltage over the smallest film thickness at every step. The time is shaded in
+        which the field is above 90 % of its maximum (see ``FieldHistory``).
     """
     ax = axes_or_new(ax)
     factor, unit = field_unit(run)
@@ -67,7 +67,7 @@ def largest_field(run: MotionRun, ax: Axes | None = None) -> Axes:
     estimate = factor * run.values("thin_gap_strength")
     (thin,) = ax.plot(_times(run, "time"), estimate, color=GREY, lw=0.6)
     thin.set_label(r"$V_{12}/h_\mathrm{min}$ at every step")
-    # Between few instants a line would show a course that is none.
+    # Dots: a line between few instants would show a course that was not computed.
     size = 2.4 if run.frames <= 400 else 1.4
     (dots,) = ax.plot(
         _times(run, "frame_time"), strength, color=BLUE, ls="none", marker="o", ms=size, mew=0.0
@@ -86,7 +86,7 @@ def largest_field(run: MotionRun, ax: Axes | None = None) -> Axes:
 
 
 def _high(run: MotionRun, ax: Axes) -> Line2D:
-    """Level of a high field, and the time above it shaded."""
+    """Draw the level above which the field is near its maximum, and shade the time above it."""
     factor, _ = field_unit(run)
     in_time, unit = time_unit(run)
     history = run.field_history
@@ -102,19 +102,19 @@ def _high(run: MotionRun, ax: Axes) -> Line2D:
 
 
 def places(run: MotionRun, ax: Axes | None = None) -> Axes:
-    """Where along entrainment the field is largest at the recorded instants, and where the film is least.
+    """Draw where the field is strongest and where the film is thinnest over time.
 
     Parameters
     ----------
     run : MotionRun
-        What to draw.
+        The run to draw.
     ax : Axes, optional
-        Where to; new axes otherwise.
+        Axes to draw on; new axes by default.
 
     Returns
     -------
     Axes
-        Over time; of a point contact also across entrainment.
+        Axes over time; for a point contact with the places across entrainment, too.
     """
     ax = axes_or_new(ax)
     b = run.conditions.half_width
@@ -123,7 +123,7 @@ def places(run: MotionRun, ax: Axes | None = None) -> Axes:
     ax.plot(time, least, color=GREY, ls="none", marker="o", ms=1.0, mew=0.0)
     largest = run.values("max_strength_x") / b
     ax.plot(frames, largest, color=BLUE, ls="none", marker="o", ms=2.4, mew=0.0, label="largest field")
-    # Dots as small as those are not seen in a legend.
+    # The dots are too small to be seen in a legend.
     ax.plot([], [], color=GREY, ls=":", label="least film, every step")
     name, shown = "$x/b$", [least, largest]
     if "max_strength_y" in run.dataset:
@@ -142,7 +142,7 @@ def _times(run: MotionRun, name: str) -> Array:
 
 
 def _over_time(run: MotionRun, ax: Axes) -> None:
-    """Axis of time, and a line on it when the roughness has filled the contact."""
+    """Label the axis of time, and mark the time from which the roughness fills the contact."""
     factor, unit = time_unit(run)
     ax.set(xlabel=f"time $t$ [{unit}]", xlim=(0.0, factor * float(run.values("time")[-1]) or 1.0))
     if settled := run.field_history.settled_from:
