@@ -14,8 +14,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import ehlectric
-from ehlectric.motion.file import motion_of
-from ehlectric.motion.record import read_motion
+from ehlectric.motion.record import MotionRun, read_motion
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.summary import instant_beside, summary_of
 
@@ -47,8 +46,9 @@ with TemporaryDirectory() as folder:
 # denser where the pressure is higher. Moving, the inlet lets more and less oil through in turn, and what it
 # has let in is carried through the contact with the surface: the film keeps the waviness, and the pressure
 # hardly ripples.
-frame = instant_beside(motion_of(motion), motion)
-b = motion_of(motion).half_width
+run = MotionRun.of(motion)
+frame = instant_beside(run)
+b = run.conditions.half_width
 x = motion["x"] / b
 panels = {
     "thickness": ("film [µm]", 1e6, (0.65, 1.1)),

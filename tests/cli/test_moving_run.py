@@ -16,8 +16,7 @@ from ehlectric.commands.app import app
 from ehlectric.errors import ConvergenceError
 from ehlectric.figures.names import MOTION_FIGURE_FILES
 from ehlectric.film.unsteady import UnsteadyFilm
-from ehlectric.motion.file import motion_of
-from ehlectric.motion.record import read_motion
+from ehlectric.motion.record import MotionRun, read_motion
 from tests.helpers.commands import COMMAND
 
 CASE = """\
@@ -342,8 +341,8 @@ def test_kills_lose_nothing_that_was_kept(tmp_path):
         found = read_motion(tmp_path / "out")
         assert found.sizes["step"] - 1 >= steps
         steps = found.sizes["step"] - 1
-        course = motion_of(found).course
-        expected = course.step * course.time * np.arange(steps + 1)
+        schedule = MotionRun.of(found).schedule
+        expected = schedule.step * schedule.time * np.arange(steps + 1)
         np.testing.assert_allclose(found["time"], expected, rtol=1e-9)
     done = subprocess.run(
         [COMMAND, "run", "case.toml", "-o", "out", "--no-plots"],

@@ -19,7 +19,8 @@ from ehlectric.contact.conditions import resolve, resolve_point
 from ehlectric.contact.memory import check_memory
 from ehlectric.contact.problems import domain_of, line_domain_of, spacing, spacings
 from ehlectric.errors import ResultWarning
-from ehlectric.motion.motion import Motion
+from ehlectric.motion.contact import TransientContact
+from ehlectric.motion.schedule import Schedule
 from ehlectric.surfaces.rough_maps import rough_maps
 from ehlectric.surfaces.rough_profiles import rough_surfaces
 from ehlectric.surfaces.warnings import map_surface_warnings, profile_surface_warnings
@@ -71,9 +72,9 @@ def meaning(case: Case) -> tuple[Table, dict[str, Any], list[ResultWarning]]:
     """
     table, summary, warnings = _of_point(case) if case.contact.geometry == "point" else _of_line(case)
     if case.motion is not None:
-        motion = Motion(case)
-        summary["motion"] = motion.described()
-        for name, value, unit in _course_rows(motion):
+        contact = TransientContact.of(case)
+        summary["motion"] = contact.schedule.described()
+        for name, value, unit in _schedule_rows(contact.schedule, contact.conditions.entrainment_speed):
             table.add_row(name, value, unit)
     return table, summary, warnings
 
@@ -90,28 +91,27 @@ def _of_line(case: Case) -> tuple[Table, dict[str, Any], list[ResultWarning]]:
     return conditions_table(case, conditions), conditions_summary(case, conditions), warnings
 
 
-def _course_rows(motion: Motion) -> Iterator[tuple[str, str, str]]:
-    found = motion.described()
-    yield "motion", f"{found['duration'] * 1e3:.4g}", f"ms in {found['steps']} steps"
-    yield "  of oil in a step", f"{found['courant']:.3g}", "grid spacings"
-    speed = motion.conditions.entrainment_speed
-    for surface in sorted({rough.surface for rough in motion.rough}):
-        yield f"  surface {surface}, rough", f"{motion.speed_of(surface) * speed:.4g}", "m/s"
+def _schedule_rows(schedule: Schedule, mean: float) -> Iterator[tuple[str, str, str]]:
+    moments = schedule.moments()
+    yield "motion", f"{schedule.end * schedule.time * 1e3:.4g}", f"ms in {schedule.steps} steps"
+    yield "  of oil in a step", f"{schedule.courant:.3g}", "grid spacings"
+    for surface in schedule.rough:
+        yield f"  surface {surface}, rough", f"{schedule.speed_of(surface) * mean:.4g}", "m/s"
     for name, key in (("covers the contact from", "covered_from"), ("lies as in the case at", "coincident")):
-        if found[key] is not None:
-            yield f"  {name}", f"{found[key] * 1e3:.4g}", "ms"
+        if key in moments:
+            yield f"  {name}", f"{moments[key] * 1e3:.4g}", "ms"
 
 
 def check_motion(case: Case) -> None:
-    """Refuse steps that are too long, and roughness on surfaces at rest alone, where the case has motion.
+    """Refuse a case with motion whose schedule or surfaces cannot be used.
 
     Raises
     ------
     InputError
-        As ``Motion`` does.
+        As ``TransientContact.of`` does.
     """
     if case.motion is not None:
-        Motion(case)
+        TransientContact.of(case)
 
 
 def _of_point(case: Case) -> tuple[Table, dict[str, Any], list[ResultWarning]]:

@@ -1,4 +1,4 @@
-"""What the run command does with a case whose roughness moves, and the command that draws it as a film."""
+"""Part of the run command for moving roughness, and the command that draws an animation of a run."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import json
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -14,58 +14,49 @@ from ehlectric.commands.tables.motion import motion_table
 from ehlectric.commands.terminal import print_table, progress_bar, user_errors, warn
 
 if TYPE_CHECKING:
-    import xarray as xr
-
     from ehlectric.cases.case import Case
 
 
-SUMMARY = "summary.json"
-
-
 def run_moving(case: Case, output: Path, *, solver: str, plots: bool, quiet: bool, as_json: bool) -> None:
-    """Solve in time, write motion.nc as it goes, then summary.json and figures.
+    """Run a case with moving roughness; write motion.nc, summary.json and figures.
 
-    Where a step is not solved, what was found before is summed up and drawn all the same, exit status 3.
+    Where a time step is not solved, the steps before it are summed up and drawn, and the exit status is 3.
     """
     from ehlectric.contact.files import FILES
-    from ehlectric.errors import ConvergenceError, InputError, shown
+    from ehlectric.errors import InputError, shown
     from ehlectric.figures.names import ALL_FIGURES, MOTION_FIGURE_FILES
-    from ehlectric.motion.record import MOTION, read_motion
-    from ehlectric.motion.run import run_motion
+    from ehlectric.motion.record import MOTION
+    from ehlectric.motion.run import run
     from ehlectric.runtime.files import clear, prepare
 
     if solver != "ehlectric":
         raise InputError("--solver", got=f"{shown(solver)} for a case with motion", takes="'ehlectric'")
-    names = (*FILES, *ALL_FIGURES, *MOTION_FIGURE_FILES)
-    folder = prepare(output, (MOTION, *names))
-    failed: ConvergenceError | None = None
-    # Stopped behind its last step, a run is summed up alone.
-    again = (folder / SUMMARY).is_file()
-    clear(folder, names)
+    figures = (*ALL_FIGURES, *MOTION_FIGURE_FILES)
+    folder = prepare(output, (MOTION, *FILES, *figures))
+    clear(folder, figures)
     with progress_bar(shown=not quiet) as bar, _told_where_it_stops(folder, bar) as progress:
-        try:
-            run_motion(case, folder, again=again, progress=progress)
-        except ConvergenceError as error:
-            if not (folder / MOTION).is_file():
-                raise
-            failed = error
-        summary, files = _written(read_motion(folder), folder, plots=plots)
+        outcome = run(case, folder, progress)
+        files = [*outcome.files]
+        if plots:
+            from ehlectric.figures.motion.save import save_motion_figures
+
+            files += save_motion_figures(outcome.dataset, folder)
     if as_json:
-        typer.echo(json.dumps(summary, indent=2))
+        typer.echo(json.dumps(outcome.summary, indent=2))
     elif not quiet:
-        print_table(motion_table(summary))
+        print_table(motion_table(outcome.summary))
         typer.echo("written: " + ", ".join(str(path) for path in files))
     if not quiet:
-        warn(summary["warnings"])
-    if failed is not None:
-        raise failed
+        warn(outcome.summary["warnings"])
+    if outcome.failure is not None:
+        raise outcome.failure
 
 
 @contextmanager
 def _told_where_it_stops(
     folder: Path, show: Callable[[int, int, str], None]
 ) -> Iterator[Callable[[int, int, str], None]]:
-    """The progress to call; where the run is stopped, one line of what is saved."""
+    """Progress to call; where the run is stopped, one line tells how many steps are saved."""
     steps = 0
 
     def progress(done: int, of: int, text: str) -> None:
@@ -79,29 +70,12 @@ def _told_where_it_stops(
         if steps:
             from ehlectric.motion.record import MOTION, saved_steps
 
-            # Of the file, as the last instant may not have been told yet.
+            # Read from the file: the progress may not have been called for the last instant yet.
             saved = saved_steps(folder / MOTION)
             rest = "goes on with the others" if saved < steps else "sums them up"
             told = f"{saved} of {steps} steps are saved in {folder}, the same command {rest}"
             typer.echo(f"stopped; {told}", err=True)
         raise
-
-
-def _written(dataset: xr.Dataset, folder: Path, *, plots: bool) -> tuple[dict[str, Any], list[Path]]:
-    """summary.json and the figures of a run."""
-    from ehlectric.motion.record import MOTION
-    from ehlectric.motion.summary import summary_of
-    from ehlectric.runtime.files import whole
-
-    summary = summary_of(dataset)
-    with whole(folder / SUMMARY) as path:
-        path.write_text(json.dumps(summary, indent=2, allow_nan=False) + "\n", encoding="utf-8")
-    files = [folder / SUMMARY, folder / MOTION]
-    if plots:
-        from ehlectric.figures.motion.save import save_motion_figures
-
-        files += save_motion_figures(dataset, folder)
-    return summary, files
 
 
 def plot_moving(file: Path, output: Path, *, quiet: bool) -> None:
@@ -126,7 +100,7 @@ def animate(
     fps: Annotated[int, typer.Option(metavar="N", help="Pictures a second.", min=1, max=50)] = 25,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No progress.")] = False,
 ) -> None:
-    """Draw the instants of a contact whose roughness moves as a moving picture."""
+    """Draw the recorded instants of a contact whose roughness moves as an animation."""
     with user_errors():
         from ehlectric.figures.motion.animation import save_animation
         from ehlectric.motion.record import read_motion

@@ -30,7 +30,7 @@ BEARING_FIGURE_FILES = (
 # And over the speed of the shaft.
 SPEED_FIGURE_FILES = ("capacitance_over_speed.png", "breakdown_over_speed.png")
 
-# Of roughness that moves: over time, over position and time, and beside the same roughness held still.
+# Figures of transient contacts: over time, over position and time, and compared with stationary roughness.
 MOTION_FIGURE_FILES = ("motion_history.png", "motion_maps.png", "motion_beside_stationary.png")
 
 # A folder holds one result: what another one left of these goes.

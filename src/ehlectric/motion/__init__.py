@@ -1,1 +1,1 @@
-"""Transient contacts: roughness that moves with its surface, solved step by step and stored as it goes."""
+"""Transient contacts: moving roughness, solved step by step and stored while it is solved."""

@@ -1,4 +1,4 @@
-"""A run of roughness that moves as it was stored: what there is of it at steps, instants and nodes."""
+"""Stored run of a transient contact: its case, and its values at time steps, recorded instants and nodes."""
 
 from __future__ import annotations
 
@@ -10,11 +10,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ehlectric.arrays import Array, Mask
+from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
 from ehlectric.contact.bodies import surface_ratios
-from ehlectric.contact.conditions import Conditions, PointConditions, resolve, resolve_point
+from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.errors import InputError
+from ehlectric.motion.field_history import FieldHistory, strength_between
+from ehlectric.motion.kinds import KINDS, AnyKind
+from ehlectric.motion.schedule import Schedule, schedule_of
 from ehlectric.runtime.netcdf import opened
 
 if TYPE_CHECKING:
@@ -32,27 +35,24 @@ _NEEDED = (
     "strength",
 )
 
-# Part of the largest field above which the time counts.
-HIGH_FIELD = 0.9
-
 
 def read_motion(path: str | Path) -> xr.Dataset:
-    """The dataset of a run.
+    """Read a run of moving roughness, complete or not.
 
     Parameters
     ----------
     path : str or Path
-        A motion.nc, or the folder it lies in.
+        A file motion.nc, or the folder that it is in.
 
     Returns
     -------
     xarray.Dataset
-        Over ``step`` all time steps, over ``frame`` the instants that were kept; SI units.
+        Values in SI units, over ``step`` at all time steps and over ``frame`` at the recorded instants.
 
     Raises
     ------
     InputError
-        Where it cannot be read, or is none of a run.
+        Where the file cannot be read, is damaged or is not such a run.
     """
     import xarray as xr
 
@@ -80,7 +80,7 @@ def read_motion(path: str | Path) -> xr.Dataset:
 
 
 def saved_steps(path: Path) -> int:
-    """Steps that a file of a run has, 0 where it has none or cannot be read."""
+    """Number of the last recorded time step in a file; 0 where there is none or the file cannot be read."""
     try:
         with opened(path, "r") as file:
             return int(file.variables["frame_step"][: int(file.attrs["frames"])][-1])
@@ -90,16 +90,16 @@ def saved_steps(path: Path) -> int:
 
 @dataclass(frozen=True)
 class MotionRun:
-    """What was stored of a contact whose roughness moves, SI units.
+    """Stored run of a contact with moving roughness, SI units.
 
     Attributes
     ----------
     dataset : xarray.Dataset
-        Its steps and recorded instants, those that there are.
+        Values at the time steps and recorded instants that are solved.
     case : Case
-        What was solved.
+        Case that was solved.
     conditions : Conditions or PointConditions
-        What the case means.
+        Conditions of the case.
     """
 
     dataset: xr.Dataset
@@ -108,24 +108,23 @@ class MotionRun:
 
     @classmethod
     def of(cls, dataset: xr.Dataset) -> MotionRun:
-        """The run that a dataset holds; steps and instants still without a time are left out.
+        """Run of a dataset, without steps and instants that have no time yet. No surface is read.
 
         Parameters
         ----------
         dataset : xarray.Dataset
-            As a run was stored.
+            A dataset as ``read_motion`` gives it.
 
         Raises
         ------
         InputError
-            Where it is none.
+            Where the dataset is not a run of moving roughness, or has no recorded instant.
         """
         missing = [name for name in _NEEDED if name not in dataset]
         if missing or "case" not in dataset.attrs:
             lacks = missing[0] if missing else "case"
             raise InputError("dataset", got=f"one without {lacks!r}", takes="that of roughness that moves")
         case = Case.from_dict(tomllib.loads(dataset.attrs["case"]))
-        point = case.contact.geometry == "point"
         there = {
             "step": np.isfinite(dataset["time"].values),
             "frame": np.isfinite(dataset["frame_time"].values),
@@ -134,32 +133,37 @@ class MotionRun:
         kept = dataset.isel(left) if left else dataset
         if not kept.sizes["frame"]:
             raise InputError("dataset", got="no recorded instant", takes="one at least")
-        return cls(kept, case, resolve_point(case) if point else resolve(case))
+        return cls(kept, case, KINDS[case.contact.geometry].resolve(case))
 
     @property
-    def point(self) -> bool:
-        """Whether it is a point contact."""
-        return isinstance(self.conditions, PointConditions)
+    def kind(self) -> AnyKind:
+        """Functions of its kind of contact, line or point."""
+        return KINDS[self.case.contact.geometry]
+
+    @cached_property
+    def schedule(self) -> Schedule:
+        """Time steps and speeds of the surfaces."""
+        return schedule_of(self.case, self.conditions)
 
     @property
     def complete(self) -> bool:
-        """Whether it went to its end."""
+        """Whether the run went to its end."""
         return bool(self.dataset.attrs.get("complete", 1))
 
     @cached_property
     def speeds(self) -> dict[int, float]:
-        """Speed of each surface that is rough [m/s], by its number."""
+        """Speeds of the rough surfaces by their numbers [m/s]."""
         mean, ratios = self.conditions.entrainment_speed, surface_ratios(self.conditions.slide_to_roll_ratio)
-        return {k: mean * ratios[k - 1] for k in sorted({surface.surface for surface in self.case.roughness})}
+        return {k: mean * ratios[k - 1] for k in sorted({table.surface for table in self.case.roughness})}
 
     @cached_property
     def x(self) -> Array:
-        """Nodes of the film in half-widths, shape (nx,)."""
+        """Positions of the film's nodes along entrainment, shape (nx,) [half-widths]."""
         return np.asarray(self.dataset["x"].values / self.conditions.half_width)
 
     @cached_property
     def frame_time(self) -> Array:
-        """Times of the recorded instants [s], shape (frames,)."""
+        """Times of the recorded instants, shape (frames,) [s]."""
         return self.values("frame_time")
 
     @property
@@ -167,130 +171,58 @@ class MotionRun:
         """Number of recorded instants."""
         return int(self.dataset.sizes["frame"])
 
-    def moment(self, name: str) -> float:
-        """A time among the attributes [s], not a number where it never comes."""
-        return float(self.dataset.attrs.get(name, np.nan))
-
     def values(self, name: str) -> Array:
-        """All values of a variable as floats."""
+        """Values of a variable as floats."""
         return np.asarray(self.dataset[name].values, dtype=float)
 
+    def moment(self, name: str) -> float:
+        """Time ``covered_from`` or ``coincident`` [s]; not a number where the run does not reach it."""
+        return float(self.dataset.attrs.get(name, np.nan))
+
     def along(self, name: str, frame: int | None = None) -> Array:
-        """A variable along entrainment, of a point contact on the line of nodes nearest to y = 0.
+        """Values of a map along entrainment, in a point contact on the line of nodes nearest to y = 0.
 
         Parameters
         ----------
         name : str
-            One with values at the nodes of the film.
+            Name of a variable with values at the nodes of the film.
         frame : int, optional
-            Of this recorded instant; of all there are otherwise.
+            Number of a recorded instant; by default all recorded instants.
 
         Returns
         -------
         ndarray, shape (frames, nx) or (nx,)
         """
         values = self.dataset[name]
-        if self.point:
+        if "y" in values.dims:
             values = values.isel(y=int(np.argmin(np.abs(self.values("y")))))
         if frame is not None:
             values = values.isel(frame=frame)
         return np.asarray(values.values, dtype=float)
 
     @cached_property
-    def strength(self) -> Array:
-        """Largest field at every step [V/m], shape (steps,).
-
-        That which was solved at the recorded instants; between them it goes as the voltage over the least
-        film does, of which it is a multiple that hardly changes.
-        """
+    def field_history(self) -> FieldHistory:
+        """Largest field strength at every time step."""
         time, estimate = self.values("time"), self.values("thin_gap_strength")
-        share = self.values("max_strength") / np.interp(self.frame_time, time, estimate)
-        return np.asarray(estimate * np.interp(time, self.frame_time, share))
-
-    @cached_property
-    def settled_from(self) -> float:
-        """From when on instants count [s]: since the roughness has filled the contact, or from the first.
-
-        Where fewer than two instants are kept since then, all of them count.
-        """
-        covered = self.moment("covered_from")
-        return covered if np.count_nonzero(self.frame_time >= covered) > 1 else 0.0
-
-    @cached_property
-    def _settled(self) -> Mask:
-        """Which steps count, shape (steps,)."""
-        return np.asarray(self.values("time") >= self.settled_from)
-
-    @property
-    def settled_time(self) -> float:
-        """How long the steps that count last [s]."""
-        return float(np.ptp(self.values("time")[self._settled]))
-
-    @property
-    def high_field(self) -> float:
-        """Field strength above which the film is near its breakdown [V/m], of what counts."""
-        return HIGH_FIELD * float(np.max(self.strength[self._settled]))
-
-    @property
-    def share_high(self) -> float:
-        """Part of the time that counts in which the field is high.
-
-        Of all steps, not of the instants alone, between which an asperity may have passed.
-        """
-        return time_above(self.values("time")[self._settled], self.strength[self._settled], self.high_field)
-
-    @cached_property
-    def coincident_frame(self) -> int | None:
-        """The recorded instant nearest to that at which the surfaces lie as the case has them.
-
-        None where that time is not in the run, or nothing is there to compare with.
-        """
-        time, at = self.frame_time, self.moment("coincident")
-        if "stationary_thickness" not in self.dataset or not time[0] <= at <= time[-1]:
-            return None
-        return int(np.argmin(np.abs(time - at)))
+        strength = strength_between(time, estimate, self.frame_time, self.values("max_strength"))
+        return FieldHistory(time, strength, settled_from(self))
 
 
-def intervals_above(time: Array, values: Array, level: float) -> Array:
-    """When values are above a level.
+def settled_from(run: MotionRun) -> float:
+    """Time from which statistics count [s]: when the roughness has filled the contact, or 0.
 
-    Parameters
-    ----------
-    time, values : ndarray, shape (n,)
-        Linear in between.
-    level : float
-        In the unit of the values.
-
-    Returns
-    -------
-    ndarray, shape (m, 2)
-        Starts and ends.
-
-    Examples
-    --------
-    >>> intervals_above(np.arange(5.0), np.array([2.0, 0.0, 2.0, 0.0, 0.0]), 1.0)
-    array([[0. , 0.5],
-           [1.5, 2.5]])
+    It is 0 where the roughness never fills the contact, or fewer than two instants are recorded since then.
     """
-    above = values > level
-    before = np.flatnonzero(above[1:] != above[:-1])
-    share = (level - values[before]) / (values[before + 1] - values[before])
-    crossings = time[before] + share * (time[before + 1] - time[before])
-    ends = [time[:1]] if above[0] else []
-    ends.append(crossings)
-    ends += [time[-1:]] if above[-1] else []
-    intervals: Array = np.concatenate(ends).reshape(-1, 2)
-    return intervals
+    covered = run.moment("covered_from")
+    return covered if np.count_nonzero(run.frame_time >= covered) > 1 else 0.0
 
 
-def time_above(time: Array, values: Array, level: float) -> float:
-    """Part of the time in which a value, linear between its instants, is above a level.
+def coincident_frame(run: MotionRun) -> int | None:
+    """Number of the recorded instant nearest to that at which the surfaces lie where the case puts them.
 
-    Examples
-    --------
-    >>> round(time_above(np.array([0.0, 1.0, 2.0]), np.array([0.0, 1.0, 0.0]), 0.75), 9)
-    0.25
+    None where the run does not reach that instant, or has no stationary film to compare with.
     """
-    if time.size < 2:
-        return float(values[0] > level)
-    return float(np.sum(np.diff(intervals_above(time, values, level))) / np.ptp(time))
+    time, at = run.frame_time, run.moment("coincident")
+    if "stationary_thickness" not in run.dataset or not time[0] <= at <= time[-1]:
+        return None
+    return int(np.argmin(np.abs(time - at)))

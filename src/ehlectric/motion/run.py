@@ -1,43 +1,41 @@
-"""Run a contact whose roughness moves into its file, and go on with a run that was stopped."""
+"""Run of a contact with moving roughness into its file, from the start or resumed where it was stopped."""
 
 from __future__ import annotations
 
 import json
-import math
 import time
 from collections.abc import Callable, Iterator
-from datetime import UTC, datetime
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
-from ehlectric.contact.case_warnings import line_case_warnings, point_case_warnings
-from ehlectric.contact.conditions import Conditions, PointConditions
+from ehlectric.contact.files import FILES, SUMMARY
 from ehlectric.contact.memory import check_memory
-from ehlectric.contact.problems import domain_of, line_domain_of, spacing, spacings
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.contact.solver import solve
-from ehlectric.errors import ResultWarning
+from ehlectric.errors import ConvergenceError, ResultWarning
 from ehlectric.field.poisson import ATOM
-from ehlectric.film.point import PointFilm
-from ehlectric.motion.file import MotionFile, Row, column_strength, described
-from ehlectric.motion.motion import Motion
-from ehlectric.motion.record import MOTION
-from ehlectric.motion.solver import MovingContact
-from ehlectric.runtime.files import plain, prepare
+from ehlectric.motion.contact import TransientContact
+from ehlectric.motion.file import MotionFile, Record, Row, described
+from ehlectric.motion.record import MOTION, read_motion
+from ehlectric.motion.solver import TransientSolver
+from ehlectric.motion.summary import summary_of
+from ehlectric.runtime.files import clear, now, plain, prepare, whole
 from ehlectric.runtime.stored_warnings import as_attributes
-from ehlectric.surfaces.rough_maps import RoughMap
-from ehlectric.surfaces.rough_profiles import RoughSurface
-from ehlectric.surfaces.warnings import map_surface_warnings, profile_surface_warnings
 from ehlectric.version import __version__
 
-# Part of its height by which roughness that moves may differ from that held still, without a word.
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+# Part of its height by which moving roughness may differ from the stationary one without a warning.
 _ALIKE = 1e-3
 
-# Called with the steps done, all of them, and what is being done.
+# Called with the number of steps done, the number of all steps, and what is being done.
 Progress = Callable[[int, int, str], None]
 
 
@@ -45,20 +43,86 @@ def _quiet(_done: int, _of: int, _text: str) -> None:
     pass
 
 
-def run_motion(case: Case, folder: str | Path, *, again: bool = True, progress: Progress = _quiet) -> Path:
-    """Solve a contact whose roughness moves, and write it as it goes.
+@dataclass(frozen=True)
+class MotionOutcome:
+    """Results of a transient run and the files that have them.
+
+    Attributes
+    ----------
+    dataset : xarray.Dataset
+        The run, as ``read_motion`` gives it.
+    summary : dict
+        Results as in summary.json, SI units.
+    files : tuple of Path
+        Files written: summary.json and motion.nc.
+    failure : ConvergenceError or None
+        Why the run ended before its last step; None where it is complete.
+    """
+
+    dataset: xr.Dataset
+    summary: dict[str, Any]
+    files: tuple[Path, ...]
+    failure: ConvergenceError | None = None
+
+
+def run(case: Case, folder: str | Path, progress: Progress = _quiet) -> MotionOutcome:
+    """Solve a contact with moving roughness, and write motion.nc and summary.json.
 
     Parameters
     ----------
     case : Case
-        With ``motion``.
+        A case with ``motion``.
     folder : str or Path
-        Where motion.nc goes; made if it is not there. An unfinished run of the same case there is gone on
-        with from the last instant that was kept; anything else there is replaced.
-    again : bool
-        Solve anew what is there whole.
+        Folder of the files; made if it is not there. An unfinished run of the same case there is resumed. A
+        complete one without summary.json is summed up without being solved again. The files of any other
+        result there are replaced.
     progress : callable, optional
-        Called with the steps done, all of them, and what is being done.
+        Called with the number of steps done, the number of all steps, and what is being done.
+
+    Returns
+    -------
+    MotionOutcome
+        Where a time step is not solved, the steps before it are summed up, and ``failure`` says why.
+
+    Raises
+    ------
+    InputError
+        Where the case or the folder cannot be used.
+    ConvergenceError
+        Where the film before the motion is not converged, so that there is nothing to sum up.
+    """
+    folder = prepare(folder, (MOTION, *FILES))
+    # A run that was stopped between its last step and its summary has no summary.json.
+    again = (folder / SUMMARY).is_file()
+    clear(folder, FILES)
+    failure = None
+    try:
+        run_motion(case, folder, again=again, progress=progress)
+    except ConvergenceError as error:
+        if not (folder / MOTION).is_file():
+            raise
+        failure = error
+    dataset = read_motion(folder)
+    summary = summary_of(dataset)
+    with whole(folder / SUMMARY) as path:
+        path.write_text(json.dumps(summary, indent=2, allow_nan=False) + "\n", encoding="utf-8")
+    return MotionOutcome(dataset, summary, (folder / SUMMARY, folder / MOTION), failure)
+
+
+def run_motion(case: Case, folder: str | Path, *, again: bool = True, progress: Progress = _quiet) -> Path:
+    """Solve a contact with moving roughness, and write motion.nc while it is solved.
+
+    Parameters
+    ----------
+    case : Case
+        A case with ``motion``.
+    folder : str or Path
+        Folder of motion.nc; made if it is not there. An unfinished run of the same case there is resumed from
+        the last recorded instant; any other file of this name is replaced.
+    again : bool
+        Whether a complete run of the same case is solved again.
+    progress : callable, optional
+        Called with the number of steps done, the number of all steps, and what is being done.
 
     Returns
     -------
@@ -70,73 +134,68 @@ def run_motion(case: Case, folder: str | Path, *, again: bool = True, progress: 
     InputError
         Where the case or the folder cannot be used.
     ConvergenceError
-        Where a step is not solved; the file has what was found before.
+        Where a step is not solved; the file has the recorded instants before it.
     """
-    motion = Motion(case)
+    contact = TransientContact.of(case)
     check_memory(case)
     path = prepare(folder, (MOTION,)) / MOTION
-    contact = MovingContact(motion)
+    solver = TransientSolver(contact)
     file = MotionFile(path, contact)
     if not again and file.whole():
         return path
-    found = file.resumed()
-    if found is None:
+    resumed = file.resumed()
+    if resumed is None:
         path.unlink(missing_ok=True)
-        progress(0, motion.course.steps, "before the motion")
-        _begin(file, contact)
-        found = file.resumed()
-        assert found is not None
-    done, history = found
-    progress(done, motion.course.steps, "in time")
+        progress(0, contact.schedule.steps, "before the motion")
+        _begin(file, solver)
+        resumed = file.resumed()
+        assert resumed is not None
+    done, history = resumed
+    progress(done, contact.schedule.steps, "in time")
     started, rows = time.perf_counter(), list[Row]()
-    recorded = set(motion.course.recorded.tolist())
-    for step, latest in contact.run(history, done):
-        rows.append(Row.of(contact, latest))
+    recorded = set(contact.schedule.recorded.tolist())
+    for step, latest in solver.run(history, done):
+        rows.append(Row.of(solver, latest))
         if step in recorded:
-            snapshot = contact.snapshot(latest.now)
+            snapshot = solver.snapshot(latest.now)
             since, started = started, time.perf_counter()
-            file.append(rows, step, snapshot, latest, started - since)
+            file.append(Record(step, rows, snapshot, latest, started - since))
             rows = []
-            progress(step, motion.course.steps, "in time")
+            progress(step, contact.schedule.steps, "in time")
     return path
 
 
-def _begin(file: MotionFile, contact: MovingContact) -> None:
-    """The film before the motion as the first instant, beside the roughness held still."""
-    motion, started = contact.motion, time.perf_counter()
-    still = solve(motion.case.replace(motion=None), beside_smooth=False)
-    history = contact.start()
-    first = contact.snapshot(history.now)
+def _begin(file: MotionFile, solver: TransientSolver) -> None:
+    """Write the film before the motion as the first instant, with the film of stationary roughness."""
+    contact, started = solver.contact, time.perf_counter()
+    still = solve(contact.case.replace(motion=None), beside_smooth=False)
+    history = solver.start()
+    first = solver.snapshot(history.now)
     attributes = {
-        "title": motion.case.title,
-        "case": motion.case.to_toml(),
+        "title": contact.case.title,
+        "case": contact.case.to_toml(),
         "version": __version__,
-        "date": datetime.now(UTC).isoformat(timespec="seconds"),
+        "date": now(),
         "stationary": json.dumps(plain(_numbers(still))),
-        "rough": described(motion),
+        "rough": described(contact),
         "seconds": 0.0,
     }
-    attributes |= as_attributes(_warnings(motion, still))
-    file.create(first, attributes | _moments(motion), _maps(still))
-    file.append([Row.of(contact, history)], 0, first, history, time.perf_counter() - started)
+    attributes |= as_attributes(_warnings(contact, still))
+    file.create(first, attributes | contact.schedule.moments(), _maps(contact, still))
+    file.append(Record(0, [Row.of(solver, history)], first, history, time.perf_counter() - started))
 
 
-def _moments(motion: Motion) -> dict[str, float]:
-    """Times that figures mark [s], those that come."""
-    moments = {"covered_from": motion.covered, "coincident": motion.coincident}
-    return {name: time * motion.course.time for name, time in moments.items() if math.isfinite(time)}
-
-
-def _maps(still: Result | PointResult) -> dict[str, Array]:
-    """Film and field of the roughness held still; nothing where it was not solved."""
+def _maps(contact: TransientContact, still: Result | PointResult) -> dict[str, Array]:
+    """Film and field of stationary roughness over its nodes; empty where the film is not converged."""
     if not still.converged:
         return {}
     film = still.film
-    strength = column_strength(film, still.field)
+    strength = contact.kind.column_strength(film, still.field)
     return {"pressure": film.pressure, "thickness": film.thickness, "strength": strength}
 
 
 def _numbers(still: Result | PointResult) -> dict[str, Any] | None:
+    """Results with stationary roughness, as in summary.json; None where the film is not converged."""
     if not still.converged:
         return None
     return {
@@ -149,22 +208,10 @@ def _numbers(still: Result | PointResult) -> dict[str, Any] | None:
     }
 
 
-def _warnings(motion: Motion, still: Result | PointResult) -> Iterator[ResultWarning]:
-    """Warnings of a run that are known before its first step."""
-    case, given = motion.reached, motion.conditions
-    if isinstance(given, PointConditions):
-        yield from point_case_warnings(motion.case, given)
-        maps = [surface for surface in motion.rough if isinstance(surface, RoughMap)]
-        grid = spacings(motion.case, given)
-        yield from map_surface_warnings(case.roughness, maps, domain_of(case, given), *grid)
-    else:
-        assert isinstance(given, Conditions)
-        yield from line_case_warnings(motion.case, given)
-        lines = [surface for surface in motion.rough if isinstance(surface, RoughSurface)]
-        yield from profile_surface_warnings(
-            case.roughness, lines, line_domain_of(case, given), spacing(case, given)
-        )
-    yield from _unlike(motion, still)
+def _warnings(contact: TransientContact, still: Result | PointResult) -> Iterator[ResultWarning]:
+    """Warnings about the case, its surfaces and the film with stationary roughness."""
+    yield from contact.kind.warnings(contact.case, contact.travelled, contact.conditions, contact.roughness)
+    yield from _unlike(contact, still)
     if not still.converged:
         text = f"the same roughness held still is not solved: {still.film.status}"
         yield ResultWarning("stationary-not-converged", text)
@@ -173,14 +220,17 @@ def _warnings(motion: Motion, still: Result | PointResult) -> Iterator[ResultWar
         yield ResultWarning("stationary-error", text)
 
 
-def _unlike(motion: Motion, still: Result | PointResult) -> Iterator[ResultWarning]:
-    """Warning of moving roughness unlike the stationary one, whose form and Rq are of a shorter surface."""
-    if not np.isfinite(motion.coincident):
+def _unlike(contact: TransientContact, still: Result | PointResult) -> Iterator[ResultWarning]:
+    """Warning that the moving roughness differs from the stationary one.
+
+    Moving roughness is made or read over a longer distance, from which form and Rq are then determined.
+    """
+    coincident = contact.schedule.coincident
+    if not np.isfinite(coincident):
         return
-    film, b = still.film, motion.half_width
-    axes = (film.x / b, film.y / b) if isinstance(film, PointFilm) else (film.x / b,)
+    axes = [position / contact.half_width for position in contact.kind.positions(still.film)]
     inside = np.abs(axes[0]) <= 1.0
-    away = (motion.heights(motion.coincident, *axes) - still.roughness)[:, inside]
+    away = (contact.roughness.heights(coincident, *axes) - still.roughness)[:, inside]
     part = np.max(np.abs(away)) / max(np.max(np.abs(still.roughness[:, inside])), ATOM)
     if part > _ALIKE:
         yield ResultWarning(

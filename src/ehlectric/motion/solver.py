@@ -1,4 +1,4 @@
-"""Solve a contact whose roughness moves: its film step by step, its field at the instants that are kept."""
+"""Solution of a transient contact: its film step after step, and its field at single instants."""
 
 from __future__ import annotations
 
@@ -10,33 +10,32 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlectric.arrays import Array
-from ehlectric.contact.conditions import Conditions, PointConditions
-from ehlectric.contact.problems import field_problem, point_field_problem
 from ehlectric.errors import ConvergenceError
-from ehlectric.field.line import Field, solve_field
-from ehlectric.field.point import PointField, solve_point_field
+from ehlectric.field.line import Field
+from ehlectric.field.point import PointField
+from ehlectric.film.levels import Level
 from ehlectric.film.line import Film, pressure_of, quiet_solution
 from ehlectric.film.nested import nested_iteration
-from ehlectric.film.point import PointFilm, semi_axis_across
+from ehlectric.film.point import PointFilm
 from ehlectric.film.state import Progress
 from ehlectric.film.unsteady import History, Instant, UnsteadyFilm
-from ehlectric.motion.motion import Motion
+from ehlectric.motion.contact import TransientContact
 
 
 @dataclass(frozen=True)
 class Snapshot:
-    """A contact at one instant, SI units.
+    """Film, roughness and field of a contact at one instant, SI units.
 
     Attributes
     ----------
     time : float
-        [s] since the roughness began to enter.
+        Time since the roughness began to enter [s].
     film : Film or PointFilm
-        As of a contact at rest; its error estimate is None.
+        Film at this instant; it has no error estimate.
     roughness : ndarray, shape (2, nx) or (2, nx, ny)
         Heights of both surfaces at the film's nodes, positive out of the body [m].
     field : Field or PointField
-        Its electric field, which follows the gap at once.
+        Electric field, which follows the gap without delay.
     """
 
     time: float
@@ -45,113 +44,131 @@ class Snapshot:
     field: Field | PointField
 
 
-class MovingContact:
-    """A contact whose roughness moves, as it is solved.
+@dataclass(frozen=True)
+class Extremes:
+    """Smallest film thickness with its place, and largest pressure, at one instant.
+
+    Attributes
+    ----------
+    minimum_thickness : float
+        Smallest film thickness [m].
+    minimum_position : tuple of float
+        Position of the node where the film is thinnest, along each axis [m].
+    max_pressure : float
+        Largest pressure [Pa].
+    """
+
+    minimum_thickness: float
+    minimum_position: tuple[float, ...]
+    max_pressure: float
+
+
+class TransientSolver:
+    """Solver of a contact with moving roughness.
 
     Parameters
     ----------
-    motion : Motion
-        What moves.
+    contact : TransientContact
+        The contact.
     """
 
-    def __init__(self, motion: Motion) -> None:
-        self.motion = motion
-        self._film = UnsteadyFilm(motion.problem, motion.moving_gap)
+    def __init__(self, contact: TransientContact) -> None:
+        self.contact = contact
+        self._film = UnsteadyFilm(contact.problem, contact.moving_gap)
 
     def start(self, progress: Progress | None = None) -> History:
-        """The film before anything that moves has come, from which all begins.
+        """Stationary film before any moving roughness has entered, from which the run begins.
 
         Raises
         ------
         ConvergenceError
-            Where it is not found.
+            Where the stationary film is not converged.
         """
         with quiet_solution():
-            steady = nested_iteration(self.motion.problem, progress)[-1]
+            steady = nested_iteration(self.contact.problem, progress)[-1]
         if steady.status != "converged":
             raise ConvergenceError(f"film before the motion {steady.status}")
-        return self._film.start(steady, self.motion.course.step)
+        return self._film.start(steady, self.contact.schedule.step)
 
     def run(self, history: History, done: int = 0) -> Iterator[tuple[int, History]]:
-        """Step after step, from one that is done to the last.
+        """Time steps, from the one after ``done`` to the last.
+
+        Parameters
+        ----------
+        history : History
+            Film after step ``done``.
+        done : int
+            Number of the last step that is solved.
 
         Yields
         ------
         int, History
-            The number of the step, and the film then.
+            Number of a step, and the film after it.
 
         Raises
         ------
         ConvergenceError
-            Where a step is not solved, however often it is halved.
+            Where a step is not solved although it was halved several times.
         """
-        for step in range(done + 1, self.motion.course.steps + 1):
+        schedule = self.contact.schedule
+        for step in range(done + 1, schedule.steps + 1):
             with quiet_solution():
                 try:
-                    history = self._film.advance(history, self.motion.course.step)
+                    history = self._film.advance(history, schedule.step)
                 except ConvergenceError as error:
-                    raise ConvergenceError(f"step {step} of {self.motion.course.steps}: {error}") from None
+                    raise ConvergenceError(f"step {step} of {schedule.steps}: {error}") from None
             yield step, history
 
     def snapshot(self, instant: Instant) -> Snapshot:
-        """Film and field at an instant."""
-        conditions = self.motion.conditions
+        """Film, roughness and field at an instant."""
+        contact, kind = self.contact, self.contact.kind
         film = self.film(instant)
-        b = self.motion.half_width
-        axes = (film.x / b, film.y / b) if isinstance(film, PointFilm) else (film.x / b,)
-        roughness = self.motion.heights(instant.time, *axes)
-        field: Field | PointField
-        if isinstance(conditions, PointConditions):
-            assert isinstance(film, PointFilm)
-            field = solve_point_field(point_field_problem(self.motion.case, conditions, film, roughness))
-            field = field.mirrored() if field.y[0] == 0.0 else field
-        else:
-            assert isinstance(conditions, Conditions)
-            field = solve_field(field_problem(self.motion.case, conditions, film, roughness))
-        return Snapshot(instant.time * self.motion.course.time, film, roughness, field)
+        axes = [position / contact.half_width for position in kind.positions(film)]
+        roughness = contact.roughness.heights(instant.time, *axes)
+        field = kind.solve_field(contact.case, contact.conditions, film, roughness)
+        return Snapshot(instant.time * contact.schedule.time, film, roughness, field)
 
-    def extremes(self, instant: Instant) -> tuple[float, tuple[float, ...], float]:
-        """Smallest film thickness [m] with its place [m], and the largest pressure [Pa], without the rest."""
-        mesh, scales = self._film.level.mesh, self.motion.problem.scales
-        thickness = self._shaped(scales.thickness * instant.state.thickness)
+    def extremes(self, instant: Instant) -> Extremes:
+        """Smallest film thickness and largest pressure, without the deflection that a film needs."""
+        mesh, scales = self._film.level.mesh, self.contact.problem.scales
+        thickness = self.contact.kind.shaped(mesh, scales.thickness * instant.state.thickness)
         place = np.unravel_index(int(np.argmin(thickness)), thickness.shape)
         axes = (scales.length * mesh.x, scales.length * mesh.whole_y)[: thickness.ndim]
-        highest = np.max(pressure_of(scales, instant.state, instant.full_film))
-        where = tuple(float(axis[k]) for axis, k in zip(axes, place, strict=True))
-        return float(np.min(thickness)), where, float(highest)
-
-    def _shaped(self, values: NDArray[Any]) -> NDArray[Any]:
-        """Values (nx, ny) in the shape that they have in the film."""
-        point = isinstance(self.motion.conditions, PointConditions)
-        return self._film.level.mesh.mirrored(values) if point else values[:, 0]
-
-    def film(self, instant: Instant) -> Film:
-        """The film at an instant in SI units."""
-        level, scales, state = self._film.level, self.motion.problem.scales, instant.state
-        mesh, shaped = level.mesh, self._shaped
-        load = float(np.vdot(level.weights, state.pressure))
-        film: dict[str, Any] = {
-            "x": scales.length * mesh.x,
-            "pressure": shaped(pressure_of(scales, state, instant.full_film)),
-            "thickness": shaped(scales.thickness * state.thickness),
-            "deflection": shaped(scales.thickness * level.deflection(state.pressure)),
-            "density": shaped(instant.density),
-            "cavitated": shaped(~instant.full_film),
-            "reynolds_residual": shaped(np.zeros(mesh.shape)),
-            "scales": scales,
-            "status": "converged",
-            "residual": 0.0,
-            "load_residual": abs(load / level.load - 1.0),
-            "newton_iterations": 0,
-            "steps": (),
-            "discretisation_error": None,
-            "inlet_deficit": 0.0,
-        }
-        if not isinstance(self.motion.conditions, PointConditions):
-            return Film(**film)
-        return PointFilm(
-            **film,
-            y=scales.length * mesh.whole_y,
-            semi_axis_y=semi_axis_across(self.motion.problem),
-            side_deficit=0.0,
+        return Extremes(
+            minimum_thickness=float(np.min(thickness)),
+            minimum_position=tuple(float(axis[k]) for axis, k in zip(axes, place, strict=True)),
+            max_pressure=float(np.max(pressure_of(scales, instant.state, instant.full_film))),
         )
+
+    def film(self, instant: Instant) -> Film | PointFilm:
+        """Film at an instant, SI units."""
+        return film_of(self.contact, self._film.level, instant)
+
+
+def film_of(contact: TransientContact, level: Level, instant: Instant) -> Film | PointFilm:
+    """Film of a contact at an instant on its finest grid, SI units."""
+    scales, state, mesh = contact.problem.scales, instant.state, level.mesh
+
+    def shaped(values: NDArray[Any]) -> NDArray[Any]:
+        return contact.kind.shaped(mesh, values)
+
+    load = float(np.vdot(level.weights, state.pressure))
+    film: dict[str, Any] = {
+        "x": scales.length * mesh.x,
+        "pressure": shaped(pressure_of(scales, state, instant.full_film)),
+        "thickness": shaped(scales.thickness * state.thickness),
+        "deflection": shaped(scales.thickness * level.deflection(state.pressure)),
+        "density": shaped(instant.density),
+        "cavitated": shaped(~instant.full_film),
+        "reynolds_residual": shaped(np.zeros(mesh.shape)),
+        "scales": scales,
+        "status": "converged",
+        "residual": 0.0,
+        "load_residual": abs(load / level.load - 1.0),
+        "newton_iterations": 0,
+        "steps": (),
+        "discretisation_error": None,
+        "inlet_deficit": 0.0,
+    }
+    made: Film | PointFilm = contact.kind.film(film, contact.problem, mesh)
+    return made

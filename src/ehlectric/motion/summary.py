@@ -1,4 +1,4 @@
-"""What a run of moving roughness says: film and field over time, and beside the same roughness held still."""
+"""Summary of a transient run: film and field over time, and compared with stationary roughness."""
 
 from __future__ import annotations
 
@@ -10,11 +10,8 @@ import numpy as np
 from scipy.ndimage import maximum_filter
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.contact.conditions import PointConditions
 from ehlectric.discharge.utilisation import dielectric_strength
 from ehlectric.errors import ResultWarning
-from ehlectric.motion.file import motion_of
-from ehlectric.motion.motion import Motion
 from ehlectric.motion.record import MotionRun
 from ehlectric.runtime.files import plain
 from ehlectric.runtime.stored_warnings import of_attributes, texts_and_codes
@@ -26,43 +23,52 @@ if TYPE_CHECKING:
 SCHEMA = "ehlectric.motion/1"
 QUANTILES = 0.05, 0.5, 0.95
 
-# Steps of time between an instant that is kept and the one at which all lies as the case has it, at the most.
+# Largest distance, in time steps, of the recorded instant that is compared with stationary roughness from the
+# time at which all roughness lies where the case puts it.
 _NEAR = 0.6
 
 
-def counted(dataset: xr.Dataset) -> Mask:
-    """Which instants count, shape (frames,)."""
-    return np.asarray(dataset["frame_time"].values >= MotionRun.of(dataset).settled_from)
+def counted(run: MotionRun) -> Mask:
+    """Recorded instants that count for statistics over time, shape (frames,)."""
+    return np.asarray(run.frame_time >= run.field_history.settled_from)
 
 
 def summary_of(dataset: xr.Dataset) -> dict[str, Any]:
-    """Numbers of a run, nested as summary.json, SI units.
+    """Results of a run, nested as in summary.json, SI units.
+
+    The case is read from the dataset. No file of a surface has to be there.
 
     Parameters
     ----------
     dataset : xarray.Dataset
-        As ``read_motion`` gives it.
+        A run, complete or not, as ``read_motion`` gives it.
 
     Returns
     -------
     dict
-        Statistics over time are of the instants since the roughness has filled the Hertz zone, where it does.
+        Results. Statistics over time count from when the roughness has filled the Hertz zone, or from the
+        start where it never does.
+
+    Raises
+    ------
+    InputError
+        Where the dataset is not a run of moving roughness.
     """
-    motion, attributes = motion_of(dataset), dataset.attrs
+    run, attributes = MotionRun.of(dataset), dataset.attrs
     complete = bool(attributes["complete"])
     found = {
         "schema": SCHEMA,
         "version": str(attributes["version"]),
-        "title": motion.case.title,
+        "title": run.case.title,
         "converged": complete,
-        **texts_and_codes([*of_attributes(attributes), *_halved(dataset)]),
-        "inputs": motion.case.to_dict(),
-        "motion": _course(motion, dataset),
-        "film": _film(dataset),
-        "field": _field(motion, dataset),
-        "discharge": _discharge(motion, dataset),
+        **texts_and_codes([*of_attributes(attributes), *_halved(run)]),
+        "inputs": run.case.to_dict(),
+        "motion": _course(run),
+        "film": _film(run),
+        "field": _field(run),
+        "discharge": _discharge(run),
         "stationary": json.loads(attributes["stationary"]),
-        "beside_stationary": _beside(motion, dataset),
+        "beside_stationary": _beside(run),
         "rough": json.loads(attributes["rough"]),
         "seconds": float(attributes["seconds"]),
     }
@@ -70,8 +76,8 @@ def summary_of(dataset: xr.Dataset) -> dict[str, Any]:
     return summary
 
 
-def _halved(dataset: xr.Dataset) -> Iterator[ResultWarning]:
-    halvings = dataset["halvings"].values
+def _halved(run: MotionRun) -> Iterator[ResultWarning]:
+    halvings = run.dataset["halvings"].values
     if np.any(halvings):
         yield ResultWarning(
             "steps-halved",
@@ -80,9 +86,10 @@ def _halved(dataset: xr.Dataset) -> Iterator[ResultWarning]:
         )
 
 
-def _course(motion: Motion, dataset: xr.Dataset) -> dict[str, Any]:
+def _course(run: MotionRun) -> dict[str, Any]:
+    dataset = run.dataset
     steps = dataset.sizes["step"] - 1
-    return motion.described() | {
+    return run.schedule.described() | {
         "steps_done": steps,
         "frames": dataset.sizes["frame"],
         "newton_per_step": float(dataset["newton_iterations"].values.sum()) / max(steps, 1),
@@ -91,39 +98,37 @@ def _course(motion: Motion, dataset: xr.Dataset) -> dict[str, Any]:
     }
 
 
-def _film(dataset: xr.Dataset) -> dict[str, Any]:
+def _film(run: MotionRun) -> dict[str, Any]:
+    dataset = run.dataset
     thickness, pressure = dataset["minimum_thickness"].values, dataset["max_pressure"].values
     thinnest, highest = int(np.argmin(thickness)), int(np.argmax(pressure))
     time = dataset["time"].values
-    place = [float(dataset[name].values[thinnest]) for name in ("minimum_x", "minimum_y") if name in dataset]
     return {
         "before": thickness[0],
         "minimum_thickness": thickness[thinnest],
         "minimum_time": time[thinnest],
-        "minimum_position": place if len(place) > 1 else place[0],
+        "minimum_position": _position(run, "minimum", thinnest),
         "max_pressure": pressure[highest],
         "max_pressure_time": time[highest],
     }
 
 
-def _field(motion: Motion, dataset: xr.Dataset) -> dict[str, Any]:
+def _field(run: MotionRun) -> dict[str, Any]:
+    dataset, history = run.dataset, run.field_history
     strength, time = dataset["max_strength"].values, dataset["frame_time"].values
     largest = int(np.argmax(strength))
-    names = [name for name in ("max_strength_x", "max_strength_y") if name in dataset]
-    place = [float(dataset[name].values[largest]) for name in names]
-    within = counted(dataset)
-    maxima = local_maxima(dataset, within)
+    within = counted(run)
+    maxima = local_maxima(run, within)
     capacitance = dataset["capacitance"].values[within]
-    run = MotionRun.of(dataset)
     return {
-        "voltage": motion.case.electric.voltage,
+        "voltage": run.case.electric.voltage,
         "before": strength[0],
         "max_strength": strength[largest],
         "max_strength_time": time[largest],
-        "max_strength_position": place if len(place) > 1 else place[0],
+        "max_strength_position": _position(run, "max_strength", largest),
         "max_thin_gap_strength": np.max(dataset["thin_gap_strength"].values),
-        "share_above_90": run.share_high,
-        "time_above_90": run.share_high * run.settled_time,
+        "share_above_90": history.share_near_maximum,
+        "time_above_90": history.share_near_maximum * history.settled_time,
         "local_maxima": maxima.size,
         "local_maxima_quantiles": list(np.quantile(maxima, QUANTILES)) if maxima.size else None,
         "capacitance_mean": np.mean(capacitance),
@@ -132,29 +137,30 @@ def _field(motion: Motion, dataset: xr.Dataset) -> dict[str, Any]:
     }
 
 
-def local_maxima(dataset: xr.Dataset, within: Mask) -> Array:
-    """Field strengths that are larger than those at all nodes beside, within the Hertz zone [V/m].
+def _position(run: MotionRun, name: str, index: int) -> float | list[float]:
+    """Position at an index of the variables ``name_x`` and ``name_y``; a pair in a point contact [m]."""
+    place = [float(run.dataset[f"{name}_{axis}"].values[index]) for axis in run.kind.axes]
+    return place if len(place) > 1 else place[0]
+
+
+def local_maxima(run: MotionRun, within: Mask) -> Array:
+    """Local maxima of the field strength over position, within the Hertz zone.
 
     Parameters
     ----------
-    dataset : xarray.Dataset
-        Of a run.
+    run : MotionRun
+        A run.
     within : ndarray of bool, shape (frames,)
-        Which instants count.
+        Recorded instants that count.
 
     Returns
     -------
     ndarray, shape (n,)
-        Of all those instants together.
+        Field strengths [V/m] that are larger than at all neighbouring nodes, of all those instants together.
     """
-    given = MotionRun.of(dataset).conditions
-    strength = np.nan_to_num(dataset["strength"].values[within], nan=-np.inf)
-    x = dataset["x"].values
-    if isinstance(given, PointConditions):
-        inside = np.hypot(x[:, np.newaxis] / given.semi_axis_x, dataset["y"].values / given.semi_axis_y) < 1.0
-        size: tuple[int, ...] = (1, 3, 3)
-    else:
-        inside, size = np.abs(x) < given.half_width, (1, 3)
+    strength = np.nan_to_num(run.dataset["strength"].values[within], nan=-np.inf)
+    inside = run.kind.in_hertz_zone(run.conditions, *(run.dataset[axis].values for axis in run.kind.axes))
+    size = (1, *(3 for _ in run.kind.axes))
     neighbours = np.ones(size, dtype=bool)
     neighbours[tuple(n // 2 for n in size)] = False
     beside = maximum_filter(strength, footprint=neighbours, mode="constant", cval=-np.inf)
@@ -162,39 +168,44 @@ def local_maxima(dataset: xr.Dataset, within: Mask) -> Array:
     return peaks.astype(float)
 
 
-def _discharge(motion: Motion, dataset: xr.Dataset) -> dict[str, Any] | None:
-    """Least breakdown voltage over time, by a strength that is the same everywhere."""
-    discharge = motion.case.discharge
+def _discharge(run: MotionRun) -> dict[str, Any] | None:
+    """Breakdown voltage over time; None without a dielectric strength that is the same everywhere."""
+    discharge = run.case.discharge
     if discharge is None or discharge.dielectric_strength is None:
         return None
-    voltage = motion.case.electric.voltage
+    voltage = run.case.electric.voltage
     strength = float(dielectric_strength(discharge, np.zeros(1))[0])
+    dataset = run.dataset
     voltages = strength * voltage / dataset["max_strength"].values
     least = int(np.argmin(voltages))
     return {
         "breakdown_voltage": voltages[least],
         "breakdown_time": dataset["frame_time"].values[least],
         "breakdown_voltage_before": voltages[0],
-        "breakdown_voltage_median": np.median(voltages[counted(dataset)]),
+        "breakdown_voltage_median": np.median(voltages[counted(run)]),
         "margin": voltages[least] / voltage,
     }
 
 
-def instant_beside(motion: Motion, dataset: xr.Dataset) -> int | None:
-    """Number of the instant at which all lies as the case has it, None where none was kept near it."""
-    if "stationary_thickness" not in dataset or not np.isfinite(motion.coincident):
+def instant_beside(run: MotionRun) -> int | None:
+    """Number of the recorded instant at which all roughness lies where the case puts it.
+
+    None where no instant is recorded near that time, or the run has no stationary film to compare with.
+    """
+    schedule, dataset = run.schedule, run.dataset
+    if "stationary_thickness" not in dataset or not np.isfinite(schedule.coincident):
         return None
-    away = np.abs(dataset["frame_time"].values - motion.coincident * motion.course.time)
+    away = np.abs(dataset["frame_time"].values - schedule.coincident * schedule.time)
     nearest = int(np.argmin(away))
-    return nearest if away[nearest] <= _NEAR * motion.course.step * motion.course.time else None
+    return nearest if away[nearest] <= _NEAR * schedule.step * schedule.time else None
 
 
-def _beside(motion: Motion, dataset: xr.Dataset) -> dict[str, Any] | None:
-    """The moving roughness over the same held still, where both lie alike, within the Hertz zone."""
-    frame = instant_beside(motion, dataset)
+def _beside(run: MotionRun) -> dict[str, Any] | None:
+    """Differences between moving and stationary roughness where both lie alike, within the Hertz zone."""
+    frame, dataset = instant_beside(run), run.dataset
     if frame is None:
         return None
-    inside = np.abs(dataset["x"].values) < motion.half_width
+    inside = np.abs(dataset["x"].values) < run.conditions.half_width
     found: dict[str, Any] = {"time": dataset["frame_time"].values[frame]}
     for name, which in (("thickness", "minimum"), ("pressure", "maximum"), ("strength", "maximum")):
         moving = dataset[name].values[frame][inside].astype(float)
@@ -205,7 +216,7 @@ def _beside(motion: Motion, dataset: xr.Dataset) -> dict[str, Any] | None:
 
 
 def _compared(name: str, which: str, moving: Array, still: Array) -> dict[str, Any]:
-    """Extremes and differences of the values at the same nodes, None where there are none."""
+    """Extremes and differences of values at the same nodes; None where there are no nodes."""
     extreme = f"{which}_{name}"
     keys = extreme, f"{extreme}_stationary", f"{name}_rms_difference", f"{name}_largest_difference"
     if not moving.size:

@@ -6,7 +6,7 @@ import pytest
 
 from ehlectric import Case, InputError, Sweep, solve
 from ehlectric.commands.check import check_motion, meaning
-from ehlectric.motion.motion import Motion
+from ehlectric.motion.contact import TransientContact
 from tests.helpers.moving_cases import LINE, POINT, moving
 
 TAKES_PASSES = "takes a number, above 0 and at most 10000: lengths of the domain at the mean speed"
@@ -83,7 +83,7 @@ def test_bad_combinations_are_one_line(table, tables, message):
     ("changes", "message"),
     [({"motion.steps": 7}, TOO_FEW), ({"contact.slide_to_roll_ratio": -2.0}, AT_REST)],
 )
-@pytest.mark.parametrize("refuse", [Motion, check_motion, meaning])
+@pytest.mark.parametrize("refuse", [TransientContact.of, check_motion, meaning])
 def test_what_cannot_be_solved_is_refused_by_all_that_look(table, changes, message, refuse):
     with pytest.raises(InputError, match=f"^{re.escape(message)}$"):
         refuse(moving(table, changes))
@@ -91,7 +91,7 @@ def test_what_cannot_be_solved_is_refused_by_all_that_look(table, changes, messa
 
 def test_a_motion_that_is_none():
     with pytest.raises(InputError, match=r"^motion: missing, a case whose roughness moves takes it$"):
-        Motion(moving(changes={"motion": None}))
+        TransientContact.of(moving(changes={"motion": None}))
 
 
 @pytest.mark.parametrize("table", [LINE, POINT], ids=["line", "point"])
@@ -167,7 +167,7 @@ def test_speeds_of_the_surfaces(geometry, first, second):
     given = moving(table, contact=contact | {"speed_1": first, "speed_2": second}, roughness=rough)
     ratio = {"entrainment_speed": 4.0, "slide_to_roll_ratio": (first - second) / 4.0}
     for case in (given, moving(table, contact=contact | ratio, roughness=rough)):
-        motion = Motion(case)
+        motion = TransientContact.of(case).schedule
         assert [motion.speed_of(1), motion.speed_of(2)] == pytest.approx([first / 4.0, second / 4.0])
         # Exactly at rest, not nearly so.
         assert (motion.speed_of(1) == 0.0, motion.speed_of(2) == 0.0) == (first == 0.0, second == 0.0)

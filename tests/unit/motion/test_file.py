@@ -14,11 +14,12 @@ import pytest
 from ehlectric import InputError
 from ehlectric.errors import ConvergenceError
 from ehlectric.film.unsteady import UnsteadyFilm
-from ehlectric.motion.file import MotionFile, column_strength, motion_of
-from ehlectric.motion.motion import Motion
-from ehlectric.motion.record import MOTION, read_motion, saved_steps
+from ehlectric.motion.contact import TransientContact
+from ehlectric.motion.file import MotionFile
+from ehlectric.motion.kinds import LINE
+from ehlectric.motion.record import MOTION, MotionRun, read_motion, saved_steps
 from ehlectric.motion.run import run_motion
-from ehlectric.motion.solver import MovingContact
+from ehlectric.motion.solver import TransientSolver
 from ehlectric.runtime import netcdf as netcdf_files
 from tests.helpers.moving_cases import POINT, moving
 
@@ -99,23 +100,23 @@ def stopped(written, tmp_path):
 @pytest.fixture(scope="module")
 def stepped():
     """The same without a file: instants by their steps."""
-    contact = MovingContact(Motion(CASE))
-    history = contact.start()
-    return contact, {0: history, **dict(contact.run(history))}
+    solver = TransientSolver(TransientContact.of(CASE))
+    history = solver.start()
+    return solver, {0: history, **dict(solver.run(history))}
 
 
 def test_all_steps_and_the_instants_are_there(whole, stepped):
-    contact, histories = stepped
-    motion = contact.motion
+    solver, histories = stepped
+    contact = solver.contact
     assert dict(whole.sizes) == {"x": 65, "step": 13, "frame": 4}
     assert whole["frame_step"].values.tolist() == [0, 4, 8, 12]
     # T = 0.375 passes of six half-widths, b/u each.
-    times = np.linspace(0.0, 2.25, 13) * motion.course.time
+    times = np.linspace(0.0, 2.25, 13) * contact.schedule.time
     np.testing.assert_allclose(whole["time"], times, rtol=1e-12)
     np.testing.assert_allclose(whole["frame_time"], times[::4], rtol=1e-12)
-    np.testing.assert_allclose(whole["x"], np.linspace(-4.0, 2.0, 65) * motion.half_width, rtol=1e-12)
+    np.testing.assert_allclose(whole["x"], np.linspace(-4.0, 2.0, 65) * contact.half_width, rtol=1e-12)
     for step, history in histories.items():
-        film, row = contact.film(history.now), whole.isel(step=step)
+        film, row = solver.film(history.now), whole.isel(step=step)
         assert row["minimum_thickness"] == np.min(film.thickness)
         assert row["minimum_x"] == film.x[np.argmin(film.thickness)]
         assert row["max_pressure"] == np.max(film.pressure)
@@ -127,14 +128,15 @@ def test_all_steps_and_the_instants_are_there(whole, stepped):
 
 
 def test_maps_are_those_of_the_instants_within_single_precision(whole, stepped):
-    contact, histories = stepped
+    solver, histories = stepped
+    contact = solver.contact
     for frame, step in enumerate([0, 4, 8, 12]):
-        shot = contact.snapshot(histories[step].now)
+        shot = solver.snapshot(histories[step].now)
         film, field, row = shot.film, shot.field, whole.isel(frame=frame)
         expected = {
             "pressure": film.pressure,
             "thickness": film.thickness,
-            "strength": column_strength(film, field),
+            "strength": LINE.column_strength(film, field),
             "roughness_1": shot.roughness[0],
             "roughness_2": shot.roughness[1],
         }
@@ -146,11 +148,9 @@ def test_maps_are_those_of_the_instants_within_single_precision(whole, stepped):
         assert row["max_strength"] == field.max_strength
         assert row["max_strength_x"] == field.max_strength_position
         assert row["capacitance"] == field.capacitance
-        np.testing.assert_array_equal(
-            np.isnan(row["strength"]), abs(whole["x"]) > 1.25 * contact.motion.half_width
-        )
+        np.testing.assert_array_equal(np.isnan(row["strength"]), abs(whole["x"]) > 1.25 * contact.half_width)
     # Behind the exit at ambient pressure, 0.1 MPa; in the Hertz zone full.
-    cavitated, x = whole["cavitated"].values.astype(bool), whole["x"].values / contact.motion.half_width
+    cavitated, x = whole["cavitated"].values.astype(bool), whole["x"].values / contact.half_width
     assert np.all(cavitated[:, x > 1.5])
     assert not np.any(cavitated[:, np.abs(x) < 0.9])
     np.testing.assert_allclose(whole["pressure"].values[cavitated], 1e5, rtol=1e-6)
@@ -166,7 +166,7 @@ def test_everything_has_its_name_and_unit(whole):
     assert units["strength"] == units["stationary_strength"] == units["max_strength"] == "V/m"
     assert units["pressure"] == units["stationary_pressure"] == "Pa"
     assert units["x"] == units["minimum_x"] == units["thickness"] == units["roughness_1"] == "m"
-    assert motion_of(whole).case == CASE
+    assert MotionRun.of(whole).case == CASE
     assert (whole.attrs["complete"], whole.attrs["frames"]) == (1, 4)
     assert whole.attrs["seconds"] > 0.0
 
@@ -177,7 +177,7 @@ def test_the_held_roughness_is_that_of_the_case(whole):
     still = solve(CASE.replace(motion=None))
     np.testing.assert_array_equal(whole["stationary_thickness"], still.film.thickness)
     np.testing.assert_array_equal(whole["stationary_pressure"], still.film.pressure)
-    np.testing.assert_array_equal(whole["stationary_strength"], column_strength(still.film, still.field))
+    np.testing.assert_array_equal(whole["stationary_strength"], LINE.column_strength(still.film, still.field))
 
 
 @pytest.mark.parametrize("until", [pytest.param(0, marks=pytest.mark.slow), 4, 8])
@@ -234,7 +234,7 @@ def changed(path, change):
 
 def found(path, case):
     """What a run of a case would go on from."""
-    return MotionFile(path, MovingContact(Motion(case))).resumed()
+    return MotionFile(path, TransientContact.of(case)).resumed()
 
 
 def spoil(name):
@@ -289,7 +289,7 @@ def test_another_case_is_solved_in_the_place_of_the_first(tmp_path, stopped):
     other = CASE.replace({"electric.potential_2": 3.0})
     assert run(other, tmp_path, 0) == ANEW[:2]
     replaced = read_motion(tmp_path)
-    assert motion_of(replaced).case == other
+    assert MotionRun.of(replaced).case == other
     assert dict(replaced.sizes) == {"x": 65, "step": 1, "frame": 1}
 
 
@@ -405,7 +405,7 @@ def test_roughness_that_is_another_one_held_still_is_said(tmp_path):
 
 def test_warnings_are_of_the_grid_of_the_case(tmp_path):
     """Eight intervals in a wave: as many as resolve it, however far it travels."""
-    wave = 8.0 * 6.0 / 64.0 * Motion(CASE).half_width
+    wave = 8.0 * 6.0 / 64.0 * TransientContact.of(CASE).half_width
     rough = {"surface": 1, "generator": "sinusoid", "amplitude": 1e-9, "wavelength": 1.001 * wave}
     motion = {"passes": 3.0, "steps": 24, "record": 2}
     run(moving(roughness=[rough], motion=motion), tmp_path, 0)
@@ -427,9 +427,9 @@ def test_a_point_contact(tmp_path, beside):
     assert told == [of_step(2, 4), of_step(4, 4)]
     shown = read_motion(tmp_path)
     assert dict(shown.sizes) == {"x": 65, "y": 65, "step": 5, "frame": 3}
-    motion = Motion(case)
-    assert motion.problem.width.symmetric == (beside == 0.0)
-    a = motion.half_width
+    contact = TransientContact.of(case)
+    assert contact.problem.width.symmetric == (beside == 0.0)
+    a = contact.half_width
     np.testing.assert_allclose(shown["y"], np.linspace(-3.0, 3.0, 65) * a, rtol=1e-12, atol=1e-18)
     assert shown["capacitance"].attrs["units"] == "F"
     thickness, pressure = shown["thickness"].values, shown["pressure"].values
@@ -440,8 +440,8 @@ def test_a_point_contact(tmp_path, beside):
     np.testing.assert_allclose(np.sum(pressure * weights, axis=(1, 2)), 20.0, rtol=2e-2)
     for frame in range(3):
         depth = shown["roughness_1"].values[frame]
-        at = shown["frame_time"].values[frame] / motion.course.time
-        expected = motion.heights(at, shown["x"].values / a, shown["y"].values / a)[0]
+        at = shown["frame_time"].values[frame] / contact.schedule.time
+        expected = contact.roughness.heights(at, shown["x"].values / a, shown["y"].values / a)[0]
         np.testing.assert_allclose(depth, expected, rtol=1e-6, atol=1e-20)
     least = shown.isel(step=-1)
     last = thickness[-1]
@@ -550,9 +550,9 @@ def test_only_what_is_new_is_written(tmp_path, monkeypatch, stopped):
     stopped(0)
     append, written = MotionFile.append, []
 
-    def counted(self, rows, step, *others):
-        written.append((len(rows), step))
-        append(self, rows, step, *others)
+    def counted(self, record):
+        written.append((len(record.rows), record.step))
+        append(self, record)
 
     monkeypatch.setattr(MotionFile, "append", counted)
     run(CASE, tmp_path)

@@ -1,16 +1,30 @@
 """What is said of a run: statistics of made-up fields against values by hand, and JSON without a NaN."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
 import xarray as xr
 
-from ehlectric.motion.motion import Motion
-from ehlectric.motion.record import read_motion, time_above
+from ehlectric import Case
+from ehlectric.contact.conditions import resolve, resolve_point
+from ehlectric.figures.motion.save import save_motion_figures
+from ehlectric.figures.names import MOTION_FIGURE_FILES
+from ehlectric.motion import kinds, schedule
+from ehlectric.motion.field_history import time_above
+from ehlectric.motion.record import MotionRun, read_motion
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.summary import SCHEMA, counted, instant_beside, local_maxima, summary_of
 from tests.helpers.moving_cases import LINE, POINT, moving
+
+
+def conditions_of(case):
+    return resolve_point(case) if case.contact.geometry == "point" else resolve(case)
+
+
+def schedule_of(case):
+    return schedule.schedule_of(case, conditions_of(case))
 
 
 def made(case, *, times, x=None, y=None, frame_times=None, complete=True, stationary=None, **values):
@@ -18,8 +32,8 @@ def made(case, *, times, x=None, y=None, frame_times=None, complete=True, statio
 
     Positions in half-widths; ``steps_`` before a name gives those of all steps.
     """
-    motion = Motion(case)
-    scale, b = motion.course.time, motion.half_width
+    times_of, b = schedule_of(case), conditions_of(case).half_width
+    scale = times_of.time
     times = np.asarray(times, dtype=float)
     frame_times = times if frame_times is None else np.asarray(frame_times, dtype=float)
     x = np.linspace(-4.0, 2.0, 7) if x is None else np.asarray(x, dtype=float)
@@ -54,7 +68,7 @@ def made(case, *, times, x=None, y=None, frame_times=None, complete=True, statio
         "stationary": json.dumps({"minimum_thickness": 3e-7} if stationary else None),
         "rough": "[]",
         "seconds": 2.5,
-        "covered_from": motion.covered * scale,
+        "covered_from": times_of.covered * scale,
     }
     return xr.Dataset(found, {name: b * axis for name, axis in axes.items()}, attributes)
 
@@ -91,12 +105,12 @@ POINT_CASE = moving(POINT, motion={"passes": 2.0})
 
 def test_instants_count_from_when_the_contact_is_covered():
     times = np.array([0.0, 3.0, 5.9, 6.01, 9.0, 12.0])
-    assert counted(made(CASE, times=times)).tolist() == [False, False, False, True, True, True]
+    assert counted(MotionRun.of(made(CASE, times=times))).tolist() == [False, False, False, True, True, True]
     # Fewer than two are no statistics, nor where it is never covered: then all count.
-    assert counted(made(CASE, times=times[:4])).tolist() == [True] * 4
-    assert counted(made(CASE, times=times[:5])).tolist() == [False, False, False, True, True]
+    assert counted(MotionRun.of(made(CASE, times=times[:4]))).tolist() == [True] * 4
+    assert counted(MotionRun.of(made(CASE, times=times[:5]))).tolist() == [False, False, False, True, True]
     short = moving(LINE, motion={"passes": 0.9})
-    assert counted(made(short, times=[0.0, 5.0])).tolist() == [True, True]
+    assert counted(MotionRun.of(made(short, times=[0.0, 5.0]))).tolist() == [True, True]
 
 
 def test_local_maxima_of_a_line():
@@ -109,16 +123,16 @@ def test_local_maxima_of_a_line():
     hidden = [99.0] * 13
     strength = np.array([first, hidden, second])
     dataset = made(CASE, times=[0.0, 1.0, 2.0], x=x, strength=strength)
-    found = local_maxima(dataset, np.array([True, False, True]))
+    found = local_maxima(MotionRun.of(dataset), np.array([True, False, True]))
     # Not the plateau of two 4.0, nor 9.0 and 3.0 outside.
     assert sorted(found) == [3.0, 5.0, 6.0, 7.0, 8.0]
-    assert local_maxima(dataset, np.array([False, True, False])).size == 0
+    assert local_maxima(MotionRun.of(dataset), np.array([False, True, False])).size == 0
 
 
 def test_a_maximum_beside_the_zone_hides_what_is_lower_in_it():
     x = np.array([-1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5])
     strength = [[1.0, 9.0, 8.0, 1.0, 2.0, 1.0, 5.0]]
-    found = local_maxima(made(CASE, times=[0.0], x=x, strength=strength), np.array([True]))
+    found = local_maxima(MotionRun.of(made(CASE, times=[0.0], x=x, strength=strength)), np.array([True]))
     assert found.tolist() == [2.0]
 
 
@@ -132,25 +146,25 @@ def test_local_maxima_of_a_point_look_at_eight_neighbours():
     strength[0, 0, 0] = 9.0  # a corner, outside the circle
     strength[0, 5, 5] = 8.0  # hypot(0.8, 0.8) is outside too
     dataset = made(POINT_CASE, times=[0.0], x=x, y=y, strength=strength)
-    assert sorted(local_maxima(dataset, np.array([True]))) == [5.0, 6.0]
+    assert sorted(local_maxima(MotionRun.of(dataset), np.array([True]))) == [5.0, 6.0]
     # Each instant for itself: a higher one before hides nothing.
     both = made(POINT_CASE, times=[0.0, 1.0], x=x, y=y, strength=np.concatenate([10.0 * strength, strength]))
-    assert sorted(local_maxima(both, np.array([True, True]))) == [5.0, 6.0, 50.0, 60.0]
+    assert sorted(local_maxima(MotionRun.of(both), np.array([True, True]))) == [5.0, 6.0, 50.0, 60.0]
 
 
 def test_the_zone_of_an_ellipse_is_its_own():
     """The radius across is five times that along: the semi-axis across is longer, and places in it count."""
     wide = {"radius_x": "10 mm", "radius_y": "50 mm"}
     case = moving(POINT, contact=POINT["contact"] | wide, grid={"nodes": 65, "nodes_y": 65})
-    motion = Motion(case)
-    ratio = motion.conditions.semi_axis_y / motion.half_width
+    conditions = resolve_point(case)
+    ratio = conditions.semi_axis_y / conditions.half_width
     assert 2.0 < ratio < 5.0
     y = np.array([-1.1, -0.9, 0.0, 0.9, 1.1]) * ratio
     strength = np.ones((1, 3, 5))
     strength[0, 1, 1] = 5.0
     strength[0, 1, 4] = 6.0
     dataset = made(case, times=[0.0], x=[-0.5, 0.0, 0.5], y=y, strength=strength)
-    assert local_maxima(dataset, np.array([True])).tolist() == [5.0]
+    assert local_maxima(MotionRun.of(dataset), np.array([True])).tolist() == [5.0]
 
 
 def test_quantiles_of_local_maxima_and_the_time_above_90_percent():
@@ -171,7 +185,7 @@ def test_quantiles_of_local_maxima_and_the_time_above_90_percent():
         thin_gap_strength=[1.0, 40.0, 2.0],
     )
     field = summary_of(dataset)["field"]
-    scale = Motion(CASE).course.time
+    scale = schedule_of(CASE).time
     assert field["local_maxima"] == 21
     assert field["local_maxima_quantiles"] == pytest.approx([2.0, 11.0, 20.0])
     assert field["share_above_90"] == pytest.approx(0.2)
@@ -201,7 +215,7 @@ def test_film_over_time():
         minimum_x=[1e-5, 2e-5, 3e-5, 4e-5],
         max_pressure=[1e9, 5e9, 3e9, 4e9],
     )
-    scale = Motion(CASE).course.time
+    scale = schedule_of(CASE).time
     assert summary_of(dataset)["film"] == {
         "before": 4e-7,
         "minimum_thickness": 1e-7,
@@ -241,7 +255,7 @@ def test_the_course_and_what_it_took():
         complete=False,
     )
     summary = summary_of(dataset)
-    scale = Motion(case).course.time
+    scale = schedule_of(case).time
     assert summary["motion"] == {
         "duration": pytest.approx(12.0 * scale),
         "steps": 64,
@@ -274,7 +288,7 @@ def test_breakdown_over_time():
     found = summary_of(made(case, times=times, max_strength=strength))["discharge"]
     assert found == {
         "breakdown_voltage": pytest.approx(5.0),
-        "breakdown_time": pytest.approx(2.0 * Motion(case).course.time),
+        "breakdown_time": pytest.approx(2.0 * schedule_of(case).time),
         "breakdown_voltage_before": pytest.approx(8.0),
         # Of 10, 12 and 15 V, since the contact is covered.
         "breakdown_voltage_median": pytest.approx(12.0),
@@ -309,7 +323,7 @@ def beside(**changes):
 def test_beside_the_same_roughness_held_still():
     found = summary_of(beside())["beside_stationary"]
     assert found == {
-        "time": pytest.approx(6.0 * Motion(CASE).course.time),
+        "time": pytest.approx(6.0 * schedule_of(CASE).time),
         "minimum_thickness": 2.0,
         "minimum_thickness_stationary": 3.0,
         "thickness_rms_difference": pytest.approx(np.sqrt((2.0**2 + 0.5**2) / 2.0)),
@@ -337,13 +351,12 @@ def test_a_field_range_beside_the_hertz_zone_leaves_its_strength_out():
 
 
 def test_what_was_kept_near_the_time_at_which_all_lies_alike():
-    motion = Motion(CASE)
-    step = motion.course.step
+    step = schedule_of(CASE).step
     for away, number in ((0.0, 1), (0.5, 1), (-0.5, 1), (0.7, None), (-0.7, None)):
         dataset = made(CASE, times=[0.0, 6.0 + away * step, 12.0], x=X, stationary=HELD)
-        assert instant_beside(motion, dataset) == number
+        assert instant_beside(MotionRun.of(dataset)) == number
     # Not held still, or never alike.
-    assert instant_beside(motion, made(CASE, times=[0.0, 6.0, 12.0])) is None
+    assert instant_beside(MotionRun.of(made(CASE, times=[0.0, 6.0, 12.0]))) is None
     sliding = moving(
         LINE,
         {"contact.slide_to_roll_ratio": 1.0},
@@ -351,7 +364,7 @@ def test_what_was_kept_near_the_time_at_which_all_lies_alike():
         motion={"passes": 2.0},
     )
     dataset = made(sliding, times=[0.0, 6.0, 12.0], x=X, stationary=HELD)
-    assert instant_beside(Motion(sliding), dataset) is None
+    assert instant_beside(MotionRun.of(dataset)) is None
     assert summary_of(dataset)["beside_stationary"] is None
 
 
@@ -390,3 +403,38 @@ def test_a_run_is_told_as_it_was_solved(tmp_path):
     assert held["capacitance"] == pytest.approx(summary["field"]["capacitance_mean"], rel=0.1)
     assert summary["film"]["before"] == dataset["minimum_thickness"].values[0]
     assert [surface["surface"] for surface in summary["rough"]] == [1]
+
+
+@pytest.mark.parametrize("table", [LINE, POINT], ids=["line", "point"])
+def test_a_stored_run_needs_no_surface_file(tmp_path, table):
+    """Reading, summary and figures work after the file of the profile is deleted."""
+    profile = tmp_path / "profile.csv"
+    x = 5e-6 * np.arange(400)
+    np.savetxt(profile, np.column_stack([x, 1e-8 * np.sin(x / 3e-5)]), delimiter=",")
+    rough = {"surface": 1, "file": str(profile), "x_unit": "m", "z_unit": "m"}
+    case = moving(table, roughness=[rough], motion={"passes": 0.25, "steps": 2, "record": 2})
+    run_motion(case, tmp_path)
+    before = summary_of(read_motion(tmp_path))
+    assert before["motion"]["steps_done"] == 2
+    profile.unlink()
+    dataset = read_motion(tmp_path)
+    assert summary_of(dataset) == before
+    assert [file.name for file in save_motion_figures(dataset, tmp_path)] == list(MOTION_FIGURE_FILES[:2])
+
+
+def test_a_summary_parses_and_resolves_its_case_once(monkeypatch):
+    dataset, calls = beside(), []
+    parse, resolves = Case.from_dict.__func__, kinds.LINE.resolve
+
+    def parsed(cls, *values):
+        calls.append("parsed")
+        return parse(cls, *values)
+
+    def resolved(case):
+        calls.append("resolved")
+        return resolves(case)
+
+    monkeypatch.setattr(Case, "from_dict", classmethod(parsed))
+    monkeypatch.setitem(kinds.KINDS, "line", replace(kinds.LINE, resolve=resolved))
+    assert summary_of(dataset)["beside_stationary"] is not None
+    assert calls == ["parsed", "resolved"]

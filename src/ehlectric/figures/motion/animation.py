@@ -1,4 +1,4 @@
-"""Roughness that moves through a contact as an animation, one recorded instant after the other."""
+"""Animation of a transient contact, one recorded instant after the other."""
 
 from __future__ import annotations
 
@@ -24,13 +24,17 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-# Instants a second: a GIF holds hundredths of a second, and viewers slow down what is faster than this.
+# Bounds of the instants shown per second: a GIF holds durations in hundredths of a second, and viewers slow
+# down what is faster than 50.
 _SLOWEST, _FASTEST = 0.1, 50.0
 
-# Colours of a GIF of maps that lines and letters have.
+# Colours of the palette that are reserved for lines and letters where a GIF shows maps.
 _GREYS = 24
 
-# Called with the number of frames that are done and of all.
+# Frames of a run by its kind of contact.
+_FRAMES = {"line": line_frames, "point": map_frames}
+
+# Called with the number of frames drawn and the number of all frames.
 Progress = Callable[[int, int], None]
 
 
@@ -42,26 +46,26 @@ def save_animation(
     dpi: int = 110,
     progress: Progress | None = None,
 ) -> None:
-    """Draw the recorded instants of roughness that moves as an animation.
+    """Draw the recorded instants of a transient run as an animation.
 
     Parameters
     ----------
     dataset : xarray.Dataset
-        As a run was stored, whether it is complete or not.
+        A run, complete or not, as ``read_motion`` gives it.
     path : str or Path
-        A .gif, or an .mp4, which takes ffmpeg.
+        File to write: a .gif, or an .mp4, for which ffmpeg must be installed.
     fps : float
-        Instants a second, from 0.1 to 50.
+        Instants per second, from 0.1 to 50.
     dpi : int
-        Pixels of an inch: a line contact is 6.3 by 7.2 of them.
+        Pixels per inch; the figure of a line contact is 6.3 by 7.2 inches.
     progress : callable, optional
-        Called with the number of frames that are drawn and of all.
+        Called with the number of frames drawn and the number of all frames.
 
     Raises
     ------
     InputError
-        Where the file has another suffix, ffmpeg is needed and not there or fails, the dataset is no such
-        run, or the instants a second are out of range.
+        Where the file has another suffix, ffmpeg is needed but missing or fails, the dataset is not a run of
+        moving roughness, or ``fps`` is out of range.
     """
     path = Path(path)
     if not _SLOWEST <= fps <= _FASTEST:
@@ -70,9 +74,9 @@ def save_animation(
     refuse_special(path)
     run = MotionRun.of(dataset)
     with style():
-        drawn = map_frames(run) if run.point else line_frames(run)
+        drawn = _FRAMES[run.kind.name](run)
         drawn.figure.set_dpi(dpi)
-        # Numbers on the axes that come and go must not shift the panels.
+        # Without a fixed layout, tick labels that appear and disappear would shift the panels.
         drawn.figure.draw_without_rendering()
         drawn.figure.set_layout_engine("none")
         with whole(path) as beside:
@@ -83,7 +87,7 @@ def save_animation(
 
 
 def _instants(drawn: Frames, frames: int, progress: Progress | None) -> Iterator[Frames]:
-    """What is drawn, with an instant after the other."""
+    """The drawn frames, showing one instant after the other."""
     for frame in range(frames):
         drawn.show(frame)
         yield drawn
@@ -105,10 +109,10 @@ def _writer(path: Path) -> Callable[[Path, Iterator[Frames], float], None]:
 
 
 def _write_gif(path: Path, instants: Iterator[Frames], fps: float) -> None:
-    # In 256 colours, one after the other: matplotlib's own writer keeps all of them in full.
+    # Each image is reduced to 256 colours at once: matplotlib's own writer keeps all images in full colour.
     images = (_image(drawn) for drawn in instants)
     duration = round(1000.0 / fps)
-    # A file of its own would stay open where one of the images is not made.
+    # A file that Pillow opens itself would stay open where drawing an image fails.
     with path.open("wb") as file:
         next(images).save(file, "GIF", save_all=True, append_images=images, duration=duration, loop=0)
 
@@ -121,12 +125,12 @@ def _image(drawn: Frames) -> Image.Image:
     image = Image.fromarray(pixels).convert("RGB")
     if not drawn.colours:
         return image.quantize(256)
-    # Of the colours of a map few are left otherwise, and others from one instant to the next.
+    # A palette made for each image would have few colours of a map, and different ones at each instant.
     return image.quantize(palette=_palette(drawn.colours), dither=Image.Dither.NONE)
 
 
 def _palette(colours: tuple[str, ...]) -> Image.Image:
-    """An image whose 256 colours are those of colour maps, and greys for lines and letters."""
+    """Image with a palette of 256 colours: those of the colour maps, and greys for lines and letters."""
     each = (256 - _GREYS) // len(colours)
     parts = [colormaps[name](np.linspace(0.0, 1.0, each)) for name in colours]
     parts.append(colormaps["gray"](np.linspace(0.0, 1.0, 256 - each * len(colours))))

@@ -1,4 +1,4 @@
-"""Roughness that moves beside the same roughness held still: film, pressure and field along entrainment."""
+"""Moving and stationary roughness compared: film, pressure and field along entrainment."""
 
 from __future__ import annotations
 
@@ -22,26 +22,26 @@ from ehlectric.figures.motion.panels import (
     time_unit,
 )
 from ehlectric.figures.style import BLUE, GREY, ORANGE, axes_or_new, legend_above
-from ehlectric.motion.record import MotionRun
+from ehlectric.motion.record import MotionRun, coincident_frame
 
-# Parts of a half-width that roughness may be from where the case has it without a word.
+# Distance, in half-widths, within which roughness counts as lying where the case puts it.
 _SAME_PLACE = 1e-6
 
 
 def film_beside(run: MotionRun, ax: Axes | None = None) -> Axes:
-    """Film thickness with the roughness moving and held still, and before the motion.
+    """Draw the film thickness with moving and with stationary roughness, and before the motion.
 
     Parameters
     ----------
     run : MotionRun
-        With an instant at which the surfaces lie as the case has them.
+        A run with an instant at which the surfaces lie where the case puts them.
     ax : Axes, optional
-        Where to; new axes otherwise.
+        Axes to draw on; new axes by default.
 
     Returns
     -------
     Axes
-        Of the films in the Hertz zone: those around it are thicker.
+        Axes whose range fits the film in the Hertz zone; around it the film is thicker.
     """
     ax, lines = _three(run, ax, "thickness", film_unit(run), ("film thickness $h$", "least", np.nanmin))
     ax.set_ylim(*fitted(*(in_contact(run, line) for line in lines)))
@@ -49,19 +49,19 @@ def film_beside(run: MotionRun, ax: Axes | None = None) -> Axes:
 
 
 def pressure_beside(run: MotionRun, ax: Axes | None = None) -> Axes:
-    """Pressure with the roughness moving and held still, and before the motion.
+    """Draw the pressure with moving and with stationary roughness, and before the motion.
 
     Parameters
     ----------
     run : MotionRun
-        With an instant at which the surfaces lie as the case has them.
+        A run with an instant at which the surfaces lie where the case puts them.
     ax : Axes, optional
-        Where to; new axes otherwise.
+        Axes to draw on; new axes by default.
 
     Returns
     -------
     Axes
-        From no pressure.
+        Axes whose range begins at zero pressure.
     """
     unit = unit_for(max(_extremes(run, "pressure", np.nanmax)), "Pa")
     ax, lines = _three(run, ax, "pressure", unit, ("pressure $p$", "largest", np.nanmax))
@@ -70,19 +70,19 @@ def pressure_beside(run: MotionRun, ax: Axes | None = None) -> Axes:
 
 
 def field_beside(run: MotionRun, ax: Axes | None = None) -> Axes:
-    """Largest field strength of the column with the roughness moving and held still, and before the motion.
+    """Draw the field strength with moving and with stationary roughness, and before the motion.
 
     Parameters
     ----------
     run : MotionRun
-        With an instant at which the surfaces lie as the case has them.
+        A run with an instant at which the surfaces lie where the case puts them.
     ax : Axes, optional
-        Where to; new axes otherwise.
+        Axes to draw on; new axes by default.
 
     Returns
     -------
     Axes
-        Of the fields in the Hertz zone: those around it are smaller.
+        Axes whose range fits the field in the Hertz zone; around it the field is smaller.
     """
     ax, lines = _three(run, ax, "strength", field_unit(run), ("field $|E|$", "largest", np.nanmax))
     ax.set_ylim(*fitted(*(in_contact(run, line) for line in lines)))
@@ -90,23 +90,23 @@ def field_beside(run: MotionRun, ax: Axes | None = None) -> Axes:
 
 
 def roughness_at(run: MotionRun, frame: int, ax: Axes | None = None, *, unit: Unit | None = None) -> Axes:
-    """Heights of the rough surfaces along entrainment at a recorded instant, peaks up for either.
+    """Draw the heights of the rough surfaces along entrainment at a recorded instant.
 
     Parameters
     ----------
     run : MotionRun
-        What to draw.
+        The run to draw.
     frame : int
-        Which of its instants.
+        Number of the recorded instant.
     ax : Axes, optional
-        Where to; new axes otherwise.
+        Axes to draw on; new axes by default.
     unit : (float, str), optional
-        Factor and unit of the heights; those that suit this instant otherwise.
+        Factor and unit of the heights; by default those that suit this instant.
 
     Returns
     -------
     Axes
-        Of the same range as the film.
+        Axes with the same range of x as those of the film; peaks point up on both surfaces.
     """
     ax = axes_or_new(ax)
     heights = {k: run.along(f"roughness_{k}", frame) for k in run.speeds}
@@ -121,8 +121,8 @@ def roughness_at(run: MotionRun, frame: int, ax: Axes | None = None, *, unit: Un
 
 
 def coincidence_text(run: MotionRun) -> str:
-    """When the surfaces lie as the case has them, and how far they are from it at the instant drawn."""
-    frame = run.coincident_frame
+    """Text: time of the drawn instant, and how far the surfaces are then from where the case puts them."""
+    frame = coincident_frame(run)
     assert frame is not None
     factor, unit = time_unit(run)
     text = f"at t = {factor * run.frame_time[frame]:.4g} {unit}"
@@ -136,8 +136,8 @@ def coincidence_text(run: MotionRun) -> str:
 
 
 def _extremes(run: MotionRun, name: str, of: Callable[[Array], Any]) -> list[float]:
-    """An extreme of a variable on all nodes: moving, held still and before the motion."""
-    frame = run.coincident_frame
+    """Extreme of a variable over all nodes: with moving and stationary roughness, and before the motion."""
+    frame = coincident_frame(run)
     found = [run.dataset[name].isel(frame=frame), run.dataset[f"stationary_{name}"]]
     found.append(run.dataset[name].isel(frame=0))
     return [float(of(values.values)) for values in found]
@@ -150,12 +150,12 @@ def _three(
     unit: Unit,
     said: tuple[str, str, Callable[[Array], Any]],
 ) -> tuple[Axes, list[Array]]:
-    """Lines along entrainment of a variable: moving, held still and before the motion.
+    """Draw a variable along entrainment: with moving and stationary roughness, and before the motion.
 
-    ``said`` is what the axis calls it, and what the legend calls which extreme of it.
+    ``said`` has the label of the axis, the name of an extreme in the legend, and its function.
     """
     ax, (factor, suffix), (label, kind, extreme) = axes_or_new(ax), unit, said
-    lines = [run.along(name, run.coincident_frame), run.along(f"stationary_{name}"), run.along(name, 0)]
+    lines = [run.along(name, coincident_frame(run)), run.along(f"stationary_{name}"), run.along(name, 0)]
     looks = (
         ("moving", f"{kind} ", BLUE, "-"),
         ("held still", "", ORANGE, "--"),

@@ -1,4 +1,4 @@
-"""A contact over time while roughness moves through it: least film, largest field, where they are."""
+"""History of a transient contact: smallest film, largest field strength and their places over time."""
 
 from __future__ import annotations
 
@@ -9,23 +9,24 @@ from matplotlib.lines import Line2D
 from ehlectric.arrays import Array
 from ehlectric.figures.motion.panels import field_unit, film_unit, fitted, time_unit
 from ehlectric.figures.style import BLUE, GREEN, GREY, ORANGE, axes_or_new, legend_above
-from ehlectric.motion.record import HIGH_FIELD, MotionRun, intervals_above
+from ehlectric.motion.field_history import NEAR_MAXIMUM, intervals_above
+from ehlectric.motion.record import MotionRun
 
 
 def least_film(run: MotionRun, ax: Axes | None = None) -> Axes:
-    """Least film thickness at every step, with that before the motion and that of roughness held still.
+    """Draw the smallest film over time, with that before the motion and that of stationary roughness.
 
     Parameters
     ----------
     run : MotionRun
-        What to draw.
+        The run to draw.
     ax : Axes, optional
-        Where to; new axes otherwise.
+        Axes to draw on; new axes by default.
 
     Returns
     -------
     Axes
-        Over time.
+        Axes over time.
     """
     ax = axes_or_new(ax)
     factor, unit = film_unit(run)
@@ -45,20 +46,20 @@ def least_film(run: MotionRun, ax: Axes | None = None) -> Axes:
 
 
 def largest_field(run: MotionRun, ax: Axes | None = None) -> Axes:
-    """Largest field strength at the recorded instants, with that of roughness held still.
+    """Draw the largest field strength over time, with that of stationary roughness.
 
     Parameters
     ----------
     run : MotionRun
-        What to draw.
+        The run to draw.
     ax : Axes, optional
-        Where to; new axes otherwise.
+        Axes to draw on; new axes by default.
 
     Returns
     -------
     Axes
-        Over time, with the voltage over the least film at every step. Shaded while the field is above 90 % of
-        the largest; ``MotionRun.strength`` says what it is between the instants.
+        Axes over time, with the voltage over the smallest film thickness at every step. The time is shaded in
+        which the field is above 90 % of its maximum (see ``FieldHistory``).
     """
     ax = axes_or_new(ax)
     factor, unit = field_unit(run)
@@ -66,7 +67,7 @@ def largest_field(run: MotionRun, ax: Axes | None = None) -> Axes:
     estimate = factor * run.values("thin_gap_strength")
     (thin,) = ax.plot(_times(run, "time"), estimate, color=GREY, lw=0.6)
     thin.set_label(r"$V_{12}/h_\mathrm{min}$ at every step")
-    # Between few instants a line would show a course that is none.
+    # Dots: a line between few instants would show a course that was not computed.
     size = 2.4 if run.frames <= 400 else 1.4
     (dots,) = ax.plot(
         _times(run, "frame_time"), strength, color=BLUE, ls="none", marker="o", ms=size, mew=0.0
@@ -85,34 +86,35 @@ def largest_field(run: MotionRun, ax: Axes | None = None) -> Axes:
 
 
 def _high(run: MotionRun, ax: Axes) -> Line2D:
-    """Level of a high field, and the time above it shaded."""
+    """Draw the level above which the field is near its maximum, and shade the time above it."""
     factor, _ = field_unit(run)
     in_time, unit = time_unit(run)
-    level = run.high_field
-    spans = intervals_above(run.values("time"), run.strength, level)
+    history = run.field_history
+    level = history.near_maximum
+    spans = intervals_above(history.time, history.strength, level)
     bars = [(in_time * start, in_time * (end - start)) for start, end in spans]
     whole = ax.get_xaxis_transform()
     ax.broken_barh(bars, (0.0, 1.0), transform=whole, color=GREEN, alpha=0.25, lw=0.0, zorder=0.5)
-    settled = run.settled_from
-    text = f"{100.0 * HIGH_FIELD:g} % of the largest: above it {100.0 * run.share_high:.0f} % of the time"
+    settled, share = history.settled_from, 100.0 * history.share_near_maximum
+    text = f"{100.0 * NEAR_MAXIMUM:g} % of the largest: above it {share:.0f} % of the time"
     text += f" from {in_time * settled:.3g} {unit} on" if settled else ""
     return ax.axhline(factor * level, color=GREEN, lw=0.9, ls="--", label=text)
 
 
 def places(run: MotionRun, ax: Axes | None = None) -> Axes:
-    """Where along entrainment the field is largest at the recorded instants, and where the film is least.
+    """Draw where the field is strongest and where the film is thinnest over time.
 
     Parameters
     ----------
     run : MotionRun
-        What to draw.
+        The run to draw.
     ax : Axes, optional
-        Where to; new axes otherwise.
+        Axes to draw on; new axes by default.
 
     Returns
     -------
     Axes
-        Over time; of a point contact also across entrainment.
+        Axes over time; for a point contact with the places across entrainment, too.
     """
     ax = axes_or_new(ax)
     b = run.conditions.half_width
@@ -121,10 +123,10 @@ def places(run: MotionRun, ax: Axes | None = None) -> Axes:
     ax.plot(time, least, color=GREY, ls="none", marker="o", ms=1.0, mew=0.0)
     largest = run.values("max_strength_x") / b
     ax.plot(frames, largest, color=BLUE, ls="none", marker="o", ms=2.4, mew=0.0, label="largest field")
-    # Dots as small as those are not seen in a legend.
+    # The dots are too small to be seen in a legend.
     ax.plot([], [], color=GREY, ls=":", label="least film, every step")
     name, shown = "$x/b$", [least, largest]
-    if run.point and "max_strength_y" in run.dataset:
+    if "max_strength_y" in run.dataset:
         across = np.abs(run.values("max_strength_y")) / b
         ax.plot(frames, across, color=ORANGE, ls="none", marker="x", ms=3.0, label="largest field, $|y|/b$")
         name, shown = "$x/b$, $|y|/b$", [*shown, across]
@@ -140,10 +142,10 @@ def _times(run: MotionRun, name: str) -> Array:
 
 
 def _over_time(run: MotionRun, ax: Axes) -> None:
-    """Axis of time, and a line on it when the roughness has filled the contact."""
+    """Label the axis of time, and mark the time from which the roughness fills the contact."""
     factor, unit = time_unit(run)
     ax.set(xlabel=f"time $t$ [{unit}]", xlim=(0.0, factor * float(run.values("time")[-1]) or 1.0))
-    if run.settled_from:
-        covered = factor * run.settled_from
+    if settled := run.field_history.settled_from:
+        covered = factor * settled
         label = f"contact covered from {covered:.3g} {unit} on"
         ax.axvline(covered, color="black", lw=0.7, ls=(0, (6.0, 3.0)), label=label)

@@ -1,4 +1,4 @@
-"""Frames of a line contact whose roughness moves: film, pressure, field and roughness over x."""
+"""Frames of an animation of a transient line contact: film, pressure, field and roughness over x."""
 
 from __future__ import annotations
 
@@ -33,7 +33,17 @@ _SIZE = (6.3, 7.2)
 
 @dataclass(frozen=True)
 class Frames:
-    """A figure with its first instant, what draws another one into it, and the names of its colour maps."""
+    """Figure of one recorded instant, which can be made to show another one.
+
+    Attributes
+    ----------
+    figure : Figure
+        The figure, showing the first recorded instant.
+    show : callable
+        Draws the recorded instant of a number into the figure.
+    colours : tuple of str
+        Names of the colour maps in the figure.
+    """
 
     figure: Figure
     show: Callable[[int], None]
@@ -41,7 +51,7 @@ class Frames:
 
 
 def time_text(run: MotionRun, frame: int) -> str:
-    """Time of an instant, with as many places as tell it from the next one."""
+    """Text: time of a recorded instant, with as many digits as distinguish it from the next one."""
     factor, unit = time_unit(run)
     times = factor * run.frame_time
     apart = float(np.min(np.diff(times))) if run.frames > 1 else float(times[0])
@@ -50,17 +60,17 @@ def time_text(run: MotionRun, frame: int) -> str:
 
 
 def line_frames(run: MotionRun) -> Frames:
-    """Film, pressure, field and roughness over x; dotted what was before the motion.
+    """Draw film, pressure, field and roughness over x, dotted those before the motion.
 
     Parameters
     ----------
     run : MotionRun
-        Of a line contact.
+        A run of a line contact.
 
     Returns
     -------
     Frames
-        With the first instant drawn.
+        Frames that show the first recorded instant.
     """
     axes = new_panels(4, 1, _SIZE)
     parts = [_film(run, axes[0]), _pressure(run, axes[1]), _field(run, axes[2]), _roughness(run, axes[3])]
@@ -79,7 +89,7 @@ def line_frames(run: MotionRun) -> Frames:
 
 
 def _film(run: MotionRun, ax: Axes) -> Callable[[int], None]:
-    """The gap filled with oil, and dotted that before the motion."""
+    """Draw the gap filled with oil, and dotted the film before the motion."""
     factor, unit = film_unit(run)
     thickness = factor * run.along("thickness")
     low, high = fitted(in_contact(run, thickness))
@@ -104,7 +114,7 @@ def _pressure(run: MotionRun, ax: Axes) -> Callable[[int], None]:
 
 
 def _field(run: MotionRun, ax: Axes) -> Callable[[int], None]:
-    """Field strength of the columns with its largest."""
+    """Draw the field strength and mark its maximum."""
     factor, unit = field_unit(run)
     strength, largest = factor * run.along("strength"), factor * run.values("max_strength")
     ax.set(ylabel=f"field $|E|$ [{unit}]", ylim=fitted(in_contact(run, strength), largest))
@@ -121,14 +131,14 @@ def _field(run: MotionRun, ax: Axes) -> Callable[[int], None]:
 
 
 def _curve(run: MotionRun, ax: Axes, values: Array) -> Callable[[int], None]:
-    """Values (frames, nx) of an instant, and dotted those before the motion."""
+    """Draw values (frames, nx) at an instant, and dotted those before the motion."""
     ax.plot(run.x, values[0], color="black", lw=0.9, ls=":")
     (line,) = ax.plot(run.x, values[0], color=BLUE)
     return lambda frame: line.set_ydata(values[frame])
 
 
 def _roughness(run: MotionRun, ax: Axes) -> Callable[[int], None]:
-    """Heights of the rough surfaces."""
+    """Draw the heights of the rough surfaces."""
     heights = np.stack([run.along(f"roughness_{k}") for k in run.speeds])
     factor, _ = height_unit(heights)
     roughness_at(run, 0, ax, unit=height_unit(heights))

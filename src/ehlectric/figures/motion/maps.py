@@ -1,4 +1,4 @@
-"""Maps over position and time of roughness that moves: film, pressure and field along entrainment."""
+"""Maps of a transient contact over position and time: film, pressure and field along entrainment."""
 
 from __future__ import annotations
 
@@ -18,94 +18,97 @@ from ehlectric.figures.motion.panels import along_label, field_unit, film_unit, 
 from ehlectric.figures.style import BODY, axes_or_new, figure_of, new_panels
 from ehlectric.motion.record import MotionRun
 
-# Shown of the domain on either side, in half-widths: behind it there is no field, before it no change.
+# Range of x that is shown, -1.5 to 1.5 [half-widths]: beyond it the field is not solved, or nothing changes.
 _REACH = 1.5
 
-# Parts of the run after which lines of the speeds cross at x = 0.
+# Parts of the duration at which the lines of the speeds cross x = 0.
 _CROSSINGS = (0.35, 0.75)
 
-# Part of the values in the Hertz zone, in per cent, that the colours may leave out on their open side.
+# Part of the values in the Hertz zone that may exceed the colours on the open side of the bar [per cent].
 _BEYOND = 5.0
 _SIZE = (7.2, 5.4)
 
 
 def film_map(run: MotionRun, ax: Axes | None = None) -> Axes:
-    """Film thickness over position and time.
+    """Draw the film thickness over position and time.
 
     Parameters
     ----------
     run : MotionRun
-        What to draw.
+        The run to draw.
     ax : Axes, optional
-        Where to; new axes otherwise.
+        Axes to draw on; new axes by default.
 
     Returns
     -------
     Axes
-        With a colour bar of the films in the Hertz zone: that of the inlet is thicker than it reaches.
+        Axes with a colour bar that fits the Hertz zone; the film of the inlet is thicker than its end.
     """
     factor, unit = film_unit(run)
     values = factor * run.along("thickness")
     inside = in_contact(run, values)
     limits = (float(np.min(inside)), float(np.percentile(inside, 100.0 - _BEYOND)))
-    return _map(run, values, ax, f"film thickness $h$ [{unit}]", limits, "viridis", "max")
+    label = f"film thickness $h$ [{unit}]"
+    return _map(run, values, ax, label=label, limits=limits, colours="viridis", extend="max")
 
 
 def pressure_map(run: MotionRun, ax: Axes | None = None) -> Axes:
-    """Pressure over position and time.
+    """Draw the pressure over position and time.
 
     Parameters
     ----------
     run : MotionRun
-        What to draw.
+        The run to draw.
     ax : Axes, optional
-        Where to; new axes otherwise.
+        Axes to draw on; new axes by default.
 
     Returns
     -------
     Axes
-        With a colour bar to the largest pressure shown.
+        Axes with a colour bar up to the largest pressure.
     """
     values = run.along("pressure")
     factor, unit = unit_for(float(np.max(values)), "Pa")
     limits = (0.0, factor * float(np.max(values)))
-    return _map(run, factor * values, ax, f"pressure $p$ [{unit}]", limits, "magma", "neither")
+    label = f"pressure $p$ [{unit}]"
+    return _map(run, factor * values, ax, label=label, limits=limits, colours="magma", extend="neither")
 
 
 def field_map(run: MotionRun, ax: Axes | None = None) -> Axes:
-    """Largest field strength of the column over position and time.
+    """Draw the largest field strength across the film over position and time.
 
     Parameters
     ----------
     run : MotionRun
-        What to draw.
+        The run to draw.
     ax : Axes, optional
-        Where to; new axes otherwise.
+        Axes to draw on; new axes by default.
 
     Returns
     -------
     Axes
-        With a colour bar of the fields in the Hertz zone; grey where the field was not solved.
+        Axes with a colour bar that fits the Hertz zone; grey where the field was not solved.
     """
     factor, unit = field_unit(run)
     values = factor * run.along("strength")
     inside = in_contact(run, values)
     limits = (float(np.percentile(inside, _BEYOND)), float(np.nanmax(values)))
-    return _map(run, values, ax, f"field strength $|E|$ [{unit}]", limits, "inferno", "min")
+    label = f"field strength $|E|$ [{unit}]"
+    return _map(run, values, ax, label=label, limits=limits, colours="inferno", extend="min")
 
 
 def map_figure(run: MotionRun) -> Axes:
-    """Film, pressure and field over position and time beside each other, with lines of the speeds.
+    """Draw film, pressure and field over position and time side by side, with lines of the speeds.
 
     Parameters
     ----------
     run : MotionRun
-        With two recorded instants or more.
+        A run with at least two recorded instants.
 
     Returns
     -------
     Axes
-        The first of three.
+        The first of three panels.
     """
     axes = new_panels(1, 3, _SIZE)
     for draw, ax in zip((film_map, pressure_map, field_map), axes, strict=True):
@@ -123,12 +126,13 @@ def _map(
     run: MotionRun,
     values: Array,
     ax: Axes | None,
+    *,
     label: str,
     limits: tuple[float, float],
     colours: str,
     extend: str,
 ) -> Axes:
-    """Values (frames, nx) as colours, time upwards."""
+    """Draw values (frames, nx) as colours, with time upwards."""
     ax = axes_or_new(ax)
     factor, unit = time_unit(run)
     shown = np.flatnonzero(np.abs(run.x) <= _REACH)
@@ -152,14 +156,14 @@ def _map(
     for speed, look in _speeds(run):
         for part in _CROSSINGS:
             at = part * factor * run.frame_time[-1]
-            # b of travel takes this long; a surface at rest stays where it is.
+            # Time per half-width of travel; the line of a surface at rest is vertical.
             slope = np.inf if speed == 0.0 else factor * run.conditions.half_width / speed
             ax.axline((0.0, at), slope=slope, **look)
     return ax
 
 
 def _speeds(run: MotionRun) -> list[tuple[float, dict[str, Any]]]:
-    """The mean speed and those of rough surfaces that differ from it [m/s], and how their lines look."""
+    """Mean speed and speeds of rough surfaces that differ from it [m/s], with the looks of their lines."""
     mean = run.conditions.entrainment_speed
     edge = [withStroke(linewidth=1.8, foreground="black", alpha=0.6)]
     plain: dict[str, Any] = {"color": "white", "lw": 0.8, "path_effects": edge}
@@ -174,7 +178,7 @@ def _speeds(run: MotionRun) -> list[tuple[float, dict[str, Any]]]:
 
 
 def _handles(run: MotionRun) -> list[Artist]:
-    """Entries of a legend on white."""
+    """Entries of the legend, in colours that are seen on white."""
     handles: list[Artist] = [
         Line2D([], [], color="black", lw=0.9, ls=look["ls"], label=look["label"]) for _, look in _speeds(run)
     ]
@@ -185,7 +189,7 @@ def _handles(run: MotionRun) -> list[Artist]:
 
 
 def sampling_text(run: MotionRun) -> str:
-    """How many instants there are, and how far oil and roughness travel between two: that blurs waves."""
+    """Text: number of recorded instants, and the distance travelled between two, which blurs waves."""
     apart = float(np.max(np.diff(run.frame_time)))
     fastest = max(run.conditions.entrainment_speed, *(abs(speed) for speed in run.speeds.values()))
     factor, unit = unit_for(fastest * apart, "m", least=1.0)

@@ -1,4 +1,4 @@
-"""What the figures of roughness that moves share: units, titles, panels below each other, ranges."""
+"""Units, titles, ranges and stacked panels of the figures of transient contacts."""
 
 from __future__ import annotations
 
@@ -14,8 +14,13 @@ from ehlectric.contact.bodies import surface_ratios
 from ehlectric.figures.style import figure_of, name_over
 from ehlectric.motion.record import MotionRun
 
-# Shown of the domain, in half-widths: around the contact, as in the figures of one at rest.
+# Range of x that is shown [half-widths], as in the figures of stationary contacts.
 _BEFORE, _BEHIND = -2.0, 1.5
+
+# By the kind of contact: the smallest number that a film thickness may have in its unit, and the line along
+# which a map is drawn. Films of point contacts are measured by interferometry and given in nanometres.
+_LEAST_FILM = {"line": 0.1, "point": 1.0}
+_ALONG = {"line": "", "point": "on $y$ = 0, "}
 Unit = tuple[float, str]
 
 
@@ -25,8 +30,8 @@ def time_unit(run: MotionRun) -> Unit:
 
 
 def film_unit(run: MotionRun) -> Unit:
-    """Factor and unit of film thicknesses; those of interferograms are in nanometres."""
-    return unit_for(float(run.values("minimum_thickness")[0]), "m", least=1.0 if run.point else 0.1)
+    """Factor and unit of film thicknesses."""
+    return unit_for(float(run.values("minimum_thickness")[0]), "m", least=_LEAST_FILM[run.kind.name])
 
 
 def field_unit(run: MotionRun) -> Unit:
@@ -35,39 +40,39 @@ def field_unit(run: MotionRun) -> Unit:
 
 
 def height_unit(heights: Array) -> Unit:
-    """Factor and unit of heights of roughness, in nanometres where there are none."""
+    """Factor and unit of heights of roughness; nanometres where all heights are zero."""
     return unit_for(float(np.max(np.abs(heights), initial=1e-9)), "m", least=1.0)
 
 
 def shown_range(run: MotionRun) -> tuple[float, float]:
-    """Ends of an axis of x in half-widths, within the domain."""
+    """Ends of the axis of x, within the domain [half-widths]."""
     return max(float(run.x[0]), _BEFORE), min(float(run.x[-1]), _BEHIND)
 
 
 def in_contact(run: MotionRun, values: Array) -> Array:
-    """Those of values (..., nx) that are finite in the Hertz zone, or anywhere where none are there."""
+    """Finite values, of (..., nx), in the Hertz zone; those everywhere where the zone has none."""
     inside = values[..., np.abs(run.x) <= 1.0]
     found = inside[np.isfinite(inside)]
     return found if found.size else values[np.isfinite(values)]
 
 
 def fitted(*values: Array, least: float = 0.0) -> tuple[float, float]:
-    """Ends of an axis, at least so far apart, that leave room around values, those that are finite."""
+    """Ends of an axis that leave room around all finite values, at least ``least`` apart."""
     low, high = (float(of([of(part) for part in values])) for of in (np.nanmin, np.nanmax))
     room = max(0.08 * (high - low), 0.5 * (least - (high - low)), 1e-3 * max(abs(low), abs(high)))
     return low - room, high + room
 
 
 def along_label(run: MotionRun, ax: Axes) -> None:
-    """Label of an axis of positions along entrainment: on which line, and how long the half-width is."""
+    """Label the axis of positions along entrainment, with the length of the half-width."""
     b = run.conditions.half_width
     factor, unit = unit_for(b, "m", least=1.0)
-    line = "on $y$ = 0, " if run.point else ""
+    line = _ALONG[run.kind.name]
     ax.set_xlabel(f"$x/b$   ({line}$b$ = {factor * b:.4g} {unit})")
 
 
 def share_below(axes: Sequence[Axes]) -> None:
-    """Panels below each other have the label of their common axis once."""
+    """Remove the labels of the common axis from all stacked panels but the lowest."""
     for ax in axes[:-1]:
         ax.set_xlabel("")
         ax.tick_params(labelbottom=False)
@@ -75,10 +80,7 @@ def share_below(axes: Sequence[Axes]) -> None:
 
 
 def speed_text(run: MotionRun) -> str:
-    """How fast the surfaces move, and which of them are rough.
-
-    Surfaces at one speed are said together.
-    """
+    """Text: speeds of the surfaces, or their common speed, and which of them are rough."""
     mean, slide = run.conditions.entrainment_speed, run.conditions.slide_to_roll_ratio
     rough = " and ".join(str(k) for k in run.speeds)
     what = f"surface {rough} rough" if len(run.speeds) == 1 else f"surfaces {rough} rough"
@@ -89,7 +91,7 @@ def speed_text(run: MotionRun) -> str:
 
 
 def name_run(ax: Axes, run: MotionRun, more: str = "") -> None:
-    """Title over all panels: of the case, and how its surfaces move; in red where it stopped on its way."""
+    """Draw the title: that of the case and the speeds of the surfaces; red where the run is not complete."""
     title = textwrap.shorten(str(run.dataset.attrs.get("title", "")), 70, placeholder=" ...")
     if not run.complete:
         factor, unit = time_unit(run)

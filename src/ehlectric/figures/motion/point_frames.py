@@ -1,10 +1,10 @@
-"""Frames of a point contact whose roughness moves: maps of film and field."""
+"""Frames of an animation of a transient point contact: maps of film and field."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -28,13 +28,13 @@ from ehlectric.motion.record import MotionRun
 
 _FILM_COLOURS, _FIELD_COLOURS = "viridis", "inferno"
 
-# Part of the values in the Hertz ellipse, in per cent, that the colours may leave out on their open side.
+# Part of the values in the Hertz ellipse that may exceed the colours on the open side of the bar [per cent].
 _BEYOND = 5.0
 
 
 @dataclass(frozen=True)
 class _Contact:
-    """What is drawn of a point contact: the nodes, by their indices, at which the field was solved."""
+    """Run of a point contact with the indices of the nodes at which the field was solved."""
 
     run: MotionRun
     conditions: PointConditions
@@ -46,7 +46,7 @@ class _Contact:
 
     @property
     def window(self) -> tuple[Range, Range]:
-        """Ranges of x/b and y/b."""
+        """Ranges of x/b and y/b of these nodes."""
         x, y = (axis / self.conditions.half_width for axis in self.axes)
         return (float(x[0]), float(x[-1])), (float(y[0]), float(y[-1]))
 
@@ -59,29 +59,28 @@ class _Contact:
         return inside
 
     def values(self, name: str, frame: int) -> Array:
-        """A variable at an instant, shape (nx, ny)."""
+        """Values of a variable at a recorded instant, shape (nx, ny)."""
         found = self.run.dataset[name].isel(frame=frame).values[np.ix_(*self.nodes)]
         return np.asarray(found, dtype=float)
 
 
 def map_frames(run: MotionRun) -> Frames:
-    """Film thickness and field strength as maps, where the field was solved.
+    """Draw maps of film thickness and field strength, where the field was solved.
 
     Parameters
     ----------
     run : MotionRun
-        Of a point contact.
+        A run of a point contact.
 
     Returns
     -------
     Frames
-        With the first instant drawn.
+        Frames that show the first recorded instant.
     """
-    assert isinstance(run.conditions, PointConditions)
     known = np.isfinite(run.dataset["strength"].isel(frame=0).values)
     nodes = np.flatnonzero(known.any(axis=1)), np.flatnonzero(known.any(axis=0))
-    contact = _Contact(run, run.conditions, nodes)
-    # Their colour bars lie below them, where this has room for the rows of a legend.
+    contact = _Contact(run, cast("PointConditions", run.conditions), nodes)
+    # ``map_panels`` leaves room for the rows of a legend below the panels; the colour bars lie there.
     film, field = map_panels(contact, 2, contact.window, rows=4)
     parts = [_film(contact, film), _field(contact, field)]
     field.label_outer()
@@ -97,14 +96,14 @@ def map_frames(run: MotionRun) -> Frames:
 
 
 def _film(contact: _Contact, ax: Axes) -> Callable[[int], None]:
-    """Film thickness, and where it is least."""
+    """Draw the map of the film thickness."""
     unit = film_unit(contact.run)
     ends = [
         np.percentile(contact.values("thickness", frame)[contact.inside], [0.0, 100.0 - _BEYOND])
         for frame in range(contact.run.frames)
     ]
     limits = float(np.min(ends)), float(np.max(ends))
-    show = _map(contact, ax, "thickness", unit, limits, _FILM_COLOURS)
+    show = _map(contact, ax, "thickness", unit, limits=limits, colours=_FILM_COLOURS)
     figure_of(ax).axes[-1].set_xlabel(f"film thickness $h$ [{unit[1]}]")
     hertz_ellipse(contact, ax)
     entrainment(contact, ax)
@@ -112,7 +111,7 @@ def _film(contact: _Contact, ax: Axes) -> Callable[[int], None]:
 
 
 def _field(contact: _Contact, ax: Axes) -> Callable[[int], None]:
-    """Largest field strength of the columns, and where it is largest."""
+    """Draw the map of the largest field strength across the film, and mark its maximum."""
     run, unit = contact.run, field_unit(contact.run)
     largest = run.values("max_strength")
     least = [
@@ -120,7 +119,7 @@ def _field(contact: _Contact, ax: Axes) -> Callable[[int], None]:
         for frame in range(run.frames)
     ]
     limits = float(np.nanmin(least)), float(np.max(largest))
-    show_map = _map(contact, ax, "strength", unit, limits, _FIELD_COLOURS)
+    show_map = _map(contact, ax, "strength", unit, limits=limits, colours=_FIELD_COLOURS)
     figure_of(ax).axes[-1].set_xlabel(f"field strength $|E|$ [{unit[1]}]")
     hertz_ellipse(contact, ax, "white")
     at = np.column_stack([run.values("max_strength_x"), run.values("max_strength_y")])
@@ -137,9 +136,9 @@ def _field(contact: _Contact, ax: Axes) -> Callable[[int], None]:
 
 
 def _map(
-    contact: _Contact, ax: Axes, name: str, unit: Unit, limits: Range, colours: str
+    contact: _Contact, ax: Axes, name: str, unit: Unit, *, limits: Range, colours: str
 ) -> Callable[[int], None]:
-    """Colours of a variable with their bar, which is open where they may leave values out."""
+    """Draw a map of a variable with its colour bar, which is open where values may exceed the colours."""
     factor = unit[0]
     ends = factor * limits[0], factor * limits[1]
     look: dict[str, Any] = {"colours": colours, "limits": ends, "window": contact.window, "number": 2}

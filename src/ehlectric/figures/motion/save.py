@@ -1,4 +1,4 @@
-"""The figures of roughness that moves as PNG files."""
+"""Figures of transient contacts as PNG files."""
 
 from __future__ import annotations
 
@@ -20,28 +20,28 @@ from ehlectric.figures.motion.maps import map_figure, sampling_text
 from ehlectric.figures.motion.panels import name_run, share_below
 from ehlectric.figures.names import MOTION_FIGURE_FILES
 from ehlectric.figures.style import new_panels, save_figure, style
-from ehlectric.motion.record import MotionRun
+from ehlectric.motion.record import MotionRun, coincident_frame
 
 if TYPE_CHECKING:
     import xarray as xr
 
 
-# Width of panels below each other, height of each, and of the title above them [inches].
+# Width of stacked panels, height of each of them, and height of the title above them [inches].
 _WIDTH, _HEIGHT, _TITLE = 7.2, 2.1, 0.75
 
 
 def history(run: MotionRun) -> Axes:
-    """Least film, largest field and its place over time.
+    """Draw smallest film thickness, largest field strength and their places over time.
 
     Parameters
     ----------
     run : MotionRun
-        What to draw.
+        The run to draw.
 
     Returns
     -------
     Axes
-        The first of three.
+        The first of three panels.
     """
     axes = _stack(3)
     for draw, ax in zip((least_film, largest_field, places), axes, strict=True):
@@ -52,17 +52,17 @@ def history(run: MotionRun) -> Axes:
 
 
 def maps(run: MotionRun) -> Axes:
-    """Film, pressure and field over position and time.
+    """Draw film, pressure and field over position and time.
 
     Parameters
     ----------
     run : MotionRun
-        With two recorded instants or more.
+        A run with at least two recorded instants.
 
     Returns
     -------
     Axes
-        The first of three.
+        The first of three panels.
     """
     ax = map_figure(run)
     name_run(ax, run, sampling_text(run))
@@ -70,54 +70,56 @@ def maps(run: MotionRun) -> Axes:
 
 
 def beside_stationary(run: MotionRun) -> Axes:
-    """Film, pressure, field and roughness at the instant at which the surfaces lie as the case has them.
+    """Compare moving with stationary roughness at the instant at which the surfaces lie alike.
 
     Parameters
     ----------
     run : MotionRun
-        With such an instant, and the film and field of the same roughness held still.
+        A run with an instant at which the surfaces lie where the case puts them, and with the film and field
+        of the same roughness stationary.
 
     Returns
     -------
     Axes
-        The first of four.
+        The first of four panels: film, pressure, field and roughness.
     """
     axes = _stack(4)
     for draw, ax in zip((film_beside, pressure_beside, field_beside), axes[:3], strict=True):
         draw(run, ax)
-    assert run.coincident_frame is not None
-    roughness_at(run, run.coincident_frame, axes[3])
+    frame = coincident_frame(run)
+    assert frame is not None
+    roughness_at(run, frame, axes[3])
     share_below(axes)
     name_run(axes[0], run, coincidence_text(run))
     return axes[0]
 
 
 def save_motion_figures(dataset: xr.Dataset, folder: Path) -> list[Path]:
-    """Draw all figures of roughness that moves as PNG files.
+    """Draw all figures of a transient run as PNG files.
 
     Parameters
     ----------
     dataset : xarray.Dataset
-        As a run was stored, whether it is complete or not.
+        A run, complete or not, as ``read_motion`` gives it.
     folder : Path
-        Where to; it must be there.
+        Folder of the files; it must exist.
 
     Returns
     -------
     list of Path
-        The files written: no maps of one instant, nothing beside the stationary film where that is not there
-        or the surfaces never lie as the case has them.
+        Files written. There are no maps where a single instant is recorded, and no comparison with stationary
+        roughness where its film is missing or the surfaces never lie where the case puts them.
 
     Raises
     ------
     InputError
-        Where the dataset is no such run.
+        Where the dataset is not a run of moving roughness.
     """
     run = MotionRun.of(dataset)
     drawn = dict(zip(MOTION_FIGURE_FILES, (history, maps, beside_stationary), strict=True))
     if run.frames < 2:
         del drawn[MOTION_FIGURE_FILES[1]]
-    if run.coincident_frame is None:
+    if coincident_frame(run) is None:
         del drawn[MOTION_FIGURE_FILES[2]]
     files = []
     with style():

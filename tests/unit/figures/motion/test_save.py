@@ -22,7 +22,8 @@ from ehlectric.figures.motion.panels import speed_text
 from ehlectric.figures.motion.point_frames import map_frames
 from ehlectric.figures.motion.save import beside_stationary, history, maps, save_motion_figures
 from ehlectric.figures.names import MOTION_FIGURE_FILES
-from ehlectric.motion.record import MotionRun, intervals_above
+from ehlectric.motion.field_history import intervals_above
+from ehlectric.motion.record import MotionRun
 
 HISTORY, MAPS, BESIDE = MOTION_FIGURE_FILES
 VOLTS, MEAN, SLIDE, STEPS = 2.0, 4.0, 0.5, 200
@@ -169,7 +170,7 @@ def test_time_above_a_level_may_be_all_or_none(values, length):
 
 def test_field_between_instants_goes_as_that_of_the_thin_gap(run):
     # It is 1.1 times that at the instants, so everywhere, also at those steps that no instant is near.
-    np.testing.assert_allclose(run.strength, 1.1 * run.values("thin_gap_strength"), rtol=1e-12)
+    np.testing.assert_allclose(run.field_history.strength, 1.1 * run.values("thin_gap_strength"), rtol=1e-12)
 
 
 def test_history_says_how_long_the_field_is_high():

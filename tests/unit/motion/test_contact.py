@@ -5,10 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from ehlectric import InputError
 from ehlectric.contact.conditions import resolve, resolve_point
 from ehlectric.contact.problems import domain_of, heights_of, line_domain_of
-from ehlectric.motion.motion import Motion
+from ehlectric.motion.contact import TransientContact
 from ehlectric.surfaces import made_profiles as generators
 from ehlectric.surfaces.rough_maps import rough_maps
 from ehlectric.surfaces.rough_profiles import rough_surfaces
@@ -59,16 +58,16 @@ def of_case(case, *axes):
 )
 def test_once_everything_lies_as_the_case_has_it(table, shape, surface, ratio):
     case = moving(table, {SRR: ratio}, **rough((surface, shape)), motion={"passes": 4.0})
-    motion, speed = Motion(case), SPEEDS[ratio][surface - 1]
+    motion, speed = TransientContact.of(case), SPEEDS[ratio][surface - 1]
     grid = case.grid
     # The length of the domain at its own speed.
-    assert motion.coincident == pytest.approx((grid.outlet - grid.inlet) / abs(speed), rel=1e-14)
+    assert motion.schedule.coincident == pytest.approx((grid.outlet - grid.inlet) / abs(speed), rel=1e-14)
     x = np.linspace(grid.inlet, grid.outlet, 101)
     axes = (x, np.linspace(-3.0, 3.0, 41)) if table is POINT else (x,)
     expected = of_case(case, *axes)
     # But the front, one half-width at the far end.
     behind = x <= grid.outlet - 1.0 if speed > 0.0 else x >= grid.inlet + 1.0
-    found = motion.heights(motion.coincident, *axes)
+    found = motion.roughness.heights(motion.schedule.coincident, *axes)
     largest = np.max(np.abs(expected))
     assert largest > 0.0
     np.testing.assert_allclose(found[:, behind], expected[:, behind], rtol=0.0, atol=1e-9 * largest)
@@ -79,13 +78,13 @@ def test_once_everything_lies_as_the_case_has_it(table, shape, surface, ratio):
 @pytest.mark.parametrize(("table", "shape"), [(LINE, WAVES), (POINT, WAVES)])
 def test_nothing_is_there_at_first(table, shape, ratio):
     case = moving(table, {SRR: ratio}, **rough((1, shape), (2, shape)), motion={"passes": 2.0})
-    motion = Motion(case)
+    motion = TransientContact.of(case)
     x = np.linspace(case.grid.inlet, case.grid.outlet, 101)
     axes = (x, np.linspace(-3.0, 3.0, 5)) if table is POINT else (x,)
-    assert not np.any(motion.heights(0.0, *axes))
+    assert not np.any(motion.roughness.heights(0.0, *axes))
     assert not np.any(motion.moving_gap(0.0, x, np.linspace(-3.0, 3.0, 5) if table is POINT else np.zeros(1)))
     # And soon after something at the ends from which it comes, and nowhere else.
-    soon = motion.heights(0.05, *axes)
+    soon = motion.roughness.heights(0.05, *axes)
     for surface, speed in enumerate(SPEEDS[ratio]):
         near = x <= -4.0 + 0.05 * speed if speed > 0.0 else x >= case.grid.outlet + 0.05 * speed
         near = x <= case.grid.inlet + 0.05 * speed if speed > 0.0 else near
@@ -97,7 +96,7 @@ def test_nothing_is_there_at_first(table, shape, ratio):
 def test_waves_behind_their_front(ratio, time):
     """Amplitude sin(2 pi (b (X - s))/wavelength + phase), s the way of what began one domain away."""
     case = moving(LINE, {SRR: ratio}, **rough((1, WAVES)), motion={"passes": 3.0})
-    motion, speed = Motion(case), SPEEDS[ratio][0]
+    motion, speed = TransientContact.of(case), SPEEDS[ratio][0]
     assert motion.half_width == pytest.approx(HALF_WIDTH, rel=1e-12)
     x = np.linspace(-4.0, 2.0, 301)
     away = speed * time - 6.0 if speed > 0.0 else speed * time + 6.0
@@ -106,7 +105,7 @@ def test_waves_behind_their_front(ratio, time):
     depth = -4.0 + speed * time - x if speed > 0.0 else x - (2.0 + speed * time)
     rise = np.where(depth <= 0.0, 0.0, np.where(depth >= 1.0, 1.0, 0.5 - 0.5 * np.cos(np.pi * depth)))
     assert 0.0 < np.mean(rise) < 1.0
-    np.testing.assert_allclose(motion.heights(time, x)[0], waves * rise, rtol=0.0, atol=1e-18)
+    np.testing.assert_allclose(motion.roughness.heights(time, x)[0], waves * rise, rtol=0.0, atol=1e-18)
 
 
 @pytest.mark.parametrize("ratio", SPEEDS)
@@ -115,10 +114,10 @@ def test_waves_behind_their_front(ratio, time):
 def test_two_surfaces_travel_each_at_its_own_speed(table, ratio, part):
     """Their tops, one domain away from the centre at first, on the side from which the surface comes."""
     case = moving(table, {SRR: ratio}, **rough((1, BUMP), (2, BUMP)), motion={"passes": 1.0})
-    motion = Motion(case)
-    assert motion.course.end == 6.0
+    motion = TransientContact.of(case)
+    assert motion.schedule.end == 6.0
     x = np.linspace(case.grid.inlet, case.grid.outlet, 6001)
-    heights = motion.heights(6.0 * part, *((x, np.zeros(1)) if table is POINT else (x,)))
+    heights = motion.roughness.heights(6.0 * part, *((x, np.zeros(1)) if table is POINT else (x,)))
     for surface, speed in enumerate(SPEEDS[ratio]):
         top = speed * 6.0 * part - math.copysign(6.0, speed)
         if case.grid.inlet < top < case.grid.outlet - 1.0:
@@ -128,32 +127,35 @@ def test_two_surfaces_travel_each_at_its_own_speed(table, ratio, part):
 
 
 def test_heights_of_one_surface_add():
-    both = Motion(moving(**rough((1, WAVES), (1, BUMP), (2, PIT))))
-    alone = [Motion(moving(**rough((1, WAVES)))), Motion(moving(**rough((1, BUMP))))]
+    both = TransientContact.of(moving(**rough((1, WAVES), (1, BUMP), (2, PIT))))
+    alone = [
+        TransientContact.of(moving(**rough((1, WAVES)))),
+        TransientContact.of(moving(**rough((1, BUMP)))),
+    ]
     x = np.linspace(-4.0, 2.0, 65)
-    expected = sum(motion.heights(5.5, x)[0] for motion in alone)
-    np.testing.assert_allclose(both.heights(5.5, x)[0], expected, atol=1e-20)
+    expected = sum(motion.roughness.heights(5.5, x)[0] for motion in alone)
+    np.testing.assert_allclose(both.roughness.heights(5.5, x)[0], expected, atol=1e-20)
 
 
 @pytest.mark.parametrize("table", [LINE, POINT])
 def test_a_surface_at_rest_stays(table):
     """Surface 2, with its waves; only the bump of surface 1 moves, twice as fast as the mean."""
     case = moving(table, {SRR: 2.0}, **rough((1, BUMP), (2, WAVES)))
-    motion = Motion(case)
+    motion = TransientContact.of(case)
     x, y = np.linspace(case.grid.inlet, case.grid.outlet, 61), np.linspace(-3.0, 3.0, 5)
     axes = (x, y) if table is POINT else (x,)
     resting = of_case(case, *axes)[1]
     for time in (0.0, 1.0, 3.0, 6.0):
-        np.testing.assert_allclose(motion.heights(time, *axes)[1], resting, rtol=1e-12)
+        np.testing.assert_allclose(motion.roughness.heights(time, *axes)[1], resting, rtol=1e-12)
     scale = motion.conditions.thickness_scale
     across = y if table is POINT else np.zeros(1)
     standing = motion.problem.added_gap(x, across)
     np.testing.assert_allclose(standing, -resting.reshape(standing.shape) / scale, rtol=1e-12)
     gap = motion.moving_gap(3.0, x, across)
     # As the case has it again: 2 u T = D.
-    expected = -motion.heights(3.0, *axes)[0].reshape(gap.shape) / scale
+    expected = -motion.roughness.heights(3.0, *axes)[0].reshape(gap.shape) / scale
     np.testing.assert_allclose(gap, expected, rtol=1e-12, atol=1e-12)
-    assert motion.coincident == 3.0
+    assert motion.schedule.coincident == 3.0
     assert np.max(-gap) == pytest.approx(5e-8 / scale, rel=1e-3)
 
 
@@ -161,7 +163,7 @@ def test_a_surface_at_rest_stays(table):
 def test_peaks_narrow_the_gap_by_their_height_over_the_scale(table, scale):
     """H = h R/b^2, of a point contact h Rx/a^2; both surfaces count, and nothing stands still."""
     case = moving(table, **rough((1, BUMP), (2, BUMP | {"height": 2e-8})))
-    motion = Motion(case)
+    motion = TransientContact.of(case)
     gap = motion.moving_gap(6.0, np.zeros(1), np.zeros(1))
     assert gap.shape == (1, 1)
     assert gap[0, 0] == pytest.approx(-7e-8 / scale, rel=1e-12)
@@ -173,31 +175,31 @@ def test_peaks_narrow_the_gap_by_their_height_over_the_scale(table, scale):
 def test_a_random_profile_is_as_long_as_it_travels(ratio):
     """No mirror image and no repetition within five domains: one made far longer has the same heights."""
     case = moving(LINE, {SRR: ratio}, **rough((1, RANDOM), (2, RANDOM | {"seed": 6})), motion={"passes": 5.0})
-    motion = Motion(case)
+    motion = TransientContact.of(case)
     x = np.linspace(-4.0, 2.0, 65)
     for surface, speed in enumerate(SPEEDS[ratio]):
         whole = generators.gaussian(rq=1e-8, correlation_length=2e-5, length=0.05, seed=5 + surface)
         for time in (6.0, 12.0, 30.0):
             away = speed * time - math.copysign(6.0, speed)
             expected = np.interp(HALF_WIDTH * (x - away), whole.x, whole.heights)
-            found = motion.heights(time, x)[surface]
+            found = motion.roughness.heights(time, x)[surface]
             if speed * time == 6.0 * math.copysign(1.0, speed):
                 found, expected = found[10:-11], expected[10:-11]  # behind the front
             # Straight lines between sixteen points of a correlation length miss less than this.
             np.testing.assert_allclose(found, expected, rtol=0.0, atol=2e-2 * 1e-8 * 3.0)
     fast, slow = SPEEDS[ratio]
-    grid = motion.reached.grid
+    grid = motion.travelled.grid
     assert grid.inlet == -4.0 - max(fast * 30.0, slow * 30.0) + 6.0
     assert grid.outlet == (2.0 if slow > 0.0 else 2.0 + 2.0 * 30.0 - 6.0)
 
 
 def test_what_moves_is_looked_at_as_finely_as_the_grid():
-    motion = Motion(moving(LINE, motion={"passes": 2.5}))
-    grid = motion.reached.grid
+    motion = TransientContact.of(moving(LINE, motion={"passes": 2.5}))
+    grid = motion.travelled.grid
     # The domain and one and a half beside it, 64 intervals each six half-widths.
     assert (grid.inlet, grid.outlet, grid.nodes) == (-13.0, 2.0, 161)
-    same = Motion(moving(LINE, motion={"passes": 0.5}))
-    assert same.reached.grid == same.case.grid
+    same = TransientContact.of(moving(LINE, motion={"passes": 0.5}))
+    assert same.travelled.grid == same.case.grid
 
 
 @pytest.mark.parametrize(
@@ -214,108 +216,12 @@ def test_what_moves_is_looked_at_as_finely_as_the_grid():
     ],
 )
 def test_half_is_solved_only_where_all_that_comes_is_its_own_image(tables, symmetric, passes):
-    motion = Motion(moving(POINT, **rough(*tables), motion={"passes": passes}))
+    motion = TransientContact.of(moving(POINT, **rough(*tables), motion={"passes": passes}))
     width = motion.problem.width
     assert (width.symmetric, width.nodes) == (symmetric, 65)
 
 
 def test_what_rests_may_be_alike_while_what_moves_is_not():
     tables = rough((1, PIT | {"position_y": 3e-5}), (2, PIT))
-    motion = Motion(moving(POINT, {SRR: 2.0}, **tables))
+    motion = TransientContact.of(moving(POINT, {SRR: 2.0}, **tables))
     assert not motion.problem.width.symmetric
-
-
-def test_the_course_follows_from_the_grid():
-    """64 intervals over six half-widths, so that a pass takes 64 steps."""
-    course = Motion(moving(LINE, motion={"passes": 1.5, "record": 5})).course
-    assert (course.end, course.steps, course.courant) == (9.0, 96, 1.0)
-    assert course.step == 6.0 / 64.0
-    assert course.time == pytest.approx(HALF_WIDTH / 4.0, rel=1e-12)
-    # Quarters, and the step at which all lies as the case has it.
-    assert course.recorded.tolist() == [0, 24, 48, 64, 72, 96]
-    point = Motion(moving(POINT, motion={"passes": 1.5, "record": 2})).course
-    assert point.time == pytest.approx(SEMI_AXIS / 2.0, rel=1e-12)
-    assert point.recorded.tolist() == [0, 64, 96]
-
-
-def test_a_duration_is_rounded_to_whole_steps_or_taken_as_it_is():
-    time = HALF_WIDTH / 4.0
-    course = Motion(moving(LINE, motion={"duration": 3.02 * time})).course
-    # 3.02 half-widths are 32.2 intervals of 6/64.
-    assert (course.steps, course.courant) == (32, 1.0)
-    assert course.end == pytest.approx(3.0, rel=1e-12)
-    course = Motion(moving(LINE, motion={"duration": 3.02 * time, "steps": 100})).course
-    assert course.end == pytest.approx(3.02, rel=1e-12)
-    assert course.courant == pytest.approx(3.02 / 100 * 64 / 6, rel=1e-12)
-    with pytest.raises(
-        InputError, match=r"^motion\.duration: got .* s, in which oil travels less than a grid"
-    ):
-        Motion(moving(LINE, motion={"duration": 1e-3 * time}))
-
-
-@pytest.mark.parametrize(
-    ("slide", "surfaces", "parts"),
-    [(0.0, (1,), 1), (0.8, (1,), 1), (2.0, (1,), 2), (4.0, (1,), 3), (4.0, (2,), 1), (-6.0, (1, 2), 4)],
-)
-def test_steps_are_shorter_for_surfaces_that_move_fast(slide, surfaces, parts):
-    """u1 = 1 + s/2 and u2 = 1 - s/2 mean speeds: the rough one travels about a grid spacing in a step."""
-    bumps = rough(*((surface, BUMP) for surface in surfaces))
-    course = Motion(moving(LINE, {SRR: slide}, motion={"passes": 1.0}, **bumps)).course
-    assert (course.steps, course.courant) == (64 * parts, pytest.approx(1.0 / parts, rel=1e-12))
-    assert course.end == pytest.approx(6.0, rel=1e-12)
-
-
-def test_rounding_moves_no_surface_and_loses_no_end():
-    nearly = Motion(moving(LINE, {SRR: 2.0 - 1e-10}, **rough((1, BUMP), (2, BUMP))))
-    assert (nearly.speed_of(1), nearly.speed_of(2)) == (pytest.approx(2.0), 0.0)
-    duration = 6.0 * (1.0 - 1e-12) * HALF_WIDTH / 4.0
-    assert Motion(moving(LINE, motion={"duration": duration, "steps": 49})).coincident == 6.0
-    assert Motion(moving(LINE, motion={"duration": 0.999 * duration, "steps": 49})).coincident == math.inf
-
-
-def test_a_step_may_be_as_long_as_eight_intervals():
-    assert Motion(moving(LINE, motion={"passes": 1.0, "steps": 8})).course.courant == 8.0
-
-
-@pytest.mark.parametrize(
-    ("motion", "ratio", "recorded"),
-    [
-        # D/u is step 120 of 150.
-        ({"passes": 1.25, "steps": 150, "record": 4}, 0.0, [0, 50, 100, 120, 150]),
-        ({"passes": 1.25, "steps": 150, "record": 6}, 0.0, [0, 30, 60, 90, 120, 150]),
-        # Twice as fast, and once not at all in time; nearest to step 17.5 the even one.
-        ({"passes": 1.0, "steps": 36, "record": 2}, 2.0, [0, 18, 36]),
-        ({"passes": 0.4, "steps": 36, "record": 2}, 2.0, [0, 36]),
-        # At the end, to rounding.
-        ({"passes": 1.0, "steps": 49, "record": 2}, 0.0, [0, 49]),
-        # More than there are.
-        ({"passes": 1.0, "steps": 10, "record": 50}, 0.0, list(range(11))),
-    ],
-)
-def test_which_steps_are_kept(motion, ratio, recorded):
-    table = rough((1, BUMP))
-    assert Motion(moving(LINE, {SRR: ratio}, **table, motion=motion)).course.recorded.tolist() == recorded
-
-
-@pytest.mark.parametrize(
-    ("tables", "ratio", "covered", "coincident"),
-    [
-        # From the inlet over the Hertz zone, and the front behind it: 4 + 1 + 1.
-        ([(1, BUMP)], 0.0, 6.0, 6.0),
-        ([(1, BUMP)], 1.0, 4.0, 4.0),
-        ([(1, BUMP), (2, BUMP)], 0.0, 6.0, 6.0),
-        # The slower one is last, and they never lie together.
-        ([(1, BUMP), (2, BUMP)], 1.0, 12.0, math.inf),
-        # Backwards from the outlet: 2 + 1 + 1, at twice the mean speed.
-        ([(1, BUMP)], -6.0, 2.0, 3.0),
-        ([(1, BUMP), (2, BUMP)], -6.0, 2.0, math.inf),
-        # At rest from the beginning.
-        ([(1, BUMP), (2, BUMP)], 2.0, 3.0, 3.0),
-        # Too slow for two passes.
-        ([(1, BUMP)], -1.8, math.inf, math.inf),
-    ],
-)
-def test_when_the_contact_is_covered_and_when_all_lies_alike(tables, ratio, covered, coincident):
-    motion = Motion(moving(LINE, {SRR: ratio}, **rough(*tables), motion={"passes": 2.0}))
-    assert motion.covered == pytest.approx(covered, rel=1e-12)
-    assert motion.coincident == pytest.approx(coincident, rel=1e-12)

@@ -1,0 +1,131 @@
+"""Transient contact: a case with moving roughness, resolved, and the film equations that it poses."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ehlectric.arrays import Array
+from ehlectric.cases.case import Case
+from ehlectric.contact.conditions import Conditions, PointConditions
+from ehlectric.film.problem import FilmProblem
+from ehlectric.motion.kinds import KINDS, AnyKind
+from ehlectric.motion.roughness import MovingRoughness
+from ehlectric.motion.schedule import Schedule, schedule_of
+
+# Part of a grid interval by which a lengthened domain may miss a whole number of intervals.
+_ROUNDING = 1e-9
+
+
+@dataclass(frozen=True)
+class TransientContact:
+    """A contact with moving roughness, ready to be solved in time.
+
+    Attributes
+    ----------
+    case : Case
+        The case, of a line or a point contact.
+    conditions : Conditions or PointConditions
+        Conditions of the case.
+    schedule : Schedule
+        Time steps and speeds of the surfaces.
+    travelled : Case
+        The case with a domain as long as its surfaces travel.
+    roughness : MovingRoughness
+        Rough surfaces, made or read for that domain.
+    """
+
+    case: Case
+    conditions: Conditions | PointConditions
+    schedule: Schedule
+    travelled: Case
+    roughness: MovingRoughness
+
+    @classmethod
+    def of(cls, case: Case) -> TransientContact:
+        """Resolve a case, and make or read its surfaces.
+
+        Parameters
+        ----------
+        case : Case
+            A case with ``motion`` and roughness.
+
+        Raises
+        ------
+        InputError
+            Where the schedule is refused (see ``schedule_of``), or a surface cannot be made or read.
+        """
+        kind = KINDS[case.contact.geometry]
+        conditions = kind.resolve(case)
+        schedule = schedule_of(case, conditions)
+        travelled = travelled_case(case, schedule)
+        surfaces = kind.rough(travelled, conditions)
+        roughness = MovingRoughness(surfaces, schedule, conditions.half_width)
+        return cls(case, conditions, schedule, travelled, roughness)
+
+    @property
+    def kind(self) -> AnyKind:
+        """Functions of its kind of contact, line or point."""
+        return KINDS[self.case.contact.geometry]
+
+    @property
+    def half_width(self) -> float:
+        """Half-width b; the semi-axis along entrainment of a point contact [m]."""
+        return self.conditions.half_width
+
+    @cached_property
+    def problem(self) -> FilmProblem:
+        """Film equations with the roughness of surfaces at rest alone."""
+        return self.kind.film_problem(self.case, self.travelled, self.conditions, self.roughness)
+
+    def moving_gap(self, time: float, x: Array, y: Array) -> Array:
+        """Part of the dimensionless gap that moving roughness adds; a peak adds a negative one.
+
+        Parameters
+        ----------
+        time : float
+            Time T, dimensionless.
+        x : ndarray, shape (nx,)
+            Positions X along entrainment [half-widths].
+        y : ndarray, shape (ny,)
+            Positions Y across entrainment [half-widths]; not used by a line contact.
+
+        Returns
+        -------
+        ndarray, shape (nx, ny)
+        """
+        heights = self.roughness.moving_height(time, *(x, y)[: len(self.kind.axes)])
+        gap: Array = -heights.reshape(x.size, y.size) / self.conditions.thickness_scale
+        return gap
+
+
+def travelled_case(case: Case, schedule: Schedule) -> Case:
+    """The case with a domain as long as its surfaces travel.
+
+    Parameters
+    ----------
+    case : Case
+        A case with roughness.
+    schedule : Schedule
+        Its schedule.
+
+    Returns
+    -------
+    Case
+        Domain and nodes along entrainment are extended at the same grid spacing; the nodes across are kept.
+    """
+    grid, length = case.grid, schedule.length
+    inlet, outlet = schedule.domain
+    for surface in schedule.rough:
+        speed = schedule.speed_of(surface)
+        beyond = max(0.0, abs(speed) * schedule.end - length)
+        if speed > 0.0:
+            inlet = min(inlet, grid.inlet - beyond)
+        else:
+            outlet = max(outlet, grid.outlet + beyond)
+    nodes = 1 + int(np.ceil((grid.nodes - 1) * (outlet - inlet) / length - _ROUNDING))
+    changes = {"inlet": inlet, "outlet": outlet, "nodes": nodes}
+    changes |= KINDS[case.contact.geometry].nodes_across(grid)
+    return case.model_copy(update={"grid": grid.model_copy(update=changes)})

@@ -1,0 +1,220 @@
+"""Schedule of a transient contact: time steps, speeds of the surfaces, and when the contact is covered.
+
+The schedule follows from the case and its conditions alone: no surface is read or made for it.
+
+Time is dimensionless, T = t u/b with the mean speed u and the half-width b, and positions are in half-widths,
+X = x/b. At T = 0 all moving roughness lies outside the domain. A point that the case puts at x is at
+x - D + u_k t, with the length D of the domain and the speed u_k of its surface: at the time D/u_k it lies
+where the case puts it.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from ehlectric.arrays import Array
+from ehlectric.cases.case import Case
+from ehlectric.contact.bodies import surface_ratios
+from ehlectric.contact.conditions import Conditions, PointConditions
+from ehlectric.errors import InputError
+from ehlectric.film.unsteady import MOST_COURANT
+
+# A surface counts as at rest below this speed over the mean speed; times and speeds are compared to it, too.
+_AT_REST = 1e-9
+
+
+@dataclass(frozen=True)
+class Schedule:
+    """Time steps of a transient contact and the speeds of its surfaces.
+
+    Attributes
+    ----------
+    end : float
+        Duration T, dimensionless.
+    steps : int
+        Number of time steps, all of the same length.
+    courant : float
+        Grid spacings that the mean speed travels in one time step.
+    recorded : ndarray of int, shape (n,)
+        Numbers of the steps whose instants are kept, from 0 to ``steps``.
+    time : float
+        Time b/u of T = 1 [s].
+    domain : tuple of float
+        Ends of the film's domain, inlet and outlet [half-widths].
+    speeds : tuple of float
+        Speeds of surface 1 and surface 2 over the mean speed; exactly 0 where a surface is at rest.
+    rough : tuple of int
+        Numbers of the rough surfaces, 1 or 2, in ascending order.
+
+    Examples
+    --------
+    A bump on surface 1 in pure rolling. The domain, -4 to 2 half-widths, has 64 grid intervals:
+
+    >>> from ehlectric.contact.conditions import resolve
+    >>> contact = {"reduced_radius": "14 mm", "reduced_modulus": "226 GPa"}
+    >>> contact |= {"max_hertz_pressure": "0.5 GPa", "entrainment_speed": "4 m/s"}
+    >>> bump = {"surface": 1, "generator": "asperity", "height": "50 nm", "width": "60 um"}
+    >>> tables = {"contact": contact, "lubricant": {"base": "paper"}, "roughness": [bump]}
+    >>> case = Case.from_dict(tables | {"grid": {"nodes": 65}, "motion": {"passes": 2.0}})
+    >>> schedule = schedule_of(case, resolve(case))
+    >>> schedule.steps, schedule.end, schedule.coincident
+    (128, 12.0, 6.0)
+    """
+
+    end: float
+    steps: int
+    courant: float
+    recorded: Array
+    time: float
+    domain: tuple[float, float]
+    speeds: tuple[float, float]
+    rough: tuple[int, ...]
+
+    @property
+    def step(self) -> float:
+        """Length of a time step, dimensionless."""
+        return self.end / self.steps
+
+    @property
+    def length(self) -> float:
+        """Length D of the domain [half-widths]."""
+        inlet, outlet = self.domain
+        return outlet - inlet
+
+    def speed_of(self, surface: int) -> float:
+        """Speed of surface 1 or 2 over the mean speed; exactly 0 where it is at rest."""
+        return self.speeds[surface - 1]
+
+    @property
+    def moving_speeds(self) -> tuple[float, ...]:
+        """Speeds over the mean speed of those rough surfaces that are not at rest."""
+        return tuple(self.speed_of(surface) for surface in self.rough if self.speed_of(surface))
+
+    @property
+    def covered(self) -> float:
+        """Time T from which moving roughness fills the Hertz zone; infinite where the run ends before."""
+        inlet, outlet = self.domain
+        # From the end where it enters to the far side of the zone, and one half-width for the front to rise.
+        ways = [2.0 - inlet if speed > 0.0 else outlet + 2.0 for speed in self.moving_speeds]
+        times = [way / abs(speed) for way, speed in zip(ways, self.moving_speeds, strict=True)]
+        latest = max(times, default=np.inf)
+        return latest if latest <= self.end else np.inf
+
+    @property
+    def coincident(self) -> float:
+        """Time T at which all moving roughness lies where the case puts it.
+
+        Infinite where the run ends before, and where the rough surfaces move at different speeds.
+        """
+        speeds = sorted(map(abs, self.moving_speeds))
+        if not speeds or speeds[-1] - speeds[0] > _AT_REST * speeds[-1]:
+            return np.inf
+        time = self.length / speeds[0]
+        return time if time <= self.end * (1.0 + _AT_REST) else np.inf
+
+    def moments(self) -> dict[str, float]:
+        """Times ``covered_from`` and ``coincident`` [s], without those that the run does not reach."""
+        times = {"covered_from": self.covered, "coincident": self.coincident}
+        return {name: time * self.time for name, time in times.items() if math.isfinite(time)}
+
+    def described(self) -> dict[str, Any]:
+        """Duration, steps and speeds as in summary.json, SI units; None for a time that is not reached."""
+        moments = self.moments()
+        return {
+            "duration": self.end * self.time,
+            "steps": self.steps,
+            "courant": self.courant,
+            "frames": int(self.recorded.size),
+            "speed_ratio_1": self.speed_of(1),
+            "speed_ratio_2": self.speed_of(2),
+            "covered_from": moments.get("covered_from"),
+            "coincident": moments.get("coincident"),
+        }
+
+
+def schedule_of(case: Case, conditions: Conditions | PointConditions) -> Schedule:
+    """Schedule of a case with moving roughness.
+
+    Parameters
+    ----------
+    case : Case
+        A case with ``motion`` and roughness.
+    conditions : Conditions or PointConditions
+        Conditions of the case, as ``resolve`` or ``resolve_point`` gives them.
+
+    Returns
+    -------
+    Schedule
+        The instant at which all moving roughness lies where the case puts it is recorded, too, where the run
+        reaches it.
+
+    Raises
+    ------
+    InputError
+        Where the case has no ``motion``, the run is shorter than one grid spacing, the time steps are too
+        long, or all rough surfaces are at rest.
+    """
+    if case.motion is None:
+        raise InputError.worded("motion", "missing, a case whose roughness moves takes it")
+    schedule = _time_grid(case, conditions)
+    if not schedule.moving_speeds:
+        raise InputError(
+            "motion",
+            got="roughness on surfaces at rest alone;",
+            takes="it on one that moves, or a case without motion",
+        )
+    if not np.isfinite(schedule.coincident):
+        return schedule
+    coincident = round(schedule.coincident / schedule.step)
+    return replace(schedule, recorded=np.union1d(schedule.recorded, [coincident]))
+
+
+def _time_grid(case: Case, conditions: Conditions | PointConditions) -> Schedule:
+    assert case.motion is not None
+    motion, grid = case.motion, case.grid
+    ratios = surface_ratios(conditions.slide_to_roll_ratio)
+    rough = tuple(sorted({table.surface for table in case.roughness}))
+    time = conditions.half_width / conditions.entrainment_speed
+    length = grid.outlet - grid.inlet
+    end = motion.passes * length if motion.passes is not None else (motion.duration or 0.0) / time
+    spacing = length / (grid.nodes - 1)
+    steps = motion.steps or round(end / spacing)
+    if not steps:
+        raise InputError(
+            f"motion.{'duration' if motion.passes is None else 'passes'}",
+            got=f"{end * time:.3g} s, in which oil travels less than a grid spacing;",
+            takes=f"at least {spacing * time:.3g} s",
+        )
+    if motion.steps is None:
+        # In a step as long as the grid spacing, oil travels from node to node. A surface that is several
+        # times faster shall travel about a spacing too, so each step is divided by a whole number.
+        end = steps * spacing
+        fastest = max(abs(ratios[surface - 1]) for surface in rough)
+        steps *= max(1, math.ceil(fastest - 0.5))
+    courant = end / steps / spacing
+    if courant > MOST_COURANT * (1.0 + 1e-9):
+        least = int(np.ceil(end / spacing / MOST_COURANT))
+        raise InputError(
+            "motion.steps",
+            got=f"{steps}, in each of which oil would travel {courant:.3g} grid spacings;",
+            takes=f"at least {least}, and {round(end / spacing)} for one spacing a step",
+        )
+    return Schedule(
+        end=end,
+        steps=steps,
+        courant=courant,
+        recorded=np.unique(np.round(np.linspace(0, steps, min(motion.record, steps + 1))).astype(int)),
+        time=time,
+        domain=(grid.inlet, grid.outlet),
+        speeds=(_moving(ratios[0]), _moving(ratios[1])),
+        rough=rough,
+    )
+
+
+def _moving(speed: float) -> float:
+    """Speed over the mean speed; exactly 0 where it is 0 to rounding."""
+    return speed if abs(speed) > _AT_REST else 0.0

@@ -1,0 +1,104 @@
+"""Films that a run is resumed from: their layout in the file, as earlier versions wrote it, and checksum."""
+
+import zlib
+
+import h5netcdf
+import numpy as np
+import pytest
+
+from ehlectric.film.newton import State
+from ehlectric.film.unsteady import History, Instant
+from ehlectric.motion.resume import keep, kept
+
+SHAPE = (5, 3)
+
+
+def instant(seed):
+    """An instant of random values."""
+    random = np.random.default_rng(seed)
+    state = State(random.random(SHAPE), float(random.random()), random.random(SHAPE))
+    full = random.random(SHAPE) > 0.5
+    return Instant(float(seed), state, random.random(SHAPE), random.random(SHAPE), full)
+
+
+def history(frame):
+    """History of the recorded instant of a number."""
+    return History(now=instant(2 * frame + 1), before=instant(2 * frame))
+
+
+@pytest.fixture
+def file(tmp_path):
+    with h5netcdf.File(tmp_path / "run.nc", "w") as file:
+        yield file
+
+
+def same(one, other):
+    for name in ("mass", "density", "free"):
+        np.testing.assert_array_equal(getattr(one, name), getattr(other, name))
+    for name in ("pressure", "thickness", "h00"):
+        np.testing.assert_array_equal(getattr(one.state, name), getattr(other.state, name))
+    assert one.time == other.time
+    assert one.free.dtype == bool
+
+
+def test_what_is_kept_is_read_to_the_last_bit(file):
+    keep(file, history(0), 0)
+    found = kept(file, 1)
+    same(found.now, history(0).now)
+    same(found.before, history(0).before)
+
+
+def test_the_films_before_stay_while_the_next_are_written(file):
+    """Two places in turn: a torn write of frame 2 spoils that of frame 0, not that of frame 1."""
+    for frame in range(3):
+        keep(file, history(frame), frame)
+    for frame in (1, 2):
+        same(kept(file, frame + 1).now, history(frame).now)
+    variable = file.groups["resume"].variables["mass"]
+    variable[0] = np.asarray(variable[0]) + 1.0
+    assert kept(file, 3) is None
+    same(kept(file, 2).now, history(1).now)
+
+
+def test_nothing_is_kept_before_the_first_instant(file):
+    keep(file, history(0), 0)
+    assert kept(file, 0) is None
+
+
+def test_the_layout_is_that_of_earlier_versions(file):
+    """Names, types, dimensions and checksum, by hand: a run stopped before an update is resumed after it."""
+    keep(file, history(0), 0)
+    group = file.groups["resume"]
+    assert {name: size.size for name, size in group.dimensions.items()} == {
+        "place": 2,
+        "instant": 2,
+        "along": 5,
+        "across": 3,
+    }
+    maps = ("place", "instant", "along", "across")
+    layout = {
+        name: (variable.dimensions, variable.dtype.str[1:]) for name, variable in group.variables.items()
+    }
+    assert layout == {
+        "pressure": (maps, "f8"),
+        "thickness": (maps, "f8"),
+        "mass": (maps, "f8"),
+        "density": (maps, "f8"),
+        "free": (maps, "i1"),
+        "t": (maps[:2], "f8"),
+        "h00": (maps[:2], "f8"),
+        "checksum": (maps[:1], "i8"),
+    }
+    now, before = history(0).now, history(0).before
+    total = 0
+    for one, two in (
+        (now.state.pressure, before.state.pressure),
+        (now.state.thickness, before.state.thickness),
+        (now.mass, before.mass),
+        (now.density, before.density),
+        (now.free.astype("i1"), before.free.astype("i1")),
+        (now.time, before.time),
+        (now.state.h00, before.state.h00),
+    ):
+        total = zlib.crc32(np.stack([one, two]).tobytes(), total)
+    assert int(group.variables["checksum"][0]) == total

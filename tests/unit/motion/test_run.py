@@ -1,0 +1,78 @@
+"""A whole transient run below the command line: what it hands back, and what it leaves in its folder."""
+
+import json
+
+import pytest
+
+from ehlectric.errors import ConvergenceError
+from ehlectric.film.unsteady import UnsteadyFilm
+from ehlectric.motion.record import MOTION
+from ehlectric.motion.run import run, run_motion
+from tests.helpers.moving_cases import moving
+
+# Twelve steps of two grid spacings, recorded are 0, 4, 8 and 12.
+CASE = moving(motion={"passes": 0.375, "steps": 12, "record": 4})
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """Folder of a complete run."""
+    folder = tmp_path_factory.mktemp("run")
+    run_motion(CASE, folder)
+    return folder
+
+
+@pytest.fixture
+def complete(folder, tmp_path):
+    (tmp_path / MOTION).write_bytes((folder / MOTION).read_bytes())
+    return tmp_path
+
+
+def fail_at(monkeypatch, step):
+    """Let the time step of a number fail, counted from the beginning or from where a run is resumed."""
+    advance, calls = UnsteadyFilm.advance, []
+
+    def failing(self, history, length):
+        calls.append(length)
+        if len(calls) == step:
+            raise ConvergenceError("film not found")
+        return advance(self, history, length)
+
+    monkeypatch.setattr(UnsteadyFilm, "advance", failing)
+    return calls
+
+
+def test_a_complete_run_without_a_summary_is_summed_up_alone(monkeypatch, complete):
+    """As it is left by who stops a run between its last step and its summary; files of others go."""
+    (complete / "result.nc").write_text("of another result")
+    calls = fail_at(monkeypatch, 1)
+    outcome = run(CASE, complete)
+    assert not calls
+    assert outcome.failure is None
+    assert [path.name for path in outcome.files] == ["summary.json", MOTION]
+    assert sorted(path.name for path in complete.iterdir()) == [MOTION, "summary.json"]
+    assert json.loads(outcome.files[0].read_text()) == outcome.summary
+    assert outcome.summary["motion"]["steps_done"] == outcome.dataset.sizes["step"] - 1 == 12
+
+
+def test_a_complete_run_with_a_summary_is_solved_again(monkeypatch, complete):
+    (complete / "summary.json").write_text("{}")
+    calls = fail_at(monkeypatch, 1)
+    outcome = run(CASE, complete)
+    assert len(calls) == 1
+    assert str(outcome.failure) == "step 1 of 12: film not found"
+
+
+def test_the_steps_before_a_failure_are_summed_up(monkeypatch, tmp_path):
+    fail_at(monkeypatch, 7)
+    told = []
+    outcome = run(CASE, tmp_path, lambda *what: told.append(what))
+    assert str(outcome.failure) == "step 7 of 12: film not found"
+    assert (outcome.summary["converged"], outcome.summary["motion"]["steps_done"]) == (False, 4)
+    assert told[-1] == (4, 12, "in time")
+
+
+def test_without_a_film_before_the_motion_there_is_nothing_to_sum_up(tmp_path):
+    with pytest.raises(ConvergenceError, match=r"^film before the motion "):
+        run(CASE.replace({"solver.max_iterations": 1}), tmp_path)
+    assert not list(tmp_path.iterdir())
