@@ -13,9 +13,10 @@ from ehlectric.bearing.ring_contacts import Race, around_ball, around_roller, of
 from ehlectric.cases.bearing import Bearing
 from ehlectric.cases.discharge import Discharge
 from ehlectric.cases.lubricant import Lubricant, density_law, permittivity_law
-from ehlectric.contact.conditions import default_side, resolve, resolve_point
+from ehlectric.contact.conditions import default_side
 from ehlectric.contact.remarks import line_remarks as remarks
 from ehlectric.contact.remarks import point_remarks
+from ehlectric.contact.resolve import resolve, resolve_point
 from ehlectric.discharge.utilisation import dielectric_strength
 from ehlectric.errors import InputError
 from ehlectric.field.zones import areas

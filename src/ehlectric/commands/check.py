@@ -11,19 +11,11 @@ from rich.table import Table
 
 from ehlectric.cases.case import Case
 from ehlectric.commands.options import CaseFile, Json, Quiet
-from ehlectric.commands.tables.contact import conditions_table, point_table
+from ehlectric.commands.tables.contact import case_table
 from ehlectric.commands.terminal import print_table, user_errors, warn
-from ehlectric.contact.check import conditions_summary, point_summary
-from ehlectric.contact.conditions import resolve, resolve_point
-from ehlectric.contact.memory import check_memory
-from ehlectric.contact.problems import domain_of, line_domain_of, spacing, spacings
-from ehlectric.contact.remarks import line_remarks as remarks
-from ehlectric.contact.remarks import point_remarks
+from ehlectric.contact.check import check_case
+from ehlectric.contact.summary import case_summary
 from ehlectric.motion.motion import Motion
-from ehlectric.surfaces.remarks import map_surface_remarks as map_remarks
-from ehlectric.surfaces.remarks import profile_surface_remarks as rough_remarks
-from ehlectric.surfaces.rough_maps import rough_maps
-from ehlectric.surfaces.rough_profiles import rough_surfaces
 
 
 def check(case_file: CaseFile, quiet: Quiet = False, as_json: Json = False) -> None:
@@ -70,25 +62,15 @@ def meaning(case: Case) -> tuple[Table, dict[str, Any], list[str]]:
     >>> round(summary["hertz"]["max_pressure"] / 1e9, 3)
     0.791
     """
-    table, summary, texts = _of_point(case) if case.contact.geometry == "point" else _of_line(case)
+    contact = check_case(case)
+    table = case_table(case, contact.conditions)
+    summary, texts = case_summary(case, contact.conditions), list(contact.remarks())
     if case.motion is not None:
         motion = Motion(case)
         summary["motion"] = motion.described()
         for name, value, unit in _course_rows(motion):
             table.add_row(name, value, unit)
     return table, summary, texts
-
-
-def _of_line(case: Case) -> tuple[Table, dict[str, Any], list[str]]:
-    conditions = resolve(case)
-    domain = line_domain_of(case, conditions)
-    rough = rough_surfaces(case.roughness, domain)
-    check_memory(case)
-    texts = [
-        *remarks(case, conditions),
-        *rough_remarks(case.roughness, rough, domain, spacing(case, conditions)),
-    ]
-    return conditions_table(case, conditions), conditions_summary(case, conditions), texts
 
 
 def _course_rows(motion: Motion) -> Iterator[tuple[str, str, str]]:
@@ -113,15 +95,3 @@ def check_motion(case: Case) -> None:
     """
     if case.motion is not None:
         Motion(case)
-
-
-def _of_point(case: Case) -> tuple[Table, dict[str, Any], list[str]]:
-    conditions = resolve_point(case)
-    check_memory(case)
-    domain = domain_of(case, conditions)
-    rough = rough_maps(case.roughness, domain)
-    texts = [
-        *point_remarks(case, conditions),
-        *map_remarks(case.roughness, rough, domain, *spacings(case, conditions)),
-    ]
-    return point_table(case, conditions), point_summary(case, conditions), texts

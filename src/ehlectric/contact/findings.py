@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from ehlectric.cases.case import Case
+from ehlectric.contact.setup import Setup
 from ehlectric.field.line import Field
 from ehlectric.field.point import PointField
 from ehlectric.field.poisson import ATOM
@@ -24,7 +25,7 @@ _NAMED = 8
 _LOSS = 0.02
 
 
-def film_findings(case: Case, film: Film) -> Iterator[str]:
+def film_findings(setup: Case | Setup, film: Film | PointFilm) -> Iterator[str]:
     """What the film of any contact shows."""
     if not film.converged:
         yield (
@@ -43,7 +44,7 @@ def film_findings(case: Case, film: Film) -> Iterator[str]:
     if film.minimum_thickness < ATOM:
         yield "the film is thinner than an atom in places; the field is that of a gap of 0.1 nm there"
     error = film.discretisation_error
-    if film.converged and error is None and case.roughness:
+    if film.converged and error is None and setup.roughness:
         yield (
             "nothing is known of the discretisation error, as the roughness had to be raised in steps; "
             "compare with more grid.nodes"
@@ -53,23 +54,24 @@ def film_findings(case: Case, film: Film) -> Iterator[str]:
             "do not use this film: the next coarser grid was not solved, so that nothing is known of its "
             "discretisation error, which is large; take more grid.nodes"
         )
-    elif error is not None and error > max(0.01, case.grid.refine or 0.0):
+    elif error is not None and error > max(0.01, setup.grid.refine or 0.0):
         advice = "do not use it" if error > 0.1 else "take more grid.nodes"
         yield f"the film may be {100 * error:.2g} % off or more on this grid; {advice}"
     if not film.cavitates:
         yield "the film does not cavitate before the domain ends; raise grid.outlet"
 
 
-def line_findings(case: Case, film: Film, field: Field) -> Iterator[str]:
+def line_findings(setup: Case | Setup, film: Film, field: Field) -> Iterator[str]:
     """What is the line contact's own."""
-    if film.inlet_deficit > 0.01:
-        effect = "do not use this film" if film.inlet_deficit > 0.2 else "the film is about that much off"
+    deficit = film.inlet_deficit
+    if deficit is not None and deficit > 0.01:
+        effect = "do not use this film" if deficit > 0.2 else "the film is about that much off"
         yield (
-            f"the inlet is too short: {100 * film.inlet_deficit:.2g} % of the pressure is built up before "
+            f"the inlet is too short: {100 * deficit:.2g} % of the pressure is built up before "
             f"it, {effect}; lower grid.inlet"
         )
     inside = int(np.count_nonzero((film.x >= field.x[0]) & (film.x <= field.x[-1])))
-    if case.grid.field_nodes is not None and case.grid.field_nodes < inside:
+    if setup.grid.field_nodes is not None and setup.grid.field_nodes < inside:
         yield (
             f"grid.field_nodes is coarser than the film, which has {inside} nodes in the field range: the "
             "width of the high-field zone and the capacitance suffer"
@@ -78,19 +80,19 @@ def line_findings(case: Case, film: Film, field: Field) -> Iterator[str]:
         yield "the largest field is at an end of grid.field_range; widen it"
 
 
-def point_findings(case: Case, film: PointFilm, field: PointField) -> Iterator[str]:
+def point_findings(setup: Case | Setup, film: PointFilm, field: PointField) -> Iterator[str]:
     """What is the point contact's own."""
-    if film.domain_loss > _LOSS:
-        loss = film.domain_loss
+    loss, before, beside = film.domain_loss, film.inlet_deficit, film.side_deficit
+    if loss is not None and before is not None and beside is not None and loss > _LOSS:
         effect = "do not use it" if loss > 0.2 else f"by about {100 * loss:.2g} %"
         yield (
-            f"the domain is too small: {100 * film.inlet_deficit:.2g} % of the pressure is built up before "
-            f"it and {100 * film.side_deficit:.2g} % would be at its sides, which makes the film too thin, "
+            f"the domain is too small: {100 * before:.2g} % of the pressure is built up before "
+            f"it and {100 * beside:.2g} % would be at its sides, which makes the film too thin, "
             f"{effect}; lower grid.inlet and raise grid.side"
         )
     for key, of_field, of_film in (("field_nodes", field.x, film.x), ("field_nodes_y", field.y, film.y)):
         inside = int(np.count_nonzero((of_film >= of_field[0]) & (of_film <= of_field[-1])))
-        given = getattr(case.grid, key)
+        given = getattr(setup.grid, key)
         if given is not None and given < inside:
             yield (
                 f"grid.{key} is coarser than the film, which has {inside} nodes in the field range: the area "

@@ -9,6 +9,7 @@ import numpy as np
 from ehlectric.cases.case import Case
 from ehlectric.cases.lubricant import Lubricant
 from ehlectric.contact.conditions import Conditions, PointConditions
+from ehlectric.contact.setup import Setup
 from ehlectric.formulas import film_line as film_formulas
 from ehlectric.formulas import film_point as point_formulas
 from ehlectric.lubricant.viscosity import roelands_exponent
@@ -23,18 +24,18 @@ _RIGID_INLET = 14.0
 _POINT_PERMANENT = 4.2e9
 
 
-def line_remarks(case: Case, conditions: Conditions) -> Iterator[str]:
+def line_remarks(setup: Case | Setup, conditions: Conditions) -> Iterator[str]:
     """What a user should know about a case before it is solved, one text each."""
     yield from regime_remarks(conditions)
-    width = (case.grid.outlet - case.grid.inlet) / (0.5 * np.pi)
-    yield from pressure_remarks(case.lubricant, conditions.max_pressure, width, "line", _LINE_PERMANENT)
+    width = (setup.grid.outlet - setup.grid.inlet) / (0.5 * np.pi)
+    yield from pressure_remarks(setup.lubricant, conditions.max_pressure, width, "line", _LINE_PERMANENT)
 
 
 def regime_remarks(conditions: Conditions) -> Iterator[str]:
     """What to know of a line contact far from those that the film formulas were made for."""
-    regime = film_formulas.regime(conditions.formulas)
+    regime = film_formulas.regime(conditions.contact)
     if regime == "isoviscous-rigid":
-        yield rigid_remark("half-width", "half-widths", _RIGID_INLET / conditions.formulas.moes_m)
+        yield rigid_remark("half-width", "half-widths", _RIGID_INLET / conditions.contact.moes_m)
     elif regime != "piezoviscous-elastic":
         yield f"{regime} regime: the film formulas but Moes' are for piezoviscous-elastic contacts"
 
@@ -81,23 +82,23 @@ def pressure_remarks(
             )
 
 
-def point_remarks(case: Case, conditions: PointConditions) -> Iterator[str]:
+def point_remarks(setup: Case | Setup, conditions: PointConditions) -> Iterator[str]:
     """What a user should know about a point contact before it is solved, one text each."""
     yield from point_regime_remarks(conditions)
-    area = (case.grid.outlet - case.grid.inlet) * 2.0 * conditions.side
+    area = (setup.grid.outlet - setup.grid.inlet) * 2.0 * conditions.side
     domain = area / (2.0 * np.pi / 3.0)
-    yield from pressure_remarks(case.lubricant, conditions.max_pressure, domain, "point", _POINT_PERMANENT)
+    yield from pressure_remarks(setup.lubricant, conditions.max_pressure, domain, "point", _POINT_PERMANENT)
 
 
 def point_regime_remarks(conditions: PointConditions) -> Iterator[str]:
     """What to know of a point contact far from those that the film formulas were made for."""
-    formulas = conditions.formulas
-    regime = point_formulas.regime(formulas)
+    contact = conditions.contact
+    regime = point_formulas.regime(contact)
     if regime == "isoviscous-rigid":
-        film = point_formulas.nijenbanning_venner_moes(formulas).central_thickness
+        film = point_formulas.nijenbanning_venner_moes(contact).central_thickness
         assert film is not None
         # A rigid film builds up over some ten sqrt(2 R h).
-        reach = 10.0 * float(np.sqrt(2.0 * formulas.radius_x * film)) / conditions.semi_axis_x
+        reach = 10.0 * float(np.sqrt(2.0 * contact.radius_x * film)) / conditions.semi_axis_x
         yield rigid_remark("semi-axis", "semi-axes", reach)
     elif regime == "isoviscous-elastic":
         yield (

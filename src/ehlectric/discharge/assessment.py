@@ -12,7 +12,6 @@ from scipy.constants import epsilon_0
 from ehlectric.cases.discharge import Discharge
 from ehlectric.cases.lubricant import Lubricant, permittivity_law
 from ehlectric.discharge.capacitance import zone_capacitances
-from ehlectric.discharge.columns import axes_of
 from ehlectric.discharge.laws import (
     CURRENT_DENSITY_LIMITS,
     LARGEST_PIT,
@@ -31,6 +30,7 @@ from ehlectric.field.line import Field
 from ehlectric.field.point import PointField
 from ehlectric.field.zones import line_zone_areas, point_zone_areas
 from ehlectric.film.line import Film
+from ehlectric.film.point import PointFilm
 
 
 @dataclass(frozen=True)
@@ -130,7 +130,7 @@ def assess(
     given: Discharge,
     lubricant: Lubricant,
     semi_axes: tuple[float, ...],
-    film: Film,
+    film: Film | PointFilm,
     field: Field | PointField,
 ) -> Assessment:
     """Assess the discharge of a solved contact.
@@ -252,12 +252,12 @@ def _capacitances(
     given: Discharge,
     lubricant: Lubricant,
     semi_axes: tuple[float, ...],
-    film: Film,
+    film: Film | PointFilm,
     field: Field | PointField,
 ) -> dict[str, Any]:
     """Capacitances by zone, and of the outlet by what fills it."""
     areas = line_zone_areas if len(semi_axes) == 1 else point_zone_areas
-    zones = areas(axes_of(film), *semi_axes), areas(axes_of(field), *semi_axes)
+    zones = areas(film.axes, *semi_axes), areas(field.axes, *semi_axes)
     by_outlet = zone_capacitances(film, field, zones, permittivity_law(lubricant))
     chosen = by_outlet[given.outlet]
     return {
@@ -307,7 +307,7 @@ def _leakage(given: Discharge, permittivity: float) -> dict[str, Any]:
     return {"relaxation_time": time, "corner_frequency": 1.0 / (2.0 * np.pi * time)}
 
 
-def discharge_findings(given: Discharge | None, film: Film) -> Iterator[str]:
+def discharge_findings(given: Discharge | None, film: Film | PointFilm) -> Iterator[str]:
     """What a user should know of the discharge, one text each; nothing without a ``[discharge]``."""
     if given is None:
         return

@@ -298,7 +298,7 @@ def _instant(found: Mapping[str, Array], k: int) -> Instant:
     return Instant(float(found["t"][k]), state, parts["mass"], parts["density"], parts["free"].astype(bool))
 
 
-def column_strength(film: Film, field: Field | PointField) -> Array:
+def column_strength(film: Film | PointFilm, field: Field | PointField) -> Array:
     """Largest field strength across the film at its nodes [V/m]; not a number outside the field range."""
     strength = field.column_strength
     if isinstance(film, PointFilm):

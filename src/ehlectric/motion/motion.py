@@ -19,8 +19,9 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
 from ehlectric.contact.bodies import surface_ratios
-from ehlectric.contact.conditions import Conditions, PointConditions, resolve, resolve_point
+from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.problems import domain_of, film_problem, line_domain_of, point_film_problem
+from ehlectric.contact.resolve import resolve, resolve_point
 from ehlectric.errors import InputError
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.unsteady import MOST_COURANT

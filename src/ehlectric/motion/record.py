@@ -13,7 +13,8 @@ import numpy as np
 from ehlectric.arrays import Array, Mask
 from ehlectric.cases.case import Case
 from ehlectric.contact.bodies import surface_ratios
-from ehlectric.contact.conditions import Conditions, PointConditions, resolve, resolve_point
+from ehlectric.contact.conditions import Conditions, PointConditions
+from ehlectric.contact.resolve import resolve, resolve_point
 from ehlectric.errors import InputError
 from ehlectric.runtime.netcdf import opened
 

@@ -22,7 +22,6 @@ from ehlectric.contact.remarks import point_remarks
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.contact.solver import solve
 from ehlectric.field.poisson import ATOM
-from ehlectric.film.point import PointFilm
 from ehlectric.motion.file import MotionFile, Row, column_strength, described
 from ehlectric.motion.motion import Motion
 from ehlectric.motion.record import MOTION
@@ -174,7 +173,7 @@ def _unlike(motion: Motion, still: Result | PointResult) -> Iterator[str]:
     if not np.isfinite(motion.coincident):
         return
     film, b = still.film, motion.half_width
-    axes = (film.x / b, film.y / b) if isinstance(film, PointFilm) else (film.x / b,)
+    axes = tuple(axis / b for axis in film.axes)
     inside = np.abs(axes[0]) <= 1.0
     away = (motion.heights(motion.coincident, *axes) - still.roughness)[:, inside]
     part = np.max(np.abs(away)) / max(np.max(np.abs(still.roughness[:, inside])), ATOM)

@@ -10,15 +10,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlectric.arrays import Array
-from ehlectric.contact.conditions import Conditions, PointConditions
+from ehlectric.contact.conditions import PointConditions
 from ehlectric.contact.problems import field_problem, point_field_problem
 from ehlectric.errors import ConvergenceError
 from ehlectric.field.line import Field, solve_field
 from ehlectric.field.point import PointField, solve_point_field
-from ehlectric.film.line import Film, pressure_of, quiet_solution
+from ehlectric.film.line import Film
 from ehlectric.film.nested import nested_iteration
 from ehlectric.film.newton import Progress
 from ehlectric.film.point import PointFilm, semi_axis_across
+from ehlectric.film.solution import FilmSolution, pressure_of, quiet_solution
 from ehlectric.film.unsteady import History, Instant, UnsteadyFilm
 from ehlectric.motion.motion import Motion
 
@@ -40,7 +41,7 @@ class Snapshot:
     """
 
     time: float
-    film: Film
+    film: Film | PointFilm
     roughness: Array
     field: Field | PointField
 
@@ -98,7 +99,7 @@ class MovingContact:
         conditions = self.motion.conditions
         film = self.film(instant)
         b = self.motion.half_width
-        axes = (film.x / b, film.y / b) if isinstance(film, PointFilm) else (film.x / b,)
+        axes = tuple(axis / b for axis in film.axes)
         roughness = self.motion.heights(instant.time, *axes)
         field: Field | PointField
         if isinstance(conditions, PointConditions):
@@ -106,7 +107,7 @@ class MovingContact:
             field = solve_point_field(point_field_problem(self.motion.case, conditions, film, roughness))
             field = field.mirrored() if field.y[0] == 0.0 else field
         else:
-            assert isinstance(conditions, Conditions)
+            assert isinstance(film, Film)
             field = solve_field(field_problem(self.motion.case, conditions, film, roughness))
         return Snapshot(instant.time * self.motion.course.time, film, roughness, field)
 
@@ -125,33 +126,23 @@ class MovingContact:
         point = isinstance(self.motion.conditions, PointConditions)
         return self._film.level.mesh.mirrored(values) if point else values[:, 0]
 
-    def film(self, instant: Instant) -> Film:
+    def film(self, instant: Instant) -> Film | PointFilm:
         """The film at an instant in SI units."""
         level, scales, state = self._film.level, self.motion.problem.scales, instant.state
         mesh, shaped = level.mesh, self._shaped
         load = float(np.vdot(level.weights, state.pressure))
-        film: dict[str, Any] = {
-            "x": scales.length * mesh.x,
-            "pressure": shaped(pressure_of(scales, state, instant.free)),
-            "thickness": shaped(scales.thickness * state.thickness),
-            "deflection": shaped(scales.thickness * level.deflection(state.pressure)),
-            "density": shaped(instant.density),
-            "cavitated": shaped(~instant.free),
-            "reynolds_residual": shaped(np.zeros(mesh.shape)),
-            "scales": scales,
-            "status": "converged",
-            "residual": 0.0,
-            "load_residual": abs(load / level.load - 1.0),
-            "newton_iterations": 0,
-            "steps": (),
-            "discretisation_error": None,
-            "inlet_deficit": 0.0,
-        }
-        if not isinstance(self.motion.conditions, PointConditions):
-            return Film(**film)
-        return PointFilm(
-            **film,
-            y=scales.length * mesh.whole_y,
-            semi_axis_y=semi_axis_across(self.motion.problem),
-            side_deficit=0.0,
+        film = FilmSolution(
+            x=scales.length * mesh.x,
+            pressure=shaped(pressure_of(scales, state, instant.free)),
+            thickness=shaped(scales.thickness * state.thickness),
+            deflection=shaped(scales.thickness * level.deflection(state.pressure)),
+            density=shaped(instant.density),
+            cavitated=shaped(~instant.free),
+            scales=scales,
+            status="converged",
+            load_residual=abs(load / level.load - 1.0),
         )
+        if not isinstance(self.motion.conditions, PointConditions):
+            return Film.of(film)
+        y, semi_axis_y = scales.length * mesh.whole_y, semi_axis_across(self.motion.problem)
+        return PointFilm.of(film, y=y, semi_axis_y=semi_axis_y)

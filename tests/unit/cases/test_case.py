@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 
 from ehlectric import Case, InputError, solve
-from ehlectric.contact.conditions import resolve
 from ehlectric.contact.remarks import line_remarks as remarks
+from ehlectric.contact.resolve import resolve
 from tests.conftest import PAPER_CONTACT
 
 TABLE = {"contact": PAPER_CONTACT, "lubricant": {"base": "paper"}}

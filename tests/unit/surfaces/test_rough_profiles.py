@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from ehlectric import Case, InputError
-from ehlectric.contact.conditions import resolve
 from ehlectric.contact.problems import line_domain_of, spacing
+from ehlectric.contact.resolve import resolve
 from ehlectric.surfaces.profiles import Profile
 from ehlectric.surfaces.remarks import profile_surface_remarks as remarks
 from ehlectric.surfaces.remarks import profile_variance_beyond as variance_beyond

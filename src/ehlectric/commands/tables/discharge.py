@@ -8,6 +8,9 @@ from ehlectric.contact.results import PointResult, Result
 from ehlectric.discharge.assessment import Assessment
 from ehlectric.discharge.laws import LARGEST_PIT, MEAN_PIT
 
+# Factor and unit of a capacitance by the geometry of the contact: per length of a line.
+_CAPACITANCE = {"line": (1e9, "nF/m"), "point": (1e12, "pF")}
+
 
 def add_discharge(table: Table, result: Result | PointResult) -> None:
     """Rows of the discharge, where the case has one."""
@@ -18,7 +21,7 @@ def add_discharge(table: Table, result: Result | PointResult) -> None:
     table.add_row("discharge")
     _add_breakdown(table, found)
     _add_zone(table, found, result.conditions.half_width)
-    _add_capacitance(table, found, *((1e12, "pF") if isinstance(result, PointResult) else (1e9, "nF/m")))
+    _add_capacitance(table, found, *_CAPACITANCE[result.conditions.geometry])
     _add_costs(table, found)
     if found.relaxation_time is not None and found.corner_frequency is not None:
         table.add_row("relaxation time", f"{found.relaxation_time:.3g}", "s, at ambient pressure")
