@@ -111,7 +111,7 @@ def velocity_parameter(
     Examples
     --------
     >>> oil = {"viscosity": 0.01, "entrainment_speed": 1.0}
-    >>> velocity_parameter(**oil, radius=0.01, half_width=1e-4, max_pressure=1e9)
+    >>> round(velocity_parameter(**oil, radius=0.01, half_width=1e-4, max_pressure=1e9), 6)
     0.012
     """
     sum_of_speeds = 2.0 * entrainment_speed
