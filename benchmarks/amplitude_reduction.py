@@ -21,11 +21,11 @@ from scipy.interpolate import CubicSpline
 from scipy.optimize import least_squares
 
 from ehlectric import Case
-from ehlectric.contact.conditions import resolve
 from ehlectric.contact.problems import film_problem
-from ehlectric.film.line import quiet_solution
+from ehlectric.contact.resolve import resolve
 from ehlectric.film.mesh import at_centre
 from ehlectric.film.nested import nested_iteration
+from ehlectric.film.solution import quiet_solution
 from ehlectric.film.state import GridSolution
 from ehlectric.film.unsteady import UnsteadyFilm
 

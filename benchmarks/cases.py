@@ -9,8 +9,8 @@ import numpy as np
 from ehlectric.cases.case import Case
 from ehlectric.contact import problems as point_problems
 from ehlectric.contact import solver
-from ehlectric.contact.conditions import resolve, resolve_point
 from ehlectric.contact.problems import line_domain_of
+from ehlectric.contact.resolve import resolve, resolve_point
 from ehlectric.field.poisson import FieldProblem
 from ehlectric.field.poisson_3d import PointFieldProblem
 from ehlectric.film.point import solve_point_film

@@ -13,10 +13,10 @@ import numpy as np
 
 from benchmarks import cases
 from benchmarks.measure import processor
-from ehlectric.film.line import quiet_solution
 from ehlectric.film.mesh import at_centre
 from ehlectric.film.nested import nested_iteration
 from ehlectric.film.problem import FilmProblem
+from ehlectric.film.solution import quiet_solution
 from ehlectric.film.unsteady import Effort, UnsteadyFilm
 
 # Problem, its nodes, and time steps.

@@ -51,7 +51,7 @@ def compare(quantity, label):
         films = np.array([getattr(result.film, quantity) for result in solved[pressure]])
         above.loglog(speeds, 1e6 * films, "o", ms=4, color=colour)
         for name, (title, style) in NAMES.items():
-            formula = [vars(FORMULAS[name](r.conditions.formulas))[quantity] for r in solved[pressure]]
+            formula = [vars(FORMULAS[name](r.conditions.contact))[quantity] for r in solved[pressure]]
             if formula[0] is None:
                 continue
             if title not in drawn:

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from ehlectric.contact.conditions import resolve
 from ehlectric.contact.problems import film_problem
-from ehlectric.film.line import quiet_solution
+from ehlectric.contact.resolve import resolve
 from ehlectric.film.nested import nested_iteration
+from ehlectric.film.solution import quiet_solution
 from ehlectric.film.unsteady import UnsteadyFilm
 
 

@@ -5,8 +5,8 @@ import pandas as pd
 import pytest
 
 from ehlectric import ConvergenceError, solve
-from ehlectric.contact.conditions import resolve
 from ehlectric.contact.problems import field_problem, film_problem
+from ehlectric.contact.resolve import resolve
 from ehlectric.field.line import solve_field
 from ehlectric.film.line import solve_film
 from ehlectric.paper import fas, relaxation, sor

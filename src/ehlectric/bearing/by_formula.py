@@ -14,7 +14,8 @@ from ehlectric.cases.bearing import Bearing
 from ehlectric.cases.discharge import Discharge
 from ehlectric.cases.lubricant import Lubricant, density_law, effective_alpha, permittivity_law
 from ehlectric.contact.case_warnings import line_case_warnings, point_case_warnings
-from ehlectric.contact.conditions import default_side, resolve, resolve_point
+from ehlectric.contact.conditions import default_side
+from ehlectric.contact.resolve import resolve, resolve_point
 from ehlectric.discharge.utilisation import dielectric_strength
 from ehlectric.errors import InputError, ResultWarning
 from ehlectric.field.zones import areas

@@ -1,7 +1,7 @@
 """A case: what is solved, read from TOML, written back, and changed.
 
 A case is frozen and holds SI floats. Alternatives (two radii or the reduced one, load or Hertz pressure,
-entrainment speed or two speeds) stay as they were given; ``ehlectric.contact.conditions`` resolves them.
+entrainment speed or two speeds) stay as they were given; ``ehlectric.contact.resolve`` resolves them.
 """
 
 from __future__ import annotations

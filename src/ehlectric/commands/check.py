@@ -11,19 +11,13 @@ from rich.table import Table
 
 from ehlectric.cases.case import Case
 from ehlectric.commands.options import CaseFile, Json, Quiet
-from ehlectric.commands.tables.contact import conditions_table, point_table
+from ehlectric.commands.tables.contact import case_table
 from ehlectric.commands.terminal import print_table, user_errors, warn
-from ehlectric.contact.case_warnings import line_case_warnings, point_case_warnings
-from ehlectric.contact.check import conditions_summary, point_summary
-from ehlectric.contact.conditions import resolve, resolve_point
-from ehlectric.contact.memory import check_memory
-from ehlectric.contact.problems import domain_of, line_domain_of, spacing, spacings
+from ehlectric.contact.check import check_case
+from ehlectric.contact.summary import case_summary
 from ehlectric.errors import ResultWarning
 from ehlectric.motion.contact import TransientContact
 from ehlectric.motion.schedule import Schedule
-from ehlectric.surfaces.rough_maps import rough_maps
-from ehlectric.surfaces.rough_profiles import rough_surfaces
-from ehlectric.surfaces.warnings import map_surface_warnings, profile_surface_warnings
 
 
 def check(case_file: CaseFile, quiet: Quiet = False, as_json: Json = False) -> None:
@@ -70,25 +64,15 @@ def meaning(case: Case) -> tuple[Table, dict[str, Any], list[ResultWarning]]:
     >>> round(summary["hertz"]["max_pressure"] / 1e9, 3)
     0.791
     """
-    table, summary, warnings = _of_point(case) if case.contact.geometry == "point" else _of_line(case)
+    contact = check_case(case)
+    table = case_table(case, contact.conditions)
+    summary, warnings = case_summary(case, contact.conditions), list(contact.warnings())
     if case.motion is not None:
-        contact = TransientContact.of(case)
-        summary["motion"] = contact.schedule.described()
-        for name, value, unit in _schedule_rows(contact.schedule, contact.conditions.entrainment_speed):
+        moving = TransientContact.of(case)
+        summary["motion"] = moving.schedule.described()
+        for name, value, unit in _schedule_rows(moving.schedule, moving.conditions.entrainment_speed):
             table.add_row(name, value, unit)
     return table, summary, warnings
-
-
-def _of_line(case: Case) -> tuple[Table, dict[str, Any], list[ResultWarning]]:
-    conditions = resolve(case)
-    domain = line_domain_of(case, conditions)
-    rough = rough_surfaces(case.roughness, domain)
-    check_memory(case)
-    warnings = [
-        *line_case_warnings(case, conditions),
-        *profile_surface_warnings(case.roughness, rough, domain, spacing(case, conditions)),
-    ]
-    return conditions_table(case, conditions), conditions_summary(case, conditions), warnings
 
 
 def _schedule_rows(schedule: Schedule, mean: float) -> Iterator[tuple[str, str, str]]:
@@ -112,15 +96,3 @@ def check_motion(case: Case) -> None:
     """
     if case.motion is not None:
         TransientContact.of(case)
-
-
-def _of_point(case: Case) -> tuple[Table, dict[str, Any], list[ResultWarning]]:
-    conditions = resolve_point(case)
-    check_memory(case)
-    domain = domain_of(case, conditions)
-    rough = rough_maps(case.roughness, domain)
-    warnings = [
-        *point_case_warnings(case, conditions),
-        *map_surface_warnings(case.roughness, rough, domain, *spacings(case, conditions)),
-    ]
-    return point_table(case, conditions), point_summary(case, conditions), warnings

@@ -49,7 +49,7 @@ def run(
 
         if solver not in SOLVERS:
             raise InputError("--solver", got=shown(solver), takes=f"one of {', '.join(SOLVERS)}")
-        check_case(case)
+        contact = check_case(case)
         check_motion(case)
         SOLVERS[solver].check(case)
         if case.motion is not None:
@@ -64,6 +64,7 @@ def run(
                     f"film: {nodes} nodes, step {step + 1}, residual {residual:.1e}"
                 ),
                 solvers=SOLVERS[solver],
+                prepared=contact,
             )
             stage("writing results")
             clear(folder, (*names, MOTION, *MOTION_FIGURE_FILES))

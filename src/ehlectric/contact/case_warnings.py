@@ -9,6 +9,7 @@ import numpy as np
 from ehlectric.cases.case import Case
 from ehlectric.cases.lubricant import Lubricant, law_warnings
 from ehlectric.contact.conditions import Conditions, PointConditions
+from ehlectric.contact.setup import Setup
 from ehlectric.errors import ResultWarning
 from ehlectric.formulas import film_line as film_formulas
 from ehlectric.formulas import film_point as point_formulas
@@ -23,18 +24,18 @@ _RIGID_INLET = 14.0
 _POINT_PERMANENT = 4.2e9
 
 
-def line_case_warnings(case: Case, conditions: Conditions) -> Iterator[ResultWarning]:
+def line_case_warnings(setup: Case | Setup, conditions: Conditions) -> Iterator[ResultWarning]:
     """Warnings of a line contact that are known before it is solved."""
     yield from regime_warnings(conditions)
-    width = (case.grid.outlet - case.grid.inlet) / (0.5 * np.pi)
-    yield from pressure_warnings(case.lubricant, conditions.max_pressure, width, "line", _LINE_PERMANENT)
+    width = (setup.grid.outlet - setup.grid.inlet) / (0.5 * np.pi)
+    yield from pressure_warnings(setup.lubricant, conditions.max_pressure, width, "line", _LINE_PERMANENT)
 
 
 def regime_warnings(conditions: Conditions) -> Iterator[ResultWarning]:
     """Warning of a line contact in a regime that the film formulas were not made for."""
-    regime = film_formulas.regime(conditions.formulas)
+    regime = film_formulas.regime(conditions.contact)
     if regime == "isoviscous-rigid":
-        yield rigid_warning("half-width", "half-widths", _RIGID_INLET / conditions.formulas.moes_m)
+        yield rigid_warning("half-width", "half-widths", _RIGID_INLET / conditions.contact.moes_m)
     elif regime != "piezoviscous-elastic":
         yield ResultWarning(
             "regime", f"{regime} regime: the film formulas but Moes' are for piezoviscous-elastic contacts"
@@ -76,22 +77,22 @@ def pressure_warnings(
     yield from law_warnings(lubricant, pressure)
 
 
-def point_case_warnings(case: Case, conditions: PointConditions) -> Iterator[ResultWarning]:
+def point_case_warnings(setup: Case | Setup, conditions: PointConditions) -> Iterator[ResultWarning]:
     """Warnings of a point contact that are known before it is solved."""
     yield from point_regime_warnings(conditions)
-    area = (case.grid.outlet - case.grid.inlet) * 2.0 * conditions.side
+    area = (setup.grid.outlet - setup.grid.inlet) * 2.0 * conditions.side
     domain = area / (2.0 * np.pi / 3.0)
-    yield from pressure_warnings(case.lubricant, conditions.max_pressure, domain, "point", _POINT_PERMANENT)
+    yield from pressure_warnings(setup.lubricant, conditions.max_pressure, domain, "point", _POINT_PERMANENT)
 
 
 def point_regime_warnings(conditions: PointConditions) -> Iterator[ResultWarning]:
     """Warning of a point contact in a regime that the film formulas were not made for."""
-    formulas = conditions.formulas
-    regime = point_formulas.regime(formulas)
+    contact = conditions.contact
+    regime = point_formulas.regime(contact)
     if regime == "isoviscous-rigid":
-        film = point_formulas.nijenbanning_venner_moes(formulas).central_thickness
+        film = point_formulas.nijenbanning_venner_moes(contact).central_thickness
         # A rigid film builds up over some ten sqrt(2 R h).
-        reach = 10.0 * float(np.sqrt(2.0 * formulas.radius_x * film)) / conditions.semi_axis_x
+        reach = 10.0 * float(np.sqrt(2.0 * contact.radius_x * film)) / conditions.semi_axis_x
         yield rigid_warning("semi-axis", "semi-axes", reach)
     elif regime == "isoviscous-elastic":
         yield ResultWarning(

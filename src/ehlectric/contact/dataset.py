@@ -10,7 +10,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ehlectric.arrays import Array
+from ehlectric.cases.case import Case
+from ehlectric.contact.solution import Solution
 from ehlectric.film.state import NewtonStep
+from ehlectric.runtime.files import plain
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -157,6 +160,54 @@ def variables(
         about = {"long_name": f"{what} of smooth surfaces", "units": unit}
         named[f"smooth_{name}"] = (getattr(layout, grid), values, about)
     return named
+
+
+def dataset_of(solution: Solution[Any, Any, Any], layout: Layout, summary: Mapping[str, Any]) -> xr.Dataset:
+    """Dataset of a solved contact.
+
+    Parameters
+    ----------
+    solution : Solution
+        Film and field.
+    layout : Layout
+        Of its kind of contact.
+    summary : mapping
+        Its key figures.
+
+    Returns
+    -------
+    xarray.Dataset
+        All arrays with their units; the case, the summary and the solver history as attributes. Without a
+        case there is no attribute ``case``, and ``load`` refuses it.
+    """
+    import xarray as xr
+
+    smooth = None if solution.smooth is None else vars(solution.smooth)
+    case, made_by = solution.case, f"ehlectric {solution.version}"
+    return (
+        xr.Dataset(
+            variables(layout, solution.film, solution.field, solution.roughness, smooth),
+            attrs={
+                "Conventions": "CF-1.11",
+                "title": case.title or layout.title,
+                "source": made_by,
+                "history": f"{solution.date} solved by {made_by}",
+                "version": solution.version,
+                "date": solution.date,
+                "converged": int(solution.converged),
+                **({"case": case.to_toml()} if isinstance(case, Case) else {}),
+                "summary": json.dumps(summary),
+                "warnings": json.dumps(solution.warnings),
+                "rough": json.dumps(plain(solution.rough)),
+                "film_solver": solution.film_solver,
+                "field_solver": solution.field_solver,
+                "seconds": json.dumps([solution.film_seconds, solution.field_seconds]),
+                **attributes(layout, solution.film, solution.field),
+            },
+        )
+        .set_coords(layout.coordinates)
+        .copy(deep=True)
+    )
 
 
 def smooth_of(dataset: xr.Dataset) -> dict[str, Array] | None:

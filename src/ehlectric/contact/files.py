@@ -12,23 +12,12 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
-from ehlectric.contact.conditions import resolve, resolve_point
-from ehlectric.contact.dataset import (
-    LINE_LAYOUT,
-    POINT_LAYOUT,
-    field_parts,
-    film_parts,
-    roughness_of,
-    smooth_of,
-)
+from ehlectric.contact.dataset import field_parts, film_parts, roughness_of, smooth_of
+from ehlectric.contact.kinds import KINDS
 from ehlectric.contact.problems import scales_of
-from ehlectric.contact.results import PointResult, Result
+from ehlectric.contact.results import RESULTS, PointResult, Result
 from ehlectric.contact.solution import Smooth
 from ehlectric.errors import InputError
-from ehlectric.field.line import Field
-from ehlectric.field.point import PointField
-from ehlectric.film.line import Film
-from ehlectric.film.point import PointFilm
 from ehlectric.runtime.files import prepare, whole
 from ehlectric.runtime.stored_warnings import of_attributes
 
@@ -60,8 +49,10 @@ def save(result: Result | PointResult, folder: str | Path) -> list[Path]:
     Raises
     ------
     InputError
-        Where the folder cannot be written to.
+        Where the folder cannot be written to, or the result has no case, which its file keeps.
     """
+    if not isinstance(result.case, Case):
+        raise InputError("result", got="one of solve_contact, which has no case;", takes="one of solve(case)")
     folder = prepare(folder, FILES)
     files = [folder / name for name in FILES]
     with whole(files[0]) as path:
@@ -78,13 +69,11 @@ def save(result: Result | PointResult, folder: str | Path) -> list[Path]:
 
 def _film_columns(result: Result | PointResult) -> tuple[Array, list[str]]:
     """The film as a table, one line a node, and the names of its positions."""
-    film, names = result.film, ["x [m]"]
-    positions = [film.x]
-    if isinstance(result, PointResult):
-        names.append("y [m]")
-        positions = [at.ravel() for at in np.meshgrid(film.x, result.film.y, indexing="ij")]
+    film = result.film
+    names = [f"{name} [m]" for name in ("x", "y")[: len(film.axes)]]
+    positions = np.meshgrid(*film.axes, indexing="ij")
     values = (film.pressure, film.thickness, film.density)
-    return np.column_stack([*positions, *(value.ravel() for value in values)]), names
+    return np.column_stack([value.ravel() for value in (*positions, *values)]), names
 
 
 def load(path: str | Path) -> Result | PointResult:
@@ -127,28 +116,18 @@ def load(path: str | Path) -> Result | PointResult:
 
 def _result_of(dataset: xr.Dataset) -> Result | PointResult:
     case = Case.from_dict(tomllib.loads(dataset.attrs["case"]))
-    point = case.contact.geometry == "point"
-    layout = POINT_LAYOUT if point else LINE_LAYOUT
+    kind = KINDS[case.contact.geometry]
+    layout = kind.layout
     if not all(np.all(np.isfinite(variable.values)) for variable in dataset.variables.values()):
         raise ValueError("a value is not finite")
     if min(dataset.sizes[name] for name in {*layout.film_grid, *layout.field_grid, "s"}) < 2:
         raise ValueError("an array is empty")
-    film, field = film_parts(layout, dataset), field_parts(layout, dataset)
-    if point:
-        conditions = resolve_point(case)
-        return PointResult(
-            case=case,
-            conditions=conditions,
-            film=PointFilm(**film, scales=scales_of(case, conditions)),
-            field=PointField(**field),
-            **_provenance(dataset),
-        )
-    of_line = resolve(case)
-    return Result(
+    conditions = kind.resolve(case)
+    return RESULTS[case.contact.geometry](
         case=case,
-        conditions=of_line,
-        film=Film(**film, scales=scales_of(case, of_line)),
-        field=Field(**field),
+        conditions=conditions,
+        film=kind.film(**film_parts(layout, dataset), scales=scales_of(case, conditions)),
+        field=kind.field(**field_parts(layout, dataset)),
         **_provenance(dataset),
     )
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 from ehlectric.cases.case import Case
 from ehlectric.cases.grid import Grid
@@ -43,20 +44,33 @@ def check_memory(case: Case) -> None:
         Where film and field would take more than the physical memory.
     """
     if case.motion is not None:
-        _check_record(case.motion, case.grid, point=case.contact.geometry == "point")
-    if case.contact.geometry == "point":
-        _check_point(case)
-        return
-    grid = case.grid
-    columns = _columns_along(grid)
-    film = FILM_BYTES * grid.nodes
-    field = FIELD_BYTES * columns * (grid.field_degree + 1) ** 2
-    _refuse_beyond(grid, (film, field), (f"{grid.nodes}", f"{columns}"))
+        _check_record(case.motion, case.grid, _NODES[case.contact.geometry](case.grid))
+    check_grid(case.contact.geometry, case.grid, rough=bool(case.roughness))
 
 
-def _check_record(motion: Motion, grid: Grid, *, point: bool) -> None:
-    """The same for the instants that are kept of a motion, which are all read again at its end."""
-    nodes = grid.nodes * (grid.nodes_across if point else 1)
+def check_grid(geometry: str, grid: Grid, *, rough: bool) -> None:
+    """Refuse a grid whose film and field the memory of this machine cannot hold.
+
+    Parameters
+    ----------
+    geometry : str
+        Of the contact, "line" or "point".
+    grid : Grid
+        Its discretisation.
+    rough : bool
+        Whether its surfaces may differ from their mirror image.
+
+    Raises
+    ------
+    MemoryLimitError
+        Where film and field would take more than the physical memory.
+    """
+    sizes = _SIZES[geometry](grid)
+    _refuse_beyond(grid, _NEEDED[geometry](grid, rough=rough), sizes)
+
+
+def _check_record(motion: Motion, grid: Grid, nodes: int) -> None:
+    """Refuse instants of a motion that the memory cannot hold, as all are read again at its end."""
     steps = motion.steps or (math.inf if motion.passes is None else motion.passes * grid.nodes)
     available, needed = physical_memory(), RECORD_BYTES * nodes * min(motion.record, steps + 1)
     if needed > available:
@@ -65,14 +79,6 @@ def _check_record(motion: Motion, grid: Grid, *, point: bool) -> None:
             got=f"{motion.record} instants of {nodes} nodes, about {needed / 1e9:.0f} GB;",
             takes=f"at most {int(available / RECORD_BYTES / nodes)} in {available / 1e9:.0f} GB",
         )
-
-
-def _check_point(case: Case) -> None:
-    """The same for a point contact."""
-    grid = case.grid
-    nodes_y, columns, columns_y = _point_sizes(grid)
-    needed = point_memory(grid, rough=bool(case.roughness))
-    _refuse_beyond(grid, needed, (f"{grid.nodes} x {nodes_y}", f"{columns} x {columns_y}"))
 
 
 def _refuse_beyond(grid: Grid, needed: tuple[float, float], sizes: tuple[str, str]) -> None:
@@ -92,6 +98,13 @@ def _columns_along(grid: Grid) -> int:
     """Columns of the field along entrainment."""
     start, stop = grid.field_range
     return grid.field_nodes or int(grid.nodes * (stop - start) / (grid.outlet - grid.inlet))
+
+
+def line_memory(grid: Grid, *, rough: bool) -> tuple[float, float]:
+    """Memory that the film and the field of a line contact take at most [bytes], rough or not."""
+    del rough
+    film = FILM_BYTES * grid.nodes
+    return film, FIELD_BYTES * _columns_along(grid) * (grid.field_degree + 1) ** 2
 
 
 def point_memory(grid: Grid, *, rough: bool) -> tuple[float, float]:
@@ -136,3 +149,21 @@ def _point_sizes(grid: Grid) -> tuple[int, int, int]:
     nodes_y = grid.nodes_across
     columns_y = grid.field_nodes_y or int(nodes_y * min(1.0, grid.field_side / side))
     return nodes_y, _columns_along(grid), columns_y
+
+
+def _line_size(grid: Grid) -> tuple[str, str]:
+    return f"{grid.nodes}", f"{_columns_along(grid)}"
+
+
+def _point_size(grid: Grid) -> tuple[str, str]:
+    nodes_y, columns, columns_y = _point_sizes(grid)
+    return f"{grid.nodes} x {nodes_y}", f"{columns} x {columns_y}"
+
+
+# By the geometry of the contact: memory of film and field, their sizes in words, and nodes of the film.
+_NEEDED = {"line": line_memory, "point": point_memory}
+_SIZES = {"line": _line_size, "point": _point_size}
+_NODES: dict[str, Callable[[Grid], int]] = {
+    "line": lambda grid: grid.nodes,
+    "point": lambda grid: grid.nodes * grid.nodes_across,
+}

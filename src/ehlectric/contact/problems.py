@@ -1,4 +1,4 @@
-"""What a case asks the film and the field to be solved for."""
+"""Problems that a contact poses to the solvers of the film and of the field."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
 from ehlectric.cases.lubricant import Lubricant, density_law, permittivity_law, viscosity_law
 from ehlectric.contact.conditions import Conditions, PointConditions
+from ehlectric.contact.setup import Setup
 from ehlectric.field.poisson import ATOM, FieldProblem
 from ehlectric.field.poisson_3d import PointFieldProblem
 from ehlectric.film.deflection import Geometry, point_geometry
@@ -40,15 +41,15 @@ _MOST_PARTS = 32
 _SAME_NODE = 1e-6
 
 
-def domain_of(case: Case, conditions: PointConditions) -> Domain:
+def domain_of(setup: Case | Setup, conditions: PointConditions) -> Domain:
     """Where the film of a case is solved."""
-    b, grid = conditions.semi_axis_x, case.grid
+    b, grid = conditions.semi_axis_x, setup.grid
     return Domain(b * grid.inlet, b * grid.outlet, conditions.side * conditions.semi_axis_y)
 
 
-def spacings(case: Case, conditions: PointConditions) -> tuple[float, float]:
+def spacings(setup: Case | Setup, conditions: PointConditions) -> tuple[float, float]:
     """Distances of the film's nodes along and across entrainment [m]."""
-    domain, grid = domain_of(case, conditions), case.grid
+    domain, grid = domain_of(setup, conditions), setup.grid
     along, across = domain.outlet - domain.inlet, 2.0 * domain.side
     return along / (grid.nodes - 1), across / (grid.nodes_across - 1)
 
@@ -64,9 +65,9 @@ def geometry_of(conditions: PointConditions) -> Geometry:
 
 
 def point_film_problem(
-    case: Case, conditions: PointConditions, rough: Sequence[RoughMap] = ()
+    setup: Case | Setup, conditions: PointConditions, rough: Sequence[RoughMap] = ()
 ) -> FilmProblem:
-    """The film equations of a case; of rough surfaces only the sum of their heights enters them.
+    """The film equations of a contact; of rough surfaces only the sum of their heights enters them.
 
     Half of the contact is solved where both halves are alike.
     """
@@ -77,22 +78,22 @@ def point_film_problem(
         return gap
 
     return replace(
-        smooth_problem(case, conditions, nijenbanning_venner_moes(conditions.formulas)),
+        smooth_problem(setup, conditions, nijenbanning_venner_moes(conditions.contact)),
         geometry=geometry_of(conditions),
         width=Width(
-            nodes=case.grid.nodes_across,
+            nodes=setup.grid.nodes_across,
             side=conditions.side * conditions.ratio,
-            symmetric=_symmetric(case, conditions, rough),
+            symmetric=_symmetric(setup, conditions, rough),
         ),
         added_gap=added_gap if rough else None,
     )
 
 
-def _symmetric(case: Case, conditions: PointConditions, rough: Sequence[RoughMap]) -> bool:
+def _symmetric(setup: Case | Setup, conditions: PointConditions, rough: Sequence[RoughMap]) -> bool:
     """Whether the surfaces are their own mirror image, at the nodes of the film."""
     if not rough:
         return True
-    domain, grid = domain_of(case, conditions), case.grid
+    domain, grid = domain_of(setup, conditions), setup.grid
     x = np.linspace(domain.inlet, domain.outlet, grid.nodes)
     y = np.linspace(-domain.side, domain.side, grid.nodes_across)
     heights = heights_of(rough, x, y)
@@ -101,13 +102,13 @@ def _symmetric(case: Case, conditions: PointConditions, rough: Sequence[RoughMap
 
 
 def point_field_problem(
-    case: Case, conditions: PointConditions, film: PointFilm, roughness: Array
+    setup: Case | Setup, conditions: PointConditions, film: PointFilm, roughness: Array
 ) -> PointFieldProblem:
     """The Poisson problem in a solved film; a cavitated gap counts as filled with oil.
 
     Parameters
     ----------
-    case, conditions : Case, PointConditions
+    setup, conditions : Case or Setup, PointConditions
         What was solved.
     film : PointFilm
         Its film.
@@ -119,7 +120,7 @@ def point_field_problem(
     PointFieldProblem
         On the columns that ``grid`` asks for, of the half y >= 0 alone where both halves are alike.
     """
-    grid = case.grid
+    grid = setup.grid
     assert grid.field_side is not None
     x = columns_within(film.x, [conditions.semi_axis_x * end for end in grid.field_range], grid.field_nodes)
     reach = conditions.semi_axis_y * min(grid.field_side, conditions.side)
@@ -136,9 +137,9 @@ def point_field_problem(
         y=y,
         lower=middle - 0.5 * gap,
         upper=middle + 0.5 * gap,
-        permittivity=_resampled(film, permittivity_law(case.lubricant)(film.density), x, y),
-        potential_1=case.electric.potential_1,
-        potential_2=case.electric.potential_2,
+        permittivity=_resampled(film, permittivity_law(setup.lubricant)(film.density), x, y),
+        potential_1=setup.electric.potential_1,
+        potential_2=setup.electric.potential_2,
         degree=grid.field_degree,
     )
 
@@ -190,38 +191,40 @@ def fluid_of(lubricant: Lubricant, max_pressure: float, velocity_parameter: floa
     )
 
 
-def line_domain_of(case: Case, conditions: Conditions) -> Domain:
+def line_domain_of(setup: Case | Setup, conditions: Conditions) -> Domain:
     """Where the film of a line contact is solved."""
-    b, grid = conditions.half_width, case.grid
+    b, grid = conditions.half_width, setup.grid
     return Domain(b * grid.inlet, b * grid.outlet)
 
 
-def spacing(case: Case, conditions: Conditions) -> float:
-    """Distance of the film's nodes [m]."""
-    return conditions.half_width * (case.grid.outlet - case.grid.inlet) / (case.grid.nodes - 1)
+def spacing(setup: Case | Setup, conditions: Conditions) -> float:
+    """Distance of the film's nodes along entrainment [m]."""
+    return conditions.half_width * (setup.grid.outlet - setup.grid.inlet) / (setup.grid.nodes - 1)
 
 
-def film_problem(case: Case, conditions: Conditions, rough: Sequence[RoughSurface] = ()) -> FilmProblem:
-    """The film equations of a case; of rough surfaces only the sum of their heights enters them."""
-    smooth = smooth_problem(case, conditions, moes(conditions.formulas))
+def film_problem(
+    setup: Case | Setup, conditions: Conditions, rough: Sequence[RoughSurface] = ()
+) -> FilmProblem:
+    """The film equations of a contact; of rough surfaces only the sum of their heights enters them."""
+    smooth = smooth_problem(setup, conditions, moes(conditions.contact))
     return replace(smooth, added_gap=_added_gap(conditions, rough) if rough else None)
 
 
 def smooth_problem(
-    case: Case, conditions: Conditions | PointConditions, expected: CentralThickness
+    setup: Case | Setup, conditions: Conditions | PointConditions, expected: CentralThickness
 ) -> FilmProblem:
     """What the film equations of all contacts share, with the central film that a formula expects."""
-    grid, guess = case.grid, expected.central_thickness
+    grid, guess = setup.grid, expected.central_thickness
     return FilmProblem(
-        fluid=fluid_of(case.lubricant, conditions.max_pressure, conditions.velocity_parameter),
+        fluid=fluid_of(setup.lubricant, conditions.max_pressure, conditions.velocity_parameter),
         nodes=grid.nodes,
         inlet=grid.inlet,
         outlet=grid.outlet,
         thickness_guess=guess / conditions.thickness_scale,
         second_order=grid.wedge == "second-order",
-        tolerance=case.solver.tolerance,
-        max_iterations=case.solver.max_iterations,
-        scales=scales_of(case, conditions),
+        tolerance=setup.solver.tolerance,
+        max_iterations=setup.solver.max_iterations,
+        scales=scales_of(setup, conditions),
     )
 
 
@@ -244,12 +247,12 @@ def heights_of(rough: Sequence[RoughSurface] | Sequence[RoughMap], *axes: Array)
     return heights
 
 
-def field_problem(case: Case, conditions: Conditions, film: Film, roughness: Array) -> FieldProblem:
+def field_problem(setup: Case | Setup, conditions: Conditions, film: Film, roughness: Array) -> FieldProblem:
     """The Poisson problem in a solved film; a cavitated gap counts as filled with oil.
 
     Parameters
     ----------
-    case, conditions : Case, Conditions
+    setup, conditions : Case or Setup, Conditions
         What was solved.
     film : Film
         Its film.
@@ -261,7 +264,7 @@ def field_problem(case: Case, conditions: Conditions, film: Film, roughness: Arr
     FieldProblem
         On the columns that ``grid`` asks for.
     """
-    x = _columns(case, conditions, film, refine=bool(np.any(roughness)))
+    x = _columns(setup, conditions, film, refine=bool(np.any(roughness)))
     lower, upper = surfaces(conditions, film, roughness)
     # Middle and gap, not the two walls: between two nodes walls of their own might cross.
     middle = resampled(film.x, 0.5 * (lower + upper), x)
@@ -270,25 +273,25 @@ def field_problem(case: Case, conditions: Conditions, film: Film, roughness: Arr
         x=x,
         lower=middle - 0.5 * gap,
         upper=middle + 0.5 * gap,
-        permittivity=resampled(film.x, permittivity_law(case.lubricant)(film.density), x),
-        potential_1=case.electric.potential_1,
-        potential_2=case.electric.potential_2,
-        degree=case.grid.field_degree,
+        permittivity=resampled(film.x, permittivity_law(setup.lubricant)(film.density), x),
+        potential_1=setup.electric.potential_1,
+        potential_2=setup.electric.potential_2,
+        degree=setup.grid.field_degree,
     )
 
 
-def _columns(case: Case, conditions: Conditions, film: Film, *, refine: bool) -> Array:
+def _columns(setup: Case | Setup, conditions: Conditions, film: Film, *, refine: bool) -> Array:
     """Columns of the field: the film's own nodes and the two ends of the range, unless a number is given.
 
     Rough walls turn within the distance of the other wall: there each interval is parted until half of the
     least gap is resolved.
     """
     nodes = columns_within(
-        film.x, [conditions.half_width * end for end in case.grid.field_range], case.grid.field_nodes
+        film.x, [conditions.half_width * end for end in setup.grid.field_range], setup.grid.field_nodes
     )
     dx = film.x[1] - film.x[0]
     parts = int(np.ceil(dx / max(0.5 * film.minimum_thickness, dx / _MOST_PARTS))) if refine else 1
-    if parts == 1 or case.grid.field_nodes is not None:
+    if parts == 1 or setup.grid.field_nodes is not None:
         return nodes
     fractions = np.arange(parts) / parts
     parted = (nodes[:-1, np.newaxis] + np.diff(nodes)[:, np.newaxis] * fractions).ravel()
@@ -325,11 +328,11 @@ def surfaces(conditions: Conditions, film: Film, roughness: Array) -> tuple[Arra
     return lower, lower + film.thickness
 
 
-def scales_of(case: Case, conditions: Conditions | PointConditions) -> Scales:
+def scales_of(setup: Case | Setup, conditions: Conditions | PointConditions) -> Scales:
     """What turns the dimensionless film of a case into SI units."""
     return Scales(
         length=conditions.half_width,
         pressure=conditions.max_pressure,
         thickness=conditions.thickness_scale,
-        ambient_pressure=case.lubricant.ambient_pressure,
+        ambient_pressure=setup.lubricant.ambient_pressure,
     )

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from ehlectric.cases.case import Case
+from ehlectric.contact.setup import Setup
 from ehlectric.errors import ResultWarning
 from ehlectric.field.line import Field
 from ehlectric.field.point import PointField
@@ -25,7 +26,7 @@ _NAMED = 8
 _LOSS = 0.02
 
 
-def film_warnings(case: Case, film: Film) -> Iterator[ResultWarning]:
+def film_warnings(setup: Case | Setup, film: Film | PointFilm) -> Iterator[ResultWarning]:
     """Warnings that follow from the film of any contact."""
     if not film.converged:
         yield ResultWarning(
@@ -49,7 +50,7 @@ def film_warnings(case: Case, film: Film) -> Iterator[ResultWarning]:
             "the film is thinner than an atom in places; the field is that of a gap of 0.1 nm there",
         )
     error = film.discretisation_error
-    if film.converged and error is None and case.roughness:
+    if film.converged and error is None and setup.roughness:
         yield ResultWarning(
             "error-unknown",
             "nothing is known of the discretisation error, as the roughness had to be raised in steps; "
@@ -61,7 +62,7 @@ def film_warnings(case: Case, film: Film) -> Iterator[ResultWarning]:
             "do not use this film: the next coarser grid was not solved, so that nothing is known of its "
             "discretisation error, which is large; take more grid.nodes",
         )
-    elif error is not None and error > max(0.01, case.grid.refine or 0.0):
+    elif error is not None and error > max(0.01, setup.grid.refine or 0.0):
         code, advice = "grid-too-coarse", "take more grid.nodes"
         if error > 0.1:
             code, advice = "grid-far-too-coarse", "do not use it"
@@ -72,19 +73,20 @@ def film_warnings(case: Case, film: Film) -> Iterator[ResultWarning]:
         )
 
 
-def line_result_warnings(case: Case, film: Film, field: Field) -> Iterator[ResultWarning]:
+def line_result_warnings(setup: Case | Setup, film: Film, field: Field) -> Iterator[ResultWarning]:
     """Warnings of a line contact: its inlet and the range of its field."""
-    if film.inlet_deficit > 0.01:
+    deficit = film.inlet_deficit
+    if deficit is not None and deficit > 0.01:
         code, effect = "inlet-too-short", "the film is about that much off"
-        if film.inlet_deficit > 0.2:
+        if deficit > 0.2:
             code, effect = "inlet-far-too-short", "do not use this film"
         yield ResultWarning(
             code,
-            f"the inlet is too short: {100 * film.inlet_deficit:.2g} % of the pressure is built up before "
+            f"the inlet is too short: {100 * deficit:.2g} % of the pressure is built up before "
             f"it, {effect}; lower grid.inlet",
         )
     inside = int(np.count_nonzero((film.x >= field.x[0]) & (film.x <= field.x[-1])))
-    if case.grid.field_nodes is not None and case.grid.field_nodes < inside:
+    if setup.grid.field_nodes is not None and setup.grid.field_nodes < inside:
         yield ResultWarning(
             "field-grid-too-coarse",
             f"grid.field_nodes is coarser than the film, which has {inside} nodes in the field range: the "
@@ -96,22 +98,22 @@ def line_result_warnings(case: Case, film: Film, field: Field) -> Iterator[Resul
         )
 
 
-def point_result_warnings(case: Case, film: PointFilm, field: PointField) -> Iterator[ResultWarning]:
+def point_result_warnings(setup: Case | Setup, film: PointFilm, field: PointField) -> Iterator[ResultWarning]:
     """Warnings of a point contact: its domain and the range of its field."""
-    if film.domain_loss > _LOSS:
-        loss = film.domain_loss
+    loss, before, beside = film.domain_loss, film.inlet_deficit, film.side_deficit
+    if loss is not None and before is not None and beside is not None and loss > _LOSS:
         code, effect = "domain-too-small", f"by about {100 * loss:.2g} %"
         if loss > 0.2:
             code, effect = "domain-far-too-small", "do not use it"
         yield ResultWarning(
             code,
-            f"the domain is too small: {100 * film.inlet_deficit:.2g} % of the pressure is built up before "
-            f"it and {100 * film.side_deficit:.2g} % would be at its sides, which makes the film too thin, "
+            f"the domain is too small: {100 * before:.2g} % of the pressure is built up before "
+            f"it and {100 * beside:.2g} % would be at its sides, which makes the film too thin, "
             f"{effect}; lower grid.inlet and raise grid.side",
         )
     for key, of_field, of_film in (("field_nodes", field.x, film.x), ("field_nodes_y", field.y, film.y)):
         inside = int(np.count_nonzero((of_film >= of_field[0]) & (of_film <= of_field[-1])))
-        given = getattr(case.grid, key)
+        given = getattr(setup.grid, key)
         if given is not None and given < inside:
             yield ResultWarning(
                 "field-grid-too-coarse",

@@ -1,38 +1,27 @@
-"""What the solutions of all contacts share: how they were obtained, their summary, their dataset."""
+"""Solution of a contact: film and field, how they were obtained, and numbers that follow from both."""
 
 from __future__ import annotations
 
-import json
-from abc import ABC, abstractmethod
-from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Generic, TypeVar
+from typing import Any, Generic, TypeVar
 
 import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
 from ehlectric.contact.conditions import Conditions, PointConditions
-from ehlectric.contact.dataset import Layout, attributes, variables
+from ehlectric.contact.setup import Setup
 from ehlectric.discharge.assessment import Assessment, assess
 from ehlectric.errors import ResultWarning
 from ehlectric.field.line import Field
 from ehlectric.field.point import PointField
 from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
-from ehlectric.formulas.film_line import Thickness
-from ehlectric.runtime.files import plain
-from ehlectric.runtime.stored_warnings import as_attributes, texts_and_codes
 
-if TYPE_CHECKING:
-    import xarray as xr
-
-
-SCHEMA = "ehlectric.summary/1"
-_Conditions = TypeVar("_Conditions", Conditions, PointConditions)
-_Film = TypeVar("_Film", Film, PointFilm)
-_Field = TypeVar("_Field", Field, PointField)
+ConditionsT = TypeVar("ConditionsT", bound=Conditions | PointConditions)
+FilmT = TypeVar("FilmT", bound=Film | PointFilm)
+FieldT = TypeVar("FieldT", bound=Field | PointField)
 
 
 @dataclass(frozen=True)
@@ -54,15 +43,15 @@ class Smooth:
 
 
 @dataclass(frozen=True)
-class Solution(ABC, Generic[_Conditions, _Film, _Field]):
-    """Film and field of one case.
+class Solution(Generic[ConditionsT, FilmT, FieldT]):
+    """Film and field of one contact.
 
     Attributes
     ----------
-    case : Case
-        What was solved.
+    case : Case or Setup
+        The case that was solved; the setup where a contact was solved without a case.
     conditions : Conditions or PointConditions
-        What it means.
+        Operating conditions, SI units.
     film, field : Film and Field, or PointFilm and PointField
         The solution, SI units.
     roughness : ndarray, shape (2, nx) or (2, nx, ny)
@@ -81,13 +70,13 @@ class Solution(ABC, Generic[_Conditions, _Film, _Field]):
         Of the program that made it, and when (ISO 8601).
     """
 
-    case: Case
-    conditions: _Conditions
-    film: _Film
+    case: Case | Setup
+    conditions: ConditionsT
+    film: FilmT
     roughness: Array
     rough: tuple[dict[str, Any], ...]
     smooth: Smooth | None
-    field: _Field
+    field: FieldT
     warnings: tuple[ResultWarning, ...]
     film_solver: str
     field_solver: str
@@ -114,9 +103,14 @@ class Solution(ABC, Generic[_Conditions, _Film, _Field]):
     @property
     def thin_gap_error(self) -> float | None:
         """(max_strength - voltage/h_min)/max_strength, None where the field range leaves h_min out."""
-        if not self._holds(self.film.minimum_position):
+        if not self.in_field_range(self.film.minimum_position):
             return None
         return 1.0 - self.field.voltage / self.film.minimum_thickness / self.field.max_strength
+
+    def in_field_range(self, position: float | tuple[float, ...]) -> bool:
+        """Whether the field was solved at a position x or (x, y) [m]."""
+        places = np.atleast_1d(position)
+        return all(bool(axis[0] <= at <= axis[-1]) for at, axis in zip(places, self.field.axes, strict=True))
 
     @cached_property
     def discharge(self) -> Assessment | None:
@@ -127,118 +121,7 @@ class Solution(ABC, Generic[_Conditions, _Film, _Field]):
             self.case.discharge, self.case.lubricant, self.conditions.semi_axes, self.film, self.field
         )
 
-    @abstractmethod
-    def _holds(self, position: Any) -> bool:
-        """Whether the field was solved at a position."""
-
-    @abstractmethod
-    def _inputs(self) -> dict[str, Any]:
-        """The case as nested tables, its alternatives resolved."""
-
-    @abstractmethod
-    def _hertz(self) -> dict[str, float]:
-        """The dry contact."""
-
-    @abstractmethod
-    def _own_film(self) -> dict[str, Any]:
-        """Key figures of the film that this kind of contact alone has."""
-
-    @abstractmethod
-    def _own_field(self) -> dict[str, Any]:
-        """Those of its field."""
-
-    @abstractmethod
-    def formulas(self) -> Mapping[str, Thickness]:
-        """Films of the published formulas."""
-
-    @abstractmethod
-    def _own_roughness(self) -> dict[str, Any]:
-        """Statistics of the roughness over the Hertz zone."""
-
-    def summary(self) -> dict[str, Any]:
-        """Key figures in SI units, nested as summary.json.
-
-        Returns
-        -------
-        dict
-            Values are numbers, texts, lists, or None where a value has no meaning; never NaN.
-        """
-        film, field, formulas = self.film, self.field, self.conditions.formulas
-        summary: dict[str, Any] = {
-            "schema": SCHEMA,
-            "version": self.version,
-            "title": self.case.title,
-            "converged": self.converged,
-            "status": film.status,
-            **texts_and_codes(self.warnings),
-            "inputs": self._inputs(),
-            "groups": {"moes_m": formulas.moes_m, "moes_l": formulas.moes_l},
-            "hertz": self._hertz(),
-            "film": {
-                "minimum_thickness": film.minimum_thickness,
-                "minimum_position": film.minimum_position,
-                "central_thickness": film.central_thickness,
-                "mean_thickness": film.mean_thickness,
-                "max_pressure": film.max_pressure,
-                "load_residual": film.load_residual,
-                "residual": film.residual,
-                "newton_iterations": film.newton_iterations,
-                "discretisation_error": film.discretisation_error,
-                "solver": self.film_solver,
-            }
-            | self._own_film(),
-            "field": {
-                "voltage": field.voltage,
-                "max_strength": field.max_strength,
-                "max_strength_position": field.max_strength_position,
-                "max_dimensionless": self.max_dimensionless,
-            }
-            | self._own_field()
-            | {
-                "thin_gap_error": self.thin_gap_error,
-                "max_strength_wall": field.max_strength_wall,
-                "solver": self.field_solver,
-            },
-            "film_formulas": {name: vars(thickness) for name, thickness in self.formulas().items()},
-            "seconds": {"film": self.film_seconds, "field": self.field_seconds},
-        }
-        if self.discharge is not None:
-            summary["discharge"] = self.discharge.summary()
-        if self.rough:
-            summary["roughness"] = {"surfaces": list(self.rough)} | self._own_roughness()
-        return {key: plain(value) for key, value in summary.items()}
-
-    @property
-    @abstractmethod
-    def layout(self) -> Layout:
-        """How its arrays lie in a file."""
-
-    def to_xarray(self) -> xr.Dataset:
-        """All arrays with their units, and the case, summary and solver history as attributes."""
-        import xarray as xr
-
-        smooth = None if self.smooth is None else vars(self.smooth)
-        return (
-            xr.Dataset(
-                variables(self.layout, self.film, self.field, self.roughness, smooth),
-                attrs={
-                    "Conventions": "CF-1.11",
-                    "title": self.case.title or self.layout.title,
-                    "source": f"ehlectric {self.version}",
-                    "history": f"{self.date} solved by ehlectric {self.version}",
-                    "version": self.version,
-                    "date": self.date,
-                    "converged": int(self.converged),
-                    "case": self.case.to_toml(),
-                    "summary": json.dumps(self.summary()),
-                    **as_attributes(self.warnings),
-                    "rough": json.dumps(plain(self.rough)),
-                    "film_solver": self.film_solver,
-                    "field_solver": self.field_solver,
-                    "seconds": json.dumps([self.film_seconds, self.field_seconds]),
-                    **attributes(self.layout, self.film, self.field),
-                },
-            )
-            .set_coords(self.layout.coordinates)
-            .copy(deep=True)
-        )
+    @cached_property
+    def capacitance_by_zone(self) -> dict[str, float]:
+        """Capacitance of each zone of the field range [F]; of a line contact per length [F/m]."""
+        return self.field.capacitance_by_zone(*self.conditions.semi_axes)

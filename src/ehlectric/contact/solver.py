@@ -1,74 +1,66 @@
-"""solve(case): the only place where film and field meet."""
+"""solve(case) and solve_contact(conditions, ...): the only place where film and field meet."""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from datetime import UTC, datetime
-from typing import Any, Generic, TypeVar
+from typing import Any
 
 import numpy as np
 from scipy.interpolate import RegularGridInterpolator
 
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
-from ehlectric.contact.case_warnings import line_case_warnings, point_case_warnings
-from ehlectric.contact.conditions import resolve, resolve_point
-from ehlectric.contact.memory import check_memory
-from ehlectric.contact.problems import (
-    domain_of,
-    field_problem,
-    film_problem,
-    heights_of,
-    line_domain_of,
-    point_field_problem,
-    point_film_problem,
-    spacing,
-    spacings,
-)
-from ehlectric.contact.result_warnings import (
-    field_warnings,
-    film_warnings,
-    line_result_warnings,
-    point_result_warnings,
-)
-from ehlectric.contact.results import PointResult, Result
+from ehlectric.cases.discharge import Discharge
+from ehlectric.cases.grid import Electric, Grid, Solver
+from ehlectric.cases.lubricant import Lubricant
+from ehlectric.cases.roughness import Roughness
+from ehlectric.contact.check import PreparedContact, check_case
+from ehlectric.contact.conditions import Conditions, PointConditions
+from ehlectric.contact.kinds import KINDS
+from ehlectric.contact.memory import check_grid
+from ehlectric.contact.problems import heights_of
+from ehlectric.contact.refinement import refined
+from ehlectric.contact.result_warnings import field_warnings, film_warnings
+from ehlectric.contact.results import RESULTS, PointResult, Result
+from ehlectric.contact.setup import Setup
 from ehlectric.contact.solution import Smooth
 from ehlectric.discharge.assessment import discharge_warnings
-from ehlectric.errors import ConvergenceError, InputError, ResultWarning
-from ehlectric.field.line import Field, solve_field
-from ehlectric.field.point import solve_point_field
-from ehlectric.field.poisson import FieldProblem
-from ehlectric.film.line import Film, solve_film
-from ehlectric.film.point import PointFilm, solve_point_film
+from ehlectric.errors import ConvergenceError, InputError
 from ehlectric.film.state import Progress
-from ehlectric.surfaces.rough_maps import rough_maps
-from ehlectric.surfaces.rough_profiles import rough_surfaces
-from ehlectric.surfaces.warnings import map_surface_warnings, profile_surface_warnings
+from ehlectric.surfaces.rough_maps import RoughMap
+from ehlectric.surfaces.rough_profiles import RoughSurface
 from ehlectric.version import __version__
-
-_Film = TypeVar("_Film", Film, PointFilm)
-
-# Grids in succession on which nothing becomes known of the error, after which refining is given up: each
-# takes several times as long as the one before.
-_UNKNOWN = 3
 
 
 @dataclass(frozen=True)
 class Solvers:
-    """What solves the film and the field of a case, by the name under which a result says so.
+    """Solvers of the film and the field of a contact, by the name under which a result says so.
 
-    ``check`` raises an InputError for cases they do not take, before anything is solved.
+    Attributes
+    ----------
+    name : str
+        As a command takes it and a result gives it.
+    film, field : mapping
+        Solver of a film's or a field's problem, by the geometry of the contact.
+    check : callable
+        Raises an InputError for cases that they do not take, before anything is solved.
     """
 
     name: str
-    film: Callable[..., Film]
-    field: Callable[[FieldProblem], Field]
+    film: Mapping[str, Callable[..., Any]]
+    field: Mapping[str, Callable[..., Any]]
     check: Callable[[Case], object]
 
 
-OWN = Solvers("ehlectric", solve_film, solve_field, check=lambda _case: None)
+OWN = Solvers(
+    "ehlectric",
+    film={geometry: kind.solve_film for geometry, kind in KINDS.items()},
+    field={geometry: kind.solve_field for geometry, kind in KINDS.items()},
+    check=lambda _case: None,
+)
 
 
 def solve(
@@ -78,6 +70,7 @@ def solve(
     require_convergence: bool = False,
     solvers: Solvers = OWN,
     beside_smooth: bool = True,
+    prepared: PreparedContact | None = None,
 ) -> Result | PointResult:
     """Film and electric field of a case.
 
@@ -93,6 +86,8 @@ def solve(
         The package's own, or those of ``ehlectric.paper.solvers``.
     beside_smooth : bool
         Solve a rough contact with smooth surfaces too, for ``Result.smooth``.
+    prepared : PreparedContact, optional
+        The contact of the case as ``check_case`` gave it, so that no surface is read again.
 
     Returns
     -------
@@ -121,10 +116,8 @@ def solve(
         raise InputError(
             "motion", got="it where a film at rest is solved;", takes="run_motion, or a case without it"
         )
-    if case.contact.geometry == "point":
-        return _solve_point(case, progress, demand=require_convergence, beside_smooth=beside_smooth)
-    return solve_line(
-        case,
+    return _solved(
+        check_case(case) if prepared is None else prepared,
         progress=progress,
         require_convergence=require_convergence,
         solvers=solvers,
@@ -132,162 +125,147 @@ def solve(
     )
 
 
-def solve_line(
-    case: Case,
+def solve_contact(
+    conditions: Conditions | PointConditions,
+    lubricant: Lubricant,
+    *,
+    grid: Grid,
+    electric: Electric | None = None,
+    solver: Solver | None = None,
+    discharge: Discharge | None = None,
+    roughness: Sequence[Roughness] = (),
+    rough: Sequence[RoughSurface] | Sequence[RoughMap] | None = None,
+    title: str = "",
+    progress: Progress | None = None,
+    require_convergence: bool = False,
+    beside_smooth: bool = True,
+) -> Result | PointResult:
+    """Film and electric field of a contact whose operating conditions are known, without a case.
+
+    Parameters
+    ----------
+    conditions : Conditions or PointConditions
+        As ``line_conditions`` or ``point_conditions`` gives them; their ``film_factor`` thins the film.
+    lubricant : Lubricant
+        Laws of the oil, from which the conditions were made.
+    grid : Grid
+        Discretisation; of a point contact with a ``field_side``.
+    electric, solver : Electric and Solver, optional
+        Potentials of the surfaces, and when the iteration stops; those of a case that does not give them.
+    discharge : Discharge, optional
+        Strength of the film, where its discharge is to be assessed.
+    roughness, rough : sequences, optional
+        Tables of the rough surfaces, and the surfaces themselves, which are read or made if not given.
+    title : str
+        Heading of files and figures.
+    progress, require_convergence, beside_smooth
+        As those of ``solve``.
+
+    Returns
+    -------
+    Result or PointResult
+        As that of ``solve``; its ``case`` is a ``Setup``, and it cannot be loaded from a file.
+
+    Raises
+    ------
+    InputError
+        Where a surface cannot be used or the grid fits into no memory.
+    ConvergenceError
+        Where the film was not solved and ``require_convergence`` is set, or its field was not.
+
+    Examples
+    --------
+    >>> from ehlectric.contact.conditions import line_conditions
+    >>> oil = Lubricant.from_dict({"base": "paper"})
+    >>> given = {"reduced_radius": 0.0141, "reduced_modulus": 226e9, "load_per_length": 3.92e5}
+    >>> full, thinned = (
+    ...     line_conditions(oil, **given, entrainment_speed=4.0, film_factor=factor) for factor in (1.0, 0.8)
+    ... )
+    >>> films = [solve_contact(one, oil, grid=Grid(nodes=801)).film for one in (full, thinned)]
+    >>> round(films[1].central_thickness / films[0].central_thickness, 2)
+    0.8
+    """
+    kind = KINDS[conditions.geometry]
+    setup = Setup(
+        lubricant=lubricant,
+        grid=grid,
+        electric=electric or Electric(),
+        solver=solver or Solver(),
+        discharge=discharge,
+        roughness=tuple(roughness),
+        title=title,
+    )
+    check_grid(conditions.geometry, grid, rough=bool(setup.roughness))
+    domain = kind.domain(setup, conditions)
+    return _solved(
+        PreparedContact(
+            setup, conditions, domain, kind.rough(setup.roughness, domain) if rough is None else rough
+        ),
+        progress=progress,
+        require_convergence=require_convergence,
+        beside_smooth=beside_smooth,
+    )
+
+
+def _solved(
+    contact: PreparedContact,
     *,
     progress: Progress | None = None,
     require_convergence: bool = False,
     solvers: Solvers = OWN,
     beside_smooth: bool = True,
-) -> Result:
-    """``solve`` for a line contact alone; an InputError for others."""
-    conditions = resolve(case)
-    check_memory(case)
-    domain = line_domain_of(case, conditions)
-    rough = rough_surfaces(case.roughness, domain)
-    refined = _refined(
-        case,
-        lambda grid: solvers.film(film_problem(grid, conditions, rough), progress=progress),
-        demand=require_convergence,
+) -> Result | PointResult:
+    """Film, then field of a prepared contact, with the warnings about both."""
+    kind, case, conditions, rough = contact.kind, contact.case, contact.conditions, contact.rough
+    geometry = conditions.geometry
+    films = refined(
+        Setup.of(case),
+        geometry,
+        lambda setup: solvers.film[geometry](kind.film_problem(setup, conditions, rough), progress=progress),
     )
-    film, on_grid = refined.film, refined.case
-    roughness = heights_of(rough, film.x)
-    # The field of a film that was not found is for looking at: the direct solver always has one.
+    film = films.film
+    if require_convergence and not film.converged:
+        raise ConvergenceError(f"film {film.status} at the residual {film.residual:.1e}")
+    roughness = heights_of(rough, *film.axes)
+    # The field of a film that did not converge is for looking at: our own solver always has one.
     of_field = solvers if film.converged else OWN
     started = time.perf_counter()
-    field = of_field.field(field_problem(case, conditions, film, roughness))
-    return Result(
+    field = of_field.field[geometry](kind.field_problem(case, conditions, film, roughness))
+    smooth = None
+    if rough and beside_smooth:
+        smooth = _smooth(replace(contact, case=films.setup), field.axes, solvers)
+    return RESULTS[geometry](
         case=case,
-        conditions=conditions,
+        conditions=conditions,  # type: ignore[arg-type]  # of the kind that the geometry names
         film=film,
         roughness=roughness,
         rough=tuple(surface.describe() for surface in rough),
-        smooth=_smooth(on_grid, (field.x,), solvers) if rough and beside_smooth else None,
+        smooth=smooth,
         field=field,
         warnings=(
-            *line_case_warnings(case, conditions),
-            *profile_surface_warnings(case.roughness, rough, domain, spacing(on_grid, conditions)),
-            *refined.warnings,
+            *kind.case_warnings(case, conditions),
+            *contact.surface_warnings(films.setup),
+            *films.warnings,
             *film_warnings(case, film),
-            *line_result_warnings(case, film, field),
+            *kind.result_warnings(case, film, field),
             *discharge_warnings(case.discharge, film),
             *field_warnings(field.max_strength),
         ),
         film_solver=solvers.name,
         field_solver=of_field.name,
-        **_provenance(refined.seconds, started),
+        film_seconds=films.seconds,
+        field_seconds=time.perf_counter() - started,
+        version=__version__,
+        date=datetime.now(UTC).isoformat(timespec="seconds"),
     )
 
 
-def _solve_point(case: Case, progress: Progress | None, *, demand: bool, beside_smooth: bool) -> PointResult:
-    conditions = resolve_point(case)
-    check_memory(case)
-    domain = domain_of(case, conditions)
-    rough = rough_maps(case.roughness, domain)
-    refined = _refined(
-        case,
-        lambda grid: solve_point_film(point_film_problem(grid, conditions, rough), progress=progress),
-        demand=demand,
-    )
-    film, on_grid = refined.film, refined.case
-    roughness = heights_of(rough, film.x, film.y)
-    started = time.perf_counter()
-    field = solve_point_field(point_field_problem(case, conditions, film, roughness))
-    if field.y[0] == 0.0:
-        field = field.mirrored()
-    return PointResult(
-        case=case,
-        conditions=conditions,
-        film=film,
-        roughness=roughness,
-        rough=tuple(surface.describe() for surface in rough),
-        smooth=_smooth(on_grid, (field.x, field.y), OWN) if rough and beside_smooth else None,
-        field=field,
-        warnings=(
-            *point_case_warnings(case, conditions),
-            *map_surface_warnings(case.roughness, rough, domain, *spacings(on_grid, conditions)),
-            *refined.warnings,
-            *film_warnings(case, film),
-            *point_result_warnings(case, film, field),
-            *discharge_warnings(case.discharge, film),
-            *field_warnings(field.max_strength),
-        ),
-        film_solver=OWN.name,
-        field_solver=OWN.name,
-        **_provenance(refined.seconds, started),
-    )
-
-
-def _provenance(film_seconds: float, field_started: float) -> dict[str, Any]:
-    """How long it took, when and by what."""
-    return {
-        "film_seconds": film_seconds,
-        "field_seconds": time.perf_counter() - field_started,
-        "version": __version__,
-        "date": datetime.now(UTC).isoformat(timespec="seconds"),
-    }
-
-
-@dataclass(frozen=True)
-class _Refined(Generic[_Film]):
-    """A film, the case with the grid it was solved on, the time it took [s], and its warnings."""
-
-    film: _Film
-    case: Case
-    seconds: float
-    warnings: tuple[ResultWarning, ...]
-
-
-def _refined(case: Case, solved: Callable[[Case], _Film], *, demand: bool) -> _Refined[_Film]:
-    """The film on the grid of the case, or on the first of twice as many intervals that is fine enough."""
-    started, target = time.perf_counter(), case.grid.refine
-    warnings: tuple[ResultWarning, ...] = ()
-    grid = case if target is None else case.replace({"grid.refine": None})
-    errors: list[float | None] = []
-    film = solved(grid)
-    while target is not None and not _within(film, target):
-        errors.append(film.discretisation_error)
-        if len(errors) >= _UNKNOWN and not any(errors[-_UNKNOWN:]):
-            unknown = f"nothing is known of its error on {_UNKNOWN} grids in succession"
-            warnings = (_not_reached(target, grid, unknown),)
-            break
-        try:
-            finer = _doubled(grid)
-            check_memory(finer)
-        except InputError as error:
-            warnings = (_not_reached(target, grid, str(error)),)
-            break
-        grid = finer
-        film = solved(grid)
-    if demand and not film.converged:
-        raise ConvergenceError(f"film {film.status} at the residual {film.residual:.1e}")
-    return _Refined(film, grid, time.perf_counter() - started, warnings)
-
-
-def _not_reached(target: float, case: Case, reason: str) -> ResultWarning:
-    text = f"grid.refine: {100 * target:g} % was not reached with {case.grid.nodes} nodes; {reason}"
-    return ResultWarning("refine-not-reached", text)
-
-
-def _doubled(case: Case) -> Case:
-    """The case with twice as many intervals."""
-    changes = {"grid.nodes": 2 * case.grid.nodes - 1}
-    if case.grid.nodes_y is not None:
-        changes["grid.nodes_y"] = 2 * case.grid.nodes_y - 1
-    return case.replace(changes)
-
-
-def _within(film: Film, target: float) -> bool:
-    """Whether a film's discretisation error is known to be below a target."""
-    return film.discretisation_error is not None and film.discretisation_error <= target
-
-
-def _smooth(case: Case, columns: tuple[Array, ...], solvers: Solvers) -> Smooth | None:
-    """The case without its roughness, on the same grids; None where that is not solved."""
-    result = solve(case.replace(roughness=()), solvers=solvers)
+def _smooth(contact: PreparedContact, columns: tuple[Array, ...], solvers: Solvers) -> Smooth | None:
+    """The contact without its roughness, on the same grids; None where that is not solved."""
+    smooth = replace(contact, case=replace(Setup.of(contact.case), roughness=()), rough=())
+    result = _solved(smooth, solvers=solvers)
     if not result.converged:
         return None
-    axes = (result.field.x,) if isinstance(result, Result) else (result.field.x, result.field.y)
-    middle = RegularGridInterpolator(axes, result.field.middle_strength)
+    middle = RegularGridInterpolator(result.field.axes, result.field.middle_strength)
     at = np.stack(np.meshgrid(*columns, indexing="ij"), axis=-1)
     return Smooth(result.film.pressure, result.film.thickness, middle(at))

@@ -30,6 +30,7 @@ from ehlectric.errors import ResultWarning
 from ehlectric.field.line import Field
 from ehlectric.field.point import PointField
 from ehlectric.film.line import Film
+from ehlectric.film.point import PointFilm
 
 
 @dataclass(frozen=True)
@@ -108,7 +109,7 @@ def assess(
     given: Discharge,
     lubricant: Lubricant,
     semi_axes: tuple[float, ...],
-    film: Film,
+    film: Film | PointFilm,
     field: Field | PointField,
 ) -> Assessment:
     """Assess the discharge of a solved contact.
@@ -152,7 +153,7 @@ def assess(
     )
 
 
-def discharge_warnings(given: Discharge | None, film: Film) -> Iterator[ResultWarning]:
+def discharge_warnings(given: Discharge | None, film: Film | PointFilm) -> Iterator[ResultWarning]:
     """Warnings of the discharge; none without a ``[discharge]``."""
     if given is None:
         return

@@ -14,10 +14,11 @@ from ehlectric.field.line import Field
 from ehlectric.field.point import PointField
 from ehlectric.field.poisson import ATOM
 from ehlectric.film.line import Film
+from ehlectric.film.point import PointFilm
 
 
 def zone_capacitances(
-    film: Film,
+    film: Film | PointFilm,
     field: Field | PointField,
     zones: tuple[Mapping[str, Array], Mapping[str, Array]],
     permittivity_law: Callable[[Array], Array],

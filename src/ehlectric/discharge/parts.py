@@ -10,7 +10,6 @@ from scipy.constants import epsilon_0
 from ehlectric.cases.discharge import Discharge
 from ehlectric.cases.lubricant import Lubricant, permittivity_law
 from ehlectric.discharge.capacitance import zone_capacitances
-from ehlectric.discharge.columns import axes_of
 from ehlectric.discharge.laws import (
     CURRENT_DENSITY_LIMITS,
     LARGEST_PIT,
@@ -27,6 +26,7 @@ from ehlectric.field.line import Field
 from ehlectric.field.point import PointField
 from ehlectric.field.zones import line_zone_areas, point_zone_areas
 from ehlectric.film.line import Film
+from ehlectric.film.point import PointFilm
 
 
 @dataclass(frozen=True)
@@ -220,7 +220,7 @@ def capacitances(
     given: Discharge,
     lubricant: Lubricant,
     semi_axes: tuple[float, ...],
-    film: Film,
+    film: Film | PointFilm,
     field: Field | PointField,
 ) -> Capacitances:
     """Capacitances of the zones of a contact, and of the outlet by what fills it.
@@ -237,7 +237,7 @@ def capacitances(
         The solution.
     """
     areas = line_zone_areas if len(semi_axes) == 1 else point_zone_areas
-    zones = areas(axes_of(film), *semi_axes), areas(axes_of(field), *semi_axes)
+    zones = areas(film.axes, *semi_axes), areas(field.axes, *semi_axes)
     by_outlet = zone_capacitances(film, field, zones, permittivity_law(lubricant))
     chosen, total = by_outlet[given.outlet], {name: sum(parts.values()) for name, parts in by_outlet.items()}
     hertz = Size.of(semi_axes, given).hertz

@@ -8,13 +8,14 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.cases.discharge import Discharge
-from ehlectric.discharge.columns import at_columns, axes_of
+from ehlectric.discharge.columns import at_columns
 from ehlectric.discharge.laws import BREAKING
 from ehlectric.field.line import Field
 from ehlectric.field.point import PointField
 from ehlectric.field.poisson import ATOM
-from ehlectric.field.zones import areas, interval_above, lobe_above
+from ehlectric.field.zones import areas
 from ehlectric.film.line import Film
+from ehlectric.film.point import PointFilm
 
 
 @dataclass(frozen=True)
@@ -49,25 +50,19 @@ class FieldUtilisation:
         return float(self.dielectric_strength.flat[np.argmax(self.strength / self.dielectric_strength)])
 
     @classmethod
-    def of(cls, given: Discharge, film: Film, field: Field | PointField) -> FieldUtilisation:
+    def of(cls, given: Discharge, film: Film | PointFilm, field: Field | PointField) -> FieldUtilisation:
         """Utilisation of the strength in a solved contact."""
-        strength, columns = field.column_strength, axes_of(field)
+        strength, columns = field.column_strength, field.axes
         limit = dielectric_strength(given, at_columns(film, field, film.pressure))
         used = strength / limit
-        level = BREAKING * float(np.max(used))
-        if isinstance(field, PointField):
-            extent = lobe_above(field.x, field.y, used, level)
-        else:
-            start, stop = interval_above(field.x, used, level)
-            extent = stop - start
         place = np.unravel_index(np.argmax(used), used.shape)
         thin = field.voltage / np.maximum(film.thickness, ATOM)
-        around = areas(axes_of(film)) - areas(axes_of(film), columns)
+        around = areas(film.axes) - areas(film.axes, columns)
         return cls(
             strength=strength,
             dielectric_strength=limit,
             position=tuple(float(axis[k]) for axis, k in zip(columns, place, strict=True)),
-            extent=extent,
+            extent=field.extent_above(used, BREAKING * float(np.max(used))),
             over_domain=np.concatenate([strength.ravel(), thin.ravel()]),
             areas=np.concatenate([areas(columns).ravel(), around.ravel()]),
         )

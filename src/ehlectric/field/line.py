@@ -18,7 +18,7 @@ from ehlectric.field.poisson import (
     nodal_values,
 )
 from ehlectric.field.strength import GapField
-from ehlectric.field.zones import HIGH_FIELD, interval_above, part_widths
+from ehlectric.field.zones import HIGH_FIELD, interval_above, line_zone_areas, part_widths
 from ehlectric.runtime.threads import one_blas_thread
 
 
@@ -61,6 +61,21 @@ class Field(GapField):
     capacitance_by_charge: float
     thin_gap_capacitance: float
     capacitance_density: Array
+
+    @property
+    def axes(self) -> tuple[Array, ...]:
+        """Columns along entrainment [m], as a tuple of one axis."""
+        return (self.x,)
+
+    def extent_above(self, values: Array, level: float) -> float:
+        """Width of the interval around the maximum where values at the columns reach a level [m]."""
+        start, stop = interval_above(self.x, values, level)
+        return stop - start
+
+    def capacitance_by_zone(self, half_width: float) -> dict[str, float]:
+        """Capacitance per length of the Hertz zone of a half-width [m], the inlet and the outlet [F/m]."""
+        weights = line_zone_areas(self.axes, half_width)
+        return {name: float(np.vdot(widths, self.capacitance_density)) for name, widths in weights.items()}
 
     @property
     def max_strength_position(self) -> float:

@@ -12,7 +12,15 @@ from ehlectric.errors import InputError
 from ehlectric.field.poisson import Across, mean_permittivity
 from ehlectric.field.poisson_3d import PointFieldProblem, PotentialSolver, by_node
 from ehlectric.field.strength import GapField
-from ehlectric.field.zones import HIGH_FIELD, Zone, area_above, node_areas, zone_areas
+from ehlectric.field.zones import (
+    HIGH_FIELD,
+    Zone,
+    area_above,
+    contact_zones,
+    lobe_above,
+    node_areas,
+    zone_areas,
+)
 from ehlectric.runtime.threads import one_blas_thread
 
 
@@ -62,6 +70,15 @@ class PointField(GapField):
     thin_gap_capacitance: float
     capacitance_density: Array
     iterations: int
+
+    @property
+    def axes(self) -> tuple[Array, ...]:
+        """Columns along and across entrainment [m]."""
+        return self.x, self.y
+
+    def extent_above(self, values: Array, level: float) -> float:
+        """Area of the lobe around the maximum where values at the columns reach a level [m^2]."""
+        return lobe_above(self.x, self.y, values, level)
 
     @property
     def surface_1_strength(self) -> Array:
@@ -117,6 +134,11 @@ class PointField(GapField):
             ``capacitance_by_charge`` to rounding.
         """
         return float(np.vdot(zone_areas(self.x, self.y, zone), self.capacitance_density))
+
+    def capacitance_by_zone(self, semi_axis_x: float, semi_axis_y: float) -> dict[str, float]:
+        """Capacitance of each of the ``contact_zones`` of a dry contact of these semi-axes [m], in F."""
+        zones = contact_zones(semi_axis_x, semi_axis_y)
+        return {name: self.capacitance_of(zone) for name, zone in zones.items()}
 
     def mirrored(self) -> PointField:
         """The field on both sides of a plane of symmetry, of one solved for y >= 0 without flux at y = 0.

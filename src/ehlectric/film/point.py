@@ -9,9 +9,9 @@ from scipy.interpolate import RegularGridInterpolator
 
 from ehlectric.arrays import Array
 from ehlectric.film.estimates import side_deficit
-from ehlectric.film.line import COLLAPSED, Film, found, quiet_solution
 from ehlectric.film.nested import nested_iteration
 from ehlectric.film.problem import FilmProblem
+from ehlectric.film.solution import COLLAPSED, FilmSolution, quiet_solution, stationary_film
 from ehlectric.film.state import Progress
 
 # Points of the quadrature over the Hertz ellipse, along its radius and around it.
@@ -22,11 +22,11 @@ _RADII, _ANGLES = 64, 256
 _LOST = 0.4
 
 
-@dataclass(frozen=True)
-class PointFilm(Film):
+@dataclass(frozen=True, kw_only=True)
+class PointFilm(FilmSolution):
     """Film of a point contact in SI units, with how it was obtained.
 
-    As ``Film``, its arrays of shape (nx, ny), and beside it:
+    It has the attributes of ``FilmSolution``, whose nodal values have the shape (nx, ny), and its own:
 
     Attributes
     ----------
@@ -34,21 +34,39 @@ class PointFilm(Film):
         Position across entrainment [m].
     semi_axis_y : float
         Semi-axis of the dry contact across entrainment [m]; that along it is ``scales.length``.
-    side_deficit : float
+    side_deficit : float or None
         Share of the reduced pressure that there would be at the sides, where the domain holds it at ambient.
+        None for an instant of a transient film.
     """
 
     y: Array
     semi_axis_y: float
-    side_deficit: float
+    side_deficit: float | None = None
+
+    @classmethod
+    def of(
+        cls, film: FilmSolution, *, y: Array, semi_axis_y: float, side_deficit: float | None = None
+    ) -> PointFilm:
+        """Film of a point contact whose nodal values (nx, ny) are known."""
+        return cls(**vars(film), y=y, semi_axis_y=semi_axis_y, side_deficit=side_deficit)
 
     @property
-    def domain_loss(self) -> float:
-        """About the part by which the film is too thin because the domain ends where it does."""
+    def axes(self) -> tuple[Array, ...]:
+        """Nodes along and across entrainment [m]."""
+        return self.x, self.y
+
+    @property
+    def domain_loss(self) -> float | None:
+        """About the part by which the film is too thin because the domain ends where it does.
+
+        None for an instant of a transient film.
+        """
+        if self.inlet_deficit is None or self.side_deficit is None:
+            return None
         return _LOST * (self.inlet_deficit + self.side_deficit)
 
     @property
-    def minimum_position(self) -> tuple[float, float]:  # type: ignore[override]
+    def minimum_position(self) -> tuple[float, float]:
         """Position (x, y) of the lowest node [m]."""
         i, j = np.unravel_index(np.argmin(self.thickness), self.thickness.shape)
         return float(self.x[i]), float(self.y[j])
@@ -75,7 +93,7 @@ class PointFilm(Film):
 
     @property
     def collapsed_positions(self) -> Array:
-        """Where a film that was not found has gaps below a hundredth of the central one, (n, 2) [m]."""
+        """Positions (n, 2) where a collapsed film is thinner than a hundredth of its centre [m]."""
         if self.status != "film collapsed":
             return np.empty((0, 2))
         i, j = np.nonzero(self.thickness < COLLAPSED * self.central_thickness)
@@ -132,8 +150,8 @@ def solve_point_film(problem: FilmProblem, *, progress: Progress | None = None) 
     with quiet_solution():
         solutions = nested_iteration(problem, progress)
         mesh, state = solutions[-1].level.mesh, solutions[-1].state
-        return PointFilm(
-            **found(problem, solutions, mesh.mirrored),
+        return PointFilm.of(
+            stationary_film(problem, solutions, mesh.mirrored),
             y=problem.scales.length * mesh.whole_y,
             semi_axis_y=semi_axis_across(problem),
             side_deficit=side_deficit(problem, mesh, state.pressure, state.thickness),

@@ -87,3 +87,41 @@ class FilmProblem:
     def order(self) -> int:
         """Order of the discretisation."""
         return 2 if self.second_order else 1
+
+
+def velocity_parameter(
+    *, viscosity: float, entrainment_speed: float, radius: float, half_width: float, max_pressure: float
+) -> float:
+    """Dimensionless velocity parameter lambda = 6 eta0 u_s R^2/(b^3 p_h) of the Reynolds equation.
+
+    Parameters
+    ----------
+    viscosity : float
+        eta0, of the oil at ambient pressure [Pa s].
+    entrainment_speed : float
+        (u1 + u2)/2 [m/s].
+    radius : float
+        Reduced radius R along entrainment [m].
+    half_width : float
+        b, of a point contact the semi-axis along entrainment [m].
+    max_pressure : float
+        Hertz pressure p_h [Pa].
+
+    Returns
+    -------
+    float
+        lambda, dimensionless.
+
+    Notes
+    -----
+    The definition of Morris et al. (2022), doi:10.3390/lubricants10050087, has the sum of the surface speeds,
+    u_s = u1 + u2, which is twice the entrainment speed: 6 u_s = 12 (u1 + u2)/2.
+
+    Examples
+    --------
+    >>> oil = {"viscosity": 0.01, "entrainment_speed": 1.0}
+    >>> round(velocity_parameter(**oil, radius=0.01, half_width=1e-4, max_pressure=1e9), 6)
+    0.012
+    """
+    sum_of_speeds = 2.0 * entrainment_speed
+    return 6.0 * viscosity * sum_of_speeds * radius**2 / (half_width**3 * max_pressure)

@@ -58,10 +58,10 @@ class TransientContact:
             Where the schedule is refused (see ``schedule_of``), or a surface cannot be made or read.
         """
         kind = KINDS[case.contact.geometry]
-        conditions = kind.resolve(case)
+        conditions = kind.contact.resolve(case)
         schedule = schedule_of(case, conditions)
         travelled = travelled_case(case, schedule)
-        surfaces = kind.rough(travelled, conditions)
+        surfaces = kind.contact.rough(travelled.roughness, kind.contact.domain(travelled, conditions))
         roughness = MovingRoughness(surfaces, schedule, conditions.half_width)
         return cls(case, conditions, schedule, travelled, roughness)
 

@@ -147,7 +147,7 @@ class MotionFile:
             Maps of the film and the field with stationary roughness, by names as ``pressure``.
         """
         kind = self._contact.kind
-        positions = dict(zip(kind.axes, kind.positions(first.film), strict=True))
+        positions = dict(zip(kind.axes, first.film.axes, strict=True))
         with opened(self._path, "w") as file:
             _lay_out(file, positions, stationary, kind)
             file.attrs["frames"] = file.attrs["complete"] = 0

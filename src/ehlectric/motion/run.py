@@ -210,7 +210,10 @@ def _numbers(still: Result | PointResult) -> dict[str, Any] | None:
 
 def _warnings(contact: TransientContact, still: Result | PointResult) -> Iterator[ResultWarning]:
     """Warnings about the case, its surfaces and the film with stationary roughness."""
-    yield from contact.kind.warnings(contact.case, contact.travelled, contact.conditions, contact.roughness)
+    kind, conditions, travelled = contact.kind.contact, contact.conditions, contact.travelled
+    domain, spacings = kind.domain(travelled, conditions), kind.spacings(contact.case, conditions)
+    yield from kind.case_warnings(contact.case, conditions)
+    yield from kind.surface_warnings(travelled.roughness, contact.roughness.surfaces, domain, *spacings)
     yield from _unlike(contact, still)
     if not still.converged:
         text = f"the same roughness held still is not solved: {still.film.status}"
@@ -228,7 +231,7 @@ def _unlike(contact: TransientContact, still: Result | PointResult) -> Iterator[
     coincident = contact.schedule.coincident
     if not np.isfinite(coincident):
         return
-    axes = [position / contact.half_width for position in contact.kind.positions(still.film)]
+    axes = [position / contact.half_width for position in still.film.axes]
     inside = np.abs(axes[0]) <= 1.0
     away = (contact.roughness.heights(coincident, *axes) - still.roughness)[:, inside]
     part = np.max(np.abs(away)) / max(np.max(np.abs(still.roughness[:, inside])), ATOM)

@@ -14,9 +14,10 @@ from ehlectric.errors import ConvergenceError
 from ehlectric.field.line import Field
 from ehlectric.field.point import PointField
 from ehlectric.film.levels import Level
-from ehlectric.film.line import Film, pressure_of, quiet_solution
+from ehlectric.film.line import Film
 from ehlectric.film.nested import nested_iteration
 from ehlectric.film.point import PointFilm
+from ehlectric.film.solution import FilmSolution, pressure_of, quiet_solution
 from ehlectric.film.state import Progress
 from ehlectric.film.unsteady import History, Instant, UnsteadyFilm
 from ehlectric.motion.contact import TransientContact
@@ -39,7 +40,7 @@ class Snapshot:
     """
 
     time: float
-    film: Film
+    film: Film | PointFilm
     roughness: Array
     field: Field | PointField
 
@@ -121,11 +122,11 @@ class TransientSolver:
 
     def snapshot(self, instant: Instant) -> Snapshot:
         """Film, roughness and field at an instant."""
-        contact, kind = self.contact, self.contact.kind
+        contact, kind = self.contact, self.contact.kind.contact
         film = self.film(instant)
-        axes = [position / contact.half_width for position in kind.positions(film)]
+        axes = [position / contact.half_width for position in film.axes]
         roughness = contact.roughness.heights(instant.time, *axes)
-        field = kind.solve_field(contact.case, contact.conditions, film, roughness)
+        field = kind.solve_field(kind.field_problem(contact.case, contact.conditions, film, roughness))
         return Snapshot(instant.time * contact.schedule.time, film, roughness, field)
 
     def extremes(self, instant: Instant) -> Extremes:
@@ -153,22 +154,16 @@ def film_of(contact: TransientContact, level: Level, instant: Instant) -> Film |
         return contact.kind.shaped(mesh, values)
 
     load = float(np.vdot(level.weights, state.pressure))
-    film: dict[str, Any] = {
-        "x": scales.length * mesh.x,
-        "pressure": shaped(pressure_of(scales, state, instant.full_film)),
-        "thickness": shaped(scales.thickness * state.thickness),
-        "deflection": shaped(scales.thickness * level.deflection(state.pressure)),
-        "density": shaped(instant.density),
-        "cavitated": shaped(~instant.full_film),
-        "reynolds_residual": shaped(np.zeros(mesh.shape)),
-        "scales": scales,
-        "status": "converged",
-        "residual": 0.0,
-        "load_residual": abs(load / level.load - 1.0),
-        "newton_iterations": 0,
-        "steps": (),
-        "discretisation_error": None,
-        "inlet_deficit": 0.0,
-    }
-    made: Film | PointFilm = contact.kind.film(film, contact.problem, mesh)
-    return made
+    solution = FilmSolution(
+        x=scales.length * mesh.x,
+        pressure=shaped(pressure_of(scales, state, instant.full_film)),
+        thickness=shaped(scales.thickness * state.thickness),
+        deflection=shaped(scales.thickness * level.deflection(state.pressure)),
+        density=shaped(instant.density),
+        cavitated=shaped(~instant.full_film),
+        scales=scales,
+        status="converged",
+        load_residual=abs(load / level.load - 1.0),
+    )
+    film: Film | PointFilm = contact.kind.film(solution, contact.problem, mesh)
+    return film

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ehlectric.contact.conditions import resolve
 from ehlectric.contact.problems import field_problem, film_problem
+from ehlectric.contact.resolve import resolve
 from ehlectric.errors import ConvergenceError
 from ehlectric.field.line import solve_field
 from ehlectric.film.problem import FilmProblem
@@ -31,7 +31,7 @@ class Slip:
 
 def _viscosity(_: Study) -> str:
     case = CONTACTS[4].case()
-    oil, contact = case.lubricant, resolve(case).formulas
+    oil, contact = case.lubricant, resolve(case).contact
     misprinted = replace(contact, viscosity=4e-4)
     assert oil.pressure_viscosity_coefficient is not None and oil.roelands_pressure is not None
     z = roelands_exponent(oil.viscosity, oil.pressure_viscosity_coefficient, oil.roelands_pressure)
@@ -129,7 +129,7 @@ def _square_cells(study: Study) -> str:
 
 
 def _m68(study: Study) -> str:
-    groups = study.smooth[CONTACTS[5]].conditions.formulas
+    groups = study.smooth[CONTACTS[5]].conditions.contact
     return f"M = {groups.moes_m:.1f}; Table 3 prints 69.6"
 
 

@@ -14,11 +14,12 @@ import numpy as np
 from ehlectric.errors import InputError
 from ehlectric.film.deflection import LINE
 from ehlectric.film.estimates import inlet_deficit, richardson
-from ehlectric.film.line import Film, film_status
+from ehlectric.film.line import Film
 from ehlectric.film.mesh import Mesh
 from ehlectric.film.nested import FIRST_GRID, NESTED_TOLERANCE
 from ehlectric.film.newton import ROUNDING
 from ehlectric.film.problem import FilmProblem
+from ehlectric.film.solution import film_status
 from ehlectric.film.state import NewtonStep, Progress, Status
 from ehlectric.formulas.hertz_line import line_pressure
 from ehlectric.paper.film_equations import FilmEquations, Iterate

@@ -41,7 +41,7 @@ def _of(gigapascal: int) -> list[PaperContact]:
 
 def _panel_name(contact: PaperContact, letter: str, result: Result) -> str:
     """Label and name of a sub-figure as printed; with its M where that is not the one printed."""
-    groups = result.conditions.formulas
+    groups = result.conditions.contact
     name = f"({letter}) {contact.printed}"
     printed = float(contact.printed[1:].split("L")[0])
     return name if abs(printed - groups.moes_m) < 1.0 else f"{name}  (M = {groups.moes_m:.1f})"

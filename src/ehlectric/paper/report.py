@@ -174,7 +174,7 @@ def _range(values: list[float], digits: str) -> str:
 def _width_law(study: Study) -> tuple[tuple[float, float], float]:
     """Powers of M and L that the width over b goes with, and the largest relative distance from that law."""
     results = list(study.smooth.values())
-    groups = [result.conditions.formulas for result in results]
+    groups = [result.conditions.contact for result in results]
     logs = np.column_stack([np.ones(len(groups)), np.log([[g.moes_m, g.moes_l] for g in groups])])
     shares = np.log([r.field.high_field_width / r.conditions.half_width for r in results])
     law, *_ = np.linalg.lstsq(logs, shares, rcond=None)

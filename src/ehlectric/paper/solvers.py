@@ -21,5 +21,5 @@ def _check(case: Case) -> None:
     fas.grid_sizes(case.grid.nodes)
 
 
-PAPER = Solvers("paper", fas.solve_film, sor.solve_field, check=_check)
+PAPER = Solvers("paper", film={"line": fas.solve_film}, field={"line": sor.solve_field}, check=_check)
 SOLVERS = {solvers.name: solvers for solvers in (OWN, PAPER)}

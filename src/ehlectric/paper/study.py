@@ -15,10 +15,10 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
-from ehlectric.contact.conditions import resolve
 from ehlectric.contact.problems import field_problem, film_problem
+from ehlectric.contact.resolve import resolve
 from ehlectric.contact.results import Result
-from ehlectric.contact.solver import solve_line
+from ehlectric.contact.solver import solve
 from ehlectric.field.line import solve_field
 from ehlectric.film.line import solve_film
 from ehlectric.paper import fas, sor
@@ -172,12 +172,19 @@ def readings_differ_by(result: Result) -> float:
     return float(np.max(np.abs(straight[inside] / field.middle_strength[inside] - 1.0)))
 
 
+def _line(case: Case, *, beside_smooth: bool = True) -> Result:
+    """Result of a line contact."""
+    result = solve(case, beside_smooth=beside_smooth)
+    assert isinstance(result, Result)
+    return result
+
+
 def _smooth(contact: PaperContact) -> Result:
-    return solve_line(contact.case())
+    return _line(contact.case())
 
 
 def _rough(profile: Path, contact: PaperContact) -> Result:
-    return solve_line(contact.rough_case(profile))
+    return _line(contact.rough_case(profile))
 
 
 def _placed(profile: Path, contact: PaperContact) -> tuple[Placed, ...]:
@@ -186,20 +193,20 @@ def _placed(profile: Path, contact: PaperContact) -> tuple[Placed, ...]:
 
 
 def _moved(case: Case) -> Placed:
-    result = solve_line(case, beside_smooth=False)
+    result = _line(case, beside_smooth=False)
     return Placed(result.film.minimum_thickness, result.max_dimensionless, result.converged)
 
 
 def _first_order(contact: PaperContact) -> Result:
-    return solve_line(contact.case(wedge="first-order"))
+    return _line(contact.case(wedge="first-order"))
 
 
 def _fine(contact: PaperContact) -> Result:
-    return solve_line(contact.case(nodes=2 * SMOOTH_NODES - 1))
+    return _line(contact.case(nodes=2 * SMOOTH_NODES - 1))
 
 
 def _constant(contact: PaperContact) -> Result:
-    return solve_line(contact.constant_case())
+    return _line(contact.constant_case())
 
 
 def _methods(contact: PaperContact) -> Methods:

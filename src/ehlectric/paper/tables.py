@@ -99,9 +99,9 @@ def printed_table(study: Study) -> PaperTable:
                 contact.u_s,
                 "yes" if all(agrees(*pair) for pair in pairs) else "no",
                 printed["moes_m"],
-                second.conditions.formulas.moes_m,
+                second.conditions.contact.moes_m,
                 printed["moes_l"],
-                second.conditions.formulas.moes_l,
+                second.conditions.contact.moes_l,
                 printed["venner_h_min"],
                 printed["venner_h_av"],
                 printed["paper_h_min"],
@@ -126,7 +126,7 @@ def printed_table(study: Study) -> PaperTable:
 
 
 def _row_head(contact: PaperContact, result: Result) -> tuple[str | float, ...]:
-    groups = result.conditions.formulas
+    groups = result.conditions.contact
     return (contact.name, groups.moes_m, groups.moes_l)
 
 

@@ -156,7 +156,7 @@ def measured_map(table: Roughness) -> RoughMap:
     assert table.file is not None
     read = read_surface(table.file, x_unit=table.x_unit, z_unit=table.z_unit)
     if read.spacing_y is None or table.line is not None:
-        return _extended(table)
+        return _extended(table, read)
     return whole_map(table, read)
 
 
@@ -182,11 +182,11 @@ def whole_map(table: Roughness, read: Surface | None = None) -> RoughMap:
     return _of_map(table, read.map(along=table.along), read)
 
 
-def _extended(table: Roughness) -> RoughMap:
+def _extended(table: Roughness, read: Surface) -> RoughMap:
     """A profile that is the same all along the lay, which lies across the direction it was measured in."""
     across = table.direction == "y"
     # The profile's own position is x or y, and so is its shift.
-    line = measured(table.model_copy(update={"shift": table.shift_y if across else table.shift}))
+    line = measured(table.model_copy(update={"shift": table.shift_y if across else table.shift}), read)
 
     def at(x: Array, y: Array) -> Array:
         along, other = (y, x) if across else (x, y)

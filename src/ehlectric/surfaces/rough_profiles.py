@@ -106,8 +106,8 @@ def _rough_surface(table: Roughness, domain: Domain) -> RoughSurface:
     return _of_profile(table, _random(table, domain.length, reach), None)
 
 
-def measured(table: Roughness) -> RoughSurface:
-    """The rough surface of a file, which needs no contact to be looked at.
+def measured(table: Roughness, surface: Surface | None = None) -> RoughSurface:
+    """The rough surface of a file, read unless it is given, which needs no contact to be looked at.
 
     Its mean is taken out in any case: where the instrument's zero lies means nothing.
 
@@ -117,7 +117,8 @@ def measured(table: Roughness) -> RoughSurface:
         Where the file cannot be used.
     """
     assert table.file is not None
-    surface = read_surface(table.file, x_unit=table.x_unit, z_unit=table.z_unit)
+    if surface is None:
+        surface = read_surface(table.file, x_unit=table.x_unit, z_unit=table.z_unit)
     return _of_profile(table, surface.line(table.line or 0, along=table.along), surface)
 
 

@@ -19,7 +19,7 @@ from ehlectric.bearing.gaps.groove import groove_capacitance, match_film, outsid
 from ehlectric.bearing.gaps.roller import RollerRace, roller_capacitance, roller_tails
 from ehlectric.bearing.ring_contacts import Race, raceway_of
 from ehlectric.bearing.state import race_state
-from ehlectric.contact.conditions import resolve_point
+from ehlectric.contact.resolve import resolve_point
 from ehlectric.errors import ResultWarning
 from ehlectric.formulas.hertz_point import dry_contact
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case

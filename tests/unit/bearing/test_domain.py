@@ -9,7 +9,7 @@ from ehlectric.bearing.conditions import BearingDuty
 from ehlectric.bearing.contacts import contact_case
 from ehlectric.bearing.domain import least_load, line_domain, point_domain
 from ehlectric.bearing.ring_contacts import Race
-from ehlectric.contact.conditions import resolve, resolve_point
+from ehlectric.contact.resolve import resolve, resolve_point
 from ehlectric.formulas.film_line import LineContact, moes
 from ehlectric.formulas.film_point import PointContact, nijenbanning_venner_moes
 from ehlectric.formulas.hertz_point import dry_contact

@@ -10,7 +10,7 @@ from ehlectric.bearing.domain import least_load
 from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.ring_contacts import Race
 from ehlectric.bearing.solver import LOADS, POSITIONS, check_bearing, solve_bearing
-from ehlectric.contact.conditions import resolve, resolve_point
+from ehlectric.contact.resolve import resolve, resolve_point
 from ehlectric.formulas.film_point import PointContact, chittenden
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case
 

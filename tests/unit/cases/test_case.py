@@ -9,7 +9,7 @@ from pydantic import ValidationError
 
 from ehlectric import Case, InputError, solve
 from ehlectric.contact.case_warnings import line_case_warnings
-from ehlectric.contact.conditions import resolve
+from ehlectric.contact.resolve import resolve
 from tests.conftest import PAPER_CONTACT
 
 TABLE = {"contact": PAPER_CONTACT, "lubricant": {"base": "paper"}}

@@ -9,8 +9,9 @@ from hypothesis import given, settings
 from ehlectric import Case, InputError
 from ehlectric.cases.quantity import Quantity
 from ehlectric.contact.case_warnings import point_case_warnings
-from ehlectric.contact.conditions import default_side, resolve, resolve_point
+from ehlectric.contact.conditions import default_side
 from ehlectric.contact.memory import check_memory
+from ehlectric.contact.resolve import resolve, resolve_point
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.strategies import point_tables
 

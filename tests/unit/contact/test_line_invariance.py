@@ -69,8 +69,8 @@ factor = st.floats(0.25, 4.0)
 def test_the_film_depends_on_m_and_l_alone(radius, modulus, load, viscosity):
     result = solve(scaled(radius=radius, modulus=modulus, load=load, viscosity=viscosity))
     for group in ("moes_m", "moes_l"):
-        expected = getattr(unscaled().conditions.formulas, group)
-        assert getattr(result.conditions.formulas, group) == pytest.approx(expected, rel=1e-12, abs=0.0)
+        expected = getattr(unscaled().conditions.contact, group)
+        assert getattr(result.conditions.contact, group) == pytest.approx(expected, rel=1e-12, abs=0.0)
     for values, expected in zip(dimensionless(result), dimensionless(unscaled()), strict=True):
         np.testing.assert_allclose(values, expected, rtol=1e-10)
 

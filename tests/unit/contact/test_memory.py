@@ -52,7 +52,7 @@ def test_krylov_space_that_is_reckoned_with():
 # Solves in a fresh process; what the system counts as its highest memory, before and after.
 MEASURED = """
 from ehlectric import Case
-from ehlectric.contact.conditions import resolve_point
+from ehlectric.contact.resolve import resolve_point
 from ehlectric.film.point import solve_point_film
 from ehlectric.contact.problems import point_film_problem
 

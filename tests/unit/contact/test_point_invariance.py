@@ -9,8 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ehlectric import Case, solve
-from ehlectric.contact.conditions import resolve_point
 from ehlectric.contact.problems import point_film_problem
+from ehlectric.contact.resolve import resolve_point
 from ehlectric.film.point import solve_point_film
 from tests.unit.cases.test_point_case import point
 from tests.unit.contact.test_line_invariance import LUBRICANT
@@ -52,7 +52,7 @@ def film_of(case):
     """P and H, and the groups they depend on."""
     conditions = resolve_point(case)
     film = solve_point_film(point_film_problem(case, conditions))
-    groups = conditions.formulas.moes_m, conditions.formulas.moes_l, conditions.ratio
+    groups = conditions.contact.moes_m, conditions.contact.moes_l, conditions.ratio
     return film.pressure / conditions.max_pressure, film.thickness / conditions.thickness_scale, groups
 
 

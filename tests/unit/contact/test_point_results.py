@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 from ehlectric import Case, InputError, load, save, solve
 from ehlectric.contact import memory
-from ehlectric.contact.conditions import resolve_point
 from ehlectric.contact.problems import point_film_problem
+from ehlectric.contact.resolve import resolve_point
 from ehlectric.film.point import solve_point_film
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.strategies import discharges

@@ -6,8 +6,8 @@ import itertools
 import numpy as np
 import pytest
 
-from ehlectric.contact.conditions import resolve
 from ehlectric.contact.problems import film_problem
+from ehlectric.contact.resolve import resolve
 from ehlectric.film import multigrid, reynolds
 from ehlectric.film.characteristics import in_time
 from ehlectric.film.deflection import LINE, Deflection

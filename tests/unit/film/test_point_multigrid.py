@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 
 from ehlectric import Case
-from ehlectric.contact.conditions import resolve_point
 from ehlectric.contact.problems import point_film_problem
+from ehlectric.contact.resolve import resolve_point
 from ehlectric.film import multigrid
 from ehlectric.film.flow import flow
 from ehlectric.film.levels import hierarchy
-from ehlectric.film.line import quiet_solution
 from ehlectric.film.mesh import Width
 from ehlectric.film.nested import nested_iteration
+from ehlectric.film.solution import quiet_solution
 from tests.helpers.places import EXAMPLES
 from tests.unit.cases.test_point_case import point
 

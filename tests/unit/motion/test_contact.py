@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from ehlectric.contact.conditions import resolve, resolve_point
 from ehlectric.contact.problems import domain_of, heights_of, line_domain_of
+from ehlectric.contact.resolve import resolve, resolve_point
 from ehlectric.motion.contact import TransientContact
 from ehlectric.surfaces import made_profiles as generators
 from ehlectric.surfaces.rough_maps import rough_maps

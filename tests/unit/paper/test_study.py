@@ -53,7 +53,7 @@ def verdicts(study):
 def test_names_are_the_printed_ones_but_one(smooth):
     odd = []
     for contact, result in smooth.items():
-        groups = result.conditions.formulas
+        groups = result.conditions.contact
         moes_m, moes_l = (float(part) for part in contact.printed[1:].split("L"))
         assert np.floor(groups.moes_l) == moes_l
         if np.floor(groups.moes_m) != moes_m:

@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ehlectric import InputError
-from ehlectric.contact.conditions import resolve
 from ehlectric.contact.problems import line_domain_of
+from ehlectric.contact.resolve import resolve
 from ehlectric.surfaces import made_profiles as generators
 from ehlectric.surfaces.continuation import continued
 from ehlectric.surfaces.profiles import (

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from ehlectric import Case, InputError
-from ehlectric.contact.conditions import resolve
 from ehlectric.contact.problems import line_domain_of, spacing
+from ehlectric.contact.resolve import resolve
 from ehlectric.surfaces.profiles import Profile
 from ehlectric.surfaces.rough_profiles import measured, rough_surfaces
 from ehlectric.surfaces.warnings import profile_surface_warnings

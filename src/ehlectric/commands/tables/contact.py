@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from rich.table import Table
@@ -18,20 +18,15 @@ from ehlectric.formulas.film_line import regime as film_line_regime
 from ehlectric.formulas.film_point import FORMULAS, regime
 
 
-def result_table(result: Result | PointResult) -> Table:
-    """The key figures of a solution of any contact."""
-    return point_result_table(result) if isinstance(result, PointResult) else line_result_table(result)
-
-
 def add_point_conditions(table: Table, conditions: PointConditions) -> None:
     """Rows of the dry contact and the groups, that a case and its solution share."""
     table.add_row("Hertz pressure", f"{conditions.max_pressure / 1e9:.4g}", "GPa")
     table.add_row("semi-axis, along", f"{conditions.semi_axis_x * 1e6:.4g}", "µm")
     table.add_row("semi-axis, across", f"{conditions.semi_axis_y * 1e6:.4g}", "µm")
     table.add_row("  across over along", f"{conditions.ratio:.4g}")
-    table.add_row("Moes M", f"{conditions.formulas.moes_m:.4g}")
-    table.add_row("Moes L", f"{conditions.formulas.moes_l:.4g}")
-    table.add_row("regime", regime(conditions.formulas))
+    table.add_row("Moes M", f"{conditions.contact.moes_m:.4g}")
+    table.add_row("Moes L", f"{conditions.contact.moes_l:.4g}")
+    table.add_row("regime", regime(conditions.contact))
 
 
 def point_table(case: Case, conditions: PointConditions) -> Table:
@@ -45,7 +40,7 @@ def point_table(case: Case, conditions: PointConditions) -> Table:
     table.add_row("slide-to-roll ratio", f"{conditions.slide_to_roll_ratio:.4g}")
     add_point_conditions(table, conditions)
     table.add_row("velocity parameter lambda", f"{conditions.velocity_parameter:.4g}")
-    films = {name: formula(conditions.formulas) for name, formula in FORMULAS.items()}
+    films = {name: formula(conditions.contact) for name, formula in FORMULAS.items()}
     add_expected(table, case, films, FORMULAS)
     grid = case.grid
     table.add_row("grid", f"{grid.nodes} x {grid.nodes_across}", f"nodes, {grid.wedge} wedge")
@@ -82,9 +77,9 @@ def _in_semi_axes(result: PointResult, position: tuple[float, float]) -> str:
 def _add_conditions(table: Table, conditions: Conditions) -> None:
     table.add_row("Hertz pressure", f"{conditions.max_pressure / 1e9:.4g}", "GPa")
     table.add_row("half-width", f"{conditions.half_width * 1e6:.4g}", "µm")
-    table.add_row("Moes M", f"{conditions.formulas.moes_m:.4g}")
-    table.add_row("Moes L", f"{conditions.formulas.moes_l:.4g}")
-    table.add_row("regime", film_line_regime(conditions.formulas))
+    table.add_row("Moes M", f"{conditions.contact.moes_m:.4g}")
+    table.add_row("Moes L", f"{conditions.contact.moes_l:.4g}")
+    table.add_row("regime", film_line_regime(conditions.contact))
 
 
 def conditions_table(case: Case, conditions: Conditions) -> Table:
@@ -97,7 +92,7 @@ def conditions_table(case: Case, conditions: Conditions) -> Table:
     table.add_row("slide-to-roll ratio", f"{conditions.slide_to_roll_ratio:.4g}")
     _add_conditions(table, conditions)
     table.add_row("velocity parameter lambda", f"{conditions.velocity_parameter:.4g}")
-    films = {name: formula(conditions.formulas) for name, formula in FILM_LINE_FORMULAS.items()}
+    films = {name: formula(conditions.contact) for name, formula in FILM_LINE_FORMULAS.items()}
     add_expected(table, case, films, FILM_LINE_FORMULAS)
     table.add_row("grid", f"{case.grid.nodes}", f"nodes, {case.grid.wedge} wedge")
     return table
@@ -173,13 +168,13 @@ def add_thin_gap(table: Table, result: Result | PointResult) -> None:
 
 def add_roughness(table: Table, result: Result | PointResult) -> None:
     """Rows of a rough contact."""
-    roughness = result.summary()["roughness"]
-    for k in (1, 2):
-        table.add_row(f"Rq of surface {k}, Hertz zone", f"{roughness[f'rq_{k}'] * 1e9:.3g}", "nm")
-    if roughness["lambda_ratio"] is not None:
-        table.add_row("lambda ratio", f"{roughness['lambda_ratio']:.3g}", "minimum film over Rq of both")
-    if roughness["lambda_ratio_smooth"] is not None:
-        table.add_row("  of the smooth film", f"{roughness['lambda_ratio_smooth']:.3g}")
+    roughness = result.roughness_statistics
+    for k, rq in ((1, roughness.rq_1), (2, roughness.rq_2)):
+        table.add_row(f"Rq of surface {k}, Hertz zone", f"{rq * 1e9:.3g}", "nm")
+    if roughness.lambda_ratio is not None:
+        table.add_row("lambda ratio", f"{roughness.lambda_ratio:.3g}", "minimum film over Rq of both")
+    if roughness.lambda_ratio_smooth is not None:
+        table.add_row("  of the smooth film", f"{roughness.lambda_ratio_smooth:.3g}")
     if result.smooth:
         table.add_row("minimum film, smooth", f"{result.smooth.minimum_thickness * 1e6:.4g}", "µm")
 
@@ -197,3 +192,18 @@ def add_formulas(table: Table, result: Result | PointResult, formulas: Mapping[s
                 film = key.removesuffix("_thickness")
                 table.add_row(f"  {formulas[name].name}, {film}", f"{value * 1e6:.4g}", f"µm{beside}")
     table.add_row("time", f"{result.film_seconds + result.field_seconds:.2g}", "s")
+
+
+# Tables by the geometry of the contact: before it is solved, and of its solution.
+_CASES: Mapping[str, Callable[..., Table]] = {"line": conditions_table, "point": point_table}
+_RESULTS: Mapping[str, Callable[..., Table]] = {"line": line_result_table, "point": point_result_table}
+
+
+def case_table(case: Case, conditions: Conditions | PointConditions) -> Table:
+    """Table of what a case of any contact means, before it is solved."""
+    return _CASES[conditions.geometry](case, conditions)
+
+
+def result_table(result: Result | PointResult) -> Table:
+    """Table of the key figures of a solution of any contact."""
+    return _RESULTS[result.conditions.geometry](result)

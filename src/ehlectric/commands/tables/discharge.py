@@ -8,6 +8,9 @@ from ehlectric.contact.results import PointResult, Result
 from ehlectric.discharge.laws import LARGEST_PIT, MEAN_PIT
 from ehlectric.discharge.parts import Breakdown, BreakdownZone, Capacitances, DischargeCosts
 
+# Factor and unit of a capacitance by the geometry of the contact: per length of a line.
+_CAPACITANCE = {"line": (1e9, "nF/m"), "point": (1e12, "pF")}
+
 
 def add_discharge(table: Table, result: Result | PointResult) -> None:
     """Rows of the discharge, where the case has one."""
@@ -18,8 +21,7 @@ def add_discharge(table: Table, result: Result | PointResult) -> None:
     table.add_row("discharge")
     _add_breakdown(table, found.breakdown)
     _add_zone(table, found.zone, result.conditions.half_width)
-    unit = (1e12, "pF") if isinstance(result, PointResult) else (1e9, "nF/m")
-    _add_capacitance(table, found.capacitances, *unit)
+    _add_capacitance(table, found.capacitances, *_CAPACITANCE[result.conditions.geometry])
     _add_costs(table, found.costs)
     leakage = found.leakage
     if leakage.relaxation_time is not None and leakage.corner_frequency is not None:

@@ -255,9 +255,9 @@ def roughness(result: Result, ax: Axes | None = None) -> Axes:
     ax = axes_or_new(ax)
     x = in_half_widths(result, result.film.x)
     factor, unit = unit_for(float(np.max(np.abs(result.roughness))), "m", least=1.0)
-    described = result.summary()["roughness"]
-    for k, color in ((1, BLUE), (2, ORANGE)):
-        heights, rq = result.roughness[k - 1], described[f"rq_{k}"]
+    statistics = result.roughness_statistics
+    for k, rq, color in ((1, statistics.rq_1, BLUE), (2, statistics.rq_2, ORANGE)):
+        heights = result.roughness[k - 1]
         if np.any(heights):
             label = f"surface {k}, Rq = {factor * rq:.3g} {unit} within $|x/b| \\leq 1$"
             ax.plot(x, factor * heights, color=color, lw=0.7, label=label)

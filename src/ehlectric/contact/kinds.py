@@ -1,0 +1,216 @@
+"""Table of the two kinds of contact: how line and point contacts take the steps that all contacts share."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Generic, TypeVar
+
+import numpy as np
+
+from ehlectric.arrays import Array
+from ehlectric.cases.case import Case
+from ehlectric.cases.roughness import Roughness
+from ehlectric.contact import problems
+from ehlectric.contact.case_warnings import line_case_warnings, point_case_warnings
+from ehlectric.contact.conditions import Conditions, PointConditions
+from ehlectric.contact.dataset import LINE_LAYOUT, POINT_LAYOUT, Layout
+from ehlectric.contact.resolve import resolve, resolve_point
+from ehlectric.contact.result_warnings import line_result_warnings, point_result_warnings
+from ehlectric.contact.setup import Setup
+from ehlectric.contact.solution import ConditionsT, FieldT, FilmT, Solution
+from ehlectric.contact.statistics import RoughnessStatistics, line_roughness, point_roughness
+from ehlectric.errors import ResultWarning
+from ehlectric.field.line import Field, solve_field
+from ehlectric.field.point import PointField, solve_point_field
+from ehlectric.field.poisson import FieldProblem
+from ehlectric.field.poisson_3d import PointFieldProblem
+from ehlectric.film.line import Film, solve_film
+from ehlectric.film.point import PointFilm, solve_point_film
+from ehlectric.film.problem import FilmProblem
+from ehlectric.formulas import film_line, film_point
+from ehlectric.formulas.film_line import LineContact, Thickness
+from ehlectric.formulas.film_point import PointContact
+from ehlectric.surfaces.domain import Domain
+from ehlectric.surfaces.rough_maps import RoughMap, rough_maps
+from ehlectric.surfaces.rough_profiles import RoughSurface, rough_surfaces
+from ehlectric.surfaces.warnings import map_surface_warnings, profile_surface_warnings
+
+RoughT = TypeVar("RoughT", RoughSurface, RoughMap)
+ContactT = TypeVar("ContactT", LineContact, PointContact)
+ProblemT = TypeVar("ProblemT", FieldProblem, PointFieldProblem)
+
+
+@dataclass(frozen=True)
+class Kind(Generic[ConditionsT, ContactT, RoughT, FilmT, ProblemT, FieldT]):
+    """One kind of contact: a function for each step that line and point contacts take differently.
+
+    Attributes
+    ----------
+    resolve : callable
+        Case -> operating conditions.
+    domain, spacings : callable
+        Setup and conditions -> domain of the film [m], and distances of its nodes along each axis [m].
+    rough : callable
+        Tables of the rough surfaces and the domain -> surfaces, read or made.
+    film_problem, solve_film : callable
+        Setup, conditions and rough surfaces -> the film's problem, and its solution.
+    field_problem, solve_field : callable
+        Setup, conditions, film and roughness -> the field's problem, and its solution over the whole range.
+    case_warnings, surface_warnings : callable
+        Warnings before anything is solved: about the conditions, and about the rough surfaces.
+    result_warnings : callable
+        Warnings about a film and its field.
+    film, field : type
+        What a film and a field are made of when a result is read from a file.
+    layout : Layout
+        Names and dimensions of the arrays in a file.
+    formulas, regime : mapping and callable
+        Published film-thickness formulas by name, and the regime of lubrication.
+    contact_keys, grid_keys, hertz_keys : tuple of str
+        Numbers of the conditions that a summary gives as inputs of the contact, inputs of the grid, and as
+        the dry contact.
+    film_summary, field_summary : callable
+        Solution -> key figures of the film and of the field that this kind alone has.
+    roughness : callable
+        Solution -> statistics of the roughness over the Hertz zone.
+    """
+
+    resolve: Callable[[Case], ConditionsT]
+    domain: Callable[[Case | Setup, ConditionsT], Domain]
+    spacings: Callable[[Case | Setup, ConditionsT], tuple[float, ...]]
+    rough: Callable[[Sequence[Roughness], Domain], Sequence[RoughT]]
+    film_problem: Callable[[Case | Setup, ConditionsT, Sequence[RoughT]], FilmProblem]
+    solve_film: Callable[..., FilmT]
+    field_problem: Callable[[Case | Setup, ConditionsT, FilmT, Array], ProblemT]
+    solve_field: Callable[[ProblemT], FieldT]
+    case_warnings: Callable[[Case | Setup, ConditionsT], Iterator[ResultWarning]]
+    surface_warnings: Callable[..., Iterator[ResultWarning]]
+    result_warnings: Callable[[Case | Setup, FilmT, FieldT], Iterator[ResultWarning]]
+    film: type[FilmT]
+    field: type[FieldT]
+    layout: Layout
+    formulas: Mapping[str, Callable[[ContactT], Thickness]]
+    regime: Callable[[ContactT], str]
+    contact_keys: tuple[str, ...]
+    grid_keys: tuple[str, ...]
+    hertz_keys: tuple[str, ...]
+    film_summary: Callable[[Solution[ConditionsT, FilmT, FieldT]], dict[str, Any]]
+    field_summary: Callable[[Solution[ConditionsT, FilmT, FieldT]], dict[str, Any]]
+    roughness: Callable[[Solution[ConditionsT, FilmT, FieldT]], RoughnessStatistics]
+
+
+def _line_film(solution: Solution[Conditions, Film, Field]) -> dict[str, Any]:
+    return {"nodes": solution.film.x.size}
+
+
+def _point_film(solution: Solution[PointConditions, PointFilm, PointField]) -> dict[str, Any]:
+    film = solution.film
+    return {
+        "nodes": list(film.thickness.shape),
+        "inlet_deficit": film.inlet_deficit,
+        "side_deficit": film.side_deficit,
+    }
+
+
+def _line_field(solution: Solution[Conditions, Film, Field]) -> dict[str, Any]:
+    field, central = solution.field, None
+    if solution.in_field_range(0.0):
+        central = float(np.interp(0.0, field.x, field.middle_strength)) * solution.strength_scale
+    return {
+        "central_dimensionless": central,
+        "high_field_width": field.high_field_width,
+        "capacitance_per_length": field.capacitance,
+        "columns": field.x.size,
+    }
+
+
+def _point_field(solution: Solution[PointConditions, PointFilm, PointField]) -> dict[str, Any]:
+    field, central = solution.field, None
+    if solution.in_field_range((0.0, 0.0)):
+        along = [np.interp(0.0, field.y, row) for row in field.middle_strength]
+        central = float(np.interp(0.0, field.x, along)) * solution.strength_scale
+    return {
+        "central_dimensionless": central,
+        "high_field_area": field.high_field_area,
+        "capacitance": field.capacitance,
+        "capacitance_by_charge": field.capacitance_by_charge,
+        "capacitance_by_zone": solution.capacitance_by_zone,
+        "columns": list(field.middle_strength.shape),
+    }
+
+
+def _whole_field(problem: PointFieldProblem) -> PointField:
+    """Field on both sides of the plane y = 0, also where its problem is posed on one side of it."""
+    field = solve_point_field(problem)
+    return field.mirrored() if field.y[0] == 0.0 else field
+
+
+LINE: Kind[Conditions, LineContact, RoughSurface, Film, FieldProblem, Field] = Kind(
+    resolve=resolve,
+    domain=problems.line_domain_of,
+    spacings=lambda setup, conditions: (problems.spacing(setup, conditions),),
+    rough=rough_surfaces,
+    film_problem=problems.film_problem,
+    solve_film=solve_film,
+    field_problem=problems.field_problem,
+    solve_field=solve_field,
+    case_warnings=line_case_warnings,
+    surface_warnings=profile_surface_warnings,
+    result_warnings=line_result_warnings,
+    film=Film,
+    field=Field,
+    layout=LINE_LAYOUT,
+    formulas=film_line.FORMULAS,
+    regime=film_line.regime,
+    contact_keys=(
+        "reduced_radius",
+        "reduced_modulus",
+        "load_per_length",
+        "entrainment_speed",
+        "slide_to_roll_ratio",
+    ),
+    grid_keys=(),
+    hertz_keys=("half_width", "max_pressure"),
+    film_summary=_line_film,
+    field_summary=_line_field,
+    roughness=line_roughness,
+)
+
+POINT: Kind[PointConditions, PointContact, RoughMap, PointFilm, PointFieldProblem, PointField] = Kind(
+    resolve=resolve_point,
+    domain=problems.domain_of,
+    spacings=problems.spacings,
+    rough=rough_maps,
+    film_problem=problems.point_film_problem,
+    solve_film=solve_point_film,
+    field_problem=problems.point_field_problem,
+    solve_field=_whole_field,
+    case_warnings=point_case_warnings,
+    surface_warnings=map_surface_warnings,
+    result_warnings=point_result_warnings,
+    film=PointFilm,
+    field=PointField,
+    layout=POINT_LAYOUT,
+    formulas=film_point.FORMULAS,
+    regime=film_point.regime,
+    contact_keys=(
+        "radius_x",
+        "radius_y",
+        "reduced_modulus",
+        "load",
+        "entrainment_speed",
+        "slide_to_roll_ratio",
+    ),
+    grid_keys=("side",),
+    hertz_keys=("semi_axis_x", "semi_axis_y", "max_pressure"),
+    film_summary=_point_film,
+    field_summary=_point_field,
+    roughness=point_roughness,
+)
+
+# A kind whose types are not known, as that of a case read from a file.
+AnyKind = Kind[Any, Any, Any, Any, Any, Any]
+
+# Kinds of contact by the geometry that a case and its conditions name.
+KINDS: Mapping[str, AnyKind] = {"line": LINE, "point": POINT}

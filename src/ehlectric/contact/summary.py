@@ -1,0 +1,135 @@
+"""Key figures of a contact as nested tables, before it is solved and after."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from ehlectric.cases.case import Case
+from ehlectric.contact.conditions import Conditions, PointConditions
+from ehlectric.contact.kinds import KINDS
+from ehlectric.contact.setup import Setup
+from ehlectric.contact.solution import Solution
+from ehlectric.formulas.film_line import Thickness
+from ehlectric.runtime.files import plain
+
+SCHEMA = "ehlectric.summary/1"
+
+
+def summary_of(solution: Solution[Any, Any, Any]) -> dict[str, Any]:
+    """Key figures of a solved contact in SI units, nested as summary.json.
+
+    Parameters
+    ----------
+    solution : Solution
+        Film and field.
+
+    Returns
+    -------
+    dict
+        Values are numbers, texts, lists, or None where a value has no meaning; never NaN.
+    """
+    kind, film, conditions = KINDS[solution.conditions.geometry], solution.film, solution.conditions
+    summary: dict[str, Any] = {
+        "schema": SCHEMA,
+        "version": solution.version,
+        "title": solution.case.title,
+        "converged": solution.converged,
+        "status": film.status,
+        "warnings": list(solution.warnings),
+        "inputs": inputs_of(solution.case, conditions),
+        "groups": groups_of(conditions),
+        "hertz": hertz_of(conditions),
+        "film": _film(solution) | kind.film_summary(solution),
+        "field": _field(solution),
+        "film_formulas": {name: vars(thickness) for name, thickness in formulas_of(conditions).items()},
+        "seconds": {"film": solution.film_seconds, "field": solution.field_seconds},
+    }
+    if solution.discharge is not None:
+        summary["discharge"] = solution.discharge.summary()
+    if solution.rough:
+        summary["roughness"] = {"surfaces": list(solution.rough)} | vars(kind.roughness(solution))
+    return {key: plain(value) for key, value in summary.items()}
+
+
+def _film(solution: Solution[Any, Any, Any]) -> dict[str, Any]:
+    film = solution.film
+    names = (
+        "minimum_thickness",
+        "minimum_position",
+        "central_thickness",
+        "mean_thickness",
+        "max_pressure",
+        "load_residual",
+        "residual",
+        "newton_iterations",
+        "discretisation_error",
+    )
+    return {name: getattr(film, name) for name in names} | {"solver": solution.film_solver}
+
+
+def _field(solution: Solution[Any, Any, Any]) -> dict[str, Any]:
+    field = solution.field
+    return {
+        "voltage": field.voltage,
+        "max_strength": field.max_strength,
+        "max_strength_position": field.max_strength_position,
+        "max_dimensionless": solution.max_dimensionless,
+        **KINDS[solution.conditions.geometry].field_summary(solution),
+        "thin_gap_error": solution.thin_gap_error,
+        "max_strength_wall": field.max_strength_wall,
+        "solver": solution.field_solver,
+    }
+
+
+def case_summary(case: Case | Setup, conditions: Conditions | PointConditions) -> dict[str, Any]:
+    """Key figures of a contact before it is solved, SI units, with the keys of summary.json.
+
+    Parameters
+    ----------
+    case : Case or Setup
+        What is to be solved.
+    conditions : Conditions or PointConditions
+        Its operating conditions.
+
+    Returns
+    -------
+    dict
+        Inputs, groups, dry contact, regime, and film thickness by the published formulas.
+    """
+    return {
+        "schema": SCHEMA.replace("summary", "check"),
+        "title": case.title,
+        "inputs": inputs_of(case, conditions),
+        "groups": groups_of(conditions),
+        "hertz": hertz_of(conditions),
+        "velocity_parameter": conditions.velocity_parameter,
+        "regime": KINDS[conditions.geometry].regime(conditions.contact),
+        "film_formulas": {name: vars(thickness) for name, thickness in formulas_of(conditions).items()},
+    }
+
+
+def inputs_of(case: Case | Setup, conditions: Conditions | PointConditions) -> dict[str, Any]:
+    """Nested tables of a case, its alternatives resolved."""
+    kind, inputs = KINDS[conditions.geometry], case.to_dict()
+    contact = {name: getattr(conditions, name) for name in kind.contact_keys}
+    inputs["contact"] = {"geometry": conditions.geometry} | contact
+    inputs["grid"] |= {name: getattr(conditions, name) for name in kind.grid_keys}
+    return inputs
+
+
+def groups_of(conditions: Conditions | PointConditions) -> dict[str, float]:
+    """Moes' dimensionless groups M and L."""
+    contact = conditions.contact
+    return {"moes_m": contact.moes_m, "moes_l": contact.moes_l}
+
+
+def hertz_of(conditions: Conditions | PointConditions) -> dict[str, float]:
+    """Size [m] and largest pressure [Pa] of the dry contact."""
+    return {name: getattr(conditions, name) for name in KINDS[conditions.geometry].hertz_keys}
+
+
+def formulas_of(conditions: Conditions | PointConditions) -> Mapping[str, Thickness]:
+    """Film thickness [m] by each of the published formulas."""
+    formulas = KINDS[conditions.geometry].formulas
+    return {name: formula(conditions.contact) for name, formula in formulas.items()}
