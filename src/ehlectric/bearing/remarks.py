@@ -1,4 +1,4 @@
-"""What is to be warned of in a solved bearing."""
+"""Warnings of a solved bearing."""
 
 from __future__ import annotations
 
@@ -7,36 +7,89 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
-from ehlectric.bearing.conditions import BearingDuty
 from ehlectric.bearing.contacts import ContactSolution
-from ehlectric.bearing.limits import TAKEN, Equilibrium, groove_ratio, shoulder_angle
-from ehlectric.bearing.loads.balls import BallEquilibrium
-from ehlectric.bearing.loads.geometry import RollerBearing
-from ehlectric.bearing.state import RaceState
+from ehlectric.bearing.limits import TAKEN, groove_ratio, shoulder_angle
+from ehlectric.bearing.solution import (
+    BearingSolution,
+    Position,
+    capacitance_is_bound,
+    insulating,
+    lambda_ratio,
+    lubrication,
+)
 from ehlectric.cases.bearing import Bearing
 
+# Below it the viscosity from 40 and 100 degC is a bold extrapolation [K].
+_COLD = 273.15
 
-def edge_remarks(
-    bearing: Bearing, states: Sequence[tuple[Equilibrium, RaceState, RaceState]]
-) -> Iterator[str]:
-    """What to say of ellipses that reach over the shoulder of a groove, of the heaviest with each ring.
+
+def warnings_of(solution: BearingSolution) -> list[str]:
+    """Warnings that tell where a result is unreliable, each text once."""
+    texts = [*film_remarks(solution), *voltage_remarks(solution), *_contact_remarks(solution)]
+    return list(dict.fromkeys(texts))
+
+
+def film_remarks(solution: BearingSolution) -> Iterator[str]:
+    """Warnings of the films of the whole bearing."""
+    if solution.case.contacts == "formula":
+        yield "contacts by formula: films may be 30 % off, and fields are voltages over the minimum film"
+    if solution.conditions.film_factor == 1.0:
+        given = solution.case.bearing.film_factor
+        name = given if isinstance(given, str) else f"{given:g}"
+        yield f"film_factor {name}: the film is isothermal and fully flooded, voltages are upper bounds"
+    if solution.case.lubricant.temperature is None:
+        yield "lubricant.viscosity is given: bearing.temperature has no part in the films"
+    elif solution.case.bearing.temperature < _COLD:
+        cold = solution.case.bearing.temperature - 273.15
+        yield f"bearing.temperature is {cold:.3g} °C: the viscosity from 40 and 100 °C may be far off"
+    yield from clearance_remarks(solution.conditions.geometry.clearance, solution.positions[0])
+
+
+def voltage_remarks(solution: BearingSolution) -> Iterator[str]:
+    """Warnings of the capacitance and the voltages of the bearing."""
+    state, ceramic = lubrication(solution), solution.conditions.ceramic
+    touching = f"lambda is {lambda_ratio(solution):.2g}: surfaces"
+    if state == "conducting":
+        yield f"{touching} touch and conduct, nothing breaks down, and no shaft voltage is stated"
+    elif state == "touching":
+        yield f"{touching} touch, and the elements insulate"
+    elif state == "partial film":
+        yield f"{touching} may touch" + ("" if ceramic else ", voltages are upper bounds")
+    if capacitance_is_bound(solution):
+        yield (
+            "the elements are ceramic: the capacitance is an upper bound, that of conducting ones, and "
+            "no shaft voltage follows from it; bearing.element_capacitance gives one"
+        )
+    if solution.case.discharge.weibull is not None and insulating(solution):
+        yield "first break and through breakdown are voltages at a probability of 63.2 % (Weibull)"
+
+
+def _contact_remarks(solution: BearingSolution) -> Iterator[str]:
+    """Warnings of single contacts, and of those at the edge of their groove."""
+    yield from edge_remarks(solution.case.bearing, solution.positions)
+    yield from contact_remarks(
+        {"inner": solution.inner_curve.solutions, "outer": solution.outer_curve.solutions}
+    )
+
+
+def edge_remarks(bearing: Bearing, positions: Sequence[Position]) -> Iterator[str]:
+    """Warnings of ellipses that reach over the shoulder of a groove, of the heaviest with each ring.
 
     Parameters
     ----------
     bearing : Bearing
         Its grooves.
-    states : sequence of (equilibrium, RaceState, RaceState)
-        At each position of the cage, with the contacts of the inner and of the outer ring.
+    positions : sequence of Position
+        Contacts at each position of the cage.
     """
     for k, name in enumerate(("inner", "outer")):
-        shoulder, load, reached = math.inf, 0.0, 0.0
-        for at, *races in states:
-            if not isinstance(at, BallEquilibrium):
-                return
-            shoulder = shoulder_angle(bearing, inner=k == 0)
-            arc = races[k].semi_axis_y / (groove_ratio(bearing, inner=k == 0) * bearing.element_diameter)
-            ends = np.abs(getattr(at, f"{name}_angle")) + arc
-            over = np.where(ends > shoulder, races[k].load, 0.0)
+        shoulder = shoulder_angle(bearing, inner=k == 0)
+        groove = groove_ratio(bearing, inner=k == 0) * bearing.element_diameter
+        load, reached = 0.0, 0.0
+        for position in positions:
+            ring, angle = position.rings[k], position.equilibrium.ring(inner=k == 0).angle
+            ends = np.abs(angle) + ring.values.semi_axis_y / groove
+            over = np.where(ends > shoulder, ring.load, 0.0)
             heaviest = int(np.argmax(over))
             if over[heaviest] > load:
                 load, reached = float(over[heaviest]), float(ends[heaviest])
@@ -48,24 +101,19 @@ def edge_remarks(
             )
 
 
-def clearance_remarks(
-    duty: BearingDuty, at: Equilibrium, inner: RaceState, outer: RaceState
-) -> Iterator[str]:
-    """What to say of films that take up the clearance, of which the equilibrium knows nothing.
+def clearance_remarks(clearance: float, position: Position) -> Iterator[str]:
+    """Warnings of films that take up the clearance, of which the equilibrium knows nothing.
 
     Parameters
     ----------
-    duty : BearingDuty
-        The bearing.
-    at : BallEquilibrium or RollerEquilibrium
-        Its loads.
-    inner, outer : RaceState
-        Its films.
+    clearance : float
+        Full diametral play [m]; negative with a preload.
+    position : Position
+        Loads and films.
     """
+    at, room = position.equilibrium, clearance
     most = int(np.argmax(at.inner_load))
-    films = float(inner.central_thickness[most] + outer.central_thickness[most])
-    geometry = duty.geometry
-    room = geometry.radial_clearance if isinstance(geometry, RollerBearing) else geometry.clearance
+    films = sum(float(ring.values.central_thickness[most]) for ring in position.rings)
     beside = "a clearance of"
     if room <= 0.0:
         # Preloaded elements have none, but are pressed in.

@@ -9,10 +9,10 @@ from scipy.integrate import quad
 from scipy.special import ellipe, ellipk
 
 from ehlectric.bearing.by_formula import formula_contact
-from ehlectric.bearing.conditions import BearingDuty
+from ehlectric.bearing.conditions import BearingConditions
 from ehlectric.bearing.contacts import solve_contact
 from ehlectric.bearing.gaps.groove import LoadedContact, Raceway, outside_capacitance
-from ehlectric.bearing.gaps.roller import RollerRace, roller_tails
+from ehlectric.bearing.gaps.roller import RollerRaceway, roller_tails
 from ehlectric.bearing.ring_contacts import Race, rigid_capacitance
 from ehlectric.formulas.hertz_point import DryContact, point_deflection
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, changed
@@ -30,7 +30,7 @@ SPEED = 4.5
 def by_formula(tables, load, *, inner, angle=0.0, **changes):
     case = bearing_case(tables, **changes)
     race = Race(inner, angle, SPEED)
-    return formula_contact(case.bearing, BearingDuty.of(case), race, load, discharge=case.discharge)
+    return formula_contact(case.bearing, BearingConditions.of(case), race, load, discharge=case.discharge)
 
 
 def permittivity(pressure):
@@ -157,7 +157,7 @@ def test_a_roller(inner):
     inside = LENGTH * epsilon_0 * b * quad(density, -4.0, 2.0, points=[-1.0, 1.0], limit=200)[0]
     assert found.inside == pytest.approx(inside, rel=1e-3, abs=0.0)
     gaps = tuple(2.4 / density(x) for x in (-4.0, 2.0))
-    tails = roller_tails(RollerRace(0.5 * ROLLER, race, not inner), b, (-4.0 * b, 2.0 * b), gaps)
+    tails = roller_tails(RollerRaceway(0.5 * ROLLER, race, not inner), b, (-4.0 * b, 2.0 * b), gaps)
     assert found.outside_air == pytest.approx(LENGTH * sum(tails), rel=1e-4, abs=0.0)
     assert found.outside_oil == pytest.approx(2.4 * found.outside_air, rel=1e-12, abs=0.0)
 
@@ -165,7 +165,7 @@ def test_a_roller(inner):
 def test_a_rollers_formula_beside_its_solution():
     """Within the 30 % that its docstring grants the formula's films, and so what goes with their inverse."""
     case = bearing_case(ROLLERS)
-    duty, race = BearingDuty.of(case), Race(True, 0.0, SPEED)
+    duty, race = BearingConditions.of(case), Race(True, 0.0, SPEED)
     formula = by_formula(ROLLERS, 1500.0, inner=True)
     solved = solve_contact(
         case.bearing, duty, race, 1500.0, discharge=case.discharge, solver=case.solver.model_dump()
@@ -180,7 +180,7 @@ def test_a_ball_that_hardly_presses_is_nearly_a_rigid_one(inner):
     case = bearing_case(UNLIKE)
     found = by_formula(UNLIKE, 0.05, inner=inner)
     rigid = rigid_capacitance(
-        case.bearing, BearingDuty.of(case), Race(inner, 0.0, SPEED), found.central_thickness
+        case.bearing, BearingConditions.of(case), Race(inner, 0.0, SPEED), found.central_thickness
     )
     assert found.inside + found.outside_oil == pytest.approx(2.4 * rigid, rel=0.05)
 

@@ -16,7 +16,7 @@ def circuit_of(*rows):
     return Circuit(*np.array(rows, dtype=float).T)
 
 
-def raised(inner, outer, inner_strength, outer_strength):
+def raised(inner, outer, inner_breakdown, outer_breakdown):
     """Voltages at which the first contact of one element breaks, and at which the second is gone too.
 
     A ramp in steps of one part in a thousand, the voltages from the charges: both contacts carry the same
@@ -34,13 +34,13 @@ def raised(inner, outer, inner_strength, outer_strength):
                     on[name] = voltage
             new = [
                 name
-                for name, holds in (("inner", inner_strength), ("outer", outer_strength))
+                for name, holds in (("inner", inner_breakdown), ("outer", outer_breakdown))
                 if not broken[name] and on[name] >= holds
             ]
             if not new:
                 break
             # One breaks after the other, the one furthest beyond its strength before.
-            holds = {"inner": inner_strength, "outer": outer_strength}
+            holds = {"inner": inner_breakdown, "outer": outer_breakdown}
             broken[max(new, key=lambda name: on[name] / holds[name])] = True
             first = voltage if first is None else first
         voltage *= 1.001
@@ -78,10 +78,10 @@ def test_a_bearing_is_its_elements(rows):
 def test_scales(rows, scale):
     """Capacitances alone say nothing of the voltages but by their ratios; strengths scale them."""
     one = circuit_of(*rows)
-    larger = Circuit(scale * one.inner, scale * one.outer, one.inner_strength, one.outer_strength)
+    larger = Circuit(scale * one.inner, scale * one.outer, one.inner_breakdown, one.outer_breakdown)
     assert larger.capacitance == pytest.approx(scale * one.capacitance, rel=1e-12, abs=0.0)
     assert larger.first_break == pytest.approx(one.first_break, rel=1e-9, abs=0.0)
-    stronger = Circuit(one.inner, one.outer, scale * one.inner_strength, scale * one.outer_strength)
+    stronger = Circuit(one.inner, one.outer, scale * one.inner_breakdown, scale * one.outer_breakdown)
     assert stronger.first_break == pytest.approx(scale * one.first_break, rel=1e-9, abs=0.0)
     assert stronger.through_breakdown == pytest.approx(scale * one.through_breakdown, rel=1e-9, abs=0.0)
 
@@ -170,12 +170,12 @@ def test_impedance_is_resistance_beside_capacitance(frequency):
 def test_the_first_break_of_a_weibull_strength_is_at_63_2_per_cent(rows, shape):
     """The probability that all contacts hold, one by one, at that bearing voltage: 1/e."""
     whole = circuit_of(*rows)
-    found = Circuit(whole.inner, whole.outer, whole.inner_strength, whole.outer_strength, shape)
+    found = Circuit(whole.inner, whole.outer, whole.inner_breakdown, whole.outer_breakdown, shape)
     hold = 1.0
-    for inner, outer, inner_strength, outer_strength in rows:
+    for inner, outer, inner_breakdown, outer_breakdown in rows:
         on_inner = found.first_break * outer / (inner + outer)
-        hold *= np.exp(-((on_inner / inner_strength) ** shape))
-        hold *= np.exp(-(((found.first_break - on_inner) / outer_strength) ** shape))
+        hold *= np.exp(-((on_inner / inner_breakdown) ** shape))
+        hold *= np.exp(-(((found.first_break - on_inner) / outer_breakdown) ** shape))
     assert hold == pytest.approx(np.exp(-1.0), rel=1e-6, abs=0.0)
     # Each of 2 n contacts alone breaks at no less than the first of a certain strength.
     assert found.first_break <= whole.first_break * (1.0 + 1e-12)

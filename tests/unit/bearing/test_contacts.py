@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 
 from ehlectric import Case, solve
-from ehlectric.bearing.conditions import BearingDuty
+from ehlectric.bearing.conditions import BearingConditions
 from ehlectric.bearing.contacts import ContactCurve, ContactSolution, contact_case, solve_contact
 from ehlectric.bearing.gaps.groove import groove_capacitance, match_film, outside_capacitance
-from ehlectric.bearing.gaps.roller import RollerRace, roller_capacitance, roller_tails
+from ehlectric.bearing.gaps.roller import RollerRaceway, roller_capacitance, roller_tails
 from ehlectric.bearing.ring_contacts import Race, raceway_of
-from ehlectric.bearing.state import race_state
+from ehlectric.bearing.state import ring_state
 from ehlectric.contact.conditions import resolve_point
 from ehlectric.formulas.hertz_point import dry_contact
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case
@@ -24,7 +24,7 @@ SPEED = math.pi * 50.0 * (60e-3**2 - 11.906e-3**2) / (2.0 * 60e-3)
 def of(tables, **changes):
     """Bearing, its duty, and what else a contact takes."""
     case = bearing_case(tables, **changes)
-    return case.bearing, BearingDuty.of(case), case.discharge, case.solver.model_dump()
+    return case.bearing, BearingConditions.of(case), case.discharge, case.solver.model_dump()
 
 
 def solved(tables, load, *, inner=True, **changes):
@@ -159,7 +159,7 @@ def test_a_rollers_capacitance_does_not_depend_on_where_its_film_ends(load):
     result = solve(case.replace(twice | {"grid.nodes": 2 * case.grid.nodes - 1}))
     film = result.film
     ends = [(float(a[0]), float(a[-1])) for a in (film.x, film.thickness)]
-    tails = roller_tails(RollerRace(5.5e-3, 35.5e-3, outer=True), result.conditions.half_width, *ends)
+    tails = roller_tails(RollerRaceway(5.5e-3, 35.5e-3, outer=True), result.conditions.half_width, *ends)
     whole = 0.01 * (result.discharge.capacitance + 2.4 * sum(tails))
     assert found.inside + found.outside_oil == pytest.approx(whole, rel=0.01)
     # Three hundred half-widths, where the longest inlets end, are seven of its lengths at 5 N, not ten.
@@ -329,13 +329,13 @@ def test_elements_without_load_are_rigid_bodies_apart(inner):
         bearing, duty, discharge, _ = of(tables)
         race = Race(inner, 0.0, SPEED)
         load, gap = np.array([100.0, 0.0, 0.0]), np.array([0.0, 5e-6, 20e-6])
-        state = race_state(
+        state = ring_state(
             bearing, duty, race, powers([1.0, 1000.0]), discharge=discharge, load=load, gap=gap
         )
         if tables is BALLS:
             expected = [groove_capacitance(raceway_of(bearing, race), g) for g in gap[1:]]
         else:
-            around_roller = RollerRace(5.5e-3, 24.5e-3 if inner else 35.5e-3, outer=not inner)
+            around_roller = RollerRaceway(5.5e-3, 24.5e-3 if inner else 35.5e-3, outer=not inner)
             expected = [0.01 * roller_capacitance(around_roller, g) for g in gap[1:]]
         np.testing.assert_allclose(state.capacitance("air")[1:], expected, rtol=1e-12)
         np.testing.assert_allclose(state.capacitance("oil")[1:], 2.4 * np.array(expected), rtol=1e-12)

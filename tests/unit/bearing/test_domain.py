@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from ehlectric.bearing.conditions import BearingDuty
+from ehlectric.bearing.conditions import BearingConditions
 from ehlectric.bearing.contacts import contact_case
 from ehlectric.bearing.domain import least_load, line_domain, point_domain
 from ehlectric.bearing.ring_contacts import Race
@@ -24,7 +24,7 @@ UNLIKE = changed(BALLS, bearing__outer_groove=0.53)
 
 
 def of(tables, *, inner):
-    return BearingDuty.of(bearing_case(tables)), Race(inner, 0.0, SPEED)
+    return BearingConditions.of(bearing_case(tables)), Race(inner, 0.0, SPEED)
 
 
 def roller(load, *, inner):

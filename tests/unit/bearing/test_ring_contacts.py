@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from ehlectric.bearing.conditions import BearingDuty
+from ehlectric.bearing.conditions import BearingConditions
 from ehlectric.bearing.gaps.groove import (
     LoadedContact,
     Raceway,
@@ -13,7 +13,7 @@ from ehlectric.bearing.gaps.groove import (
     groove_gap,
     outside_capacitance,
 )
-from ehlectric.bearing.gaps.roller import RollerRace, roller_capacitance, roller_tails
+from ehlectric.bearing.gaps.roller import RollerRaceway, roller_capacitance, roller_tails
 from ehlectric.bearing.ring_contacts import (
     Race,
     around_ball,
@@ -36,7 +36,7 @@ RINGS = [(True, 0.52, 1.0), (False, 0.53, -1.0)]
 
 def of(tables):
     case = bearing_case(tables)
-    return case.bearing, BearingDuty.of(case)
+    return case.bearing, BearingConditions.of(case)
 
 
 def radii(groove, sign, angle):
@@ -104,7 +104,7 @@ def test_around_a_rollers_film(inner, race_radius):
     b, x = 1e-4, np.linspace(-4e-4, 2e-4, 7)
     film = 5e-7 + 1e-5 * (x / 4e-4) ** 2
     tails = roller_tails(
-        RollerRace(5.5e-3, race_radius, not inner), b, (-4e-4, 2e-4), (5e-7 + 1e-5, 5e-7 + 2.5e-6)
+        RollerRaceway(5.5e-3, race_radius, not inner), b, (-4e-4, 2e-4), (5e-7 + 1e-5, 5e-7 + 2.5e-6)
     )
     found = around_roller(duty, Race(inner, 0.0, 4.5), b, x, film)
     assert found == pytest.approx(10e-3 * sum(tails), rel=1e-12, abs=0.0)
@@ -118,6 +118,6 @@ def test_rigid_bodies_apart(inner, groove, sign):
     found = rigid_capacitance(bearing, duty, Race(inner, 0.3, 4.5), 5e-6)
     assert found == pytest.approx(groove_capacitance(raceway, 5e-6), rel=1e-12, abs=0.0)
     bearing, duty = of(ROLLERS)
-    race = RollerRace(5.5e-3, 0.5 * (60e-3 - sign * 11e-3), outer=not inner)
+    race = RollerRaceway(5.5e-3, 0.5 * (60e-3 - sign * 11e-3), outer=not inner)
     found = rigid_capacitance(bearing, duty, Race(inner, 0.0, 4.5), 5e-6)
     assert found == pytest.approx(10e-3 * roller_capacitance(race, 5e-6), rel=1e-12, abs=0.0)

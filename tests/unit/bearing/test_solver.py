@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ehlectric import InputError
-from ehlectric.bearing.conditions import BearingDuty
+from ehlectric.bearing.conditions import BearingConditions
 from ehlectric.bearing.contacts import contact_case, solve_contact
 from ehlectric.bearing.domain import least_load
 from ehlectric.bearing.result import BearingResult
@@ -110,7 +110,7 @@ def test_progress_counts_the_contacts():
 def test_below_the_least_load_a_domain_is_at_its_end(tables):
     """Lengths that the film of rigid bodies builds up over grow as the load falls; cases stay valid ones."""
     case = bearing_case(tables)
-    duty = BearingDuty.of(case)
+    duty = BearingConditions.of(case)
     race = Race(False, 0.0, 4.5)
     least = least_load(duty, race)
     inlets = []

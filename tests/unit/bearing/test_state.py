@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from ehlectric.bearing.conditions import BearingDuty
+from ehlectric.bearing.conditions import BearingConditions
 from ehlectric.bearing.contacts import ContactCurve, ContactSolution
 from ehlectric.bearing.ring_contacts import Race, rigid_capacitance
-from ehlectric.bearing.state import race_state
+from ehlectric.bearing.state import ring_state
 from ehlectric.formulas.hertz_line import line_half_width, line_max_pressure
 from ehlectric.formulas.hertz_point import dry_contact
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case
@@ -33,9 +33,9 @@ def curve_of(axes_and_pressure, loads):
 
 def state_of(tables, axes_and_pressure, load, gap, **changes):
     case = bearing_case(tables, **changes)
-    duty, race = BearingDuty.of(case), Race(True, 0.0, 4.5)
+    duty, race = BearingConditions.of(case), Race(True, 0.0, 4.5)
     curve = curve_of(axes_and_pressure, [10.0, 100.0, 1000.0])
-    state = race_state(
+    state = ring_state(
         case.bearing, duty, race, curve, discharge=case.discharge, load=np.array(load), gap=np.array(gap)
     )
     return state, lambda apart: rigid_capacitance(case.bearing, duty, race, apart)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from ehlectric import InputError
-from ehlectric.bearing.conditions import BearingDuty, Solid
+from ehlectric.bearing.conditions import BearingConditions, Solid
 from ehlectric.bearing.loads.geometry import BallBearing, RollerBearing
 from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solver import check_bearing, solve_bearing
@@ -53,12 +53,12 @@ def test_units_and_defaults():
 @pytest.mark.parametrize("kind", ["balls", "angular", "rollers"])
 def test_every_kind_has_its_geometry(kind):
     if kind == "rollers":
-        geometry = BearingDuty.of(bearing_case(ROLLERS)).geometry
+        geometry = BearingConditions.of(bearing_case(ROLLERS)).geometry
         assert geometry == RollerBearing(14, 11e-3, 60e-3, 10e-3, pytest.approx(20e-6), "logarithmic")
         return
     angle = {"bearing__kind": "angular-contact ball", "bearing__contact_angle": "25 deg"}
     tables = changed(BALLS, **angle, bearing__radial_clearance=None) if kind == "angular" else BALLS
-    geometry = BearingDuty.of(BearingCase.from_dict(tables)).geometry
+    geometry = BearingConditions.of(BearingCase.from_dict(tables)).geometry
     assert isinstance(geometry, BallBearing)
     if kind == "angular":
         assert geometry.free_angle == pytest.approx(math.radians(25.0), rel=1e-9, abs=0.0)
@@ -186,7 +186,7 @@ CONTRADICTIONS = [
 )
 def test_contradictions_are_one_line(changes, text):
     with pytest.raises(InputError) as error:
-        BearingDuty.of(bearing_case(BALLS, **changes))
+        BearingConditions.of(bearing_case(BALLS, **changes))
     assert str(error.value).startswith(text)
     assert "\n" not in str(error.value)
 
@@ -255,8 +255,8 @@ def test_an_oil_without_constants_of_roelands_needs_its_alpha():
 
 def test_film_factor_goes_through_the_entrainment_product():
     """Films of Hamrock and Dowson go with (eta0 u)^0.67 but for eta0's part in alpha, which stays."""
-    assert BearingDuty.of(bearing_case(BALLS)).entrainment_factor == 1.0
-    duty = BearingDuty.of(bearing_case(BALLS, bearing__film_factor=0.7))
+    assert BearingConditions.of(bearing_case(BALLS)).entrainment_factor == 1.0
+    duty = BearingConditions.of(bearing_case(BALLS, bearing__film_factor=0.7))
     assert duty.film_factor == 0.7
     contact = [
         PointContact(5e-3, 50e-3, duty.modulus, 500.0, 4.0 * factor, 0.0125, 18e-9)
@@ -273,7 +273,7 @@ def test_inlet_shear_factor_of_a_bearing():
         "lubricant__temperature__thermal_conductivity": "0.14 W/m/K",
     }
     case = bearing_case(BALLS, **changes)
-    duty = BearingDuty.of(case)
+    duty = BearingConditions.of(case)
     n = 3000.0 / 60.0
     speed = math.pi * n * (0.06**2 - 0.011906**2) / (2.0 * 0.06)
     # -d ln eta/dT of viscosity times density, by a difference over 0.1 K.
@@ -301,7 +301,7 @@ def test_library_bearings_carry_a_load(name):
     if library.bearing(name)["kind"] == "cylindrical roller":
         bearing["profile"] = "logarithmic"
     case = BearingCase.from_dict({"bearing": bearing, "lubricant": BALLS["lubricant"]})
-    at = BearingDuty.of(case).equilibria(case.bearing, 1)[0]
+    at = BearingConditions.of(case).equilibria(case.bearing, 1)[0]
     # Vertical balance of the ring.
     vertical = at.inner_load @ np.cos(at.position)
     assert vertical == pytest.approx(500.0, rel=1e-6, abs=0.0)

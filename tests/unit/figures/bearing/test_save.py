@@ -8,12 +8,12 @@ import tomli_w
 from matplotlib.figure import Figure
 from typer.testing import CliRunner
 
-from ehlectric.bearing.conditions import BearingDuty
+from ehlectric.bearing.conditions import BearingConditions
 from ehlectric.bearing.contacts import ContactCurve, ContactSolution
 from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.ring_contacts import Race
 from ehlectric.bearing.solver import BearingSolution, Position
-from ehlectric.bearing.state import race_state
+from ehlectric.bearing.state import ring_state
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.commands.app import app
 from ehlectric.figures.bearing import circuit as bearing_circuit_plot
@@ -97,7 +97,7 @@ def by_hand(*, film=0.2e-6, positions=2, **changes):
         else:
             table[name] = table[name] | values
     case = BearingCase.from_dict(table)
-    duty = BearingDuty.of(case)
+    duty = BearingConditions.of(case)
     strength = case.discharge.dielectric_strength
     races = (Race(inner=True, angle=0.0, speed=4.5), Race(inner=False, angle=0.0, speed=4.5))
     curves = [
@@ -109,7 +109,7 @@ def by_hand(*, film=0.2e-6, positions=2, **changes):
         of_rings = ((at.inner_load, at.inner_gap), (at.outer_load, at.outer_gap))
         given = {"discharge": case.discharge}
         both = [
-            race_state(case.bearing, duty, race, curve, load=load, gap=gap, **given)
+            ring_state(case.bearing, duty, race, curve, load=load, gap=gap, **given)
             for race, curve, (load, gap) in zip(races, curves, of_rings, strict=True)
         ]
         states.append(Position(at, *both))
