@@ -105,6 +105,6 @@ def check_film(contact: Contact) -> None:
         oil = ring.conditions.lubricant.viscosity
         raise InputError(
             f"bearing: got an {ring.name} film of {1e6 * film:.3g} um, at {contact.load:.3g} N, "
-            f"{ring.speed:.3g} m/s and {oil:.3g} Pa s; takes a load, a speed and an oil at its temperature for at most "
-            f"{1e6 * most:.3g} um, beyond which the bodies leave it no room"
+            f"{ring.speed:.3g} m/s and {oil:.3g} Pa s; takes a load, a speed and an oil "
+            f"at its temperature for at most {1e6 * most:.3g} um, beyond which the bodies leave it no room"
         )

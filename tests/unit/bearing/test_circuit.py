@@ -5,7 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ehlectric.bearing.circuit import Circuit, bearing_voltage_ratio, impedance, leaking_admittance
+from ehlectric.bearing.circuit import Circuit, impedance, leaking_admittance
+from ehlectric.bearing.shaft_voltage import voltage_ratio
 
 capacitances = st.floats(1e-12, 1e-9)
 strengths = st.floats(0.5, 500.0)
@@ -134,7 +135,7 @@ def test_contacts_without_a_strength_never_break():
 )
 def test_voltage_ratio_is_the_charge_of_the_divider(wr, rf, first, second):
     """Winding at 1 V, frame at 0: the rotor's voltage at which all its charges add to nothing."""
-    rotor = bearing_voltage_ratio(wr, rf, first, second)
+    rotor = voltage_ratio(wr, rf, first, second)
     charges = wr * (rotor - 1.0) + (rf + first + second) * rotor
     assert abs(charges) < 1e-12 * (wr + rf + first + second)
     assert 0.0 < rotor < 1.0
@@ -142,7 +143,7 @@ def test_voltage_ratio_is_the_charge_of_the_divider(wr, rf, first, second):
 
 def test_voltage_ratio_by_hand():
     """20/(20 + 1000 + 70 + 110) = 1/60."""
-    found = bearing_voltage_ratio(20e-12, 1e-9, 70e-12, 110e-12)
+    found = voltage_ratio(20e-12, 1e-9, 70e-12, 110e-12)
     assert found == pytest.approx(1.0 / 60.0, rel=1e-12, abs=0.0)
 
 
