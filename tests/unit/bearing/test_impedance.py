@@ -70,4 +70,4 @@ def test_with_air_the_bearing_has_a_corner_below_that_of_the_oil():
     ids=["no conductivity", "surfaces touch", "ceramic"],
 )
 def test_where_there_is_none(changes):
-    assert impedance_of(by_hand(positions=1, **changes)) is None
+    assert impedance_of(by_hand(positions=1, **changes).solution) is None

@@ -270,7 +270,7 @@ def test_the_command_draws_unless_told_not_to(result, monkeypatch, tmp_path):
         done = CliRunner().invoke(app, ["bearing", str(file), "-o", str(tmp_path / "out"), "-q", option])
         assert done.exit_code == 0, done.output
         written = {path.name for path in (tmp_path / "out").iterdir()}
-        assert written == {"summary.json", "contacts.csv", "impedance.csv", *figures}
+        assert written == {"summary.json", "contacts.csv", "impedance.csv", "bearing.nc", *figures}
 
 
 @pytest.mark.parametrize(
