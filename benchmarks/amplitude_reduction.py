@@ -26,7 +26,7 @@ from ehlectric.contact.problems import film_problem
 from ehlectric.film.line import quiet_solution
 from ehlectric.film.mesh import at_centre
 from ehlectric.film.nested import nested_iteration
-from ehlectric.film.newton import GridSolution
+from ehlectric.film.state import GridSolution
 from ehlectric.film.unsteady import UnsteadyFilm
 
 ROOT = Path(__file__).parents[1]

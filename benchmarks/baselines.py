@@ -12,20 +12,23 @@ from ehlectric.arrays import Array
 from ehlectric.field.poisson import FieldProblem
 from ehlectric.film import line as film
 from ehlectric.film import newton
+from ehlectric.film.flow import Fluid
+from ehlectric.film.gap import Gap
 from ehlectric.film.levels import Level
 from ehlectric.film.line import Film
 from ehlectric.film.multigrid import Linearised
 from ehlectric.film.problem import FilmProblem
-from ehlectric.film.reynolds import OFFSETS, Fluid
+from ehlectric.film.reynolds import OFFSETS
+from ehlectric.film.state import Residual, State
 
 
 def dense_direction(
-    fluid: Fluid, levels: list[Level], state: newton.State, now: newton.Residual
+    fluid: Fluid, levels: list[Level], state: State, now: Residual
 ) -> tuple[Array, float, int]:
     """The same Newton direction by LAPACK: the whole Jacobian, factorised."""
     level = levels[0]
-    jacobian = Linearised(level, now.coefficients, state.pressure, state.thickness, now.free)
-    held = np.where(now.free, 0.0, fluid.ambient_pressure - state.pressure)
+    jacobian = Linearised.of(Gap(level, state.thickness), now.flow, now.full_film)
+    held = np.where(now.full_film, 0.0, fluid.ambient_pressure - state.pressure)
     change, load = jacobian(held, 0.0)
     n = state.pressure.size
     matrix = np.zeros((n + 1, n + 1))
@@ -35,12 +38,12 @@ def dense_direction(
         columns = slice(max(0, offset), n + min(0, offset))
         matrix[rows, :n] += jacobian.by_h.coefficients[k, rows] * level.deflection_matrix[columns]
     matrix[:n, n] = jacobian.by_h.coefficients.sum(axis=0)[:, 0]
-    matrix[n, :n] = np.where(now.free, level.weights, 0.0)[:, 0]
-    fixed = np.flatnonzero(~now.free[:, 0])
+    matrix[n, :n] = np.where(now.full_film, level.weights, 0.0)[:, 0]
+    fixed = np.flatnonzero(~now.full_film[:, 0])
     matrix[fixed, fixed] = 1.0
-    right = np.append(np.where(now.free, -now.reynolds - change, 0.0), now.load - load)
+    right = np.append(np.where(now.full_film, -now.reynolds - change, 0.0), now.load - load)
     solution = lu_solve(lu_factor(matrix, overwrite_a=True, check_finite=False), right)
-    return held + np.where(now.free, solution[:n, np.newaxis], 0.0), float(solution[n]), 0
+    return held + np.where(now.full_film, solution[:n, np.newaxis], 0.0), float(solution[n]), 0
 
 
 def solve_film_densely(problem: FilmProblem) -> Film:

@@ -1,8 +1,8 @@
 """Tables written from the code before every build: keys of a case, commands, variables, the paper's contacts.
 
-What the code knows (units, bounds, defaults, options) is read from it. What a key is for stands in
-``keys.toml``; a key without a line there, or a line without a key, ends the build. So do a key of
-summary.json that the nomenclature does not have, and a page that names a test that is not there.
+What the code knows (units, bounds, defaults, options, the meaning of a law's parameter, keys of
+summary.json) is read from it. What other keys of a case are for stands in ``keys.toml``; a key without a line
+there, or a line without a key, ends the build. So does a page that names a test that is not there.
 """
 
 from __future__ import annotations
@@ -17,13 +17,13 @@ from typing import Any, Literal, get_args, get_origin
 
 import numpy as np
 import typer
+from result_keys import summary_pages
 from scipy.constants import epsilon_0
 from sphinx.application import Sphinx
 from sphinx.errors import ExtensionError
 
 import ehlectric
 from ehlectric import Case, solve
-from ehlectric.bearing.solver import solve_bearing
 from ehlectric.cases import bearing as bearing_inputs
 from ehlectric.cases import contact as contact_inputs
 from ehlectric.cases import discharge as discharge_inputs
@@ -33,16 +33,12 @@ from ehlectric.cases import lubricant as lubricant_inputs
 from ehlectric.cases import motion as motion_inputs
 from ehlectric.cases import roughness as roughness_inputs
 from ehlectric.cases import table as validation
-from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.cases.lubricant import density_law, permittivity_law
+from ehlectric.cases.lubricant import LAWS, density_law, law_parameters, permittivity_law
 from ehlectric.cases.quantity import Count, Quantities, Quantity
 from ehlectric.commands.app import app as commands
-from ehlectric.lubricant.density import DENSITY_LAWS
-from ehlectric.lubricant.permittivity import PERMITTIVITY_LAWS
-from ehlectric.lubricant.viscosity import VISCOSITY_LAWS
+from ehlectric.errors import CODES
 from ehlectric.motion.record import read_motion
 from ehlectric.motion.run import run_motion
-from ehlectric.motion.summary import summary_of
 from ehlectric.paper.contacts import CONTACTS
 from ehlectric.paper.reproduce import reproduce
 from ehlectric.sweep import inputs as sweep_inputs
@@ -67,9 +63,7 @@ _TABLES = {
 }
 # Keys that take a name, by what the names stand in.
 _NAMES: dict[str, Iterable[str]] = {
-    "viscosity_law": VISCOSITY_LAWS,
-    "density_law": DENSITY_LAWS,
-    "permittivity_law": PERMITTIVITY_LAWS,
+    **LAWS,
     "generator": roughness_inputs.GENERATORS,
     "element_material": library.solid_names(),
     "ring_material": [name for name in library.solid_names() if library.solid(name)["conducting"]],
@@ -163,10 +157,13 @@ def _default(field: Any) -> str:
 
 
 def _keys(table: str, model: type[validation.Table], meanings: dict[str, str]) -> Iterator[list[str]]:
-    if set(meanings) != set(model.model_fields):
-        odd = ", ".join(sorted(set(meanings) ^ set(model.model_fields)))
+    known = model.known_keys()
+    if table == "lubricant":
+        meanings = {p.name: p.meaning for p in law_parameters().values()} | meanings
+    if set(meanings) != set(known):
+        odd = ", ".join(sorted(set(meanings) ^ set(known)))
         raise ExtensionError(f"docs/_ext/keys.toml and the keys of [{table}] differ in: {odd}")
-    for name, field in model.model_fields.items():
+    for name, field in known.items():
         found = _find(field.annotation, field.metadata)
         takes = _takes(name, found, pair=get_origin(field.annotation) is tuple)
         yield [f"`{name}`", meanings[name], takes, _default(field)]
@@ -221,13 +218,15 @@ def _write(app: Sphinx) -> None:
     pages |= {f"library_{kind}": _library(kind) for kind in ("bearings", "solids")}
     for name, file in (("bearing", "bearing_6208"), ("motion", "moving_roughness")):
         pages[f"{name}_example"] = _example(Path(app.srcdir).parent / "examples" / f"{file}.toml")
-    _check_bearing(app)
+    pages["warning_codes"] = _table(
+        ["code", "severity", "what it means"],
+        [[f"`{code}`", cause.severity, cause.meaning] for code, cause in CODES.items()],
+    )
     for geometry in _CONTACTS:
         result = solve(_small(geometry))
-        _check_summary(app, result.summary())
         pages[f"variables_{geometry}"] = _variables(result.to_xarray())
-    _check_summary(app, summary_of(motion := _moved(_small("line"))))
-    pages["variables_motion"] = _variables(motion)
+    pages["variables_motion"] = _variables(_moved(_small("line")))
+    pages |= summary_pages()
     for name, text in pages.items():
         path = folder / f"{name}.md"
         if not path.exists() or path.read_text(encoding="utf-8") != text:
@@ -290,27 +289,6 @@ def _value(value: Any) -> str:
     return (
         str(value).lower() if isinstance(value, bool) else str(value).replace("^3", "\N{SUPERSCRIPT THREE}")
     )
-
-
-def _check_bearing(app: Sphinx) -> None:
-    """The keys of a bearing's summary and of its contacts stand in the nomenclature."""
-    bearing = {"base": "6208", "radial_clearance": 1e-5, "axial_load": 500.0, "inner_speed": 500.0}
-    bearing |= {"temperature": 343.15, "composite_rq": 1e-8}
-    # Under an axial load alone all elements are alike: one contact a ring is solved.
-    case = BearingCase.from_dict({"contacts": "formula", "bearing": bearing, "lubricant": {"base": "paper"}})
-    summary = solve_bearing(case).summary()
-    _check_summary(app, summary | {"contacts": summary["contacts"][0]})
-
-
-def _check_summary(app: Sphinx, summary: dict[str, Any]) -> None:
-    """Every key of summary.json stands in the nomenclature; those of the case are in the guide."""
-    page = (Path(app.srcdir) / "nomenclature.md").read_text(encoding="utf-8")
-    listed = {part for code in re.findall(r"`([\w.]+)`", page) for part in code.split(".")}
-    for name, part in summary.items():
-        within = part if isinstance(part, dict) and name != "inputs" else {}
-        for key in (name, *within):
-            if key not in listed:
-                raise ExtensionError(f"docs/nomenclature.md does not have {name}: {key}")
 
 
 def _paper(app: Sphinx) -> None:

@@ -39,12 +39,8 @@ solved = {
 
 # %%
 # Not every formula gives both films: each figure has those that give its own.
-NAMES = {
-    "dowson_higginson": ("Dowson-Higginson", "--"),
-    "dowson_toyoda": ("Dowson-Toyoda", "-."),
-    "pan_hamrock": ("Pan-Hamrock", ":"),
-    "moes": ("Moes", (0, (6, 2))),
-}
+STYLES = {"dowson_higginson": "--", "dowson_toyoda": "-.", "pan_hamrock": ":", "moes": (0, (6, 2))}
+NAMES = {name: (FORMULAS[name].name, style) for name, style in STYLES.items()}
 
 
 def compare(quantity, label):

@@ -67,5 +67,5 @@ print(
 print(f"V12/h_min, rough film   {1e-6 * voltage / result.film.minimum_thickness:.2f} V/µm")
 print(f"V12/h_min, smooth film  {1e-6 * voltage / smooth:.2f} V/µm")
 print(f"lambda ratio            {summary['roughness']['lambda_ratio']:.1f}")
-for text in result.warnings:
-    print("warning:", text)
+for warning in result.warnings:
+    print("warning:", warning)

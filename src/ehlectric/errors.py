@@ -1,15 +1,133 @@
-"""The ways a request can fail."""
+"""Errors that end a request, and warnings that a result carries."""
 
 from __future__ import annotations
 
 import reprlib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Literal, Self
 
 _SHORT = reprlib.Repr()
 _SHORT.maxstring = _SHORT.maxother = _SHORT.maxlong = 60
 
+# "severe": the numbers must not be used. "note": the numbers stand, the text says how they came about.
+Severity = Literal["note", "warning", "severe"]
+
+
+def _line(text: str) -> str:
+    """The text without line breaks."""
+    return " ".join(text.splitlines())
+
 
 class InputError(ValueError):
-    """The input is wrong: one line that names the key, what it got and what it takes."""
+    """The input is wrong: one line that names the key, the value it got and what it takes.
+
+    The line is ``key: got VALUE, takes TAKES``, or ``key: missing, takes TAKES`` where there is no value. The
+    comma is left out after a value, or words in its place, that end in a semicolon. A single argument is the
+    whole line of an error without a key.
+
+    Parameters
+    ----------
+    key : object, optional
+        What is wrong: the dotted key of an input, an option or a file.
+    says : str, optional
+        Words in place of "got VALUE".
+    got : object, optional
+        The value, as it is to be shown.
+    takes : str, optional
+        What is allowed.
+
+    Attributes
+    ----------
+    key : str or None
+        What is wrong; None where the error is about no single input.
+    text : str
+        The line without the key.
+    got : object
+        The value, or the words in its place; None where the value is missing or not told.
+    takes : str or None
+        What is allowed, None where the line does not say.
+
+    Examples
+    --------
+    >>> error = InputError("contact.radius_x", got="-1 m", takes="above 0 m")
+    >>> str(error)
+    'contact.radius_x: got -1 m, takes above 0 m'
+    >>> error.key, error.got, error.takes
+    ('contact.radius_x', '-1 m', 'above 0 m')
+    >>> str(InputError("rough.csv", "has 3 points", takes="at least 16"))
+    'rough.csv: has 3 points, takes at least 16'
+    """
+
+    key: str | None
+    text: str
+    got: object
+    takes: str | None
+
+    def __init__(
+        self,
+        key: object = None,
+        says: str | None = None,
+        /,
+        *,
+        got: object = None,
+        takes: str | None = None,
+    ) -> None:
+        if says is None and got is None and takes is None:
+            key, found = None, "" if key is None else str(key)
+        else:
+            found = says if says is not None else "missing" if got is None else f"got {got}"
+            got = says if got is None else got
+        comma = "" if found.endswith(";") else ","
+        self.text = _line(found if takes is None else f"{found}{comma} takes {takes}")
+        self.key = None if key is None else _line(str(key))
+        self.got = got.removesuffix(";") if isinstance(got, str) else got
+        self.takes = takes
+        super().__init__(self.text if self.key is None else f"{self.key}: {self.text}")
+
+    @classmethod
+    def missing(cls, key: str, takes: str) -> Self:
+        """Error of a key that is not given.
+
+        Examples
+        --------
+        >>> str(InputError.missing("contact.load", "a value"))
+        'contact.load: missing, takes a value'
+        """
+        return cls(key, takes=takes)
+
+    @classmethod
+    def unknown(cls, key: str, nearest: str) -> Self:
+        """Error of a key that does not exist; ``nearest`` is the known one most like it.
+
+        Examples
+        --------
+        >>> str(InputError.unknown("contact.lod", "contact.load"))
+        'contact.lod: unknown key; the nearest known one is contact.load'
+        """
+        return cls.worded(key, f"unknown key; the nearest known one is {nearest}", takes=nearest)
+
+    @classmethod
+    def worded(cls, key: object, text: str, *, got: object = None, takes: str | None = None) -> Self:
+        """Error whose line is the key and a text of its own, with the value and what is allowed beside it."""
+        error = cls(key, text)
+        error.got, error.takes = got, takes
+        return error
+
+    def retold(self, key: str | None, text: str) -> Self:
+        """Copy of the error with another key and text; the value and what is allowed stay."""
+        return self.worded(key, text, got=self.got, takes=self.takes)
+
+    def under(self, table: str) -> Self:
+        """Copy of the error whose key lies in a table; an error without a key gets the table as its key.
+
+        Examples
+        --------
+        >>> str(InputError("width", got="2 m", takes="less").under("roughness"))
+        'roughness.width: got 2 m, takes less'
+        """
+        return self.retold(".".join(filter(None, [table, self.key])) or None, self.text)
 
 
 class MemoryLimitError(InputError):
@@ -27,3 +145,121 @@ class ConvergenceError(RuntimeError):
 def shown(value: object) -> str:
     """What was given, short enough for a one-line message."""
     return _SHORT.repr(value)
+
+
+@dataclass(frozen=True)
+class Cause:
+    """Meaning of a warning code, in one sentence, and how severe its warnings are."""
+
+    meaning: str
+    severity: Severity = "warning"
+
+
+CODES: Mapping[str, Cause] = MappingProxyType(
+    {
+        # Contact, before it is solved
+        "regime": Cause("The contact is in a regime that most film formulas were not made for."),
+        "ambient-pressure": Cause("The ambient pressure carries more than 1 % of the load."),
+        "plastic-deformation": Cause("The Hertz pressure deforms bearing steel permanently."),
+        "law-range": Cause("A law of the lubricant is not reliable at this Hertz pressure."),
+        "roelands-z": Cause("The exponent roelands_z does not fit the viscosity and its coefficient."),
+        # Rough surfaces
+        "spacing-irregular": Cause("Positions in a file of heights may lack samples."),
+        "voids-filled": Cause("Voids in a measured surface were filled.", "note"),
+        "heights-cut": Cause("The key truncate cuts a large share of the heights."),
+        "roughness-continued": Cause("A rough surface is shorter than the domain and was continued."),
+        "roughness-unresolved": Cause("The grid does not resolve a rough surface."),
+        "variance-missed": Cause("The grid misses a part of the variance of a rough surface."),
+        "seed-repeated": Cause("Rough surfaces have the same seed and depend on each other."),
+        # Film
+        "not-converged": Cause("The film is no solution: the iteration did not converge.", "severe"),
+        "surfaces-touch": Cause("The surfaces of the computed film would touch in places."),
+        "thinner-than-atom": Cause("The film is thinner than an atom in places."),
+        "refine-not-reached": Cause("The error that grid.refine asks for was not reached."),
+        "error-unknown": Cause("The discretisation error is unknown, as the roughness was raised in steps."),
+        "coarser-grid-unsolved": Cause("The discretisation error is unknown and large.", "severe"),
+        "grid-too-coarse": Cause("The estimated discretisation error of the film is large."),
+        "grid-far-too-coarse": Cause("The discretisation error of the film is above 10 %.", "severe"),
+        "outlet-too-short": Cause("The film does not cavitate within the domain."),
+        "inlet-too-short": Cause("A part of the pressure builds up before the domain begins."),
+        "inlet-far-too-short": Cause("Above 20 % of the pressure builds up before the domain.", "severe"),
+        "domain-too-small": Cause("The domain of a point contact cuts off a part of the pressure."),
+        "domain-far-too-small": Cause("The domain of a point contact cuts off above 20 %.", "severe"),
+        # Electric field and discharge
+        "field-grid-too-coarse": Cause("The grid of the field is coarser than that of the film."),
+        "field-range-too-narrow": Cause("The largest field is at an edge of the field range."),
+        "field-above-insulators": Cause("The largest field is above what any insulator withstands."),
+        "tunnelling": Cause("Electrons tunnel through a film as thin as this one."),
+        "strength-table-exceeded": Cause("The film pressure leaves the range of discharge.strength_table."),
+        # Transient contacts
+        "stationary-differs": Cause("The moving roughness differs from the stationary one."),
+        "stationary-not-converged": Cause("The same contact with stationary roughness did not converge."),
+        "stationary-error": Cause("The stationary film has a discretisation error above 1 %."),
+        "steps-halved": Cause("Some time steps had to be halved.", "note"),
+        # Bearings
+        "formula-contacts": Cause("The contacts of the bearing come from formulas."),
+        "isothermal-film": Cause("The films are isothermal and fully flooded."),
+        "temperature-unused": Cause("The given viscosity leaves bearing.temperature without effect.", "note"),
+        "temperature-low": Cause("The viscosity is extrapolated to below 0 °C."),
+        "clearance-taken-up": Cause("The films take up much of the clearance."),
+        "shoulder-reached": Cause("A contact ellipse reaches over the shoulder of its groove."),
+        "touching": Cause("The lambda ratio is below 1: surfaces touch."),
+        "partial-film": Cause("The lambda ratio is below 3: surfaces may touch."),
+        "capacitance-bound": Cause("The capacitance of a bearing with ceramic elements is an upper bound."),
+        "weibull-voltage": Cause("Breakdown voltages are those at a probability of 63.2 %.", "note"),
+        "speed-left-out": Cause("A bearing at another speed was left out of the figures over speed."),
+        # Sweeps
+        "points-with-warnings": Cause("Solved points of a sweep have warnings.", "note"),
+        "points-not-usable": Cause("Solved points of a sweep have films that must not be used."),
+        "points-of-another-version": Cause("Another version of the program solved points.", "note"),
+        "rows-dropped": Cause("Rows of a Sobol design were left out of its sensitivity indices."),
+        "rows-not-usable": Cause("Rows of a Sobol design count with films that must not be used."),
+        "intervals-wide": Cause("The confidence intervals of sensitivity indices are wide."),
+        # Files of other versions
+        "not-usable": Cause("Another version of the program says not to use the numbers.", "severe"),
+        "unclassified": Cause("Another version of the program gave this warning."),
+    }
+)
+
+
+@dataclass(frozen=True)
+class ResultWarning:
+    """Warning that a result carries: what is unreliable, in words and as a code.
+
+    Programs decide by ``code`` and ``severity``; ``text`` is for people and may change its words.
+
+    Parameters
+    ----------
+    code : str
+        One of ``CODES``, such as "grid-too-coarse".
+    text : str
+        One line: what is unreliable, and what to do.
+
+    Raises
+    ------
+    ValueError
+        Where ``CODES`` does not have the code.
+
+    Examples
+    --------
+    >>> warning = ResultWarning("not-converged", "do not use this film, it is no solution")
+    >>> print(warning)
+    do not use this film, it is no solution
+    >>> warning.severity
+    'severe'
+    """
+
+    code: str
+    text: str
+
+    def __post_init__(self) -> None:
+        if self.code not in CODES:
+            raise ValueError(f"{self.code!r} is no code of a warning; takes one of {', '.join(CODES)}")
+
+    def __str__(self) -> str:
+        return self.text
+
+    @property
+    def severity(self) -> Severity:
+        """Severity of its code: "note", "warning", or "severe" where the numbers must not be used."""
+        return CODES[self.code].severity

@@ -1,10 +1,8 @@
-import subprocess
-import sys
-from pathlib import Path
+from functools import partial
 
 import pytest
 
-COMMAND = Path(sys.executable).with_name("ehlectric")
+from tests.helpers.commands import run_command
 
 CASE = """\
 title = "Test"
@@ -23,13 +21,7 @@ nodes = 801
 @pytest.fixture
 def ehlectric(tmp_path):
     """The command as a user types it, in an empty folder."""
-
-    def run(*arguments):
-        return subprocess.run(
-            [COMMAND, *map(str, arguments)], cwd=tmp_path, capture_output=True, text=True, timeout=120
-        )
-
-    return run
+    return partial(run_command, cwd=tmp_path)
 
 
 @pytest.fixture

@@ -9,7 +9,8 @@ import time
 import pytest
 
 from ehlectric import Case, load
-from tests.cli.conftest import CASE, COMMAND
+from tests.cli.conftest import CASE
+from tests.helpers.commands import COMMAND
 from tests.helpers.places import EXAMPLES, SURFACES
 
 FIGURES = {"film.png", "potential.png", "field_strength.png", "field_profiles.png", "field_deviation.png"}
@@ -33,8 +34,8 @@ def test_summary_has_the_agreed_keys(ehlectric, case_file, tmp_path):
     assert summary["schema"] == "ehlectric.summary/1"
     assert summary["converged"] is True
     assert set(summary) == {
-        "schema", "version", "title", "converged", "status", "warnings", "inputs", "groups", "hertz",
-        "film", "field", "film_formulas", "seconds",
+        "schema", "version", "title", "converged", "status", "warnings", "warning_codes", "inputs", "groups",
+        "hertz", "film", "field", "film_formulas", "seconds",
     }  # fmt: skip
     assert set(summary["groups"]) == {"moes_m", "moes_l"}
     assert set(summary["hertz"]) == {"half_width", "max_pressure"}

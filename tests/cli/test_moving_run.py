@@ -18,7 +18,7 @@ from ehlectric.figures.names import MOTION_FIGURE_FILES
 from ehlectric.film.unsteady import UnsteadyFilm
 from ehlectric.motion.file import motion_of
 from ehlectric.motion.record import read_motion
-from tests.cli.conftest import COMMAND
+from tests.helpers.commands import COMMAND
 
 CASE = """\
 title = "Bump"
@@ -317,7 +317,7 @@ def test_a_run_that_is_stopped_says_what_is_saved_and_goes_on(tmp_path, number):
 
 
 def test_stopped_before_anything_is_kept(typed, monkeypatch, case_file):
-    from ehlectric.motion.motion import run as motion_run
+    from ehlectric.motion import run as motion_run
 
     def stopping(*_, **__):
         raise SystemExit(128 + signal.SIGTERM)

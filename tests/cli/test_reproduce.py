@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from ehlectric.paper.contacts import table_3
-from tests.cli.conftest import COMMAND
+from tests.helpers.commands import COMMAND
 
 PNG = b"\x89PNG"
 

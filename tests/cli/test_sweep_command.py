@@ -15,8 +15,9 @@ import pytest
 import xarray as xr
 
 from ehlectric import read_sweep
-from tests.cli.conftest import CASE, COMMAND
+from tests.cli.conftest import CASE
 from tests.cli.test_reproduce import children, gone
+from tests.helpers.commands import COMMAND
 from tests.helpers.places import EXAMPLES
 
 SWEEP = """\

@@ -8,6 +8,8 @@ import numpy as np
 from scipy.stats import qmc
 
 from ehlectric import Case
+from ehlectric.errors import ResultWarning
+from ehlectric.runtime.stored_warnings import texts_and_codes
 from ehlectric.sweep.results import Point, Range, SweepResults
 
 SPEED, LOAD, POTENTIAL = "contact.entrainment_speed", "contact.load_per_length", "electric.potential_2"
@@ -46,11 +48,12 @@ def breakdown(inputs: Inputs) -> dict[str, Any]:
 
 
 def doubtful_where(wrong: Callable[[Inputs], bool], model: Model = breakdown) -> Model:
-    """A model whose film is not to be used at some points, as ``findings`` says it."""
+    """A model whose film is not to be used at some points."""
 
     def warned(inputs: Inputs) -> dict[str, Any]:
-        texts = ["the film may be 32 % off or more on this grid; do not use it"] if wrong(inputs) else []
-        return {"warnings": texts} | model(inputs)
+        text = "the film may be 32 % off or more on this grid; do not use it"
+        told = [ResultWarning("grid-far-too-coarse", text)] if wrong(inputs) else []
+        return texts_and_codes(told) | model(inputs)
 
     return warned
 

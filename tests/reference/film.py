@@ -11,8 +11,8 @@ import numpy as np
 import sympy
 from numpy.polynomial import chebyshev, polynomial
 
+from ehlectric.film.flow import Fluid
 from ehlectric.film.problem import FilmProblem
-from ehlectric.film.reynolds import Fluid
 from ehlectric.lubricant.density import dowson_higginson
 from ehlectric.lubricant.viscosity import roelands
 

@@ -14,9 +14,9 @@ import numpy as np
 import sympy
 
 from ehlectric.film.deflection import point_geometry
+from ehlectric.film.flow import Fluid
 from ehlectric.film.mesh import Width
 from ehlectric.film.problem import FilmProblem
-from ehlectric.film.reynolds import Fluid
 from ehlectric.lubricant.density import dowson_higginson
 from ehlectric.lubricant.viscosity import roelands
 

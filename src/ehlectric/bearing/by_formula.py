@@ -6,7 +6,7 @@ import numpy as np
 from scipy.constants import epsilon_0
 
 from ehlectric.arrays import Array
-from ehlectric.bearing.contacts import ContactSolution, ContactValues, ball_case, roller_case, warnings_of
+from ehlectric.bearing.contacts import ContactSolution, ContactValues, ball_case, roller_case, without_regime
 from ehlectric.bearing.ring_contacts import (
     BallContact,
     Contact,
@@ -16,11 +16,10 @@ from ehlectric.bearing.ring_contacts import (
     of_contact,
 )
 from ehlectric.cases.discharge import Discharge
-from ehlectric.cases.lubricant import Lubricant, density_law, permittivity_law
+from ehlectric.cases.lubricant import Lubricant, density_law, effective_alpha, permittivity_law
+from ehlectric.contact.case_warnings import line_case_warnings, point_case_warnings
 from ehlectric.contact.conditions import default_side, resolve, resolve_point
-from ehlectric.contact.remarks import line_remarks as remarks
-from ehlectric.contact.remarks import point_remarks
-from ehlectric.errors import InputError
+from ehlectric.errors import InputError, ResultWarning
 from ehlectric.field.zones import areas
 from ehlectric.formulas.film_line import pan_hamrock
 from ehlectric.formulas.film_point import chittenden
@@ -42,17 +41,19 @@ def check_formula(discharge: Discharge, lubricant: Lubricant) -> None:
         For a Weibull law and a table over pressure, which take more of a field than its largest value, and
         for a viscosity that does not grow with pressure.
     """
-    if lubricant.viscosity_law == "constant":
+    if effective_alpha(lubricant) == 0.0:
         raise InputError(
-            "lubricant.viscosity_law: got 'constant' with contacts by formula, which are for "
-            "piezoviscous oils; takes another law, or solved contacts"
+            "lubricant.viscosity_law",
+            got=f"{lubricant.viscosity_law!r} with contacts by formula, which are for piezoviscous oils;",
+            takes="another law, or solved contacts",
         )
     table = discharge.strength_table
     if discharge.weibull is not None or (table is not None and table.over == "pressure"):
         key = "weibull" if discharge.weibull is not None else "strength_table"
         raise InputError(
-            f"discharge.{key}: got it with contacts by formula, which know no field; takes "
-            "dielectric_strength, a table over temperature, or solved contacts"
+            f"discharge.{key}",
+            got="it with contacts by formula, which know no field;",
+            takes="dielectric_strength, a table over temperature, or solved contacts",
         )
 
 
@@ -86,7 +87,6 @@ def ball_by_formula(contact: BallContact) -> ContactSolution:
         point, dry, modulus = contact.point, contact.dry, contact.point.reduced_modulus
         b, a = dry.semi_axis_x, dry.semi_axis_y
         film = chittenden(point)
-        assert film.central_thickness is not None and film.minimum_thickness is not None
         side = a * default_side(a / b)
         x, y = b * np.linspace(*_POINT, _NODES[0]), np.linspace(-side, side, _NODES[1])
         at_x, at_y = x[:, np.newaxis], y
@@ -105,7 +105,7 @@ def ball_by_formula(contact: BallContact) -> ContactSolution:
             area=np.pi * a * b,
             moes=(point.moes_m, point.moes_l),
             mismatch=mismatch,
-            warnings=warnings_of(point_remarks(case, conditions), conditions),
+            warnings=without_regime(point_case_warnings(case, conditions)),
         )
 
 
@@ -138,7 +138,6 @@ def roller_by_formula(contact: RollerContact) -> ContactSolution:
         line, length = contact.line, contact.length
         b, highest = conditions.half_width, conditions.max_pressure
         film = pan_hamrock(line)
-        assert film.central_thickness is not None and film.minimum_thickness is not None
         x = np.linspace(*_LINE, _LINE_NODES)
         gap = film.central_thickness + b**2 / line.reduced_radius * line_gap(x)
         inside = np.vdot(areas((b * x,)), _permittivity(contact, highest * line_pressure(x)) / gap)
@@ -152,15 +151,14 @@ def roller_by_formula(contact: RollerContact) -> ContactSolution:
             area=2.0 * b * length,
             moes=(line.moes_m, line.moes_l),
             mismatch=0.0,
-            warnings=warnings_of(remarks(case, conditions), conditions),
+            warnings=without_regime(line_case_warnings(case, conditions)),
         )
 
 
 def _permittivity(contact: Contact, pressure: Array) -> Array:
     """Relative permittivity of the oil under pressure [Pa]."""
     oil = contact.ring.conditions.lubricant
-    permittivity: Array = permittivity_law(oil)(density_law(oil)(pressure)[0])
-    return permittivity
+    return permittivity_law(oil)(density_law(oil)(pressure)[0])
 
 
 def _solution(
@@ -174,7 +172,7 @@ def _solution(
     area: float,
     moes: tuple[float, float],
     mismatch: float,
-    warnings: tuple[str, ...],
+    warnings: tuple[ResultWarning, ...],
 ) -> ContactSolution:
     """Numbers of either contact; integrals of eps_r dA/h and dA/h are not yet times eps0."""
     conditions = contact.ring.conditions

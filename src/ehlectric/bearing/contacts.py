@@ -21,10 +21,9 @@ from ehlectric.bearing.ring_contacts import (
     of_contact,
 )
 from ehlectric.cases.case import Case
-from ehlectric.contact.conditions import Conditions, PointConditions
-from ehlectric.contact.remarks import point_regime_remarks, regime_remarks
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.contact.solver import solve
+from ehlectric.errors import ResultWarning
 
 # Error of the minimum film that grids are refined to.
 REFINE = 0.03
@@ -88,7 +87,7 @@ class ContactSolution:
         Largest difference of the gaps at the edge of the film's domain, relative.
     converged : bool
         Whether the film is converged.
-    warnings : tuple of str
+    warnings : tuple of ResultWarning
         Warnings of its solution.
     """
 
@@ -99,7 +98,7 @@ class ContactSolution:
     moes_l: float
     mismatch: float
     converged: bool
-    warnings: tuple[str, ...]
+    warnings: tuple[ResultWarning, ...]
 
 
 def ball_case(contact: BallContact, solver: dict[str, Any]) -> Case:
@@ -235,17 +234,13 @@ def _solution(
         moes_l=formulas.moes_l,
         mismatch=mismatch,
         converged=result.converged,
-        warnings=warnings_of(result.warnings, result.conditions),
+        warnings=without_regime(result.warnings),
     )
 
 
-def warnings_of(texts: Iterable[str], conditions: Conditions | PointConditions) -> tuple[str, ...]:
-    """Warnings of a contact but for those of its regime: the domain of a light one is chosen for that."""
-    if isinstance(conditions, PointConditions):
-        regime = set(point_regime_remarks(conditions))
-    else:
-        regime = set(regime_remarks(conditions))
-    return tuple(text for text in texts if text not in regime)
+def without_regime(warnings: Iterable[ResultWarning]) -> tuple[ResultWarning, ...]:
+    """Warnings of a contact but for those of its regime: the domain of a light contact is chosen for it."""
+    return tuple(warning for warning in warnings if warning.code != "regime")
 
 
 @dataclass(frozen=True)

@@ -27,6 +27,7 @@ from ehlectric.bearing.solution import BearingSolution, Position, RingState
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.errors import InputError
 from ehlectric.runtime.files import clear, prepare, whole
+from ehlectric.runtime.stored_warnings import texts_and_codes, warnings_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -156,7 +157,9 @@ def _dataset(solution: BearingSolution) -> xr.Dataset:
             "weibull_shape": "" if shape is None else repr(shape),
             "contact_angle": [ring.angle for ring in (solution.inner, solution.outer)],
             "entrainment_speed": [ring.speed for ring in (solution.inner, solution.outer)],
-            "warnings": json.dumps([[one.warnings for one in curve.solutions] for curve in solution.curves]),
+            "warnings": json.dumps(
+                [[texts_and_codes(one.warnings) for one in curve.solutions] for curve in solution.curves]
+            ),
         },
     )
 
@@ -241,7 +244,7 @@ def _solution_of(dataset: xr.Dataset) -> BearingSolution:
     )
 
 
-def _curve_of(dataset: xr.Dataset, ring: str, told: Sequence[Sequence[str]]) -> ContactCurve:
+def _curve_of(dataset: xr.Dataset, ring: str, told: Sequence[Mapping[str, Any]]) -> ContactCurve:
     columns = {
         name: dataset[f"{ring}_curve_{name}"].values
         for name in (*ContactValues.__dataclass_fields__, "load", "error", "moes_m", "moes_l", "mismatch")
@@ -259,7 +262,7 @@ def _curve_of(dataset: xr.Dataset, ring: str, told: Sequence[Sequence[str]]) -> 
     )
 
 
-def _contact_of(numbers: Mapping[str, float], told: Sequence[str], *, converged: bool) -> ContactSolution:
+def _contact_of(numbers: Mapping[str, float], told: Mapping[str, Any], *, converged: bool) -> ContactSolution:
     error = numbers["error"]
     return ContactSolution(
         load=numbers["load"],
@@ -269,7 +272,7 @@ def _contact_of(numbers: Mapping[str, float], told: Sequence[str], *, converged:
         moes_l=numbers["moes_l"],
         mismatch=numbers["mismatch"],
         converged=converged,
-        warnings=tuple(told),
+        warnings=warnings_of(told),
     )
 
 

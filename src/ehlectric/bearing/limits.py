@@ -33,8 +33,9 @@ def check_load(conditions: BearingConditions[Geometry]) -> None:
     weight = conditions.geometry.element_mass(conditions.element.density) * gravity
     if math.hypot(bearing.radial_load, bearing.axial_load) < weight:
         raise InputError(
-            f"bearing.radial_load: got {bearing.radial_load:g} N, with {bearing.axial_load:g} N axial; takes "
-            f"more than {weight:.2g} N, the weight of an element, which is left out"
+            "bearing.radial_load",
+            got=f"{bearing.radial_load:g} N, with {bearing.axial_load:g} N axial;",
+            takes=f"more than {weight:.2g} N, the weight of an element, which is left out",
         )
 
 
@@ -80,9 +81,10 @@ def check_shoulders(bearing: Bearing, at: Equilibrium) -> None:
         end = shoulder_angle(bearing, inner=inner)
         if furthest >= end:
             raise InputError(
-                f"bearing.shoulder_height: got {bearing.shoulder_height:g}, an {name} groove that ends "
-                f"{math.degrees(end):.1f} deg up, and a contact at {math.degrees(furthest):.1f} deg; takes a "
-                "higher shoulder, a smaller contact angle, or less axial load"
+                "bearing.shoulder_height",
+                got=f"{bearing.shoulder_height:g}, an {name} groove that ends {math.degrees(end):.1f} "
+                f"deg up, and a contact at {math.degrees(furthest):.1f} deg;",
+                takes="a higher shoulder, a smaller contact angle, or less axial load",
             )
 
 
@@ -104,7 +106,9 @@ def check_film(contact: Contact) -> None:
     if film > most:
         oil = ring.conditions.lubricant.viscosity
         raise InputError(
-            f"bearing: got an {ring.name} film of {1e6 * film:.3g} um, at {contact.load:.3g} N, "
-            f"{ring.speed:.3g} m/s and {oil:.3g} Pa s; takes a load, a speed and an oil "
-            f"at its temperature for at most {1e6 * most:.3g} um, beyond which the bodies leave it no room"
+            "bearing",
+            got=f"an {ring.name} film of {1e6 * film:.3g} um, at {contact.load:.3g} N, "
+            f"{ring.speed:.3g} m/s and {oil:.3g} Pa s;",
+            takes=f"a load, a speed and an oil at its temperature for at most {1e6 * most:.3g} um, "
+            "beyond which the bodies leave it no room",
         )

@@ -98,7 +98,7 @@ def _keys_of_bearing() -> Iterator[None]:
     try:
         yield
     except InputError as error:
-        raise InputError(f"bearing.{error}") from None
+        raise error.under("bearing") from None
 
 
 def _film_factor(case: BearingCase, geometry: Geometry, lubricant: Lubricant) -> float:

@@ -5,11 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from ehlectric.bearing.remarks import warnings_of
 from ehlectric.bearing.shaft_voltage import shaft_voltage
 from ehlectric.bearing.solution import BearingSolution, capacitance
 from ehlectric.bearing.summary import breaks, contact_rows, summary_of
+from ehlectric.bearing.warnings import bearing_warnings
 from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.errors import ResultWarning
 
 
 @dataclass(frozen=True)
@@ -65,9 +66,9 @@ class BearingResult:
         """Voltages of breakdown over the positions [V] and their margins, None where there are none."""
         return breaks(self.solution)
 
-    def warnings(self) -> list[str]:
-        """Warnings that tell where the result is unreliable, each text once."""
-        return warnings_of(self.solution)
+    def warnings(self) -> list[ResultWarning]:
+        """Warnings that tell where the result is unreliable, each once."""
+        return bearing_warnings(self.solution)
 
     def contacts(self) -> list[dict[str, Any]]:
         """A row for every element and ring, cage at its first position, SI units."""

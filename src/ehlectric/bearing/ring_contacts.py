@@ -98,9 +98,7 @@ class BallContact:
     @cached_property
     def film(self) -> float:
         """Central film thickness [m] by a formula that holds for light contacts too."""
-        thickness = nijenbanning_venner_moes(self.point).central_thickness
-        assert thickness is not None
-        return thickness
+        return nijenbanning_venner_moes(self.point).central_thickness
 
     @property
     def thickest_film(self) -> float:
@@ -151,9 +149,7 @@ class RollerContact:
     @cached_property
     def film(self) -> float:
         """Central film thickness [m] by a formula that holds for light contacts too."""
-        thickness = moes(self.line).central_thickness
-        assert thickness is not None
-        return thickness
+        return moes(self.line).central_thickness
 
     @property
     def thickest_film(self) -> float:
@@ -171,11 +167,12 @@ def of_contact(contact: Contact) -> Iterator[None]:
     try:
         yield
     except InputError as error:
-        text = str(error)
-        if not text.startswith(("contact", "grid")):
+        table = (error.key or "").partition(".")[0]
+        if table not in ("contact", "contact_angle", "grid"):
             raise
-        where = f"bearing: {contact.ring.name} contact at {contact.load:.4g} N: "
-        raise type(error)(where + text.removeprefix("contact: ")) from None
+        text = error.text if error.key == "contact" else str(error)
+        where = f"{contact.ring.name} contact at {contact.load:.4g} N"
+        raise error.retold("bearing", f"{where}: {text}") from None
 
 
 def raceway_of(ring: RingContacts[BallBearing]) -> Raceway:

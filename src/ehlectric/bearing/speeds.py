@@ -10,13 +10,15 @@ from ehlectric.bearing.by_formula import check_formula
 from ehlectric.bearing.solver import solve_bearing
 from ehlectric.cases.bearing import BearingDischarge
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.errors import InputError
+from ehlectric.errors import InputError, ResultWarning
 
 # From which part of the case's speed to which, in how many steps of its logarithm.
 _LEAST, _MOST, COUNT = 0.1, 4.0, 9
 
 
-def over_speed(case: BearingCase, count: int = COUNT) -> tuple[list[tuple[float, dict[str, Any]]], list[str]]:
+def over_speed(
+    case: BearingCase, count: int = COUNT
+) -> tuple[list[tuple[float, dict[str, Any]]], list[ResultWarning]]:
     """A bearing at speeds around its own, its contacts by formula.
 
     Parameters
@@ -30,8 +32,8 @@ def over_speed(case: BearingCase, count: int = COUNT) -> tuple[list[tuple[float,
     -------
     points : list of (float, dict)
         Speed of the inner ring [rad/s], and the summary at it.
-    left_out : list of str
-        What could not be found, and why.
+    left_out : list of ResultWarning
+        Speeds that could not be solved, and why.
 
     Examples
     --------
@@ -59,21 +61,22 @@ def over_speed(case: BearingCase, count: int = COUNT) -> tuple[list[tuple[float,
         try:
             result = solve_bearing(changed.replace({"bearing.inner_speed": speed}))
         except InputError as error:
-            left_out.append(f"over speed, {speed * 30.0 / np.pi:.4g} rpm: {error}")
+            text = f"over speed, {speed * 30.0 / np.pi:.4g} rpm: {error}"
+            left_out.append(ResultWarning("speed-left-out", text))
         else:
             points.append((speed, result.summary()))
     return points, left_out
 
 
-def _by_formula(case: BearingCase) -> tuple[BearingCase | None, list[str]]:
+def _by_formula(case: BearingCase) -> tuple[BearingCase | None, list[ResultWarning]]:
     """The case with contacts by formula, if need be without a strength, and what the formulas do not take."""
     lubricant = case.lubricant.at(case.bearing.temperature)
-    left_out: list[str] = []
+    left_out: list[ResultWarning] = []
     for discharge in (case.discharge, BearingDischarge(conductivity=case.discharge.conductivity)):
         try:
             check_formula(discharge.at(case.bearing.temperature), lubricant)
         except InputError as error:
-            left_out = [f"over speed: {error}"]
+            left_out = [ResultWarning("speed-left-out", f"over speed: {error}")]
         else:
             changed = case.replace({"contacts": "formula"})
             return changed.model_copy(update={"discharge": discharge}), left_out

@@ -8,7 +8,6 @@ from typing import Any
 from ehlectric.bearing.breakdown import Breakdown, breakdown_of, strength_per_volt
 from ehlectric.bearing.impedance import oil_relaxation_time
 from ehlectric.bearing.loads.totals import mechanics_of
-from ehlectric.bearing.remarks import warnings_of
 from ehlectric.bearing.shaft_voltage import bearing_voltage_ratio, margin, shaft_voltage
 from ehlectric.bearing.solution import (
     BearingSolution,
@@ -18,7 +17,9 @@ from ehlectric.bearing.solution import (
     lubrication,
     plate_capacitance,
 )
+from ehlectric.bearing.warnings import bearing_warnings
 from ehlectric.runtime.files import plain
+from ehlectric.runtime.stored_warnings import texts_and_codes
 
 SCHEMA = "ehlectric.bearing/1"
 
@@ -34,7 +35,7 @@ def summary_of(solution: BearingSolution) -> dict[str, Any]:
             "version": solution.version,
             "title": case.title,
             "converged": solution.converged,
-            "warnings": warnings_of(solution),
+            **texts_and_codes(bearing_warnings(solution)),
             "inputs": case.to_dict(),
             "lubricant": {
                 "temperature": case.bearing.temperature,

@@ -10,11 +10,12 @@ from pydantic import AfterValidator, BeforeValidator, model_validator
 
 from ehlectric.cases import library
 from ehlectric.cases.discharge import Discharge
-from ehlectric.cases.lubricant import Lubricant, library_name, with_lubricant
+from ehlectric.cases.lubricant import Lubricant, law_parameters, library_name, with_lubricant
 from ehlectric.cases.quantity import Count, Quantity
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError, shown
-from ehlectric.lubricant.temperature import Walther, density, roelands_alpha
+from ehlectric.lubricant.temperature import Walther, density
+from ehlectric.lubricant.viscosity import VISCOSITY_LAWS
 
 ROLLERS = "cylindrical roller"
 ANGULAR = "angular-contact ball"
@@ -33,7 +34,7 @@ _OF_ROLLERS = ("roller_length", "profile")
 def _material(name: str) -> str:
     names = library.solid_names()
     if name not in names:
-        raise ValueError(f"got {shown(name)}, takes one of the library: {', '.join(names)}")
+        raise InputError(got=shown(name), takes=f"one of the library: {', '.join(names)}")
     return name
 
 
@@ -41,9 +42,7 @@ def _film_factor(given: Any) -> float | str:
     if given in ("none", "inlet-shear"):
         return str(given)
     if isinstance(given, bool) or not isinstance(given, int | float) or not 0.0 < given <= 1.0:
-        raise ValueError(
-            f"got {shown(given)}, takes 'none', 'inlet-shear', or a number above 0 and at most 1"
-        )
+        raise InputError(got=shown(given), takes="'none', 'inlet-shear', or a number above 0 and at most 1")
     return float(given)
 
 
@@ -95,15 +94,16 @@ class Bearing(Table):
     def _check(self) -> Self:
         self._check_kind()
         if self.radial_load == 0.0 and self.axial_load == 0.0:
-            raise ValueError("radial_load: missing, takes a load, radial or axial")
+            raise InputError.missing("radial_load", "a load, radial or axial")
         ceramic = not library.solid(self.element_material)["conducting"]
         if self.element_capacitance is not None and not ceramic:
-            raise ValueError(
-                "element_capacitance: got it for elements that conduct, whose capacitance is computed; takes "
-                "it for ceramic ones"
+            raise InputError(
+                "element_capacitance",
+                got="it for elements that conduct, whose capacitance is computed;",
+                takes="it for ceramic ones",
             )
         if not library.solid(self.ring_material)["conducting"]:
-            raise ValueError(f"ring_material: got {shown(self.ring_material)}, takes one that conducts")
+            raise InputError("ring_material", got=shown(self.ring_material), takes="one that conducts")
         return self
 
     def _check_kind(self) -> None:
@@ -115,14 +115,15 @@ class Bearing(Table):
         }[self.kind]
         for key in needed:
             if getattr(self, key) is None:
-                raise ValueError(f"{key}: missing, a bearing of kind {self.kind!r} takes it")
+                raise InputError.worded(key, f"missing, a bearing of kind {self.kind!r} takes it")
         for key in {*_OF_BALLS, *_OF_ROLLERS, "radial_clearance"} - set(needed):
             if getattr(self, key) is not None:
-                raise ValueError(f"{key}: got it in a bearing of kind {self.kind!r}, which has no use for it")
+                raise InputError(key, got=f"it in a bearing of kind {self.kind!r}, which has no use for it")
         if rollers and self.axial_load:
-            raise ValueError(
-                f"axial_load: got {self.axial_load:g} N, takes 0 in a cylindrical roller bearing, whose "
-                "rollers carry none"
+            raise InputError(
+                "axial_load",
+                got=f"{self.axial_load:g} N",
+                takes="0 in a cylindrical roller bearing, whose rollers carry none",
             )
 
 
@@ -145,21 +146,21 @@ class BearingLubricant(Lubricant):
     viscosity: _Absolute | None = None  # type: ignore[assignment]
     temperature: OilTemperature | None = None
 
-    @model_validator(mode="before")
     @classmethod
-    def _from_base(cls, table: Any) -> Any:
-        """The named lubricant, without the viscosity that ``temperature`` gives."""
+    def _with_base(cls, table: Any) -> Any:
+        """The named lubricant, without the viscosity that ``temperature`` gives and what follows from it."""
         full = with_lubricant(table)
         if not isinstance(table, Mapping) or table.get("temperature") is None or full is table:
             return full
-        over_temperature = ("viscosity", "pressure_viscosity_coefficient")
+        derived = [name for name, parameter in law_parameters().items() if parameter.derivation]
+        over_temperature = ("viscosity", *derived)
         return {key: value for key, value in full.items() if key in table or key not in over_temperature}
 
     @model_validator(mode="after")
     def _check(self) -> Self:
         if (self.viscosity is None) == (self.temperature is None):
-            state = "missing" if self.viscosity is None else "got viscosity and temperature together"
-            raise ValueError(f"viscosity: {state}, takes either viscosity or temperature")
+            both = None if self.viscosity is None else "viscosity and temperature together"
+            raise InputError("viscosity", got=both, takes="either viscosity or temperature")
         return self
 
     def at(self, temperature: float) -> Lubricant:
@@ -177,26 +178,33 @@ class BearingLubricant(Lubricant):
                 oil.density_15, oil.expansion, temperature
             )
             table["viscosity"] = viscosity
-            if self.pressure_viscosity_coefficient is None and self.viscosity_law != "constant":
-                table["pressure_viscosity_coefficient"] = self._alpha(viscosity)
+            table |= self._derived(viscosity)
         try:
             return Lubricant.from_dict(table)
         except InputError as error:
-            raise InputError(f"lubricant.{error}") from None
+            raise error.under("lubricant") from None
 
     def walther(self) -> Walther:
         """Kinematic viscosity over temperature."""
         assert self.temperature is not None
         return Walther.of(self.temperature.kinematic_viscosity_40, self.temperature.kinematic_viscosity_100)
 
-    def _alpha(self, viscosity: float) -> float:
-        z, p0 = self.roelands_z, self.roelands_pressure
-        if z is None or p0 is None:
-            raise InputError(
-                "lubricant.pressure_viscosity_coefficient: missing, takes it, or roelands_z and "
-                "roelands_pressure, from which it follows at the temperature"
-            )
-        return roelands_alpha(viscosity, z, p0)
+    def _derived(self, viscosity: float) -> dict[str, float]:
+        """Parameters of the viscosity law that are not given and follow from the viscosity [Pa s]."""
+        derived = {}
+        for parameter in VISCOSITY_LAWS[self.viscosity_law].parameters:
+            rule = parameter.derivation
+            if rule is None or self.parameter(parameter.name) is not None:
+                continue
+            given = map(self.parameter, rule.parameters)
+            values = [value for value in given if value is not None]
+            if len(values) < len(rule.parameters):
+                raise InputError.missing(
+                    f"lubricant.{parameter.name}",
+                    f"it, or {' and '.join(rule.parameters)}, from which it follows at the temperature",
+                )
+            derived[parameter.name] = rule.function(viscosity, *values)
+        return derived
 
 
 class BearingDischarge(Discharge):
@@ -204,9 +212,10 @@ class BearingDischarge(Discharge):
 
     def _check_temperature(self) -> None:
         if self.temperature is not None:
-            raise ValueError(
-                f"temperature: got {self.temperature:g} K for a bearing, takes bearing.temperature in its "
-                "place, at which the strength is taken"
+            raise InputError(
+                "temperature",
+                got=f"{self.temperature:g} K for a bearing",
+                takes="bearing.temperature in its place, at which the strength is taken",
             )
 
     def at(self, temperature: float) -> Discharge:
@@ -229,7 +238,7 @@ class BearingDischarge(Discharge):
         try:
             return Discharge.from_dict(table)
         except InputError as error:
-            raise InputError(f"bearing.{error}") from None
+            raise error.under("bearing") from None
 
 
 class Motor(Table):

@@ -41,12 +41,13 @@ class BearingCase(Table):
     def _check(self) -> Self:
         for key in _NOT_OF_BEARINGS:
             if getattr(self.discharge, key) is not None:
-                raise ValueError(f"discharge.{key}: got it for a bearing, which has no use for it")
+                raise InputError(f"discharge.{key}", got="it for a bearing, which has no use for it")
         if self.bearing.film_factor == "inlet-shear":
             oil = self.lubricant.temperature
             if oil is None or oil.thermal_conductivity is None:
-                raise ValueError(
-                    "lubricant.temperature.thermal_conductivity: missing, film_factor 'inlet-shear' takes it"
+                raise InputError.worded(
+                    "lubricant.temperature.thermal_conductivity",
+                    "missing, film_factor 'inlet-shear' takes it",
                 )
         return self
 
@@ -62,7 +63,7 @@ class BearingCase(Table):
         table = read_toml(path)
         if "contact" in table and "bearing" not in table:
             raise InputError(
-                f"{path}: is the file of a contact, takes that of a bearing; ehlectric run solves it"
+                path, "is the file of a contact", takes="that of a bearing; ehlectric run solves it"
             )
         return cls.from_dict(table)
 

@@ -26,7 +26,7 @@ from ehlectric.errors import InputError, shown
 
 def _title(text: str) -> str:
     if len(text) > 200 or any(unicodedata.category(letter) == "Cc" for letter in text):
-        raise ValueError(f"got {shown(text)}, takes at most 200 printable characters on one line")
+        raise InputError(got=shown(text), takes="at most 200 printable characters on one line")
     return text
 
 
@@ -80,9 +80,10 @@ class Case(Table):
         if self.contact.geometry != "point":
             for key in POINT_GRID_KEYS:
                 if getattr(self.grid, key) is not None:
-                    raise ValueError(
-                        f"grid.{key}: got it in a line contact, which has no use for it; takes it where "
-                        "contact.geometry is 'point'"
+                    raise InputError(
+                        f"grid.{key}",
+                        got="it in a line contact, which has no use for it;",
+                        takes="it where contact.geometry is 'point'",
                     )
         check_geometry(self.roughness, self.contact.geometry)
         if self.discharge is not None:
@@ -94,11 +95,17 @@ class Case(Table):
         if self.motion is None:
             return
         if not self.roughness:
-            raise ValueError("motion: got it without roughness, which is what moves; takes a rough surface")
+            raise InputError(
+                "motion", got="it without roughness, which is what moves;", takes="a rough surface"
+            )
         if self.grid.wedge != "second-order":
-            raise ValueError(f"grid.wedge: got {self.grid.wedge!r} beside motion, takes 'second-order'")
+            raise InputError("grid.wedge", got=f"{self.grid.wedge!r} beside motion", takes="'second-order'")
         if self.grid.refine is not None:
-            raise ValueError("grid.refine: got it beside motion, which takes one grid; takes grid.nodes")
+            raise InputError.worded(
+                "grid.refine",
+                "got it beside motion, which takes one grid; takes grid.nodes",
+                takes="grid.nodes",
+            )
 
     @classmethod
     def from_toml(cls, path: str | Path) -> Self:
@@ -112,7 +119,7 @@ class Case(Table):
         table = read_toml(path)
         if "bearing" in table and "contact" not in table:
             raise InputError(
-                f"{path}: is the file of a bearing, takes that of a contact; ehlectric bearing solves it"
+                path, "is the file of a bearing", takes="that of a contact; ehlectric bearing solves it"
             )
         find_files(table, Path(path).parent)
         return cls.from_dict(table)

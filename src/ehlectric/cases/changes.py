@@ -34,7 +34,7 @@ def set_keys(table: dict[str, Any], flat: Mapping[str, Any]) -> None:
         for parent in parents:
             target = _part(target, parent, key)
         if isinstance(target, list):
-            raise InputError(f"{key}: is a table, takes one of its keys, as {key}.surface")
+            raise InputError(key, "is a table", takes=f"one of its keys, as {key}.surface")
         # An empty table changes nothing, but is there.
         if not (value == {} and isinstance(target.get(leaf), dict)):
             target[leaf] = value
@@ -45,11 +45,11 @@ def _part(table: Any, name: str, key: str) -> Any:
     if isinstance(table, list):
         if not (name.isdecimal() and 1 <= int(name) <= len(table)):
             there = f"a number from 1 to {len(table)}" if table else "none, as there are no tables"
-            raise InputError(f"{key}: got {shown(name)} for the table of a list, takes {there}")
+            raise InputError(key, got=f"{shown(name)} for the table of a list", takes=there)
         return table[int(name) - 1]
     part = table.setdefault(name, {})
     if not isinstance(part, dict | list):
-        raise InputError(f"{key}: unknown key, {name} is not a table")
+        raise InputError(key, f"unknown key, {name} is not a table")
     return part
 
 

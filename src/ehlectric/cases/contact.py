@@ -8,6 +8,7 @@ from pydantic import model_validator
 
 from ehlectric.cases.quantity import Quantity
 from ehlectric.cases.table import Table
+from ehlectric.errors import InputError
 
 _Radius = Annotated[float, Quantity("m", least=1e-6, most=1e3, reason="larger bodies are planes to a film")]
 _SignedRadius = Annotated[float, Quantity("m", least=-1e3, most=1e3, reason="negative for a concave body")]
@@ -118,8 +119,8 @@ class Contact(Table):
             if self.value(key) is not None:
                 radii, _, load, _ = CONTACT_ALTERNATIVES[self.geometry]
                 takes = " or ".join(" and ".join(row) for row in (load if "load" in key else radii))
-                raise ValueError(
-                    f"{key}: got it in a {self.geometry} contact, which has no use for it; takes {takes}"
+                raise InputError(
+                    key, got=f"it in a {self.geometry} contact, which has no use for it;", takes=takes
                 )
         for name in _BODIES if self.geometry == "line" else ():
             body = getattr(self, name)
@@ -127,28 +128,30 @@ class Contact(Table):
             missing = [key for key in keys if getattr(body, key) is None]
             if missing:
                 more = f"; missing too: {missing[1]}" if missing[1:] else ""
-                raise ValueError(f"{name}.{missing[0]}: missing, takes a value{more}")
+                raise InputError.missing(f"{name}.{missing[0]}", f"a value{more}")
 
     def _check_radii(self) -> None:
         names = ("radius_1", "radius_2", *ONLY["point"][3:])
         for name in names:
             radius = self.value(name)
             if radius is not None and abs(radius) < 1e-6:
-                raise ValueError(
-                    f"{name}: got {radius:g} m, takes at least 1e-06 m, negative for a concave body"
+                raise InputError(
+                    name, got=f"{radius:g} m", takes="at least 1e-06 m, negative for a concave body"
                 )
 
     def _check_speeds(self) -> None:
         if self.speed_1 is not None and self.speed_2 is not None:
             if self.slide_to_roll_ratio is not None:
-                raise ValueError(
-                    "slide_to_roll_ratio: got it beside speed_1 and speed_2, which fix it; takes one "
-                    "of the two"
+                raise InputError(
+                    "slide_to_roll_ratio",
+                    got="it beside speed_1 and speed_2, which fix it;",
+                    takes="one of the two",
                 )
             if self.speed_1 + self.speed_2 <= 0.0:
-                raise ValueError(
-                    f"speed_1, speed_2: got {self.speed_1:g} and {self.speed_2:g} m/s, takes speeds "
-                    "whose mean is positive: x runs along entrainment"
+                raise InputError(
+                    "speed_1, speed_2",
+                    got=f"{self.speed_1:g} and {self.speed_2:g} m/s",
+                    takes="speeds whose mean is positive: x runs along entrainment",
                 )
 
     def _check_alternatives(self, group: tuple[tuple[str, ...], ...]) -> None:
@@ -157,9 +160,9 @@ class Contact(Table):
         used = [k for k, names in enumerate(given) if names]
         if len(used) > 1:
             both = ", ".join(name for names in given for name in names)
-            raise ValueError(f"{given[0][0]}: got {both} together, takes either {choices}")
+            raise InputError(given[0][0], got=f"{both} together", takes=f"either {choices}")
         if not used:
-            raise ValueError(f"{group[0][0]}: missing, takes either {choices}")
+            raise InputError.missing(group[0][0], f"either {choices}")
         for name in group[used[0]]:
             if name not in given[used[0]]:
-                raise ValueError(f"{name}: missing, takes either {choices}")
+                raise InputError.missing(name, f"either {choices}")

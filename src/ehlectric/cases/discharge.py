@@ -8,6 +8,7 @@ from pydantic import model_validator
 
 from ehlectric.cases.quantity import Quantities, Quantity
 from ehlectric.cases.table import Table
+from ehlectric.errors import InputError
 
 _STRENGTH = Quantity("V/m", least=1e4, most=1e10, reason="of the film, not of the oil in bulk")
 _PRESSURE = Quantity("Pa", least=0.0, most=2e10, reason="in the film")
@@ -43,14 +44,15 @@ class StrengthTable(Table):
     @model_validator(mode="after")
     def _check(self) -> Self:
         if (self.pressure is None) == (self.temperature is None):
-            state = "missing" if self.pressure is None else "got pressure and temperature together"
-            raise ValueError(f"pressure: {state}, takes either pressure or temperature")
+            both = None if self.pressure is None else "pressure and temperature together"
+            raise InputError("pressure", got=both, takes="either pressure or temperature")
         if any(b <= a for a, b in zip(self.places, self.places[1:], strict=False)):
-            raise ValueError(f"{self.over}: got {list(self.places)}, takes increasing values")
+            raise InputError(self.over, got=list(self.places), takes="increasing values")
         if len(self.strength) != len(self.places):
-            raise ValueError(
-                f"strength: got {len(self.strength)} values over {len(self.places)} of {self.over}, takes as "
-                "many"
+            raise InputError(
+                "strength",
+                got=f"{len(self.strength)} values over {len(self.places)} of {self.over}",
+                takes="as many",
             )
         return self
 
@@ -112,11 +114,12 @@ class Discharge(Table):
         given = [name for name in names if getattr(self, name) is not None]
         if len(given) > 1:
             together, takes = " and ".join(given), ", ".join(names)
-            raise ValueError(f"{given[0]}: got {together} together, takes one of {takes}")
+            raise InputError(given[0], got=f"{together} together", takes=f"one of {takes}")
         if self.pit is not None and self.external_capacitance is None:
-            raise ValueError(
-                "external_capacitance: missing, pit takes it: the spark discharges what is connected to the "
-                "contact too, 0 where nothing is"
+            raise InputError.worded(
+                "external_capacitance",
+                "missing, pit takes it: the spark discharges what is connected to the contact too, 0 "
+                "where nothing is",
             )
         self._check_temperature()
         return self
@@ -125,17 +128,20 @@ class Discharge(Table):
         table = self.strength_table
         if table is None or table.over == "pressure":
             if self.temperature is not None:
-                raise ValueError(
-                    f"temperature: got {self.temperature:g} K, takes a strength_table over temperature too"
+                raise InputError(
+                    "temperature",
+                    got=f"{self.temperature:g} K",
+                    takes="a strength_table over temperature too",
                 )
             return
         low, high = table.places[0], table.places[-1]
         if self.temperature is None:
-            raise ValueError("temperature: missing, a strength_table over temperature takes it")
+            raise InputError.worded("temperature", "missing, a strength_table over temperature takes it")
         if not low <= self.temperature <= high:
-            raise ValueError(
-                f"temperature: got {self.temperature:g} K, takes one within the strength_table, {low:g} to "
-                f"{high:g} K"
+            raise InputError(
+                "temperature",
+                got=f"{self.temperature:g} K",
+                takes=f"one within the strength_table, {low:g} to {high:g} K",
             )
 
     def check_geometry(self, geometry: str) -> None:
@@ -153,12 +159,13 @@ class Discharge(Table):
         """
         if geometry == "point":
             if self.length is not None:
-                raise ValueError(
-                    "discharge.length: got it for a point contact, which has none; takes it for a line"
+                raise InputError(
+                    "discharge.length", got="it for a point contact, which has none;", takes="it for a line"
                 )
         elif self.length is None:
             needing = [name for name in _OF_LENGTH if getattr(self, name) is not None]
             if needing:
-                raise ValueError(
-                    f"discharge.length: missing, {needing[0]} takes it: the length of the line contact"
+                raise InputError.worded(
+                    "discharge.length",
+                    f"missing, {needing[0]} takes it: the length of the line contact",
                 )

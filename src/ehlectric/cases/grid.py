@@ -9,6 +9,7 @@ from pydantic import model_validator
 
 from ehlectric.cases.quantity import Count, Quantity
 from ehlectric.cases.table import Table
+from ehlectric.errors import InputError
 
 
 class Electric(Table):
@@ -20,9 +21,10 @@ class Electric(Table):
     @model_validator(mode="after")
     def _check(self) -> Self:
         if self.voltage < 1e-6:
-            raise ValueError(
-                f"potential_2: got {self.potential_2:g} V, which is potential_1; takes one that "
-                "differs by at least 1 µV, as there is no field between equal potentials"
+            raise InputError(
+                "potential_2",
+                got=f"{self.potential_2:g} V, which is potential_1;",
+                takes="one that differs by at least 1 µV, as there is no field between equal potentials",
             )
         return self
 
@@ -106,9 +108,10 @@ class Grid(Table):
         domain = self.outlet - self.inlet
         if self.nodes < 8.0 * domain:
             lengths = "semi-axes" if self.of_point else "half-widths"
-            raise ValueError(
-                f"nodes: got {self.nodes} over {domain:g} {lengths}, takes at least "
-                f"{int(8.0 * domain) + 1} there: sixteen in the Hertz zone"
+            raise InputError(
+                "nodes",
+                got=f"{self.nodes} over {domain:g} {lengths}",
+                takes=f"at least {int(8.0 * domain) + 1} there: sixteen in the Hertz zone",
             )
         self._check_field_range(domain)
         if self.of_point:
@@ -119,26 +122,29 @@ class Grid(Table):
         start, stop = self.field_range
         default = "" if "field_range" in self.model_fields_set else ", its default"
         if not self.inlet <= start < stop <= self.outlet:
-            raise ValueError(
-                f"field_range: got [{start:g}, {stop:g}]{default}, takes two increasing numbers within inlet "
-                f"and outlet, [{self.inlet:g}, {self.outlet:g}]"
+            raise InputError(
+                "field_range",
+                got=f"[{start:g}, {stop:g}]{default}",
+                takes=f"two increasing numbers within inlet and outlet, [{self.inlet:g}, {self.outlet:g}]",
             )
         columns = (stop - start) / domain * (self.nodes - 1)
         if self.field_nodes is None and columns < _LEAST_COLUMNS:
-            raise ValueError(
-                f"field_range: got [{start:g}, {stop:g}]{default}, which holds {int(columns)} nodes of the "
-                f"film; takes a range with at least {_LEAST_COLUMNS}, or field_nodes"
+            raise InputError(
+                "field_range",
+                got=f"[{start:g}, {stop:g}]{default}, which holds {int(columns)} nodes of the film;",
+                takes=f"a range with at least {_LEAST_COLUMNS}, or field_nodes",
             )
         if stop - start < 1e-3:
-            raise ValueError(f"field_range: got [{start:g}, {stop:g}], takes a range of at least 0.001")
+            raise InputError("field_range", got=f"[{start:g}, {stop:g}]", takes="a range of at least 0.001")
 
     def _check_point(self) -> None:
         for key in ("nodes", "field_nodes"):
             nodes = getattr(self, key)
             if nodes is not None and nodes > _MOST_AXIS:
-                raise ValueError(
-                    f"{key}: got {nodes} in a point contact, takes at most {_MOST_AXIS} along an axis: more "
-                    "fill the memory"
+                raise InputError(
+                    key,
+                    got=f"{nodes} in a point contact",
+                    takes=f"at most {_MOST_AXIS} along an axis: more fill the memory",
                 )
         if self.side is not None:
             self.check_across(self.side)
@@ -158,13 +164,14 @@ class Grid(Table):
         """
         assert self.field_side is not None
         if self.field_side > side:
-            raise ValueError(f"field_side: got {self.field_side:g}, takes at most side, {side:g}")
+            raise InputError("field_side", got=f"{self.field_side:g}", takes=f"at most side, {side:g}")
         nodes, key = self.nodes_across, "nodes" if self.nodes_y is None else "nodes_y"
         least = math.ceil(LEAST_ACROSS * side) + 1
         if nodes < least:
-            raise ValueError(
-                f"{key}: got {nodes} across {2.0 * side:g} semi-axes, takes at least {least} there: sixteen "
-                "in the Hertz zone"
+            raise InputError(
+                key,
+                got=f"{nodes} across {2.0 * side:g} semi-axes",
+                takes=f"at least {least} there: sixteen in the Hertz zone",
             )
 
 

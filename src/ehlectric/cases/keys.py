@@ -2,18 +2,65 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any, get_args, get_origin
 
 from pydantic.fields import FieldInfo
 
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
-from ehlectric.cases.quantity import Count, Quantity
+from ehlectric.cases.quantity import Count, Quantities, Quantity
 from ehlectric.cases.table import Table, nearest_key, table_of
 from ehlectric.errors import InputError
 
 # Tables and keys of a bearing file alone.
 _OF_BEARINGS = ("bearing", "motor", "contacts")
+
+# Name and symbol of inputs, where they have one of their own; their units stand in the case.
+INPUT_NAMES: Mapping[str, tuple[str, str]] = {
+    "contact.entrainment_speed": ("entrainment speed", r"$(u_1 + u_2)/2$"),
+    "contact.speed_1": ("speed of surface 1", "$u_1$"),
+    "contact.speed_2": ("speed of surface 2", "$u_2$"),
+    "contact.slide_to_roll_ratio": ("slide-to-roll ratio", ""),
+    "contact.load": ("load", "$F$"),
+    "contact.load_per_length": ("load per length", "$w$"),
+    "contact.max_hertz_pressure": ("Hertz pressure", r"$p_\mathrm{h}$"),
+    "contact.reduced_radius": ("reduced radius", "$R$"),
+    "contact.radius_x": ("reduced radius along entrainment", "$R_x$"),
+    "contact.radius_y": ("reduced radius across entrainment", "$R_y$"),
+    "contact.reduced_modulus": ("reduced modulus", "$E'$"),
+    "lubricant.base": ("lubricant", ""),
+    "lubricant.viscosity": ("viscosity", r"$\eta_0$"),
+    "electric.potential_1": ("potential of surface 1", "$V_1$"),
+    "electric.potential_2": ("potential of surface 2", "$V_2$"),
+    "bearing.inner_speed": ("speed of the inner ring", ""),
+    "bearing.radial_load": ("radial load", r"$F_\mathrm{r}$"),
+    "bearing.axial_load": ("axial load", r"$F_\mathrm{a}$"),
+    "bearing.temperature": ("temperature", ""),
+    "bearing.composite_rq": ("composite roughness", r"$R_\mathrm{q}$"),
+    "bearing.radial_clearance": ("radial clearance", ""),
+    "bearing.contact_angle": ("free contact angle", ""),
+    "bearing.film_factor": ("film factor", ""),
+    "bearing.inner_groove": ("groove of the inner ring over the ball", r"$f_\mathrm{i}$"),
+    "bearing.outer_groove": ("groove of the outer ring over the ball", r"$f_\mathrm{o}$"),
+    "lubricant.temperature.kinematic_viscosity_40": ("kinematic viscosity at 40 °C", r"$\nu_{40}$"),
+    "lubricant.temperature.kinematic_viscosity_100": ("kinematic viscosity at 100 °C", r"$\nu_{100}$"),
+    "motor.common_mode_voltage": ("common-mode voltage", ""),
+    "motor.winding_rotor_capacitance": ("capacitance from winding to rotor", r"$C_\mathrm{wr}$"),
+    "motor.rotor_frame_capacitance": ("capacitance from rotor to frame", r"$C_\mathrm{rf}$"),
+    "discharge.dielectric_strength": ("dielectric strength", ""),
+    "discharge.weibull.scale": ("Weibull scale", "$E_0$"),
+    "discharge.weibull.shape": ("Weibull shape", "$m$"),
+    "discharge.temperature": ("temperature", ""),
+    "discharge.conductivity": ("conductivity", r"$\sigma$"),
+    "discharge.external_capacitance": ("external capacitance", r"$C_\mathrm{ext}$"),
+    "discharge.outlet": ("what fills the outlet", ""),
+    "discharge.peak_current": ("peak current", ""),
+    "discharge.pit.efficiency": ("part of the energy that melts", r"$\zeta$"),
+    "discharge.pit.melting_energy": ("heat to melt a volume", "$q$"),
+    "discharge.length": ("length of the contact", ""),
+    "grid.nodes": ("nodes", ""),
+}
 
 
 def input_field(key: str) -> FieldInfo:
@@ -41,21 +88,21 @@ def input_field(key: str) -> FieldInfo:
     if names[0] == "roughness":
         if len(names) < 3 or not names[1].isdecimal():
             raise InputError(
-                f"{key}: is a list of tables, takes a key of one of them, as roughness.1.rescale_rq"
+                key, "is a list of tables", takes="a key of one of them, as roughness.1.rescale_rq"
             )
         within, names = names[1:2], [names[0], *names[2:]]
     field: FieldInfo | None = None
     inner: Any = model
     for name in names:
-        field = None if inner is None else inner.model_fields.get(name)
+        field = None if inner is None else inner.known_keys().get(name)
         if field is None:
             known = nearest_key(".".join(names), model).split(".")
             known[1:1] = within if known[0] == "roughness" and len(known) > 1 else []
-            raise InputError(f"{key}: unknown key; the nearest known one is {'.'.join(known)}")
+            raise InputError.unknown(key, ".".join(known))
         inner = table_of(field.annotation)
     if field is None or inner is not None:
         raise InputError(
-            f"{key}: is a table, takes one of its keys, as {key}.{next(iter(inner.model_fields))}"
+            key, "is a table", takes=f"one of its keys, as {key}.{next(iter(inner.known_keys()))}"
         )
     return field
 
@@ -68,14 +115,39 @@ def number_of(field: FieldInfo) -> Quantity | Count | None:
     >>> number_of(input_field("contact.entrainment_speed")).unit
     'm/s'
     """
-    if get_origin(field.annotation) is tuple:
-        return None
+    found = None if get_origin(field.annotation) is tuple else _annotation(field)
+    return None if isinstance(found, Quantities) else found
+
+
+def _annotation(field: FieldInfo) -> Quantity | Quantities | Count | None:
+    """Annotation of a key that takes one number or a list of them."""
     parts = [field, *(part for part in get_args(field.annotation) if hasattr(part, "__metadata__"))]
     for part in parts:
         for item in getattr(part, "__metadata__", ()) or getattr(part, "metadata", ()):
-            if isinstance(item, Quantity | Count):
+            if isinstance(item, Quantity | Quantities | Count):
                 return item
     return None
+
+
+def unit_of(key: str) -> str:
+    """SI unit of an input as pint writes it; empty for one without a unit, a text or an unknown key.
+
+    Parameters
+    ----------
+    key : str
+        Dotted key of the case, also of an item of a list.
+
+    Examples
+    --------
+    >>> unit_of("contact.load_per_length"), unit_of("discharge.strength_table.strength.0")
+    ('N/m', 'V/m')
+    """
+    try:
+        found = _annotation(input_field(key.rstrip("0123456789").rstrip(".") if key[-2:-1] == "." else key))
+    except InputError:
+        return ""
+    each = found.each if isinstance(found, Quantities) else found
+    return each.unit if isinstance(each, Quantity) else ""
 
 
 def kind_of(key: str) -> Quantity | Count | None:

@@ -2,58 +2,112 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
-from typing import Annotated, Any, Self
+from typing import TYPE_CHECKING, Annotated, Any, Optional, Self
 
-from pydantic import AfterValidator, model_validator
+import numpy as np
+from pydantic import (
+    AfterValidator,
+    ConfigDict,
+    ModelWrapValidatorHandler,
+    SerializerFunctionWrapHandler,
+    ValidationError,
+    model_serializer,
+    model_validator,
+)
+from pydantic.fields import FieldInfo
+from pydantic_core import InitErrorDetails
 
-from ehlectric.arrays import Array
 from ehlectric.cases import library
 from ehlectric.cases.quantity import Quantity
 from ehlectric.cases.table import Table, nearest
-from ehlectric.errors import shown
+from ehlectric.errors import InputError, ResultWarning, shown
 from ehlectric.lubricant.density import DENSITY_LAWS
-from ehlectric.lubricant.law import Law
-from ehlectric.lubricant.permittivity import PERMITTIVITY_LAWS
-from ehlectric.lubricant.viscosity import ROELANDS_CONSTANT, VISCOSITY_LAWS, roelands_exponent
+from ehlectric.lubricant.law import DensityRatioLaw, Law, Parameter, PressureLaw
+from ehlectric.lubricant.permittivity import PERMITTIVITY_LAWS, RELATIVE_PERMITTIVITY
+from ehlectric.lubricant.viscosity import VISCOSITY_LAWS
+
+# Keys that choose a law by its name, each with its table, in the order of the case file.
+LAWS: dict[str, Mapping[str, Law]] = {
+    "viscosity_law": VISCOSITY_LAWS,
+    "density_law": DENSITY_LAWS,
+    "permittivity_law": PERMITTIVITY_LAWS,
+}
 
 
-def effective_alpha(lubricant: Lubricant) -> float:
-    """Pressure-viscosity coefficient [1/Pa] that the film formulas see: zero for a constant viscosity."""
-    if lubricant.viscosity_law == "constant":
-        return 0.0
-    assert lubricant.pressure_viscosity_coefficient is not None
-    return lubricant.pressure_viscosity_coefficient
+def law_parameters(*choices: str) -> dict[str, Parameter]:
+    """Parameters of all laws by name.
+
+    Parameters
+    ----------
+    *choices : str
+        Keys of ``LAWS``, whose laws count; those of all keys if none is given.
+
+    Returns
+    -------
+    dict of str to Parameter
+        As the tables of laws are at the moment of the call.
+
+    Examples
+    --------
+    >>> list(law_parameters("density_law"))
+    ['density_c1', 'density_c2']
+    """
+    tables = [LAWS[key] for key in choices or LAWS]
+    return {
+        parameter.name: parameter for laws in tables for law in laws.values() for parameter in law.parameters
+    }
 
 
 def _bound(law: Law, lubricant: Lubricant) -> Callable[..., Any]:
     """A law with its parameters from the case."""
-    return partial(law.function, **{name: getattr(lubricant, name) for name in law.parameters})
+    return partial(law.function, **_values(law, lubricant))
 
 
-def viscosity_law(lubricant: Lubricant) -> Callable[[Array], tuple[Array, Array]]:
-    """ln(eta/eta0) and its derivative [1/Pa] over pressure [Pa]."""
+def _values(law: Law, lubricant: Lubricant) -> dict[str, float]:
+    """Values of a law's parameters by name, without those that the case does not give."""
+    given = {parameter.name: lubricant.parameter(parameter.name) for parameter in law.parameters}
+    return {name: value for name, value in given.items() if value is not None}
+
+
+def viscosity_law(lubricant: Lubricant) -> PressureLaw:
+    """ln(eta/eta0) and its derivative [1/Pa] over pressure [Pa] and temperature [K]."""
     return _bound(VISCOSITY_LAWS[lubricant.viscosity_law], lubricant)
 
 
-def density_law(lubricant: Lubricant) -> Callable[[Array], tuple[Array, Array]]:
-    """rho/rho0 and its derivative [1/Pa] over pressure [Pa]."""
+def density_law(lubricant: Lubricant) -> PressureLaw:
+    """rho/rho0 and its derivative [1/Pa] over pressure [Pa] and temperature [K]."""
     return _bound(DENSITY_LAWS[lubricant.density_law], lubricant)
 
 
-def permittivity_law(lubricant: Lubricant) -> Callable[[Array], Array]:
-    """Relative permittivity over rho/rho0."""
+def permittivity_law(lubricant: Lubricant) -> DensityRatioLaw:
+    """Relative permittivity over rho/rho0 and temperature [K]."""
     return _bound(PERMITTIVITY_LAWS[lubricant.permittivity_law], lubricant)
+
+
+def effective_alpha(lubricant: Lubricant) -> float:
+    """Pressure-viscosity coefficient that the film formulas take: slope of ln(eta) at zero pressure [1/Pa].
+
+    Zero for a constant viscosity; alpha itself for the laws of Barus and Roelands.
+    """
+    return float(viscosity_law(lubricant)(np.zeros(1))[1][0])
+
+
+def law_warnings(lubricant: Lubricant, max_pressure: float) -> Iterator[ResultWarning]:
+    """Warnings about the laws of a lubricant, in a contact of that Hertz pressure [Pa]."""
+    for key, laws in LAWS.items():
+        law = laws[getattr(lubricant, key)]
+        if law.warnings is not None:
+            yield from law.warnings(max_pressure, lubricant.viscosity, **_values(law, lubricant))
 
 
 def _law(laws: Mapping[str, object]) -> AfterValidator:
     def known(name: str) -> str:
         if name not in laws:
             known_names = ", ".join(repr(law) for law in laws)
-            raise ValueError(
-                f"got {shown(name)}, takes one of {known_names}; nearest is {nearest(name, laws)!r}"
+            raise InputError(
+                got=shown(name), takes=f"one of {known_names}; nearest is {nearest(name, laws)!r}"
             )
         return name
 
@@ -83,72 +137,148 @@ def library_name(base: Any, names: Sequence[str]) -> str:
         Where the library has none of that name.
     """
     if not isinstance(base, str):
-        raise ValueError(f"base: got {shown(base)}, takes a text, a name of the library: {', '.join(names)}")
+        raise InputError("base", got=shown(base), takes=f"a text, a name of the library: {', '.join(names)}")
     if base not in names:
-        raise ValueError(f"base: got {shown(base)}, takes a name of the library: {', '.join(names)}")
+        raise InputError("base", got=shown(base), takes=f"a name of the library: {', '.join(names)}")
     return base
 
 
+def quantity_of(parameter: Parameter) -> Quantity:
+    """Parser of a parameter's values, with its unit and bounds."""
+    return Quantity(
+        parameter.unit,
+        above=parameter.above,
+        below=parameter.below,
+        least=parameter.least,
+        most=parameter.most,
+        reason=parameter.reason,
+    )
+
+
 class Lubricant(Table):
-    """Properties of the lubricant and the laws they enter."""
+    """Properties of the lubricant and the laws they enter.
+
+    Parameters of the laws are keys of the table too. They are no fields of the class: which there are, and
+    what they take, is read from the tables of laws when a case is read (``known_keys``). One that the case
+    does not give is None. A parameter of a law that is not chosen may be given, as a base gives it.
+
+    Examples
+    --------
+    >>> oil = Lubricant.from_dict({"base": "paper", "viscosity_law": "barus"})
+    >>> oil.parameter("pressure_viscosity_coefficient")
+    2.2e-08
+    """
+
+    model_config = ConfigDict(extra="allow")
 
     base: str | None = None
     viscosity: Annotated[float, Quantity("Pa*s", least=1e-7, most=1e6, reason="at ambient pressure")]
     viscosity_law: Annotated[str, _law(VISCOSITY_LAWS)]
-    pressure_viscosity_coefficient: (
-        Annotated[float, Quantity("1/Pa", least=1e-11, most=2e-7, reason="an oil has 5 to 40 1/GPa")] | None
-    ) = None
-    roelands_z: Annotated[float, Quantity("", least=0.01, most=2.0, reason="an oil has 0.3 to 1")] | None = (
-        None
-    )
-    roelands_pressure: (
-        Annotated[float, Quantity("Pa", least=1e7, most=1e10, reason="Roelands' constant is 0.196 GPa")]
-        | None
-    ) = None
     density_law: Annotated[str, _law(DENSITY_LAWS)]
-    density_c1: (
-        Annotated[float, Quantity("Pa", least=1e7, most=1e11, reason="an oil has 0.59 GPa")] | None
-    ) = None
-    density_c2: (
-        Annotated[
-            float,
-            Quantity("", least=1.0, most=3.0, reason="the density ratio at unlimited pressure"),
-        ]
-        | None
-    ) = None
     permittivity_law: Annotated[str, _law(PERMITTIVITY_LAWS)] = "clausius-mossotti"
-    relative_permittivity: Annotated[
-        float, Quantity("", least=1.0, most=1e3, reason="vacuum has 1, oils 2 to 5, water 80")
-    ]
+    relative_permittivity: Annotated[float, quantity_of(RELATIVE_PERMITTIVITY)]
     ambient_pressure: Annotated[float, Quantity("Pa", least=0.0, most=1e8, reason="around the contact")] = 1e5
 
-    @model_validator(mode="before")
+    if TYPE_CHECKING:
+        # Parameters that other packages and users read as attributes.
+        pressure_viscosity_coefficient: float | None = None
+        roelands_z: float | None = None
+        roelands_pressure: float | None = None
+    else:
+
+        def __getattr__(self, name: str) -> Any:
+            try:
+                return super().__getattr__(name)
+            except AttributeError:
+                if name in law_parameters():
+                    return None
+                raise
+
+    def parameter(self, name: str) -> float | None:
+        """Value of a law's parameter, SI; None where the case does not give it."""
+        value: float | None = getattr(self, name)
+        return value
+
     @classmethod
-    def _from_base(cls, table: Any) -> Any:
+    def known_keys(cls) -> dict[str, FieldInfo]:
+        """Keys of the table: its fields, and after the choice of each law the parameters of such laws."""
+        known: dict[str, FieldInfo] = {}
+        for name, field in cls.model_fields.items():
+            known[name] = field
+            for parameter in law_parameters(name).values() if name in LAWS else ():
+                if parameter.name not in cls.model_fields:
+                    annotation = Annotated[float, quantity_of(parameter)]
+                    known[parameter.name] = FieldInfo(annotation=Optional[annotation], default=None)  # noqa: UP045
+        return known
+
+    @model_validator(mode="wrap")
+    @classmethod
+    def _parse(cls, given: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
+        """Table with the values of its base, whose parameters are in SI and within their bounds.
+
+        Errors of parameters and of fields are told together, in the order of ``known_keys``.
+        """
+        table = cls._with_base(given)
+        if not isinstance(table, Mapping):
+            return handler(table)
+        fields, errors = _parsed(cls, table)
+        try:
+            lubricant = handler(fields)
+        except ValidationError as error:
+            errors += [
+                InitErrorDetails(
+                    type=detail["type"],
+                    loc=detail["loc"],
+                    input=detail["input"],
+                    ctx=detail.get("ctx", {}),
+                )
+                for detail in error.errors()
+            ]
+        if errors:
+            place = {name: k for k, name in enumerate(cls.known_keys())}
+            errors.sort(key=lambda error: place.get(str(*error["loc"][:1]), len(place)))
+            raise ValidationError.from_exception_data(cls.__name__, errors)
+        return lubricant
+
+    @classmethod
+    def _with_base(cls, table: Any) -> Any:
         """The named lubricant of the library, with what the case gives in place of its values."""
         return with_lubricant(table)
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        for key, laws in (("viscosity_law", VISCOSITY_LAWS), ("density_law", DENSITY_LAWS)):
-            law = getattr(self, key)
-            missing = [name for name in laws[law].parameters if getattr(self, name) is None]
+        for key, laws in LAWS.items():
+            name = getattr(self, key)
+            law, given = laws[name], _values(laws[name], self)
+            missing = [parameter.name for parameter in law.parameters if parameter.name not in given]
             if missing:
                 also = f" with {', '.join(missing[1:])}" if missing[1:] else ""
-                raise ValueError(
-                    f"{missing[0]}: missing, {key} {law!r} takes it{also}{self._roelands_hint()}"
-                )
+                hint = law.hint(self.viscosity, given) if law.hint else ""
+                raise InputError.worded(missing[0], f"missing, {key} {name!r} takes it{also}{hint}")
         return self
 
-    def _roelands_hint(self) -> str:
-        """The exponent of Roelands' own relation, where it alone is missing."""
-        alpha, p0 = self.pressure_viscosity_coefficient, self.roelands_pressure
-        if self.roelands_z is not None or alpha is None or p0 is None:
-            return ""
-        z = roelands_exponent(self.viscosity, alpha, p0)
-        if not math.isfinite(z):
-            return ""
-        return (
-            "; Roelands' relation pressure_viscosity_coefficient roelands_pressure/(ln viscosity + "
-            f"{ROELANDS_CONSTANT}) gives {z:.3g}"
-        )
+    @model_serializer(mode="wrap")
+    def _in_order(self, handler: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        """Keys in the order of ``known_keys``."""
+        table = handler(self)
+        return {name: table[name] for name in type(self).known_keys() if name in table}
+
+
+def _parsed(
+    model: type[Lubricant], table: Mapping[Any, Any]
+) -> tuple[dict[Any, Any], list[InitErrorDetails]]:
+    """Values of a table with its parameters in SI, and the errors of parameters and of unknown keys."""
+    known, fields = law_parameters(), dict(table)
+    errors: list[InitErrorDetails] = []
+    for name in [name for name in table if isinstance(name, str) and name not in model.model_fields]:
+        value = fields.pop(name)
+        try:
+            if name not in known:
+                errors.append(InitErrorDetails(type="extra_forbidden", loc=(name,), input=value))
+            elif value is not None:
+                fields[name] = quantity_of(known[name]).parse(value)
+        except ValueError as error:
+            errors.append(
+                InitErrorDetails(type="value_error", loc=(name,), input=value, ctx={"error": error})
+            )
+    return fields, errors

@@ -8,6 +8,7 @@ from pydantic import model_validator
 
 from ehlectric.cases.quantity import Count, Quantity
 from ehlectric.cases.table import Table
+from ehlectric.errors import InputError
 
 
 class Motion(Table):
@@ -30,6 +31,6 @@ class Motion(Table):
     @model_validator(mode="after")
     def _check(self) -> Self:
         if (self.passes is None) == (self.duration is None):
-            state = "missing" if self.passes is None else "got passes and duration together"
-            raise ValueError(f"passes: {state}, takes either passes or duration")
+            both = None if self.passes is None else "passes and duration together"
+            raise InputError("passes", got=both, takes="either passes or duration")
         return self

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from pydantic import GetCoreSchemaHandler
 from pydantic_core import CoreSchema, core_schema
 
-from ehlectric.errors import shown
+from ehlectric.errors import InputError, shown
 
 if TYPE_CHECKING:
     import pint
@@ -168,7 +168,7 @@ def length_unit(text: str) -> str:
     try:
         to_si(f"1 {text}", "m")
     except ValueError as error:
-        raise ValueError(f"got {shown(text)} ({error}), takes a unit of length such as 'um'") from None
+        raise InputError(got=f"{shown(text)} ({error})", takes="a unit of length such as 'um'") from None
     return text
 
 
@@ -206,7 +206,7 @@ class Quantity:
                 raise ValueError("")
         except ValueError as error:
             why = f" ({error})" if str(error) else ""
-            raise ValueError(f"got {shown(given)}{why}, takes {self.takes}") from None
+            raise InputError(got=f"{shown(given)}{why}", takes=self.takes) from None
         return value
 
     def _number(self, given: object) -> float:
@@ -260,8 +260,8 @@ class Quantities:
             With what it got and what each quantity takes.
         """
         if not isinstance(given, list | tuple) or len(given) < self.least:
-            raise ValueError(
-                f"got {shown(given)}, takes a list of {self.least} or more, each {self.each.takes}"
+            raise InputError(
+                got=shown(given), takes=f"a list of {self.least} or more, each {self.each.takes}"
             )
         return tuple(self.each.parse(item) for item in given)
 
@@ -287,7 +287,7 @@ class Count:
         """
         whole = isinstance(given, numbers.Integral) and not isinstance(given, bool)
         if not (whole and self.least <= int(given) <= self.most):  # type: ignore[call-overload]
-            raise ValueError(
-                f"got {shown(given)}, takes a whole number from {self.least} to {self.most}: {self.reason}"
+            raise InputError(
+                got=shown(given), takes=f"a whole number from {self.least} to {self.most}: {self.reason}"
             )
         return int(given)  # type: ignore[call-overload, no-any-return]

@@ -9,7 +9,7 @@ from pydantic import AfterValidator, model_validator
 
 from ehlectric.cases.quantity import Count, Quantity, length_unit
 from ehlectric.cases.table import Table
-from ehlectric.errors import shown
+from ehlectric.errors import InputError, shown
 
 _Height = Annotated[float, Quantity("m", least=1e-12, most=1e-3, reason="of a surface, not of a body")]
 _Length = Annotated[float, Quantity("m", least=1e-9, most=1.0, reason="of waves and features on a surface")]
@@ -76,13 +76,13 @@ class Roughness(Table):
     @model_validator(mode="after")
     def _check(self) -> Self:
         if (self.file is None) == (self.generator is None):
-            state = "missing" if self.file is None else "got file and generator together"
-            raise ValueError(f"file: {state}, takes either file or generator")
+            both = None if self.file is None else "file and generator together"
+            raise InputError("file", got=both, takes="either file or generator")
         allowed = {"surface", "shift", "shift_y"}
         allowed |= {"file", *_FILE_KEYS, *_STEPS} if self.generator is None else self._check_generator()
         for name in sorted(self._given() - allowed):
             what = f"the generator {self.generator!r}" if self.generator else "a file"
-            raise ValueError(f"{name}: got it with {what}, which has no use for it")
+            raise InputError(name, got=f"it with {what}, which has no use for it")
         return self
 
     def _given(self) -> set[str]:
@@ -93,23 +93,26 @@ class Roughness(Table):
     def _check_generator(self) -> set[str]:
         """Names of what the generator may have."""
         if self.generator not in GENERATORS:
-            raise ValueError(
-                f"generator: got {shown(self.generator)}, takes one of {', '.join(map(repr, GENERATORS))}"
+            raise InputError(
+                "generator", got=shown(self.generator), takes=f"one of {', '.join(map(repr, GENERATORS))}"
             )
         needed, optional = GENERATORS[self.generator]
         for name in needed:
             if getattr(self, name) is None:
-                raise ValueError(f"{name}: missing, the generator {self.generator!r} takes it")
+                raise InputError.worded(name, f"missing, the generator {self.generator!r} takes it")
         rolloff, shortest = self.rolloff_wavelength, self.shortest_wavelength
         if rolloff is not None and shortest is not None and shortest >= rolloff:
-            raise ValueError(
-                f"shortest_wavelength: got {shortest:g} m, takes less than rolloff_wavelength, {rolloff:g} m"
+            raise InputError(
+                "shortest_wavelength",
+                got=f"{shortest:g} m",
+                takes=f"less than rolloff_wavelength, {rolloff:g} m",
             )
         round_waves = self.generator == "gaussian" and self.correlation_length_y is None
         if round_waves and self.orientation is not None:
-            raise ValueError(
-                f"orientation: got {self.orientation:g} deg for a surface that is alike in all directions, "
-                "takes correlation_length_y beside it"
+            raise InputError(
+                "orientation",
+                got=f"{self.orientation:g} deg for a surface that is alike in all directions",
+                takes="correlation_length_y beside it",
             )
         return {"generator", *needed, *optional, *(() if self.generator in SHAPES else _STEPS)}
 
@@ -129,18 +132,21 @@ class Roughness(Table):
         if geometry == "line":
             for name in _POINT_KEYS:
                 if name in self._given():
-                    raise ValueError(
-                        f"{name}: got it for a line contact, which knows no y; takes it for a point contact"
+                    raise InputError(
+                        name, got="it for a line contact, which knows no y;", takes="it for a point contact"
                     )
             if self.direction == "y" and not self.assume_transverse:
-                raise ValueError(
-                    "direction: got 'y', measured across entrainment; a line contact sees every profile as "
-                    "ridges across it, takes assume_transverse = true to use it so all the same"
+                raise InputError(
+                    "direction",
+                    got="'y', measured across entrainment; a line contact sees every profile as ridges "
+                    "across it",
+                    takes="assume_transverse = true to use it so all the same",
                 )
         elif self.assume_transverse:
-            raise ValueError(
-                "assume_transverse: got it for a point contact, which knows both directions; takes it for a "
-                "line contact"
+            raise InputError(
+                "assume_transverse",
+                got="it for a point contact, which knows both directions;",
+                takes="it for a line contact",
             )
 
 
@@ -149,11 +155,11 @@ def check_geometry(tables: Iterable[Roughness], geometry: str) -> None:
 
     Raises
     ------
-    ValueError
+    InputError
         With the key, what it got and what it takes.
     """
     for table in tables:
         try:
             table.check_geometry(geometry)
-        except ValueError as error:
-            raise ValueError(f"roughness.{error}") from None
+        except InputError as error:
+            raise error.under("roughness") from None

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from ehlectric.commands.tables.bearing import bearing_table, films_table, loads_table
 from ehlectric.commands.terminal import NOT_CONVERGED, print_table, progress_bar, user_errors, warn
+
+if TYPE_CHECKING:
+    from ehlectric.errors import ResultWarning
 
 
 def bearing(
@@ -50,7 +53,7 @@ def bearing(
         summary = result.summary()
         clear(folder, names)
         files = save(result, folder)
-        left_out: list[str] = []
+        left_out: list[ResultWarning] = []
         if plots:
             from ehlectric.bearing.speeds import over_speed
             from ehlectric.figures.bearing.save import save_bearing_figures, save_speed_figures

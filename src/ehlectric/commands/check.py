@@ -13,17 +13,16 @@ from ehlectric.cases.case import Case
 from ehlectric.commands.options import CaseFile, Json, Quiet
 from ehlectric.commands.tables.contact import conditions_table, point_table
 from ehlectric.commands.terminal import print_table, user_errors, warn
+from ehlectric.contact.case_warnings import line_case_warnings, point_case_warnings
 from ehlectric.contact.check import conditions_summary, point_summary
 from ehlectric.contact.conditions import resolve, resolve_point
 from ehlectric.contact.memory import check_memory
 from ehlectric.contact.problems import domain_of, line_domain_of, spacing, spacings
-from ehlectric.contact.remarks import line_remarks as remarks
-from ehlectric.contact.remarks import point_remarks
+from ehlectric.errors import ResultWarning
 from ehlectric.motion.motion import Motion
-from ehlectric.surfaces.remarks import map_surface_remarks as map_remarks
-from ehlectric.surfaces.remarks import profile_surface_remarks as rough_remarks
 from ehlectric.surfaces.rough_maps import rough_maps
 from ehlectric.surfaces.rough_profiles import rough_surfaces
+from ehlectric.surfaces.warnings import map_surface_warnings, profile_surface_warnings
 
 
 def check(case_file: CaseFile, quiet: Quiet = False, as_json: Json = False) -> None:
@@ -35,16 +34,16 @@ def check(case_file: CaseFile, quiet: Quiet = False, as_json: Json = False) -> N
 
         from ehlectric.commands.check import meaning
 
-        table, summary, texts = meaning(case)
+        table, summary, warnings = meaning(case)
     if as_json:
         typer.echo(json.dumps(summary, indent=2))
     elif not quiet:
         print_table(table)
     if not quiet:
-        warn(texts)
+        warn(warnings)
 
 
-def meaning(case: Case) -> tuple[Table, dict[str, Any], list[str]]:
+def meaning(case: Case) -> tuple[Table, dict[str, Any], list[ResultWarning]]:
     """Hertz contact, groups, regime and film formulas of a case.
 
     Parameters
@@ -55,7 +54,7 @@ def meaning(case: Case) -> tuple[Table, dict[str, Any], list[str]]:
     Returns
     -------
     tuple
-        A table for the terminal, the same as nested tables in SI units, and remarks on what is doubtful.
+        A table for the terminal, the same as nested tables in SI units, and the warnings.
 
     Raises
     ------
@@ -70,25 +69,25 @@ def meaning(case: Case) -> tuple[Table, dict[str, Any], list[str]]:
     >>> round(summary["hertz"]["max_pressure"] / 1e9, 3)
     0.791
     """
-    table, summary, texts = _of_point(case) if case.contact.geometry == "point" else _of_line(case)
+    table, summary, warnings = _of_point(case) if case.contact.geometry == "point" else _of_line(case)
     if case.motion is not None:
         motion = Motion(case)
         summary["motion"] = motion.described()
         for name, value, unit in _course_rows(motion):
             table.add_row(name, value, unit)
-    return table, summary, texts
+    return table, summary, warnings
 
 
-def _of_line(case: Case) -> tuple[Table, dict[str, Any], list[str]]:
+def _of_line(case: Case) -> tuple[Table, dict[str, Any], list[ResultWarning]]:
     conditions = resolve(case)
     domain = line_domain_of(case, conditions)
     rough = rough_surfaces(case.roughness, domain)
     check_memory(case)
-    texts = [
-        *remarks(case, conditions),
-        *rough_remarks(case.roughness, rough, domain, spacing(case, conditions)),
+    warnings = [
+        *line_case_warnings(case, conditions),
+        *profile_surface_warnings(case.roughness, rough, domain, spacing(case, conditions)),
     ]
-    return conditions_table(case, conditions), conditions_summary(case, conditions), texts
+    return conditions_table(case, conditions), conditions_summary(case, conditions), warnings
 
 
 def _course_rows(motion: Motion) -> Iterator[tuple[str, str, str]]:
@@ -115,13 +114,13 @@ def check_motion(case: Case) -> None:
         Motion(case)
 
 
-def _of_point(case: Case) -> tuple[Table, dict[str, Any], list[str]]:
+def _of_point(case: Case) -> tuple[Table, dict[str, Any], list[ResultWarning]]:
     conditions = resolve_point(case)
     check_memory(case)
     domain = domain_of(case, conditions)
     rough = rough_maps(case.roughness, domain)
-    texts = [
-        *point_remarks(case, conditions),
-        *map_remarks(case.roughness, rough, domain, *spacings(case, conditions)),
+    warnings = [
+        *point_case_warnings(case, conditions),
+        *map_surface_warnings(case.roughness, rough, domain, *spacings(case, conditions)),
     ]
-    return point_table(case, conditions), point_summary(case, conditions), texts
+    return point_table(case, conditions), point_summary(case, conditions), warnings

@@ -48,7 +48,7 @@ def run(
         from ehlectric.runtime.files import clear, prepare
 
         if solver not in SOLVERS:
-            raise InputError(f"--solver: got {shown(solver)}, takes one of {', '.join(SOLVERS)}")
+            raise InputError("--solver", got=shown(solver), takes=f"one of {', '.join(SOLVERS)}")
         check_case(case)
         check_motion(case)
         SOLVERS[solver].check(case)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -11,7 +11,7 @@ import typer
 
 from ehlectric.commands.tables.sensitivity import sensitivity_tables
 from ehlectric.commands.terminal import print_table, user_errors, warn
-from ehlectric.errors import InputError, shown
+from ehlectric.errors import InputError, ResultWarning, shown
 
 if TYPE_CHECKING:
     from ehlectric.sweep.results import SweepResults
@@ -91,7 +91,7 @@ def sensitivity(folder: SweepFolder, value: Value = "", output: Output = None, q
         for table in sensitivity_tables(results, found):
             print_table(table)
         typer.echo("written: " + ", ".join(str(path) for path in files))
-        warn(_remarks(found))
+        warn(_warnings(found))
 
 
 def _read(folder: Path) -> SweepResults:
@@ -106,30 +106,31 @@ def _held(given: Sequence[str]) -> dict[str, str]:
     for text in given:
         key, sign, value = (part.strip() for part in text.partition("="))
         if not (sign and key and value):
-            raise InputError(f"at: got {shown(text)}, takes KEY=VALUE")
+            raise InputError("at", got=shown(text), takes="KEY=VALUE")
         if key in held:
-            raise InputError(f"at: got {key} twice, takes each key once")
+            raise InputError("at", got=f"{key} twice", takes="each key once")
         held[key] = value
     return held
 
 
-def _remarks(found: Sensitivity) -> list[str]:
-    """What to know before using the numbers."""
-    remarks = []
+def _warnings(found: Sensitivity) -> Iterator[ResultWarning]:
+    """Warnings of the rows behind sensitivity indices, and of their intervals."""
     if found.dropped:
-        remarks.append(
+        yield ResultWarning(
+            "rows-dropped",
             f"{found.dropped} of {found.rows} rows have a point that is not solved and are left out: the "
-            "numbers are those of the rest of the ranges"
+            "numbers are those of the rest of the ranges",
         )
     if found.doubtful:
-        remarks.append(
+        yield ResultWarning(
+            "rows-not-usable",
             f"{found.doubtful} of {found.used} rows that are used have a point whose film is not to be used, "
-            "as its warnings in sweep.csv say: spread and indices count with them"
+            "as its warnings in sweep.csv say: spread and indices count with them",
         )
     ends = [end for i in found.indices for end in (i.first_order_interval, i.total_interval)]
     widest = max(0.5 * (high - low) for low, high in ends)
     if widest > _WIDE:
-        remarks.append(
-            f"confidence intervals reach up to {widest:.1g} either way; four times the samples halve that"
+        yield ResultWarning(
+            "intervals-wide",
+            f"confidence intervals reach up to {widest:.1g} either way; four times the samples halve that",
         )
-    return remarks

@@ -35,7 +35,7 @@ def run_moving(case: Case, output: Path, *, solver: str, plots: bool, quiet: boo
     from ehlectric.runtime.files import clear, prepare
 
     if solver != "ehlectric":
-        raise InputError(f"--solver: got {shown(solver)} for a case with motion, takes 'ehlectric'")
+        raise InputError("--solver", got=f"{shown(solver)} for a case with motion", takes="'ehlectric'")
     names = (*FILES, *ALL_FIGURES, *MOTION_FIGURE_FILES)
     folder = prepare(output, (MOTION, *names))
     failed: ConvergenceError | None = None

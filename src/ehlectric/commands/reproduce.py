@@ -42,4 +42,4 @@ def _number(name: str, text: str | None) -> int | None:
     try:
         return None if text is None else int(text)
     except ValueError:
-        raise InputError(f"--{name}: got {shown(text)}, takes a number") from None
+        raise InputError(f"--{name}", got=shown(text), takes="a number") from None

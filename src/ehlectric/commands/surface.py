@@ -65,7 +65,7 @@ def surface(
         typer.echo(json.dumps(described, indent=2))
     else:
         print_table(surface_table(described))
-        warn(rough.remarks)
+        warn(rough.warnings)
         if output is not None:
             typer.echo(f"written: {output}")
 
@@ -81,10 +81,10 @@ def init(
         from ehlectric.runtime.files import prepare, refuse_special, whole
 
         if geometry not in _TEMPLATES:
-            raise InputError(f"--geometry: got {shown(geometry)}, takes one of {', '.join(_TEMPLATES)}")
+            raise InputError("--geometry", got=shown(geometry), takes=f"one of {', '.join(_TEMPLATES)}")
         refuse_special(path)
         if path.exists() and not force:
-            raise InputError(f"{path}: is there already, takes a new file or --force")
+            raise InputError(path, "is there already", takes="a new file or --force")
         prepare(path.parent)
         template = resources.files("ehlectric.cases.library") / _TEMPLATES[geometry]
         with whole(path) as beside:

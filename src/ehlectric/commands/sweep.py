@@ -14,7 +14,7 @@ import typer
 
 from ehlectric.commands.tables.sweep import results_table
 from ehlectric.commands.terminal import NOT_CONVERGED, print_table, user_errors, warn
-from ehlectric.errors import InputError, LostError, shown
+from ehlectric.errors import InputError, LostError, ResultWarning, shown
 from ehlectric.version import __version__
 
 if TYPE_CHECKING:
@@ -73,7 +73,7 @@ def sweep(
 
         print_table(results_table(results))
         typer.echo("written: " + ", ".join(str(output / name) for name in FILES if (output / name).exists()))
-        warn(_remarks(results))
+        warn(_warnings(results))
     elif any(point.solved for point in results.points):
         warn(_in_short(results))
     if not any(point.solved for point in results.points):
@@ -86,9 +86,9 @@ def _workers(text: str | None, scheduler: str | None) -> int | None:
     if text is None:
         return None
     if scheduler is not None:
-        raise InputError("--workers: got it beside --scheduler, takes one of the two")
+        raise InputError("--workers", got="it beside --scheduler", takes="one of the two")
     if not text.isdecimal() or not 1 <= int(text) <= _MOST_WORKERS:
-        raise InputError(f"--workers: got {shown(text)}, takes a whole number from 1 to {_MOST_WORKERS}")
+        raise InputError("--workers", got=shown(text), takes=f"a whole number from 1 to {_MOST_WORKERS}")
     return int(text)
 
 
@@ -192,20 +192,23 @@ def _duration(seconds: float) -> str:
     return f"{hours}:{minutes:02}:{rest:02}"
 
 
-def _remarks(results: SweepResults) -> Iterator[str]:
-    """What a user should know of the points that are solved, and of where they come from."""
+def _warnings(results: SweepResults) -> Iterator[ResultWarning]:
+    """Warnings of the solved points, and of points that another version solved."""
     solved = [point for point in results.points if point.solved]
     warned, doubtful = sum(bool(point.warnings) for point in solved), sum(results.doubtful)
     where = "which the column warnings of sweep.csv has"
     if warned:
-        yield f"{warned} of {len(solved)} solved points have warnings, {where}"
+        text = f"{warned} of {len(solved)} solved points have warnings, {where}"
+        yield ResultWarning("points-with-warnings", text)
     if doubtful:
         told = f"{doubtful} of {len(solved)} solved points have a film that is not to be used"
-        yield f"{told}, as their warnings say: maps and lines leave them out"
+        text = f"{told}, as their warnings say: maps and lines leave them out"
+        yield ResultWarning("points-not-usable", text)
     others = Counter(point.version for point in results.points if point.version not in ("", __version__))
     for version, count in others.items():
         kept = f"{count} points were solved by version {version} and are kept"
-        yield f"{kept}; in a new folder {__version__} solves them"
+        text = f"{kept}; in a new folder {__version__} solves them"
+        yield ResultWarning("points-of-another-version", text)
 
 
 def _in_short(results: SweepResults) -> Iterator[str]:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from ehlectric.errors import ConvergenceError, InputError
+from ehlectric.errors import ConvergenceError, InputError, ResultWarning
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -75,7 +75,7 @@ def print_table(table: Table) -> None:
     typer.echo(captured.get(), nl=False)
 
 
-def warn(texts: Iterable[str]) -> None:
+def warn(texts: Iterable[str | ResultWarning]) -> None:
     """Warnings on stderr, a line each."""
     for text in texts:
         typer.echo(f"warning: {text}", err=True)

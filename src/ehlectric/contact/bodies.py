@@ -48,8 +48,10 @@ def check_width(half_width: float, radius: float) -> None:
     """Refuse a dry contact as wide as its bodies, which no half-space or parabola describes."""
     if half_width > 0.5 * radius:
         raise InputError(
-            f"contact: the dry contact would be {half_width:.3g} m wide on each side, more than half of the "
-            f"smallest radius {radius:.3g} m; takes less load, a larger modulus or less conforming bodies"
+            "contact",
+            f"the dry contact would be {half_width:.3g} m wide on each side, more than half of "
+            f"the smallest radius {radius:.3g} m;",
+            takes="less load, a larger modulus or less conforming bodies",
         )
 
 
@@ -58,8 +60,10 @@ def check_pressure(pressure: float, lubricant: Lubricant) -> None:
     least = max(1e4, 10.0 * lubricant.ambient_pressure)
     if pressure < least:
         raise InputError(
-            f"contact: the Hertz pressure would be {pressure:.3g} Pa, takes a load that gives at least "
-            f"{least:.3g} Pa, well above the ambient {lubricant.ambient_pressure:.3g} Pa"
+            "contact",
+            f"the Hertz pressure would be {pressure:.3g} Pa",
+            takes=f"a load that gives at least {least:.3g} Pa, well above the ambient "
+            f"{lubricant.ambient_pressure:.3g} Pa",
         )
     # A permittivity law that fails at the Hertz pressure does so here; one that fails at the pressure spike
     # alone can only do so when the film is there.

@@ -96,7 +96,7 @@ def resolve(case: Case) -> Conditions:
     contact, lubricant = case.contact, case.lubricant
     if contact.geometry != "line":
         raise InputError(
-            f"contact.geometry: got {contact.geometry!r}, takes 'line' for a line contact's conditions"
+            "contact.geometry", got=f"{contact.geometry!r}", takes="'line' for a line contact's conditions"
         )
     radius, curvature_share = _line_radius(contact)
     modulus, compliance_share = modulus_of(contact)
@@ -134,8 +134,9 @@ def _line_radius(contact: Contact) -> tuple[float, float]:
     assert r1 is not None and r2 is not None
     if not 1.0 / r1 + 1.0 / r2 > 0.0:
         raise InputError(
-            f"contact.radius_1: got {r1:g} m with radius_2 {r2:g} m, takes radii with "
-            "1/radius_1 + 1/radius_2 above 0: a concave body must be wider than the other"
+            "contact.radius_1",
+            got=f"{r1:g} m with radius_2 {r2:g} m",
+            takes="radii with 1/radius_1 + 1/radius_2 above 0: a concave body must be wider than the other",
         )
     radius = hertz.reduced_radius(r1, r2)
     return radius, radius / r1
@@ -237,7 +238,7 @@ def resolve_point(case: Case) -> PointConditions:
     contact, lubricant = case.contact, case.lubricant
     if contact.geometry != "point":
         raise InputError(
-            f"contact.geometry: got {contact.geometry!r}, takes 'point' for a point contact's conditions"
+            "contact.geometry", got=f"{contact.geometry!r}", takes="'point' for a point contact's conditions"
         )
     radius_x, radius_y = _point_radius(contact, "radius_x"), _point_radius(contact, "radius_y")
     modulus, compliance_share = modulus_of(contact)
@@ -282,8 +283,10 @@ def _point_radius(contact: Contact, key: str) -> float:
     r1, r2 = (contact.value(f"{body}.{key}") for body in ("body_1", "body_2"))
     if not 1.0 / r1 + 1.0 / r2 > 0.0:
         raise InputError(
-            f"contact.body_1.{key}: got {r1:g} m with {r2:g} m of body_2, takes radii with "
-            "1/radius of body_1 + 1/radius of body_2 above 0: a concave body must be wider than the other"
+            f"contact.body_1.{key}",
+            got=f"{r1:g} m with {r2:g} m of body_2",
+            takes="radii with 1/radius of body_1 + 1/radius of body_2 above 0: a concave body must be "
+            "wider than the other",
         )
     return hertz.reduced_radius(r1, r2)
 
@@ -295,8 +298,8 @@ def _side(case: Case, ratio: float) -> float:
         side = default_side(ratio)
     try:
         case.grid.check_across(side)
-    except ValueError as error:
-        raise InputError(f"grid.{error}") from None
+    except InputError as error:
+        raise error.under("grid") from None
     return side
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.film.newton import NewtonStep
+from ehlectric.film.state import NewtonStep
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -30,6 +30,7 @@ from ehlectric.field.point import PointField
 from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
 from ehlectric.runtime.files import prepare, whole
+from ehlectric.runtime.stored_warnings import of_attributes
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -111,17 +112,17 @@ def load(path: str | Path) -> Result | PointResult:
         path.open("rb").close()
     except OSError as error:
         reason = (error.strerror or str(error)).lower()
-        raise InputError(f"{path}: cannot be read, {reason}") from None
+        raise InputError(path, f"cannot be read, {reason}") from None
     try:
         with warnings.catch_warnings(), xr.open_dataset(path, engine="h5netcdf") as file:
             warnings.simplefilter("ignore")  # of what xarray thinks of files that are refused below
             dataset = file.load()
     except Exception:  # whatever HDF5 and its wrappers raise at damaged files
-        raise InputError(f"{path}: is not a NetCDF file") from None
+        raise InputError(path, "is not a NetCDF file") from None
     try:
         return _result_of(dataset)
     except (InputError, ArithmeticError, AttributeError, LookupError, TypeError, ValueError):
-        raise InputError(f"{path}: is not a result of ehlectric, or damaged") from None
+        raise InputError(path, "is not a result of ehlectric, or damaged") from None
 
 
 def _result_of(dataset: xr.Dataset) -> Result | PointResult:
@@ -160,7 +161,7 @@ def _provenance(dataset: xr.Dataset) -> dict[str, Any]:
         "roughness": roughness_of(dataset),
         "rough": tuple(json.loads(attributes["rough"])),
         "smooth": Smooth(**smooth) if smooth else None,
-        "warnings": tuple(json.loads(attributes["warnings"])),
+        "warnings": of_attributes(attributes),
         "film_solver": str(attributes["film_solver"]),
         "field_solver": str(attributes["field_solver"]),
         "film_seconds": film_seconds,

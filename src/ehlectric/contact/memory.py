@@ -8,6 +8,7 @@ from ehlectric.cases.case import Case
 from ehlectric.cases.grid import Grid
 from ehlectric.cases.motion import Motion
 from ehlectric.errors import MemoryLimitError
+from ehlectric.film.newton import KRYLOV_LIMIT
 from ehlectric.runtime.memory import physical_memory
 
 # Peak memory [bytes], measured up to a million nodes: of the film by node, of the field by column and by the
@@ -20,7 +21,7 @@ FIELD_BYTES = 64
 # is solved for and degree plus one. Measured on 129 x 129 to 1025 x 1025 nodes, halves and wholes, a circle
 # and an ellipse, at degrees 3 to 12: 790 to 950 bytes beside those vectors, and 580 to 660. A fifth is added.
 POINT_FILM_BYTES = 1140
-KRYLOV_VECTORS = 121
+KRYLOV_VECTORS = 2 * KRYLOV_LIMIT + 1
 POINT_FIELD_BYTES = 790
 
 # Bytes of a node of an instant of roughness that moves: six maps in single precision as they are read again,
@@ -60,8 +61,9 @@ def _check_record(motion: Motion, grid: Grid, *, point: bool) -> None:
     available, needed = physical_memory(), RECORD_BYTES * nodes * min(motion.record, steps + 1)
     if needed > available:
         raise MemoryLimitError(
-            f"motion.record: got {motion.record} instants of {nodes} nodes, about {needed / 1e9:.0f} GB; "
-            f"takes at most {int(available / RECORD_BYTES / nodes)} in {available / 1e9:.0f} GB"
+            "motion.record",
+            got=f"{motion.record} instants of {nodes} nodes, about {needed / 1e9:.0f} GB;",
+            takes=f"at most {int(available / RECORD_BYTES / nodes)} in {available / 1e9:.0f} GB",
         )
 
 
@@ -80,9 +82,9 @@ def _refuse_beyond(grid: Grid, needed: tuple[float, float], sizes: tuple[str, st
         of_film = grid.field_nodes is None or film > field
         key, size = ("nodes", sizes[0]) if of_film else ("field_nodes", sizes[1])
         raise MemoryLimitError(
-            f"grid.{key}: got {size} with field_degree {grid.field_degree}, about "
-            f"{(film + field) / 1e9:.0f} GB; takes a grid that fits into the {available / 1e9:.0f} GB of "
-            "this machine"
+            f"grid.{key}",
+            got=f"{size} with field_degree {grid.field_degree}, about {(film + field) / 1e9:.0f} GB;",
+            takes=f"a grid that fits into the {available / 1e9:.0f} GB of this machine",
         )
 
 

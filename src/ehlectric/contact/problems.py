@@ -15,13 +15,14 @@ from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.field.poisson import ATOM, FieldProblem
 from ehlectric.field.poisson_3d import PointFieldProblem
 from ehlectric.film.deflection import Geometry, point_geometry
+from ehlectric.film.flow import Fluid, FluidLaw
 from ehlectric.film.line import Film
 from ehlectric.film.mesh import Width
 from ehlectric.film.point import PointFilm
 from ehlectric.film.problem import FilmProblem, Scales
-from ehlectric.film.reynolds import Fluid, FluidLaw
-from ehlectric.formulas.film_line import Thickness, moes
+from ehlectric.formulas.film_line import CentralThickness, moes
 from ehlectric.formulas.film_point import nijenbanning_venner_moes
+from ehlectric.lubricant.law import PressureLaw
 from ehlectric.surfaces.domain import Domain
 from ehlectric.surfaces.rough_maps import RoughMap
 from ehlectric.surfaces.rough_profiles import RoughSurface
@@ -169,8 +170,8 @@ def point_surfaces(conditions: PointConditions, film: PointFilm, roughness: Arra
     return lower, lower + film.thickness
 
 
-def _dimensionless(law: Callable[[Array], tuple[Array, Array]], scale: float) -> FluidLaw:
-    """A law of the pressure in Pa as one of P = p/scale."""
+def _dimensionless(law: PressureLaw, scale: float) -> FluidLaw:
+    """A law of the pressure in Pa, at the temperature of the case, as one of P = p/scale."""
 
     def of_dimensionless(pressure: Array) -> tuple[Array, Array]:
         value, slope = law(scale * pressure)
@@ -206,10 +207,11 @@ def film_problem(case: Case, conditions: Conditions, rough: Sequence[RoughSurfac
     return replace(smooth, added_gap=_added_gap(conditions, rough) if rough else None)
 
 
-def smooth_problem(case: Case, conditions: Conditions | PointConditions, expected: Thickness) -> FilmProblem:
+def smooth_problem(
+    case: Case, conditions: Conditions | PointConditions, expected: CentralThickness
+) -> FilmProblem:
     """What the film equations of all contacts share, with the central film that a formula expects."""
     grid, guess = case.grid, expected.central_thickness
-    assert guess is not None
     return FilmProblem(
         fluid=fluid_of(case.lubricant, conditions.max_pressure, conditions.velocity_parameter),
         nodes=grid.nodes,

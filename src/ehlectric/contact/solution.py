@@ -16,12 +16,14 @@ from ehlectric.cases.case import Case
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.dataset import Layout, attributes, variables
 from ehlectric.discharge.assessment import Assessment, assess
+from ehlectric.errors import ResultWarning
 from ehlectric.field.line import Field
 from ehlectric.field.point import PointField
 from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
 from ehlectric.formulas.film_line import Thickness
 from ehlectric.runtime.files import plain
+from ehlectric.runtime.stored_warnings import as_attributes, texts_and_codes
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -69,8 +71,8 @@ class Solution(ABC, Generic[_Conditions, _Film, _Field]):
         Where each rough surface came from and its statistics after every step, SI units.
     smooth : Smooth or None
         The contact without its roughness; None where it has none, or was not solved without.
-    warnings : tuple of str
-        What a user should know before using it.
+    warnings : tuple of ResultWarning
+        What is unreliable about it, each with a code and a severity.
     film_solver, field_solver : str
         "ehlectric", or "paper" where the paper's own methods solved it.
     film_seconds, field_seconds : float
@@ -86,7 +88,7 @@ class Solution(ABC, Generic[_Conditions, _Film, _Field]):
     rough: tuple[dict[str, Any], ...]
     smooth: Smooth | None
     field: _Field
-    warnings: tuple[str, ...]
+    warnings: tuple[ResultWarning, ...]
     film_solver: str
     field_solver: str
     film_seconds: float
@@ -168,7 +170,7 @@ class Solution(ABC, Generic[_Conditions, _Film, _Field]):
             "title": self.case.title,
             "converged": self.converged,
             "status": film.status,
-            "warnings": list(self.warnings),
+            **texts_and_codes(self.warnings),
             "inputs": self._inputs(),
             "groups": {"moes_m": formulas.moes_m, "moes_l": formulas.moes_l},
             "hertz": self._hertz(),
@@ -229,7 +231,7 @@ class Solution(ABC, Generic[_Conditions, _Film, _Field]):
                     "converged": int(self.converged),
                     "case": self.case.to_toml(),
                     "summary": json.dumps(self.summary()),
-                    "warnings": json.dumps(self.warnings),
+                    **as_attributes(self.warnings),
                     "rough": json.dumps(plain(self.rough)),
                     "film_solver": self.film_solver,
                     "field_solver": self.field_solver,

@@ -13,8 +13,8 @@ from scipy.interpolate import RegularGridInterpolator
 
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
+from ehlectric.contact.case_warnings import line_case_warnings, point_case_warnings
 from ehlectric.contact.conditions import resolve, resolve_point
-from ehlectric.contact.findings import field_findings, film_findings, line_findings, point_findings
 from ehlectric.contact.memory import check_memory
 from ehlectric.contact.problems import (
     domain_of,
@@ -27,22 +27,25 @@ from ehlectric.contact.problems import (
     spacing,
     spacings,
 )
-from ehlectric.contact.remarks import line_remarks as remarks
-from ehlectric.contact.remarks import point_remarks
+from ehlectric.contact.result_warnings import (
+    field_warnings,
+    film_warnings,
+    line_result_warnings,
+    point_result_warnings,
+)
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.contact.solution import Smooth
-from ehlectric.discharge.assessment import discharge_findings
-from ehlectric.errors import ConvergenceError, InputError
+from ehlectric.discharge.assessment import discharge_warnings
+from ehlectric.errors import ConvergenceError, InputError, ResultWarning
 from ehlectric.field.line import Field, solve_field
 from ehlectric.field.point import solve_point_field
 from ehlectric.field.poisson import FieldProblem
 from ehlectric.film.line import Film, solve_film
-from ehlectric.film.newton import Progress
 from ehlectric.film.point import PointFilm, solve_point_film
-from ehlectric.surfaces.remarks import map_surface_remarks as map_remarks
-from ehlectric.surfaces.remarks import profile_surface_remarks as rough_remarks
+from ehlectric.film.state import Progress
 from ehlectric.surfaces.rough_maps import rough_maps
 from ehlectric.surfaces.rough_profiles import rough_surfaces
+from ehlectric.surfaces.warnings import map_surface_warnings, profile_surface_warnings
 from ehlectric.version import __version__
 
 _Film = TypeVar("_Film", Film, PointFilm)
@@ -116,7 +119,7 @@ def solve(
     solvers.check(case)
     if case.motion is not None:
         raise InputError(
-            "motion: got it where a film at rest is solved; takes run_motion, or a case without it"
+            "motion", got="it where a film at rest is solved;", takes="run_motion, or a case without it"
         )
     if case.contact.geometry == "point":
         return _solve_point(case, progress, demand=require_convergence, beside_smooth=beside_smooth)
@@ -162,13 +165,13 @@ def solve_line(
         smooth=_smooth(on_grid, (field.x,), solvers) if rough and beside_smooth else None,
         field=field,
         warnings=(
-            *remarks(case, conditions),
-            *rough_remarks(case.roughness, rough, domain, spacing(on_grid, conditions)),
-            *refined.remarks,
-            *film_findings(case, film),
-            *line_findings(case, film, field),
-            *discharge_findings(case.discharge, film),
-            *field_findings(field.max_strength),
+            *line_case_warnings(case, conditions),
+            *profile_surface_warnings(case.roughness, rough, domain, spacing(on_grid, conditions)),
+            *refined.warnings,
+            *film_warnings(case, film),
+            *line_result_warnings(case, film, field),
+            *discharge_warnings(case.discharge, film),
+            *field_warnings(field.max_strength),
         ),
         film_solver=solvers.name,
         field_solver=of_field.name,
@@ -201,13 +204,13 @@ def _solve_point(case: Case, progress: Progress | None, *, demand: bool, beside_
         smooth=_smooth(on_grid, (field.x, field.y), OWN) if rough and beside_smooth else None,
         field=field,
         warnings=(
-            *point_remarks(case, conditions),
-            *map_remarks(case.roughness, rough, domain, *spacings(on_grid, conditions)),
-            *refined.remarks,
-            *film_findings(case, film),
-            *point_findings(case, film, field),
-            *discharge_findings(case.discharge, film),
-            *field_findings(field.max_strength),
+            *point_case_warnings(case, conditions),
+            *map_surface_warnings(case.roughness, rough, domain, *spacings(on_grid, conditions)),
+            *refined.warnings,
+            *film_warnings(case, film),
+            *point_result_warnings(case, film, field),
+            *discharge_warnings(case.discharge, film),
+            *field_warnings(field.max_strength),
         ),
         film_solver=OWN.name,
         field_solver=OWN.name,
@@ -227,18 +230,18 @@ def _provenance(film_seconds: float, field_started: float) -> dict[str, Any]:
 
 @dataclass(frozen=True)
 class _Refined(Generic[_Film]):
-    """A film, the case with the grid it was solved on, the time it took [s], and what is to be said of it."""
+    """A film, the case with the grid it was solved on, the time it took [s], and its warnings."""
 
     film: _Film
     case: Case
     seconds: float
-    remarks: tuple[str, ...]
+    warnings: tuple[ResultWarning, ...]
 
 
 def _refined(case: Case, solved: Callable[[Case], _Film], *, demand: bool) -> _Refined[_Film]:
     """The film on the grid of the case, or on the first of twice as many intervals that is fine enough."""
     started, target = time.perf_counter(), case.grid.refine
-    remarks: tuple[str, ...] = ()
+    warnings: tuple[ResultWarning, ...] = ()
     grid = case if target is None else case.replace({"grid.refine": None})
     errors: list[float | None] = []
     film = solved(grid)
@@ -246,23 +249,24 @@ def _refined(case: Case, solved: Callable[[Case], _Film], *, demand: bool) -> _R
         errors.append(film.discretisation_error)
         if len(errors) >= _UNKNOWN and not any(errors[-_UNKNOWN:]):
             unknown = f"nothing is known of its error on {_UNKNOWN} grids in succession"
-            remarks = (f"{_not_reached(target, grid)}; {unknown}",)
+            warnings = (_not_reached(target, grid, unknown),)
             break
         try:
             finer = _doubled(grid)
             check_memory(finer)
         except InputError as error:
-            remarks = (f"{_not_reached(target, grid)}; {error}",)
+            warnings = (_not_reached(target, grid, str(error)),)
             break
         grid = finer
         film = solved(grid)
     if demand and not film.converged:
         raise ConvergenceError(f"film {film.status} at the residual {film.residual:.1e}")
-    return _Refined(film, grid, time.perf_counter() - started, remarks)
+    return _Refined(film, grid, time.perf_counter() - started, warnings)
 
 
-def _not_reached(target: float, case: Case) -> str:
-    return f"grid.refine: {100 * target:g} % was not reached with {case.grid.nodes} nodes"
+def _not_reached(target: float, case: Case, reason: str) -> ResultWarning:
+    text = f"grid.refine: {100 * target:g} % was not reached with {case.grid.nodes} nodes; {reason}"
+    return ResultWarning("refine-not-reached", text)
 
 
 def _doubled(case: Case) -> Case:

@@ -18,12 +18,12 @@ from ehlectric.film.line import Film
 
 
 @dataclass(frozen=True)
-class Stress:
-    """Field strength of a contact beside what its film withstands.
+class FieldUtilisation:
+    """Field strength of a contact beside the dielectric strength of its film.
 
     Attributes
     ----------
-    strength, withstood : ndarray, shape (nx,) or (nx, ny)
+    strength, dielectric_strength : ndarray, shape (nx,) or (nx, ny)
         Largest field strength of each column of the solved field, and the dielectric strength there [V/m]; 1
         V/m where the case gives none, or a Weibull law.
     position : tuple of float
@@ -31,29 +31,29 @@ class Stress:
     extent : float
         Width [m], or of a point contact area [m^2], of the zone around it where it is used to 95 % of that or
         more.
-    whole, areas : ndarray, shape (n,)
+    over_domain, areas : ndarray, shape (n,)
         Field strength over the whole domain of the film, that of a thin gap where no field was solved [V/m],
         and the area of each part [m^2]; of a line contact the width [m].
     """
 
     strength: Array
-    withstood: Array
+    dielectric_strength: Array
     position: tuple[float, ...]
     extent: float
-    whole: Array
+    over_domain: Array
     areas: Array
 
     @property
-    def withstood_there(self) -> float:
+    def dielectric_strength_there(self) -> float:
         """Dielectric strength where it is used most [V/m]."""
-        return float(self.withstood.flat[np.argmax(self.strength / self.withstood)])
+        return float(self.dielectric_strength.flat[np.argmax(self.strength / self.dielectric_strength)])
 
     @classmethod
-    def of(cls, given: Discharge, film: Film, field: Field | PointField) -> Stress:
-        """The stress of a solved contact."""
+    def of(cls, given: Discharge, film: Film, field: Field | PointField) -> FieldUtilisation:
+        """Utilisation of the strength in a solved contact."""
         strength, columns = field.column_strength, axes_of(field)
-        withstood = dielectric_strength(given, at_columns(film, field, film.pressure))
-        used = strength / withstood
+        limit = dielectric_strength(given, at_columns(film, field, film.pressure))
+        used = strength / limit
         level = BREAKING * float(np.max(used))
         if isinstance(field, PointField):
             extent = lobe_above(field.x, field.y, used, level)
@@ -65,10 +65,10 @@ class Stress:
         around = areas(axes_of(film)) - areas(axes_of(film), columns)
         return cls(
             strength=strength,
-            withstood=withstood,
+            dielectric_strength=limit,
             position=tuple(float(axis[k]) for axis, k in zip(columns, place, strict=True)),
             extent=extent,
-            whole=np.concatenate([strength.ravel(), thin.ravel()]),
+            over_domain=np.concatenate([strength.ravel(), thin.ravel()]),
             areas=np.concatenate([areas(columns).ravel(), around.ravel()]),
         )
 

@@ -132,7 +132,7 @@ class PointField(GapField):
             Where y does not start at 0.
         """
         if self.y[0] != 0.0:
-            raise InputError(f"y: got a field from {self.y[0]:g} m on; takes one that starts at y = 0")
+            raise InputError("y", got=f"a field from {self.y[0]:g} m on;", takes="one that starts at y = 0")
 
         def both(values: Array, sign: float = 1.0) -> Array:
             return np.concatenate([sign * values[:, :0:-1], values], axis=1)
@@ -197,7 +197,7 @@ def solve_point_field(problem: PointFieldProblem) -> PointField:
     8.854188
     """
     if min(problem.lower.shape) < 3:
-        raise InputError(f"x, y: got {problem.lower.shape} columns; takes at least 3 either way")
+        raise InputError("x, y", got=f"{problem.lower.shape} columns;", takes="at least 3 either way")
     voltage = problem.potential_2 - problem.potential_1
     with one_blas_thread():
         solver = PotentialSolver(problem)

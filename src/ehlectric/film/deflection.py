@@ -18,7 +18,7 @@ from ehlectric.formulas.hertz_line import line_pressure
 
 
 def line_influence(nodes: int, dx: float) -> Array:
-    """Gap opened at distance k dX by a unit pressure on one cell of a line contact.
+    """Influence coefficients of a line contact: gap opened at a distance k dX by a unit pressure on one cell.
 
     Parameters
     ----------
@@ -51,12 +51,12 @@ def line_influence(nodes: int, dx: float) -> Array:
 
 
 def point_influence(nodes: tuple[int, int], dx: float, dy: float) -> Array:
-    """Displacement at a distance (k dX, l dY) by a unit pressure on one cell of a point contact.
+    """Influence coefficients of a point contact: displacement at (k dX, l dY) by a unit pressure on one cell.
 
     Parameters
     ----------
     nodes : tuple of int
-        Distances along x and y that are asked for, from 0 on.
+        Number of distances along x and y, from 0 on.
     dx, dy : float
         Grid spacings, dimensionless.
 
@@ -73,7 +73,7 @@ def point_influence(nodes: tuple[int, int], dx: float, dy: float) -> Array:
 
     Examples
     --------
-    Far away the cell is a point:
+    Far away the cell acts as a point:
 
     >>> float(round(point_influence((101, 1), 0.5, 0.5)[100, 0] * 50.0 / 0.25, 4))
     1.0
@@ -87,12 +87,12 @@ def point_influence(nodes: tuple[int, int], dx: float, dy: float) -> Array:
 
 @dataclass(frozen=True)
 class Geometry:
-    """What tells one kind of contact from another in the film equations.
+    """Kind of contact in the film equations: deflection kernel, dry gap and load.
 
     Attributes
     ----------
     influence : callable
-        Influence coefficients of the deflection: distances along x and y, dX and dY -> (nx, ny).
+        Influence coefficients of the deflection: (number of distances along x and y), dX, dY -> (nx, ny).
     dry_gap : callable
         Gap of the undeformed bodies that just touch: X (nx,), Y (ny,) -> H (nx, ny).
     dry_pressure : callable
@@ -156,7 +156,18 @@ def point_geometry(*, radius_ratio: float, ellipse_ratio: float, compliance: flo
 
 @dataclass(frozen=True)
 class Deflection:
-    """The deflection operator of one grid: call it with a pressure (nx, ny).
+    """Elastic deflection operator of one grid; call it with a pressure (nx, ny).
+
+    Attributes
+    ----------
+    influence : ndarray, shape (nx, lines)
+        Influence coefficients for non-negative distances.
+    spectrum : ndarray
+        Their discrete Fourier transform, real as they are even.
+    padded : tuple of int
+        Zero-padded shape of the transform.
+    symmetric : bool
+        Whether the grid is the half y >= 0 of a symmetric contact.
 
     Examples
     --------
@@ -186,9 +197,10 @@ class Deflection:
 
     @classmethod
     def from_influence(cls, influence: Array, *, symmetric: bool = False) -> Deflection:
-        """Operator of influence coefficients given for non-negative distances, shape (nx, ny).
+        """Operator with influence coefficients for non-negative distances, shape (nx, ny).
 
-        On the half y >= 0 of a symmetric contact they reach to the mirror image, shape (nx, 2 ny - 1).
+        On the half y >= 0 of a symmetric contact they include the distances to the mirror image, shape
+        (nx, 2 ny - 1).
         """
         nx, lines = influence.shape
         mx = fft.next_fast_len(2 * nx - 1, real=True)
@@ -205,7 +217,7 @@ class Deflection:
         return cls(influence, spectrum, (mx, wrapped.shape[1]), symmetric)
 
     def matrix(self) -> Array:
-        """The dense operator on the nodes in order, shape (nx ny, nx ny)."""
+        """Return the operator as a dense matrix on the nodes in order, shape (nx ny, nx ny)."""
         nx, lines = self.influence.shape
         ny = (lines + 1) // 2 if self.symmetric else lines
         x, y = np.divmod(np.arange(nx * ny), ny)
@@ -216,7 +228,7 @@ class Deflection:
         return matrix
 
     def __call__(self, pressure: Array) -> Array:
-        """Gap opened by ``pressure``, dimensionless, shape (nx, ny)."""
+        """Gap opened by ``pressure`` (nx, ny), dimensionless, shape (nx, ny)."""
         nx, ny = pressure.shape
         mx, my = self.padded
         product = _transform(pressure, self.padded, symmetric=self.symmetric)
@@ -230,7 +242,7 @@ class Deflection:
 
 
 def _transform(values: Array, padded: tuple[int, int], *, symmetric: bool) -> ComplexArray:
-    """Zero-padded transform, real along x; along y only where there is a y."""
+    """Zero-padded Fourier transform, real along x; along y only for a point contact."""
     mx, my = padded
     if symmetric:
         values = fft.dct(values, 1, my, axis=1)

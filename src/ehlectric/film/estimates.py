@@ -6,10 +6,10 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.film.deflection import Geometry
+from ehlectric.film.flow import Fluid
 from ehlectric.film.mesh import Mesh, at_centre
-from ehlectric.film.newton import GridSolution
 from ehlectric.film.problem import FilmProblem
-from ehlectric.film.reynolds import Fluid
+from ehlectric.film.state import GridSolution
 
 # Least observed order of the minimum film, of a scheme of second order.
 MINIMUM_ORDER = 1.25

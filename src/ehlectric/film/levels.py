@@ -1,4 +1,4 @@
-"""Grids of a film from the finest to the coarsest, each with its operators and its transfers to the next."""
+"""Hierarchy of grids for the film, each with its operators and its transfers to the next finer grid."""
 
 from __future__ import annotations
 
@@ -15,18 +15,28 @@ from ehlectric.film.deflection import Deflection, Geometry
 from ehlectric.film.mesh import Mesh, Width
 from ehlectric.film.reynolds import Stencil, wedge_stencil
 
-# The hierarchy ends at the first grid of at most this many nodes, of line and of point contacts: the dense
+# The hierarchy ends at the first grid of at most this many nodes, for line and for point contacts: the dense
 # solve there costs less than one more grid.
 COARSEST = 101
 COARSEST_POINT = 600
 
-# Distance of neighbours along entrainment over that across above which the next coarser grid has fewer lines
-# alone.
+# Ratio dX/dY of the grid spacings above which the next coarser grid has fewer nodes across entrainment only.
 NEARER = 1.5
 
 
 def interpolation(coarse: int, fine: int) -> sparse.csr_array:
-    """Linear interpolation between two uniform grids over one interval, shape (fine, coarse)."""
+    """Linear interpolation between two uniform grids over one interval.
+
+    Parameters
+    ----------
+    coarse, fine : int
+        Nodes of the grid to interpolate from, and of the grid to interpolate to.
+
+    Returns
+    -------
+    sparse array, shape (fine, coarse)
+        Its rows sum to one.
+    """
     numerator = np.arange(fine) * (coarse - 1)
     left = np.minimum(numerator // (fine - 1), coarse - 2)
     weight = numerator / (fine - 1) - left
@@ -47,19 +57,19 @@ class Transfer:
 
     @classmethod
     def between(cls, coarse: Mesh, fine: Mesh) -> Transfer:
-        """From a coarse mesh to a fine one, or back, over one domain."""
+        """Interpolation from a coarse mesh to a fine one over one domain, or back."""
         across = None if coarse.y.size == 1 else interpolation(coarse.y.size, fine.y.size)
         return cls(interpolation(coarse.x.size, fine.x.size), across)
 
     def averaging(self, coarse: Mesh, fine: Mesh) -> Transfer:
-        """Full weighting from the fine mesh to the coarse one: the adjoint of this under their integrals."""
+        """Full weighting from the fine mesh to the coarse one: the adjoint in the integral inner products."""
         across = None
         if self.across is not None:
             across = _adjoint(self.across, coarse.weights_across, fine.weights_across)
         return Transfer(_adjoint(self.along, coarse.weights_along, fine.weights_along), across)
 
     def __call__(self, values: Array) -> Array:
-        """Values (nx, ny) on the other mesh."""
+        """Interpolate values (nx, ny) to the other mesh."""
         moved: Array = self.along @ values
         return moved if self.across is None else (self.across @ moved.T).T
 
@@ -68,10 +78,11 @@ def _adjoint(matrix: sparse.csr_array, coarse: Array, fine: Array) -> sparse.csr
     return sparse.csr_array(matrix.T.multiply(fine).multiply(1.0 / coarse[:, np.newaxis]))
 
 
-# What a distributed unknown adds to the pressures of its line: (offset, part) of its own node and of others.
-# A steady film is opened by the first difference of the deflection, which acts like 1/(i - j - 1/2): on
-# dipoles it acts like 1/(i - j)^2 and is diagonally dominant. In time it is the deflection itself that acts,
-# like a logarithm, and second differences do to that what dipoles do to its difference.
+# How an unknown of the line relaxation is distributed over the pressures of its line: (offset, part) of its
+# own node and of others. The wedge term of a stationary film contains the first difference of the deflection,
+# whose kernel decays as 1/(i - j - 1/2). With dipoles as unknowns it decays as 1/(i - j)^2 and is diagonally
+# dominant. The wedge term of a transient film contains the deflection itself, whose kernel is a logarithm;
+# second differences have the same effect on it.
 Distribution: TypeAlias = tuple[tuple[int, float], ...]
 DIPOLE: Distribution = ((0, 1.0), (-1, -1.0))
 SECOND_DIFFERENCE: Distribution = ((0, 1.0), (-1, -0.5), (1, -0.5))
@@ -79,24 +90,46 @@ SECOND_DIFFERENCE: Distribution = ((0, 1.0), (-1, -0.5), (1, -0.5))
 
 @dataclass(frozen=True)
 class Level:
-    """One grid: nodes, quadrature weights, operators, and the transfers to and from the next finer.
+    """One grid of the hierarchy, with its operators and its transfers.
 
-    The finest grid has no finer one, and no transfers. ``wedge`` acts on the mass rho H: upstream along x, or
-    in time on the mass at the node itself; ``rate`` is about its coefficient, and ``distribution`` what suits
-    it.
+    Attributes
+    ----------
+    mesh : Mesh
+        Nodes.
+    weights : ndarray, shape (nx, ny)
+        Trapezoidal weights of the integral over the contact.
+    deflection : Deflection
+        Elastic deflection of a pressure.
+    dry_gap : ndarray, shape (nx, ny)
+        Gap of the undeformed surfaces, roughness included.
+    load : float
+        Load of the contact, the integral of P.
+    wedge : Stencil
+        Operator of the wedge term on the mass rho H: the upstream difference along x or, for a transient
+        film, a multiple of the mass at the node itself.
+    rate : float
+        Size of the coefficient of the wedge term: 1/dX, or about 1/dT for a transient film.
+    source : ndarray, shape (nx, ny)
+        Right side of the Reynolds equation, zero on the edges.
+    to_finer, from_finer : Transfer or None
+        Interpolation to and from the next finer grid; None for the finest.
+    averaged : Transfer or None
+        Full weighting of residuals of the next finer grid; None for the finest and for line contacts.
+    distribution : tuple of (int, float)
+        How an unknown of the line relaxation is distributed over the nodes of its line.
     """
 
     mesh: Mesh
-    weights: Array  # (nx, ny), trapezoidal
+    weights: Array
     deflection: Deflection
-    dry_gap: Array  # (nx, ny)
+    dry_gap: Array
     load: float
     wedge: Stencil
-    rate: float  # 1/dX, or in time 1/dT
-    source: Array  # (nx, ny), right side of the Reynolds equation, zero on the edges
+    rate: float
+    source: Array
     to_finer: Transfer | None
     from_finer: Transfer | None
-    averaged: Transfer | None  # of residuals, from the next finer
+    averaged: Transfer | None
     distribution: Distribution = DIPOLE
 
     @property
@@ -105,21 +138,21 @@ class Level:
         return self.mesh.x.size
 
     def inject(self, values: Array) -> Array:
-        """Values of the next finer grid at the nodes of this one."""
+        """Interpolate values of the next finer grid to the nodes of this one."""
         assert self.from_finer is not None
         return self.from_finer(values)
 
     def prolong(self, values: Array) -> Array:
-        """Values of this grid, linearly interpolated to the next finer one."""
+        """Interpolate values of this grid linearly to the next finer one."""
         assert self.to_finer is not None
         return self.to_finer(values)
 
     def restrict(self, residual: Array) -> Array:
-        """A residual of the next finer grid on this one.
+        """Transfer a residual of the next finer grid to this one.
 
-        That of a line contact is injected: beside the pressure spike neighbouring rows differ by orders of
-        magnitude, and an average hands the small ones the error of the large. In a point contact neighbouring
-        lines hardly feel each other in the Hertz zone, and what differs between them must be averaged out.
+        In a line contact it is injected: beside the pressure spike neighbouring rows differ by orders of
+        magnitude, and an average would add the errors of large rows to small ones. In a point contact it is
+        averaged: neighbouring lines are hardly coupled in the Hertz zone, so that their residuals may differ.
         """
         if self.averaged is None:
             return self.inject(residual)
@@ -127,7 +160,7 @@ class Level:
 
     @cached_property
     def deflection_matrix(self) -> Array:
-        """The dense deflection operator, for the coarsest grid alone."""
+        """Dense matrix of the deflection, (nx ny, nx ny); for the coarsest grid only."""
         return self.deflection.matrix()
 
 
@@ -141,10 +174,32 @@ def hierarchy(
     width: Width | None = None,
     source: Callable[[Array, Array], Array] | None = None,
 ) -> list[Level]:
-    """Grids from the finest to the coarsest, each with half the intervals of the one before.
+    """Grids of a contact from the finest to the coarsest, each with half the intervals of the one before.
 
-    An odd number of intervals is halved upwards; such grids share only their end nodes, and the
-    transfers interpolate. There are always two grids at least.
+    Parameters
+    ----------
+    nodes : int
+        Nodes along x of the finest grid.
+    inlet, outlet : float
+        Ends of the domain along x in half-widths.
+    geometry : Geometry
+        Deflection kernel, dry gap and load of the contact.
+    second_order : bool
+        Whether the wedge term is of second order, else of first.
+    width : Width, optional
+        Domain across entrainment, for a point contact.
+    source : callable, optional
+        Right side of the Reynolds equation, X (nx,), Y (ny,) -> (nx, ny); zero by default.
+
+    Returns
+    -------
+    list of Level
+        Two grids at least.
+
+    Notes
+    -----
+    An odd number of intervals is halved upwards. Such grids share only their end nodes, and the transfers
+    interpolate between the others.
     """
     meshes = _meshes(nodes, inlet, outlet, width)
     levels = []
@@ -172,11 +227,12 @@ def hierarchy(
 
 
 def _meshes(nodes: int, inlet: float, outlet: float, width: Width | None) -> list[Mesh]:
+    """Meshes of the hierarchy, from the finest to the coarsest."""
     meshes = [Mesh.over(nodes, inlet, outlet, width)]
     coarsest = COARSEST if width is None else COARSEST_POINT
     while meshes[-1].weights.size > coarsest or len(meshes) < 2:
         mesh = meshes[-1]
-        # Relaxed along x alone, nodes much nearer to each other across come first.
+        # Lines are relaxed along x only: where nodes are much closer across, only that axis is coarsened.
         if mesh.dy is None or mesh.dx <= NEARER * mesh.dy:
             nodes = nodes // 2 + 1
         if width is not None:

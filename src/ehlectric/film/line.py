@@ -14,8 +14,8 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.film.estimates import discretisation_error, inlet_deficit
 from ehlectric.film.mesh import Mesh, at_centre
 from ehlectric.film.nested import nested_iteration
-from ehlectric.film.newton import GridSolution, NewtonStep, Progress, State, Status
 from ehlectric.film.problem import FilmProblem, Scales
+from ehlectric.film.state import GridSolution, NewtonStep, Progress, State, Status
 from ehlectric.runtime.threads import one_blas_thread
 
 # Part of the central film below which a gap that was not solved for is no film.
@@ -141,7 +141,7 @@ def solve_film(problem: FilmProblem, *, progress: Progress | None = None) -> Fil
     Examples
     --------
     >>> import numpy as np
-    >>> from ehlectric.film.reynolds import Fluid
+    >>> from ehlectric.film.flow import Fluid
     >>> incompressible = lambda p: (np.ones_like(p), np.zeros_like(p))
     >>> isoviscous = lambda p: (np.zeros_like(p), np.zeros_like(p))
     >>> fluid = Fluid(incompressible, isoviscous, velocity_parameter=0.01, ambient_pressure=0.0)
@@ -177,11 +177,11 @@ def found(
     mass = final.coefficients.density * state.thickness
     return {
         "x": scales.length * level.mesh.x,
-        "pressure": shaped(pressure_of(scales, state, final.free)),
+        "pressure": shaped(pressure_of(scales, state, final.full_film)),
         "thickness": shaped(scales.thickness * state.thickness),
         "deflection": shaped(scales.thickness * level.deflection(state.pressure)),
         "density": shaped(final.coefficients.density),
-        "cavitated": shaped(~final.free),
+        "cavitated": shaped(~final.full_film),
         "reynolds_residual": shaped(final.scaled),
         "scales": scales,
         "status": film_status(finest.status, level.mesh, state.thickness),

@@ -1,4 +1,4 @@
-"""Uniform grids of a contact: nodes along and across entrainment, and weights of their integrals."""
+"""Uniform grids of a contact: nodes along and across entrainment, and weights of integrals."""
 
 from __future__ import annotations
 
@@ -14,10 +14,17 @@ from ehlectric.arrays import Array, Mask
 
 @dataclass(frozen=True)
 class Width:
-    """The domain across entrainment, abs(Y) <= ``side``, of a contact that has an end there.
+    """Domain of a point contact across entrainment, abs(Y) <= ``side``.
 
-    ``nodes`` are those from side to side. A symmetric contact with an odd number of them is solved for
-    Y >= 0 alone.
+    Attributes
+    ----------
+    nodes : int
+        Nodes from side to side.
+    side : float
+        Largest Y, in semi-axes along entrainment.
+    symmetric : bool
+        Whether the contact is symmetric about Y = 0. With an odd number of nodes it is then solved for Y >= 0
+        only.
     """
 
     nodes: int
@@ -26,33 +33,33 @@ class Width:
 
     @property
     def halved(self) -> bool:
-        """Whether Y >= 0 alone is solved for."""
+        """Whether the contact is solved for Y >= 0 only."""
         return self.symmetric and self.nodes % 2 == 1
 
     @property
     def y(self) -> Array:
-        """Nodes that are solved for: from 0 or from -side to side, shape (ny,)."""
+        """Positions Y of the nodes that are solved for, from 0 or from -side to side, shape (ny,)."""
         if self.halved:
             return np.linspace(0.0, self.side, self.nodes // 2 + 1)
         return np.linspace(-self.side, self.side, self.nodes)
 
     def coarser(self) -> Width:
-        """The same domain with half the intervals, and as much of it solved for."""
+        """Return the domain with half the intervals, solved for the same range of Y."""
         nodes = 2 * (self.y.size // 2) + 1 if self.halved else self.nodes // 2 + 1
-        # Of an even number of nodes the whole domain is solved for, on every grid.
+        # With an even number of nodes the whole domain is solved for, on every grid.
         return replace(self, nodes=nodes, symmetric=self.halved)
 
 
 @dataclass(frozen=True)
 class Mesh:
-    """Nodes of a contact, dimensionless.
+    """Uniform grid of a contact, dimensionless.
 
     Attributes
     ----------
     x, y : ndarray, shapes (nx,), (ny,)
-        Positions along and across entrainment, equidistant. A line contact has the one line y = 0.
+        Positions along and across entrainment, equidistant. A line contact has one line, y = 0.
     symmetric : bool
-        The lines y < 0 are the mirror image of those beyond y[0] = 0, and left out.
+        Whether the lines y < 0, the mirror image of the lines y > 0, are left out.
     """
 
     x: Array
@@ -61,7 +68,7 @@ class Mesh:
 
     @classmethod
     def over(cls, nodes: int, inlet: float, outlet: float, width: Width | None = None) -> Mesh:
-        """The mesh of a domain with so many nodes along entrainment; without a width, of a line contact."""
+        """Mesh from ``inlet`` to ``outlet``; that of a line contact where ``width`` is None."""
         x = np.linspace(inlet, outlet, nodes)
         y = np.zeros(1) if width is None else width.y
         return cls(x, y, symmetric=width is not None and width.halved)
@@ -90,7 +97,10 @@ class Mesh:
 
     @property
     def weights_across(self) -> Array:
-        """Those of the integral over y, of both halves of a symmetric contact; one for a line contact."""
+        """Trapezoidal weights of the integral over y, shape (ny,).
+
+        They count both halves of a symmetric contact. A line contact has the weight one.
+        """
         if self.dy is None:
             return np.ones(1)
         weights = np.full(self.y.size, 2.0 * self.dy if self.symmetric else self.dy)
@@ -104,7 +114,7 @@ class Mesh:
 
     @cached_property
     def inner(self) -> Mask:
-        """Nodes that are on no edge of the domain, shape (nx, ny); a line of symmetry is no edge."""
+        """Mask of the nodes on no edge of the domain, shape (nx, ny); a line of symmetry is no edge."""
         inner = np.ones(self.shape, dtype=bool)
         inner[[0, -1]] = False
         if self.y.size > 1:
@@ -113,16 +123,29 @@ class Mesh:
         return inner
 
     def mirrored(self, values: NDArray[Any]) -> NDArray[Any]:
-        """Values (nx, ny) on the whole domain, the part that symmetry leaves out added."""
+        """Complete values (nx, ny) by their mirror image where the mesh covers y >= 0 only."""
         return np.concatenate([values[:, :0:-1], values], axis=1) if self.symmetric else values
 
     @property
     def whole_y(self) -> Array:
-        """Positions across entrainment of ``mirrored`` values."""
+        """Positions across entrainment of the values that ``mirrored`` returns."""
         return np.concatenate([-self.y[:0:-1], self.y]) if self.symmetric else self.y
 
 
 def at_centre(mesh: Mesh, values: Array) -> float:
-    """Value at X = Y = 0 of nodal values (nx, ny), by linear interpolation."""
+    """Value at the centre of the contact, X = Y = 0, by linear interpolation of nodal values.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Grid.
+    values : ndarray, shape (nx, ny)
+        Nodal values.
+
+    Returns
+    -------
+    float
+        In the unit of ``values``.
+    """
     line = np.array([np.interp(0.0, mesh.y, row) for row in values])
     return float(np.interp(0.0, mesh.x, line))

@@ -1,7 +1,7 @@
-"""Nested iteration for the film: every grid starts from the solution on the next coarser.
+"""Nested iteration for the film: the initial guess on every grid is the solution on the next coarser.
 
-Where a grid is not solved so, it starts from the Hertz pressure; where the film is of the order of its
-roughness, the roughness is raised in steps.
+Where this does not converge, the initial guess is the Hertz pressure. Where the film is as thin as its
+roughness, the roughness is raised from zero in steps (continuation).
 """
 
 from __future__ import annotations
@@ -14,35 +14,52 @@ from scipy.interpolate import PchipInterpolator
 
 from ehlectric.film.levels import Level, hierarchy
 from ehlectric.film.mesh import Mesh, at_centre
-from ehlectric.film.newton import GridSolution, Progress, State, newton
+from ehlectric.film.newton import newton
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.reynolds import wedge_stencil
+from ehlectric.film.state import GridSolution, Progress, State
 
-# The coarser grids are solved to this residual, far below their discretisation error.
+# Residual of the solutions on coarser grids, far below their discretisation error.
 NESTED_TOLERANCE = 1e-6
 
 # The nested iteration starts from the Hertz pressure on the coarsest grid of at least this many nodes:
 # a quarter of them do not resolve a thin film.
 FIRST_GRID = 201
-FIRST_GRID_POINT = 33
+_FIRST_GRID_POINT = 33
 
-# Parts of the roughness it is raised by, first and least, and the residual on the way.
-FIRST_RISE = 0.2
-LEAST_RISE = 0.01
-RISE_TOLERANCE = 1e-3
+# Continuation in roughness height: first and smallest increment as parts of the height, and the tolerance of
+# the films in between.
+_FIRST_RISE = 0.2
+_LEAST_RISE = 0.01
+_RISE_TOLERANCE = 1e-3
 
 
 def nested_iteration(problem: FilmProblem, progress: Progress | None) -> list[GridSolution]:
-    """Solutions from the coarsest grid used to the finest, which is the last.
+    """Solve the film on a sequence of grids, from coarse to fine.
 
-    Where a grid is not solved, it and the next finer one start from the Hertz pressure.
+    Parameters
+    ----------
+    problem : FilmProblem
+        Contact, dimensionless.
+    progress : callable or None
+        Called with (nodes, Newton step, residual) before every Newton step.
+
+    Returns
+    -------
+    list of GridSolution
+        All solutions in the order in which they were computed. The last is that of ``problem`` on its own
+        grid, with its status; nothing is raised where it did not converge.
+
+    Notes
+    -----
+    A grid whose solution does not converge starts again from the Hertz pressure, and so does the next finer.
     """
     solutions: list[GridSolution] = []
     for levels in reversed(_grids(problem)):
         best = None
         if solutions and solutions[-1].status == "converged":
             best = _from_coarser(problem, levels, solutions[-1], progress)
-        # What is nearly solved is not worth starting again.
+        # A solution that nearly converged is not worth another start.
         if best is None or best.final.norm > NESTED_TOLERANCE:
             *warm_up, restarted = _from_hertz(problem, levels, progress)
             solutions.extend(warm_up)
@@ -57,12 +74,12 @@ def nested_iteration(problem: FilmProblem, progress: Progress | None) -> list[Gr
 
 
 def _grids(problem: FilmProblem) -> list[list[Level]]:
-    """The grids to solve on, from the finest, each with the coarser ones of its preconditioner.
+    """Grids to solve on, from the finest, each with the coarser grids of its preconditioner.
 
-    Two at least, for the error estimate. Each has half the intervals of the one before along both axes, which
-    those of a preconditioner need not have.
+    There are two at least, for the error estimate. Each has half the intervals of the one before along both
+    axes; the grids of a preconditioner may have half of them along one axis only.
     """
-    least = FIRST_GRID if problem.width is None else FIRST_GRID_POINT
+    least = FIRST_GRID if problem.width is None else _FIRST_GRID_POINT
     grids = [_levels(problem, roughness=1.0)]
     while len(grids) < 2 or problem.nodes // 2 + 1 >= least:
         width = None if problem.width is None else problem.width.coarser()
@@ -75,7 +92,7 @@ def _grids(problem: FilmProblem) -> list[list[Level]]:
 
 
 def _levels(problem: FilmProblem, *, roughness: float) -> list[Level]:
-    """The grids, with a part of the roughness."""
+    """Grids of the problem with its roughness multiplied by a factor ``roughness``."""
     added, geometry = problem.added_gap, problem.geometry
     if added is not None:
         smooth = geometry.dry_gap
@@ -94,18 +111,19 @@ def _levels(problem: FilmProblem, *, roughness: float) -> list[Level]:
 def _raise_roughness(
     problem: FilmProblem, smooth: GridSolution, progress: Progress | None
 ) -> Iterator[GridSolution]:
-    """Roughness raised from nothing to its height, each solution the start of the next.
+    """Solutions with the roughness raised from zero to its height, each the initial guess of the next.
 
-    Gives up at the first part of the height that cannot be gone beyond.
+    An increment that does not converge is halved. The continuation ends where the smallest increment does not
+    converge; its unconverged solution is then the last.
     """
-    best, reached, step = smooth, 0.0, FIRST_RISE
+    best, reached, step = smooth, 0.0, _FIRST_RISE
     while best.status == "converged" and reached < 1.0:
         part = min(1.0, reached + step)
         levels = _levels(problem, roughness=part)
         start = State.of(levels[0], best.state.pressure, best.state.h00)
         start = start.lifted(0.3 * float(best.state.thickness.min()))
         solution = _solve_grid(
-            problem if part == 1.0 else replace(problem, tolerance=RISE_TOLERANCE),
+            problem if part == 1.0 else replace(problem, tolerance=_RISE_TOLERANCE),
             levels,
             start,
             progress,
@@ -114,7 +132,7 @@ def _raise_roughness(
         if solution.status == "converged":
             best, reached, step = solution, part, 1.5 * step
             yield solution
-        elif step > LEAST_RISE:
+        elif step > _LEAST_RISE:
             step *= 0.5
         else:
             yield solution
@@ -129,6 +147,7 @@ def _solve_grid(
     *,
     spike: bool,
 ) -> GridSolution:
+    """Solve on the first of ``levels``, with the tolerance of the problem or of a coarser grid."""
     finest = levels[0].nodes == problem.nodes
     return newton(
         problem.fluid,
@@ -137,7 +156,7 @@ def _solve_grid(
         tolerance=problem.tolerance if finest else max(problem.tolerance, NESTED_TOLERANCE),
         max_iterations=problem.max_iterations,
         progress=progress,
-        # The spike of a point contact is a ridge, and no single line of it can be solved by itself.
+        # The spike of a point contact is a ridge; no single line of it can be solved separately.
         eliminate_spike=spike and problem.width is None,
     )
 
@@ -145,7 +164,10 @@ def _solve_grid(
 def _from_coarser(
     problem: FilmProblem, levels: list[Level], coarse: GridSolution, progress: Progress | None
 ) -> GridSolution:
-    """Start from the next coarser grid: a monotone cubic is smooth and does not overshoot."""
+    """Solve from the solution on the next coarser grid.
+
+    It is interpolated by a monotone cubic, which is smooth and does not overshoot.
+    """
     level, of = levels[0], coarse.level.mesh
     pressure = PchipInterpolator(of.x, coarse.state.pressure, axis=0)(level.mesh.x)
     if of.y.size > 1:
@@ -158,9 +180,9 @@ def _from_coarser(
 def _from_hertz(
     problem: FilmProblem, levels: list[Level], progress: Progress | None
 ) -> Iterator[GridSolution]:
-    """Start from the Hertz pressure: with the first-order wedge, then with the one asked for.
+    """Solutions from the Hertz pressure: with the first-order wedge term, then with that of the problem.
 
-    The first-order scheme is monotone and converges from further away.
+    The first-order scheme is monotone and converges from a worse initial guess.
     """
     level = levels[0]
     hertz = problem.geometry.dry_pressure(level.mesh.x, level.mesh.y)

@@ -11,8 +11,8 @@ from ehlectric.arrays import Array
 from ehlectric.film.estimates import side_deficit
 from ehlectric.film.line import COLLAPSED, Film, found, quiet_solution
 from ehlectric.film.nested import nested_iteration
-from ehlectric.film.newton import Progress
 from ehlectric.film.problem import FilmProblem
+from ehlectric.film.state import Progress
 
 # Points of the quadrature over the Hertz ellipse, along its radius and around it.
 _RADII, _ANGLES = 64, 256
@@ -113,7 +113,7 @@ def solve_point_film(problem: FilmProblem, *, progress: Progress | None = None) 
     --------
     >>> from ehlectric.film.deflection import point_geometry
     >>> from ehlectric.film.mesh import Width
-    >>> from ehlectric.film.reynolds import Fluid
+    >>> from ehlectric.film.flow import Fluid
     >>> constant = lambda p: (np.ones_like(p), np.zeros_like(p))
     >>> isoviscous = lambda p: (np.zeros_like(p), np.zeros_like(p))
     >>> problem = FilmProblem(

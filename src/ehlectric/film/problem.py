@@ -1,4 +1,4 @@
-"""The film of a contact as it is asked for: dimensionless, with its scales."""
+"""Dimensionless problem of the film of one contact, with the scales of its result."""
 
 from __future__ import annotations
 
@@ -7,15 +7,24 @@ from dataclasses import dataclass
 
 from ehlectric.arrays import Array
 from ehlectric.film.deflection import LINE, Geometry
+from ehlectric.film.flow import Fluid
 from ehlectric.film.mesh import Width
-from ehlectric.film.reynolds import Fluid
 
 
 @dataclass(frozen=True)
 class Scales:
-    """What makes the film dimensionless: x = X length, p = P pressure, h = H thickness, all SI.
+    """Scales between dimensionless and SI quantities: x = X length, p = P pressure, h = H thickness.
 
-    ``ambient_pressure`` is that of the fluid in Pa, where P times ``pressure`` would miss it by rounding.
+    Attributes
+    ----------
+    length : float
+        Half-width b, or semi-axis along entrainment [m].
+    pressure : float
+        Hertz pressure p_h [Pa].
+    thickness : float
+        b^2/R [m].
+    ambient_pressure : float
+        Ambient pressure [Pa], exact: the dimensionless one times ``pressure`` would differ by rounding.
     """
 
     length: float = 1.0
@@ -26,38 +35,38 @@ class Scales:
 
 @dataclass(frozen=True)
 class FilmProblem:
-    """A contact in dimensionless form, X = x/b, Y = y/b, P = p/p_h, H = h R/b^2.
+    """Film problem of a contact in dimensionless form: X = x/b, Y = y/b, P = p/p_h, H = h R/b^2.
 
-    Of a point contact b is the semi-axis along entrainment and R the reduced radius along it.
+    For a point contact b is the semi-axis and R the reduced radius along entrainment.
 
     Parameters
     ----------
     fluid : Fluid
-        Laws over P, the velocity parameter lambda = 6 eta0 u_s R^2/(b^3 p_h) with u_s = u1 + u2, and the
-        ambient pressure over p_h.
+        Lubricant over P, with the velocity parameter lambda = 6 eta0 u_s R^2/(b^3 p_h), u_s = u1 + u2, and
+        the ambient pressure over p_h.
     nodes : int
         Nodes along x, at least 65.
     inlet, outlet : float
         Ends of the domain in half-widths, inlet < -1 and outlet > 1.
     thickness_guess : float
-        Central H to start from; that of a film-thickness formula is near enough.
+        Central H of the initial guess; a film-thickness formula is accurate enough.
     second_order : bool
-        Upstream wedge term of second order, else of first.
+        Whether the upstream wedge term is of second order, else of first.
     tolerance : float
-        Largest scaled residual of a solution.
+        Largest scaled residual of a solution, a pressure over p_h.
     max_iterations : int
-        Newton steps allowed on each grid.
+        Largest number of Newton steps on each grid.
     scales : Scales
         Length b [m], pressure p_h [Pa] and thickness b^2/R [m] of the result, and its ambient pressure [Pa].
     geometry : Geometry
-        Kernel, dry gap and load of the contact.
+        Deflection kernel, dry gap and load of the contact.
     width : Width, optional
-        The domain across entrainment, of point contacts.
+        Domain across entrainment, for a point contact.
     added_gap : callable, optional
-        Gap that roughness adds, X (nx,), Y (ny,) -> G (nx, ny); a peak adds a negative one.
+        Gap that roughness adds, X (nx,), Y (ny,) -> H (nx, ny); a peak adds a negative one.
     source : callable, optional
-        Right side of the Reynolds equation in place of zero, X (nx,), Y (ny,) -> (nx, ny): what a
-        manufactured solution, or a surface that takes oil up or gives it off, adds to it.
+        Right side of the Reynolds equation, zero by default: X (nx,), Y (ny,) -> (nx, ny). For manufactured
+        solutions, or a surface that absorbs or releases oil.
     """
 
     fluid: Fluid

@@ -1,82 +1,44 @@
-"""The discretised Reynolds equation: residual and local derivatives on a uniform grid.
+"""Reynolds equation on a uniform grid: residual and local derivatives.
 
 Dimensionless, with X = x/b, Y = y/b, P = p/p_h and H = h R/b^2:
 
     r = d(rho H)/dX - d/dX(eps dP/dX) - d/dY(eps dP/dY) = 0,   eps = rho H^3/(eta lambda)
 
-A line contact has no Y. Arrays are (nx, ny), x along entrainment. The Poiseuille term is second-order
-central, the wedge term upstream of first order (eq. 7 of the paper, doi:10.3390/lubricants10050087) or of
-second order.
+A line contact has no Y. Arrays are (nx, ny), x along entrainment. The Poiseuille term is central and of
+second order; its flux comes from ``ehlectric.film.flow``. The wedge term is upstream, of first order (eq. 7
+of the paper, doi:10.3390/lubricants10050087) or of second order.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TypeAlias
 
 import numpy as np
 
-from ehlectric.arrays import Array
+from ehlectric.arrays import Array, Mask
+from ehlectric.film.flow import Flow
 from ehlectric.film.mesh import Mesh
 
-# Nodes a stencil row couples, relative to its own: along x, and where the contact has a y across it.
+# Neighbours that a row of a stencil couples, as steps along x and y: four along x and, in a point contact,
+# two across it.
 OFFSETS = ((-2, 0), (-1, 0), (0, 0), (1, 0), (0, -1), (0, 1))
 ALONG, ACROSS = 4, 6
-
-# A law of the fluid: dimensionless pressure -> (value, derivative).
-FluidLaw: TypeAlias = Callable[[Array], tuple[Array, Array]]
-
-
-@dataclass(frozen=True)
-class Fluid:
-    """What the Reynolds equation asks of the lubricant, over dimensionless pressure.
-
-    ``density`` gives rho/rho_0, ``log_viscosity`` gives ln(eta/eta_0), each with its derivative.
-    Below ``ambient_pressure`` both are held: an iterate may pass through pressures a liquid cannot
-    have, a solution cannot.
-    """
-
-    density: FluidLaw
-    log_viscosity: FluidLaw
-    velocity_parameter: float
-    ambient_pressure: float
-
-
-@dataclass(frozen=True)
-class Coefficients:
-    """Density, eps and their derivatives at the nodes, each (nx, ny)."""
-
-    density: Array
-    density_p: Array
-    eps: Array
-    eps_p: Array
-    eps_h: Array
-
-
-def evaluate(fluid: Fluid, pressure: Array, thickness: Array) -> Coefficients:
-    """Coefficients of the Reynolds equation at the nodes."""
-    clipped = np.maximum(pressure, fluid.ambient_pressure)
-    density, density_p = fluid.density(clipped)
-    log_viscosity, log_viscosity_p = fluid.log_viscosity(clipped)
-    eps = density * thickness**3 * np.exp(-log_viscosity) / fluid.velocity_parameter
-    return Coefficients(
-        density=density,
-        density_p=density_p,
-        eps=eps,
-        eps_p=eps * (density_p / density - log_viscosity_p),
-        eps_h=3.0 * eps / thickness,
-    )
 
 
 @dataclass(frozen=True)
 class Stencil:
-    """A linear operator of the neighbours: the coefficients of those of ``OFFSETS``, four or six of them."""
+    """Linear operator on a node and its neighbours.
 
-    coefficients: Array  # (4 or 6, nx, ny)
+    Attributes
+    ----------
+    coefficients : ndarray, shape (4 or 6, nx, ny)
+        Coefficient of each neighbour, in the order of ``OFFSETS``.
+    """
+
+    coefficients: Array
 
     def __call__(self, values: Array) -> Array:
-        """The operator applied to nodal values (nx, ny)."""
+        """Apply the operator to nodal values (nx, ny)."""
         c = self.coefficients
         product: Array = c[2] * values
         product[2:] += c[0, 2:] * values[:-2]
@@ -85,15 +47,19 @@ class Stencil:
         return self.add_across(values, product)
 
     def add_across(self, values: Array, product: Array) -> Array:
-        """Add what the neighbours across entrainment contribute, in place."""
+        """Add the terms of the neighbours across entrainment to ``product``, in place."""
         c = self.coefficients
         if len(c) == ACROSS:
             product[:, 1:] += c[4, :, 1:] * values[:, :-1]
             product[:, :-1] += c[5, :, :-1] * values[:, 1:]
         return product
 
+    def on_rows(self, rows: Mask) -> Stencil:
+        """Return the operator with all rows but ``rows`` (nx, ny) set to zero."""
+        return Stencil(np.where(rows, self.coefficients, 0.0))
+
     def matrix(self) -> Array:
-        """The operator as a dense matrix on the nodes in order, shape (nx ny, nx ny)."""
+        """Return the operator as a dense matrix on the nodes in order, shape (nx ny, nx ny)."""
         c = self.coefficients
         _, nx, ny = c.shape
         dense = np.zeros((nx, ny, nx, ny))
@@ -105,11 +71,27 @@ class Stencil:
 
 
 def wedge_stencil(shape: tuple[int, int], dx: float, *, second_order: bool) -> Stencil:
-    """The upstream difference d/dX of the wedge term; the two end rows are zero.
+    """Upstream difference d/dX of the wedge term; the two end rows are zero.
 
-    In flux form the second-order scheme takes (3 f_i - f_(i-1))/2 at the face i+1/2 and the mean at the
-    first face, which has no second upstream node: row 1 then is the first-order difference, and the
-    flux stays second-order everywhere.
+    Parameters
+    ----------
+    shape : tuple of int
+        Nodes (nx, ny).
+    dx : float
+        Grid spacing dX, dimensionless.
+    second_order : bool
+        Whether the difference is of second order, else of first.
+
+    Returns
+    -------
+    Stencil
+        Operator on the mass rho H.
+
+    Notes
+    -----
+    In flux form the second-order scheme takes (3 f_i - f_(i-1))/2 at the face i+1/2. The first face has no
+    second upstream node and takes the mean of its two nodes: row 1 is then the first-order difference, and
+    the flux is of second order everywhere.
     """
     c = np.zeros((ALONG, *shape))
     if second_order:
@@ -121,60 +103,86 @@ def wedge_stencil(shape: tuple[int, int], dx: float, *, second_order: bool) -> S
     return Stencil(c)
 
 
-def _with_mirror(values: Array, mesh: Mesh) -> Array:
-    """Values with the line beyond a line of symmetry before the first."""
-    return np.concatenate([values[:, 1:2], values], axis=1) if mesh.symmetric else values
-
-
 def _inner_lines(mesh: Mesh) -> slice:
     """Lines along x that have neighbours on both sides."""
     return slice(0 if mesh.symmetric else 1, -1)
 
 
-def poiseuille_weight(coefficients: Coefficients, mesh: Mesh) -> Array:
-    """Sum of eps/dX^2 and eps/dY^2 at the faces of a node, the diagonal of the Poiseuille term.
+def poiseuille_weight(flow: Flow, mesh: Mesh) -> Array:
+    """Sum of the conductances of the faces of a node: the diagonal of the Poiseuille term at fixed eps.
 
-    Zero in the end rows.
+    Parameters
+    ----------
+    flow : Flow
+        Flow at a state.
+    mesh : Mesh
+        Its grid.
+
+    Returns
+    -------
+    ndarray, shape (nx, ny)
+        Sum of eps/dX^2 and eps/dY^2 over the faces, zero in the end rows.
     """
-    face = 0.5 * (coefficients.eps[1:] + coefficients.eps[:-1]) / mesh.dx**2
-    weight = np.zeros_like(coefficients.eps)
-    weight[1:-1] = face[1:] + face[:-1]
-    if mesh.dy is not None:
-        eps = _with_mirror(coefficients.eps, mesh)
-        face = 0.5 * (eps[:, 1:] + eps[:, :-1]) / mesh.dy**2
-        weight[1:-1, _inner_lines(mesh)] += (face[:, 1:] + face[:, :-1])[1:-1]
+    weight = np.zeros_like(flow.coefficients.eps)
+    weight[1:-1] = flow.along.weight()
+    if flow.across is not None:
+        weight[1:-1, _inner_lines(mesh)] += flow.across.weight().T[1:-1]
     return weight
 
 
-def residual(
-    coefficients: Coefficients, wedge: Stencil, pressure: Array, thickness: Array, mesh: Mesh
-) -> Array:
-    """The residual r at the inner nodes, zero on the edges of the domain."""
-    eps = coefficients.eps
-    flux = 0.5 * (eps[1:] + eps[:-1]) * np.diff(pressure, axis=0) / mesh.dx**2
-    r = wedge(coefficients.density * thickness)
-    r[1:-1] -= np.diff(flux, axis=0)
-    if mesh.dy is not None:
-        eps = _with_mirror(eps, mesh)
-        gradient = np.diff(_with_mirror(pressure, mesh), axis=1) / mesh.dy**2
-        flux = 0.5 * (eps[:, 1:] + eps[:, :-1]) * gradient
-        r[1:-1, _inner_lines(mesh)] -= np.diff(flux, axis=1)[1:-1]
+def residual(flow: Flow, wedge: Stencil, thickness: Array, mesh: Mesh) -> Array:
+    """Residual r of the Reynolds equation at the inner nodes, zero on the edges of the domain.
+
+    Parameters
+    ----------
+    flow : Flow
+        Flow at the state.
+    wedge : Stencil
+        Operator of the wedge term on the mass rho H.
+    thickness : ndarray, shape (nx, ny)
+        H, dimensionless.
+    mesh : Mesh
+        Grid.
+
+    Returns
+    -------
+    ndarray, shape (nx, ny)
+        r, dimensionless; positive where more oil leaves a node than enters it.
+    """
+    r = wedge(flow.coefficients.density * thickness)
+    r[1:-1] -= flow.along.divergence()
+    if flow.across is not None:
+        r[1:-1, _inner_lines(mesh)] -= flow.across.divergence().T[1:-1]
         r[~mesh.inner] = 0.0
     return r
 
 
-def linearise(
-    coefficients: Coefficients, wedge: Stencil, pressure: Array, thickness: Array, mesh: Mesh
-) -> tuple[Stencil, Stencil]:
+def linearise(flow: Flow, wedge: Stencil, thickness: Array, mesh: Mesh) -> tuple[Stencil, Stencil]:
     """Local derivatives of r: one stencil in P at fixed H, one in H at fixed P.
 
-    The Jacobian is dr = (stencil in P) dP + (stencil in H) dH with dH = dH00 + (deflection of dP); it
-    is never formed.
+    The Jacobian is dr = (stencil in P) dP + (stencil in H) dH, where dH is the change of the gap
+    (``ehlectric.film.gap``). It is never formed.
+
+    Parameters
+    ----------
+    flow : Flow
+        Flow at the state.
+    wedge : Stencil
+        Operator of the wedge term on the mass rho H.
+    thickness : ndarray, shape (nx, ny)
+        H, dimensionless.
+    mesh : Mesh
+        Grid.
+
+    Returns
+    -------
+    tuple of Stencil
+        Derivatives by P and by H.
     """
-    k = coefficients
+    k = flow.coefficients
     rows = ALONG if mesh.dy is None else ACROSS
-    by_p = np.zeros((rows, *pressure.shape))
-    by_h = np.zeros((rows, *pressure.shape))
+    by_p = np.zeros((rows, *thickness.shape))
+    by_h = np.zeros((rows, *thickness.shape))
     mass_p = k.density_p * thickness
     for row, shift in ((0, 2), (1, 1), (2, 0)):
         w = wedge.coefficients[row, shift:]
@@ -182,46 +190,22 @@ def linearise(
         by_p[row, shift:] = w * mass_p[:stop]
         by_h[row, shift:] = w * k.density[:stop]
 
-    inner = slice(1, -1)
-    by_p[1:4, inner] += _poiseuille_by_p(k.eps, k.eps_p, pressure, mesh.dx)
-    by_h[1:4, inner] += _poiseuille_by_h(k.eps_h, pressure, mesh.dx)
-    if mesh.dy is not None:
-        eps, eps_p, eps_h, p = (_with_mirror(v, mesh).T for v in (k.eps, k.eps_p, k.eps_h, pressure))
-        lines = _inner_lines(mesh)
-        for by, across in (
-            (by_p, _poiseuille_by_p(eps, eps_p, p, mesh.dy)),
-            (by_h, _poiseuille_by_h(eps_h, p, mesh.dy)),
-        ):
-            south, centre, north = np.swapaxes(across, 1, 2)
-            by[2, inner, lines] += centre[inner]
-            by[4, inner, lines] += south[inner]
-            by[5, inner, lines] += north[inner]
-            if mesh.symmetric:
-                by[5, :, 0] += by[4, :, 0]
-                by[4, :, 0] = 0.0
-            by[:, ~mesh.inner] = 0.0
+    for by, along in ((by_p, flow.along.by_pressure()), (by_h, flow.along.by_thickness())):
+        for row, part in zip((1, 2, 3), along, strict=True):
+            by[row, 1:-1] += part
+    if flow.across is not None:
+        _add_across(by_p, flow.across.by_pressure(), mesh)
+        _add_across(by_h, flow.across.by_thickness(), mesh)
     return Stencil(by_p), Stencil(by_h)
 
 
-def _poiseuille_by_p(eps: Array, eps_p: Array, pressure: Array, spacing: float) -> Array:
-    """Derivatives of -d(eps dP)/spacing^2 along the first axis by P of the node before, at and after.
-
-    At the inner nodes, shape (3, n - 2, m).
-    """
-    face = 0.5 * (eps[1:] + eps[:-1]) / spacing**2
-    gradient = 0.5 * np.diff(pressure, axis=0) / spacing**2
-    before, after = gradient[:-1], gradient[1:]
-    return np.stack(
-        [
-            eps_p[:-2] * before - face[:-1],
-            face[:-1] + face[1:] - eps_p[1:-1] * (after - before),
-            -eps_p[2:] * after - face[1:],
-        ]
-    )
-
-
-def _poiseuille_by_h(eps_h: Array, pressure: Array, spacing: float) -> Array:
-    """The same by H of the three nodes."""
-    gradient = 0.5 * np.diff(pressure, axis=0) / spacing**2
-    before, after = gradient[:-1], gradient[1:]
-    return np.stack([eps_h[:-2] * before, -eps_h[1:-1] * (after - before), -eps_h[2:] * after])
+def _add_across(by: Array, parts: tuple[Array, Array, Array], mesh: Mesh) -> None:
+    """Add the derivatives of the flow across entrainment, (lines, nx) each, to a stencil's coefficients."""
+    lines = _inner_lines(mesh)
+    for row, part in zip((4, 2, 5), parts, strict=True):
+        by[row, 1:-1, lines] += part.T[1:-1]
+    if mesh.symmetric:
+        # The neighbour beyond the line of symmetry is the mirror image of that before it.
+        by[5, :, 0] += by[4, :, 0]
+        by[4, :, 0] = 0.0
+    by[:, ~mesh.inner] = 0.0

@@ -1,55 +1,56 @@
-"""The film in time: surfaces whose roughness moves, one time step after the other.
+"""Transient film of a contact whose roughness moves, one time step after the other.
 
 Dimensionless, with T = t u/b for the mean speed u of the surfaces:
 
     d(rho H)/dT + d(rho H)/dX - d/dX(eps dP/dX) - d/dY(eps dP/dY) = 0
 
-The first two terms are one derivative along the lines X - T = const, on which oil travels: differenced there,
-backwards over two steps, what is carried through the flat zone keeps its shape. With steps as long as the
-grid spacing the feet of these lines are nodes, nothing is interpolated, and a film at rest is that of the
-steady scheme of second order to the last digit. Where the film cavitates, its mass is what flows in, not what
-the gap would hold.
+The first two terms are one derivative along the lines X - T = const, on which oil travels
+(``ehlectric.film.characteristics``). Differenced there, backwards over two steps, a film that is carried
+through the flat zone keeps its shape. With steps as long as the grid spacing these lines begin at nodes and
+nothing is interpolated; a film without motion is then that of the stationary scheme of second order to the
+last digit. Where the film cavitates, its mass is the oil that flows in, not what the gap would hold.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import TypeAlias
 
 import numpy as np
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.errors import ConvergenceError
-from ehlectric.film.levels import SECOND_DIFFERENCE, Level, hierarchy
-from ehlectric.film.newton import GridSolution, State, newton
+from ehlectric.film.characteristics import mass_after, stationary_mass, step_levels
+from ehlectric.film.levels import Level, hierarchy
+from ehlectric.film.newton import assess, newton
 from ehlectric.film.problem import FilmProblem
-from ehlectric.film.reynolds import ALONG, Stencil
+from ehlectric.film.state import GridSolution, State
 
-# A time step is solved to this residual, a pressure, far below what the step itself misses.
+# Residual of a time step, a pressure over p_h, far below the error of the step itself.
 STEP_TOLERANCE = 1e-6
 
-# Newton steps from the better of the extrapolated film and the last one, and from the other, before a time
-# step is halved; and how often that may be.
-FEW_ITERATIONS, MANY_ITERATIONS = 8, 30
-MOST_HALVINGS = 6
+# Newton steps from the better of two initial guesses, the extrapolated and the last film, and from the other,
+# before a time step is halved; and how often it may be halved.
+_FEW_ITERATIONS, _MANY_ITERATIONS = 8, 30
+_MOST_HALVINGS = 6
 
-# Part of the last smallest gap below which an extrapolated one is no start.
-LEAST_START = 0.3
+# Part of the last smallest gap below which an extrapolated film is no initial guess.
+_LEAST_START = 0.3
 
-# Change of P in a step above which a spike passes a node, and nothing can be extrapolated there.
-MOST_CHANGE = 0.1
+# Change of P in a step above which a spike passes a node, so that the pressure there is not extrapolated.
+_MOST_CHANGE = 0.1
 
 # Grid spacings that oil may travel in a time step.
 MOST_COURANT = 8.0
 
-# Part of a grid spacing within which the foot of a line is a node.
-_SAME_NODE = 1e-9
-MovingGap = Callable[[float, Array, Array], Array]  # T, X (nx,), Y (ny,) -> G (nx, ny)
+# Gap that moving roughness adds: T, X (nx,), Y (ny,) -> (nx, ny).
+MovingGap: TypeAlias = Callable[[float, Array, Array], Array]
 
 
 @dataclass(frozen=True)
 class Instant:
-    """The film at a time.
+    """Film at one instant of time, dimensionless.
 
     Attributes
     ----------
@@ -58,23 +59,33 @@ class Instant:
     state : State
         P, H00 and H.
     mass : ndarray, shape (nx, ny)
-        rho H, where the film cavitates what there is of it.
+        Oil mass rho H; where the film cavitates, the mass of the oil that is left.
     density : ndarray, shape (nx, ny)
-        rho.
-    free : ndarray of bool, shape (nx, ny)
-        Where the film is full.
+        rho/rho_0.
+    full_film : ndarray of bool, shape (nx, ny)
+        Nodes with a full film.
     """
 
     time: float
     state: State
     mass: Array
     density: Array
-    free: Mask
+    full_film: Mask
 
 
 @dataclass(frozen=True)
 class Effort:
-    """What a time step took: its Newton steps, their GMRES iterations, and how often it was halved."""
+    """Work of a time step.
+
+    Attributes
+    ----------
+    newton : int
+        Newton steps.
+    krylov : int
+        GMRES iterations of all of them.
+    halvings : int
+        How often the step was halved.
+    """
 
     newton: int = 0
     krylov: int = 0
@@ -86,7 +97,15 @@ class Effort:
 
 @dataclass(frozen=True)
 class History:
-    """The last two instants, from which the next follows, and what the last step took."""
+    """Last two instants of a transient film, from which the next follows.
+
+    Attributes
+    ----------
+    now, before : Instant
+        Last instant and the one before.
+    effort : Effort
+        Work of the last step.
+    """
 
     now: Instant
     before: Instant
@@ -94,14 +113,14 @@ class History:
 
 
 class UnsteadyFilm:
-    """The equations of a contact whose gap moves.
+    """Transient film of a contact whose gap moves, stepped in time.
 
     Parameters
     ----------
     problem : FilmProblem
-        The contact, the wedge of second order, with the gap that stands still alone in ``added_gap``.
+        Contact with the wedge term of second order; its ``added_gap`` is the roughness that does not move.
     moving_gap : callable
-        What roughness adds to the gap at a time, T, X (nx,), Y (ny,) -> (nx, ny); a peak adds a negative one.
+        Gap that moving roughness adds, T, X (nx,), Y (ny,) -> (nx, ny); a peak adds a negative one.
     """
 
     def __init__(self, problem: FilmProblem, moving_gap: MovingGap) -> None:
@@ -122,48 +141,49 @@ class UnsteadyFilm:
 
     @property
     def level(self) -> Level:
-        """The finest grid."""
+        """Finest grid, of the stationary contact."""
         return self._levels[0]
 
     def start(self, steady: GridSolution, step: float) -> History:
-        """The history of a film that has been steady, solved on the same grid.
-
-        ``step`` is the time since the instant before.
-        """
-        full = steady.final.coefficients.density * steady.state.thickness
-        mass = full.copy()
-        empty = ~steady.final.free & self.level.mesh.inner & (self.level.mesh.x > 0.0)[:, np.newaxis]
-        # What the pressure drives into a node, most of all into the first beyond the full film.
-        driven = steady.level.wedge(full) - steady.final.reynolds
-        for i in np.flatnonzero(empty.any(axis=1)):
-            flowing = (4.0 * mass[i - 1] - mass[i - 2] + 2.0 * steady.level.mesh.dx * driven[i]) / 3.0
-            mass[i] = np.where(empty[i], np.clip(flowing, 0.0, full[i]), full[i])
-        mass[-1] = np.minimum(full[-1], mass[-2])
-        density = steady.final.coefficients.density
-        now = Instant(0.0, steady.state, mass, density, steady.final.free)
-        return History(now, replace(now, time=-step))
-
-    def advance(self, history: History, step: float) -> History:
-        """The history one time step further; where that is not solved, by two halves of it, and so on.
+        """History of a film that has been stationary.
 
         Parameters
         ----------
-        history : History
-            Up to now.
+        steady : GridSolution
+            Stationary film on the same grid.
         step : float
-            Of T, at most ``MOST_COURANT`` grid spacings.
+            T since the instant before, > 0.
 
         Returns
         -------
         History
-            With what the step took.
+            At T = 0 and T = -step.
+        """
+        density = steady.final.coefficients.density
+        now = Instant(0.0, steady.state, stationary_mass(steady), density, steady.final.full_film)
+        return History(now, replace(now, time=-step))
+
+    def advance(self, history: History, step: float) -> History:
+        """Advance the film by one time step, halved as often as its solution needs.
+
+        Parameters
+        ----------
+        history : History
+            Last two instants.
+        step : float
+            Change of T, at most ``MOST_COURANT`` grid spacings.
+
+        Returns
+        -------
+        History
+            One time step later, with the work of the step.
 
         Raises
         ------
         ConvergenceError
-            Where ``MOST_HALVINGS`` do not help.
+            Where the step is not solved after six halvings.
         """
-        return self._advance(replace(history, effort=Effort()), step, MOST_HALVINGS)
+        return self._advance(replace(history, effort=Effort()), step, _MOST_HALVINGS)
 
     def _advance(self, history: History, step: float, halvings: int) -> History:
         instant, effort = self._stepped(history, step)
@@ -172,7 +192,7 @@ class UnsteadyFilm:
             return History(instant, history.now, effort)
         if not halvings:
             raise ConvergenceError(
-                f"film not found at T = {history.now.time + step:.6g}, the step halved {MOST_HALVINGS} times"
+                f"film not found at T = {history.now.time + step:.6g}, the step halved {_MOST_HALVINGS} times"
             )
         halved = replace(history, effort=effort + Effort(halvings=1))
         for _ in range(2):
@@ -180,12 +200,12 @@ class UnsteadyFilm:
         return halved
 
     def _stepped(self, history: History, step: float) -> tuple[Instant | None, Effort]:
-        """The instant a step further, None where Newton's method does not find it."""
+        """Instant one step later, None where Newton's method does not converge."""
         time = history.now.time + step
         levels = self._levels_at(history, step)
         effort = Effort()
         starts = self._starts(levels, history, step)
-        limits = [FEW_ITERATIONS, MANY_ITERATIONS][-len(starts) :]
+        limits = [_FEW_ITERATIONS, _MANY_ITERATIONS][-len(starts) :]
         for (start, spike), iterations in zip(starts, limits, strict=True):
             solution = newton(
                 self.problem.fluid,
@@ -199,103 +219,34 @@ class UnsteadyFilm:
             krylov = sum(one.krylov_iterations for one in solution.steps)
             effort += Effort(len(solution.steps), krylov)
             if solution.status == "converged":
-                return self._instant(time, solution), effort
+                final = solution.final
+                density, mass = final.coefficients.density, mass_after(solution)
+                return Instant(time, solution.state, mass, density, final.full_film), effort
         return None, effort
 
     def _starts(self, levels: list[Level], history: History, step: float) -> list[tuple[State, bool]]:
-        """States to start from, each with whether a spike stands out: the extrapolated film and the last one.
+        """Initial guesses, each with whether to eliminate a spike: the last film and the extrapolated one.
 
-        The one of the smaller residual first: where short waves pass, nothing goes on as it did.
+        The one of the smaller residual comes first: where short waves pass, the last film is often better.
         """
         now, before = history.now.state, history.before.state
         ratio = step / (history.now.time - history.before.time)
         ambient = self.problem.fluid.ambient_pressure
         change = ratio * (now.pressure - before.pressure)
-        change[np.abs(change) > MOST_CHANGE] = 0.0
+        change[np.abs(change) > _MOST_CHANGE] = 0.0
         pressure = np.maximum(now.pressure + change, ambient)
         h00 = now.h00 + ratio * (now.h00 - before.h00)
-        least = LEAST_START * float(now.thickness.min())
+        least = _LEAST_START * float(now.thickness.min())
         last = State.of(levels[0], now.pressure, now.h00).lifted(least)
         starts = [(last, self.problem.width is None)]
         extrapolated = State.of(levels[0], pressure, h00)
         if float(extrapolated.thickness.min()) >= least:
             starts.append((extrapolated, False))
-        return sorted(starts, key=lambda start: self._missed(levels, start[0]))
-
-    def _missed(self, levels: list[Level], state: State) -> float:
-        """Residual of a state."""
-        return newton(self.problem.fluid, levels, state, tolerance=0.0, max_iterations=0).final.norm
+        return sorted(starts, key=lambda start: assess(self.problem.fluid, levels[0], start[0]).norm)
 
     def _levels_at(self, history: History, step: float) -> list[Level]:
-        """All grids with the equation of one time step, backward differences over two along the lines X - T.
-
-        Where the second foot lies before the inlet, over one.
-        """
-        finest, mesh = self._levels[0], self._levels[0].mesh
-        last = history.now.time - history.before.time
-        ratio = step / last
-        here, one, two = (
-            np.array([(1 + 2 * ratio) / (1 + ratio), 1 + ratio, -(ratio**2) / (1 + ratio)]) / step
-        )
-        first = carried(history.now.mass, step / mesh.dx)
-        second = carried(history.before.mass, (step + last) / mesh.dx)
-        outside = mesh.x - mesh.x[0] < (step + last) - _SAME_NODE * mesh.dx
-        source = np.where(outside[:, np.newaxis], first / step, one * first + two * second)
-        source[~mesh.inner] = 0.0
-        added = self._moving_gap(history.now.time + step, mesh.x, mesh.y)
-        levels = [in_time(level, here) for level in self._levels]
-        levels[0].wedge.coefficients[2, outside] = 1.0 / step
-        levels[0].wedge.coefficients[2, 0] = 0.0
-        levels[0] = replace(levels[0], dry_gap=finest.dry_gap + added, source=source)
-        return levels
-
-    def _instant(self, time: float, solution: GridSolution) -> Instant:
-        """What a solved step leaves; held nodes have the mass that flows in."""
-        level, final = solution.level, solution.final
-        density = final.coefficients.density
-        mass = density * solution.state.thickness
-        rate = level.wedge.coefficients[2]
-        held = ~final.free & level.mesh.inner
-        flowing = mass[held] - final.reynolds[held] / rate[held]
-        mass[held] = np.clip(flowing, 0.0, mass[held])
-        mass[-1] = np.minimum(mass[-1], mass[-2])
-        return Instant(time, solution.state, mass, density, final.free)
-
-
-def in_time(level: Level, rate: float) -> Level:
-    """A grid whose mass term is ``rate`` times the mass at the node itself."""
-    coefficients = np.zeros((ALONG, *level.mesh.shape))
-    coefficients[2, 1:-1] = rate
-    return replace(level, wedge=Stencil(coefficients), rate=rate, distribution=SECOND_DIFFERENCE)
-
-
-def carried(values: Array, distance: float) -> Array:
-    """Nodal values (nx, ny) carried along x by some grid spacings: exact by whole ones, else by a cubic.
-
-    What comes from beyond the ends is extrapolated by a parabola, as the gap there is about one.
-
-    Examples
-    --------
-    >>> carried(np.arange(5.0)[:, np.newaxis] ** 2, 0.5)[:, 0]
-    array([ 0.25,  0.25,  2.25,  6.25, 12.25])
-    """
-    whole = int(np.floor(distance + _SAME_NODE))
-    part = distance - whole
-    ghosts = whole + 2
-    steps = np.arange(-ghosts, 0.0)[:, np.newaxis]
-    v0, v1, v2 = values[0], values[1], values[2]
-    before = v0 + steps * (-1.5 * v0 + 2.0 * v1 - 0.5 * v2) + steps**2 * (0.5 * v0 - v1 + 0.5 * v2)
-    beyond = 3.0 * values[-1:] - 3.0 * values[-2:-1] + values[-3:-2]
-    padded = np.concatenate([before, values, beyond])
-    start, n = ghosts - whole, values.shape[0]
-    if abs(part) <= _SAME_NODE:
-        moved: Array = padded[start : start + n].copy()
-        return moved
-    # Lagrange's weights of the nodes two behind, one behind, at, and one ahead.
-    weights = (
-        (-2, (part + 1.0) * part * (part - 1.0) / 6.0),
-        (-1, -(part + 1.0) * part * (part - 2.0) / 2.0),
-        (0, (part + 1.0) * (part - 1.0) * (part - 2.0) / 2.0),
-        (1, -part * (part - 1.0) * (part - 2.0) / 6.0),
-    )
-    return np.asarray(np.sum([w * padded[start + k : start + k + n] for k, w in weights], axis=0))
+        """All grids with the equation of the next time step."""
+        now, before = history.now, history.before
+        mesh = self.level.mesh
+        added = self._moving_gap(now.time + step, mesh.x, mesh.y)
+        return step_levels(self._levels, (now.mass, before.mass), (step, now.time - before.time), added)

@@ -6,18 +6,78 @@ up to 40 %. They stand beside a result, never in its place.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import Generic, Protocol, TypeVar
 
 import numpy as np
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Thickness:
-    """What a formula gives [m]; None where it has no such film."""
+    """Film thicknesses of a formula [m]; None for a film that the formula does not give."""
 
-    minimum_thickness: float | None
-    central_thickness: float | None
+    minimum_thickness: float | None = None
+    central_thickness: float | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class CentralThickness(Thickness):
+    """Film thicknesses of a formula that gives the central film [m]."""
+
+    central_thickness: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class BothThicknesses(CentralThickness):
+    """Film thicknesses of a formula that gives the minimum and the central film [m]."""
+
+    minimum_thickness: float
+
+
+class Piezoviscous(Protocol):
+    """Contact with a pressure-viscosity coefficient [1/Pa]."""
+
+    @property
+    def pressure_viscosity_coefficient(self) -> float:
+        """Slope of ln(eta) at zero pressure [1/Pa]; zero for an isoviscous lubricant."""
+        ...
+
+
+_Contact = TypeVar("_Contact", bound=Piezoviscous)
+
+
+@dataclass(frozen=True)
+class Formula(Generic[_Contact]):
+    """Film-thickness formula as the table ``FORMULAS`` of its module holds it.
+
+    To add a formula, write its function and enter it there; results, summaries and tables then have it.
+
+    Attributes
+    ----------
+    name : str
+        As it is printed.
+    function : callable
+        Thickness of a contact.
+    piezoviscous : bool
+        Whether the formula has no film for an isoviscous lubricant.
+
+    Examples
+    --------
+    >>> contact = LineContact(14.1e-3, 226e9, 1.57e6, 4.0, 0.04, 0.0)
+    >>> Formula("Pan-Hamrock", pan_hamrock, piezoviscous=True)(contact)
+    Thickness(minimum_thickness=None, central_thickness=None)
+    """
+
+    name: str
+    function: Callable[[_Contact], Thickness]
+    piezoviscous: bool = False
+
+    def __call__(self, contact: _Contact) -> Thickness:
+        """Thickness of a contact; without any film where the formula does not hold."""
+        if self.piezoviscous and contact.pressure_viscosity_coefficient == 0.0:
+            return Thickness()
+        return self.function(contact)
 
 
 @dataclass(frozen=True)
@@ -83,7 +143,8 @@ def dowson_higginson(contact: LineContact) -> Thickness:
     Parameters
     ----------
     contact : LineContact
-        With U of the mean speed. Needs a pressure-viscosity coefficient.
+        With U of the mean speed.
+        For piezoviscous lubricants: zero without a pressure-viscosity coefficient.
 
     Returns
     -------
@@ -100,19 +161,18 @@ def dowson_higginson(contact: LineContact) -> Thickness:
     >>> round(dowson_higginson(contact).minimum_thickness * 1e6, 3)
     0.615
     """
-    if contact._g == 0.0:
-        return Thickness(None, None)
     h = 2.65 * contact._u**0.70 * contact._g**0.54 * contact._w**-0.13
-    return Thickness(h * contact.reduced_radius, None)
+    return Thickness(minimum_thickness=h * contact.reduced_radius)
 
 
-def dowson_toyoda(contact: LineContact) -> Thickness:
+def dowson_toyoda(contact: LineContact) -> CentralThickness:
     """Central film of Dowson and Toyoda, h/R = 3.06 U^0.69 G^0.56 W^-0.10.
 
     Parameters
     ----------
     contact : LineContact
-        With U of the mean speed. Needs a pressure-viscosity coefficient.
+        With U of the mean speed.
+        For piezoviscous lubricants: zero without a pressure-viscosity coefficient.
 
     Returns
     -------
@@ -130,13 +190,11 @@ def dowson_toyoda(contact: LineContact) -> Thickness:
     >>> round(dowson_toyoda(contact).central_thickness * 1e6, 3)
     0.85
     """
-    if contact._g == 0.0:
-        return Thickness(None, None)
     h = 3.06 * contact._u**0.69 * contact._g**0.56 * contact._w**-0.10
-    return Thickness(None, h * contact.reduced_radius)
+    return CentralThickness(central_thickness=h * contact.reduced_radius)
 
 
-def pan_hamrock(contact: LineContact) -> Thickness:
+def pan_hamrock(contact: LineContact) -> BothThicknesses:
     """Films of Pan and Hamrock.
 
     Minimum h/R = 1.714 U^0.694 G^0.568 W^-0.128, central h/R = 2.922 U^0.692 G^0.470 W^-0.166.
@@ -144,7 +202,8 @@ def pan_hamrock(contact: LineContact) -> Thickness:
     Parameters
     ----------
     contact : LineContact
-        With U of the mean speed. Needs a pressure-viscosity coefficient.
+        With U of the mean speed.
+        For piezoviscous lubricants: zero without a pressure-viscosity coefficient.
 
     Returns
     -------
@@ -161,12 +220,11 @@ def pan_hamrock(contact: LineContact) -> Thickness:
     >>> round(pan_hamrock(contact).minimum_thickness * 1e6, 3)
     0.574
     """
-    if contact._g == 0.0:
-        return Thickness(None, None)
     u, g, w = contact._u, contact._g, contact._w
     minimum = 1.714 * u**0.694 * g**0.568 * w**-0.128
     central = 2.922 * u**0.692 * g**0.470 * w**-0.166
-    return Thickness(minimum * contact.reduced_radius, central * contact.reduced_radius)
+    radius = contact.reduced_radius
+    return BothThicknesses(minimum_thickness=minimum * radius, central_thickness=central * radius)
 
 
 def _moes_asymptotes(contact: LineContact) -> dict[str, float]:
@@ -180,7 +238,7 @@ def _moes_asymptotes(contact: LineContact) -> dict[str, float]:
     }
 
 
-def moes(contact: LineContact) -> Thickness:
+def moes(contact: LineContact) -> CentralThickness:
     """Central film of Moes, over all four regimes.
 
     H = ((H_RI^(7/3) + H_EI^(7/3))^(3s/7) + (H_RP^(-7/2) + H_EP^(-7/2))^(-2s/7))^(1/s),
@@ -215,14 +273,14 @@ def moes(contact: LineContact) -> Thickness:
     if rp > 0.0:
         h += (rp ** (-7 / 2) + ep ** (-7 / 2)) ** (-2 * s / 7)
     scale = contact.reduced_radius * np.sqrt(2.0 * contact._u)
-    return Thickness(None, float(h ** (1.0 / s) * scale))
+    return CentralThickness(central_thickness=float(h ** (1.0 / s) * scale))
 
 
 FORMULAS = {
-    "dowson_higginson": dowson_higginson,
-    "dowson_toyoda": dowson_toyoda,
-    "pan_hamrock": pan_hamrock,
-    "moes": moes,
+    "dowson_higginson": Formula("Dowson-Higginson", dowson_higginson, piezoviscous=True),
+    "dowson_toyoda": Formula("Dowson-Toyoda", dowson_toyoda, piezoviscous=True),
+    "pan_hamrock": Formula("Pan-Hamrock", pan_hamrock, piezoviscous=True),
+    "moes": Formula("Moes", moes),
 }
 
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ehlectric.formulas.film_line import Thickness, dominant
+from ehlectric.formulas.film_line import BothThicknesses, CentralThickness, Formula, dominant
 from ehlectric.formulas.hertz_point import axis_ratio
 
 
@@ -68,7 +68,7 @@ class PointContact:
         return self._g * float((2.0 * self._u) ** 0.25)
 
 
-def hamrock_dowson(contact: PointContact) -> Thickness:
+def hamrock_dowson(contact: PointContact) -> BothThicknesses:
     """Films of Hamrock and Dowson.
 
     Minimum h/Rx = 3.63 U^0.68 G^0.49 W^-0.073 (1 - exp(-0.68 k)), central h/Rx = 2.69 U^0.67 G^0.53 W^-0.067
@@ -77,7 +77,8 @@ def hamrock_dowson(contact: PointContact) -> Thickness:
     Parameters
     ----------
     contact : PointContact
-        With U of the mean speed. Needs a pressure-viscosity coefficient.
+        With U of the mean speed.
+        For piezoviscous lubricants: zero without a pressure-viscosity coefficient.
 
     Returns
     -------
@@ -98,16 +99,17 @@ def hamrock_dowson(contact: PointContact) -> Thickness:
     >>> round(film.minimum_thickness * 1e6, 3), round(film.central_thickness * 1e6, 3)
     (0.251, 0.438)
     """
-    if contact._g == 0.0:
-        return Thickness(None, None)
     u, g, w = contact._u, contact._g, contact._w
     k = axis_ratio(contact.radius_x, contact.radius_y)
     minimum = 3.63 * u**0.68 * g**0.49 * w**-0.073 * (1.0 - np.exp(-0.68 * k))
     central = 2.69 * u**0.67 * g**0.53 * w**-0.067 * (1.0 - 0.61 * np.exp(-0.73 * k))
-    return Thickness(float(minimum * contact.radius_x), float(central * contact.radius_x))
+    return BothThicknesses(
+        minimum_thickness=float(minimum * contact.radius_x),
+        central_thickness=float(central * contact.radius_x),
+    )
 
 
-def chittenden(contact: PointContact) -> Thickness:
+def chittenden(contact: PointContact) -> BothThicknesses:
     """Films of Chittenden, Dowson, Dunn and Taylor, for entrainment along either axis of the ellipse.
 
     Minimum h/Rx = 3.68 U^0.68 G^0.49 W^-0.073 (1 - exp(-0.67 (Ry/Rx)^(2/3))), central
@@ -116,7 +118,8 @@ def chittenden(contact: PointContact) -> Thickness:
     Parameters
     ----------
     contact : PointContact
-        With U of the mean speed; their Re is Rx and their Rs is Ry. Needs a pressure-viscosity coefficient.
+        With U of the mean speed; their Re is Rx and their Rs is Ry.
+        For piezoviscous lubricants: zero without a pressure-viscosity coefficient.
 
     Returns
     -------
@@ -136,12 +139,11 @@ def chittenden(contact: PointContact) -> Thickness:
     >>> round(film.minimum_thickness * 1e6, 3), round(film.central_thickness * 1e6, 3)
     (0.252, 0.427)
     """
-    if contact._g == 0.0:
-        return Thickness(None, None)
     h = 4.31 * contact._u**0.68 * contact._g**0.49 * contact._w**-0.073 * contact.radius_x
     sides = (contact.radius_y / contact.radius_x) ** (2.0 / 3.0)
     minimum = 3.68 / 4.31 * h * (1.0 - np.exp(-0.67 * sides))
-    return Thickness(float(minimum), float(h * (1.0 - np.exp(-1.23 * sides))))
+    central = h * (1.0 - np.exp(-1.23 * sides))
+    return BothThicknesses(minimum_thickness=float(minimum), central_thickness=float(central))
 
 
 def _asymptotes(contact: PointContact) -> dict[str, float]:
@@ -159,7 +161,7 @@ def _asymptotes(contact: PointContact) -> dict[str, float]:
     }
 
 
-def nijenbanning_venner_moes(contact: PointContact) -> Thickness:
+def nijenbanning_venner_moes(contact: PointContact) -> CentralThickness:
     """Central film of Nijenbanning, Venner and Moes, over all four regimes.
 
     H = ((H_RI^(3/2) + (H_EI^-4 + H_00^-4)^(-3/8))^(2s/3) + (H_RP^-8 + H_EP^-8)^(-s/8))^(1/s) with
@@ -181,7 +183,7 @@ def nijenbanning_venner_moes(contact: PointContact) -> Thickness:
     -----
     G. Nijenbanning, C. H. Venner and H. Moes, Wear 176 (1994) 217-229, doi:10.1016/0043-1648(94)90150-3. For
     D up to 1, entrainment along the minor axis, and all M and L. For D towards 0 each limit is that of
-    ``film_formulas.moes`` at the middle of the long ellipse, where the load per length is 3 F/4 over its
+    ``film_line.moes`` at the middle of the long ellipse, where the load per length is 3 F/4 over its
     semi-axis. As there, the film of a rigid isoviscous contact is the one where the pressure gradient
     vanishes, 1.226 of that at the centre. H_00 bounds the film of bodies that hardly touch.
 
@@ -199,13 +201,14 @@ def nijenbanning_venner_moes(contact: PointContact) -> Thickness:
         h = (isoviscous ** (2 * s / 3) + (rp**-8 + ep**-8) ** (-s / 8)) ** (1.0 / s)
     else:
         h = isoviscous ** (2 / 3)
-    return Thickness(None, float(h * contact.radius_x * np.sqrt(2.0 * contact._u)))
+    film = float(h * contact.radius_x * np.sqrt(2.0 * contact._u))
+    return CentralThickness(central_thickness=film)
 
 
 FORMULAS = {
-    "hamrock_dowson": hamrock_dowson,
-    "chittenden": chittenden,
-    "nijenbanning_venner_moes": nijenbanning_venner_moes,
+    "hamrock_dowson": Formula("Hamrock-Dowson", hamrock_dowson, piezoviscous=True),
+    "chittenden": Formula("Chittenden et al.", chittenden, piezoviscous=True),
+    "nijenbanning_venner_moes": Formula("Nijenbanning et al.", nijenbanning_venner_moes),
 }
 
 

@@ -1,4 +1,4 @@
-"""Density of the lubricant over pressure: pure functions."""
+"""Density of the lubricant over pressure and temperature: pure functions."""
 
 from __future__ import annotations
 
@@ -6,10 +6,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array
-from ehlectric.lubricant.law import Law
+from ehlectric.lubricant.law import Law, Parameter
 
 
-def dowson_higginson(pressure: ArrayLike, *, density_c1: float, density_c2: float) -> tuple[Array, Array]:
+def dowson_higginson(
+    pressure: ArrayLike, temperature: ArrayLike | None = None, *, density_c1: float, density_c2: float
+) -> tuple[Array, Array]:
     """Density ratio after Dowson and Higginson, and its derivative.
 
     rho/rho0 = (C1 + C2 p)/(C1 + p)
@@ -18,6 +20,8 @@ def dowson_higginson(pressure: ArrayLike, *, density_c1: float, density_c2: floa
     ----------
     pressure : array_like, shape (...)
         Pressure p [Pa], >= 0.
+    temperature : array_like, optional
+        Temperature [K]; the law is isothermal and takes no notice of it.
     density_c1 : float
         C1 [Pa].
     density_c2 : float
@@ -42,13 +46,15 @@ def dowson_higginson(pressure: ArrayLike, *, density_c1: float, density_c2: floa
     return (density_c1 + density_c2 * p) / total, (density_c2 - 1.0) * density_c1 / total**2
 
 
-def incompressible(pressure: ArrayLike) -> tuple[Array, Array]:
+def incompressible(pressure: ArrayLike, temperature: ArrayLike | None = None) -> tuple[Array, Array]:
     """Density ratio of an incompressible lubricant, and its derivative: ones and zeros.
 
     Parameters
     ----------
     pressure : array_like, shape (...)
         Pressure [Pa].
+    temperature : array_like, optional
+        Temperature [K]; the law is isothermal and takes no notice of it.
 
     Returns
     -------
@@ -64,7 +70,28 @@ def incompressible(pressure: ArrayLike) -> tuple[Array, Array]:
     return np.ones_like(p), np.zeros_like(p)
 
 
+_C1 = Parameter(
+    "density_c1",
+    "Pa",
+    title="Dowson and Higginson's first constant",
+    symbol="$C_1$",
+    meaning="$C_1$ of Dowson and Higginson",
+    least=1e7,
+    most=1e11,
+    reason="an oil has 0.59 GPa",
+)
+_C2 = Parameter(
+    "density_c2",
+    "",
+    title="Dowson and Higginson's second constant",
+    symbol="$C_2$",
+    meaning="$C_2$ of Dowson and Higginson",
+    least=1.0,
+    most=3.0,
+    reason="the density ratio at unlimited pressure",
+)
+
 DENSITY_LAWS = {
-    "dowson-higginson": Law(dowson_higginson, ("density_c1", "density_c2")),
-    "incompressible": Law(incompressible, ()),
+    "dowson-higginson": Law(dowson_higginson, (_C1, _C2)),
+    "incompressible": Law(incompressible),
 }

@@ -1,4 +1,4 @@
-"""Permittivity of the lubricant over density: pure functions."""
+"""Permittivity of the lubricant over density and temperature: pure functions."""
 
 from __future__ import annotations
 
@@ -7,10 +7,12 @@ from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array
 from ehlectric.errors import InputError
-from ehlectric.lubricant.law import Law
+from ehlectric.lubricant.law import Law, Parameter
 
 
-def clausius_mossotti(density_ratio: ArrayLike, *, relative_permittivity: float) -> Array:
+def clausius_mossotti(
+    density_ratio: ArrayLike, temperature: ArrayLike | None = None, *, relative_permittivity: float
+) -> Array:
     """Relative permittivity of a compressed dielectric liquid.
 
     eps = (eps_r + 2 + 2 (eps_r - 1) rho)/(eps_r + 2 - (eps_r - 1) rho)
@@ -19,6 +21,8 @@ def clausius_mossotti(density_ratio: ArrayLike, *, relative_permittivity: float)
     ----------
     density_ratio : array_like, shape (...)
         rho/rho0, dimensionless, > 0.
+    temperature : array_like, optional
+        Temperature [K]; the law takes no notice of it, as the density carries its effect.
     relative_permittivity : float
         eps_r at the reference density, dimensionless, >= 1.
 
@@ -45,21 +49,27 @@ def clausius_mossotti(density_ratio: ArrayLike, *, relative_permittivity: float)
     rho = np.asarray(density_ratio, dtype=float)
     denominator = relative_permittivity + 2.0 - (relative_permittivity - 1.0) * rho
     if np.any(denominator <= 0.0):
-        raise InputError(
-            "lubricant.permittivity_law: 'clausius-mossotti' has a pole at the density ratio "
-            f"{(relative_permittivity + 2.0) / (relative_permittivity - 1.0):.4g}, and the film reaches "
-            f"{np.max(rho):.4g}; a polar liquid takes 'constant'"
+        raise InputError.worded(
+            "lubricant.permittivity_law",
+            "'clausius-mossotti' has a pole at the density ratio "
+            f"{(relative_permittivity + 2.0) / (relative_permittivity - 1.0):.4g}, and the film "
+            f"reaches {np.max(rho):.4g}; a polar liquid takes 'constant'",
+            takes="'constant'",
         )
     return (relative_permittivity + 2.0 + 2.0 * (relative_permittivity - 1.0) * rho) / denominator
 
 
-def constant_permittivity(density_ratio: ArrayLike, *, relative_permittivity: float) -> Array:
+def constant_permittivity(
+    density_ratio: ArrayLike, temperature: ArrayLike | None = None, *, relative_permittivity: float
+) -> Array:
     """Relative permittivity that does not change with density.
 
     Parameters
     ----------
     density_ratio : array_like, shape (...)
         rho/rho0, dimensionless.
+    temperature : array_like, optional
+        Temperature [K]; the law takes no notice of it.
     relative_permittivity : float
         eps_r, dimensionless.
 
@@ -76,7 +86,18 @@ def constant_permittivity(density_ratio: ArrayLike, *, relative_permittivity: fl
     return np.full_like(np.asarray(density_ratio, dtype=float), relative_permittivity)
 
 
+RELATIVE_PERMITTIVITY = Parameter(
+    "relative_permittivity",
+    "",
+    title="relative permittivity",
+    symbol=r"$\varepsilon_\mathrm{r}$",
+    meaning=r"$\varepsilon_r$ at the density of zero pressure",
+    least=1.0,
+    most=1e3,
+    reason="vacuum has 1, oils 2 to 5, water 80",
+)
+
 PERMITTIVITY_LAWS = {
-    "clausius-mossotti": Law(clausius_mossotti, ("relative_permittivity",)),
-    "constant": Law(constant_permittivity, ("relative_permittivity",)),
+    "clausius-mossotti": Law(clausius_mossotti, (RELATIVE_PERMITTIVITY,)),
+    "constant": Law(constant_permittivity, (RELATIVE_PERMITTIVITY,)),
 }

@@ -1,4 +1,4 @@
-"""An oil over temperature: viscosity, density, pressure-viscosity coefficient, heat of the inlet. SI."""
+"""An oil over temperature: viscosity, density, heat of the inlet. SI."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ import math
 from dataclasses import dataclass
 
 from ehlectric.errors import InputError
-from ehlectric.lubricant.viscosity import ROELANDS_CONSTANT
 
 # Absolute temperatures of 15, 40 and 100 degC [K].
 REFERENCE = 288.15
@@ -48,13 +47,15 @@ class Walther:
         """
         if not at_40 > at_100:
             raise InputError(
-                f"lubricant.temperature.kinematic_viscosity_100: got {at_100:g} m^2/s, takes less than "
-                f"kinematic_viscosity_40, {at_40:g} m^2/s"
+                "lubricant.temperature.kinematic_viscosity_100",
+                got=f"{at_100:g} m^2/s",
+                takes=f"less than kinematic_viscosity_40, {at_40:g} m^2/s",
             )
         if at_100 < 1e-6 * _LEAST:
             raise InputError(
-                f"lubricant.temperature.kinematic_viscosity_100: got {at_100:g} m^2/s, takes at least "
-                f"{1e-6 * _LEAST:g} m^2/s, for which ASTM D341 holds in its short form"
+                "lubricant.temperature.kinematic_viscosity_100",
+                got=f"{at_100:g} m^2/s",
+                takes=f"at least {1e-6 * _LEAST:g} m^2/s, for which ASTM D341 holds in its short form",
             )
         cold, hot = (math.log10(math.log10(1e6 * nu + _ADDED)) for nu in (at_40, at_100))
         b = (cold - hot) / math.log10(HOT / COLD)
@@ -70,12 +71,14 @@ class Walther:
         """
         double = math.pow(10.0, self.a - self.b * math.log10(temperature))
         if double > 300.0:
-            raise InputError(f"bearing.temperature: got {temperature:g} K, at which the oil is solid")
+            raise InputError("bearing.temperature", got=f"{temperature:g} K, at which the oil is solid")
         nu = math.pow(10.0, double) - _ADDED
         if nu < _LEAST:
             raise InputError(
-                f"bearing.temperature: got {temperature:g} K, at which the oil has {nu:.3g} mm^2/s; takes "
-                f"one at which it has {_LEAST:g} mm^2/s or more, for which ASTM D341 holds in its short form"
+                "bearing.temperature",
+                got=f"{temperature:g} K, at which the oil has {nu:.3g} mm^2/s;",
+                takes=f"one at which it has {_LEAST:g} mm^2/s or more, for which ASTM D341 holds in its "
+                "short form",
             )
         return 1e-6 * nu
 
@@ -108,36 +111,6 @@ def density(at_15: float, expansion: float, temperature: float) -> float:
     838.9
     """
     return at_15 * (1.0 - expansion * (temperature - REFERENCE))
-
-
-def roelands_alpha(viscosity: float, roelands_z: float, roelands_pressure: float) -> float:
-    """Pressure-viscosity coefficient of Roelands' law, alpha = z (ln eta0 + 9.67)/p0.
-
-    Parameters
-    ----------
-    viscosity : float
-        eta0 at the temperature [Pa s].
-    roelands_z : float
-        Exponent z, which hardly changes with temperature.
-    roelands_pressure : float
-        p0 [Pa].
-
-    Returns
-    -------
-    float
-        [1/Pa].
-
-    Notes
-    -----
-    C. J. A. Roelands, Correlational aspects of the viscosity-temperature-pressure relationship of
-    lubricating oils, thesis, Delft, 1966.
-
-    Examples
-    --------
-    >>> round(roelands_alpha(0.04, 0.67, 0.198e9) * 1e9, 2)
-    21.83
-    """
-    return roelands_z * (math.log(viscosity) + ROELANDS_CONSTANT) / roelands_pressure
 
 
 def inlet_shear_factor(viscosity: float, slope: float, speed: float, conductivity: float) -> float:

@@ -1,14 +1,16 @@
-"""Viscosity of the lubricant over pressure: pure functions."""
+"""Viscosity of the lubricant over pressure and temperature: pure functions."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array
-from ehlectric.lubricant.law import Law
+from ehlectric.errors import ResultWarning
+from ehlectric.lubricant.law import Derivation, Law, Parameter
 
 # Roelands' reduced form of the viscosity at zero pressure, ln(eta0) + 9.67, with eta0 in Pa s.
 ROELANDS_CONSTANT = 9.67
@@ -45,8 +47,39 @@ def roelands_exponent(
     return pressure_viscosity_coefficient * roelands_pressure / reduced if reduced > 0.0 else math.inf
 
 
+def roelands_alpha(viscosity: float, roelands_z: float, roelands_pressure: float) -> float:
+    """Pressure-viscosity coefficient of Roelands' law, alpha = z (ln eta0 + 9.67)/p0.
+
+    Parameters
+    ----------
+    viscosity : float
+        eta0 at the temperature [Pa s].
+    roelands_z : float
+        Exponent z, which hardly changes with temperature.
+    roelands_pressure : float
+        p0 [Pa].
+
+    Returns
+    -------
+    float
+        [1/Pa].
+
+    Notes
+    -----
+    C. J. A. Roelands, Correlational aspects of the viscosity-temperature-pressure relationship of
+    lubricating oils, thesis, Delft, 1966.
+
+    Examples
+    --------
+    >>> round(roelands_alpha(0.04, 0.67, 0.198e9) * 1e9, 2)
+    21.83
+    """
+    return roelands_z * (math.log(viscosity) + ROELANDS_CONSTANT) / roelands_pressure
+
+
 def roelands(
     pressure: ArrayLike,
+    temperature: ArrayLike | None = None,
     *,
     pressure_viscosity_coefficient: float,
     roelands_z: float,
@@ -60,6 +93,8 @@ def roelands(
     ----------
     pressure : array_like, shape (...)
         Pressure p [Pa], >= 0.
+    temperature : array_like, optional
+        Temperature [K]; the law is isothermal and takes no notice of it.
     pressure_viscosity_coefficient : float
         alpha, the slope of ln eta at p = 0 [1/Pa].
     roelands_z : float
@@ -90,7 +125,9 @@ def roelands(
     return exponent, pressure_viscosity_coefficient * ratio ** (roelands_z - 1.0)
 
 
-def barus(pressure: ArrayLike, *, pressure_viscosity_coefficient: float) -> tuple[Array, Array]:
+def barus(
+    pressure: ArrayLike, temperature: ArrayLike | None = None, *, pressure_viscosity_coefficient: float
+) -> tuple[Array, Array]:
     """Logarithm of the relative viscosity after Barus, and its derivative.
 
     ln(eta/eta0) = alpha p
@@ -99,6 +136,8 @@ def barus(pressure: ArrayLike, *, pressure_viscosity_coefficient: float) -> tupl
     ----------
     pressure : array_like, shape (...)
         Pressure p [Pa], >= 0.
+    temperature : array_like, optional
+        Temperature [K]; the law is isothermal and takes no notice of it.
     pressure_viscosity_coefficient : float
         alpha [1/Pa].
 
@@ -121,13 +160,15 @@ def barus(pressure: ArrayLike, *, pressure_viscosity_coefficient: float) -> tupl
     return pressure_viscosity_coefficient * p, np.full_like(p, pressure_viscosity_coefficient)
 
 
-def constant_viscosity(pressure: ArrayLike) -> tuple[Array, Array]:
+def constant_viscosity(pressure: ArrayLike, temperature: ArrayLike | None = None) -> tuple[Array, Array]:
     """Logarithm of the relative viscosity of an isoviscous lubricant, and its derivative: zeros.
 
     Parameters
     ----------
     pressure : array_like, shape (...)
         Pressure [Pa].
+    temperature : array_like, optional
+        Temperature [K]; the law is isothermal and takes no notice of it.
 
     Returns
     -------
@@ -143,8 +184,83 @@ def constant_viscosity(pressure: ArrayLike) -> tuple[Array, Array]:
     return np.zeros_like(p), np.zeros_like(p)
 
 
+def _barus_warnings(
+    max_pressure: float, viscosity: float, *, pressure_viscosity_coefficient: float
+) -> Iterator[ResultWarning]:
+    """Warning of Barus' law at a high Hertz pressure [Pa]."""
+    if max_pressure > 0.5e9:
+        yield ResultWarning(
+            "law-range", "Barus' law overstates the viscosity above some 0.5 GPa by orders of magnitude"
+        )
+
+
+def _roelands_warnings(
+    max_pressure: float,
+    viscosity: float,
+    *,
+    pressure_viscosity_coefficient: float,
+    roelands_z: float,
+    roelands_pressure: float,
+) -> Iterator[ResultWarning]:
+    """Warning of an exponent that is far from the one of Roelands' own relation."""
+    z = roelands_exponent(viscosity, pressure_viscosity_coefficient, roelands_pressure)
+    if abs(z / roelands_z - 1.0) > 0.1:
+        yield ResultWarning(
+            "roelands-z",
+            f"roelands_z is {roelands_z:g}; Roelands' own relation gives {z:.3g} for this "
+            "viscosity and pressure-viscosity coefficient",
+        )
+
+
+def _roelands_hint(viscosity: float, given: Mapping[str, float]) -> str:
+    """Exponent of Roelands' own relation, where the exponent alone is missing."""
+    if given.keys() != {"pressure_viscosity_coefficient", "roelands_pressure"}:
+        return ""
+    z = roelands_exponent(viscosity, **given)
+    if not math.isfinite(z):
+        return ""
+    return (
+        "; Roelands' relation pressure_viscosity_coefficient roelands_pressure/(ln viscosity + "
+        f"{ROELANDS_CONSTANT}) gives {z:.3g}"
+    )
+
+
+_ALPHA = Parameter(
+    "pressure_viscosity_coefficient",
+    "1/Pa",
+    title="pressure-viscosity coefficient",
+    symbol=r"$\alpha$",
+    meaning=r"$\alpha$, the slope of $\ln\eta$ at zero pressure; for Roelands and Barus",
+    least=1e-11,
+    most=2e-7,
+    reason="an oil has 5 to 40 1/GPa",
+    derivation=Derivation(roelands_alpha, ("roelands_z", "roelands_pressure")),
+)
+_ROELANDS_Z = Parameter(
+    "roelands_z",
+    "",
+    title="Roelands' exponent",
+    symbol="$z$",
+    meaning="Roelands' exponent $z$",
+    least=0.01,
+    most=2.0,
+    reason="an oil has 0.3 to 1",
+)
+_ROELANDS_PRESSURE = Parameter(
+    "roelands_pressure",
+    "Pa",
+    title="Roelands' constant",
+    symbol="$p_0$",
+    meaning="Roelands' constant $p_0$",
+    least=1e7,
+    most=1e10,
+    reason="Roelands' constant is 0.196 GPa",
+)
+
 VISCOSITY_LAWS = {
-    "roelands": Law(roelands, ("pressure_viscosity_coefficient", "roelands_z", "roelands_pressure")),
-    "barus": Law(barus, ("pressure_viscosity_coefficient",)),
-    "constant": Law(constant_viscosity, ()),
+    "roelands": Law(
+        roelands, (_ALPHA, _ROELANDS_Z, _ROELANDS_PRESSURE), warnings=_roelands_warnings, hint=_roelands_hint
+    ),
+    "barus": Law(barus, (_ALPHA,), warnings=_barus_warnings),
+    "constant": Law(constant_viscosity),
 }

@@ -26,8 +26,8 @@ from ehlectric.errors import InputError
 from ehlectric.field.line import Field
 from ehlectric.field.point import PointField
 from ehlectric.film.line import Film
-from ehlectric.film.newton import State
 from ehlectric.film.point import PointFilm
+from ehlectric.film.state import State
 from ehlectric.film.unsteady import History, Instant
 from ehlectric.motion.motion import Motion
 from ehlectric.motion.solver import MovingContact, Snapshot
@@ -69,6 +69,7 @@ _MAPS = {
 }
 _OF_POINTS = ("minimum_y", "max_strength_y")
 _RESUME = ("pressure", "thickness", "mass", "density", "free")
+_ATTRIBUTES = {"free": "full_film"}  # of an instant, where the file has another name
 _TIMES = ("t", "h00")
 _PLACES = 2  # of what a run goes on from
 _CHUNK = 1024
@@ -192,7 +193,7 @@ class MotionFile:
         with opened(self._path, "a") as file:
             if _state(file) != self._left:
                 raise InputError(
-                    f"{self._path}: is being written to by another run, takes a folder of its own"
+                    self._path, "is being written to by another run", takes="a folder of its own"
                 )
             # By their numbers, not behind what there is: of an instant that was half written before.
             before = file.variables["frame_step"][: int(file.attrs["frames"])]
@@ -288,7 +289,7 @@ def _kept(group: Any, frames: int) -> History | None:
 
 def _part(instant: Instant, name: str) -> Array:
     of_state = name in ("pressure", "thickness")
-    values: Array = getattr(instant.state if of_state else instant, name)
+    values: Array = getattr(instant.state if of_state else instant, _ATTRIBUTES.get(name, name))
     return values
 
 

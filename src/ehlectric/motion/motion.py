@@ -77,7 +77,7 @@ class Motion:
 
     def __init__(self, case: Case) -> None:
         if case.motion is None:
-            raise InputError("motion: missing, a case whose roughness moves takes it")
+            raise InputError.worded("motion", "missing, a case whose roughness moves takes it")
         self.case = case
         point = case.contact.geometry == "point"
         self.conditions: Conditions | PointConditions = resolve_point(case) if point else resolve(case)
@@ -88,8 +88,9 @@ class Motion:
             self.course = replace(self.course, recorded=np.union1d(self.course.recorded, [alike]))
         if not self._speeds:
             raise InputError(
-                "motion: got roughness on surfaces at rest alone; takes it on one that moves, or a case "
-                "without motion"
+                "motion",
+                got="roughness on surfaces at rest alone;",
+                takes="it on one that moves, or a case without motion",
             )
 
     @property
@@ -244,8 +245,9 @@ def _course(case: Case, conditions: Conditions | PointConditions) -> Course:
     steps = motion.steps or round(end / spacing)
     if not steps:
         raise InputError(
-            f"motion.{'duration' if motion.passes is None else 'passes'}: got {end * time:.3g} s, in which "
-            f"oil travels less than a grid spacing; takes at least {spacing * time:.3g} s"
+            f"motion.{'duration' if motion.passes is None else 'passes'}",
+            got=f"{end * time:.3g} s, in which oil travels less than a grid spacing;",
+            takes=f"at least {spacing * time:.3g} s",
         )
     if motion.steps is None:
         # As long as the grid spacing: then the feet of the lines on which oil travels are nodes. Of surfaces
@@ -256,8 +258,9 @@ def _course(case: Case, conditions: Conditions | PointConditions) -> Course:
     if courant > MOST_COURANT * (1.0 + 1e-9):
         least = int(np.ceil(end / spacing / MOST_COURANT))
         raise InputError(
-            f"motion.steps: got {steps}, in each of which oil would travel {courant:.3g} grid spacings; "
-            f"takes at least {least}, and {round(end / spacing)} for one spacing a step"
+            "motion.steps",
+            got=f"{steps}, in each of which oil would travel {courant:.3g} grid spacings;",
+            takes=f"at least {least}, and {round(end / spacing)} for one spacing a step",
         )
     recorded = np.unique(np.round(np.linspace(0, steps, min(motion.record, steps + 1))).astype(int))
     return Course(end, steps, courant, recorded, time)

@@ -61,8 +61,8 @@ def read_motion(path: str | Path) -> xr.Dataset:
     try:
         path.open("rb").close()
     except OSError as error:
-        raise InputError(f"{path}: cannot be read, {(error.strerror or str(error)).lower()}") from None
-    damaged = InputError(f"{path}: is no motion of ehlectric, or damaged")
+        raise InputError(path, f"cannot be read, {(error.strerror or str(error)).lower()}") from None
+    damaged = InputError(path, "is no motion of ehlectric, or damaged")
     try:
         with opened(path, "r") as file:
             dataset = xr.open_dataset(xr.backends.H5NetCDFStore(file)).load()
@@ -123,7 +123,7 @@ class MotionRun:
         missing = [name for name in _NEEDED if name not in dataset]
         if missing or "case" not in dataset.attrs:
             lacks = missing[0] if missing else "case"
-            raise InputError(f"dataset: got one without {lacks!r}, takes that of roughness that moves")
+            raise InputError("dataset", got=f"one without {lacks!r}", takes="that of roughness that moves")
         case = Case.from_dict(tomllib.loads(dataset.attrs["case"]))
         point = case.contact.geometry == "point"
         there = {
@@ -133,7 +133,7 @@ class MotionRun:
         left = {name: np.flatnonzero(mask) for name, mask in there.items() if not np.all(mask)}
         kept = dataset.isel(left) if left else dataset
         if not kept.sizes["frame"]:
-            raise InputError("dataset: got no recorded instant, takes one at least")
+            raise InputError("dataset", got="no recorded instant", takes="one at least")
         return cls(kept, case, resolve_point(case) if point else resolve(case))
 
     @property

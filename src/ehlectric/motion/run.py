@@ -14,13 +14,13 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
+from ehlectric.contact.case_warnings import line_case_warnings, point_case_warnings
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.memory import check_memory
 from ehlectric.contact.problems import domain_of, line_domain_of, spacing, spacings
-from ehlectric.contact.remarks import line_remarks as remarks
-from ehlectric.contact.remarks import point_remarks
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.contact.solver import solve
+from ehlectric.errors import ResultWarning
 from ehlectric.field.poisson import ATOM
 from ehlectric.film.point import PointFilm
 from ehlectric.motion.file import MotionFile, Row, column_strength, described
@@ -28,10 +28,10 @@ from ehlectric.motion.motion import Motion
 from ehlectric.motion.record import MOTION
 from ehlectric.motion.solver import MovingContact
 from ehlectric.runtime.files import plain, prepare
-from ehlectric.surfaces.remarks import map_surface_remarks as map_remarks
-from ehlectric.surfaces.remarks import profile_surface_remarks as rough_remarks
+from ehlectric.runtime.stored_warnings import as_attributes
 from ehlectric.surfaces.rough_maps import RoughMap
 from ehlectric.surfaces.rough_profiles import RoughSurface
+from ehlectric.surfaces.warnings import map_surface_warnings, profile_surface_warnings
 from ehlectric.version import __version__
 
 # Part of its height by which roughness that moves may differ from that held still, without a word.
@@ -112,11 +112,11 @@ def _begin(file: MotionFile, contact: MovingContact) -> None:
         "case": motion.case.to_toml(),
         "version": __version__,
         "date": datetime.now(UTC).isoformat(timespec="seconds"),
-        "warnings": json.dumps(list(_remarks(motion, still))),
         "stationary": json.dumps(plain(_numbers(still))),
         "rough": described(motion),
         "seconds": 0.0,
     }
+    attributes |= as_attributes(_warnings(motion, still))
     file.create(first, attributes | _moments(motion), _maps(still))
     file.append([Row.of(contact, history)], 0, first, history, time.perf_counter() - started)
 
@@ -149,28 +149,32 @@ def _numbers(still: Result | PointResult) -> dict[str, Any] | None:
     }
 
 
-def _remarks(motion: Motion, still: Result | PointResult) -> Iterator[str]:
-    """What to know before using it."""
+def _warnings(motion: Motion, still: Result | PointResult) -> Iterator[ResultWarning]:
+    """Warnings of a run that are known before its first step."""
     case, given = motion.reached, motion.conditions
     if isinstance(given, PointConditions):
-        yield from point_remarks(motion.case, given)
+        yield from point_case_warnings(motion.case, given)
         maps = [surface for surface in motion.rough if isinstance(surface, RoughMap)]
         grid = spacings(motion.case, given)
-        yield from map_remarks(case.roughness, maps, domain_of(case, given), *grid)
+        yield from map_surface_warnings(case.roughness, maps, domain_of(case, given), *grid)
     else:
         assert isinstance(given, Conditions)
-        yield from remarks(motion.case, given)
+        yield from line_case_warnings(motion.case, given)
         lines = [surface for surface in motion.rough if isinstance(surface, RoughSurface)]
-        yield from rough_remarks(case.roughness, lines, line_domain_of(case, given), spacing(case, given))
+        yield from profile_surface_warnings(
+            case.roughness, lines, line_domain_of(case, given), spacing(case, given)
+        )
     yield from _unlike(motion, still)
     if not still.converged:
-        yield f"the same roughness held still is not solved: {still.film.status}"
+        text = f"the same roughness held still is not solved: {still.film.status}"
+        yield ResultWarning("stationary-not-converged", text)
     elif (error := still.film.discretisation_error) is not None and error > 0.01:
-        yield f"held still, the film may be {100.0 * error:.2g} % off on this grid, and moving about as much"
+        text = f"held still, the film may be {100.0 * error:.2g} % off on this grid, and moving about as much"
+        yield ResultWarning("stationary-error", text)
 
 
-def _unlike(motion: Motion, still: Result | PointResult) -> Iterator[str]:
-    """Roughness that is another one held still: made longer, its form and its Rq are of all that is made."""
+def _unlike(motion: Motion, still: Result | PointResult) -> Iterator[ResultWarning]:
+    """Warning of moving roughness unlike the stationary one, whose form and Rq are of a shorter surface."""
     if not np.isfinite(motion.coincident):
         return
     film, b = still.film, motion.half_width
@@ -179,7 +183,8 @@ def _unlike(motion: Motion, still: Result | PointResult) -> Iterator[str]:
     away = (motion.heights(motion.coincident, *axes) - still.roughness)[:, inside]
     part = np.max(np.abs(away)) / max(np.max(np.abs(still.roughness[:, inside])), ATOM)
     if part > _ALIKE:
-        yield (
+        yield ResultWarning(
+            "stationary-differs",
             f"the roughness that moves is up to {100.0 * part:.2g} % of its height off that held still: form "
-            "and rescale_rq are of all that moves through the contact, which is longer"
+            "and rescale_rq are of all that moves through the contact, which is longer",
         )

@@ -17,8 +17,8 @@ from ehlectric.field.line import Field, solve_field
 from ehlectric.field.point import PointField, solve_point_field
 from ehlectric.film.line import Film, pressure_of, quiet_solution
 from ehlectric.film.nested import nested_iteration
-from ehlectric.film.newton import Progress
 from ehlectric.film.point import PointFilm, semi_axis_across
+from ehlectric.film.state import Progress
 from ehlectric.film.unsteady import History, Instant, UnsteadyFilm
 from ehlectric.motion.motion import Motion
 
@@ -116,7 +116,7 @@ class MovingContact:
         thickness = self._shaped(scales.thickness * instant.state.thickness)
         place = np.unravel_index(int(np.argmin(thickness)), thickness.shape)
         axes = (scales.length * mesh.x, scales.length * mesh.whole_y)[: thickness.ndim]
-        highest = np.max(pressure_of(scales, instant.state, instant.free))
+        highest = np.max(pressure_of(scales, instant.state, instant.full_film))
         where = tuple(float(axis[k]) for axis, k in zip(axes, place, strict=True))
         return float(np.min(thickness)), where, float(highest)
 
@@ -132,11 +132,11 @@ class MovingContact:
         load = float(np.vdot(level.weights, state.pressure))
         film: dict[str, Any] = {
             "x": scales.length * mesh.x,
-            "pressure": shaped(pressure_of(scales, state, instant.free)),
+            "pressure": shaped(pressure_of(scales, state, instant.full_film)),
             "thickness": shaped(scales.thickness * state.thickness),
             "deflection": shaped(scales.thickness * level.deflection(state.pressure)),
             "density": shaped(instant.density),
-            "cavitated": shaped(~instant.free),
+            "cavitated": shaped(~instant.full_film),
             "reynolds_residual": shaped(np.zeros(mesh.shape)),
             "scales": scales,
             "status": "converged",

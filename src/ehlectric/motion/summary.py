@@ -12,10 +12,12 @@ from scipy.ndimage import maximum_filter
 from ehlectric.arrays import Array, Mask
 from ehlectric.contact.conditions import PointConditions
 from ehlectric.discharge.utilisation import dielectric_strength
+from ehlectric.errors import ResultWarning
 from ehlectric.motion.file import motion_of
 from ehlectric.motion.motion import Motion
 from ehlectric.motion.record import MotionRun
 from ehlectric.runtime.files import plain
+from ehlectric.runtime.stored_warnings import of_attributes, texts_and_codes
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -53,7 +55,7 @@ def summary_of(dataset: xr.Dataset) -> dict[str, Any]:
         "version": str(attributes["version"]),
         "title": motion.case.title,
         "converged": complete,
-        "warnings": [*json.loads(attributes["warnings"]), *_halved(dataset)],
+        **texts_and_codes([*of_attributes(attributes), *_halved(dataset)]),
         "inputs": motion.case.to_dict(),
         "motion": _course(motion, dataset),
         "film": _film(dataset),
@@ -68,12 +70,13 @@ def summary_of(dataset: xr.Dataset) -> dict[str, Any]:
     return summary
 
 
-def _halved(dataset: xr.Dataset) -> Iterator[str]:
+def _halved(dataset: xr.Dataset) -> Iterator[ResultWarning]:
     halvings = dataset["halvings"].values
     if np.any(halvings):
-        yield (
+        yield ResultWarning(
+            "steps-halved",
             f"{np.count_nonzero(halvings)} time steps had to be halved, {int(halvings.sum())} times in all; "
-            "more motion.steps or a finer grid may be worth while"
+            "more motion.steps or a finer grid may be worth while",
         )
 
 

@@ -17,8 +17,9 @@ from ehlectric.film.estimates import inlet_deficit, richardson
 from ehlectric.film.line import Film, film_status
 from ehlectric.film.mesh import Mesh
 from ehlectric.film.nested import FIRST_GRID, NESTED_TOLERANCE
-from ehlectric.film.newton import ROUNDING, NewtonStep, Progress, Status
+from ehlectric.film.newton import ROUNDING
 from ehlectric.film.problem import FilmProblem
+from ehlectric.film.state import NewtonStep, Progress, Status
 from ehlectric.formulas.hertz_line import line_pressure
 from ehlectric.paper.film_equations import FilmEquations, Iterate
 from ehlectric.paper.relaxation import relax, solve_coarsest
@@ -122,9 +123,11 @@ def grid_sizes(nodes: int) -> list[int]:
     while sizes[-1] > COARSEST and sizes[-1] % 2 == 1:
         sizes.append(sizes[-1] // 2 + 1)
     if sizes[-1] > LARGEST_COARSEST:
-        raise InputError(
-            f"grid.nodes: got {nodes}, the paper's multigrid takes a number whose intervals can be halved "
-            f"down to at most {LARGEST_COARSEST - 1}, such as 801, 1601 or 3201"
+        raise InputError.worded(
+            "grid.nodes",
+            f"got {nodes}, the paper's multigrid takes a number whose intervals can be halved "
+            f"down to at most {LARGEST_COARSEST - 1}, such as 801, 1601 or 3201",
+            got=nodes,
         )
     return sizes
 

@@ -20,7 +20,7 @@ import numpy as np
 from scipy.linalg import matmul_toeplitz, toeplitz
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.film.reynolds import Fluid
+from ehlectric.film.flow import Fluid
 
 # Nodes that a row of eq. (7) couples, relative to its own.
 NEIGHBOURS = (-2, -1, 0, 1)

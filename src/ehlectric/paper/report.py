@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 from jinja2 import Environment, StrictUndefined
 
+from ehlectric.errors import ResultWarning
 from ehlectric.paper.contacts import CONTACTS, ROUGH_NODES, SMOOTH_NODES
 from ehlectric.paper.errata import SLIPS
 from ehlectric.paper.figures import FIGURES
@@ -182,9 +183,9 @@ def _width_law(study: Study) -> tuple[tuple[float, float], float]:
 
 def _warnings(study: Study) -> list[str]:
     """What the results warn of, each text once with the contacts it is of."""
-    said: dict[str, list[str]] = {}
+    said: dict[ResultWarning, list[str]] = {}
     for part, kind in ((study.smooth, "smooth"), (study.rough, "rough")):
         for contact, result in part.items():
-            for text in result.warnings:
-                said.setdefault(text, []).append(f"{contact.name} {kind}")
-    return [f"{'; '.join(names)}: {text}" for text, names in said.items()]
+            for warning in result.warnings:
+                said.setdefault(warning, []).append(f"{contact.name} {kind}")
+    return [f"{'; '.join(names)}: {warning}" for warning, names in said.items()]

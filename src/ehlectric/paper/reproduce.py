@@ -107,9 +107,9 @@ def _asked_for(figure: int | None, table: int | None) -> tuple[list[int], list[s
     """Numbers of figures and names of tables."""
     if figure is not None and figure not in FIGURES:
         why = ": Figure 1 is a photograph under copyright" if figure == 1 else ""
-        raise InputError(f"--figure: got {figure}, takes {min(FIGURES)} to {max(FIGURES)}{why}")
+        raise InputError("--figure", got=figure, takes=f"{min(FIGURES)} to {max(FIGURES)}{why}")
     if table is not None and table != 3:
-        raise InputError(f"--table: got {table}, takes 3; Tables 1 and 2 are inputs")
+        raise InputError("--table", got=table, takes="3; Tables 1 and 2 are inputs")
     if figure is None and table is None:
         return list(FIGURES), list(TABLES)
     return ([] if figure is None else [figure]), ([] if table is None else ["table_3"])

@@ -4,16 +4,19 @@ from __future__ import annotations
 
 from ehlectric.cases.case import Case
 from ehlectric.contact.solver import OWN, Solvers
-from ehlectric.errors import InputError
+from ehlectric.errors import InputError, shown
 from ehlectric.paper import fas, sor
 
 
 def _check(case: Case) -> None:
     """Refuse what the paper's methods are not made for."""
     if case.contact.geometry != "line":
-        raise InputError(
-            f"contact.geometry: got {case.contact.geometry!r}, the solver 'paper' takes 'line': its methods "
-            "are those of line contacts"
+        raise InputError.worded(
+            "contact.geometry",
+            f"got {case.contact.geometry!r}, the solver 'paper' takes 'line': its methods are "
+            "those of line contacts",
+            got=shown(case.contact.geometry),
+            takes="'line'",
         )
     fas.grid_sizes(case.grid.nodes)
 

@@ -1,1 +1,1 @@
-"""Threads, worker processes, interrupts, memory, and files that are written completely or not at all."""
+"""Threads, worker processes, interrupts, memory, and files that are never written in part."""

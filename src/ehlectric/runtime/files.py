@@ -56,14 +56,14 @@ def prepare(folder: str | Path, names: Iterable[str] = ()) -> Path:
     """
     folder = Path(folder)
     if folder.exists() and not folder.is_dir():
-        raise InputError(f"{folder}: cannot be written to, it is no folder")
+        raise InputError(folder, "cannot be written to, it is no folder")
     try:
         folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=folder):
             pass
     except OSError as error:
         reason = (error.strerror or str(error)).lower()
-        raise InputError(f"{folder}: cannot be written to, {reason}") from None
+        raise InputError(folder, f"cannot be written to, {reason}") from None
     for name in names:
         refuse_special(folder / name)
     return folder
@@ -78,7 +78,7 @@ def refuse_special(path: Path) -> None:
         Where ``path`` is there and no regular file.
     """
     if os.path.lexists(path) and not path.is_file():
-        raise InputError(f"{path}: cannot be written to, it is no regular file")
+        raise InputError(path, "cannot be written to, it is no regular file")
 
 
 def clear(folder: Path, names: Iterable[str]) -> None:

@@ -34,8 +34,8 @@ def opened(path: Path, mode: str) -> Iterator[Any]:
                 file = h5netcdf.File(path, mode)
             except BlockingIOError:
                 if time.monotonic() > until:
-                    told = f"{path}: is held open by another program, which must close it"
-                    raise InputError(told) from None
+                    told = "is held open by another program, which must close it"
+                    raise InputError(path, told) from None
             else:
                 with file:
                     yield file
@@ -59,7 +59,7 @@ def check_space(path: Path, needed: int) -> None:
         Where there are fewer.
     """
     if shutil.disk_usage(path.parent).free < needed:
-        raise InputError(f"{path}: cannot be written to, the disk is full")
+        raise InputError(path, "cannot be written to, the disk is full")
 
 
 def resize(file: Any, sizes: Mapping[str, int]) -> None:

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.errors import InputError
+from ehlectric.errors import InputError, ResultWarning
 from ehlectric.surfaces.instrument_files import HeightMap, read_al3d, read_x3p
 from ehlectric.surfaces.maps import Map
 from ehlectric.surfaces.profiles import LEAST_POINTS, Profile
@@ -41,14 +41,14 @@ class Surface:
     """Heights as read [m], rows along the first axis, NaN where the instrument saw nothing.
 
     A profile is a map of one row. ``spacing_x`` is the distance of neighbours in a row, ``spacing_y`` that
-    of rows, None where there is but one. ``remarks`` say what is doubtful.
+    of rows, None where there is but one. ``warnings`` say what is unreliable.
     """
 
     heights: Array  # (rows, columns)
     spacing_x: float
     spacing_y: float | None
     source: str
-    remarks: tuple[str, ...] = ()
+    warnings: tuple[ResultWarning, ...] = ()
 
     @property
     def voids(self) -> float:
@@ -91,16 +91,17 @@ class Surface:
         lines, spacing = self.heights, self.spacing_x
         if along == "column":
             if self.spacing_y is None:
-                raise InputError(f"{self.source}: is a profile and has no columns, takes along = 'row'")
+                raise InputError(self.source, "is a profile and has no columns", takes="along = 'row'")
             lines, spacing = self.heights.T, self.spacing_y
         if not 0 <= index < lines.shape[0]:
-            raise InputError(f"line: got {index}, takes a {along} from 0 to {lines.shape[0] - 1}")
+            raise InputError("line", got=index, takes=f"a {along} from 0 to {lines.shape[0] - 1}")
         z = lines[index]
         there = np.isfinite(z)
         if np.mean(~there) > MOST_VOID or there.sum() < LEAST_POINTS:
             raise InputError(
-                f"{self.source}: {along} {index} has data at {there.sum()} of {z.size} points, takes a line "
-                f"with at least {LEAST_POINTS} and {100 * (1 - MOST_VOID):.0f} %"
+                self.source,
+                f"{along} {index} has data at {there.sum()} of {z.size} points",
+                takes=f"a line with at least {LEAST_POINTS} and {100 * (1 - MOST_VOID):.0f} %",
             )
         x = np.arange(z.size)
         # Voids at the ends hold nothing to go on: they are left out.
@@ -128,18 +129,21 @@ class Surface:
             Where it is a single line, has too many points, or too much of it is void.
         """
         if self.spacing_y is None:
-            raise InputError(f"{self.source}: is a profile, takes a map of several rows")
+            raise InputError(self.source, "is a profile", takes="a map of several rows")
         if self.heights.size > MOST_MAP_POINTS:
             raise InputError(
-                f"{self.source}: has {self.heights.size:.3g} points, takes a map of at most "
-                f"{MOST_MAP_POINTS:.0e}; cut it where it was measured, or take a line of it"
+                self.source,
+                f"has {self.heights.size:.3g} points",
+                takes=f"a map of at most {MOST_MAP_POINTS:.0e}; cut it where it was measured, or take a "
+                "line of it",
             )
         rows = without_void_borders(self.heights)
         there = int(np.isfinite(rows).sum())
         if min(rows.shape) < LEAST_POINTS or there < (1.0 - MOST_VOID) * rows.size:
             raise InputError(
-                f"{self.source}: has data at {there} of {rows.shape[0]} x {rows.shape[1]} points, takes a "
-                f"map with at least {LEAST_POINTS} each way and {100 * (1 - MOST_VOID):.0f} %"
+                self.source,
+                f"has data at {there} of {rows.shape[0]} x {rows.shape[1]} points",
+                takes=f"a map with at least {LEAST_POINTS} each way and {100 * (1 - MOST_VOID):.0f} %",
             )
         if along == "row":
             dx, dy, heights = self.spacing_x, self.spacing_y, rows.T
@@ -153,14 +157,16 @@ def _checked(profile: Profile, source: str) -> Profile:
     slope = float(np.max(np.abs(np.diff(profile.heights)))) / profile.spacing
     if slope > STEEPEST:
         raise InputError(
-            f"{source}: the largest slope between neighbours is {slope:.3g}, takes one up to {STEEPEST:g}; "
-            "are x_unit and z_unit right?"
+            source,
+            f"the largest slope between neighbours is {slope:.3g}",
+            takes=f"one up to {STEEPEST:g}; are x_unit and z_unit right?",
         )
     height = float(np.ptp(profile.heights))
     if height > profile.length:
         raise InputError(
-            f"{source}: the heights range over {height:.3g} m, the line over {profile.length:.3g} m, takes "
-            "a surface, whose heights range over less than its length; are x_unit and z_unit right?"
+            source,
+            f"the heights range over {height:.3g} m, the line over {profile.length:.3g} m",
+            takes="a surface, whose heights range over less than its length; are x_unit and z_unit right?",
         )
     return profile
 
@@ -172,14 +178,16 @@ def _checked_map(surface: Map, source: str) -> Map:
     steep = max(float(np.mean(slope > STEEPEST)) for slope in slopes)
     if steep > _MOST_STEEP:
         raise InputError(
-            f"{source}: {100 * steep:.2g} % of the slopes between neighbours are above {STEEPEST:g}, takes "
-            f"a map with up to {100 * _MOST_STEEP:g} %; are its units right?"
+            source,
+            f"{100 * steep:.2g} % of the slopes between neighbours are above {STEEPEST:g}",
+            takes=f"a map with up to {100 * _MOST_STEEP:g} %; are its units right?",
         )
     height, length = float(np.ptp(z)), max(surface.length_x, surface.length_y)
     if height > length:
         raise InputError(
-            f"{source}: the heights range over {height:.3g} m, the map over {length:.3g} m, takes a surface, "
-            "whose heights range over less than its length; are its units right?"
+            source,
+            f"the heights range over {height:.3g} m, the map over {length:.3g} m",
+            takes="a surface, whose heights range over less than its length; are its units right?",
         )
     return surface
 
@@ -213,7 +221,7 @@ def read_surface(path: str | Path, *, x_unit: str | None = None, z_unit: str | N
         surface = _of_map(path, read_al3d(path, content), x_unit, z_unit)
     elif is_text(content):
         text = read_text(path, content, x_unit, z_unit)
-        surface = Surface(text.heights[np.newaxis], text.spacing, None, str(path), text.remarks)
+        surface = Surface(text.heights[np.newaxis], text.spacing, None, str(path), text.warnings)
     else:
         surface = _of_map(path, _read_other(path), x_unit, z_unit)
     _check_scale(surface)
@@ -224,18 +232,18 @@ def _content(path: Path) -> bytes:
     try:
         # A pipe would be waited for, for ever.
         if path.exists() and not (path.is_file() or path.is_dir()):
-            raise InputError(f"{path}: is no regular file")
+            raise InputError(path, "is no regular file")
         return path.read_bytes()
     except OSError as error:
-        raise InputError(f"{path}: cannot be read, {(error.strerror or str(error)).lower()}") from None
+        raise InputError(path, f"cannot be read, {(error.strerror or str(error)).lower()}") from None
     except ValueError as error:
-        raise error if isinstance(error, InputError) else InputError(f"{path!r}: is no path") from None
+        raise error if isinstance(error, InputError) else InputError(f"{path!r}", "is no path") from None
 
 
 def _of_map(path: Path, heights: HeightMap, x_unit: str | None, z_unit: str | None) -> Surface:
     for name, given in (("x_unit", x_unit), ("z_unit", z_unit)):
         if given is not None:
-            raise InputError(f"{name}: got {given!r}, but {path} is in a format that has its own unit")
+            raise InputError(name, got=f"{given!r}, but {path} is in a format that has its own unit")
     return Surface(*heights, str(path))
 
 
@@ -243,14 +251,16 @@ def _check_scale(surface: Surface) -> None:
     for axis, spacing in (("x", surface.spacing_x), ("y", surface.spacing_y)):
         if spacing is not None and not FINEST <= spacing <= COARSEST:
             raise InputError(
-                f"{surface.source}: its points are {spacing:.3g} m apart along {axis}, takes {FINEST:g} to "
-                f"{COARSEST:g} m; is the unit right?"
+                surface.source,
+                f"its points are {spacing:.3g} m apart along {axis}",
+                takes=f"{FINEST:g} to {COARSEST:g} m; is the unit right?",
             )
     highest = np.max(np.abs(surface.heights), initial=0.0, where=~np.isnan(surface.heights))
     if highest > _HIGHEST:
         raise InputError(
-            f"{surface.source}: holds heights of {highest:.3g} m, takes up to {_HIGHEST:g} m; is the unit "
-            "right?"
+            surface.source,
+            f"holds heights of {highest:.3g} m",
+            takes=f"up to {_HIGHEST:g} m; is the unit right?",
         )
 
 
@@ -260,14 +270,14 @@ def _read_other(path: Path) -> HeightMap:
         from SurfaceTopography import open_topography  # type: ignore[import-not-found]
     except ImportError:
         raise InputError(
-            f"{path}: is neither text, X3P nor AL3D; other formats take the extra ehlectric[instruments]"
+            path, "is neither text, X3P nor AL3D; other formats take the extra ehlectric[instruments]"
         ) from None
     try:
         topography = open_topography(str(path)).topography().to_unit("m")
         heights: Array = np.ma.filled(np.ma.asarray(topography.heights(), dtype=float), np.nan)
         spacing = np.atleast_1d(topography.pixel_size)
     except Exception as error:  # readers of forty formats raise whatever they like
-        raise InputError(f"{path}: cannot be read by SurfaceTopography, {str(error)[:80]}") from None
+        raise InputError(path, f"cannot be read by SurfaceTopography, {str(error)[:80]}") from None
     if heights.ndim == 1:
         return heights[np.newaxis], float(spacing[0]), None
     return heights.T, float(spacing[0]), float(spacing[1])

@@ -73,20 +73,20 @@ def read_x3p(path: Path, content: bytes) -> HeightMap:
         description = _member(archive, "main.xml", _MOST_XML)
         root = ElementTree.fromstring(description)
     except _BROKEN:
-        raise InputError(f"{path}: is no whole X3P file") from None
+        raise InputError(path, "is no whole X3P file") from None
     _check_axes(path, root)
     columns, rows, layers = (_whole(path, root, f"MatrixDimension/Size{axis}") for axis in "XYZ")
     if layers != 1:
-        raise InputError(f"{path}: has {layers} heights at each point, takes one")
+        raise InputError(path, f"has {layers} heights at each point", takes="one")
     if columns * rows > MOST_POINTS:
-        raise InputError(f"{path}: says it has {rows} x {columns} points, takes at most {MOST_POINTS}")
+        raise InputError(path, f"says it has {rows} x {columns} points", takes=f"at most {MOST_POINTS}")
     kind = np.dtype(_KINDS[_text(root, "CZ/DataType")])
     points = rows * columns
     data = _block(path, archive, root, "PointDataLink", points * kind.itemsize)
     assert data is not None
     increment = _number(path, root, "CZ/Increment", None if kind.kind == "i" else 1.0)
     if increment <= 0.0:
-        raise InputError(f"{path}: the increment of its heights is {increment:g}, takes a positive one")
+        raise InputError(path, f"the increment of its heights is {increment:g}", takes="a positive one")
     # Numbers that are none become voids.
     with np.errstate(all="ignore"):
         heights = np.frombuffer(data, kind).astype(float) * increment + _number(path, root, "CZ/Offset", 0.0)
@@ -115,15 +115,15 @@ def _check_axes(path: Path, root: ElementTree.Element) -> None:
     """Positions are counted, heights are stored: nothing else is a map of heights."""
     kind = _text(root, "FeatureType")
     if kind not in ("", "SUR", "PRF"):
-        raise InputError(f"{path}: is of the type {shown(kind)}, takes a surface, SUR, or a profile, PRF")
+        raise InputError(path, f"is of the type {shown(kind)}", takes="a surface, SUR, or a profile, PRF")
     for axis, wanted in (("CX", "I"), ("CY", "I"), ("CZ", "A")):
         found = _text(root, f"{axis}/AxisType")
         if found != wanted and not (axis == "CY" and not found):
             what = "equally spaced positions" if wanted == "I" else "heights as stored"
-            raise InputError(f"{path}: its axis {axis} is of type {shown(found)}, takes {wanted!r}, {what}")
+            raise InputError(path, f"its axis {axis} is of type {shown(found)}", takes=f"{wanted!r}, {what}")
     if _text(root, "CZ/DataType") not in _KINDS:
         given = shown(_text(root, "CZ/DataType"))
-        raise InputError(f"{path}: its heights are of type {given}, takes one of {', '.join(_KINDS)}")
+        raise InputError(path, f"its heights are of type {given}", takes=f"one of {', '.join(_KINDS)}")
 
 
 def _whole(path: Path, root: ElementTree.Element, place: str) -> int:
@@ -133,8 +133,9 @@ def _whole(path: Path, root: ElementTree.Element, place: str) -> int:
             raise ValueError
     except ValueError:
         raise InputError(
-            f"{path}: its {place} is {shown(_text(root, place))}, takes a whole number from 1 to "
-            f"{MOST_POINTS}"
+            path,
+            f"its {place} is {shown(_text(root, place))}",
+            takes=f"a whole number from 1 to {MOST_POINTS}",
         ) from None
     return number
 
@@ -149,7 +150,7 @@ def _number(path: Path, root: ElementTree.Element, place: str, default: float | 
         if not np.isfinite(number):
             raise ValueError
     except ValueError:
-        raise InputError(f"{path}: its {place} is {shown(text)}, takes a number") from None
+        raise InputError(path, f"its {place} is {shown(text)}", takes="a number") from None
     return number
 
 
@@ -164,9 +165,9 @@ def _block(
         held = archive.getinfo(name).file_size
         data = archive.read(name) if held == size else b""
     except _BROKEN:
-        raise InputError(f"{path}: its {link} is {shown(name)}, which cannot be read from it") from None
+        raise InputError(path, f"its {link} is {shown(name)}, which cannot be read from it") from None
     if held != size:
-        raise InputError(f"{path}: {shown(name)} has {held} bytes, takes {size} for the size of the map")
+        raise InputError(path, f"{shown(name)} has {held} bytes", takes=f"{size} for the size of the map")
     return data
 
 
@@ -191,23 +192,23 @@ def read_al3d(path: Path, content: bytes) -> HeightMap:
         Where the header lacks something, or the heights are cut off.
     """
     if not content.startswith(b"AliconaImaging"):
-        raise InputError(f"{path}: is no AL3D file")
+        raise InputError(path, "is no AL3D file")
     tags = _al3d_tags(content)
     try:
         columns, rows, offset = (int(tags[name]) for name in ("Cols", "Rows", "DepthImageOffset"))
         dx, dy = float(tags["PixelSizeXMeter"]), float(tags["PixelSizeYMeter"])
         void = float(tags.get("InvalidPixelValue", "nan"))
     except (KeyError, ValueError):
-        raise InputError(f"{path}: its header lacks a size, a spacing or an offset") from None
+        raise InputError(path, "its header lacks a size, a spacing or an offset") from None
     if min(columns, rows) < 1 or offset < 1:
         raise InputError(
-            f"{path}: says it has {rows} x {columns} points at the byte {offset}, takes positive numbers"
+            path, f"says it has {rows} x {columns} points at the byte {offset}", takes="positive numbers"
         )
     # Rows are padded to eight bytes.
     stride = -(-columns * 4 // 8) * 8
     if offset + stride * rows > len(content):
         raise InputError(
-            f"{path}: is {len(content)} bytes long, takes {offset + stride * rows} for its header"
+            path, f"is {len(content)} bytes long", takes=f"{offset + stride * rows} for its header"
         )
     block = np.frombuffer(content, "<f4", stride // 4 * rows, offset).reshape(rows, stride // 4)
     # Numbers that are none become voids.

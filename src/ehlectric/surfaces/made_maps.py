@@ -7,6 +7,8 @@ own that its place and the seed choose: a larger map only has more of them.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy import fft
@@ -135,6 +137,10 @@ def pit(
     """
     distance = np.hypot(np.asarray(x, float) - position, np.asarray(y, float) - position_y)
     return generators.pit(distance, depth=depth, width=width, rim=rim)
+
+
+# Shapes by the name of their generator in a case; their keywords are its keys.
+SHAPES: dict[str, Callable[..., Array]] = {"sinusoid": sinusoid, "pit": pit, "asperity": asperity}
 
 
 def gaussian(
@@ -285,6 +291,7 @@ def _tile(i: int, j: int, seed: int) -> Array:
 def _check_points(points: tuple[int, int], spacing: tuple[float, float], key: str) -> None:
     if points[0] * points[1] > MOST_POINTS:
         raise InputError(
-            f"{key}: asks for {points[0]} x {points[1]} points, {spacing[0]:.3g} and {spacing[1]:.3g} m "
-            f"apart; takes a longer one, which needs at most {MOST_POINTS:.0e} in all"
+            key,
+            f"asks for {points[0]} x {points[1]} points, {spacing[0]:.3g} and {spacing[1]:.3g} m apart;",
+            takes=f"a longer one, which needs at most {MOST_POINTS:.0e} in all",
         )

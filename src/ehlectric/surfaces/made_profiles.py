@@ -5,6 +5,8 @@ Heights are positive out of the body.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy import fft
@@ -107,6 +109,10 @@ def pit(x: ArrayLike, *, depth: float, width: float, rim: float = 0.0, position:
     left = asperity(x, height=rim, width=0.5 * width, position=position - width)
     right = asperity(x, height=rim, width=0.5 * width, position=position + width)
     return left + right - asperity(x, height=depth, width=width, position=position)
+
+
+# Shapes by the name of their generator in a case; their keywords are its keys.
+SHAPES: dict[str, Callable[..., Array]] = {"sinusoid": sinusoid, "pit": pit, "asperity": asperity}
 
 
 def gaussian(*, rq: float, correlation_length: float, length: float, seed: int) -> Profile:
@@ -218,6 +224,7 @@ def _folded(kernel: Array, spacing: float, length: float, rq: float, seed: int, 
 def _check_points(points: int, spacing: float, length: float, key: str) -> None:
     if points > MOST_POINTS:
         raise InputError(
-            f"{key}: asks for {points:.3g} points, {spacing:.3g} m apart over {length:.3g} m; takes a longer "
-            f"one, which needs at most {MOST_POINTS:.0e}"
+            key,
+            f"asks for {points:.3g} points, {spacing:.3g} m apart over {length:.3g} m;",
+            takes=f"a longer one, which needs at most {MOST_POINTS:.0e}",
         )

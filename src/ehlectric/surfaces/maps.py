@@ -291,9 +291,10 @@ def trimmed(surface: Map, length: float) -> Map:
     if min(left) < LEAST_POINTS:
         rows, columns = (max(n, 0) for n in left)
         raise InputError(
-            f"trim: got {length * 1e6:.4g} µm, which leaves {rows} x {columns} points of "
-            f"{surface.heights.shape[0]} x {surface.heights.shape[1]}; takes a length that leaves "
-            f"{LEAST_POINTS} each way"
+            "trim",
+            got=f"{length * 1e6:.4g} µm, which leaves {rows} x {columns} points of "
+            f"{surface.heights.shape[0]} x {surface.heights.shape[1]};",
+            takes=f"a length that leaves {LEAST_POINTS} each way",
         )
     kept = tuple(slice(k, k + n) for k, n in zip(cut, left, strict=True))
     return surface.with_heights(surface.heights[kept])

@@ -200,8 +200,10 @@ def gaussian_weights(spacing: float, cutoff: float, length: float) -> Array:
     """
     if not LEAST_CUTOFF * spacing <= cutoff <= length:
         raise InputError(
-            f"cutoff: got {cutoff * 1e6:.4g} µm, takes a length between four spacings and the whole surface, "
-            f"{LEAST_CUTOFF * 1e6 * spacing:.4g} to {1e6 * length:.4g} µm"
+            "cutoff",
+            got=f"{cutoff * 1e6:.4g} µm",
+            takes="a length between four spacings and the whole surface, "
+            f"{LEAST_CUTOFF * 1e6 * spacing:.4g} to {1e6 * length:.4g} µm",
         )
     reach = int(np.ceil(cutoff / spacing))
     distance = np.arange(-reach, reach + 1) * spacing
@@ -264,8 +266,9 @@ def trimmed(profile: Profile, length: float) -> Profile:
     left = profile.heights.size - 2 * n
     if left < LEAST_POINTS:
         raise InputError(
-            f"trim: got {length * 1e6:.4g} µm, which leaves {max(left, 0)} of {profile.heights.size} points; "
-            f"takes a length that leaves {LEAST_POINTS}"
+            "trim",
+            got=f"{length * 1e6:.4g} µm, which leaves {max(left, 0)} of {profile.heights.size} points;",
+            takes=f"a length that leaves {LEAST_POINTS}",
         )
     return replace(profile, heights=profile.heights[n : n + left])
 
@@ -339,7 +342,7 @@ def in_order(first: S, steps: Processing, do: Operations[S]) -> list[tuple[str, 
     if steps.rescale_rq is not None:
         rq = rms(done[-1][1].heights)
         if rq < FLAT:
-            raise InputError("rescale_rq: got a flat surface, takes one with some height")
+            raise InputError("rescale_rq", got="a flat surface", takes="one with some height")
         scaled = done[-1][1].heights * (steps.rescale_rq / rq)
         add(f"rescale_rq: {steps.rescale_rq * 1e9:.4g} nm", done[-1][1].with_heights(scaled))
     if steps.truncate is not None:

@@ -17,7 +17,7 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.cases.roughness import GENERATORS, SHAPES, Roughness
-from ehlectric.errors import InputError
+from ehlectric.errors import InputError, ResultWarning
 from ehlectric.surfaces import made_maps as map_generators
 from ehlectric.surfaces.continuation import MapHeight, continued_map
 from ehlectric.surfaces.domain import Domain, turned
@@ -26,7 +26,7 @@ from ehlectric.surfaces.maps import Map, processed_map, statistics
 from ehlectric.surfaces.profiles import Profile
 from ehlectric.surfaces.profiles import statistics as of_profile
 from ehlectric.surfaces.rough_profiles import measured
-from ehlectric.surfaces.steps import MOST_OF_DOMAIN, processing_of, step_remarks
+from ehlectric.surfaces.steps import MOST_OF_DOMAIN, processing_of, step_warnings
 
 # Points of a made map beyond the domain: the ends of a spline are felt no further, to 1e-18 of its heights.
 _MARGIN = 32
@@ -53,8 +53,8 @@ class RoughMap:
         Angle of the map's own x axis, counter-clockwise [degrees].
     voids : float or None
         Part of the points used where the file has no data.
-    remarks : tuple of str
-        What is doubtful about the file and the steps.
+    warnings : tuple of ResultWarning
+        What is unreliable about the file and the steps.
     """
 
     surface: int
@@ -64,7 +64,7 @@ class RoughMap:
     extent: tuple[float, float]
     orientation: float = 0.0
     voids: float | None = None
-    remarks: tuple[str, ...] = ()
+    warnings: tuple[ResultWarning, ...] = ()
 
     def height(self, x: Array, y: Array) -> Array:
         """Heights at the nodes of a grid [m].
@@ -170,10 +170,12 @@ def whole_map(table: Roughness, read: Surface | None = None) -> RoughMap:
     """
     assert table.file is not None
     if table.line is not None:
-        raise InputError(f"line: got {table.line} for a whole map, takes one or the other")
+        raise InputError("line", got=f"{table.line} for a whole map", takes="one or the other")
     if table.direction == "y":
         raise InputError(
-            "roughness.direction: got 'y' for a whole map, takes along = 'column' to turn it, or a line of it"
+            "roughness.direction",
+            got="'y' for a whole map",
+            takes="along = 'column' to turn it, or a line of it",
         )
     if read is None:
         read = read_surface(table.file, x_unit=table.x_unit, z_unit=table.z_unit)
@@ -192,7 +194,7 @@ def _extended(table: Roughness) -> RoughMap:
 
     extent = (np.inf, line.extent) if across else (line.extent, np.inf)
     return RoughMap(
-        table.surface, at, line.surface_read, line.steps, extent, voids=line.voids, remarks=line.remarks
+        table.surface, at, line.surface_read, line.steps, extent, voids=line.voids, warnings=line.warnings
     )
 
 
@@ -208,10 +210,9 @@ def _of_map(table: Roughness, made: Map, read: Surface | None) -> RoughMap:
         return heights if table.truncate is None else np.clip(heights, -table.truncate, table.truncate)
 
     voids = None if read is None else read.voids
-    doubts = (*(read.remarks if read else ()), *step_remarks(table, steps, voids))
-    return RoughMap(
-        table.surface, at, read, steps, (last.length_x, last.length_y), turn, voids=voids, remarks=doubts
-    )
+    warnings = (*(read.warnings if read else ()), *step_warnings(table, steps, voids))
+    extent = last.length_x, last.length_y
+    return RoughMap(table.surface, at, read, steps, extent, turn, voids=voids, warnings=warnings)
 
 
 def _shape(table: Roughness, domain: Domain) -> MapHeight:
@@ -221,10 +222,11 @@ def _shape(table: Roughness, domain: Domain) -> MapHeight:
     }
     if values.get("width", 0.0) > domain.shorter:
         raise InputError(
-            f"roughness.width: got {values['width']:.3g} m, takes less than the shorter side of the domain, "
-            f"{domain.shorter:.3g} m"
+            "roughness.width",
+            got=f"{values['width']:.3g} m",
+            takes=f"less than the shorter side of the domain, {domain.shorter:.3g} m",
         )
-    made: MapHeight = partial(getattr(map_generators, str(table.generator)), **values)
+    made: MapHeight = partial(map_generators.SHAPES[str(table.generator)], **values)
     return lambda x, y: made(x - table.shift, y - table.shift_y)
 
 
@@ -261,13 +263,15 @@ def _random(table: Roughness, domain: Domain) -> Map:
             shortest=shortest,
         )
     except InputError as error:
-        raise InputError(f"roughness.{error}") from None
+        raise error.under("roughness") from None
 
 
 def _check_waves(key: str, length: float, domain: Domain) -> None:
     most = MOST_OF_DOMAIN * domain.shorter
     if length > most:
         raise InputError(
-            f"{key}: got {length:.3g} m, takes at most {most:.3g} m, a tenth of the shorter side of the "
-            "domain: the heights of fewer waves are those of chance"
+            key,
+            got=f"{length:.3g} m",
+            takes=f"at most {most:.3g} m, a tenth of the shorter side of the domain: the heights of "
+            "fewer waves are those of chance",
         )

@@ -1,7 +1,7 @@
 """The roughness of a case on the contact: each rough surface's height as a function of position.
 
 A profile shorter than the domain is continued as the case says, without a step; its midpoint lies at x = 0.
-What is doubtful about all this before any film is solved, ``remarks`` says.
+``surfaces.warnings`` tells what is unreliable about it before any film is solved.
 """
 
 from __future__ import annotations
@@ -15,13 +15,13 @@ from typing import Any
 import numpy as np
 
 from ehlectric.cases.roughness import GENERATORS, SHAPES, Roughness
-from ehlectric.errors import InputError
+from ehlectric.errors import InputError, ResultWarning
 from ehlectric.surfaces import made_profiles as generators
 from ehlectric.surfaces.continuation import Height, continued
 from ehlectric.surfaces.domain import Domain
 from ehlectric.surfaces.files import Surface, read_surface
 from ehlectric.surfaces.profiles import Profile, processed, statistics
-from ehlectric.surfaces.steps import MOST_OF_DOMAIN, processing_of, step_remarks
+from ehlectric.surfaces.steps import MOST_OF_DOMAIN, processing_of, step_warnings
 
 # Points of a made profile beyond the domain: the ends of a spline are felt no further.
 _MARGIN = 64
@@ -45,8 +45,8 @@ class RoughSurface:
         Length of the profile before it is continued [m]; infinite for an exact shape.
     voids : float or None
         Part of the line's points where the file has no data.
-    remarks : tuple of str
-        What is doubtful about the file and the steps.
+    warnings : tuple of ResultWarning
+        What is unreliable about the file and the steps.
     """
 
     surface: int
@@ -55,7 +55,7 @@ class RoughSurface:
     steps: list[tuple[str, Profile]]
     extent: float
     voids: float | None = None
-    remarks: tuple[str, ...] = ()
+    warnings: tuple[ResultWarning, ...] = ()
 
     def describe(self) -> dict[str, Any]:
         """What it is and what was done to it, SI units, for the files of a result."""
@@ -126,8 +126,8 @@ def _of_profile(table: Roughness, profile: Profile, read: Surface | None) -> Rou
     last = steps[-1][1]
     height = _shifted(_cut(continued(last, table.extend), table.truncate), table.shift)
     voids = None if read is None else read.line_voids(table.line or 0, along=table.along)
-    doubts = (*(read.remarks if read else ()), *step_remarks(table, steps, voids))
-    return RoughSurface(table.surface, height, read, steps, last.length, voids, doubts)
+    warnings = (*(read.warnings if read else ()), *step_warnings(table, steps, voids))
+    return RoughSurface(table.surface, height, read, steps, last.length, voids, warnings)
 
 
 def _cut(height: Height, limit: float | None) -> Height:
@@ -142,9 +142,9 @@ def _shape(table: Roughness, domain: float) -> Height:
     }
     if values.get("width", 0.0) > domain:
         raise InputError(
-            f"roughness.width: got {values['width']:.3g} m, takes less than the domain, {domain:.3g} m"
+            "roughness.width", got=f"{values['width']:.3g} m", takes=f"less than the domain, {domain:.3g} m"
         )
-    return _shifted(partial(getattr(generators, str(table.generator)), **values), table.shift)
+    return _shifted(partial(generators.SHAPES[str(table.generator)], **values), table.shift)
 
 
 def _shifted(height: Height, shift: float) -> Height:
@@ -158,8 +158,10 @@ def _random(table: Roughness, domain: float, reach: float) -> Profile:
     longest = getattr(table, key)
     if longest > MOST_OF_DOMAIN * domain:
         raise InputError(
-            f"roughness.{key}: got {longest:.3g} m, takes at most {MOST_OF_DOMAIN * domain:.3g} m, a tenth "
-            "of the domain: the heights of fewer waves are those of chance"
+            f"roughness.{key}",
+            got=f"{longest:.3g} m",
+            takes=f"at most {MOST_OF_DOMAIN * domain:.3g} m, a tenth of the domain: the heights of "
+            "fewer waves are those of chance",
         )
     trim = table.trim if table.trim is not None else max(table.cutoff_long or 0.0, table.cutoff_short or 0.0)
     common: dict[str, Any] = {"rq": table.rq, "seed": table.seed}
@@ -177,4 +179,4 @@ def _random(table: Roughness, domain: float, reach: float) -> Profile:
             hurst=table.hurst, rolloff_wavelength=longest, shortest=shortest, **common
         )
     except InputError as error:
-        raise InputError(f"roughness.{error}") from None
+        raise error.under("roughness") from None

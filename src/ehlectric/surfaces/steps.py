@@ -1,4 +1,4 @@
-"""What is done to a surface that was read or made, and what is doubtful about it."""
+"""Processing steps of a surface that was read or made, and warnings about them."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from dataclasses import fields, replace
 import numpy as np
 
 from ehlectric.cases.roughness import Roughness
+from ehlectric.errors import ResultWarning
 from ehlectric.surfaces.maps import Map
 from ehlectric.surfaces.profiles import Points, Processing, rms
 
@@ -25,18 +26,24 @@ def processing_of(table: Roughness) -> Processing:
     return replace(steps, form="mean") if table.file is not None and steps.form == "none" else steps
 
 
-def step_remarks(table: Roughness, steps: Sequence[tuple[str, Points]], voids: float | None) -> Iterator[str]:
-    """What is doubtful about the steps of a profile or map."""
+def step_warnings(
+    table: Roughness, steps: Sequence[tuple[str, Points]], voids: float | None
+) -> Iterator[ResultWarning]:
+    """Warnings about the processing steps of a profile or map."""
     if voids:
-        of_map = isinstance(steps[0][1], Map)
-        yield (
-            f"{100 * voids:.2g} % of the {'map' if of_map else 'line'} of surface {table.surface} is void; "
-            f"voids within it were filled {'as a soap film hangs in them' if of_map else 'by straight lines'}"
+        whose, how = "line", "by straight lines"
+        if isinstance(steps[0][1], Map):
+            whose, how = "map", "as a soap film hangs in them"
+        yield ResultWarning(
+            "voids-filled",
+            f"{100 * voids:.2g} % of the {whose} of surface {table.surface} is void; "
+            f"voids within it were filled {how}",
         )
     if table.truncate is not None:
         share = float(np.mean(np.abs(steps[-2][1].heights) > table.truncate))
         if share > _MOST_CUT:
-            yield (
+            yield ResultWarning(
+                "heights-cut",
                 f"truncate cuts {100 * share:.2g} % of the points of surface {table.surface}, whose Rq is "
-                f"{rms(steps[-2][1].heights) * 1e9:.3g} nm before it: what is left is another surface"
+                f"{rms(steps[-2][1].heights) * 1e9:.3g} nm before it: what is left is another surface",
             )

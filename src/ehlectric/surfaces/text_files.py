@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from ehlectric.arrays import Array
 from ehlectric.cases.quantity import length_unit, to_si
-from ehlectric.errors import InputError, shown
+from ehlectric.errors import InputError, ResultWarning, shown
 from ehlectric.surfaces.profiles import LEAST_POINTS
 
 _EXPONENT = r"(?:[eE][-+]?[0-9]{1,4})?"
@@ -42,11 +42,11 @@ _FARTHEST = 10.0
 
 @dataclass(frozen=True)
 class TextProfile:
-    """Heights [m], NaN where void, their spacing [m], and what is doubtful about them."""
+    """Heights [m], NaN where void, their spacing [m], and the warnings about them."""
 
     heights: Array  # (n,)
     spacing: float
-    remarks: tuple[str, ...]
+    warnings: tuple[ResultWarning, ...]
 
 
 @dataclass(frozen=True)
@@ -108,11 +108,11 @@ def read_text(path: Path, content: bytes, x_unit: str | None, z_unit: str | None
     """
     block = _block(path, _decoded(path, content))
     if len(block.rows) < LEAST_POINTS:
-        raise InputError(f"{path}: has {len(block.rows)} points, takes at least {LEAST_POINTS}")
+        raise InputError(path, f"has {len(block.rows)} points", takes=f"at least {LEAST_POINTS}")
     width = len(block.rows[0])
     if width > 2 and not (width == 3 and _has_validity(block)):
         raise InputError(
-            f"{path}: has {width} columns, takes two, position and height, and perhaps a third headed 'valid'"
+            path, f"has {width} columns", takes="two, position and height, and perhaps a third headed 'valid'"
         )
     stated = _stated_units(block, width)
     values = _values(path, block)
@@ -122,12 +122,12 @@ def read_text(path: Path, content: bytes, x_unit: str | None, z_unit: str | None
     ]
     x, z = values[:, 0], values[:, 1] * factors[1]
     if max(np.max(np.abs(x)) * factors[0], np.max(np.abs(z), initial=0.0, where=~np.isnan(z))) > _FARTHEST:
-        raise InputError(f"{path}: holds lengths above {_FARTHEST:g} m; are x_unit and z_unit right?")
+        raise InputError(path, f"holds lengths above {_FARTHEST:g} m; are x_unit and z_unit right?")
     if width > 2:
         z = np.where(_valid(path, block), z, np.nan)
     digits = max(block.layout.decimals(row[0]) for row in block.rows)
-    spacing, remarks = _spacing(path, x, 10.0 ** -min(max(digits, -12), 30))
-    return TextProfile(z, spacing * factors[0], remarks)
+    spacing, warnings = _spacing(path, x, 10.0 ** -min(max(digits, -12), 30))
+    return TextProfile(z, spacing * factors[0], warnings)
 
 
 def _decoded(path: Path, content: bytes) -> str:
@@ -138,7 +138,7 @@ def _decoded(path: Path, content: bytes) -> str:
             return content.decode(code)
         except UnicodeDecodeError:
             continue
-    raise InputError(f"{path}: is no text in UTF-8, UTF-16 or Windows-1252")
+    raise InputError(path, "is no text in UTF-8, UTF-16 or Windows-1252")
 
 
 def _block(path: Path, text: str) -> _Block:
@@ -150,15 +150,17 @@ def _block(path: Path, text: str) -> _Block:
     first, _ = next(rows, (len(lines), ""))
     below = [(n, line) for n, line in enumerate(lines[first:], first + 1) if line.strip()]
     if not below:
-        raise InputError(f"{path}: holds no two columns of numbers")
+        raise InputError(path, "holds no two columns of numbers")
     if separator == "," and all(_WHOLE_PAIR.fullmatch(line) for _, line in below):
         raise InputError(
-            f"{path}: line {below[0][0]} is {shown(below[0][1].strip())}, one number with a decimal comma or "
-            "two whole ones; takes a semicolon or a tab between columns"
+            path,
+            f"line {below[0][0]} is {shown(below[0][1].strip())}, one number with a decimal comma "
+            "or two whole ones;",
+            takes="a semicolon or a tab between columns",
         )
     layout = next((each for each in layouts if all(each.is_row(line) for _, line in below)), None)
     if layout is None:
-        raise InputError(_bad_line(path, below, layouts))
+        raise _bad_line(path, below, layouts)
     fields = [layout.fields(line) for _, line in below]
     numbers = [number for number, _ in below]
     return _Block(layout, lines[:first], _rectangle(path, fields, numbers), numbers)
@@ -174,12 +176,12 @@ def _separator(line: str) -> str | None:
     return "," if "," in line and not spaced else None
 
 
-def _bad_line(path: Path, below: list[tuple[int, str]], layouts: list[_Layout]) -> str:
+def _bad_line(path: Path, below: list[tuple[int, str]], layouts: list[_Layout]) -> InputError:
     for number, line in below:
         if not any(layout.is_row(line) for layout in layouts):
             text = shown(line.strip())
-            return f"{path}: line {number} is {text}, takes numbers of one kind down to the end"
-    return f"{path}: mixes decimal points and decimal commas, takes one of the two"
+            return InputError(path, f"line {number} is {text}", takes="numbers of one kind down to the end")
+    return InputError(path, "mixes decimal points and decimal commas", takes="one of the two")
 
 
 def _rectangle(path: Path, fields: list[list[str]], numbers: list[int]) -> list[list[str]]:
@@ -187,7 +189,9 @@ def _rectangle(path: Path, fields: list[list[str]], numbers: list[int]) -> list[
     width = max(2, *(max(k for k, field in enumerate(row, 1) if field) for row in fields))
     for row, number in zip(fields, numbers, strict=True):
         if len(row) < width:
-            raise InputError(f"{path}: line {number} has {len(row)} columns, takes {width} as in other lines")
+            raise InputError(
+                path, f"line {number} has {len(row)} columns", takes=f"{width} as in other lines"
+            )
     return [row[:width] for row in fields]
 
 
@@ -197,7 +201,7 @@ def _values(path: Path, block: _Block) -> Array:
     infinite = np.any(np.isinf(values), axis=1)
     if np.any(infinite):
         raise InputError(
-            f"{path}: line {block.numbers[int(np.argmax(infinite))]} holds a number that is too large"
+            path, f"line {block.numbers[int(np.argmax(infinite))]} holds a number that is too large"
         )
     return values
 
@@ -217,7 +221,7 @@ def _valid(path: Path, block: _Block) -> NDArray[np.bool_]:
     flags = [row[2] for row in block.rows]
     for flag, number in zip(flags, block.numbers, strict=True):
         if flag not in ("0", "1"):
-            raise InputError(f"{path}: line {number} has the validity {shown(flag)}, takes 0 or 1")
+            raise InputError(path, f"line {number} has the validity {shown(flag)}", takes="0 or 1")
     return np.array([flag == "1" for flag in flags])
 
 
@@ -259,17 +263,17 @@ def _unit_of(path: Path, name: str, given: str | None, stated: str | None) -> st
     if given is not None:
         try:
             length_unit(given)
-        except ValueError as error:
-            raise InputError(f"{name}: {error}") from None
+        except InputError as error:
+            raise error.under(name) from None
     if given is not None and stated is not None and to_si(f"1 {given}", "m") != to_si(f"1 {stated}", "m"):
-        raise InputError(f"{name}: got {given!r}, but {path} states {stated!r}")
+        raise InputError(name, got=f"{given!r}, but {path} states {stated!r}")
     unit = stated if given is None else given
     if unit is None:
-        raise InputError(f"{name}: missing, {path} does not state the unit of its column without doubt")
+        raise InputError.worded(name, f"missing, {path} does not state the unit of its column without doubt")
     return unit
 
 
-def _spacing(path: Path, x: Array, step: float) -> tuple[float, tuple[str, ...]]:
+def _spacing(path: Path, x: Array, step: float) -> tuple[float, tuple[ResultWarning, ...]]:
     """Spacing of positions that are equal up to rounding: from the whole length, not from neighbours.
 
     ``step`` is the decimal step in which they are written.
@@ -277,23 +281,24 @@ def _spacing(path: Path, x: Array, step: float) -> tuple[float, tuple[str, ...]]
     steps = np.diff(x)
     if not np.all(steps > 0.0):
         bad = int(np.argmin(steps > 0.0))
-        raise InputError(f"{path}: positions {bad} and {bad + 1} do not increase")
+        raise InputError(path, f"positions {bad} and {bad + 1} do not increase")
     spacing = float((x[-1] - x[0]) / (x.size - 1))
     largest = float(np.max(np.abs(x - (x[0] + spacing * np.arange(x.size)))))
     # Positions that are rounded lie within a step of the line, and neighbours are one of two distances apart.
     if largest > 1.01 * max(step, 1e-3 * spacing) or np.ptp(steps) > 1.01 * max(step, 4e-3 * spacing):
         raise InputError(
-            f"{path}: the spacing is not uniform, positions deviate by up to {largest / spacing:.2g} of it "
-            f"and neighbours are {np.min(steps):.4g} to {np.max(steps):.4g} apart"
+            path,
+            f"the spacing is not uniform, positions deviate by up to {largest / spacing:.2g} of "
+            f"it and neighbours are {np.min(steps):.4g} to {np.max(steps):.4g} apart",
         )
     # Only where the longer of the two is twice the shorter may it be a sample that is missing.
     long = steps > 1.5 * np.min(steps)
     if 0 < np.count_nonzero(long) <= 0.05 * steps.size:
         where = int(np.argmax(long))
-        remark = (
+        text = (
             f"{path}: positions are written in steps of their spacing, and {np.count_nonzero(long)} of the "
             f"{steps.size} distances are twice the others, the first behind point {where}: rounding, or "
             "samples that are missing; all were taken as equally spaced"
         )
-        return spacing, (remark,)
+        return spacing, (ResultWarning("spacing-irregular", text),)
     return spacing, ()

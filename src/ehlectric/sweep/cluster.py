@@ -48,7 +48,7 @@ def cluster(address: str) -> Iterator[Crew]:
         from distributed import Client
     except ImportError:
         raise InputError(
-            "scheduler: takes the package distributed; install it with: pip install 'ehlectric[cluster]'"
+            "scheduler", "takes the package distributed; install it with: pip install 'ehlectric[cluster]'"
         ) from None
     _silence()
     with warnings.catch_warnings():
@@ -59,7 +59,7 @@ def cluster(address: str) -> Iterator[Crew]:
             client = Client(address, timeout=ANSWER, set_as_default=False)
         except Exception as error:  # of addresses, sockets, TLS and what else may answer there
             reason = " ".join(str(error).split())[:200] or f"none in {ANSWER:g} s"
-            raise InputError(f"scheduler: got no answer from {shown(address)}, {reason}") from None
+            raise InputError("scheduler", got=f"no answer from {shown(address)}, {reason}") from None
     try:
         with client.get_executor(pure=False) as executor:
             yield _crew(client, executor)
@@ -94,7 +94,7 @@ def _crew(client: Any, executor: Executor) -> Crew:
                 raise LostError(" ".join(str(error).split())) from None
         return max(_LEAST, 3 * threads)
 
-    return Crew(executor.submit, width, remark=lambda: "" if threads else "no workers yet")
+    return Crew(executor.submit, width, waiting=lambda: "" if threads else "no workers yet")
 
 
 def _silence() -> None:

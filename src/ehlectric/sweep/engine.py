@@ -51,13 +51,13 @@ class Crew:
     """Those who solve points.
 
     ``submit`` hands over a call, ``width`` is how many points may be in flight, ``renew`` makes good for
-    processes that died, and ``remark`` says what holds them up.
+    processes that died, and ``waiting`` says what holds them up.
     """
 
     submit: Callable[..., Future[Any]]
     width: Callable[[], int]
     renew: Callable[[], None] = lambda: None
-    remark: Callable[[], str] = str
+    waiting: Callable[[], str] = str
 
 
 def solve_point(table: Mapping[str, Any]) -> Outcome:
@@ -82,7 +82,7 @@ def solve_point(table: Mapping[str, Any]) -> Outcome:
 
 def _attempt(table: Mapping[str, Any]) -> tuple[Status, str, bool, dict[str, Any] | None]:
     try:
-        solved, summary, doubts = _solved(table)
+        solved, summary, reason = _solved(table)
     except MemoryLimitError as error:
         return "failed", str(error), True, None
     except InputError as error:
@@ -93,7 +93,7 @@ def _attempt(table: Mapping[str, Any]) -> tuple[Status, str, bool, dict[str, Any
         return "failed", f"not solved: {error}", False, None
     except Exception as error:
         return "failed", f"unexpected: {type(error).__name__}: {error}", False, None
-    return ("solved", "", False, summary) if solved else ("not converged", doubts, False, summary)
+    return ("solved", "", False, summary) if solved else ("not converged", reason, False, summary)
 
 
 def _solved(table: Mapping[str, Any]) -> tuple[bool, dict[str, Any], str]:
@@ -106,12 +106,8 @@ def _solved(table: Mapping[str, Any]) -> tuple[bool, dict[str, Any], str]:
         return bearing.converged, summary, "a contact of the bearing is not converged"
     result = solve(case)
     # The warning that says how far it came and what to try.
-    status = result.film.status
-    return (
-        result.converged,
-        result.summary(),
-        next((text for text in result.warnings if status in text), status),
-    )
+    reasons = (warning.text for warning in result.warnings if warning.code == "not-converged")
+    return result.converged, result.summary(), next(reasons, result.film.status)
 
 
 def run_points(

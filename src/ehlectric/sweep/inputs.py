@@ -60,29 +60,29 @@ class Sweep(Table):
             return given
         flat = _flattened(given)
         if not flat:
-            raise ValueError("got no key, takes at least one key of the case with its values or its range")
+            raise InputError(got="no key", takes="at least one key of the case with its values or its range")
         return {key: _axis(key, value, design) for key, value in flat.items()}
 
     @model_validator(mode="after")
     def _check(self) -> Self:
         if isinstance(self.case, Case) and self.case.motion is not None:
-            raise ValueError(
-                "case.motion: got it in a sweep, whose films are at rest; takes a case without it"
+            raise InputError(
+                "case.motion", got="it in a sweep, whose films are at rest;", takes="a case without it"
             )
         if self.design == "sobol":
             if self.samples is None:
-                raise ValueError("samples: missing, a sobol design takes it: a power of two")
+                raise InputError.worded("samples", "missing, a sobol design takes it: a power of two")
             if self.samples & (self.samples - 1):
-                raise ValueError(f"samples: got {self.samples}, takes a power of two, such as 64 or 1024")
+                raise InputError("samples", got=self.samples, takes="a power of two, such as 64 or 1024")
         for name in ("samples", "seed") if self.design != "sobol" else ():
             if name in self.model_fields_set:
-                raise ValueError(f"{name}: got it in a {self.design} design, which has no use for it")
+                raise InputError(name, got=f"it in a {self.design} design, which has no use for it")
         lengths = {key: len(axis) for key, axis in self.axes.items()}
         if self.design == "paired" and len(set(lengths.values())) > 1:
             counts = ", ".join(f"{length} of {key}" for key, length in lengths.items())
-            raise ValueError(f"vary: got {counts}, takes as many of each in a paired design")
+            raise InputError("vary", got=counts, takes="as many of each in a paired design")
         if self.size > MOST_POINTS:
-            raise ValueError(f"vary: got {self.size} points, takes at most {MOST_POINTS}")
+            raise InputError("vary", got=f"{self.size} points", takes=f"at most {MOST_POINTS}")
         return self
 
     @classmethod
@@ -120,10 +120,13 @@ class Sweep(Table):
             elif isinstance(case, Mapping):
                 table = {**table, "case": case_of_dict(case)}
             elif case is not None and not isinstance(case, AnyCase):
-                raise InputError(f"case: got {shown(case)}, takes a table or the name of a file")
+                raise InputError("case", got=shown(case), takes="a table or the name of a file")
         except InputError as error:
-            text, there = str(error), f"{case}: " if isinstance(case, str | Path) else "case."
-            raise InputError(text if text.startswith((there, "case:")) else f"{there}{text}") from None
+            if error.key in ("case", str(case)):
+                raise
+            if isinstance(case, str | Path):
+                raise error.retold(str(case), str(error)) from None
+            raise error.under("case") from None
         return super().from_dict(table)
 
     @property
@@ -162,7 +165,7 @@ def _flattened(tables: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
             else {f"{prefix}{key}": value}
         )
         for name in inner.keys() & flat.keys():
-            raise ValueError(f"{name}: got it twice, takes it once")
+            raise InputError(name, got="it twice", takes="it once")
         flat |= inner
     return flat
 
@@ -180,7 +183,7 @@ def _locate(tables: dict[str, Any], folder: Path, prefix: str = "") -> None:
 def _axis(key: str, given: Any, design: str) -> tuple[Any, ...] | Range:
     """Values of a varied key, or its range in a sobol design."""
     if key.partition(".")[0] == "motion":
-        raise ValueError(f"{key}: got it in a sweep, whose films are at rest; takes other keys of the case")
+        raise InputError(key, got="it in a sweep, whose films are at rest;", takes="other keys of the case")
     field = input_field(key)
     if isinstance(given, Mapping):
         return _range(key, given, number_of(field), design)
@@ -188,15 +191,15 @@ def _axis(key: str, given: Any, design: str) -> tuple[Any, ...] | Range:
         given = {"from": given.start, "to": given.stop, "spacing": given.spacing}
         return _range(key, given, number_of(field), design)
     if design == "sobol":
-        raise ValueError(f"{key}: got {shown(given)}, takes a table with from and to in a sobol design")
+        raise InputError(key, got=shown(given), takes="a table with from and to in a sobol design")
     if isinstance(given, str) or not isinstance(given, Sequence) or len(given) == 0:
-        raise ValueError(f"{key}: got {shown(given)}, takes a list of values or a table with from and to")
+        raise InputError(key, got=shown(given), takes="a list of values or a table with from and to")
     values = tuple(_values(key, field, given))
     texts = [json.dumps(value) for value in values]
     for k, text in enumerate(texts) if design == "grid" else ():
         if text in texts[:k]:
-            raise ValueError(
-                f"{key}: got {shown(values[k])} twice, takes values that differ in a grid design"
+            raise InputError(
+                key, got=f"{shown(values[k])} twice", takes="values that differ in a grid design"
             )
     return values
 
@@ -211,7 +214,7 @@ def _values(key: str, field: FieldInfo, given: Sequence[Any]) -> Iterator[Any]:
         try:
             parsed = value_of.from_dict({leaf: value}).model_dump(mode="json")[leaf]
         except InputError as error:
-            raise ValueError(".".join(filter(None, [table, str(error)]))) from None
+            raise error.under(table) from None
         yield parsed
 
 
@@ -219,29 +222,31 @@ def _range(
     key: str, given: Mapping[str, Any], number: Quantity | Count | None, design: str
 ) -> tuple[Any, ...] | Range:
     if number is None:
-        raise ValueError(f"{key}: got a range, takes a list of values: it is no number")
+        raise InputError(key, got="a range", takes="a list of values: it is no number")
     for name in given:
         if name not in _RANGE_KEYS:
             near = nearest(str(name), _RANGE_KEYS)
-            raise ValueError(f"{key}.{name}: unknown key; the nearest known one is {key}.{near}")
+            raise InputError.unknown(f"{key}.{name}", f"{key}.{near}")
     over = _over(key, given, number)
     if design == "sobol":
         if "count" in given:
-            raise ValueError(
-                f"{key}.count: got it in a sobol design, which takes samples for all of its keys"
+            raise InputError.worded(
+                f"{key}.count", "got it in a sobol design, which takes samples for all of its keys"
             )
         return over
     count = given.get("count")
     if isinstance(count, bool) or not isinstance(count, int) or not 2 <= count <= MOST_POINTS:
-        got = "missing" if count is None else f"got {shown(count)}"
-        raise ValueError(f"{key}.count: {got}, takes how many values, a whole number from 2 to {MOST_POINTS}")
+        got = None if count is None else shown(count)
+        raise InputError(
+            f"{key}.count", got=got, takes=f"how many values, a whole number from 2 to {MOST_POINTS}"
+        )
     values = sweep_design.between(over, np.linspace(0.0, 1.0, count))
     if isinstance(number, Quantity):
         return tuple(values.tolist())
     rounded = tuple(np.floor(values + 0.5).astype(int).tolist())
     if design == "grid" and len(set(rounded)) < count:
-        raise ValueError(
-            f"{key}.count: got {count}, takes at most the whole numbers from {over.start:g} to {over.stop:g}"
+        raise InputError(
+            f"{key}.count", got=count, takes=f"at most the whole numbers from {over.start:g} to {over.stop:g}"
         )
     return rounded
 
@@ -251,19 +256,19 @@ def _over(key: str, given: Mapping[str, Any], number: Quantity | Count) -> Range
     ends = []
     for name in ("from", "to"):
         if name not in given:
-            raise ValueError(f"{key}.{name}: missing, takes {_takes(number)}")
+            raise InputError.missing(f"{key}.{name}", _takes(number))
         try:
             ends.append(number.parse(given[name]))
-        except ValueError as error:
-            raise ValueError(f"{key}.{name}: {error}") from None
+        except InputError as error:
+            raise error.under(f"{key}.{name}") from None
     start, stop = ends
     spacing = given.get("spacing", "linear")
     if spacing not in _SPACINGS:
-        raise ValueError(f"{key}.spacing: got {shown(spacing)}, takes 'linear' or 'log'")
+        raise InputError(f"{key}.spacing", got=shown(spacing), takes="'linear' or 'log'")
     if not start < stop:
-        raise ValueError(f"{key}.to: got {shown(given['to'])}, takes more than from, {shown(given['from'])}")
+        raise InputError(f"{key}.to", got=shown(given["to"]), takes=f"more than from, {shown(given['from'])}")
     if spacing == "log" and start <= 0.0:
-        raise ValueError(f"{key}.from: got {shown(given['from'])}, takes more than 0 with spacing 'log'")
+        raise InputError(f"{key}.from", got=shown(given["from"]), takes="more than 0 with spacing 'log'")
     return Range(start, stop, spacing)
 
 

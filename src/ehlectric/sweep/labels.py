@@ -1,4 +1,4 @@
-"""What the axes of a sweep's figures are called: name, symbol and unit of varied keys and of values."""
+"""Labels of inputs and results: name, symbol and unit of a dotted key, and how values are shown."""
 
 from __future__ import annotations
 
@@ -8,166 +8,14 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array
+from ehlectric.bearing.keys import BEARING_KEYS
 from ehlectric.cases.any_case import AnyCase
-from ehlectric.cases.case import Case
-from ehlectric.cases.keys import kind_of
-from ehlectric.cases.quantity import Quantity
-
-# Name and symbol of inputs; their units stand in the case.
-_INPUTS = {
-    "contact.entrainment_speed": ("entrainment speed", r"$(u_1 + u_2)/2$"),
-    "contact.speed_1": ("speed of surface 1", "$u_1$"),
-    "contact.speed_2": ("speed of surface 2", "$u_2$"),
-    "contact.slide_to_roll_ratio": ("slide-to-roll ratio", ""),
-    "contact.load": ("load", "$F$"),
-    "contact.load_per_length": ("load per length", "$w$"),
-    "contact.max_hertz_pressure": ("Hertz pressure", r"$p_\mathrm{h}$"),
-    "contact.reduced_radius": ("reduced radius", "$R$"),
-    "contact.radius_x": ("reduced radius along entrainment", "$R_x$"),
-    "contact.radius_y": ("reduced radius across entrainment", "$R_y$"),
-    "contact.reduced_modulus": ("reduced modulus", "$E'$"),
-    "lubricant.base": ("lubricant", ""),
-    "lubricant.viscosity": ("viscosity", r"$\eta_0$"),
-    "lubricant.pressure_viscosity_coefficient": ("pressure-viscosity coefficient", r"$\alpha$"),
-    "lubricant.roelands_z": ("Roelands' exponent", "$z$"),
-    "lubricant.roelands_pressure": ("Roelands' constant", "$p_0$"),
-    "lubricant.relative_permittivity": ("relative permittivity", r"$\varepsilon_\mathrm{r}$"),
-    "electric.potential_1": ("potential of surface 1", "$V_1$"),
-    "electric.potential_2": ("potential of surface 2", "$V_2$"),
-    "bearing.inner_speed": ("speed of the inner ring", ""),
-    "bearing.radial_load": ("radial load", r"$F_\mathrm{r}$"),
-    "bearing.axial_load": ("axial load", r"$F_\mathrm{a}$"),
-    "bearing.temperature": ("temperature", ""),
-    "bearing.composite_rq": ("composite roughness", r"$R_\mathrm{q}$"),
-    "bearing.radial_clearance": ("radial clearance", ""),
-    "bearing.contact_angle": ("free contact angle", ""),
-    "bearing.film_factor": ("film factor", ""),
-    "bearing.inner_groove": ("groove of the inner ring over the ball", r"$f_\mathrm{i}$"),
-    "bearing.outer_groove": ("groove of the outer ring over the ball", r"$f_\mathrm{o}$"),
-    "lubricant.temperature.kinematic_viscosity_40": ("kinematic viscosity at 40 °C", r"$\nu_{40}$"),
-    "lubricant.temperature.kinematic_viscosity_100": ("kinematic viscosity at 100 °C", r"$\nu_{100}$"),
-    "motor.common_mode_voltage": ("common-mode voltage", ""),
-    "motor.winding_rotor_capacitance": ("capacitance from winding to rotor", r"$C_\mathrm{wr}$"),
-    "motor.rotor_frame_capacitance": ("capacitance from rotor to frame", r"$C_\mathrm{rf}$"),
-    "discharge.dielectric_strength": ("dielectric strength", ""),
-    "discharge.weibull.scale": ("Weibull scale", "$E_0$"),
-    "discharge.weibull.shape": ("Weibull shape", "$m$"),
-    "discharge.temperature": ("temperature", ""),
-    "discharge.conductivity": ("conductivity", r"$\sigma$"),
-    "discharge.external_capacitance": ("external capacitance", r"$C_\mathrm{ext}$"),
-    "discharge.outlet": ("what fills the outlet", ""),
-    "discharge.peak_current": ("peak current", ""),
-    "discharge.pit.efficiency": ("part of the energy that melts", r"$\zeta$"),
-    "discharge.pit.melting_energy": ("heat to melt a volume", "$q$"),
-    "discharge.length": ("length of the contact", ""),
-    "grid.nodes": ("nodes", ""),
-}
-
-# Name and symbol of values of the summary; their units follow from the last part of the key.
-_VALUES = {
-    "groups.moes_m": ("Moes", "$M$"),
-    "groups.moes_l": ("Moes", "$L$"),
-    "hertz.half_width": ("half-width", "$b$"),
-    "hertz.semi_axis_x": ("semi-axis along entrainment", "$b$"),
-    "hertz.semi_axis_y": ("semi-axis across entrainment", "$a$"),
-    "hertz.max_pressure": ("Hertz pressure", r"$p_\mathrm{h}$"),
-    "film.minimum_thickness": ("minimum film thickness", r"$h_\mathrm{min}$"),
-    "film.central_thickness": ("central film thickness", "$h(0)$"),
-    "film.mean_thickness": ("mean film thickness", r"$\bar{h}$"),
-    "film.max_pressure": ("largest pressure in the film", r"$p_\mathrm{max}$"),
-    "film.discretisation_error": ("discretisation error of the film", ""),
-    "field.voltage": ("voltage", "$V_{12}$"),
-    "field.max_strength": ("largest field strength", r"$|E|_\mathrm{max}$"),
-    "field.max_dimensionless": ("largest field strength", r"$|E|_\mathrm{max}\,h_\mathrm{min}/V_{12}$"),
-    "field.high_field_width": ("width above 95 % of the largest field", ""),
-    "field.high_field_area": ("area above 95 % of the largest field", ""),
-    "field.capacitance_per_length": ("capacitance per length, field range", ""),
-    "field.capacitance": ("capacitance, field range", "$C$"),
-    "roughness.lambda_ratio": ("lambda ratio", r"$\Lambda$"),
-    "lubricant.temperature": ("temperature of the oil", ""),
-    "lubricant.expansion": ("thermal expansion of the oil", "$a$"),
-    "lubricant.film_factor": ("film factor, resolved", "$C$"),
-    "bearing.lubrication": ("state of lubrication", ""),
-    "bearing.first_break_at": ("contact that breaks first", ""),
-    "bearing.capacitance": ("capacitance of the bearing", "$C$"),
-    "bearing.capacitance_oil": ("capacitance of the bearing, all in oil", ""),
-    "bearing.capacitance_air": ("capacitance of the bearing, air around the films", ""),
-    "bearing.capacitance_plate": ("capacitance of plates", ""),
-    "bearing.capacitance_ratio": ("capacitance over that of plates", ""),
-    "bearing.lambda_ratio": ("least film over roughness", r"$\lambda$"),
-    "bearing.first_break": ("bearing voltage of the first break", ""),
-    "bearing.first_break_mean": ("first break, mean over a pitch", ""),
-    "bearing.through_breakdown": ("bearing voltage of the through breakdown", ""),
-    "bearing.through_breakdown_mean": ("through breakdown, mean over a pitch", ""),
-    "bearing.margin": ("first break over shaft voltage", ""),
-    "bearing.through_margin": ("through breakdown over shaft voltage", ""),
-    "bearing.strength_per_volt": ("largest field strength by bearing voltage", ""),
-    "bearing.max_strength": ("largest field strength", ""),
-    "bearing.bearing_voltage_ratio": ("bearing voltage ratio", ""),
-    "bearing.shaft_voltage": ("shaft voltage", ""),
-    "discharge.breakdown_voltage": ("breakdown voltage", r"$V_\mathrm{b}$"),
-    "discharge.margin": ("breakdown voltage over applied voltage", r"$V_\mathrm{b}/V_{12}$"),
-    "discharge.breakdown_voltage_low": ("breakdown voltage at 5 %", ""),
-    "discharge.breakdown_voltage_high": ("breakdown voltage at 95 %", ""),
-    "discharge.probability": ("probability of breakdown", ""),
-    "discharge.zone_position": ("place of the zone that breaks down first", ""),
-    "discharge.zone_size": ("size of the zone that breaks down first", ""),
-    "discharge.zone_area": ("area of the zone that breaks down first", ""),
-    "discharge.zone_over_half_width": ("size of the zone over the half-width", ""),
-    "discharge.zone_over_largest_pit": ("size of the zone over the largest pit", ""),
-    "discharge.zone_over_mean_pit": ("size of the zone over the mean pit", ""),
-    "discharge.capacitance": ("capacitance of the whole film", "$C$"),
-    "discharge.capacitance_hertz": ("capacitance of the Hertz zone", r"$C_\mathrm{H}$"),
-    "discharge.capacitance_inlet": ("capacitance of the inlet", ""),
-    "discharge.capacitance_outlet": ("capacitance of the outlet", ""),
-    "discharge.capacitance_sides": ("capacitance of the sides", ""),
-    "discharge.capacitance_plate": (
-        "capacitance of a plate",
-        r"$\varepsilon_0 \varepsilon_\mathrm{r} A_\mathrm{H}/h(0)$",
-    ),
-    "discharge.capacitance_ratio": ("capacitance over that of a plate", ""),
-    "discharge.capacitance_outlet_full": ("capacitance of the outlet, full of oil", ""),
-    "discharge.capacitance_outlet_fingers": ("capacitance of the outlet, oil in fingers", ""),
-    "discharge.capacitance_outlet_layers": ("capacitance of the outlet, oil in layers", ""),
-    "discharge.contact_energy": ("energy of the contact", "$C V_{12}^2/2$"),
-    "discharge.discharge_energy": ("energy of the discharge", "$W$"),
-    "discharge.breakdown_energy": ("energy of the discharge at breakdown", r"$W_\mathrm{b}$"),
-    "discharge.pit_volume": ("volume of the pit", ""),
-    "discharge.pit_diameter": ("diameter of the pit", ""),
-    "discharge.current_density": ("apparent current density", "$J$"),
-    "discharge.current_density_limits": ("published limit of the current density", ""),
-    "discharge.relaxation_time": ("charge relaxation time", r"$\varepsilon/\sigma$"),
-    "discharge.corner_frequency": ("frequency above which it is a capacitor", r"$f_\mathrm{c}$"),
-}
-
-# SI units by words of the last part of a key: keys are named for what they are.
-_UNITS = (
-    (
-        ("ratio", "error", "share", "margin", "probability", "dimensionless", "residual", "deficit", "over"),
-        "",
-    ),
-    (("volt",), "1/m"),
-    (("voltage", "potential"), "V"),
-    (("density",), "A/m**2"),
-    (("thickness", "width", "position", "length", "depth", "diameter", "radius", "axis", "size"), "m"),
-    (("rq", "ra", "sq", "sa", "spacing"), "m"),
-    (("area",), "m**2"),
-    (("volume",), "m**3"),
-    (("pressure",), "Pa"),
-    (("strength",), "V/m"),
-    (("energy",), "J"),
-    (("time",), "s"),
-    (("frequency",), "Hz"),
-    (("conductivity",), "S/m"),
-    (("break", "breakdown"), "V"),
-    (("temperature",), "K"),
-    (("expansion",), "1/K"),
-    (("displacement",), "m"),
-    (("force", "load"), "N"),
-    (("moment",), "N*m"),
-    (("entrainment",), "m/s"),
-    (("speed",), "rad/s"),
-)
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.keys import INPUT_NAMES, kind_of, unit_of
+from ehlectric.cases.lubricant import law_parameters
+from ehlectric.cases.result_key import Keys, key_of
+from ehlectric.contact.keys import CONTACT_KEYS
+from ehlectric.motion.keys import MOTION_KEYS
 
 # Units that are never prefixed: of none, of angles, and of absolute temperatures.
 _PLAIN = ("", "deg", "K", "rad")
@@ -225,38 +73,41 @@ def label_of(key: str, case: AnyCase) -> Label:
     key : str
         Dotted key of the case or of the summary; "inputs." before one of the case makes no difference.
     case : Case or BearingCase
-        Of a line contact, whose capacitances are per length, or of a point contact.
+        Case of a line or a point contact, with or without motion, or of a bearing.
 
     Returns
     -------
     Label
-        With the dotted key as its name where that is all that is known.
+        A key that is neither an input nor in the tables of result keys has itself as name, and no unit.
     """
     own = key.removeprefix("inputs.")
-    kind = kind_of(own)
-    if kind is not None or own in _INPUTS:
-        unit = kind.unit if isinstance(kind, Quantity) else ""
-        return Label(*_INPUTS.get(own, (own, "")), unit)
-    name, symbol = _VALUES.get(key) or _VALUES.get(key.rstrip("0123456789").rstrip("."), (key, ""))
-    return Label(name, symbol, _unit_of(key, case))
+    if kind_of(own) is not None or own in INPUT_NAMES:
+        parameter = law_parameters().get(own.removeprefix("lubricant."))
+        if parameter is not None and parameter.title:
+            return Label(parameter.title, parameter.symbol, unit_of(own))
+        return Label(*INPUT_NAMES.get(own, (own, "")), unit_of(own))
+    if own != key:
+        return Label(key, "", unit_of(own))
+    found = key_of(result_keys(case), key)
+    return Label(key, "", "") if found is None else Label(found.name or key, found.symbol, found.unit)
 
 
-def _unit_of(key: str, case: AnyCase) -> str:
-    """SI unit of a value of the summary."""
-    table, *_ = parts = [part for part in key.split(".") if not part.isdigit()]
-    if table in ("seconds", "inputs"):
-        # Inputs that are no numbers are lists of those without a unit.
-        return "s" if table == "seconds" else ""
-    if key.startswith("roughness.surfaces.") and parts[-1] == "size":
-        return ""  # points of a profile or a map
-    if "capacitance_by_zone" in parts:
-        return "F"  # a point contact has them alone
-    words = parts[-1].split("_")
-    if "capacitance" in parts[-1] and "ratio" not in words:
-        # Those of all zones are per length of a line; field.capacitance is a point contact's alone.
-        of_line = isinstance(case, Case) and case.contact.geometry == "line"
-        return "F/m" if of_line and "external" not in words else "F"
-    return next((unit for names, unit in _UNITS if set(names) & set(words)), "")
+def result_keys(case: AnyCase) -> Keys:
+    """Keys of the summary that a case leads to.
+
+    Parameters
+    ----------
+    case : Case or BearingCase
+        Case of a contact or of a bearing.
+
+    Returns
+    -------
+    mapping of str to ResultKey
+        Keys of a line or a point contact, stationary or moving, or of a bearing.
+    """
+    if isinstance(case, BearingCase):
+        return BEARING_KEYS
+    return (CONTACT_KEYS if case.motion is None else MOTION_KEYS)[case.contact.geometry]
 
 
 def scale_for(largest: float, unit: str) -> Scale:

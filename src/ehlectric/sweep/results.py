@@ -11,13 +11,12 @@ import numpy as np
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.cases.any_case import AnyCase
+from ehlectric.errors import ResultWarning
+from ehlectric.runtime.stored_warnings import warnings_of
 
 # "solved"; "not converged", whose summary is for looking at; "failed", which has none; "open", not tried yet.
 Status = Literal["solved", "not converged", "failed", "open"]
 Spacing = Literal["linear", "log"]
-
-# What warnings say of a film that is no use, as ``findings`` writes them.
-_NO_USE = "do not use"
 
 
 @dataclass(frozen=True)
@@ -65,20 +64,21 @@ class Point:
         return self.status == "solved"
 
     @property
-    def warnings(self) -> tuple[str, ...]:
-        """What its summary warns of; nothing where there is none."""
-        return tuple((self.summary or {}).get("warnings", ()))
+    def warnings(self) -> tuple[ResultWarning, ...]:
+        """Warnings of its summary; none where it has no summary."""
+        return warnings_of(self.summary or {})
 
     @property
     def doubtful(self) -> bool:
-        """Whether it is solved, but a warning says not to use its film.
+        """Whether it is solved, but a warning is severe: its film must not be used.
 
         Examples
         --------
-        >>> Point(0, {}, "solved", summary={"warnings": ["the film may be 32 % off; do not use it"]}).doubtful
+        >>> warned = {"warnings": ["the film may be 32 % off"], "warning_codes": ["grid-far-too-coarse"]}
+        >>> Point(0, {}, "solved", summary=warned).doubtful
         True
         """
-        return self.solved and any(_NO_USE in text for text in self.warnings)
+        return self.solved and any(warning.severity == "severe" for warning in self.warnings)
 
 
 @dataclass(frozen=True)

@@ -108,7 +108,7 @@ def planned_points(sweep: Sweep) -> list[Planned]:
     """
     planned = list(plan(sweep))
     if all(point.key is None for point in planned):
-        raise InputError(f"vary: no point is a case; of the first, {planned[0].refused}")
+        raise InputError("vary", f"no point is a case; of the first, {planned[0].refused}")
     return planned
 
 
@@ -122,8 +122,8 @@ def _solve(sweep: Sweep, store: Store, planned: Sequence[Planned], solvers: Crew
             counts[outcome.status] += points[key]
             counts["open"] -= points[key]
         told = [f"{counts[status]} {status}" for status in ("not converged", "failed") if counts[status]]
-        remark = solvers.remark()
-        progress(len(planned) - counts["open"], len(planned), ", ".join([*told, *filter(None, [remark])]))
+        waiting = solvers.waiting()
+        progress(len(planned) - counts["open"], len(planned), ", ".join([*told, *filter(None, [waiting])]))
 
     def tasks() -> Iterator[Task]:
         for key, inputs in store.open_points():

@@ -176,21 +176,31 @@ def sensitivity(results: SweepResults, value: str, *, resamples: int = 1000, see
     a Sobol sequence.
     """
     if results.design != "sobol":
-        raise InputError(f'design: got "{results.design}", sensitivity takes a sweep of the design "sobol"')
+        raise InputError.worded(
+            "design",
+            f'got "{results.design}", sensitivity takes a sweep of the design "sobol"',
+            got=results.design,
+        )
     rows, inputs = results.samples, len(results.varied)
     values = numbers_of(results, value)
     pages = values.reshape(inputs + 2, rows)
     complete = np.all(np.isfinite(pages), axis=0)
     used = int(np.sum(complete))
     if used < _LEAST_ROWS:
-        raise InputError(
-            f"{value}: {used} of {rows} rows of the design are complete, sensitivity takes at least "
-            f"{_LEAST_ROWS}"
+        raise InputError.worded(
+            value,
+            f"{used} of {rows} rows of the design are complete, sensitivity takes at least {_LEAST_ROWS}",
+            got=used,
+            takes=f"at least {_LEAST_ROWS}",
         )
     drawn = np.isfinite(values[: 2 * rows])
     samples = values[: 2 * rows][drawn]
     if np.ptp(samples) <= _CONSTANT * np.max(np.abs(samples)) or not np.ptp(pages[:2, complete]):
-        raise InputError(f"{value}: is {samples[0]:g} in all samples, sensitivity takes a value that varies")
+        raise InputError.worded(
+            value,
+            f"is {samples[0]:g} in all samples, sensitivity takes a value that varies",
+            takes="a value that varies",
+        )
     a, b, mixed = pages[0, complete], pages[1, complete], pages[2:, complete]
     first, total = indices(a, b, mixed)
     low, high = intervals(a, b, mixed, resamples=resamples, seed=seed)

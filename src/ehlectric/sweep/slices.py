@@ -93,7 +93,12 @@ class Slice:
             In one line.
         """
         if not self.numeric:
-            raise InputError(f"y: got {shown(self.y)}, whose values are texts or lists, a map takes numbers")
+            raise InputError.worded(
+                "y",
+                f"got {shown(self.y)}, whose values are texts or lists, a map takes numbers",
+                got=shown(self.y),
+                takes="numbers",
+            )
 
     def grid(self) -> tuple[Array, Array, IntArray] | None:
         """The points as a full grid.
@@ -162,24 +167,27 @@ def take(
         if key is not None and key not in results.varied:
             near = f"; nearest is {nearest(key, results.varied)}" if results.varied else ""
             raise InputError(
-                f"{name}: got {shown(key)}, takes a key that varies: {_listed(results.varied)}{near}"
+                name, got=shown(key), takes=f"a key that varies: {_listed(results.varied)}{near}"
             )
     if x == y:
-        raise InputError(f"y: got {shown(y)}, which is x; takes another key that varies")
+        raise InputError("y", got=f"{shown(y)}, which is x;", takes="another key that varies")
     if not all(_is_number(point.inputs.get(x)) for point in results.points):
-        raise InputError(f"x: got {shown(x)}, whose values are texts or lists, takes a key of numbers")
+        raise InputError("x", got=f"{shown(x)}, whose values are texts or lists", takes="a key of numbers")
     values = numbers_of(results, value)
     held = {key: _held(results, key, text) for key, text in (at or {}).items()}
     for key in held:
         if key in (x, y):
-            raise InputError(f"at: got {key}, which is {'x' if key == x else 'y'}, takes another varied key")
+            raise InputError(
+                "at", got=f"{key}, which is {'x' if key == x else 'y'}", takes="another varied key"
+            )
     held |= _alone(results, {x, y, *held})
     free = tuple(key for key in results.varied if key not in (x, y, *held))
     if free and results.design == "grid":
         first = free[0]
         raise InputError(
-            f"at: missing, {', '.join(free)} var{'ies' if len(free) == 1 else 'y'} too; takes "
-            f"{first}=VALUE, one of {_listed(_axis(results, first))}{_si(first)}"
+            "at",
+            f"missing, {', '.join(free)} var{'ies' if len(free) == 1 else 'y'} too;",
+            takes=f"{first}=VALUE, one of {_listed(_axis(results, first))}{_si(first)}",
         )
     chosen = [
         k
@@ -187,13 +195,15 @@ def take(
         if all(_hashable(p.inputs.get(key)) == v for key, v in held.items())
     ]
     if not chosen:
-        raise InputError(f"at: no point of the sweep has {', '.join(f'{k} = {v}' for k, v in held.items())}")
+        raise InputError(
+            "at", f"no point of the sweep has {', '.join(f'{k} = {v}' for k, v in held.items())}"
+        )
     points = tuple(results.points[k] for k in chosen)
     # A number that is not to be used is no number of a figure.
     usable = np.where([point.doubtful for point in points], np.nan, 1.0)
     values = usable * values[chosen]
     if not np.any(np.isfinite(values)):
-        raise InputError(f"value: {value} is in none of the {_drawn(points)}, there is nothing to show")
+        raise InputError("value", f"{value} is in none of the {_drawn(points)}, there is nothing to show")
     breakdown = breakdown_of(results.case, value)
     across = () if y is None else tuple(_hashable(point.inputs.get(y)) for point in points)
     return Slice(
@@ -257,7 +267,7 @@ def numbers_of(results: SweepResults, value: str) -> Array:
         near = nearest(value, [key for key in known if key.startswith(within)] or known)
         table = "; the case has no [discharge]" if within == "discharge." and near[:9] != "discharge" else ""
         raise InputError(
-            f"value: got {shown(value)}, takes a number of summary.json; nearest is {near}{table}"
+            "value", got=shown(value), takes=f"a number of summary.json; nearest is {near}{table}"
         )
     return results.values(value)
 
@@ -286,19 +296,19 @@ def _held(results: SweepResults, key: str, text: str) -> Any:
     """The value of the sweep that is nearest to what is asked for."""
     if key not in results.varied:
         near = nearest(key, results.varied) if results.varied else "none"
-        raise InputError(f"at: got {shown(key)}, takes a key that varies; nearest is {near}")
+        raise InputError("at", got=shown(key), takes=f"a key that varies; nearest is {near}")
     if results.design == "sobol":
-        raise InputError(f"at: got {key}, of which a sobol design has no two points alike; takes a grid")
+        raise InputError("at", got=f"{key}, of which a sobol design has no two points alike;", takes="a grid")
     axis = _axis(results, key)
     if not all(map(_is_number, axis)):
         if text not in axis:
-            raise InputError(f"at: got {key}={text}, takes one of {_listed(axis)}")
+            raise InputError("at", got=f"{key}={text}", takes=f"one of {_listed(axis)}")
         return text
     asked = _asked(key, text)
     low, high = min(axis), max(axis)
     slack = 1e-6 * max(abs(low), abs(high))
     if not low - slack <= asked <= high + slack:
-        raise InputError(f"at: got {key}={text}, takes a value from {low:g} to {high:g}{_si(key)}")
+        raise InputError("at", got=f"{key}={text}", takes=f"a value from {low:g} to {high:g}{_si(key)}")
     return min(axis, key=lambda other: abs(other - asked))
 
 
@@ -311,12 +321,12 @@ def _asked(key: str, text: str) -> float:
     kind = kind_of(key)
     if kind is None or isinstance(kind, Count):
         if number is None:
-            raise InputError(f"at: got {key}={text}, takes a number")
+            raise InputError("at", got=f"{key}={text}", takes="a number")
         return number
     try:
         return kind.parse(text if number is None else number)
-    except ValueError as error:
-        raise InputError(f"at: {key}: {error}") from None
+    except InputError as error:
+        raise error.retold("at", f"{key}: {error}") from None
 
 
 def _si(key: str) -> str:

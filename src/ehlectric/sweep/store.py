@@ -105,7 +105,7 @@ def case_key(case: AnyCase) -> str:
                 surface["file"] = _contents(path, status.st_mtime_ns, status.st_size)
             except OSError as error:
                 reason = (error.strerror or str(error)).lower()
-                raise InputError(f"{path}: cannot be read, {reason}") from None
+                raise InputError(path, f"cannot be read, {reason}") from None
     text = json.dumps(table, sort_keys=True, separators=(",", ":"), allow_nan=False)
     return hashlib.sha256(text.encode()).hexdigest()
 
@@ -258,7 +258,7 @@ def read_sweep(folder: str | Path) -> SweepResults:
     try:
         path.open("rb").close()
     except OSError as error:
-        raise InputError(f"{path}: cannot be read, {(error.strerror or str(error)).lower()}") from None
+        raise InputError(path, f"cannot be read, {(error.strerror or str(error)).lower()}") from None
     with _told(path):
         file = _opened(path, "rw")
         try:
@@ -273,7 +273,7 @@ def read_sweep(folder: str | Path) -> SweepResults:
     try:
         return _results({name: json.loads(value) for name, value in asked}, rows)
     except (InputError, LookupError, TypeError, ValueError):
-        raise InputError(f"{path}: is not a sweep of ehlectric, or damaged") from None
+        raise InputError(path, "is not a sweep of ehlectric, or damaged") from None
 
 
 def saved_points(folder: str | Path) -> tuple[int, int]:
@@ -349,7 +349,7 @@ def _opened(path: Path, mode: str) -> sqlite3.Connection:
         (tables,) = file.execute("SELECT count(*) FROM sqlite_master").fetchone()
         if (application, version) != (_APPLICATION, _VERSION) and (tables or mode != "rwc"):
             later = application == _APPLICATION and version > _VERSION
-            raise InputError(f"{path}: is {'of a later version' if later else 'not a sweep'} of ehlectric")
+            raise InputError(path, f"is {'of a later version' if later else 'not a sweep'} of ehlectric")
     except BaseException:
         file.close()
         raise
@@ -363,11 +363,11 @@ def _locked(path: Path) -> sqlite3.Connection:
         lock.execute("BEGIN EXCLUSIVE")
     except sqlite3.Error as error:
         lock.close()
-        if "locked" in str(error):
+        if getattr(error, "sqlite_errorcode", 0) & 0xFF == sqlite3.SQLITE_BUSY:
             raise InputError(
-                f"{path.parent}: is being written to by another sweep, takes a folder of its own"
+                path.parent, "is being written to by another sweep", takes="a folder of its own"
             ) from None
-        raise InputError(f"{path}: cannot be used, {error}") from None
+        raise InputError(path, f"cannot be used, {error}") from None
     return lock
 
 
@@ -377,6 +377,6 @@ def _told(path: Path) -> Iterator[None]:
     try:
         yield
     except sqlite3.OperationalError as error:
-        raise InputError(f"{path}: cannot be used, {error}") from None
+        raise InputError(path, f"cannot be used, {error}") from None
     except sqlite3.DatabaseError as error:
-        raise InputError(f"{path}: is not a sweep of ehlectric, or damaged: {error}") from None
+        raise InputError(path, f"is not a sweep of ehlectric, or damaged: {error}") from None

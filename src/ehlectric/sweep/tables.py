@@ -35,6 +35,7 @@ _OWN = {
     "status": {"long_name": "what became of the point"},
     "reason": {"long_name": "why it is not solved"},
     "warnings": {"long_name": "what to know before using its numbers"},
+    "warning_codes": {"long_name": "codes of the warnings"},
     "seconds": {"long_name": "time it took", "units": "s"},
 }
 
@@ -91,16 +92,18 @@ def columns_of(results: SweepResults) -> dict[str, list[Any]]:
     -------
     dict
         Columns by name, those of inputs and results by their dotted key, SI; before them number, status,
-        reason, warnings, joined by "; ", and seconds. Results are None where a point is not solved, or has no
-        such value; of the inputs that the summary resolves, those that vary. A value of the summary that has
-        the key of one that was varied, as a film factor, has no column: the input has it.
+        reason, warnings and their codes, each joined by "; ", and seconds. Results are None where a point is
+        not solved, or has no such value; of the inputs that the summary resolves, those that vary. A value
+        of the summary that has the key of one that was varied, as a film factor, has no column: the input
+        has it.
     """
     points = results.points
     columns: dict[str, list[Any]] = {
         "number": [point.number for point in points],
         "status": [point.status for point in points],
         "reason": [point.reason for point in points],
-        "warnings": ["; ".join(point.warnings) for point in points],
+        "warnings": ["; ".join(map(str, point.warnings)) for point in points],
+        "warning_codes": ["; ".join(warning.code for warning in point.warnings) for point in points],
         "seconds": [point.seconds for point in points],
     }
     columns |= {key: [point.inputs[key] for point in points] for key in results.varied}
@@ -148,8 +151,8 @@ def to_xarray(results: SweepResults) -> xr.Dataset:
     -------
     xarray.Dataset
         Of a "grid" over the varied keys, else over ``point``, with the numbers of the summary by dotted key,
-        not a number where a point is not solved; ``status``, ``reason`` and ``warnings`` as texts, and those
-        of a bearing's lubrication and first contact to break.
+        not a number where a point is not solved; ``status``, ``reason``, ``warnings`` and ``warning_codes``
+        as texts, and those of a bearing's lubrication and first contact to break.
     """
     import xarray as xr
 

@@ -8,7 +8,7 @@ from scipy.interpolate import PchipInterpolator
 
 from ehlectric import ConvergenceError
 from ehlectric.film import unsteady
-from ehlectric.film.reynolds import evaluate
+from ehlectric.film.flow import evaluate
 from ehlectric.film.unsteady import Effort, UnsteadyFilm
 from tests.helpers.transient_films import histories, last, problem_of, ridge, steady
 
@@ -160,7 +160,7 @@ def test_oil_is_kept(paper_case, slope, courant):
             now = history.now
             held.append(np.trapezoid(now.mass[inlet : outlet + 1, 0], dx=dx))
             net.append(flow(problem, now, dx, inlet) - flow(problem, now, dx, outlet))
-            assert not now.free[outlet, 0]
+            assert not now.full_film[outlet, 0]
         assert np.ptp(held) > 1e-3
         missing.append(abs(held[-1] - held[0] - np.trapezoid(net, dx=step)))
     assert slope(1.0 / intervals, missing) == pytest.approx(2.0, abs=0.2)

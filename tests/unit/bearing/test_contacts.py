@@ -7,12 +7,13 @@ import numpy as np
 import pytest
 
 from ehlectric import Case, solve
-from ehlectric.bearing.contacts import ContactCurve
+from ehlectric.bearing.contacts import ContactCurve, without_regime
 from ehlectric.bearing.gaps.groove import groove_capacitance, match_film, outside_capacitance
 from ehlectric.bearing.gaps.roller import RollerRaceway, roller_capacitance, roller_tails
 from ehlectric.bearing.ring_contacts import raceway_of
 from ehlectric.bearing.solution import ring_state
 from ehlectric.contact.conditions import resolve_point
+from ehlectric.errors import ResultWarning
 from ehlectric.formulas.hertz_point import dry_contact
 from tests.helpers.bearings import (
     BALLS,
@@ -295,6 +296,16 @@ def powers(loads):
         for q in loads
     ]
     return ContactCurve(tuple(rows))
+
+
+def test_warnings_of_the_regime_are_left_out_by_their_code():
+    """Whatever their words are."""
+    others = [
+        ResultWarning("tunnelling", "isoviscous-rigid regime"),
+        ResultWarning("plastic-deformation", ""),
+    ]
+    regime = ResultWarning("regime", "isoviscous-rigid regime")
+    assert without_regime([others[0], regime, others[1]]) == tuple(others)
 
 
 def test_powers_of_the_load_are_interpolated_exactly():

@@ -13,6 +13,7 @@ from ehlectric.bearing.files import CONTACTS, FILES, IMPEDANCE, NETCDF, SUMMARY,
 from ehlectric.bearing.impedance import impedance_of
 from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solver import solve_bearing
+from ehlectric.errors import ResultWarning
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case
 
 # With a wide clearance some balls do not touch the inner ring.
@@ -76,7 +77,12 @@ def test_what_is_not_known_stays_unknown(result, tmp_path):
     """A strength that is none, a Weibull shape, an error of one contact alone, and another version."""
     solution = result.solution
     curve = solution.inner_curve
-    one = dataclasses.replace(curve.solutions[0], error=0.02, converged=False, warnings=("a", "b"))
+    one = dataclasses.replace(
+        curve.solutions[0],
+        error=0.02,
+        converged=False,
+        warnings=(ResultWarning("regime", "a"), ResultWarning("tunnelling", "b")),
+    )
     positions = tuple(dataclasses.replace(position, shape=8.0) for position in solution.positions)
     curve = dataclasses.replace(curve, solutions=(one, *curve.solutions[1:]))
     other = changed(result, inner_curve=curve, positions=positions, version="0.1", seconds=3.5)

@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 
 from ehlectric import Case, InputError, solve
+from ehlectric.contact.case_warnings import line_case_warnings
 from ehlectric.contact.conditions import resolve
-from ehlectric.contact.remarks import line_remarks as remarks
 from tests.conftest import PAPER_CONTACT
 
 TABLE = {"contact": PAPER_CONTACT, "lubricant": {"base": "paper"}}
@@ -195,7 +195,7 @@ def test_contradictions_are_refused(keys, message):
         resolve(Case.from_dict(changed(contact=keys)))
 
 
-REMARKS = [
+WARNINGS = [
     ({"contact.load_per_length": "2 kN/m"}, "isoviscous-rigid"),
     ({"contact.max_hertz_pressure": "20 MPa"}, "ambient pressure carries"),
     ({"lubricant.viscosity_law": "barus"}, "Barus"),
@@ -203,15 +203,15 @@ REMARKS = [
 ]
 
 
-@pytest.mark.parametrize(("keys", "message"), REMARKS)
-def test_remarks(keys, message):
+@pytest.mark.parametrize(("keys", "message"), WARNINGS)
+def test_warnings_before_solving(keys, message):
     case = Case.from_dict(TABLE).replace(keys)
-    assert any(message in text for text in remarks(case, resolve(case)))
+    assert any(message in text for text in map(str, line_case_warnings(case, resolve(case))))
 
 
-def test_paper_case_needs_no_remark():
+def test_paper_case_needs_no_warning():
     case = Case.from_dict(TABLE)
-    assert not list(remarks(case, resolve(case)))
+    assert not list(line_case_warnings(case, resolve(case)))
 
 
 def test_replace_displaces_alternatives():
@@ -317,12 +317,16 @@ def test_missing_roelands_exponent_is_given_by_his_relation():
 def test_contacts_that_no_bearing_has_are_said():
     contact = PAPER_CONTACT | {"load_per_length": "7 MN/m"}
     case = Case.from_dict({"contact": contact, "lubricant": {"base": "paper"}})
-    assert any("deforms permanently above 4 GPa" in text for text in remarks(case, resolve(case)))
+    assert any(
+        "deforms permanently above 4 GPa" in text
+        for text in map(str, line_case_warnings(case, resolve(case)))
+    )
     electric = {"potential_1": 0.0, "potential_2": "2 kV"}
     case = Case.from_dict({"contact": PAPER_CONTACT, "lubricant": {"base": "paper"}, "electric": electric})
-    assert not any("permanently" in text for text in remarks(case, resolve(case)))
+    assert not any("permanently" in text for text in map(str, line_case_warnings(case, resolve(case))))
     assert any(
-        "no insulator withstands" in text for text in solve(case.replace({"grid.nodes": 801})).warnings
+        "no insulator withstands" in text
+        for text in map(str, solve(case.replace({"grid.nodes": 801})).warnings)
     )
 
 

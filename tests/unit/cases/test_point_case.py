@@ -8,9 +8,9 @@ from hypothesis import given, settings
 
 from ehlectric import Case, InputError
 from ehlectric.cases.quantity import Quantity
+from ehlectric.contact.case_warnings import point_case_warnings
 from ehlectric.contact.conditions import default_side, resolve, resolve_point
 from ehlectric.contact.memory import check_memory
-from ehlectric.contact.remarks import point_remarks
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.strategies import point_tables
 
@@ -225,7 +225,7 @@ def test_semi_axes_are_compared_with_the_radii_of_their_plane():
     assert conditions.semi_axis_x < 0.1 * conditions.radius_x
 
 
-REMARKS = [
+WARNINGS = [
     ({"load": "1 N", "reduced_modulus": "2 MPa"}, {"ambient_pressure": 0.0}, "isoviscous-elastic regime"),
     (
         {"load": "5 mN"},
@@ -239,18 +239,18 @@ REMARKS = [
 ]
 
 
-@pytest.mark.parametrize(("contact", "lubricant", "message"), REMARKS)
-def test_remarks(contact, lubricant, message):
+@pytest.mark.parametrize(("contact", "lubricant", "message"), WARNINGS)
+def test_warnings_before_solving(contact, lubricant, message):
     """The ambient share by hand: 1e5/20e6 6 6/(2 pi/3) = 0.086."""
     case = Case.from_dict(table(contact) | {"lubricant": {"base": "paper"} | lubricant})
-    texts = list(point_remarks(case, resolve_point(case)))
+    texts = list(map(str, point_case_warnings(case, resolve_point(case))))
     assert any(re.search(message, text) for text in texts), texts
 
 
-def test_common_contacts_need_no_remark():
-    assert not list(point_remarks(point(), resolve_point(point())))
+def test_common_contacts_need_no_warning():
+    assert not list(point_case_warnings(point(), resolve_point(point())))
     bearing = point(NO_RADII | {"load": 600, "body_1": RING, "body_2": BALL})
-    assert not list(point_remarks(bearing, resolve_point(bearing)))
+    assert not list(point_case_warnings(bearing, resolve_point(bearing)))
 
 
 def test_each_geometry_is_resolved_by_its_own():
@@ -326,7 +326,7 @@ def test_any_case_means_something_or_is_refused_in_words(table):
         assert message.startswith(("contact", "grid.", "lubricant."))
         assert "\n" not in message
         return
-    list(point_remarks(case, conditions))
+    list(point_case_warnings(case, conditions))
     numbers = [value for value in vars(conditions).values() if isinstance(value, float)]
     assert np.isfinite(numbers).all()
 

@@ -216,24 +216,42 @@ def test_field_across_a_bent_gap(paper_result):
     assert result.field.max_strength == pytest.approx(expected, rel=1e-3, abs=0.0)
 
 
+SLOW, ISOVISCOUS = {"contact.entrainment_speed": 0.5}, {"lubricant.viscosity_law": "constant"}
+# Changes of the case, words of a warning, and its code.
 WARNINGS = [
-    ({"grid.inlet": -1.3, "contact.entrainment_speed": 40.0}, "inlet is too short"),
-    ({"grid.outlet": 1.01, "grid.field_range": [-1.1, 1.0]}, "does not cavitate"),
-    ({"grid.nodes": 129, "contact.entrainment_speed": 0.5}, "do not use this film: the next coarser grid"),
-    ({"grid.nodes": 401, "contact.entrainment_speed": 0.5}, "% off or more on this grid"),
-    ({"grid.field_nodes": 50}, "grid.field_nodes is coarser than the film"),
-    ({"solver.max_iterations": 1}, "do not use this film, it is no solution: stalled"),
-    ({"lubricant.viscosity_law": "constant", "contact.load_per_length": 1e5}, "isoviscous-elastic regime"),
-    ({"grid.field_range": [0.2, 0.975]}, "end of grid.field_range"),
-    ({"contact.load_per_length": "3 kN/m"}, "isoviscous-rigid"),
+    ({"grid.inlet": -1.3, "contact.entrainment_speed": 40.0}, "inlet is too short", "inlet-far-too-short"),
+    ({"grid.outlet": 1.01, "grid.field_range": [-1.1, 1.0]}, "does not cavitate", "outlet-too-short"),
+    (
+        {"grid.nodes": 129, "contact.entrainment_speed": 0.5},
+        "do not use this film: the next coarser grid",
+        "coarser-grid-unsolved",
+    ),
+    (
+        {"grid.nodes": 401, "contact.entrainment_speed": 0.5},
+        "% off or more on this grid",
+        "grid-far-too-coarse",
+    ),
+    ({"grid.field_nodes": 50}, "grid.field_nodes is coarser than the film", "field-grid-too-coarse"),
+    ({"solver.max_iterations": 1}, "do not use this film, it is no solution: stalled", "not-converged"),
+    (
+        {"lubricant.viscosity_law": "constant", "contact.load_per_length": 1e5},
+        "isoviscous-elastic regime",
+        "regime",
+    ),
+    ({"grid.field_range": [0.2, 0.975]}, "end of grid.field_range", "field-range-too-narrow"),
+    ({"contact.load_per_length": "3 kN/m"}, "isoviscous-rigid", "regime"),
 ]
 
 
-@pytest.mark.parametrize(("keys", "message"), WARNINGS)
-def test_warnings(paper_case, keys, message):
+@pytest.mark.parametrize(("keys", "message", "code"), WARNINGS)
+def test_warnings(paper_case, keys, message, code):
     case = paper_case.replace({"grid.nodes": 801} | keys)
-    warnings = solve(case).warnings
-    assert any(re.search(message, text) for text in warnings), warnings
+    result = solve(case)
+    found = [warning.code for warning in result.warnings if re.search(message, warning.text)]
+    assert code in found, result.warnings
+    summary = result.summary()
+    assert summary["warnings"] == [warning.text for warning in result.warnings]
+    assert summary["warning_codes"] == [warning.code for warning in result.warnings]
 
 
 def test_paper_result_needs_no_warning(paper_result):
@@ -250,7 +268,7 @@ def test_roughness_higher_than_the_film_is_raised_in_vain(paper_case):
     assert result.smooth is not None
     assert result.smooth.minimum_thickness < 200e-9
     assert result.film.discretisation_error is None
-    assert any("do not use this film" in text for text in result.warnings)
+    assert any("do not use this film" in text for text in map(str, result.warnings))
 
 
 def test_the_caller_may_ask_for_a_solution_or_nothing(paper_case):

@@ -52,8 +52,8 @@ def rough_result():
 def test_summary_has_the_agreed_keys(result, rough_result):
     summary = json.loads(json.dumps(result.summary(), allow_nan=False))
     assert set(summary) == {
-        "schema", "version", "title", "converged", "status", "warnings", "inputs", "groups", "hertz",
-        "film", "field", "film_formulas", "seconds",
+        "schema", "version", "title", "converged", "status", "warnings", "warning_codes", "inputs", "groups",
+        "hertz", "film", "field", "film_formulas", "seconds",
     }  # fmt: skip
     assert summary["schema"] == "ehlectric.summary/1"
     assert (summary["converged"], summary["status"]) == (True, "converged")
@@ -239,24 +239,29 @@ def test_any_result_survives_the_disk(table, tmp_path_factory):
 
 
 WARNINGS = [
-    ({"grid.inlet": -1.6}, "the domain is too small: .* % of the pressure is built up before"),
-    SLOW({"grid.side": 1.3, "grid.field_side": 1.2}, "too small: .* lower grid.inlet and raise grid.side"),
-    ({"grid.outlet": 1.01, "grid.field_range": [-1.1, 1.0]}, "does not cavitate"),
-    ({"contact.entrainment_speed": 0.5}, "% off or more on this grid; do not use it"),
-    SLOW({"contact.entrainment_speed": 0.1}, "do not use this film: the next coarser grid was not solved"),
-    SLOW({"grid.field_nodes": 20}, "grid.field_nodes is coarser than the film"),
-    ({"grid.field_nodes_y": 20}, "grid.field_nodes_y is coarser than the film"),
-    ({"solver.max_iterations": 1}, "do not use this film, it is no solution: stalled"),
-    SLOW({"contact.load": 0.02}, "isoviscous-rigid regime"),
-    SLOW({"grid.field_side": 0.5}, "edge of grid.field_range or grid.field_side"),
-    ({"electric.potential_2": 1e4}, "no insulator withstands"),
+    ({"grid.inlet": -1.6}, "the domain is too small: .* % of the pressure is built up before",
+     "domain-too-small"),
+    SLOW({"grid.side": 1.3, "grid.field_side": 1.2}, "too small: .* lower grid.inlet and raise grid.side",
+         "domain-too-small"),
+    ({"grid.outlet": 1.01, "grid.field_range": [-1.1, 1.0]}, "does not cavitate", "outlet-too-short"),
+    ({"contact.entrainment_speed": 0.5}, "% off or more on this grid; do not use it", "grid-far-too-coarse"),
+    SLOW({"contact.entrainment_speed": 0.1}, "do not use this film: the next coarser grid was not solved",
+         "coarser-grid-unsolved"),
+    SLOW({"grid.field_nodes": 20}, "grid.field_nodes is coarser than the film", "field-grid-too-coarse"),
+    ({"grid.field_nodes_y": 20}, "grid.field_nodes_y is coarser than the film", "field-grid-too-coarse"),
+    ({"solver.max_iterations": 1}, "do not use this film, it is no solution: stalled", "not-converged"),
+    SLOW({"contact.load": 0.02}, "isoviscous-rigid regime", "regime"),
+    SLOW({"grid.field_side": 0.5}, "edge of grid.field_range or grid.field_side", "field-range-too-narrow"),
+    ({"electric.potential_2": 1e4}, "no insulator withstands", "field-above-insulators"),
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("keys", "message"), WARNINGS)
-def test_warnings(keys, message):
-    warnings = solve(point(grid={"nodes": 65}).replace(keys)).warnings
-    assert any(re.search(message, text) for text in warnings), warnings
+@pytest.mark.parametrize(("keys", "message", "code"), WARNINGS)
+def test_warnings(keys, message, code):
+    result = solve(point(grid={"nodes": 65}).replace(keys))
+    found = [warning.code for warning in result.warnings if re.search(message, warning.text)]
+    assert code in found, result.warnings
+    assert result.summary()["warning_codes"] == [warning.code for warning in result.warnings]
 
 
 @pytest.mark.slow
@@ -287,7 +292,7 @@ def test_refined_until_the_error_is_small(kind):
     film = result.film
     assert film.converged
     assert film.discretisation_error <= target
-    assert not any("grid.refine" in text for text in result.warnings)
+    assert not any("grid.refine" in text for text in map(str, result.warnings))
     doubled = (film.x.size - 1) / (case.grid.nodes - 1)
     assert doubled in (2.0, 4.0, 8.0)
     before = {"grid.nodes": (film.x.size - 1) // 2 + 1}
@@ -318,7 +323,9 @@ def test_refinement_of_what_has_no_film_ends(kind):
     result = solve(case)
     assert not result.converged
     assert result.film.x.size == 4 * case.grid.nodes - 3
-    assert any("nothing is known of its error on 3 grids in succession" in text for text in result.warnings)
+    assert any(
+        "nothing is known of its error on 3 grids in succession" in text for text in map(str, result.warnings)
+    )
 
 
 @pytest.mark.parametrize("kind", ["line", SLOW("point")])
@@ -341,6 +348,6 @@ def test_refinement_that_does_not_get_there_is_said(kind, monkeypatch):
     assert fits(second, enough)
     result = solve(case)
     assert result.film.x.size == second
-    (said,) = (text for text in result.warnings if text.startswith("grid.refine"))
+    (said,) = (text for text in map(str, result.warnings) if text.startswith("grid.refine"))
     assert f"0.01 % was not reached with {second} nodes" in said
     assert "takes a grid that fits into" in said

@@ -9,7 +9,7 @@ from scipy.integrate import dblquad, quad
 
 from ehlectric import Case
 from ehlectric.contact.conditions import resolve, resolve_point
-from ehlectric.discharge.assessment import assess, discharge_findings
+from ehlectric.discharge.assessment import assess, discharge_warnings
 from ehlectric.discharge.columns import at_columns
 from ehlectric.field.zones import areas, line_zone_areas, node_areas, part_widths, point_zone_areas
 from tests.conftest import PAPER_CONTACT
@@ -92,7 +92,7 @@ def test_plates_with_nothing_given():
     x = np.linspace(-4.0, 2.0, 61) * conditions.half_width
     film = line_gap(x, np.full_like(x, 1e-6))
     found = assessed(case, conditions, film, line_gap_field(film, slice(20, 50)))
-    known = {name for name, value in vars(found).items() if value is not None}
+    known = {name for name, value in found.summary().items() if value is not None} - {"sources"}
     assert known == {
         "zone_position", "zone_size", "zone_over_half_width", "zone_over_largest_pit", "zone_over_mean_pit",
         "capacitance", "capacitance_hertz", "capacitance_inlet", "capacitance_outlet", "capacitance_plate",
@@ -332,18 +332,18 @@ def test_crests_break_first(kind):
     assert found.breakdown_voltage == near(15e6 * gap / crest, 3e-4)
 
 
-def findings(film, **discharge):
+def warnings_of(film, **discharge):
     case, _ = line_case(**discharge)
-    return list(discharge_findings(case.discharge, film))
+    return list(map(str, discharge_warnings(case.discharge, film)))
 
 
 def test_films_through_which_electrons_tunnel():
     x = np.linspace(-1.0, 1.0, 5)
-    (text,) = findings(line_gap(x, np.array([9e-9, 9e-9, 1.9e-9, 9e-9, 9e-9])))
+    (text,) = warnings_of(line_gap(x, np.array([9e-9, 9e-9, 1.9e-9, 9e-9, 9e-9])))
     assert text.startswith("the film is 1.9 nm thin: below about 2 nm electrons tunnel through it")
-    assert findings(line_gap(x, np.full(5, 2.1e-9))) == []
+    assert warnings_of(line_gap(x, np.full(5, 2.1e-9))) == []
     case = Case.from_dict({"contact": PAPER_CONTACT, "lubricant": OIL})
-    assert list(discharge_findings(case.discharge, line_gap(x, np.full(5, 1e-9)))) == []
+    assert list(discharge_warnings(case.discharge, line_gap(x, np.full(5, 1e-9)))) == []
 
 
 @pytest.mark.parametrize(("pressure", "said"), [([0.0, 1.0], False), ([0.01, 1.0], True), ([0.0, 0.8], True)])
@@ -351,7 +351,7 @@ def test_pressures_beyond_the_table(pressure, said):
     x = np.linspace(-1.0, 1.0, 3)
     film = line_gap(x, np.full(3, 1e-7), pressure=np.array([1e5, 0.9e9, 1e5]))
     table = {"pressure": [p * 1e9 for p in pressure], "strength": [1e7, 2e7]}
-    texts = findings(film, strength_table=table)
+    texts = warnings_of(film, strength_table=table)
     assert len(texts) == said
     for text in texts:
         assert "the pressure in the film, 0.0001 to 0.9 GPa, leaves discharge.strength_table, " in text

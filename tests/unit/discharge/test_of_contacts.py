@@ -250,7 +250,7 @@ def test_pressures_beyond_the_table_are_said():
     """2 GPa in the contact, 1 GPa in the table, whose last value holds."""
     table = {"pressure": ["0 GPa", "1 GPa"], "strength": ["15 V/um", "15 V/um"]}
     result = solve(line({"strength_table": table}))
-    texts = [text for text in result.warnings if "discharge.strength_table" in text]
+    texts = [text for text in map(str, result.warnings) if "discharge.strength_table" in text]
     assert len(texts) == 1
     assert result.discharge.breakdown_voltage == near(15e6 * 2.0 / result.field.max_strength, 1e-12)
 
@@ -266,7 +266,10 @@ ALL = LAWS["weibull"] | {
 def test_summary_and_files(solved, kind, discharge, tmp_path):
     result = solved(kind, discharge)
     summary = json.loads(json.dumps(result.summary(), allow_nan=False))["discharge"]
-    assert set(summary) == {field.name for field in dataclasses.fields(Assessment)} | {"sources"}
+    parts = [vars(getattr(result.discharge, part.name)) for part in dataclasses.fields(Assessment)]
+    values = {name: value for part in parts for name, value in part.items()}
+    assert set(summary) == set(values) | {"sources"}
+    assert {name: getattr(result.discharge, name) for name in values} == values
     # No number that neither case nor solution gives stands without its source or the word.
     assert all(
         "assumption" in text or "doi" in text or "domain" in text for text in summary["sources"].values()

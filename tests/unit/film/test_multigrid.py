@@ -9,12 +9,13 @@ import pytest
 from ehlectric.contact.conditions import resolve
 from ehlectric.contact.problems import film_problem
 from ehlectric.film import multigrid, reynolds
+from ehlectric.film.characteristics import in_time
 from ehlectric.film.deflection import LINE, Deflection
+from ehlectric.film.flow import Fluid, flow
+from ehlectric.film.gap import Gap
 from ehlectric.film.levels import COARSEST, DIPOLE, SECOND_DIFFERENCE, hierarchy, interpolation
 from ehlectric.film.line import solve_film
 from ehlectric.film.problem import FilmProblem
-from ehlectric.film.reynolds import Fluid, evaluate
-from ehlectric.film.unsteady import in_time
 from ehlectric.lubricant.density import incompressible
 from ehlectric.lubricant.viscosity import barus
 
@@ -75,13 +76,14 @@ def at_solution(problem):
     assert film.converged
     pressure = (film.pressure / film.scales.pressure)[:, np.newaxis]
     thickness = (film.thickness / film.scales.thickness)[:, np.newaxis]
+    levels = hierarchy(problem.nodes, inlet=-4.0, outlet=2.0, geometry=LINE, second_order=True)
     return multigrid.linearise_levels(
-        hierarchy(problem.nodes, inlet=-4.0, outlet=2.0, geometry=LINE, second_order=True),
+        levels,
         problem.fluid,
-        coefficients=evaluate(problem.fluid, pressure, thickness),
+        flow(problem.fluid, pressure, thickness, levels[0].mesh),
         pressure=pressure,
         thickness=thickness,
-        free=~film.cavitated[:, np.newaxis],
+        full_film=~film.cavitated[:, np.newaxis],
     )
 
 
@@ -94,15 +96,10 @@ def relinearised(jacobian, level):
         velocity_parameter=0.05,
         ambient_pressure=0.0,
     )
-    pressure = np.where(jacobian.free, np.sqrt(np.clip(1.0 - x**2, 0.0, 1.0)), 0.0)
+    pressure = np.where(jacobian.full_film, np.sqrt(np.clip(1.0 - x**2, 0.0, 1.0)), 0.0)
     thickness = 0.1 + 0.5 * np.clip(np.abs(x) - 1.0, 0.0, None) ** 1.5
-    return multigrid.Linearised(
-        level,
-        evaluate(fluid, pressure, thickness),
-        pressure=pressure,
-        thickness=thickness,
-        free=jacobian.free,
-    )
+    at_faces = flow(fluid, pressure, thickness, level.mesh)
+    return multigrid.Linearised.of(Gap(level, thickness), at_faces, jacobian.full_film)
 
 
 def three_lines(jacobian):
@@ -116,14 +113,13 @@ def three_lines(jacobian):
         weights=np.repeat(level.weights, 3, axis=1),
         deflection=Deflection.from_influence(apart),
     )
-    copy = multigrid.Linearised.__new__(multigrid.Linearised)
-    copy.level, copy.half_band = wide, jacobian.half_band
-    for name in ("free", "distributed", "resolved"):
-        setattr(copy, name, np.repeat(getattr(jacobian, name), 3, axis=1))
+    nodal = ("full_film", "poiseuille", "scale", "unscale", "resolved")
+    changes = {name: np.repeat(getattr(jacobian, name), 3, axis=1) for name in nodal}
     for name in ("by_p", "by_h"):
         coefficients = np.repeat(getattr(jacobian, name).coefficients, 3, axis=2)
-        setattr(copy, name, reynolds.Stencil(coefficients))
-    return copy
+        changes[name] = reynolds.Stencil(coefficients)
+    thickness = np.repeat(jacobian.gap.thickness, 3, axis=1)
+    return dataclasses.replace(jacobian, gap=Gap(wide, thickness), **changes)
 
 
 @pytest.mark.parametrize(("distribution", "moments"), [(DIPOLE, (0.0, 1.0)), (SECOND_DIFFERENCE, (0.0, 0.0))])
@@ -141,7 +137,7 @@ def test_a_line_is_relaxed_by_the_band_of_its_jacobian_in_distributed_unknowns(d
     if distribution is SECOND_DIFFERENCE:
         level = in_time(level, 1.0 / level.mesh.dx)
     copy = relinearised(line, level)
-    n, free, distributed = level.nodes, copy.free[:, 0], copy.distributed[:, 0]
+    n, free, distributed = level.nodes, copy.full_film[:, 0], copy.relax.distributed[:, 0]
     # Some are, and some are not: in the inlet the flow decides.
     assert 0.1 < np.mean(distributed) < np.mean(free) < 1.0
     changes = np.eye(n)
@@ -151,7 +147,7 @@ def test_a_line_is_relaxed_by_the_band_of_its_jacobian_in_distributed_unknowns(d
             changes[j + offset, j] = part
     jacobian = np.stack([copy(unit[:, np.newaxis], 0.0)[0][:, 0] for unit in np.eye(n)], axis=1)
     apart = np.abs(np.subtract.outer(np.arange(n), np.arange(n)))
-    band = np.where(apart <= copy.half_band, jacobian @ changes, 0.0)
+    band = np.where(apart <= copy.relax.half_band, jacobian @ changes, 0.0)
     band[~free] = np.eye(n)[~free]
     r = np.where(free, np.random.default_rng(17).standard_normal(n), 0.0)
     expected = np.where(free, changes @ np.linalg.solve(band, r), 0.0)
@@ -162,7 +158,7 @@ def test_a_line_is_relaxed_by_the_band_of_its_jacobian_in_distributed_unknowns(d
 def test_lines_side_by_side_are_relaxed_as_one():
     line = jacobians(401)[0]
     random = np.random.default_rng(11)
-    r = np.where(line.free, random.standard_normal(line.free.shape), 0.0)
+    r = np.where(line.full_film, random.standard_normal(line.full_film.shape), 0.0)
     together = three_lines(line).relax(r * np.array([1.0, -2.0, 0.5]))
     np.testing.assert_allclose(together, line.relax(r) * np.array([1.0, -2.0, 0.5]), rtol=1e-10, atol=1e-14)
 
@@ -170,7 +166,7 @@ def test_lines_side_by_side_are_relaxed_as_one():
 def test_dense_solve_of_lines_side_by_side():
     wide = three_lines(jacobians(401)[-1])
     random = np.random.default_rng(13)
-    r = np.where(wide.free, random.standard_normal(wide.free.shape), 0.0)
+    r = np.where(wide.full_film, random.standard_normal(wide.full_film.shape), 0.0)
     dp, dh00 = wide.solve_dense(r, 0.3)
     change, load = wide(dp, dh00)
     np.testing.assert_allclose(change, r, atol=1e-9 * np.max(np.abs(wide.by_p.coefficients)))
@@ -180,18 +176,18 @@ def test_dense_solve_of_lines_side_by_side():
 def test_dense_solve_inverts_the_operator():
     *_, coarsest = jacobians(401)
     random = np.random.default_rng(5)
-    r = np.where(coarsest.free, random.standard_normal(coarsest.free.shape), 0.0)
+    r = np.where(coarsest.full_film, random.standard_normal(coarsest.full_film.shape), 0.0)
     dp, dh00 = coarsest.solve_dense(r, 0.3)
     change, load = coarsest(dp, dh00)
     np.testing.assert_allclose(change, r, atol=1e-9 * np.max(np.abs(coarsest.by_p.coefficients)))
     assert load == pytest.approx(0.3)
-    assert np.all(dp[~coarsest.free] == 0.0)
+    assert np.all(dp[~coarsest.full_film] == 0.0)
 
 
 def convergence_factor(levels):
     """Spectral radius of the error propagation of a V-cycle, by power iteration."""
     random = np.random.default_rng(7)
-    dp = np.where(levels[0].free, random.standard_normal(levels[0].free.shape), 0.0)
+    dp = np.where(levels[0].full_film, random.standard_normal(levels[0].full_film.shape), 0.0)
     dh00, factor = 0.1, 1.0
     for _ in range(12):
         norm = np.sqrt(np.vdot(dp, dp) + dh00**2)

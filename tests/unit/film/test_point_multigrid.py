@@ -9,6 +9,7 @@ from ehlectric import Case
 from ehlectric.contact.conditions import resolve_point
 from ehlectric.contact.problems import point_film_problem
 from ehlectric.film import multigrid
+from ehlectric.film.flow import flow
 from ehlectric.film.levels import hierarchy
 from ehlectric.film.line import quiet_solution
 from ehlectric.film.mesh import Width
@@ -38,9 +39,11 @@ def jacobians(problem, *, symmetric=True):
     finest = solved(problem)[-1]
     assert finest.status == "converged"
     mesh, width = finest.level.mesh, problem.width
-    pressure, thickness, free = finest.state.pressure, finest.state.thickness, finest.final.free
+    pressure, thickness, full_film = finest.state.pressure, finest.state.thickness, finest.final.full_film
     if not symmetric:
-        pressure, thickness, free = (mesh.mirrored(values) for values in (pressure, thickness, free))
+        pressure, thickness, full_film = (
+            mesh.mirrored(values) for values in (pressure, thickness, full_film)
+        )
         width = Width(width.nodes, width.side, symmetric=False)
     levels = hierarchy(
         problem.nodes,
@@ -53,10 +56,10 @@ def jacobians(problem, *, symmetric=True):
     return multigrid.linearise_levels(
         levels,
         problem.fluid,
-        coefficients=multigrid.evaluate(problem.fluid, pressure, thickness),
+        flow(problem.fluid, pressure, thickness, levels[0].mesh),
         pressure=pressure,
         thickness=thickness,
-        free=free,
+        full_film=full_film,
     )
 
 
@@ -72,7 +75,7 @@ def whole_circle():
 
 def right_side(jacobian):
     random = np.random.default_rng(5)
-    return np.where(jacobian.free, random.standard_normal(jacobian.free.shape), 0.0)
+    return np.where(jacobian.full_film, random.standard_normal(jacobian.full_film.shape), 0.0)
 
 
 def test_dense_solve_inverts_the_operator(circle):
@@ -83,14 +86,14 @@ def test_dense_solve_inverts_the_operator(circle):
     change, load = coarsest(dp, dh00)
     np.testing.assert_allclose(change, r, atol=1e-9 * np.max(np.abs(coarsest.by_p.coefficients)))
     assert load == pytest.approx(0.3)
-    assert np.all(dp[~coarsest.free] == 0.0)
+    assert np.all(dp[~coarsest.full_film] == 0.0)
 
 
 def test_operator_of_a_half_is_that_of_the_whole(circle, whole_circle):
     """What a mirrored change does, Reynolds rows and load; on every grid but for the state's rounding."""
     for half, whole in zip(circle, whole_circle, strict=False):
         mesh = half.level.mesh
-        np.testing.assert_array_equal(mesh.mirrored(half.free), whole.free)
+        np.testing.assert_array_equal(mesh.mirrored(half.full_film), whole.full_film)
         dp = right_side(half)
         change, load = half(dp, 0.2)
         of_whole, whole_load = whole(mesh.mirrored(dp), 0.2)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from ehlectric.film import reynolds
+from ehlectric.film.flow import Fluid, evaluate, flow
 from ehlectric.film.mesh import Mesh, Width
 from ehlectric.lubricant.density import incompressible
 from ehlectric.lubricant.viscosity import constant_viscosity
@@ -26,21 +27,20 @@ def change_of(mesh):
 
 def residual(mesh, pressure, thickness, *, second_order, of=None):
     wedge = reynolds.wedge_stencil(mesh.shape, mesh.dx, second_order=second_order)
-    coefficients = reynolds.evaluate(of or fluid(), pressure, thickness)
-    return reynolds.residual(coefficients, wedge, pressure, thickness, mesh)
+    at_faces = flow(of or fluid(), pressure, thickness, mesh)
+    return reynolds.residual(at_faces, wedge, thickness, mesh)
 
 
 def derivatives(mesh, pressure, thickness, *, second_order):
     wedge = reynolds.wedge_stencil(mesh.shape, mesh.dx, second_order=second_order)
-    coefficients = reynolds.evaluate(fluid(), pressure, thickness)
-    return reynolds.linearise(coefficients, wedge, pressure, thickness, mesh)
+    return reynolds.linearise(flow(fluid(), pressure, thickness, mesh), wedge, thickness, mesh)
 
 
 @pytest.mark.parametrize(("second_order", "order"), [(False, 1.0), (True, 2.0)])
 def test_kapitzas_solution(second_order, order):
     """P = -lambda X/((3 + 2 D) H^2) between H = H0 + X^2/2 + D Y^2/2, of constant viscosity and density."""
     d, velocity = 0.7, 0.3
-    rigid = reynolds.Fluid(incompressible, constant_viscosity, velocity, ambient_pressure=-1e9)
+    rigid = Fluid(incompressible, constant_viscosity, velocity, ambient_pressure=-1e9)
     errors = []
     for nodes in (65, 129, 257):
         mesh = Mesh.over(nodes, -2.0, 1.5, Width(nodes, 2.4))
@@ -86,7 +86,7 @@ def test_half_of_the_contact_is_the_whole_one(second_order):
         expected = theirs(HALF.mirrored(change))
         np.testing.assert_allclose(HALF.mirrored(ours(change)), expected, rtol=1e-11, atol=1e-10)
     weights = [
-        reynolds.poiseuille_weight(reynolds.evaluate(fluid(), *values), mesh)
+        reynolds.poiseuille_weight(flow(fluid(), *values, mesh), mesh)
         for mesh, values in ((HALF, (pressure, thickness)), (WHOLE, both))
     ]
     np.testing.assert_allclose(HALF.mirrored(weights[0]), weights[1], rtol=1e-12)
@@ -100,7 +100,7 @@ def test_rows_sum_to_the_flow_through_the_edges(mesh, second_order):
     Nothing passes the line of symmetry, whose own cells are half as wide on each side.
     """
     pressure, thickness = state(mesh)
-    coefficients = reynolds.evaluate(fluid(), pressure, thickness)
+    coefficients = evaluate(fluid(), pressure, thickness)
     mass, eps = coefficients.density * thickness, coefficients.eps
     widths = mesh.weights_across.copy()
     lines = slice(0 if mesh.symmetric else 1, -1)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from ehlectric.film import reynolds
+from ehlectric.film.flow import Fluid, evaluate, flow
 from ehlectric.film.mesh import Mesh
 from ehlectric.lubricant.density import dowson_higginson
 from ehlectric.lubricant.viscosity import roelands
@@ -15,7 +16,7 @@ MESH = Mesh(DX * np.arange(SHAPE[0]), np.zeros(1))  # three lines that do not fe
 
 def fluid(ambient=0.0):
     law = {"pressure_viscosity_coefficient": 8.0, "roelands_z": 0.67, "roelands_pressure": 0.3}
-    return reynolds.Fluid(
+    return Fluid(
         density=lambda p: dowson_higginson(p, density_c1=0.6, density_c2=1.34),
         log_viscosity=lambda p: roelands(p, **law),
         velocity_parameter=0.05,
@@ -31,16 +32,14 @@ def state():
 
 def residual(pressure, thickness, *, second_order):
     wedge = reynolds.wedge_stencil(SHAPE, DX, second_order=second_order)
-    coefficients = reynolds.evaluate(fluid(), pressure, thickness)
-    return reynolds.residual(coefficients, wedge, pressure, thickness, MESH)
+    return reynolds.residual(flow(fluid(), pressure, thickness, MESH), wedge, thickness, MESH)
 
 
 @pytest.mark.parametrize("second_order", [False, True])
 def test_linearisation_is_the_derivative(state, second_order):
     pressure, thickness, change = state
     wedge = reynolds.wedge_stencil(SHAPE, DX, second_order=second_order)
-    coefficients = reynolds.evaluate(fluid(), pressure, thickness)
-    by_p, by_h = reynolds.linearise(coefficients, wedge, pressure, thickness, MESH)
+    by_p, by_h = reynolds.linearise(flow(fluid(), pressure, thickness, MESH), wedge, thickness, MESH)
     step = 1e-6
     for stencil, along_p, along_h in ((by_p, change, 0.0), (by_h, 0.0, change)):
         forward = residual(pressure + step * along_p, thickness + step * along_h, second_order=second_order)
@@ -59,7 +58,7 @@ def test_stencil_matrix_is_the_operator(state):
 def test_residual_sums_to_the_flow_through_the_ends(state, second_order):
     """Conservation: the rows are differences of one flux, so their sum is that of the two ends."""
     pressure, thickness, _ = state
-    coefficients = reynolds.evaluate(fluid(), pressure, thickness)
+    coefficients = evaluate(fluid(), pressure, thickness)
     mass = coefficients.density * thickness
     face = 0.5 * (coefficients.eps[1:] + coefficients.eps[:-1]) * np.diff(pressure, axis=0) / DX
     if second_order:
@@ -73,9 +72,7 @@ def test_residual_sums_to_the_flow_through_the_ends(state, second_order):
 
 def test_coefficients_below_ambient_are_those_at_ambient():
     thickness = np.ones((5, 1))
-    below, lower, at = (
-        reynolds.evaluate(fluid(0.1), np.full((5, 1), p), thickness) for p in (-0.5, 0.05, 0.1)
-    )
+    below, lower, at = (evaluate(fluid(0.1), np.full((5, 1), p), thickness) for p in (-0.5, 0.05, 0.1))
     for name in ("eps", "density"):
         np.testing.assert_array_equal(getattr(below, name), getattr(at, name))
         np.testing.assert_array_equal(getattr(lower, name), getattr(at, name))

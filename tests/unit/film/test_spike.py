@@ -2,10 +2,12 @@
 
 import numpy as np
 
+from ehlectric.film.flow import flow
+from ehlectric.film.gap import Gap
 from ehlectric.film.levels import hierarchy
 from ehlectric.film.line import solve_film
 from ehlectric.film.newton import GAP_STEP, PRESSURE_STEP
-from ehlectric.film.reynolds import evaluate, poiseuille_weight, residual
+from ehlectric.film.reynolds import poiseuille_weight, residual
 from ehlectric.film.spike import relax_spike
 from tests.reference import film as exact
 
@@ -22,15 +24,14 @@ def relaxed(dent):
     change = np.zeros_like(solved)
     change[400:405] = dent
     pressure, gap = solved + change, thickness + level.deflection(change)
-    coefficients = evaluate(problem.fluid, pressure, gap)
-    r = residual(coefficients, level.wedge, pressure, gap, level.mesh) - level.source
-    diagonal = poiseuille_weight(coefficients, level.mesh) + 1.0
+    at_faces = flow(problem.fluid, pressure, gap, level.mesh)
+    r = residual(at_faces, level.wedge, gap, level.mesh) - level.source
+    diagonal = poiseuille_weight(at_faces, level.mesh) + 1.0
     return solved, relax_spike(
         problem.fluid,
-        level,
+        Gap(level, gap),
         pressure=pressure,
-        thickness=gap,
-        free=~film.cavitated[:, np.newaxis],
+        full_film=~film.cavitated[:, np.newaxis],
         scaled_residual=r / diagonal,
         pressure_step=PRESSURE_STEP,
         gap_step=GAP_STEP,

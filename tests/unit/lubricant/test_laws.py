@@ -1,5 +1,8 @@
 """Laws of the lubricant against printed values, limits and their own derivatives."""
 
+from inspect import Parameter as Kind
+from inspect import signature
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -79,6 +82,45 @@ def test_roelands_lies_below_barus_where_z_is_below_one(pressure, parameters):
 def test_laws_rise_with_pressure(law, parameters, low, high):
     low, high = sorted((low, high))
     assert law(low, **parameters)[0] <= law(high, **parameters)[0]
+
+
+@pytest.mark.parametrize(("law", "parameters"), PRESSURE_LAWS)
+def test_isothermal_laws_take_no_notice_of_the_temperature(law, parameters):
+    pressure = np.array([0.0, 1e8, 1e9])
+    cold, hot = (
+        law(pressure, temperature, **parameters) for temperature in (None, np.array([300.0, 350, 400]))
+    )
+    np.testing.assert_array_equal(cold, hot)
+
+
+def test_permittivity_laws_take_no_notice_of_the_temperature():
+    for law in (permittivity.clausius_mossotti, permittivity.constant_permittivity):
+        cold, hot = (law(np.array([1.0, 1.2]), at, relative_permittivity=2.4) for at in (None, 350.0))
+        np.testing.assert_array_equal(cold, hot)
+
+
+TABLES = (viscosity.VISCOSITY_LAWS, density.DENSITY_LAWS, permittivity.PERMITTIVITY_LAWS)
+LAWS = [law for table in TABLES for law in table.values()]
+
+
+@pytest.mark.parametrize(
+    "law", [law for table in TABLES for law in table.values()], ids=lambda law: law.function.__name__
+)
+def test_parameters_of_an_entry_are_the_keywords_of_its_functions(law):
+    """So that a law is called with what its case gives, and a warning of it too."""
+    names = {parameter.name for parameter in law.parameters}
+    for function, first in ((law.function, 2), (law.doubts, 2)):
+        if function is not None:
+            kinds = [parameter.kind for parameter in signature(function).parameters.values()]
+            assert kinds.count(Kind.KEYWORD_ONLY) == len(kinds) - first == len(names)
+            assert names == set(list(signature(function).parameters)[first:])
+
+
+def test_a_name_means_one_parameter():
+    known = {}
+    for law in LAWS:
+        for parameter in law.parameters:
+            assert known.setdefault(parameter.name, parameter) == parameter
 
 
 def test_roelands_is_barus_at_low_pressure_and_for_z_one():

@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ehlectric import InputError
-from ehlectric.lubricant.temperature import COLD, HOT, Walther, density, inlet_shear_factor, roelands_alpha
-from ehlectric.lubricant.viscosity import roelands
+from ehlectric.lubricant.temperature import COLD, HOT, Walther, density, inlet_shear_factor
+from ehlectric.lubricant.viscosity import roelands, roelands_alpha
 
 VG46 = Walther.of(46e-6, 6.8e-6)
 oils = st.tuples(st.floats(5e-6, 1e-3), st.floats(0.1, 0.9)).map(

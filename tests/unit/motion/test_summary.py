@@ -50,6 +50,7 @@ def made(case, *, times, x=None, y=None, frame_times=None, complete=True, statio
         "version": "1.2.3",
         "complete": int(complete),
         "warnings": json.dumps(["mind"]),
+        "warning_codes": json.dumps(["tunnelling"]),
         "stationary": json.dumps({"minimum_thickness": 3e-7} if stationary else None),
         "rough": "[]",
         "seconds": 2.5,
@@ -259,6 +260,7 @@ def test_the_course_and_what_it_took():
     assert (summary["schema"], summary["version"], summary["converged"]) == (SCHEMA, "1.2.3", False)
     mind, halved = summary["warnings"]
     assert (mind, summary["rough"], summary["seconds"]) == ("mind", [], 2.5)
+    assert summary["warning_codes"] == ["tunnelling", "steps-halved"]
     assert halved.startswith("2 time steps had to be halved, 2 times in all")
     assert summary["inputs"] == case.to_dict()
     assert (summary["stationary"], summary["beside_stationary"], summary["discharge"]) == (None, None, None)

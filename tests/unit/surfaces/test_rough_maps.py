@@ -9,10 +9,10 @@ from ehlectric.surfaces import made_profiles as generators
 from ehlectric.surfaces.domain import Domain
 from ehlectric.surfaces.files import read_surface
 from ehlectric.surfaces.maps import Map, statistics
-from ehlectric.surfaces.remarks import map_surface_remarks as remarks
-from ehlectric.surfaces.remarks import map_variance_beyond as variance_beyond
 from ehlectric.surfaces.rough_maps import measured_map, rough_maps, whole_map
 from ehlectric.surfaces.rough_profiles import measured
+from ehlectric.surfaces.warnings import map_surface_warnings
+from ehlectric.surfaces.warnings import map_variance_beyond as variance_beyond
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.surface_writers import MAP, al3d, x3p
 from tests.unit.surfaces.test_files import DATA, DEKTAK
@@ -34,9 +34,9 @@ def surfaces_of(*tables, domain=DOMAIN):
     return rough_maps([Roughness.from_dict(table) for table in tables], domain)
 
 
-def remarks_of(*tables, dx=2e-6, dy=2e-6, domain=DOMAIN):
+def texts_of(*tables, dx=2e-6, dy=2e-6, domain=DOMAIN):
     made = [Roughness.from_dict(table) for table in tables]
-    return list(remarks(made, rough_maps(made, domain), domain, dx, dy))
+    return list(map(str, map_surface_warnings(made, rough_maps(made, domain), domain, dx, dy)))
 
 
 @pytest.mark.parametrize("table", [GAUSSIAN, SELF_AFFINE, RIDGES], ids=["gaussian", "self-affine", "ridges"])
@@ -46,7 +46,7 @@ def test_a_seed_is_one_surface_whatever_the_contact(table):
     for domain in (Domain(-5e-4, 3e-4, 3e-4), Domain(-4.5e-4, 1.5e-4, 4.4e-4)):
         (other,) = surfaces_of(table, domain=domain)
         np.testing.assert_allclose(other.height(X, Y), one.height(X, Y), rtol=0.0, atol=1e-12 * 1e-8)
-    assert remarks_of(table) == []
+    assert texts_of(table) == []
 
 
 def test_shifts_move_a_surface_along_both_axes():
@@ -88,7 +88,7 @@ def test_ridges_of_any_length_are_a_profile():
         z = surface.height(X, Y)
         assert np.max(np.ptp(z, axis=axis)) < 1e-10
         assert np.std(z) == pytest.approx(1e-8, rel=4 / np.sqrt(2 * 6e-4 / (1e-5 * np.sqrt(np.pi / 2))))
-    assert remarks_of(GAUSSIAN | {"correlation_length_y": "1 m", "orientation": 45.0}) == []
+    assert texts_of(GAUSSIAN | {"correlation_length_y": "1 m", "orientation": 45.0}) == []
 
 
 @pytest.mark.parametrize(
@@ -157,7 +157,7 @@ def test_nothing_is_above_a_cut(extend):
     (surface,) = surfaces_of(table)
     heights = surface.height(np.linspace(-1e-4, 1e-4, 900), np.linspace(-1e-4, 1e-4, 800))
     assert np.max(np.abs(heights)) == 200e-9
-    said = remarks_of(table, dx=0.5e-6, dy=0.5e-6)
+    said = texts_of(table, dx=0.5e-6, dy=0.5e-6)
     share = np.mean(np.abs(surface.steps[1][1].heights) > 200e-9)
     assert f"truncate cuts {100 * share:.2g} % of the points of surface 1" in said[0]
     # 200 and 296 points: the domain reaches 0.45 mm and 0.3 mm from the middle.
@@ -182,7 +182,7 @@ def test_voids_are_filled_and_said(tmp_path):
     assert surface.describe()["voids"] == pytest.approx(void)
     assert (
         f"{100 * void:.2g} % of the map of surface 2 is void; voids within it were filled"
-        in surface.remarks[0]
+        in surface.warnings[0].text
     )
 
 
@@ -309,7 +309,7 @@ SHAPES = [
 
 @pytest.mark.parametrize(("table", "message"), SHAPES)
 def test_shapes_finer_than_the_grid_are_said(table, message):
-    said = remarks_of(table, dx=3e-6, dy=2e-6)
+    said = texts_of(table, dx=3e-6, dy=2e-6)
     if message is None:
         assert said == []
     else:
@@ -336,32 +336,28 @@ def test_variance_that_the_grid_misses_is_measured(orientation):
 def test_variance_that_the_grid_misses_is_said():
     rough = SELF_AFFINE | {"hurst": 0.2, "rolloff_wavelength": "30 um", "shortest_wavelength": "2.5 um"}
     small = Domain(-2e-4, 2e-4, 2e-4)
-    (said,) = remarks_of(rough, domain=small)
+    (said,) = texts_of(rough, domain=small)
     assert "the grid, 2 x 2 µm, misses" in said
     assert "of the variance of surface 1" in said
     assert "cutoff_short of 8 µm or more" in said
     # That cutoff does it.
-    assert remarks_of(rough | {"cutoff_short": "8 um"}, domain=small) == []
-    assert remarks_of(rough, dx=1e-6, dy=1e-6, domain=small) == []
+    assert texts_of(rough | {"cutoff_short": "8 um"}, domain=small) == []
+    assert texts_of(rough, dx=1e-6, dy=1e-6, domain=small) == []
 
 
-def test_remarks_of_extended_profiles():
+def test_warnings_of_extended_profiles():
     """Lines go by the spacing across their ridges: nodes 0.4 um apart along x, or along y."""
     line = {"surface": 1, "file": X3P, "form": "line", "line": 100, "extend": "repeat"}
     fine, coarse = 0.05e-6, 3e-6
     across, along = line, line | {"direction": "y"}
-    assert any(
-        "does not resolve the profile of surface 1" in t for t in remarks_of(across, dx=coarse, dy=fine)
-    )
-    assert any(
-        "does not resolve the profile of surface 1" in t for t in remarks_of(along, dx=fine, dy=coarse)
-    )
+    assert any("does not resolve the profile of surface 1" in t for t in texts_of(across, dx=coarse, dy=fine))
+    assert any("does not resolve the profile of surface 1" in t for t in texts_of(along, dx=fine, dy=coarse))
     for table, grid in ((across, (fine, coarse)), (along, (coarse, fine))):
-        (said,) = remarks_of(table, dx=grid[0], dy=grid[1])
+        (said,) = texts_of(table, dx=grid[0], dy=grid[1])
         assert "was continued by extend = 'repeat'" in said
     assert "µm long along y and the domain needs 600 µm" in said
 
 
 def test_one_seed_for_two_surfaces_is_said():
-    (said,) = remarks_of(GAUSSIAN, GAUSSIAN | {"surface": 2})
+    (said,) = texts_of(GAUSSIAN, GAUSSIAN | {"surface": 2})
     assert "2 rough surfaces have the seed 3" in said

@@ -7,9 +7,9 @@ from ehlectric import Case, InputError
 from ehlectric.contact.conditions import resolve
 from ehlectric.contact.problems import line_domain_of, spacing
 from ehlectric.surfaces.profiles import Profile
-from ehlectric.surfaces.remarks import profile_surface_remarks as remarks
-from ehlectric.surfaces.remarks import profile_variance_beyond as variance_beyond
 from ehlectric.surfaces.rough_profiles import measured, rough_surfaces
+from ehlectric.surfaces.warnings import profile_surface_warnings
+from ehlectric.surfaces.warnings import profile_variance_beyond as variance_beyond
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.surface_writers import MAP, al3d
 from tests.unit.surfaces.test_files import DATA, DEKTAK
@@ -36,12 +36,12 @@ def surfaces_of(*tables, **changes):
     return rough_surfaces(case.roughness, line_domain_of(case, resolve(case)))
 
 
-def remarks_of(*tables, **changes):
+def texts_of(*tables, **changes):
     case = case_of(*tables, **changes)
     conditions = resolve(case)
     domain = line_domain_of(case, conditions)
     rough = rough_surfaces(case.roughness, domain)
-    return list(remarks(case.roughness, rough, domain, spacing(case, conditions)))
+    return list(map(str, profile_surface_warnings(case.roughness, rough, domain, spacing(case, conditions))))
 
 
 @pytest.mark.parametrize("table", [GAUSSIAN, SELF_AFFINE], ids=["gaussian", "self-affine"])
@@ -55,7 +55,7 @@ def test_a_seed_is_one_surface_whatever_the_contact(table, changes):
 
 @pytest.mark.parametrize("steps", [{}, {"shift": "1 mm"}, {"cutoff_long": "80 um"}, {"trim": "0.1 mm"}])
 def test_made_surfaces_need_no_continuation(steps):
-    assert remarks_of(GAUSSIAN | steps) == []
+    assert texts_of(GAUSSIAN | steps) == []
     (plain,), (other,) = surfaces_of(GAUSSIAN), surfaces_of(GAUSSIAN | steps)
     if "shift" in steps:
         # The same surface, moved, where the one that is not still has its own points.
@@ -95,7 +95,7 @@ def test_where_the_instrument_has_its_zero_means_nothing():
 
 
 def test_a_cut_that_takes_much_is_said():
-    (said,) = [text for text in remarks_of(CONTOUR | {"truncate": "50 nm"}) if "truncate" in text]
+    (said,) = [text for text in texts_of(CONTOUR | {"truncate": "50 nm"}) if "truncate" in text]
     share = np.mean(np.abs(surfaces_of(CONTOUR)[0].steps[1][1].heights) > 50e-9)
     assert f"truncate cuts {100 * share:.2g} % of the points" in said
     paper = {
@@ -105,7 +105,7 @@ def test_a_cut_that_takes_much_is_said():
         "cutoff_long": "80 um",
         "truncate": "50 nm",
     }
-    assert not any("truncate" in text for text in remarks_of(paper, nodes=6401))
+    assert not any("truncate" in text for text in texts_of(paper, nodes=6401))
 
 
 @pytest.mark.parametrize("extend", ["mirror", "repeat", "flat"])
@@ -128,10 +128,10 @@ def test_voids_of_the_line_that_is_used(tmp_path):
     heights[2, 7:10] = 1e30
     path = str(al3d(tmp_path / "a.al3d", heights))
     (first, third) = surfaces_of({"surface": 1, "file": path}, {"surface": 2, "file": path, "line": 2})
-    assert (first.describe()["voids"], first.remarks) == (0.0, ())
+    assert (first.describe()["voids"], first.warnings) == (0.0, ())
     assert third.describe()["voids"] == pytest.approx(3 / 31)
-    assert "9.7 % of the line of surface 2 is void" in third.remarks[0]
-    assert measured(case_of({"surface": 2, "file": path, "line": 2}).roughness[0]).remarks == third.remarks
+    assert "9.7 % of the line of surface 2 is void" in third.warnings[0].text
+    assert measured(case_of({"surface": 2, "file": path, "line": 2}).roughness[0]).warnings == third.warnings
 
 
 SINUSOID = {"surface": 1, "generator": "sinusoid", "amplitude": "20 nm"}
@@ -153,7 +153,7 @@ SHAPES = [
 
 @pytest.mark.parametrize(("table", "message"), SHAPES)
 def test_shapes_finer_than_the_grid_are_said(table, message):
-    said = remarks_of(table, nodes=1601)
+    said = texts_of(table, nodes=1601)
     if message is None:
         assert said == []
     else:
@@ -168,15 +168,15 @@ def test_variance_that_the_grid_misses_is_said():
     assert variance_beyond(profile, 1 / 2e-6, (-1.0, 1.0)) == pytest.approx(0.1, rel=1e-2, abs=0.0)
     assert variance_beyond(profile, 1 / 1e-6, (-1.0, 1.0)) < 1e-6
     rough = SELF_AFFINE | {"hurst": 0.3, "shortest_wavelength": "1 um"}
-    (said,) = remarks_of(rough, nodes=1601)
+    (said,) = texts_of(rough, nodes=1601)
     assert "of the variance of surface 1" in said
     assert "cutoff_short of 3.75 µm" in said
     # That cutoff does it: nothing beyond is left.
-    assert remarks_of(rough | {"cutoff_short": "3.75 um"}, nodes=1601) == []
-    assert remarks_of(rough, nodes=12_801) == []
+    assert texts_of(rough | {"cutoff_short": "3.75 um"}, nodes=1601) == []
+    assert texts_of(rough, nodes=12_801) == []
 
 
 def test_one_seed_for_two_surfaces_is_said():
-    (said,) = remarks_of(GAUSSIAN, GAUSSIAN | {"surface": 2})
+    (said,) = texts_of(GAUSSIAN, GAUSSIAN | {"surface": 2})
     assert "2 rough surfaces have the seed 3" in said
-    assert remarks_of(GAUSSIAN, GAUSSIAN | {"surface": 2, "seed": 4}) == []
+    assert texts_of(GAUSSIAN, GAUSSIAN | {"surface": 2, "seed": 4}) == []

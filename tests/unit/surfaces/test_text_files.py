@@ -155,8 +155,8 @@ def positions(path, x):
 def test_samples_that_may_be_missing(tmp_path):
     """Where positions are whole spacings, a gap looks like rounding: it is said; elsewhere it is refused."""
     whole = read_surface(positions(tmp_path / "a.txt", np.delete(np.arange(200), 100)))
-    assert len(whole.remarks) == 1
-    assert "1 of the 198 distances are twice the others, the first behind point 99" in whole.remarks[0]
+    assert len(whole.warnings) == 1
+    assert "1 of the 198 distances are twice the others, the first behind point 99" in whole.warnings[0].text
     for step in (0.5, 10.0):
         with pytest.raises(InputError, match="spacing is not uniform"):
             read_surface(positions(tmp_path / "a.txt", step * np.delete(np.arange(200), 100)))
@@ -164,7 +164,7 @@ def test_samples_that_may_be_missing(tmp_path):
 
 def test_rounded_positions_are_no_gap(tmp_path):
     """The Dektak writes 0.15625 um in steps of 0.1: neighbours are 0.1 or 0.2 apart, at three missing 0.3."""
-    assert read_surface(DEKTAK).remarks == ()
+    assert read_surface(DEKTAK).warnings == ()
     lines = DEKTAK.read_bytes().splitlines(keepends=True)
     (tmp_path / "a.csv").write_bytes(b"".join(lines[:5000] + lines[5001:]))
     with pytest.raises(InputError, match="spacing is not uniform"):

@@ -131,7 +131,7 @@ def test_two_sweeps_in_one_folder(tmp_path):
 def test_what_holds_the_crew_up_is_told(tmp_path):
     told = []
     with ThreadPoolExecutor(1) as threads:
-        crew = Crew(crew_of(threads).submit, lambda: 2, remark=lambda: "no workers yet")
+        crew = Crew(crew_of(threads).submit, lambda: 2, waiting=lambda: "no workers yet")
         vary = {"solver.max_iterations": [1, 30]}
         run_with(sweep_over(vary), tmp_path, nullcontext(crew), lambda *values: told.append(values))
     assert told[0] == (0, 2, "no workers yet")

@@ -219,7 +219,7 @@ def test_refusals():
 def test_rows_with_a_film_that_is_not_to_be_used_are_counted():
     """Points 3 of A and 5 of B are, and 3 of A with a column of B: two rows; a third is not complete."""
     results = of(lambda x, y: x + y, {"x": Range(0.0, 1.0), "y": Range(0.0, 1.0)}, 32)
-    told = {"warnings": ["the film may be 32 % off or more on this grid; do not use it"]}
+    told = {"warnings": ["the film may be 32 % off"], "warning_codes": ["grid-far-too-coarse"]}
     points = [
         dataclasses.replace(point, summary={**point.summary, **told})
         if point.number in (3, 32 + 5, 64 + 3, 7)

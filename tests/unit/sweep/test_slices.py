@@ -234,7 +234,8 @@ def test_ranges_say_how_their_axes_are():
         ("discharge.capacitance_hertz", [40e-9], r"$C_\mathrm{H}$ [nF/m]", "40 nF/m"),
         ("discharge.capacitance_ratio", [1.4], "capacitance over that of a plate", "1.4"),
         ("discharge.contact_energy", [2e-9], "[nJ]", "2 nJ"),
-        ("discharge.some_area", [4e-12], "discharge.some_area [µm²]", "4 µm²"),
+        ("discharge.zone_area", [4e-12], "zone that breaks down first [µm²]", "4 µm²"),
+        ("discharge.some_area", [4e-12], "discharge.some_area", "4e-12"),  # no key of a result
         ("field.max_strength_position.1", [1e-4], "[mm]", "0.1 mm"),
         ("seconds.film", [12.0], "seconds.film [s]", "12 s"),
         ("film.nodes", [3201.0], "film.nodes", "3201"),
@@ -250,7 +251,6 @@ def test_ranges_say_how_their_axes_are():
         ("discharge.corner_frequency", [7.5], r"$f_\mathrm{c}$ [Hz]", "7.5 Hz"),
         ("discharge.outlet", [], "what fills the outlet", None),
         ("roughness.combined.ra", [3e-9], "roughness.combined.ra [nm]", "3 nm"),
-        ("field.capacitance_by_zone.hertz", [2e-12], "[pF]", "2 pF"),
     ],
 )
 def test_labels_have_the_unit_that_suits(key, values, label, text):
@@ -267,6 +267,8 @@ def test_capacitances_of_point_contacts_are_no_line_s():
     }  # fmt: skip
     ball = case().from_dict({"contact": point, "lubricant": {"base": "paper"}})
     assert label_of("discharge.capacitance_hertz", ball).unit == "F"
+    zone = label_of("field.capacitance_by_zone.hertz", ball)
+    assert zone.scaled(np.array([2e-12])).text(2e-12) == "2 pF"
     assert label_of("discharge.capacitance_hertz", case()).unit == "F/m"
 
 

@@ -63,11 +63,12 @@ def test_the_csv_is_the_database(gridded):
         assert int(row["number"]) == number
         assert row["status"] == ("failed" if refused else status or "open")
         assert row["reason"] == (refused or reason or "")
-        assert row["warnings"] == "; ".join(json.loads(summary)["warnings"] if summary else [])
+        for key in ("warnings", "warning_codes"):
+            assert row[key] == "; ".join(json.loads(summary)[key] if summary else [])
         varied = json.loads(inputs)
         assert [row[key] for key in varied] == [json.dumps(value) for value in varied.values()]
         numbers = flat(json.loads(summary)) if status == "solved" else {}
-        for key in list(row)[5 + len(varied) :]:
+        for key in list(row)[6 + len(varied) :]:
             expected = numbers.get(key)
             assert row[key] == ("" if expected is None else repr(expected))
             compared += row[key] != ""
@@ -104,16 +105,22 @@ def test_the_netcdf_is_the_csv(gridded):
         assert point["status"].item() == row["status"]
         assert point["reason"].item() == row["reason"]
         assert point["warnings"].item() == row["warnings"]
+        assert point["warning_codes"].item() == row["warning_codes"]
         assert int(point["number"]) == int(row["number"])
         for key in dataset.data_vars:
-            if key not in ("status", "reason", "warnings", "number"):
+            if key not in ("status", "reason", "warnings", "warning_codes", "number"):
                 value = float(row[key]) if row[key] else math.nan
                 np.testing.assert_equal(float(point[key]), value)
     assert dataset[SPEED].attrs["units"] == "m/s"
     assert "units" not in dataset["grid.field_range"].attrs
     assert all(dataset[key].attrs["long_name"] for key in dataset.variables)
     units = {key: dataset[key].attrs.get("units") for key in dataset.data_vars}
-    assert [key for key, unit in units.items() if unit is None] == ["status", "reason", "warnings"]
+    assert [key for key, unit in units.items() if unit is None] == [
+        "status",
+        "reason",
+        "warnings",
+        "warning_codes",
+    ]
     assert units[THICKNESS] == "m"
     assert units["field.capacitance_per_length"] == "F/m"
     assert units["film.newton_iterations"] == "1"

@@ -110,17 +110,19 @@ class Raceway:
         52.0
         """
         if groove <= 0.5:
-            raise InputError(f"groove radius over ball diameter: must be above 0.5; got {shown(groove)}")
+            raise InputError("groove radius over ball diameter", f"must be above 0.5; got {shown(groove)}")
         if not 0.0 < shoulder_height <= groove:
             raise InputError(
-                f"shoulder_height: must be above 0 and at most the groove radius over the ball diameter, "
-                f"{groove:g}; got {shown(shoulder_height)}"
+                "shoulder_height",
+                f"must be above 0 and at most the groove radius over the ball diameter, {groove:g}; "
+                f"got {shown(shoulder_height)}",
             )
         shoulder = float(np.arccos(1.0 - shoulder_height / groove))
         if abs(contact_angle) >= shoulder:
             raise InputError(
-                f"contact_angle: must be below {np.degrees(shoulder):.1f} degrees, where a groove of "
-                f"shoulder_height {shoulder_height:g} ends; got {np.degrees(contact_angle):.1f} degrees"
+                "contact_angle",
+                f"must be below {np.degrees(shoulder):.1f} degrees, where a groove of shoulder_height "
+                f"{shoulder_height:g} ends; got {np.degrees(contact_angle):.1f} degrees",
             )
         radius = 0.5 * element_diameter
         return cls(

@@ -300,11 +300,13 @@ def _solve(model: _Model) -> tuple[_State, int]:
 def _refuse(bearing: BallBearing, operation: Operation, unloaded: str) -> None:
     """Raise InputError for what the bearing cannot do."""
     if unloaded not in UNLOADED:
-        raise InputError(f"unloaded: got {shown(unloaded)}, takes one of {', '.join(UNLOADED)}")
+        raise InputError("unloaded", got=shown(unloaded), takes=f"one of {', '.join(UNLOADED)}")
     if bearing.contact_angle is not None and operation.axial_load <= 0.0:
         raise InputError(
-            f"axial_load: got {operation.axial_load:g} N, takes one above 0: an angular-contact bearing "
-            "carries it one way, and a radial load only with it"
+            "axial_load",
+            got=f"{operation.axial_load:g} N",
+            takes="one above 0: an angular-contact bearing carries it one way, and a radial load only "
+            "with it",
         )
 
 

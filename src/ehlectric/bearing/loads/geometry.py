@@ -68,12 +68,14 @@ def _refuse_overlap(elements: int, diameter: float, pitch_diameter: float) -> No
     most = int(math.pi / math.asin(diameter / pitch_diameter)) if diameter < pitch_diameter else 0
     if most < 3:
         raise InputError(
-            f"pitch_diameter: got {pitch_diameter:g} m, takes one that three of {diameter:g} m fit on"
+            "pitch_diameter", got=f"{pitch_diameter:g} m", takes=f"one that three of {diameter:g} m fit on"
         )
     if not 3 <= elements <= most:
         raise InputError(
-            f"elements: got {elements}, takes 3 to {most}, the most of {diameter:g} m that a pitch circle of "
-            f"{pitch_diameter:g} m holds"
+            "elements",
+            got=elements,
+            takes=f"3 to {most}, the most of {diameter:g} m that a pitch circle of {pitch_diameter:g} m "
+            "holds",
         )
 
 
@@ -129,15 +131,18 @@ class BallBearing:
         _refuse_overlap(self.elements, self.ball_diameter, self.pitch_diameter)
         for key in ("inner_groove", "outer_groove"):
             if not 0.5 < getattr(self, key) <= 1.0:
-                raise InputError(f"{key}: got {getattr(self, key):g}, takes one above 0.5, up to 1")
+                raise InputError(key, got=f"{getattr(self, key):g}", takes="one above 0.5, up to 1")
         if (self.radial_clearance is None) == (self.contact_angle is None):
-            raise InputError("radial_clearance, contact_angle: takes one of both")
+            raise InputError("radial_clearance, contact_angle", "takes one of both")
         if self.contact_angle is not None and not 0.0 < self.contact_angle < math.pi / 2.0:
-            raise InputError(f"contact_angle: got {self.contact_angle:g} rad, takes one between 0 and 90 deg")
+            raise InputError(
+                "contact_angle", got=f"{self.contact_angle:g} rad", takes="one between 0 and 90 deg"
+            )
         if self.clearance >= 2.0 * self.groove_distance:
             raise InputError(
-                f"radial_clearance: got {self.clearance:g} m, takes one below "
-                f"{2.0 * self.groove_distance:g} m, at which the balls leave the grooves"
+                "radial_clearance",
+                got=f"{self.clearance:g} m",
+                takes=f"one below {2.0 * self.groove_distance:g} m, at which the balls leave the grooves",
             )
 
     @property
@@ -245,7 +250,7 @@ class RollerBearing:
     def __post_init__(self) -> None:
         _refuse_overlap(self.elements, self.roller_diameter, self.pitch_diameter)
         if self.profile not in PROFILES:
-            raise InputError(f"profile: got {shown(self.profile)}, takes one of {', '.join(PROFILES)}")
+            raise InputError("profile", got=shown(self.profile), takes=f"one of {', '.join(PROFILES)}")
 
     def relief(self, position: ArrayLike) -> Array:
         """By how much the roller's radius is smaller than in its middle.

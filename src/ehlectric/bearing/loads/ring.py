@@ -89,10 +89,10 @@ class Operation:
 
     def __post_init__(self) -> None:
         if self.radial_load < 0.0:
-            raise InputError(f"radial_load: got {self.radial_load:g} N, takes 0 or more")
+            raise InputError("radial_load", got=f"{self.radial_load:g} N", takes="0 or more")
         if self.radial_load == 0.0 and self.axial_load == 0.0:
             raise InputError(
-                "radial_load, axial_load: both are 0, takes a load: without one no element bears any"
+                "radial_load, axial_load", "both are 0", takes="a load: without one no element bears any"
             )
 
     def positions(self, elements: int) -> Array:

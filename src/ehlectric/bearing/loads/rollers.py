@@ -232,14 +232,15 @@ class _Rollers:
 def _refuse(operation: Operation, unloaded: str, slices: int) -> None:
     """Raise InputError for what the bearing, or its model, cannot do."""
     if unloaded not in UNLOADED:
-        raise InputError(f"unloaded: got {shown(unloaded)}, takes one of {', '.join(UNLOADED)}")
+        raise InputError("unloaded", got=shown(unloaded), takes=f"one of {', '.join(UNLOADED)}")
     if operation.axial_load != 0.0:
         raise InputError(
-            f"axial_load: got {operation.axial_load:g} N, takes 0: the raceways of a cylindrical roller "
-            "bearing carry none"
+            "axial_load",
+            got=f"{operation.axial_load:g} N",
+            takes="0: the raceways of a cylindrical roller bearing carry none",
         )
     if slices < _LEAST_SLICES or slices % 2 == 0:
-        raise InputError(f"slices: got {slices}, takes an odd number from {_LEAST_SLICES}")
+        raise InputError("slices", got=slices, takes=f"an odd number from {_LEAST_SLICES}")
 
 
 def roller_equilibrium(

@@ -66,33 +66,33 @@ def _number(value: float | None, factor: float, digits: str) -> str:
 
 def bearing_table(summary: dict[str, Any]) -> Table:
     """The totals of a bearing."""
-    from ehlectric.commands.tables.layout import plain_table
+    from ehlectric.bearing.keys import BEARING_KEYS
+    from ehlectric.commands.tables.layout import add_numbers, plain_table
 
     found = summary["bearing"]
     table = plain_table(summary["title"])
     factor = summary["inputs"]["bearing"]["film_factor"]
     rows = (
-        ("capacitance", "capacitance", 1e12, "pF, contacts " + found["contacts"]),
-        ("  all in oil", "capacitance_oil", 1e12, "pF"),
-        ("  air around the films", "capacitance_air", 1e12, "pF"),
-        ("  over that of plates", "capacitance_ratio", 1.0, ""),
-        ("least lambda", "lambda_ratio", 1.0, found["lubrication"]),
-        ("film factor", "film_factor", 1.0, "" if isinstance(factor, float) else factor),
-        ("first break", "first_break", 1.0, "V"),
-        ("  mean over a pitch", "first_break_mean", 1.0, "V"),
-        ("through breakdown", "through_breakdown", 1.0, "V"),
-        ("  mean over a pitch", "through_breakdown_mean", 1.0, "V"),
-        ("largest field by volt", "strength_per_volt", 1e-6, "1/µm, of the bearing's voltage"),
-        ("  at the shaft voltage", "max_strength", 1e-6, "V/µm"),
-        ("bearing voltage ratio", "bearing_voltage_ratio", 100.0, "%"),
-        ("shaft voltage", "shaft_voltage", 1.0, "V, capacitive alone"),
-        ("first break over it", "margin", 1.0, ""),
-        ("error of the film", "discretisation_error", 100.0, "%"),
-        ("error of interpolation", "interpolation_error", 100.0, "%"),
+        ("capacitance", "bearing.capacitance", "pF", f", contacts {found['contacts']}"),
+        ("  all in oil", "bearing.capacitance_oil", "pF", ""),
+        ("  air around the films", "bearing.capacitance_air", "pF", ""),
+        ("  over that of plates", "bearing.capacitance_ratio", "", ""),
+        ("least lambda", "bearing.lambda_ratio", "", found["lubrication"]),
+        ("film factor", "bearing.film_factor", "", "" if isinstance(factor, float) else factor),
+        ("first break", "bearing.first_break", "V", ""),
+        ("  mean over a pitch", "bearing.first_break_mean", "V", ""),
+        ("through breakdown", "bearing.through_breakdown", "V", ""),
+        ("  mean over a pitch", "bearing.through_breakdown_mean", "V", ""),
+        ("largest field by volt", "bearing.strength_per_volt", "1/µm", ", of the bearing's voltage"),
+        ("  at the shaft voltage", "bearing.max_strength", "V/µm", ""),
+        ("bearing voltage ratio", "bearing.bearing_voltage_ratio", "%", ""),
+        ("shaft voltage", "bearing.shaft_voltage", "V", ", capacitive alone"),
+        ("first break over it", "bearing.margin", "", ""),
+        ("error of the film", "bearing.discretisation_error", "%", ""),
+        ("error of interpolation", "bearing.interpolation_error", "%", ""),
     )
-    for name, key, scale, unit in rows:
-        if found[key] is not None:
-            table.add_row(name, f"{found[key] * scale:.4g}", unit)
+    numbers = {f"bearing.{name}": value for name, value in found.items()}
+    add_numbers(table, BEARING_KEYS, numbers, rows)
     if found["first_break_at"] is not None:
         table.add_row("breaks first", "", found["first_break_at"])
     table.add_row("time", f"{summary['seconds']:.3g}", "s")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 from rich.table import Table
 
@@ -12,21 +13,9 @@ from ehlectric.commands.tables.layout import plain_table
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.formulas.film_line import FORMULAS as FILM_LINE_FORMULAS
-from ehlectric.formulas.film_line import Thickness
+from ehlectric.formulas.film_line import Formula, Thickness
 from ehlectric.formulas.film_line import regime as film_line_regime
 from ehlectric.formulas.film_point import FORMULAS, regime
-
-FORMULA_NAMES = {
-    "hamrock_dowson": "Hamrock-Dowson",
-    "chittenden": "Chittenden et al.",
-    "nijenbanning_venner_moes": "Nijenbanning et al.",
-}
-_FORMULA_NAMES = {
-    "dowson_higginson": "Dowson-Higginson",
-    "dowson_toyoda": "Dowson-Toyoda",
-    "pan_hamrock": "Pan-Hamrock",
-    "moes": "Moes",
-}
 
 
 def result_table(result: Result | PointResult) -> Table:
@@ -57,7 +46,7 @@ def point_table(case: Case, conditions: PointConditions) -> Table:
     add_point_conditions(table, conditions)
     table.add_row("velocity parameter lambda", f"{conditions.velocity_parameter:.4g}")
     films = {name: formula(conditions.formulas) for name, formula in FORMULAS.items()}
-    add_expected(table, case, films, FORMULA_NAMES)
+    add_expected(table, case, films, FORMULAS)
     grid = case.grid
     table.add_row("grid", f"{grid.nodes} x {grid.nodes_across}", f"nodes, {grid.wedge} wedge")
     table.add_row("  sides", f"{conditions.side:.4g}", "semi-axes across")
@@ -82,7 +71,7 @@ def point_result_table(result: PointResult) -> Table:
     if result.rough:
         add_roughness(table, result)
     add_discharge(table, result)
-    add_formulas(table, result, FORMULA_NAMES)
+    add_formulas(table, result, FORMULAS)
     return table
 
 
@@ -109,19 +98,21 @@ def conditions_table(case: Case, conditions: Conditions) -> Table:
     _add_conditions(table, conditions)
     table.add_row("velocity parameter lambda", f"{conditions.velocity_parameter:.4g}")
     films = {name: formula(conditions.formulas) for name, formula in FILM_LINE_FORMULAS.items()}
-    add_expected(table, case, films, _FORMULA_NAMES)
+    add_expected(table, case, films, FILM_LINE_FORMULAS)
     table.add_row("grid", f"{case.grid.nodes}", f"nodes, {case.grid.wedge} wedge")
     return table
 
 
-def add_expected(table: Table, case: Case, films: Mapping[str, Thickness], names: Mapping[str, str]) -> None:
+def add_expected(
+    table: Table, case: Case, films: Mapping[str, Thickness], formulas: Mapping[str, Formula[Any]]
+) -> None:
     """Rows of the voltage and of the films that the formulas give, before anything is solved."""
     table.add_row("voltage", f"{case.electric.voltage:.4g}", "V")
     for name, thickness in films.items():
         for key, value in vars(thickness).items():
             if value is not None:
                 film = key.removesuffix("_thickness")
-                table.add_row(f"{names[name]}, {film}", f"{value * 1e6:.4g}", "µm")
+                table.add_row(f"{formulas[name].name}, {film}", f"{value * 1e6:.4g}", "µm")
 
 
 def line_result_table(result: Result) -> Table:
@@ -139,7 +130,7 @@ def line_result_table(result: Result) -> Table:
         table.add_row("field solved on", f"{field.x.size}", "columns")
         add_roughness(table, result)
     add_discharge(table, result)
-    add_formulas(table, result, _FORMULA_NAMES)
+    add_formulas(table, result, FILM_LINE_FORMULAS)
     return table
 
 
@@ -193,7 +184,7 @@ def add_roughness(table: Table, result: Result | PointResult) -> None:
         table.add_row("minimum film, smooth", f"{result.smooth.minimum_thickness * 1e6:.4g}", "µm")
 
 
-def add_formulas(table: Table, result: Result | PointResult, names: Mapping[str, str]) -> None:
+def add_formulas(table: Table, result: Result | PointResult, formulas: Mapping[str, Formula[Any]]) -> None:
     """Film formulas, each with its difference from the solved film of the same name, and the time."""
     table.add_section()
     about = "difference from the solved film, up to 40 % is usual" if result.converged else ""
@@ -204,5 +195,5 @@ def add_formulas(table: Table, result: Result | PointResult, names: Mapping[str,
                 difference = 100.0 * (value / getattr(result.film, key) - 1.0)
                 beside = f", {difference:+.0f} %" if result.converged else ""
                 film = key.removesuffix("_thickness")
-                table.add_row(f"  {names[name]}, {film}", f"{value * 1e6:.4g}", f"µm{beside}")
+                table.add_row(f"  {formulas[name].name}, {film}", f"{value * 1e6:.4g}", f"µm{beside}")
     table.add_row("time", f"{result.film_seconds + result.field_seconds:.2g}", "s")

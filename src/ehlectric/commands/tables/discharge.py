@@ -5,8 +5,8 @@ from __future__ import annotations
 from rich.table import Table
 
 from ehlectric.contact.results import PointResult, Result
-from ehlectric.discharge.assessment import Assessment
 from ehlectric.discharge.laws import LARGEST_PIT, MEAN_PIT
+from ehlectric.discharge.parts import Breakdown, BreakdownZone, Capacitances, DischargeCosts
 
 
 def add_discharge(table: Table, result: Result | PointResult) -> None:
@@ -16,16 +16,18 @@ def add_discharge(table: Table, result: Result | PointResult) -> None:
         return
     table.add_section()
     table.add_row("discharge")
-    _add_breakdown(table, found)
-    _add_zone(table, found, result.conditions.half_width)
-    _add_capacitance(table, found, *((1e12, "pF") if isinstance(result, PointResult) else (1e9, "nF/m")))
-    _add_costs(table, found)
-    if found.relaxation_time is not None and found.corner_frequency is not None:
-        table.add_row("relaxation time", f"{found.relaxation_time:.3g}", "s, at ambient pressure")
-        table.add_row("  a capacitor above", f"{found.corner_frequency:.3g}", "Hz")
+    _add_breakdown(table, found.breakdown)
+    _add_zone(table, found.zone, result.conditions.half_width)
+    unit = (1e12, "pF") if isinstance(result, PointResult) else (1e9, "nF/m")
+    _add_capacitance(table, found.capacitances, *unit)
+    _add_costs(table, found.costs)
+    leakage = found.leakage
+    if leakage.relaxation_time is not None and leakage.corner_frequency is not None:
+        table.add_row("relaxation time", f"{leakage.relaxation_time:.3g}", "s, at ambient pressure")
+        table.add_row("  a capacitor above", f"{leakage.corner_frequency:.3g}", "Hz")
 
 
-def _add_breakdown(table: Table, found: Assessment) -> None:
+def _add_breakdown(table: Table, found: Breakdown) -> None:
     if found.breakdown_voltage is None or found.margin is None or found.probability is None:
         return
     of_law = "63.2 %" if found.dielectric_strength is None else f"{found.dielectric_strength / 1e6:.4g} V/µm"
@@ -37,7 +39,7 @@ def _add_breakdown(table: Table, found: Assessment) -> None:
     table.add_row("  probability of breakdown", f"{found.probability:.3g}", "at the voltage")
 
 
-def _add_zone(table: Table, found: Assessment, half_width: float) -> None:
+def _add_zone(table: Table, found: BreakdownZone, half_width: float) -> None:
     position = found.zone_position
     places = position if isinstance(position, tuple) else (position,)
     at = ", ".join(f"{place / half_width:.3g}" for place in places)
@@ -46,11 +48,16 @@ def _add_zone(table: Table, found: Assessment, half_width: float) -> None:
     table.add_row("  across", f"{found.zone_size * 1e6:.4g}", f"µm, above 95 %; {pits}")
 
 
-def _add_capacitance(table: Table, found: Assessment, scale: float, unit: str) -> None:
+def _add_capacitance(table: Table, found: Capacitances, scale: float, unit: str) -> None:
     table.add_row("capacitance, whole film", f"{found.capacitance * scale:.4g}", unit)
     table.add_row("  over that of plates", f"{found.capacitance_ratio:.4g}")
-    for zone in ("hertz", "inlet", "outlet", "sides"):
-        value = getattr(found, f"capacitance_{zone}")
+    zones = {
+        "hertz": found.capacitance_hertz,
+        "inlet": found.capacitance_inlet,
+        "outlet": found.capacitance_outlet,
+        "sides": found.capacitance_sides,
+    }
+    for zone, value in zones.items():
         if value is not None:
             about = f", {found.outlet}" if zone == "outlet" else ""
             table.add_row(f"  {zone}", f"{value * scale:.4g}", unit + about)
@@ -58,7 +65,7 @@ def _add_capacitance(table: Table, found: Assessment, scale: float, unit: str) -
     table.add_row("  whole, by outlet", f"{least:.4g} to {most:.4g}", f"{unit}, assumption: layers to full")
 
 
-def _add_costs(table: Table, found: Assessment) -> None:
+def _add_costs(table: Table, found: DischargeCosts) -> None:
     rows = (
         ("energy of the contact", found.contact_energy, 1e9, "nJ"),
         ("energy of a discharge", found.discharge_energy, 1e9, "nJ"),

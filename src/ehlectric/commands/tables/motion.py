@@ -10,40 +10,38 @@ if TYPE_CHECKING:
 
 def motion_table(summary: dict[str, Any]) -> Table:
     """The key figures of a run."""
-    from ehlectric.commands.tables.layout import plain_table
+    from ehlectric.commands.tables.layout import add_numbers, plain_table
+    from ehlectric.motion.keys import LINE_KEYS
+    from ehlectric.sweep.results import flat
 
-    table = plain_table(summary["title"])
-    course, film, field = summary["motion"], summary["film"], summary["field"]
-    still, beside = summary["stationary"] or {}, summary["beside_stationary"] or {}
-    breaks = summary["discharge"] or {}
-    quantiles = field["local_maxima_quantiles"] or (None, None, None)
-    rows: tuple[tuple[str, float | None, float, str], ...] = (
-        ("time", course["duration"], 1e3, f"ms in {course['steps']} steps"),
-        ("smallest film", film["minimum_thickness"], 1e6, "µm"),
-        ("  at", film["minimum_time"], 1e3, "ms"),
-        ("  before the motion", film["before"], 1e6, "µm"),
-        ("  held still", still.get("minimum_thickness"), 1e6, "µm"),
-        ("largest pressure", film["max_pressure"], 1e-9, "GPa"),
-        ("  held still", still.get("max_pressure"), 1e-9, "GPa"),
-        ("voltage", field["voltage"], 1.0, "V"),
-        ("largest field", field["max_strength"], 1e-6, "V/µm"),
-        ("  at", field["max_strength_time"], 1e3, "ms"),
-        ("  before the motion", field["before"], 1e-6, "V/µm"),
-        ("  held still", still.get("max_strength"), 1e-6, "V/µm"),
-        ("  above 90 % of it", field["share_above_90"], 100.0, "% of the time"),
-        ("local maxima, median", quantiles[1], 1e-6, f"V/µm of {field['local_maxima']}"),
-        ("  95 %", quantiles[2], 1e-6, "V/µm"),
-        ("breakdown voltage", breaks.get("breakdown_voltage"), 1.0, "V, least over time"),
-        ("where both lie alike, at", beside.get("time"), 1e3, "ms"),
-        ("  smallest film, moving", beside.get("minimum_thickness"), 1e6, "µm"),
-        ("  held still", beside.get("minimum_thickness_stationary"), 1e6, "µm"),
-        ("  largest field, moving", beside.get("maximum_strength"), 1e-6, "V/µm"),
-        ("  held still", beside.get("maximum_strength_stationary"), 1e-6, "V/µm"),
-        ("time steps halved", course["halvings"] or None, 1.0, "times, where one was not found"),
-        ("Newton steps a time step", course["newton_per_step"], 1.0, ""),
-        ("took", summary["seconds"], 1.0, "s"),
+    table, numbers = plain_table(summary["title"]), flat(summary)
+    numbers["motion.halvings"] = numbers["motion.halvings"] or None
+    steps, maxima = numbers["motion.steps"], numbers["field.local_maxima"]
+    rows = (
+        ("time", "motion.duration", "ms", f" in {steps} steps"),
+        ("smallest film", "film.minimum_thickness", "µm", ""),
+        ("  at", "film.minimum_time", "ms", ""),
+        ("  before the motion", "film.before", "µm", ""),
+        ("  held still", "stationary.minimum_thickness", "µm", ""),
+        ("largest pressure", "film.max_pressure", "GPa", ""),
+        ("  held still", "stationary.max_pressure", "GPa", ""),
+        ("voltage", "field.voltage", "V", ""),
+        ("largest field", "field.max_strength", "V/µm", ""),
+        ("  at", "field.max_strength_time", "ms", ""),
+        ("  before the motion", "field.before", "V/µm", ""),
+        ("  held still", "stationary.max_strength", "V/µm", ""),
+        ("  above 90 % of it", "field.share_above_90", "%", " of the time"),
+        ("local maxima, median", "field.local_maxima_quantiles.1", "V/µm", f" of {maxima}"),
+        ("  95 %", "field.local_maxima_quantiles.2", "V/µm", ""),
+        ("breakdown voltage", "discharge.breakdown_voltage", "V", ", least over time"),
+        ("where both lie alike, at", "beside_stationary.time", "ms", ""),
+        ("  smallest film, moving", "beside_stationary.minimum_thickness", "µm", ""),
+        ("  held still", "beside_stationary.minimum_thickness_stationary", "µm", ""),
+        ("  largest field, moving", "beside_stationary.maximum_strength", "V/µm", ""),
+        ("  held still", "beside_stationary.maximum_strength_stationary", "V/µm", ""),
+        ("time steps halved", "motion.halvings", "", "times, where one was not found"),
+        ("Newton steps a time step", "motion.newton_per_step", "", ""),
+        ("took", "seconds", "s", ""),
     )
-    for name, value, scale, unit in rows:
-        if value is not None:
-            table.add_row(name, f"{value * scale:.4g}", unit)
+    add_numbers(table, LINE_KEYS, numbers, rows)
     return table

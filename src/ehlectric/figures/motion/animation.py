@@ -65,7 +65,7 @@ def save_animation(
     """
     path = Path(path)
     if not _SLOWEST <= fps <= _FASTEST:
-        raise InputError(f"fps: got {fps:g}, takes {_SLOWEST:g} to {_FASTEST:g} instants a second")
+        raise InputError("fps", got=f"{fps:g}", takes=f"{_SLOWEST:g} to {_FASTEST:g} instants a second")
     write = _writer(path)
     refuse_special(path)
     run = MotionRun.of(dataset)
@@ -79,7 +79,7 @@ def save_animation(
             try:
                 write(beside, _instants(drawn, run.frames, progress), fps)
             except (BrokenPipeError, subprocess.CalledProcessError):
-                raise InputError(f"{path}: cannot be written, ffmpeg failed; a .gif takes none") from None
+                raise InputError.worded(path, "cannot be written, ffmpeg failed; a .gif takes none") from None
 
 
 def _instants(drawn: Frames, frames: int, progress: Progress | None) -> Iterator[Frames]:
@@ -96,9 +96,11 @@ def _writer(path: Path) -> Callable[[Path, Iterator[Frames], float], None]:
     if suffix == ".gif":
         return _write_gif
     if suffix != ".mp4":
-        raise InputError(f"animation: got {shown(path.name)}, takes a name that ends in .gif or .mp4")
+        raise InputError("animation", got=shown(path.name), takes="a name that ends in .gif or .mp4")
     if not FFMpegWriter.isAvailable():
-        raise InputError(f"animation: got {shown(path.name)} and no ffmpeg is found, takes a name in .gif")
+        raise InputError(
+            "animation", got=f"{shown(path.name)} and no ffmpeg is found", takes="a name in .gif"
+        )
     return _write_mp4
 
 

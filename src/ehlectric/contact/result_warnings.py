@@ -1,4 +1,4 @@
-"""What a film and its field show that a user should know, one text each."""
+"""Warnings of a contact that follow from its film and its field."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from ehlectric.cases.case import Case
+from ehlectric.errors import ResultWarning
 from ehlectric.field.line import Field
 from ehlectric.field.point import PointField
 from ehlectric.field.poisson import ATOM
@@ -24,87 +25,112 @@ _NAMED = 8
 _LOSS = 0.02
 
 
-def film_findings(case: Case, film: Film) -> Iterator[str]:
-    """What the film of any contact shows."""
+def film_warnings(case: Case, film: Film) -> Iterator[ResultWarning]:
+    """Warnings that follow from the film of any contact."""
     if not film.converged:
-        yield (
+        yield ResultWarning(
+            "not-converged",
             f"do not use this film, it is no solution: {film.status} at the residual {film.residual:.1e}; "
-            "try more grid.nodes, a lower grid.inlet, or more solver.max_iterations"
+            "try more grid.nodes, a lower grid.inlet, or more solver.max_iterations",
         )
     places = film.collapsed_positions / film.scales.length
     if len(places):
         where = "x/b" if places.ndim == 1 else "(x/b, y/b)"
         named = (", ".join(f"{place:.3f}" for place in np.atleast_1d(p)) for p in places[:_NAMED])
-        yield (
+        yield ResultWarning(
+            "surfaces-touch",
             f"the surfaces would touch at {where} = "
             + ", ".join(name if places.ndim == 1 else f"({name})" for name in named)
-            + (f" and {len(places) - _NAMED} more nodes" if len(places) > _NAMED else "")
+            + (f" and {len(places) - _NAMED} more nodes" if len(places) > _NAMED else ""),
         )
     if film.minimum_thickness < ATOM:
-        yield "the film is thinner than an atom in places; the field is that of a gap of 0.1 nm there"
+        yield ResultWarning(
+            "thinner-than-atom",
+            "the film is thinner than an atom in places; the field is that of a gap of 0.1 nm there",
+        )
     error = film.discretisation_error
     if film.converged and error is None and case.roughness:
-        yield (
+        yield ResultWarning(
+            "error-unknown",
             "nothing is known of the discretisation error, as the roughness had to be raised in steps; "
-            "compare with more grid.nodes"
+            "compare with more grid.nodes",
         )
     elif film.converged and error is None:
-        yield (
+        yield ResultWarning(
+            "coarser-grid-unsolved",
             "do not use this film: the next coarser grid was not solved, so that nothing is known of its "
-            "discretisation error, which is large; take more grid.nodes"
+            "discretisation error, which is large; take more grid.nodes",
         )
     elif error is not None and error > max(0.01, case.grid.refine or 0.0):
-        advice = "do not use it" if error > 0.1 else "take more grid.nodes"
-        yield f"the film may be {100 * error:.2g} % off or more on this grid; {advice}"
+        code, advice = "grid-too-coarse", "take more grid.nodes"
+        if error > 0.1:
+            code, advice = "grid-far-too-coarse", "do not use it"
+        yield ResultWarning(code, f"the film may be {100 * error:.2g} % off or more on this grid; {advice}")
     if not film.cavitates:
-        yield "the film does not cavitate before the domain ends; raise grid.outlet"
+        yield ResultWarning(
+            "outlet-too-short", "the film does not cavitate before the domain ends; raise grid.outlet"
+        )
 
 
-def line_findings(case: Case, film: Film, field: Field) -> Iterator[str]:
-    """What is the line contact's own."""
+def line_result_warnings(case: Case, film: Film, field: Field) -> Iterator[ResultWarning]:
+    """Warnings of a line contact: its inlet and the range of its field."""
     if film.inlet_deficit > 0.01:
-        effect = "do not use this film" if film.inlet_deficit > 0.2 else "the film is about that much off"
-        yield (
+        code, effect = "inlet-too-short", "the film is about that much off"
+        if film.inlet_deficit > 0.2:
+            code, effect = "inlet-far-too-short", "do not use this film"
+        yield ResultWarning(
+            code,
             f"the inlet is too short: {100 * film.inlet_deficit:.2g} % of the pressure is built up before "
-            f"it, {effect}; lower grid.inlet"
+            f"it, {effect}; lower grid.inlet",
         )
     inside = int(np.count_nonzero((film.x >= field.x[0]) & (film.x <= field.x[-1])))
     if case.grid.field_nodes is not None and case.grid.field_nodes < inside:
-        yield (
+        yield ResultWarning(
+            "field-grid-too-coarse",
             f"grid.field_nodes is coarser than the film, which has {inside} nodes in the field range: the "
-            "width of the high-field zone and the capacitance suffer"
+            "width of the high-field zone and the capacitance suffer",
         )
     if not np.any(field.inner & (field.x == field.max_strength_position)):
-        yield "the largest field is at an end of grid.field_range; widen it"
+        yield ResultWarning(
+            "field-range-too-narrow", "the largest field is at an end of grid.field_range; widen it"
+        )
 
 
-def point_findings(case: Case, film: PointFilm, field: PointField) -> Iterator[str]:
-    """What is the point contact's own."""
+def point_result_warnings(case: Case, film: PointFilm, field: PointField) -> Iterator[ResultWarning]:
+    """Warnings of a point contact: its domain and the range of its field."""
     if film.domain_loss > _LOSS:
         loss = film.domain_loss
-        effect = "do not use it" if loss > 0.2 else f"by about {100 * loss:.2g} %"
-        yield (
+        code, effect = "domain-too-small", f"by about {100 * loss:.2g} %"
+        if loss > 0.2:
+            code, effect = "domain-far-too-small", "do not use it"
+        yield ResultWarning(
+            code,
             f"the domain is too small: {100 * film.inlet_deficit:.2g} % of the pressure is built up before "
             f"it and {100 * film.side_deficit:.2g} % would be at its sides, which makes the film too thin, "
-            f"{effect}; lower grid.inlet and raise grid.side"
+            f"{effect}; lower grid.inlet and raise grid.side",
         )
     for key, of_field, of_film in (("field_nodes", field.x, film.x), ("field_nodes_y", field.y, film.y)):
         inside = int(np.count_nonzero((of_film >= of_field[0]) & (of_film <= of_field[-1])))
         given = getattr(case.grid, key)
         if given is not None and given < inside:
-            yield (
+            yield ResultWarning(
+                "field-grid-too-coarse",
                 f"grid.{key} is coarser than the film, which has {inside} nodes in the field range: the area "
-                "of the high-field zone and the capacitance suffer"
+                "of the high-field zone and the capacitance suffer",
             )
     x, y = field.max_strength_position
     if not field.inner[field.x == x][:, field.y == y].any():
-        yield "the largest field is at an edge of grid.field_range or grid.field_side; widen it"
+        yield ResultWarning(
+            "field-range-too-narrow",
+            "the largest field is at an edge of grid.field_range or grid.field_side; widen it",
+        )
 
 
-def field_findings(max_strength: float) -> Iterator[str]:
-    """What the largest field strength [V/m] of any contact shows."""
+def field_warnings(max_strength: float) -> Iterator[ResultWarning]:
+    """Warning of the largest field strength [V/m] of any contact."""
     if max_strength > _NO_INSULATOR:
-        yield (
+        yield ResultWarning(
+            "field-above-insulators",
             f"the largest field is {max_strength / 1e6:.3g} V/µm: no insulator withstands more than "
-            f"some {_NO_INSULATOR / 1e6:g} V/µm, and the film breaks down long before"
+            f"some {_NO_INSULATOR / 1e6:g} V/µm, and the film breaks down long before",
         )

@@ -1,4 +1,4 @@
-"""What is doubtful about rough surfaces before any film is solved."""
+"""Warnings about rough surfaces that are known before any film is solved."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator, Sequence
 import numpy as np
 
 from ehlectric.cases.roughness import Roughness
+from ehlectric.errors import ResultWarning
 from ehlectric.surfaces.domain import Domain
 from ehlectric.surfaces.maps import Map, statistics
 from ehlectric.surfaces.profiles import LEAST_POINTS, Profile
@@ -22,10 +23,10 @@ LEAST_IN_SHAPE = 8.0
 MOST_MISSED = 0.01
 
 
-def map_surface_remarks(
+def map_surface_warnings(
     tables: Sequence[Roughness], rough: Sequence[RoughMap], domain: Domain, dx: float, dy: float
-) -> Iterator[str]:
-    """What a user should know about the roughness of a point contact before it is solved, one text each.
+) -> Iterator[ResultWarning]:
+    """Warnings about the roughness of a point contact that are known before it is solved.
 
     Parameters
     ----------
@@ -38,42 +39,43 @@ def map_surface_remarks(
 
     Yields
     ------
-    str
+    ResultWarning
         About files and steps, continuation, and what is finer than the grid.
     """
     for table, surface in zip(tables, rough, strict=True):
-        yield from surface.remarks
+        yield from surface.warnings
         yield from _continued(table, surface, domain)
         if not surface.steps:
-            yield from _map_shape_remarks(table, domain, dx, dy)
+            yield from _map_shape_warnings(table, domain, dx, dy)
             continue
         last = surface.steps[-1][1]
         if isinstance(last, Map):
-            yield from _map_remarks(table, surface, last, domain, (dx, dy))
+            yield from _map_warnings(table, surface, last, domain, (dx, dy))
         elif table.direction == "y":
             ends = -domain.side - table.shift_y, domain.side - table.shift_y
-            yield from profile_remarks(surface.surface, last, dy, ends)
+            yield from profile_warnings(surface.surface, last, dy, ends)
         else:
             ends = domain.inlet - table.shift, domain.outlet - table.shift
-            yield from profile_remarks(surface.surface, last, dx, ends)
+            yield from profile_warnings(surface.surface, last, dx, ends)
     yield from same_seeds(tables)
 
 
-def _continued(table: Roughness, surface: RoughMap, domain: Domain) -> Iterator[str]:
+def _continued(table: Roughness, surface: RoughMap, domain: Domain) -> Iterator[ResultWarning]:
     needed = [2.0 * reach for reach in domain.reach(table)]
     short = [k for k in (0, 1) if surface.extent[k] < needed[k]]
     if short:
         axis = short[0]
-        yield (
+        yield ResultWarning(
+            "roughness-continued",
             f"surface {surface.surface} is {surface.extent[axis] * 1e6:.4g} µm long along {'xy'[axis]} and "
             f"the domain needs {needed[axis] * 1e6:.4g} µm"
             + (", and it is too short along y too" if len(short) == 2 else "")
-            + f": it was continued by extend = {table.extend!r}"
+            + f": it was continued by extend = {table.extend!r}",
         )
 
 
-def _map_shape_remarks(table: Roughness, domain: Domain, dx: float, dy: float) -> Iterator[str]:
-    """Exact shapes finer than the grid, where they lie within the domain."""
+def _map_shape_warnings(table: Roughness, domain: Domain, dx: float, dy: float) -> Iterator[ResultWarning]:
+    """Warnings of exact shapes finer than the grid, where they lie within the domain."""
     whose = f"the {table.generator} of surface {table.surface}"
     if table.wavelength is not None:
         turn = np.deg2rad(table.orientation or 0.0)
@@ -94,10 +96,10 @@ def _map_shape_remarks(table: Roughness, domain: Domain, dx: float, dy: float) -
         yield unresolved(max(dx, dy), f"{whose}, whose width", finest)
 
 
-def _map_remarks(
+def _map_warnings(
     table: Roughness, surface: RoughMap, last: Map, domain: Domain, spacing: tuple[float, float]
-) -> Iterator[str]:
-    """Maps finer than the grid, along its axes."""
+) -> Iterator[ResultWarning]:
+    """Warnings of maps finer than the grid, along its axes."""
     found = statistics(last)
     inverse = 1.0 / found.correlation_length_x**2, 1.0 / found.correlation_length_y**2
     turn = np.deg2rad(surface.orientation)
@@ -111,10 +113,11 @@ def _map_remarks(
     missed = map_variance_beyond(within, 0.5 / spacing[0], 0.5 / spacing[1], surface.orientation)
     if missed > MOST_MISSED:
         coarser = max(spacing)
-        yield (
+        yield ResultWarning(
+            "variance-missed",
             f"the grid, {spacing[0] * 1e6:.3g} x {spacing[1] * 1e6:.3g} µm, misses {100 * missed:.2g} % of "
             f"the variance of surface {surface.surface}, in waves shorter than two spacings; take more "
-            f"grid.nodes, or a cutoff_short of {4e6 * coarser:.3g} µm or more"
+            f"grid.nodes, or a cutoff_short of {4e6 * coarser:.3g} µm or more",
         )
 
 
@@ -170,46 +173,51 @@ def map_variance_beyond(
     return float(np.sum(power[beyond])) / total if total > 0.0 else 0.0
 
 
-def profile_surface_remarks(
+def profile_surface_warnings(
     tables: Sequence[Roughness], rough: Sequence[RoughSurface], domain: Domain, dx: float
-) -> Iterator[str]:
-    """What a user should know about the roughness of a line contact before it is solved, one text each."""
+) -> Iterator[ResultWarning]:
+    """Warnings about the roughness of a line contact that are known before it is solved."""
     for table, surface in zip(tables, rough, strict=True):
-        yield from surface.remarks
+        yield from surface.warnings
         ends = domain.inlet - table.shift, domain.outlet - table.shift
         reach = 2.0 * max(map(abs, ends))
         if surface.extent < reach:
-            yield (
+            yield ResultWarning(
+                "roughness-continued",
                 f"the profile of surface {surface.surface} is {surface.extent * 1e6:.4g} µm long and the "
-                f"domain needs {reach * 1e6:.4g} µm: it was continued by extend = {table.extend!r}"
+                f"domain needs {reach * 1e6:.4g} µm: it was continued by extend = {table.extend!r}",
             )
         if surface.steps:
-            yield from profile_remarks(surface.surface, surface.steps[-1][1], dx, ends)
+            yield from profile_warnings(surface.surface, surface.steps[-1][1], dx, ends)
         else:
-            yield from _profile_shape_remarks(table, dx, ends)
+            yield from _profile_shape_warnings(table, dx, ends)
     yield from same_seeds(tables)
 
 
-def same_seeds(tables: Iterable[Roughness]) -> Iterator[str]:
-    """Made surfaces that are not independent of each other."""
+def same_seeds(tables: Iterable[Roughness]) -> Iterator[ResultWarning]:
+    """Warnings of generated surfaces that are not independent of each other."""
     for seed, times in Counter(table.seed for table in tables if table.seed is not None).items():
         if times > 1:
-            yield (
+            yield ResultWarning(
+                "seed-repeated",
                 f"{times} rough surfaces have the seed {seed}: they are made of the same random numbers and "
-                "are not independent of each other"
+                "are not independent of each other",
             )
 
 
-def unresolved(dx: float, what: str, length: float) -> str:
-    """That a grid is too coarse for something; the text before its length is ``what``."""
-    return (
+def unresolved(dx: float, what: str, length: float) -> ResultWarning:
+    """Warning of a grid too coarse for something; the text before its length is ``what``."""
+    return ResultWarning(
+        "roughness-unresolved",
         f"the grid, {dx * 1e6:.3g} µm, does not resolve {what} is {length * 1e6:.3g} µm: its error estimate "
-        "means nothing yet"
+        "means nothing yet",
     )
 
 
-def _profile_shape_remarks(table: Roughness, dx: float, ends: tuple[float, float]) -> Iterator[str]:
-    """Exact shapes finer than the grid, where they lie within the domain."""
+def _profile_shape_warnings(
+    table: Roughness, dx: float, ends: tuple[float, float]
+) -> Iterator[ResultWarning]:
+    """Warnings of exact shapes finer than the grid, where they lie within the domain."""
     name, length = ("wavelength", table.wavelength) if table.wavelength else ("width", table.width)
     assert length is not None
     position = table.position or 0.0
@@ -222,18 +230,21 @@ def _profile_shape_remarks(table: Roughness, dx: float, ends: tuple[float, float
         yield unresolved(dx, f"{whose}, whose {name}", finest)
 
 
-def profile_remarks(surface: int, last: Profile, dx: float, ends: tuple[float, float]) -> Iterator[str]:
-    """A surface whose profile, after the last step, is finer than the grid."""
+def profile_warnings(
+    surface: int, last: Profile, dx: float, ends: tuple[float, float]
+) -> Iterator[ResultWarning]:
+    """Warnings of a profile that is finer than the grid after its last step."""
     length = profiles_statistics(last).correlation_length
     if dx > length / LEAST_IN_CORRELATION:
         whose = f"the profile of surface {surface}, whose correlation length"
         yield unresolved(dx, whose, length)
     missed = profile_variance_beyond(last, 0.5 / dx, ends)
     if missed > MOST_MISSED:
-        yield (
+        yield ResultWarning(
+            "variance-missed",
             f"the grid, {dx * 1e6:.3g} µm, misses {100 * missed:.2g} % of the variance of surface "
             f"{surface}, in waves shorter than two spacings; take more grid.nodes, or a cutoff_short "
-            f"of {4e6 * dx:.3g} µm or more"
+            f"of {4e6 * dx:.3g} µm or more",
         )
 
 

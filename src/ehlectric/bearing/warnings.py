@@ -18,61 +18,70 @@ from ehlectric.bearing.solution import (
     lubrication,
 )
 from ehlectric.cases.bearing import Bearing
+from ehlectric.errors import ResultWarning
 
 # Below it the viscosity from 40 and 100 degC is a bold extrapolation [K].
 _COLD = 273.15
 
 
-def warnings_of(solution: BearingSolution) -> list[str]:
-    """Warnings that tell where a result is unreliable, each text once."""
-    texts = [*film_remarks(solution), *voltage_remarks(solution), *_contact_remarks(solution)]
-    return list(dict.fromkeys(texts))
+def bearing_warnings(solution: BearingSolution) -> list[ResultWarning]:
+    """Warnings that tell where a result is unreliable, each once."""
+    found = [*film_warnings(solution), *voltage_warnings(solution), *_warnings_of_contacts(solution)]
+    return list(dict.fromkeys(found))
 
 
-def film_remarks(solution: BearingSolution) -> Iterator[str]:
+def film_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
     """Warnings of the films of the whole bearing."""
     if solution.case.contacts == "formula":
-        yield "contacts by formula: films may be 30 % off, and fields are voltages over the minimum film"
+        text = "contacts by formula: films may be 30 % off, and fields are voltages over the minimum film"
+        yield ResultWarning("formula-contacts", text)
     if solution.conditions.film_factor == 1.0:
         given = solution.case.bearing.film_factor
         name = given if isinstance(given, str) else f"{given:g}"
-        yield f"film_factor {name}: the film is isothermal and fully flooded, voltages are upper bounds"
+        text = f"film_factor {name}: the film is isothermal and fully flooded, voltages are upper bounds"
+        yield ResultWarning("isothermal-film", text)
     if solution.case.lubricant.temperature is None:
-        yield "lubricant.viscosity is given: bearing.temperature has no part in the films"
+        text = "lubricant.viscosity is given: bearing.temperature has no part in the films"
+        yield ResultWarning("temperature-unused", text)
     elif solution.case.bearing.temperature < _COLD:
         cold = solution.case.bearing.temperature - 273.15
-        yield f"bearing.temperature is {cold:.3g} °C: the viscosity from 40 and 100 °C may be far off"
-    yield from clearance_remarks(solution.conditions.geometry.clearance, solution.positions[0])
+        text = f"bearing.temperature is {cold:.3g} °C: the viscosity from 40 and 100 °C may be far off"
+        yield ResultWarning("temperature-low", text)
+    yield from clearance_warnings(solution.conditions.geometry.clearance, solution.positions[0])
 
 
-def voltage_remarks(solution: BearingSolution) -> Iterator[str]:
+def voltage_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
     """Warnings of the capacitance and the voltages of the bearing."""
     state, ceramic = lubrication(solution), solution.conditions.ceramic
     touching = f"lambda is {lambda_ratio(solution):.2g}: surfaces"
     if state == "conducting":
-        yield f"{touching} touch and conduct, nothing breaks down, and no shaft voltage is stated"
+        text = f"{touching} touch and conduct, nothing breaks down, and no shaft voltage is stated"
+        yield ResultWarning("touching", text)
     elif state == "touching":
-        yield f"{touching} touch, and the elements insulate"
+        yield ResultWarning("touching", f"{touching} touch, and the elements insulate")
     elif state == "partial film":
-        yield f"{touching} may touch" + ("" if ceramic else ", voltages are upper bounds")
+        text = f"{touching} may touch" + ("" if ceramic else ", voltages are upper bounds")
+        yield ResultWarning("partial-film", text)
     if capacitance_is_bound(solution):
-        yield (
+        yield ResultWarning(
+            "capacitance-bound",
             "the elements are ceramic: the capacitance is an upper bound, that of conducting ones, and "
-            "no shaft voltage follows from it; bearing.element_capacitance gives one"
+            "no shaft voltage follows from it; bearing.element_capacitance gives one",
         )
     if solution.case.discharge.weibull is not None and insulating(solution):
-        yield "first break and through breakdown are voltages at a probability of 63.2 % (Weibull)"
+        text = "first break and through breakdown are voltages at a probability of 63.2 % (Weibull)"
+        yield ResultWarning("weibull-voltage", text)
 
 
-def _contact_remarks(solution: BearingSolution) -> Iterator[str]:
+def _warnings_of_contacts(solution: BearingSolution) -> Iterator[ResultWarning]:
     """Warnings of single contacts, and of those at the edge of their groove."""
-    yield from edge_remarks(solution.case.bearing, solution.positions)
-    yield from contact_remarks(
+    yield from edge_warnings(solution.case.bearing, solution.positions)
+    yield from contact_warnings(
         {"inner": solution.inner_curve.solutions, "outer": solution.outer_curve.solutions}
     )
 
 
-def edge_remarks(bearing: Bearing, positions: Sequence[Position]) -> Iterator[str]:
+def edge_warnings(bearing: Bearing, positions: Sequence[Position]) -> Iterator[ResultWarning]:
     """Warnings of ellipses that reach over the shoulder of a groove, of the heaviest with each ring.
 
     Parameters
@@ -94,14 +103,15 @@ def edge_remarks(bearing: Bearing, positions: Sequence[Position]) -> Iterator[st
             if over[heaviest] > load:
                 load, reached = float(over[heaviest]), float(ends[heaviest])
         if load > 0.0:
-            yield (
+            yield ResultWarning(
+                "shoulder-reached",
                 f"{name} ring: the contact with {load:.3g} N would reach {math.degrees(reached):.1f} deg up "
                 f"a groove that ends at {math.degrees(shoulder):.1f} deg: the shoulder cuts it off, and the "
-                "pressure on that edge is not in this"
+                "pressure on that edge is not in this",
             )
 
 
-def clearance_remarks(clearance: float, position: Position) -> Iterator[str]:
+def clearance_warnings(clearance: float, position: Position) -> Iterator[ResultWarning]:
     """Warnings of films that take up the clearance, of which the equilibrium knows nothing.
 
     Parameters
@@ -119,14 +129,15 @@ def clearance_remarks(clearance: float, position: Position) -> Iterator[str]:
         # Preloaded elements have none, but are pressed in.
         room, beside = float(at.inner_approach[most] + at.outer_approach[most]), "elements pressed in by"
     if films > TAKEN * room:
-        yield (
+        yield ResultWarning(
+            "clearance-taken-up",
             f"both films of the most loaded element are {1e6 * films:.2g} um, beside {beside} "
-            f"{1e6 * room:.2g} um: loads are those of dry contacts, which such films change"
+            f"{1e6 * room:.2g} um: loads are those of dry contacts, which such films change",
         )
 
 
-def contact_remarks(rings: Mapping[str, Sequence[ContactSolution]]) -> list[str]:
-    """Warnings of contacts, those that say the same in one line.
+def contact_warnings(rings: Mapping[str, Sequence[ContactSolution]]) -> list[ResultWarning]:
+    """Warnings of the contacts of a bearing, equal ones of several contacts as one.
 
     Parameters
     ----------
@@ -135,21 +146,23 @@ def contact_remarks(rings: Mapping[str, Sequence[ContactSolution]]) -> list[str]
 
     Returns
     -------
-    list of str
-        In the order in which they come up. What all contacts share, as a doubt about their oil, names none
-        of them; other texts name ring and load.
+    list of ResultWarning
+        In the order in which they come up. A warning that all contacts share, such as one about their oil,
+        names none of them; other texts name ring and load.
     """
-    told: dict[str, dict[str, list[float]]] = {}
+    told: dict[ResultWarning, dict[str, list[float]]] = {}
     for ring, contacts in rings.items():
         for contact in contacts:
-            for text in dict.fromkeys(contact.warnings):
-                told.setdefault(text, {}).setdefault(ring, []).append(contact.load)
+            for warning in dict.fromkeys(contact.warnings):
+                told.setdefault(warning, {}).setdefault(ring, []).append(contact.load)
     every = sum(map(len, rings.values()))
     return [
-        text
+        warning
         if sum(map(len, loads.values())) == every
-        else ", ".join(_named(ring, those) for ring, those in loads.items()) + f": {text}"
-        for text, loads in told.items()
+        else ResultWarning(
+            warning.code, ", ".join(_named(ring, those) for ring, those in loads.items()) + f": {warning}"
+        )
+        for warning, loads in told.items()
     ]
 
 

@@ -1,0 +1,53 @@
+"""Tables of the keys of summary.json, written from the tables beside the code that fills them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from ehlectric.bearing.keys import BEARING_KEYS
+from ehlectric.cases.result_key import Keys
+from ehlectric.contact import keys as contact
+from ehlectric.motion import keys as motion
+
+_DISCHARGE, _SURFACES = "discharge", "rough"
+
+
+def summary_pages() -> dict[str, str]:
+    """Text of each table by the name of its file: of contacts, their discharge, bearings and motions."""
+    line, point = _without(contact.LINE_KEYS, _DISCHARGE), _without(contact.POINT_KEYS, _DISCHARGE)
+    other = {name: key for name, key in point.items() if line.get(name) != key}
+    discharges = [_within(keys, _DISCHARGE) for keys in contact.CONTACT_KEYS.values()]
+    # What was done to each rough surface has the keys of the surfaces of a contact.
+    motions = [_without(keys, _SURFACES) for keys in motion.MOTION_KEYS.values()]
+    return {
+        "summary_line": _table(line),
+        "summary_point": _table(other),
+        "summary_discharge": _table(*discharges),
+        "summary_bearing": _table(BEARING_KEYS),
+        "summary_motion": _table(*motions),
+    }
+
+
+def _within(keys: Keys, table: str) -> Keys:
+    return {name: key for name, key in keys.items() if name.startswith(f"{table}.")}
+
+
+def _without(keys: Keys, table: str) -> Keys:
+    return {name: key for name, key in keys.items() if not name.startswith(f"{table}.")}
+
+
+def _table(*kinds: Keys) -> str:
+    """Rows of key, meaning and unit; where the units of a line and a point contact differ it has both."""
+    names = dict.fromkeys(name for keys in kinds for name in keys)
+    rows = []
+    for name in names:
+        found = [keys[name] for keys in kinds if name in keys]
+        rows.append((f"`{name}`", found[0].meaning, _units(key.unit for key in found)))
+    lines = [("key", "meaning", "unit"), ("---", "---", "---"), *rows]
+    return "```{rst-class} keys\n```\n\n" + "".join(f"| {' | '.join(cells)} |\n" for cells in lines)
+
+
+def _units(units: Iterable[str]) -> str:
+    """Units as they are printed, a dash for none."""
+    printed = (unit.replace("**2", "²").replace("**3", "³").replace("*", " ") for unit in units)
+    return "; ".join(unit or "\N{EN DASH}" for unit in dict.fromkeys(printed))

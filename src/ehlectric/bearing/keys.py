@@ -1,0 +1,222 @@
+"""Keys of the summary.json of a bearing."""
+
+from __future__ import annotations
+
+from ehlectric.cases.result_key import Keys, ResultKey, under
+
+_ABOUT: Keys = {
+    "schema": ResultKey("name of the format"),
+    "version": ResultKey("version of the program"),
+    "title": ResultKey("title of the bearing file"),
+    "converged": ResultKey("whether all contacts were solved"),
+    "warnings": ResultKey(
+        "warnings, to be read before the numbers are used; contacts are named by ring and load, but for what "
+        "all of them share"
+    ),
+    "warning_codes": ResultKey(
+        "code of each warning, in the same order: programs decide by codes, as words may change"
+    ),
+    "inputs": ResultKey("the bearing file, its base resolved"),
+}
+_LUBRICANT: Keys = {
+    "temperature": ResultKey(
+        "temperature of the oil in the contacts; that of `bearing.temperature`, not the input table of that "
+        "name",
+        "K",
+        "temperature of the oil",
+    ),
+    "viscosity": ResultKey("viscosity of the oil at that temperature", "Pa*s", "viscosity", r"$\eta_0$"),
+    "pressure_viscosity_coefficient": ResultKey(
+        "pressure-viscosity coefficient of the oil at that temperature",
+        "1/Pa",
+        "pressure-viscosity coefficient",
+        r"$\alpha$",
+    ),
+    "expansion": ResultKey(
+        "coefficient of thermal expansion; null without `[lubricant.temperature]`",
+        "1/K",
+        "thermal expansion of the oil",
+        "$a$",
+    ),
+    "film_factor": ResultKey(
+        "the same as `bearing.film_factor`, under a key that no input has: a sweep over that input has both",
+        "",
+        "film factor, resolved",
+        "$C$",
+    ),
+}
+_CAPACITANCES: Keys = {
+    "contacts": ResultKey('how films and fields were obtained: "solved" or "formula"'),
+    "capacitance": ResultKey(
+        "capacitance, mean over the positions of the cage, with `fill` around the films; of ceramic elements "
+        "an upper bound, or what the file gives",
+        "F",
+        "capacitance of the bearing",
+        "$C$",
+    ),
+    "capacitance_oil": ResultKey(
+        "capacitance with oil around the films", "F", "capacitance of the bearing, all in oil"
+    ),
+    "capacitance_air": ResultKey(
+        "capacitance with air around the films", "F", "capacitance of the bearing, air around the films"
+    ),
+    "capacitance_plate": ResultKey(
+        "ε0 ε_r A_H/h(0) of the dry contacts, in series and parallel; elements without load have none; null "
+        "for ceramic elements",
+        "F",
+        "capacitance of plates",
+    ),
+    "capacitance_ratio": ResultKey(
+        "capacitance over capacitance_plate; null for ceramic elements", "", "capacitance over that of plates"
+    ),
+    "lambda_ratio": ResultKey(
+        "smallest film of all loaded contacts over composite_rq",
+        "",
+        "least film over roughness",
+        r"$\lambda$",
+    ),
+    "lubrication": ResultKey(
+        'state of lubrication: "conducting" for a lambda below 1, or "touching" of ceramic elements, '
+        '"partial film" below 3, "full film"',
+        "",
+        "state of lubrication",
+    ),
+    "film_factor": ResultKey('factor on the isothermal, fully flooded film; 1 for "none"', "", "film factor"),
+}
+_VOLTAGES: Keys = {
+    "first_break": ResultKey(
+        "bearing voltage at which the first contact breaks down, least over the positions; by a Weibull "
+        "strength that at which one of all has with a probability of 63.2 %; null without a strength, for a "
+        "conducting bearing and for ceramic elements",
+        "V",
+        "bearing voltage of the first break",
+    ),
+    "first_break_mean": ResultKey(
+        "mean of first_break over the positions", "V", "first break, mean over a pitch"
+    ),
+    "first_break_at": ResultKey(
+        "contact that breaks down first, or by a Weibull strength the likeliest",
+        "",
+        "contact that breaks first",
+    ),
+    "through_breakdown": ResultKey(
+        "bearing voltage at which the first element breaks down through both contacts; by a Weibull strength "
+        "each at its own 63.2 %",
+        "V",
+        "bearing voltage of the through breakdown",
+    ),
+    "through_breakdown_mean": ResultKey(
+        "mean of through_breakdown over the positions", "V", "through breakdown, mean over a pitch"
+    ),
+    "margin": ResultKey(
+        "first_break over the shaft voltage; null without a motor", "", "first break over shaft voltage"
+    ),
+    "through_margin": ResultKey(
+        "through_breakdown over the shaft voltage; null without a motor",
+        "",
+        "through breakdown over shaft voltage",
+    ),
+    "strength_per_volt": ResultKey(
+        "largest field strength of a contact over the bearing's voltage, over the positions; null for a "
+        "conducting bearing and for ceramic elements",
+        "1/m",
+        "largest field strength by bearing voltage",
+    ),
+    "max_strength": ResultKey(
+        "largest field strength at the shaft voltage, before anything has broken down; null without a motor",
+        "V/m",
+        "largest field strength",
+    ),
+    "bearing_voltage_ratio": ResultKey(
+        "C_wr/(C_wr + C_rf + C_DE + C_NDE); null without a motor, for a conducting bearing, and for ceramic "
+        "elements without element_capacitance",
+        "",
+        "bearing voltage ratio",
+    ),
+    "shaft_voltage": ResultKey(
+        "bearing_voltage_ratio times the common-mode voltage, peak; capacitive alone; null as that ratio is",
+        "V",
+        "shaft voltage",
+    ),
+    "relaxation_time": ResultKey("charge relaxation time ε0 ε_r/σ; null without a conductivity", "s"),
+    "discretisation_error": ResultKey(
+        "largest estimate of a solved film's error; null where one is not known"
+    ),
+    "interpolation_error": ResultKey("largest error at a load, were it left out of the interpolation"),
+}
+_MECHANICS: Keys = {
+    "max_load": ResultKey("load of the most loaded contact with the outer ring", "N"),
+    "radial_displacement": ResultKey(
+        "radial displacement of the inner ring against the outer one, the clearance included", "m"
+    ),
+    "axial_displacement": ResultKey("axial displacement of the inner ring; null for rollers", "m"),
+    "moment": ResultKey("moment that holds the inner ring from tilting; null for rollers", "N*m"),
+    "centrifugal_force": ResultKey("centrifugal force on each element", "N"),
+    "gyroscopic_moment": ResultKey(
+        "largest gyroscopic moment of a ball; reported, its effect is left out; null for rollers", "N*m"
+    ),
+    "cage_speed": ResultKey(
+        "speed of the cage in pure rolling; of balls the mean of theirs, weighted with their load", "rad/s"
+    ),
+    "element_speed": ResultKey(
+        "largest speed of the elements about their own axes, seen from the cage, in pure rolling", "rad/s"
+    ),
+    "entrainment_speed": ResultKey("largest entrainment speed, without the film factor", "m/s"),
+    "entrainment_speed_inner": ResultKey("largest entrainment speed at the inner ring", "m/s"),
+    "entrainment_speed_outer": ResultKey(
+        "largest entrainment speed at the outer ring; equal to that of the inner one in pure rolling", "m/s"
+    ),
+    "residual": ResultKey(
+        "largest force that ring or element miss to balance, over the load and the centrifugal force together"
+    ),
+}
+
+# A row of ``contacts``, which contacts.csv has too.
+CONTACT_KEYS: Keys = {
+    "element": ResultKey("number of the element from 0, which lies on the load line"),
+    "ring": ResultKey('"inner" or "outer"'),
+    "position": ResultKey("angle of the element from the direction of the load", "rad"),
+    "load": ResultKey("load of the contact", "N"),
+    "contact_angle": ResultKey("contact angle; where there is no contact that of the narrowest place", "rad"),
+    "max_pressure": ResultKey("largest pressure of the dry contact; null without load", "Pa"),
+    "semi_axis_x": ResultKey(
+        "semi-axis of the dry contact along entrainment, of a roller its half-width; null without load", "m"
+    ),
+    "semi_axis_y": ResultKey(
+        "semi-axis across entrainment, of a roller half of its length; null without load", "m"
+    ),
+    "minimum_thickness": ResultKey("smallest film thickness, or the gap where there is no contact", "m"),
+    "central_thickness": ResultKey("central film thickness, or the gap where there is no contact", "m"),
+    "lambda_ratio": ResultKey("minimum_thickness over composite_rq"),
+    "capacitance": ResultKey(
+        "capacitance of the contact, with `fill` around it; null for ceramic elements", "F"
+    ),
+    "voltage_share": ResultKey(
+        "share of the bearing's voltage on the contact; null for ceramic elements and a conducting bearing"
+    ),
+    "strength_per_volt": ResultKey(
+        "largest field strength of the contact over the bearing's voltage; null for a conducting bearing and "
+        "for ceramic elements",
+        "1/m",
+    ),
+    "max_strength": ResultKey("that field strength at the shaft voltage; null without a motor", "V/m"),
+    "breakdown_voltage": ResultKey(
+        "breakdown voltage of the contact by itself; null without a strength, for a conducting bearing and "
+        "for ceramic elements",
+        "V",
+    ),
+    "solved": ResultKey("whether there is a film; a gap of rigid bodies otherwise"),
+}
+
+BEARING_KEYS: Keys = {
+    **_ABOUT,
+    **under("lubricant", _LUBRICANT),
+    **under("bearing", _CAPACITANCES),
+    **under("bearing", _VOLTAGES),
+    **under("mechanics", _MECHANICS),
+    "contacts": ResultKey(
+        "list with each contact, the cage in its first position; contacts.csv has the same"
+    ),
+    **under("contacts", CONTACT_KEYS),
+    "seconds": ResultKey("time that the run took", "s"),
+}

@@ -1,0 +1,175 @@
+"""Keys of the table ``discharge`` in summary.json; capacitances of a line contact are per length."""
+
+from __future__ import annotations
+
+from ehlectric.cases.result_key import Keys, ResultKey
+
+
+def _keys(capacitance: str) -> Keys:
+    """Keys of the discharge of a contact whose capacitances have this unit."""
+    return {**_BREAKDOWN, **_ZONE, **_capacitances(capacitance), **_COSTS}
+
+
+_BREAKDOWN: Keys = {
+    "strength_law": ResultKey(
+        'law of the dielectric strength: "constant", "table over pressure", "table over temperature" or '
+        '"weibull"; null without a strength'
+    ),
+    "dielectric_strength": ResultKey(
+        "dielectric strength in the zone that breaks down first; null for a Weibull law",
+        "V/m",
+        "dielectric strength",
+    ),
+    "breakdown_voltage": ResultKey(
+        "voltage at which the dielectric strength is reached; of a Weibull law at a probability of 63.2 %",
+        "V",
+        "breakdown voltage",
+        r"$V_\mathrm{b}$",
+    ),
+    "breakdown_voltage_low": ResultKey(
+        "breakdown voltage at a probability of 5 %; null without a Weibull law",
+        "V",
+        "breakdown voltage at 5 %",
+    ),
+    "breakdown_voltage_high": ResultKey(
+        "breakdown voltage at a probability of 95 %; null without a Weibull law",
+        "V",
+        "breakdown voltage at 95 %",
+    ),
+    "margin": ResultKey(
+        "breakdown_voltage over the voltage of the case",
+        "",
+        "breakdown voltage over applied voltage",
+        r"$V_\mathrm{b}/V_{12}$",
+    ),
+    "probability": ResultKey(
+        "probability of breakdown at the voltage of the case; 0 or 1 without a Weibull law",
+        "",
+        "probability of breakdown",
+    ),
+}
+_ZONE: Keys = {
+    "zone_position": ResultKey(
+        "position at which the field uses most of the strength, x, or [x, y] of a point contact",
+        "m",
+        "place of the zone that breaks down first",
+    ),
+    "zone_size": ResultKey(
+        "width of the zone around zone_position that uses at least 95 % of that; of a point contact the "
+        "diameter of a circle of the same area",
+        "m",
+        "size of the zone that breaks down first",
+    ),
+    "zone_area": ResultKey(
+        "area of that zone; of a line contact its width times the length",
+        "m**2",
+        "area of the zone that breaks down first",
+    ),
+    "zone_over_half_width": ResultKey(
+        "zone_size over the half-width b", "", "size of the zone over the half-width"
+    ),
+    "zone_over_largest_pit": ResultKey(
+        "zone_size over the largest published pit, 4 µm", "", "size of the zone over the largest pit"
+    ),
+    "zone_over_mean_pit": ResultKey(
+        "zone_size over the mean published pit, 1.7 µm", "", "size of the zone over the mean pit"
+    ),
+}
+
+
+def _capacitances(unit: str) -> Keys:
+    return {
+        "capacitance": ResultKey(
+            "capacitance over the whole domain of the film, the outlet filled as `outlet` says",
+            unit,
+            "capacitance of the whole film",
+            "$C$",
+        ),
+        "capacitance_hertz": ResultKey(
+            "part of the Hertz zone", unit, "capacitance of the Hertz zone", r"$C_\mathrm{H}$"
+        ),
+        "capacitance_inlet": ResultKey("part before the Hertz zone", unit, "capacitance of the inlet"),
+        "capacitance_outlet": ResultKey("part behind the Hertz zone", unit, "capacitance of the outlet"),
+        "capacitance_sides": ResultKey(
+            "part beside the Hertz zone of a point contact; null for a line contact",
+            unit,
+            "capacitance of the sides",
+        ),
+        "capacitance_plate": ResultKey(
+            "capacitance of parallel plates, ε0 ε_r A_H/h(0) with ε_r at ambient pressure",
+            unit,
+            "capacitance of a plate",
+            r"$\varepsilon_0 \varepsilon_\mathrm{r} A_\mathrm{H}/h(0)$",
+        ),
+        "capacitance_ratio": ResultKey(
+            "capacitance over capacitance_plate", "", "capacitance over that of a plate"
+        ),
+        "capacitance_outlet_full": ResultKey(
+            "capacitance of the outlet where oil alone fills the gap behind the exit",
+            unit,
+            "capacitance of the outlet, full of oil",
+        ),
+        "capacitance_outlet_fingers": ResultKey(
+            "capacitance of the outlet where oil reaches from wall to wall beside gas",
+            unit,
+            "capacitance of the outlet, oil in fingers",
+        ),
+        "capacitance_outlet_layers": ResultKey(
+            "capacitance of the outlet where oil lies on both walls with gas between",
+            unit,
+            "capacitance of the outlet, oil in layers",
+        ),
+        "capacitance_full": ResultKey("capacitance over the whole domain, full of oil", unit),
+        "capacitance_fingers": ResultKey("capacitance over the whole domain, oil in fingers", unit),
+        "capacitance_layers": ResultKey("capacitance over the whole domain, oil in layers", unit),
+        "outlet": ResultKey(
+            'filling of the outlet that `capacitance` and the energies count with: "full", "fingers" or '
+            '"layers"',
+            "",
+            "what fills the outlet",
+        ),
+    }
+
+
+_COSTS: Keys = {
+    "contact_energy": ResultKey(
+        "energy C V²/2 of the contact at the voltage of the case",
+        "J",
+        "energy of the contact",
+        "$C V_{12}^2/2$",
+    ),
+    "discharge_energy": ResultKey(
+        "the same energy with the external capacitance", "J", "energy of the discharge", "$W$"
+    ),
+    "breakdown_energy": ResultKey(
+        "discharge_energy at the breakdown voltage",
+        "J",
+        "energy of the discharge at breakdown",
+        r"$W_\mathrm{b}$",
+    ),
+    "pit_volume": ResultKey("volume that discharge_energy melts of one surface", "m**3", "volume of the pit"),
+    "pit_diameter": ResultKey("diameter of a hemisphere of pit_volume", "m", "diameter of the pit"),
+    "current_density": ResultKey(
+        "peak current over the area of the dry contact", "A/m**2", "apparent current density", "$J$"
+    ),
+    "current_density_limits": ResultKey(
+        "published limits of the current density", "A/m**2", "published limit of the current density"
+    ),
+    "relaxation_time": ResultKey(
+        "charge relaxation time ε0 ε_r/σ at ambient pressure",
+        "s",
+        "charge relaxation time",
+        r"$\varepsilon/\sigma$",
+    ),
+    "corner_frequency": ResultKey(
+        "frequency above which the film is a capacitor",
+        "Hz",
+        "frequency above which it is a capacitor",
+        r"$f_\mathrm{c}$",
+    ),
+    "sources": ResultKey("sources and assumptions of the keys that need one, by the name of the key"),
+    "sources.*": ResultKey("source or assumption of the key of that name"),
+}
+
+LINE_KEYS: Keys = _keys("F/m")
+POINT_KEYS: Keys = _keys("F")

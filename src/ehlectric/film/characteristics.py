@@ -1,0 +1,174 @@
+"""Discretisation of a transient film along the lines on which oil travels, X - T = const.
+
+Dimensionless, with T = t u/b for the mean speed u of the surfaces, the two terms of the mass rho H are one
+derivative along these lines:
+
+    d(rho H)/dT + d(rho H)/dX = D(rho H)/DT
+
+It is discretised by a backward difference over two steps (BDF2). The mass of the last two instants is carried
+along the lines to the nodes. A time step is thus a Reynolds equation whose wedge term is the mass at the node
+times a rate, and whose right side is the carried mass.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from ehlectric.arrays import Array
+from ehlectric.film.levels import SECOND_DIFFERENCE, Level
+from ehlectric.film.reynolds import ALONG, Stencil
+from ehlectric.film.state import GridSolution
+
+# Part of a grid spacing within which the foot of a line counts as a node.
+_SAME_NODE = 1e-9
+
+
+def step_levels(
+    levels: list[Level], masses: tuple[Array, Array], steps: tuple[float, float], added_gap: Array
+) -> list[Level]:
+    """Grids with the equation of one time step.
+
+    Parameters
+    ----------
+    levels : list of Level
+        Grids of the stationary contact, from the finest to the coarsest.
+    masses : tuple of ndarray, shape (nx, ny)
+        rho H on the finest grid at the last instant and at the one before.
+    steps : tuple of float
+        T from the last instant to the new one, and from the one before to the last.
+    added_gap : ndarray, shape (nx, ny)
+        Gap that moving roughness adds on the finest grid at the new instant; a peak adds a negative one.
+
+    Returns
+    -------
+    list of Level
+        In the order of ``levels``.
+
+    Notes
+    -----
+    With r = step/last step the BDF2 weights of the new, the last and the earlier mass are (1 + 2r)/(1 + r),
+    -(1 + r) and r^2/(1 + r), over the step. Where the line of the earlier mass begins before the inlet, the
+    difference is over one step.
+    """
+    finest, mesh = levels[0], levels[0].mesh
+    step, last = steps
+    ratio = step / last
+    here, one, two = np.array([(1 + 2 * ratio) / (1 + ratio), 1 + ratio, -(ratio**2) / (1 + ratio)]) / step
+    first = carried(masses[0], step / mesh.dx)
+    second = carried(masses[1], (step + last) / mesh.dx)
+    outside = mesh.x - mesh.x[0] < (step + last) - _SAME_NODE * mesh.dx
+    source = np.where(outside[:, np.newaxis], first / step, one * first + two * second)
+    source[~mesh.inner] = 0.0
+    rates = np.where(outside, 1.0 / step, here)
+    new = replace(
+        in_time(finest, here), wedge=_mass_term(mesh.shape, rates), dry_gap=finest.dry_gap + added_gap
+    )
+    return [replace(new, source=source), *(in_time(level, here) for level in levels[1:])]
+
+
+def in_time(level: Level, rate: float) -> Level:
+    """Return a grid whose wedge term is ``rate`` times the mass at the node itself."""
+    wedge = _mass_term(level.mesh.shape, np.full(level.nodes, rate))
+    return replace(level, wedge=wedge, rate=rate, distribution=SECOND_DIFFERENCE)
+
+
+def _mass_term(shape: tuple[int, int], rates: Array) -> Stencil:
+    """Operator that multiplies the mass of each line across by its rate (nx,); the two end rows are zero."""
+    coefficients = np.zeros((ALONG, *shape))
+    coefficients[2, 1:-1] = rates[1:-1, np.newaxis]
+    return Stencil(coefficients)
+
+
+def carried(values: Array, distance: float) -> Array:
+    """Nodal values carried along x by a number of grid spacings.
+
+    Parameters
+    ----------
+    values : ndarray, shape (nx, ny)
+        Values at the nodes.
+    distance : float
+        Grid spacings by which they are carried, >= 0. Whole numbers are exact; between nodes the values are
+        interpolated by a cubic.
+
+    Returns
+    -------
+    ndarray, shape (nx, ny)
+        Values at the nodes afterwards. Those that come from beyond the ends are extrapolated by a parabola,
+        as the gap there is about one.
+
+    Examples
+    --------
+    >>> carried(np.arange(5.0)[:, np.newaxis] ** 2, 0.5)[:, 0]
+    array([ 0.25,  0.25,  2.25,  6.25, 12.25])
+    """
+    whole = int(np.floor(distance + _SAME_NODE))
+    part = distance - whole
+    ghosts = whole + 2
+    steps = np.arange(-ghosts, 0.0)[:, np.newaxis]
+    v0, v1, v2 = values[0], values[1], values[2]
+    before = v0 + steps * (-1.5 * v0 + 2.0 * v1 - 0.5 * v2) + steps**2 * (0.5 * v0 - v1 + 0.5 * v2)
+    beyond = 3.0 * values[-1:] - 3.0 * values[-2:-1] + values[-3:-2]
+    padded = np.concatenate([before, values, beyond])
+    start, n = ghosts - whole, values.shape[0]
+    if abs(part) <= _SAME_NODE:
+        moved: Array = padded[start : start + n].copy()
+        return moved
+    # Lagrange's weights of the nodes two behind, one behind, at, and one ahead.
+    weights = (
+        (-2, (part + 1.0) * part * (part - 1.0) / 6.0),
+        (-1, -(part + 1.0) * part * (part - 2.0) / 2.0),
+        (0, (part + 1.0) * (part - 1.0) * (part - 2.0) / 2.0),
+        (1, -part * (part - 1.0) * (part - 2.0) / 6.0),
+    )
+    return np.asarray(np.sum([w * padded[start + k : start + k + n] for k, w in weights], axis=0))
+
+
+def mass_after(step: GridSolution) -> Array:
+    """Mass rho H after a time step; at cavitated nodes the oil that is left, which does not fill the gap.
+
+    Parameters
+    ----------
+    step : GridSolution
+        Solution of the equation of ``step_levels``.
+
+    Returns
+    -------
+    ndarray, shape (nx, ny)
+        Dimensionless, at least zero.
+    """
+    level, final = step.level, step.final
+    mass = final.coefficients.density * step.state.thickness
+    rate = level.wedge.coefficients[2]
+    cavitated = ~final.full_film & level.mesh.inner
+    flowing = mass[cavitated] - final.reynolds[cavitated] / rate[cavitated]
+    mass[cavitated] = np.clip(flowing, 0.0, mass[cavitated])
+    mass[-1] = np.minimum(mass[-1], mass[-2])
+    return mass
+
+
+def stationary_mass(stationary: GridSolution) -> Array:
+    """Mass rho H of a stationary film; at cavitated nodes behind X = 0 the oil that flows in.
+
+    Parameters
+    ----------
+    stationary : GridSolution
+        Stationary film with the wedge term of second order.
+
+    Returns
+    -------
+    ndarray, shape (nx, ny)
+        Dimensionless, at least zero.
+    """
+    level, final = stationary.level, stationary.final
+    full = final.coefficients.density * stationary.state.thickness
+    mass = full.copy()
+    cavitated = ~final.full_film & level.mesh.inner & (level.mesh.x > 0.0)[:, np.newaxis]
+    # Oil that the pressure drives into a node, most of all into the first beyond the full film.
+    driven = level.wedge(full) - final.reynolds
+    for i in np.flatnonzero(cavitated.any(axis=1)):
+        flowing = (4.0 * mass[i - 1] - mass[i - 2] + 2.0 * level.mesh.dx * driven[i]) / 3.0
+        mass[i] = np.where(cavitated[i], np.clip(flowing, 0.0, full[i]), full[i])
+    mass[-1] = np.minimum(full[-1], mass[-2])
+    return mass

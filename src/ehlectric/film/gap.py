@@ -1,0 +1,77 @@
+"""Gap between the surfaces of a contact under a pressure, its load, and the derivatives of both.
+
+Dimensionless, with X = x/b, P = p/p_h and H = h R/b^2:
+
+    H = H00 + dry gap + deflection(P),   load = integral of P over the contact
+
+The dry gap holds the curvature and the roughness of the surfaces, H00 their rigid displacement. This module
+is the only place that composes H and the load. A pressure that depends on the gap, such as the contact
+pressure of asperities, would enter here.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import toeplitz
+
+from ehlectric.arrays import Array
+from ehlectric.film.levels import Level
+
+
+@dataclass(frozen=True)
+class Gap:
+    """Gap on one grid at one state of the film, with its derivatives by P and H00 there.
+
+    Attributes
+    ----------
+    level : Level
+        Grid with its dry gap and its deflection operator.
+    thickness : ndarray, shape (nx, ny)
+        H, dimensionless.
+    """
+
+    level: Level
+    thickness: Array
+
+    @classmethod
+    def of(cls, level: Level, pressure: Array, h00: float) -> Gap:
+        """Gap under a pressure P (nx, ny) with the rigid displacement H00."""
+        opened = level.dry_gap + level.deflection(pressure)
+        return cls(level, h00 + opened)
+
+    def load(self, pressure: Array) -> float:
+        """Load that a pressure (nx, ny) carries, its integral over the contact."""
+        return float(np.vdot(self.level.weights, pressure))
+
+    def change(self, dp: Array, dh00: float) -> tuple[Array, float]:
+        """Change of H (nx, ny) and of the load by a change of P (nx, ny) and of H00."""
+        return self.level.deflection(dp) + dh00, self.load(dp)
+
+    def along(self, distance: int) -> float:
+        """Derivative of H by P of a node so many nodes away along x."""
+        return float(self.level.deflection.influence[abs(distance), 0])
+
+    def block(self, rows: slice, columns: slice) -> Array:
+        """Derivative of H at the nodes ``rows`` of a line contact by P at the nodes ``columns`` of these."""
+        kernel = toeplitz(self.level.deflection.influence[: rows.stop - rows.start, 0])
+        block: Array = kernel[:, columns]
+        return block
+
+    def matrix(self) -> Array:
+        """Derivative of H by P of all nodes, dense, (nx ny, nx ny); for the coarsest grid."""
+        return self.level.deflection_matrix
+
+    def load_weights(self) -> Array:
+        """Derivative of the load by P of the nodes, shape (nx, ny)."""
+        return self.level.weights
+
+    def elastic_weight(self, density: Array) -> Array:
+        """Elastic part of the diagonal of the Reynolds equation, shape (nx, ny).
+
+        It is the change of the wedge term at a node whose pressure rises while that of the neighbour falls as
+        much; ``density`` (nx, ny) is rho/rho_0.
+        """
+        weight: Array = density * ((self.along(0) - self.along(1)) * self.level.rate)
+        return weight

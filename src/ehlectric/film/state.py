@@ -1,0 +1,129 @@
+"""State of the film on one grid, its residual, and the course of Newton's method to it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+import numpy as np
+
+from ehlectric.arrays import Array, Mask
+from ehlectric.film.flow import Coefficients, Flow
+from ehlectric.film.gap import Gap
+from ehlectric.film.levels import Level
+
+Status: TypeAlias = Literal["converged", "stalled", "diverged", "film collapsed"]
+Progress: TypeAlias = Callable[[int, int, float], None]  # nodes, Newton step, residual
+
+
+@dataclass(frozen=True)
+class NewtonStep:
+    """One Newton step.
+
+    Attributes
+    ----------
+    nodes : int
+        Nodes of the grid along x.
+    residual : float
+        Residual before the step, a pressure over p_h.
+    krylov_iterations : int
+        GMRES iterations of its linear system.
+    """
+
+    nodes: int
+    residual: float
+    krylov_iterations: int
+
+
+@dataclass(frozen=True)
+class State:
+    """Iterate of the film on one grid, dimensionless.
+
+    Attributes
+    ----------
+    pressure : ndarray, shape (nx, ny)
+        P.
+    h00 : float
+        Rigid displacement H00.
+    thickness : ndarray, shape (nx, ny)
+        H, which follows from the other two.
+    """
+
+    pressure: Array
+    h00: float
+    thickness: Array
+
+    @classmethod
+    def of(cls, level: Level, pressure: Array, h00: float) -> State:
+        """State of a pressure (nx, ny) and an H00 on a grid."""
+        return cls(pressure, h00, Gap.of(level, pressure, h00).thickness)
+
+    def lifted(self, smallest: float) -> State:
+        """Return the state with H00 raised until no gap is below ``smallest``."""
+        lift = max(0.0, smallest - float(self.thickness.min()))
+        return State(self.pressure, self.h00 + lift, self.thickness + lift)
+
+
+@dataclass(frozen=True)
+class Residual:
+    """Residual of the film equations at one state.
+
+    Attributes
+    ----------
+    flow : Flow
+        Flow through the faces at the state.
+    reynolds : ndarray, shape (nx, ny)
+        Residual r of the Reynolds equation.
+    diagonal : ndarray, shape (nx, ny)
+        Its derivative by the node's own pressure, about; zero or more.
+    full_film : ndarray of bool, shape (nx, ny)
+        Nodes with a full film; the others are cavitated or on an edge, at ambient pressure.
+    load : float
+        Load of the contact less the load that the pressure carries.
+    norm : float
+        Largest scaled residual of all equations, a pressure over p_h.
+    """
+
+    flow: Flow
+    reynolds: Array
+    diagonal: Array
+    full_film: Mask
+    load: float
+    norm: float
+
+    @property
+    def coefficients(self) -> Coefficients:
+        """Density and mobility at the nodes."""
+        return self.flow.coefficients
+
+    @property
+    def scaled(self) -> Array:
+        """Residual of the Reynolds equation over its diagonal, a pressure over p_h; zero in the end rows."""
+        zeros = np.zeros_like(self.diagonal)
+        return np.divide(self.reynolds, self.diagonal, out=zeros, where=self.diagonal > 0.0)
+
+
+@dataclass(frozen=True)
+class GridSolution:
+    """Last iterate of Newton's method on one grid.
+
+    Attributes
+    ----------
+    level : Level
+        Grid.
+    state : State
+        Last iterate.
+    final : Residual
+        Residual of ``state``.
+    steps : tuple of NewtonStep
+        Newton steps that led to it.
+    status : str
+        "converged", "stalled" or "diverged".
+    """
+
+    level: Level
+    state: State
+    final: Residual
+    steps: tuple[NewtonStep, ...]
+    status: Status

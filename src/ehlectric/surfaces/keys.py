@@ -1,0 +1,53 @@
+"""Keys of rough surfaces in summary.json: the statistics of profiles and maps, and what was done to them."""
+
+from __future__ import annotations
+
+from ehlectric.cases.result_key import Keys, ResultKey, under
+
+PROFILE_STATISTICS: Keys = {
+    "rq": ResultKey("root-mean-square height", "m"),
+    "ra": ResultKey("mean absolute height", "m"),
+    "rsk": ResultKey("skewness of the heights"),
+    "rku": ResultKey("kurtosis of the heights"),
+    "correlation_length": ResultKey("distance at which the autocorrelation falls to 1/e", "m"),
+    "rms_slope": ResultKey("root-mean-square slope"),
+    "largest_slope": ResultKey("largest slope"),
+}
+MAP_STATISTICS: Keys = {
+    "sq": ResultKey("root-mean-square height", "m"),
+    "sa": ResultKey("mean absolute height", "m"),
+    "ssk": ResultKey("skewness of the heights"),
+    "sku": ResultKey("kurtosis of the heights"),
+    "correlation_length_x": ResultKey("distance along x at which the autocorrelation falls to 1/e", "m"),
+    "correlation_length_y": ResultKey("distance along y at which the autocorrelation falls to 1/e", "m"),
+    "correlation_length": ResultKey(
+        "distance at which the autocorrelation falls to 1/e, in the direction in which it falls fastest", "m"
+    ),
+    "rms_slope": ResultKey("root-mean-square gradient"),
+    "largest_slope": ResultKey("largest gradient"),
+}
+_SURFACE: Keys = {
+    "surface": ResultKey("number of the surface, 1 or 2"),
+    "source": ResultKey("instrument file of the surface; null for a generated one"),
+    "size": ResultKey("number of points that were read, of a map along both directions; null without a file"),
+    "voids": ResultKey("share of points without a value, of a map in the line that was used"),
+    "height_step": ResultKey("smallest difference of heights in the file; null where there is none", "m"),
+    "steps": ResultKey("statistics after every step of processing; empty for an exact shape"),
+    "steps.step": ResultKey("name of the step"),
+}
+_PROFILE_STEP: Keys = {
+    "points": ResultKey("number of points"),
+    "spacing": ResultKey("distance between points", "m"),
+    **PROFILE_STATISTICS,
+}
+_MAP_STEP: Keys = {
+    "points_x": ResultKey("number of points along x"),
+    "points_y": ResultKey("number of points along y"),
+    "spacing_x": ResultKey("distance between points along x", "m"),
+    "spacing_y": ResultKey("distance between points along y", "m"),
+    **MAP_STATISTICS,
+}
+
+# One surface of a line contact, and of a point contact, where a measured profile may be extended to a map.
+LINE_SURFACE: Keys = {**_SURFACE, **under("steps", _PROFILE_STEP)}
+POINT_SURFACE: Keys = {**_SURFACE, **under("steps", _PROFILE_STEP), **under("steps", _MAP_STEP)}

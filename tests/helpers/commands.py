@@ -1,0 +1,72 @@
+"""The ehlectric command as a user types it, without the time that its imports take.
+
+A server process imports the package once; each command is a fork of it, with its own folder, output and exit
+status.
+"""
+
+import multiprocessing
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+COMMAND = Path(sys.executable).with_name("ehlectric")
+
+_PRELOADED = (
+    "ehlectric.commands.app",
+    "ehlectric.contact.solver",
+    "ehlectric.contact.files",
+    "ehlectric.motion.run",
+    "ehlectric.figures.contact.save",
+    "ehlectric.figures.motion.save",
+    "matplotlib.backends.backend_agg",
+    "xarray",
+    "h5netcdf",
+    "pint",
+    "rich.progress",
+)
+_server = multiprocessing.get_context("forkserver")
+_server.set_forkserver_preload([__name__, *_PRELOADED])
+
+
+def _command(arguments, folder, output, errors):
+    """The command in a process of its own."""
+    from ehlectric.commands.app import main
+
+    for number, path in ((1, output), (2, errors)):
+        os.dup2(os.open(path, os.O_WRONLY | os.O_CREAT), number)
+    os.chdir(folder)
+    sys.argv = [str(COMMAND), *arguments]
+    main()
+
+
+def run_command(*words, cwd, timeout=120):
+    """Run the command in a folder.
+
+    Parameters
+    ----------
+    *words : str or Path
+        Its arguments and options.
+    cwd : Path
+        Folder to run in.
+    timeout : float
+        Time after which it is ended [s].
+
+    Returns
+    -------
+    subprocess.CompletedProcess
+        With exit status and what was printed.
+    """
+    arguments = [str(word) for word in words]
+    with tempfile.TemporaryDirectory() as scratch:
+        output, errors = Path(scratch) / "output", Path(scratch) / "errors"
+        process = _server.Process(target=_command, args=(arguments, cwd, output, errors))
+        process.start()
+        process.join(timeout)
+        if process.exitcode is None:
+            process.kill()
+            raise subprocess.TimeoutExpired(arguments, timeout)
+        return subprocess.CompletedProcess(
+            arguments, process.exitcode, output.read_text("utf-8"), errors.read_text("utf-8")
+        )

@@ -1,0 +1,118 @@
+"""Labels of inputs and results: every key that a summary has is in a table with its unit."""
+
+import csv
+from pathlib import Path
+
+import pytest
+
+from ehlectric import Case, solve
+from ehlectric.bearing.solver import solve_bearing
+from ehlectric.cases.keys import INPUT_NAMES, input_field
+from ehlectric.cases.quantity import to_si
+from ehlectric.cases.result_key import key_of
+from ehlectric.motion.record import read_motion
+from ehlectric.motion.run import run_motion
+from ehlectric.motion.summary import summary_of
+from ehlectric.sweep.labels import label_of, result_keys
+from ehlectric.sweep.results import flat
+from tests.helpers.bearings import BALLS, ROLLERS, bearing_case
+from tests.helpers.moving_cases import TABLES, moving
+
+ROUGH = {"surface": 1, "generator": "gaussian", "rq": "5 nm", "correlation_length": "40 um", "seed": 1}
+EVERYTHING = {
+    "dielectric_strength": "15 V/um", "conductivity": "1 pS/m", "external_capacitance": "1 nF",
+    "peak_current": "1 A", "pit": {"efficiency": 0.2, "melting_energy": "10 GJ/m^3"},
+}  # fmt: skip
+LENGTHS = {"line": {"length": "10 mm"}, "point": {}}
+KINDS = ["line", "point", "balls", "rollers", "moving line", "moving point"]
+DATA = Path(__file__).parent / "labels.csv"
+
+
+def contact(kind):
+    """A small rough contact with a discharge."""
+    tables = {name: table for name, table in TABLES[kind].items() if name != "motion"}
+    return Case.from_dict(tables | {"roughness": [ROUGH], "discharge": EVERYTHING | LENGTHS[kind]})
+
+
+def case_of(kind):
+    if kind in TABLES:
+        return contact(kind)
+    if kind in ("balls", "rollers"):
+        return bearing_case(BALLS if kind == "balls" else ROLLERS, contacts="formula")
+    few = {"motion.steps": 24, "discharge": {"dielectric_strength": "15 V/um"}}
+    return moving(TABLES[kind.removeprefix("moving ")], few)
+
+
+def summary(kind, folder):
+    case = case_of(kind)
+    if kind in TABLES:
+        return solve(case).summary()
+    if kind in ("balls", "rollers"):
+        return solve_bearing(case).summary()
+    run_motion(case, folder)
+    return summary_of(read_motion(folder))
+
+
+@pytest.fixture(scope="module")
+def summaries(tmp_path_factory):
+    """Dotted keys of a summary of each kind, solved when it is first asked for."""
+    known = {}
+
+    def keys(kind):
+        if kind not in known:
+            known[kind] = [
+                key for key in flat(summary(kind, tmp_path_factory.mktemp("run"))) if key[:7] != "inputs."
+            ]
+        return known[kind]
+
+    return keys
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_key_of_a_summary_has_an_entry(summaries, kind):
+    keys = result_keys(case_of(kind))
+    assert [key for key in summaries(kind) if key_of(keys, key) is None] == []
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_entry_is_a_key_of_a_summary(summaries, kind):
+    """An entry without a number behind it says something about results that is not so.
+
+    A list of the summary has an entry for the documentation. Statistics of a measured profile that is
+    extended to a map, and voltages of a Weibull law, stand in other summaries.
+    """
+    keys = result_keys(case_of(kind))
+    parts = {".".join(part for part in key.split(".") if not part.isdigit()) for key in summaries(kind)}
+    lists = {"discharge", "stationary", "beside_stationary", "contacts", "rough", "inputs"}
+    lists |= {"roughness.surfaces", "roughness.surfaces.steps", "rough.steps", "discharge.sources"}
+    missing = {key for key in keys if "*" not in key} - parts - lists
+    assert {key for key in missing if ".steps." not in key} == set()
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_units_are_those_of_si(kind):
+    """Read by pint: a value of 1 in the unit of a key is 1 in SI units, kilograms and the like included."""
+    units = {key.unit for key in result_keys(case_of(kind)).values()} - {"", "K"}
+    assert {unit: to_si(f"1 {unit}", unit) for unit in units} == dict.fromkeys(units, 1.0)
+
+
+def test_labels_are_those_of_the_list():
+    """labels.csv has the label of every key of small contacts, bearings and motions, read by hand."""
+    with DATA.open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    known = {kind: case_of(kind) for kind in {row["kind"] for row in rows}}
+    for row in rows:
+        label = label_of(row["key"], known[row["kind"]])
+        assert (label.name, label.symbol, label.unit) == (row["name"], row["symbol"], row["unit"]), row["key"]
+
+
+@pytest.mark.parametrize("key", INPUT_NAMES)
+def test_inputs_with_a_name_are_keys_of_a_case(key):
+    """``input_field`` refuses a key that no case has."""
+    assert input_field(key) is not None
+
+
+def test_lists_of_a_case_have_their_unit():
+    case = case_of("line")
+    assert label_of("inputs.discharge.strength_table.strength.1", case).unit == "V/m"
+    assert label_of("inputs.grid.field_range.0", case).unit == ""

@@ -1,0 +1,226 @@
+"""Errors of a wrong input: their line, and what they know of the key, the value and what is allowed."""
+
+import ast
+import copy
+import pickle
+import re
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import ehlectric
+from ehlectric.bearing.ring_contacts import Race, of_contact
+from ehlectric.cases.case import Case
+from ehlectric.errors import InputError, MemoryLimitError
+from ehlectric.surfaces.files import read_surface
+from ehlectric.sweep.inputs import Sweep
+
+CASE = {
+    "contact": {
+        "reduced_radius": "10 mm",
+        "reduced_modulus": "220 GPa",
+        "load_per_length": "100 kN/m",
+        "entrainment_speed": "1 m/s",
+    },
+    "lubricant": {"base": "paper"},
+}
+# Any text, and what a line or a key may not hold.
+TEXTS = st.text(max_size=20) | st.sampled_from(["a\nb", "x;", "got", "takes", "a: b", "\x85", "\r\n"])
+
+
+@pytest.mark.parametrize(
+    ("error", "line", "known"),
+    [
+        (
+            InputError("contact.radius_x", got="-1 m", takes="above 0 m"),
+            "contact.radius_x: got -1 m, takes above 0 m",
+            ("contact.radius_x", "-1 m", "above 0 m"),
+        ),
+        (
+            InputError("motion", got="it where a film is at rest;", takes="a case without it"),
+            "motion: got it where a film is at rest; takes a case without it",
+            ("motion", "it where a film is at rest", "a case without it"),
+        ),
+        (
+            InputError(Path("rough.csv"), "has 3 points", takes="at least 16"),
+            "rough.csv: has 3 points, takes at least 16",
+            ("rough.csv", "has 3 points", "at least 16"),
+        ),
+        (
+            InputError("line", got=0, takes="a row from 1"),
+            "line: got 0, takes a row from 1",
+            ("line", 0, "a row from 1"),
+        ),
+        (
+            InputError("bearing.temperature", got="9 K, at which the oil is solid"),
+            "bearing.temperature: got 9 K, at which the oil is solid",
+            ("bearing.temperature", "9 K, at which the oil is solid", None),
+        ),
+        (
+            InputError.missing("contact.load", "a value"),
+            "contact.load: missing, takes a value",
+            ("contact.load", None, "a value"),
+        ),
+        (
+            InputError.unknown("contact.lod", "contact.load"),
+            "contact.lod: unknown key; the nearest known one is contact.load",
+            ("contact.lod", None, "contact.load"),
+        ),
+        (
+            InputError.worded("grid.nodes", "got 8, the solver takes odd ones", got=8, takes="odd ones"),
+            "grid.nodes: got 8, the solver takes odd ones",
+            ("grid.nodes", 8, "odd ones"),
+        ),
+        (InputError(got="2 kg", takes="a length"), "got 2 kg, takes a length", (None, "2 kg", "a length")),
+        (InputError("no point is solved"), "no point is solved", (None, None, None)),
+        (InputError(), "", (None, None, None)),
+    ],
+)
+def test_line_is_made_of_key_value_and_what_is_allowed(
+    error: InputError, line: str, known: tuple[object, ...]
+) -> None:
+    assert str(error) == line
+    assert (error.key, error.got, error.takes) == known
+
+
+@pytest.mark.parametrize("kind", [InputError, MemoryLimitError])
+def test_error_of_a_worker_arrives_whole(kind: type[InputError]) -> None:
+    error = kind("grid.nodes", got=10**6, takes="a grid that fits").under("case")
+    for arrived in (pickle.loads(pickle.dumps(error)), copy.copy(error)):
+        assert type(arrived) is kind
+        assert str(arrived) == str(error) == "case.grid.nodes: got 1000000, takes a grid that fits"
+        assert vars(arrived) == vars(error)
+
+
+@pytest.mark.parametrize(
+    ("error", "table", "key", "line"),
+    [
+        (InputError("width", got=2, takes="less"), "roughness", "roughness.width", "got 2, takes less"),
+        (InputError(got=2, takes="less"), "contact.load", "contact.load", "got 2, takes less"),
+        (InputError("width", got=2, takes="less"), "", "width", "got 2, takes less"),
+    ],
+)
+def test_key_is_put_under_a_table(error: InputError, table: str, key: str, line: str) -> None:
+    under = error.under(table)
+    assert str(under) == f"{key}: {line}"
+    assert (under.key, under.got, under.takes) == (key, 2, "less")
+    assert error.key in (None, "width")
+    assert str(InputError(got=2).under("")) == "got 2"
+
+
+@given(key=TEXTS, says=TEXTS | st.none(), got=TEXTS | st.none(), takes=TEXTS, table=TEXTS)
+def test_every_error_is_one_line_that_starts_with_its_key(
+    key: str, says: str | None, got: str | None, takes: str, table: str
+) -> None:
+    error = InputError(key, says, got=got, takes=takes)
+    for one in (
+        error,
+        error.under(table),
+        error.retold(key, str(error)),
+        InputError.worded(key, takes, got=got),
+        pickle.loads(pickle.dumps(error)),
+    ):
+        assert len(str(one).splitlines()) <= 1
+        assert one.key is None or str(one) == f"{one.key}: {one.text}"
+
+
+@pytest.mark.parametrize(
+    ("table", "value", "known"),
+    [
+        ("title", 3, ("title", "3", "a text")),
+        ("solver", 3, ("solver", "3", "a table")),
+        ("contact", {"geometry": "ring"}, ("contact.geometry", "'ring'", "'line' or 'point'")),
+        ("potential_2", 4, ("potential_2", None, "electric.potential_2")),
+        ("grid", {"wedge": "third"}, ("grid.wedge", "'third'", "'second-order' or 'first-order'")),
+        ("grid", {"node": 4}, ("grid.node", None, "grid.nodes")),
+        ("lubricant", {}, ("lubricant.viscosity", None, "a value")),
+        ("lubricant", {"base": "tar"}, ("lubricant.base", "'tar'", "a name of the library: paper")),
+        (
+            "motion",
+            {"passes": 1, "duration": 1},
+            ("motion.passes", "passes and duration together", "either passes or duration"),
+        ),
+        ("motion", {}, ("motion.passes", None, "either passes or duration")),
+        (
+            "roughness",
+            [{"surface": 1, "file": "a.txt", "generator": "pit"}],
+            ("roughness.file", "file and generator together", "either file or generator"),
+        ),
+    ],
+)
+def test_refused_case_knows_key_value_and_what_is_allowed(
+    table: str, value: object, known: tuple[str | None, ...]
+) -> None:
+    with pytest.raises(InputError) as refused:
+        Case.from_dict(CASE | {table: value})
+    error = refused.value
+    assert (error.key, error.got, error.takes) == known
+    assert str(error).startswith(f"{error.key}: ")
+
+
+def test_refused_key_of_a_case_is_known_within_a_sweep(tmp_path: Path) -> None:
+    wrong = CASE | {"grid": {"nodes": 4}}
+    with pytest.raises(InputError, match=r"^case\.grid\.nodes: got 4, takes") as refused:
+        Sweep.from_dict({"case": wrong, "design": "grid", "vary": {}})
+    assert (refused.value.key, refused.value.got) == ("case.grid.nodes", "4")
+    file = tmp_path / "case.toml"
+    with pytest.raises(InputError, match=r"case\.toml: cannot be read, no such file") as refused:
+        Sweep.from_dict({"case": file, "design": "grid", "vary": {}})
+    assert refused.value.key == str(file)
+    with pytest.raises(InputError) as refused:
+        Sweep.from_dict({"case": CASE, "design": "grid", "vary": {"contact.entrainment_speed": [1, -1]}})
+    assert (refused.value.key, refused.value.got) == ("vary.contact.entrainment_speed", "-1")
+
+
+def test_refused_file_is_the_key(tmp_path: Path) -> None:
+    short = tmp_path / "short.csv"
+    short.write_text("x [um];z [um]\n0;1\n1;2\n2;1\n")
+    with pytest.raises(InputError) as refused:
+        read_surface(short)
+    assert (refused.value.key, refused.value.got, refused.value.takes) == (
+        str(short),
+        "has 3 points",
+        "at least 16",
+    )
+
+
+@pytest.mark.parametrize(
+    ("error", "line"),
+    [
+        (InputError("contact", "too wide;", takes="less load"), "too wide; takes less load"),
+        (MemoryLimitError("grid.nodes", got=8, takes="4"), "grid.nodes: got 8, takes 4"),
+    ],
+)
+def test_contact_of_a_bearing_is_to_blame_by_key(error: InputError, line: str) -> None:
+    with pytest.raises(type(error)) as refused, of_contact(Race(inner=True, angle=0.0, speed=1.0), 800.0):
+        raise error
+    assert str(refused.value) == f"bearing: inner contact at 800 N: {line}"
+    assert (refused.value.key, refused.value.takes) == ("bearing", error.takes)
+
+
+@pytest.mark.parametrize(
+    "error",
+    [InputError("contacts.width", got=1), InputError("contact a file"), InputError("lubricant", got=1)],
+)
+def test_others_than_the_contact_are_not_rewritten(error: InputError) -> None:
+    with pytest.raises(InputError) as refused, of_contact(Race(inner=True, angle=0.0, speed=1.0), 800.0):
+        raise error
+    assert refused.value is error
+
+
+def test_no_error_has_its_key_in_its_text() -> None:
+    """An error that is raised with one text alone would not know its key."""
+    keyless = []
+    for path in Path(ehlectric.__file__).parent.rglob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text())):
+            match node:
+                case ast.Call(
+                    func=ast.Name("InputError" | "MemoryLimitError" | "ValueError"), args=[text], keywords=[]
+                ):
+                    parts = text.values if isinstance(text, ast.JoinedStr) else [text]
+                    line = "".join(str(p.value) if isinstance(p, ast.Constant) else "x" for p in parts)
+                    if re.match(r"got |[\w.-]+(, [\w.-]+)*: ", line):
+                        keyless.append(f"{path.name}:{node.lineno}")
+    assert keyless == []

@@ -1,0 +1,84 @@
+"""Codes of warnings: each known, each used, each with a sentence."""
+
+import ast
+from pathlib import Path
+
+import pytest
+
+import ehlectric
+from ehlectric.errors import CODES, ResultWarning
+
+SOURCE = Path(ehlectric.__file__).parent
+# The codes themselves, and the module that classifies warnings of earlier versions.
+OF_ALL = {SOURCE / "errors.py", SOURCE / "runtime" / "stored_warnings.py"}
+# Codes that only files of other versions give.
+FOREIGN = {"not-usable", "unclassified"}
+# Warnings that say not to use the numbers.
+SEVERE = {
+    "not-converged",
+    "coarser-grid-unsolved",
+    "grid-far-too-coarse",
+    "inlet-far-too-short",
+    "domain-far-too-small",
+    "not-usable",
+}
+
+
+def syntax_trees():
+    for path in sorted(set(SOURCE.rglob("*.py")) - OF_ALL):
+        yield ast.parse(path.read_text(encoding="utf-8"))
+
+
+def literals(tree):
+    return {
+        node.value
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Constant) and isinstance(node.value, str)
+    }
+
+
+def test_every_code_is_used():
+    """A code that no generator gives any more is taken out of the table."""
+    used = set().union(*map(literals, syntax_trees()))
+    assert set(CODES) - used == FOREIGN
+
+
+def test_every_generator_gives_a_known_code():
+    """Branches that no other test reaches too: the code is a literal, or a name for literals."""
+    calls = [
+        node
+        for tree in syntax_trees()
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "ResultWarning"
+    ]
+    assert len(calls) > 40
+    given = [call.args[0] for call in calls]
+    assert {node.value for node in given if isinstance(node, ast.Constant)} <= set(CODES)
+    # Two of a warning and its severe form, and of one that a contact of a bearing hands on.
+    others = [ast.unparse(node) for node in given if not isinstance(node, ast.Constant)]
+    assert sorted(others) == ["code", "code", "code", "warning.code"]
+
+
+def test_every_code_has_a_sentence():
+    for code, cause in CODES.items():
+        assert code == code.lower().replace("_", "-").replace(" ", "-")
+        assert cause.meaning[0].isupper()
+        assert cause.meaning.endswith(".")
+    meanings = [cause.meaning for cause in CODES.values()]
+    assert len(set(meanings)) == len(meanings)
+
+
+def test_severe_are_those_that_say_not_to_use_the_numbers():
+    assert {code for code, cause in CODES.items() if cause.severity == "severe"} == SEVERE
+    for code, cause in CODES.items():
+        assert ResultWarning(code, "text").severity == cause.severity
+
+
+def test_a_warning_reads_as_its_text():
+    warning = ResultWarning("inlet-too-short", "lower grid.inlet")
+    assert (str(warning), f"warning: {warning}") == ("lower grid.inlet", "warning: lower grid.inlet")
+
+
+def test_unknown_codes_are_refused():
+    with pytest.raises(ValueError, match=r"^'inlet' is no code of a warning; takes one of regime, "):
+        ResultWarning("inlet", "lower grid.inlet")
