@@ -10,7 +10,6 @@ import platform
 from pathlib import Path
 
 from benchmarks.measure import best, processor
-from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solver import solve_bearing
 from ehlectric.cases.bearing_case import BearingCase
 
@@ -27,7 +26,7 @@ def main() -> None:
     print("| --- | ---: | ---: |")
     for contacts, (limit, repeats) in LIMITS.items():
         case = BearingCase.from_toml(EXAMPLE).replace({"contacts": contacts})
-        seconds = best(lambda case=case: BearingResult(solve_bearing(case)).summary(), repeats)
+        seconds = best(lambda case=case: solve_bearing(case).summary(), repeats)
         print(f"| {contacts} | {seconds:.2f} | {limit:g} |")
 
 

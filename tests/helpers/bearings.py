@@ -1,7 +1,12 @@
 """Bearing files that tests change: a 6208 and a roller bearing that is nobody's."""
 
 import copy
+import dataclasses
 
+from ehlectric.bearing.contacts import ContactSolution, ContactValues
+from ehlectric.bearing.kinds import kind_of
+from ehlectric.bearing.preparation import resolve_bearing
+from ehlectric.bearing.ring_contacts import RingContacts
 from ehlectric.cases.bearing_case import BearingCase
 
 OIL = {
@@ -80,3 +85,45 @@ def changed(tables, **changes):
 def bearing_case(tables, **changes):
     """The case of changed tables."""
     return BearingCase.from_dict(changed(tables, **changes))
+
+
+def ring_of(case, *, inner=True, angle=0.0, speed):
+    """Contacts of a bearing with one ring, at a contact angle [rad] and an entrainment speed [m/s]."""
+    return RingContacts(resolve_bearing(case), inner, angle, speed)
+
+
+def contact_of(ring, load):
+    """Contact with a ring at a load [N]."""
+    return kind_of(ring).contact(ring, load)
+
+
+def contact_case(ring, load, solver):
+    """Case of a contact with a ring at a load [N]."""
+    return kind_of(ring).case(contact_of(ring, load), solver)
+
+
+def solve_contact(ring, load, solver):
+    """Solution of a contact with a ring at a load [N]."""
+    return kind_of(ring).solve(contact_of(ring, load), solver)
+
+
+def formula_contact(ring, load):
+    """Contact with a ring at a load [N] by film formulas."""
+    return kind_of(ring).by_formula(contact_of(ring, load))
+
+
+def rigid_capacitance(ring, gap):
+    """Capacitance in vacuum [F] of an element and a ring, rigid and a gap [m] apart."""
+    return kind_of(ring).rigid_capacitance(ring, gap)
+
+
+def contact_solution(**numbers):
+    """A made-up contact, its values and what else there is of it in one go."""
+    names = {field.name for field in dataclasses.fields(ContactValues)}
+    values = ContactValues(**{name: numbers.pop(name) for name in names})
+    return ContactSolution(values=values, **numbers)
+
+
+def with_values(one, **values):
+    """A contact or the contacts with a ring with other values."""
+    return dataclasses.replace(one, values=dataclasses.replace(one.values, **values))

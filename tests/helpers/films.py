@@ -1,7 +1,7 @@
 """The film of a line contact alone, for tests that look at neither its field nor its smooth counterpart."""
 
-from ehlectric.contact.conditions import resolve
 from ehlectric.contact.problems import film_problem, line_domain_of
+from ehlectric.contact.resolve import resolve
 from ehlectric.film.line import solve_film
 from ehlectric.surfaces.rough_profiles import rough_surfaces
 

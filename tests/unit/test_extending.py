@@ -6,14 +6,13 @@ import numpy as np
 import pytest
 
 from ehlectric import Case, InputError, load, save, solve
-from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solver import solve_bearing
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.changes import flattened
 from ehlectric.cases.lubricant import effective_alpha, viscosity_law
 from ehlectric.commands.check import meaning
-from ehlectric.contact.conditions import resolve
 from ehlectric.contact.problems import film_problem
+from ehlectric.contact.resolve import resolve
 from ehlectric.errors import ResultWarning
 from ehlectric.formulas import film_line, film_point
 from ehlectric.formulas.film_line import CentralThickness, Formula
@@ -229,7 +228,7 @@ def bearing(**oil):
 @pytest.mark.usefixtures("laws")
 def test_contacts_of_a_bearing_by_formula_take_a_new_law():
     barus = {"viscosity_law": "barus", "pressure_viscosity_coefficient": 22e-9, "doubling_pressure": None}
-    found, expected = (BearingResult(solve_bearing(case)) for case in (bearing(), bearing(**barus)))
+    found, expected = (solve_bearing(case) for case in (bearing(), bearing(**barus)))
     assert found.summary()["bearing"]["capacitance"] == pytest.approx(
         expected.summary()["bearing"]["capacitance"], rel=1e-9
     )

@@ -28,7 +28,7 @@ class Circuit:
     ----------
     inner, outer : ndarray, shape (n,)
         Capacitance of each element's contacts with the inner and the outer ring [F].
-    inner_strength, outer_strength : ndarray, shape (n,)
+    inner_breakdown, outer_breakdown : ndarray, shape (n,)
         Breakdown voltage of each contact by itself [V]; infinite where it has none.
     shape : float or None
         m of Weibull's law, whose 63.2 % those voltages then are; none where the strength is a certain one.
@@ -51,8 +51,8 @@ class Circuit:
 
     inner: Array
     outer: Array
-    inner_strength: Array
-    outer_strength: Array
+    inner_breakdown: Array
+    outer_breakdown: Array
     shape: float | None = None
 
     @property
@@ -62,7 +62,7 @@ class Circuit:
 
     @property
     def capacitance(self) -> float:
-        """Of the bearing [F]."""
+        """Capacitance of the bearing [F]."""
         return float(np.sum(self.elements))
 
     @property
@@ -73,12 +73,12 @@ class Circuit:
     @property
     def inner_breaks(self) -> Array:
         """Bearing voltages at which the inner contacts break down, their partners being whole [V]."""
-        return self.inner_strength / self.inner_share
+        return self.inner_breakdown / self.inner_share
 
     @property
     def outer_breaks(self) -> Array:
-        """As much of the outer contacts [V]."""
-        return self.outer_strength / (1.0 - self.inner_share)
+        """Bearing voltages at which the outer contacts break down, their partners being whole [V]."""
+        return self.outer_breakdown / (1.0 - self.inner_share)
 
     @property
     def inner_first(self) -> Mask:
@@ -96,7 +96,7 @@ class Circuit:
 
         When the first one has broken down the other carries all of the voltage.
         """
-        remaining = np.where(self.inner_first, self.outer_strength, self.inner_strength)
+        remaining = np.where(self.inner_first, self.outer_breakdown, self.inner_breakdown)
         return np.maximum(self.first_breaks, remaining)
 
     @property
@@ -123,31 +123,6 @@ class Circuit:
         By Weibull's law each contact is taken at its own 63.2 %.
         """
         return float(np.min(self.through_breaks))
-
-
-def bearing_voltage_ratio(winding_rotor: float, rotor_frame: float, first: float, second: float) -> float:
-    """Part of the common-mode voltage that is on the bearings.
-
-    C_wr/(C_wr + C_rf + C_DE + C_NDE)
-
-    Parameters
-    ----------
-    winding_rotor, rotor_frame : float
-        Capacitance from winding to rotor and from rotor to frame [F].
-    first, second : float
-        Of both bearings [F].
-
-    Returns
-    -------
-    float
-        Dimensionless.
-
-    Examples
-    --------
-    >>> round(bearing_voltage_ratio(20e-12, 1e-9, 70e-12, 70e-12), 4)
-    0.0172
-    """
-    return winding_rotor / (winding_rotor + rotor_frame + first + second)
 
 
 def impedance(capacitance: Array, relaxation_time: float, frequency: Array) -> Array:

@@ -2,27 +2,71 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Generic, TypeVar
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from ehlectric.arrays import Array
-from ehlectric.bearing.conditions import BearingDuty
+from ehlectric.bearing.conditions import BearingConditions, Solid
 from ehlectric.bearing.domain import line_domain, point_domain
-from ehlectric.bearing.loads.geometry import RollerBearing
-from ehlectric.bearing.ring_contacts import Race, around_ball, around_roller, of_contact, point_contact
-from ehlectric.cases.bearing import Bearing
+from ehlectric.bearing.ring_contacts import (
+    BallContact,
+    Contact,
+    RollerContact,
+    around_ball,
+    around_roller,
+    of_contact,
+)
 from ehlectric.cases.case import Case
-from ehlectric.cases.discharge import Discharge
-from ehlectric.contact.results import PointResult
+from ehlectric.contact.results import PointResult, Result
 from ehlectric.contact.solver import solve
 from ehlectric.errors import ResultWarning
 
 # Error of the minimum film that grids are refined to.
 REFINE = 0.03
+
+# A number of one contact, or an array of them, one a contact.
+N = TypeVar("N", float, Array)
+
+
+@dataclass(frozen=True)
+class ContactValues(Generic[N]):
+    """Quantities of a contact that change with its load, SI units; numbers of one contact or arrays of many.
+
+    Attributes
+    ----------
+    max_pressure, semi_axis_x, semi_axis_y : float or ndarray, shape (n,)
+        Hertz pressure and semi-axes of the dry contact [Pa, m]; of a roller half of its length across.
+    minimum_thickness, central_thickness : float or ndarray, shape (n,)
+        Film thickness, or the gap of bodies that do not touch [m].
+    inside, outside_oil, outside_air : float or ndarray, shape (n,)
+        Capacitance over the film's domain, and outside it with oil and with air there [F].
+    plate : float or ndarray, shape (n,)
+        eps0 eps_r A/h(0) of the Hertz area [F].
+    strength_per_volt : float or ndarray, shape (n,)
+        Largest field strength over the contact's voltage [1/m].
+    breakdown_voltage : float or ndarray, shape (n,)
+        Breakdown voltage of the contact by itself [V]; infinite without a strength.
+    """
+
+    max_pressure: N
+    semi_axis_x: N
+    semi_axis_y: N
+    minimum_thickness: N
+    central_thickness: N
+    inside: N
+    outside_oil: N
+    outside_air: N
+    plate: N
+    strength_per_volt: N
+    breakdown_voltage: N
+
+    def columns(self) -> tuple[N, ...]:
+        """All quantities, in the order of their names above."""
+        return tuple(vars(self).values())
 
 
 @dataclass(frozen=True)
@@ -32,41 +76,23 @@ class ContactSolution:
     Attributes
     ----------
     load : float
-        [N].
-    max_pressure, semi_axis_x, semi_axis_y : float
-        Of the dry contact [Pa, m]; of a roller half of its length across.
-    minimum_thickness, central_thickness : float
-        Of the film [m].
-    inside, outside_oil, outside_air : float
-        Capacitance over the film's domain, and outside it with oil and with air there [F].
-    plate : float
-        eps0 eps_r A/h(0) [F].
-    strength_per_volt : float
-        Largest field strength over the contact's voltage [1/m].
-    breakdown_voltage : float
-        [V]; infinite without a strength.
+        Load of the contact [N].
+    values : ContactValues
+        Film, capacitances and voltages.
     error : float or None
         Estimate of the film's discretisation error, relative.
     moes_m, moes_l : float
         Moes' groups.
     mismatch : float
         Largest difference of the gaps at the edge of the film's domain, relative.
+    converged : bool
+        Whether the film is converged.
     warnings : tuple of ResultWarning
-        Of its solution.
+        Warnings of its solution.
     """
 
     load: float
-    max_pressure: float
-    semi_axis_x: float
-    semi_axis_y: float
-    minimum_thickness: float
-    central_thickness: float
-    inside: float
-    outside_oil: float
-    outside_air: float
-    plate: float
-    strength_per_volt: float
-    breakdown_voltage: float
+    values: ContactValues[float]
     error: float | None
     moes_m: float
     moes_l: float
@@ -75,106 +101,134 @@ class ContactSolution:
     warnings: tuple[ResultWarning, ...]
 
 
-def contact_case(
-    duty: BearingDuty, race: Race, load: float, discharge: Discharge, solver: dict[str, Any]
-) -> Case:
-    """The case of one contact at a load [N]."""
-    radii = duty.radii(race.angle, inner=race.inner)
-    ring = {"youngs_modulus": duty.ring.youngs_modulus, "poissons_ratio": duty.ring.poissons_ratio}
-    element = {
-        "youngs_modulus": duty.element.youngs_modulus,
-        "poissons_ratio": duty.element.poissons_ratio,
+def ball_case(contact: BallContact, solver: dict[str, Any]) -> Case:
+    """The case of a ball's contact, with the table ``[solver]`` of a bearing file."""
+    conditions, radii = contact.ring.conditions, contact.ring.radii
+    tables = {
+        "geometry": "point",
+        "body_1": _body(conditions.ring) | {"radius_x": radii.ring_x, "radius_y": radii.ring_y},
+        "body_2": _body(conditions.element) | {"radius_x": radii.element_x, "radius_y": radii.element_y},
+        "load": contact.load,
     }
-    contact: dict[str, Any] = {"entrainment_speed": race.speed}
-    if isinstance(duty.geometry, RollerBearing):
-        contact |= {
-            "radius_1": radii.ring_x,
-            "radius_2": radii.element_x,
-            "body_1": ring,
-            "body_2": element,
-            "load_per_length": load / duty.geometry.roller_length,
-        }
-        assess: dict[str, Any] = {"length": duty.geometry.roller_length}
-        grid = line_domain(duty, race, load)
-    else:
-        contact |= {
-            "geometry": "point",
-            "body_1": ring | {"radius_x": radii.ring_x, "radius_y": radii.ring_y},
-            "body_2": element | {"radius_x": radii.element_x, "radius_y": radii.element_y},
-            "load": load,
-        }
-        assess, grid = {}, point_domain(duty, race, load)
+    return _case(contact, tables, point_domain(contact), {}, solver)
+
+
+def roller_case(contact: RollerContact, solver: dict[str, Any]) -> Case:
+    """The case of a roller's contact, with the table ``[solver]`` of a bearing file."""
+    conditions, radii = contact.ring.conditions, contact.ring.radii
+    tables = {
+        "radius_1": radii.ring_x,
+        "radius_2": radii.element_x,
+        "body_1": _body(conditions.ring),
+        "body_2": _body(conditions.element),
+        "load_per_length": contact.load / contact.length,
+    }
+    return _case(contact, tables, line_domain(contact), {"length": contact.length}, solver)
+
+
+def _body(solid: Solid) -> dict[str, float]:
+    return {"youngs_modulus": solid.youngs_modulus, "poissons_ratio": solid.poissons_ratio}
+
+
+def _case(
+    contact: Contact,
+    tables: dict[str, Any],
+    grid: dict[str, Any],
+    discharge: dict[str, Any],
+    solver: dict[str, Any],
+) -> Case:
+    """The case of a contact of either kind, from what is its own."""
+    conditions: BearingConditions[Any] = contact.ring.conditions
     return Case.from_dict(
         {
-            "contact": contact,
+            "contact": {"entrainment_speed": contact.ring.speed} | tables,
             # Pressures are those above ambient, which acts on the bodies from all sides.
-            "lubricant": duty.lubricant.model_dump(exclude_none=True, exclude={"base"})
+            "lubricant": conditions.lubricant.model_dump(exclude_none=True, exclude={"base"})
             | {"ambient_pressure": 0.0},
             "grid": grid | {"refine": REFINE},
-            "discharge": discharge.model_dump(exclude_none=True) | assess,
+            "discharge": conditions.discharge.model_dump(exclude_none=True) | discharge,
             "solver": solver,
         }
     )
 
 
-def solve_contact(
-    bearing: Bearing,
-    duty: BearingDuty,
-    race: Race,
-    load: float,
-    *,
-    discharge: Discharge,
-    solver: dict[str, Any],
-) -> ContactSolution:
-    """Solve one contact of a bearing at a load.
+def solve_ball(contact: BallContact, solver: dict[str, Any]) -> ContactSolution:
+    """Solve film and field of a ball's contact, and add the gap around them.
 
     Parameters
     ----------
-    bearing, duty : Bearing and BearingDuty
-        The bearing.
-    race : Race
-        Which contact.
-    load : float
-        [N].
-    discharge : Discharge
-        Strength of the film.
+    contact : BallContact
+        Contact and load.
     solver : dict
-        ``[solver]`` of the case.
+        ``[solver]`` of the bearing file.
 
     Returns
     -------
     ContactSolution
         Film, field and the gap around them.
     """
-    with of_contact(race, load):
-        result = solve(contact_case(duty, race, load, discharge, solver), beside_smooth=False)
-    found = result.discharge
-    assert found is not None
-    length = duty.geometry.roller_length if isinstance(duty.geometry, RollerBearing) else 1.0
-    if isinstance(result, PointResult):
-        nodes = result.film.x, result.film.y
-        contact = point_contact(duty, race, load)
-        outside, mismatch = around_ball(bearing, contact, race, nodes, result.film.thickness)
-        axes = result.conditions.semi_axis_x, result.conditions.semi_axis_y
-    else:
-        width, film = result.conditions.half_width, result.film
-        outside, mismatch = around_roller(duty, race, width, film.x, film.thickness), 0.0
-        axes = width, 0.5 * length
-    breaks = found.breakdown_voltage
-    formulas = result.conditions.formulas
-    return ContactSolution(
-        load=load,
+    with of_contact(contact):
+        result = solve(ball_case(contact, solver), beside_smooth=False)
+    assert isinstance(result, PointResult)
+    film, conditions = result.film, result.conditions
+    axes = conditions.semi_axis_x, conditions.semi_axis_y
+    outside, mismatch = around_ball(contact, (film.x, film.y), film.thickness)
+    return _solution(contact, result, axes=axes, outside=outside, mismatch=mismatch)
+
+
+def solve_roller(contact: RollerContact, solver: dict[str, Any]) -> ContactSolution:
+    """Solve film and field of a roller's contact, and add the gap around them.
+
+    Parameters
+    ----------
+    contact : RollerContact
+        Contact and load.
+    solver : dict
+        ``[solver]`` of the bearing file.
+
+    Returns
+    -------
+    ContactSolution
+        Film, field and the gap around them.
+    """
+    with of_contact(contact):
+        result = solve(roller_case(contact, solver), beside_smooth=False)
+    assert isinstance(result, Result)
+    film, width = result.film, result.conditions.half_width
+    outside = around_roller(contact.ring, width, film.x, film.thickness)
+    axes = width, 0.5 * contact.length
+    return _solution(contact, result, axes=axes, outside=outside, mismatch=0.0, length=contact.length)
+
+
+def _solution(
+    contact: Contact,
+    result: Result | PointResult,
+    *,
+    axes: tuple[float, float],
+    outside: float,
+    mismatch: float,
+    length: float = 1.0,
+) -> ContactSolution:
+    """Numbers of a contact of either kind; capacitances of the result are per length where it is a line's."""
+    discharge, formulas = result.discharge, result.conditions.formulas
+    assert discharge is not None
+    breakdown = discharge.breakdown_voltage
+    values = ContactValues(
         max_pressure=result.conditions.max_pressure,
         semi_axis_x=axes[0],
         semi_axis_y=axes[1],
         minimum_thickness=result.film.minimum_thickness,
         central_thickness=result.film.central_thickness,
-        inside=length * found.capacitance,
-        outside_oil=outside * duty.lubricant.relative_permittivity,
+        inside=length * discharge.capacitance,
+        outside_oil=outside * contact.ring.conditions.lubricant.relative_permittivity,
         outside_air=outside,
-        plate=length * found.capacitance_plate,
+        plate=length * discharge.capacitance_plate,
         strength_per_volt=result.field.max_strength / result.field.voltage,
-        breakdown_voltage=np.inf if breaks is None else breaks,
+        breakdown_voltage=np.inf if breakdown is None else breakdown,
+    )
+    return ContactSolution(
+        load=contact.load,
+        values=values,
         error=result.film.discretisation_error,
         moes_m=formulas.moes_m,
         moes_l=formulas.moes_l,
@@ -201,20 +255,20 @@ class ContactCurve:
 
     solutions: tuple[ContactSolution, ...]
 
-    def at(self, quantity: str, load: Array) -> Array:
-        """A quantity at loads [N], interpolated in the logarithms of both."""
-        return self._interpolated(quantity, load, range(len(self.solutions)))
+    @property
+    def loads(self) -> Array:
+        """Loads that were solved [N]."""
+        return np.array([solution.load for solution in self.solutions])
 
-    def _interpolated(self, quantity: str, load: Array, among: Sequence[int]) -> Array:
-        loads = np.log([self.solutions[k].load for k in among])
-        values = np.array([getattr(self.solutions[k], quantity) for k in among])
-        if not np.all(np.isfinite(values)):
-            return np.full(np.shape(load), np.inf)
-        at = np.clip(np.log(load), loads[0], loads[-1])
-        if len(among) == 1:
-            return np.full(np.shape(load), values[0])
-        found: Array = np.exp(PchipInterpolator(loads, np.log(values))(at))
-        return found
+    def stack(self) -> ContactValues[Array]:
+        """Quantities at the loads that were solved, as arrays."""
+        rows = [solution.values.columns() for solution in self.solutions]
+        return ContactValues(*np.array(rows).T)
+
+    def at(self, load: Array) -> ContactValues[Array]:
+        """Quantities at loads [N], interpolated in the logarithms of both."""
+        loads = self.loads
+        return ContactValues(*(_interpolated(loads, column, load) for column in self.stack().columns()))
 
     @property
     def interpolation_error(self) -> float:
@@ -222,13 +276,23 @@ class ContactCurve:
 
         At twice the distance of the loads it bounds what is left with all of them.
         """
-        worst = 0.0
-        for k in range(1, len(self.solutions) - 1):
-            others = [j for j in range(len(self.solutions)) if j != k]
-            for quantity in ("inside", "breakdown_voltage"):
-                value = getattr(self.solutions[k], quantity)
-                if np.isfinite(value):
-                    load = np.array([self.solutions[k].load])
-                    found = self._interpolated(quantity, load, others)[0]
-                    worst = max(worst, abs(found / value - 1.0))
-        return worst
+        worst, loads, stack = 0.0, self.loads, self.stack()
+        for k in range(1, loads.size - 1):
+            for values in (stack.inside, stack.breakdown_voltage):
+                if np.isfinite(values[k]):
+                    left = _interpolated(np.delete(loads, k), np.delete(values, k), loads[k : k + 1])[0]
+                    worst = max(worst, abs(left / values[k] - 1.0))
+        return float(worst)
+
+
+def _interpolated(loads: Array, values: Array, load: Array) -> Array:
+    """Values at other loads [N], monotone in the logarithms of both; infinite where one of them is."""
+    if not np.all(np.isfinite(values)):
+        return np.full(np.shape(load), np.inf)
+    if loads.size == 1:
+        return np.full(np.shape(load), values[0])
+    known = np.log(loads)
+    between: Array = np.exp(
+        PchipInterpolator(known, np.log(values))(np.clip(np.log(load), known[0], known[-1]))
+    )
+    return between

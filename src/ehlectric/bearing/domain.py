@@ -5,16 +5,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
-import numpy as np
-
-from ehlectric.bearing.conditions import BearingDuty
-from ehlectric.bearing.loads.geometry import RollerBearing
-from ehlectric.bearing.ring_contacts import Race, line_contact, point_contact
+from ehlectric.bearing.ring_contacts import BallContact, RollerContact
 from ehlectric.contact.conditions import default_side
-from ehlectric.formulas.film_line import LineContact, moes
-from ehlectric.formulas.film_point import nijenbanning_venner_moes
-from ehlectric.formulas.hertz_line import line_half_width
-from ehlectric.formulas.hertz_point import dry_contact
 
 # Domain of a lightly loaded contact in lengths over which its pressure builds up, before, beside and behind
 # it. It costs below 1 % of the film, or 15 % where a ball hardly presses. And the most that a grid holds of
@@ -28,20 +20,14 @@ _LINE_INLET, _LINE_OUTLET = 10.0, 2.0
 _LINE_FAR, _LINE_SHORTER, _LINE_MOST = 100.0, 8.0, 300.0
 
 
-def _line_length(duty: BearingDuty, race: Race, load: float) -> float:
-    """Length sqrt(2 R h) over which a roller's pressure builds up, in half-widths; load in N."""
-    contact = line_contact(duty, race, load)
-    film = moes(contact).central_thickness
-    return math.sqrt(2.0 * contact.reduced_radius * film) / _half_width(contact)
+def _line_length(contact: RollerContact) -> float:
+    """Length sqrt(2 R h) over which a roller's pressure builds up, in half-widths."""
+    return math.sqrt(2.0 * contact.line.reduced_radius * contact.film) / contact.half_width
 
 
-def _half_width(contact: LineContact) -> float:
-    return line_half_width(contact.load_per_length, contact.reduced_radius, contact.reduced_modulus)
-
-
-def line_domain(duty: BearingDuty, race: Race, load: float) -> dict[str, Any]:
-    """Domain of a roller's contact at a load [N], long enough for the thick film of a light one too."""
-    length, most = _line_length(duty, race, load), _line_most(duty, race, load)
+def line_domain(contact: RollerContact) -> dict[str, Any]:
+    """Domain of a roller's contact, long enough for the thick film of a light one too."""
+    length, most = _line_length(contact), _line_most(contact)
     inlet = max(4.0, min(_line_inlet(length), most))
     outlet = max(2.0, min(_LINE_OUTLET * length, most))
     # Sixteen nodes in the Hertz zone are the least that a case takes.
@@ -56,44 +42,37 @@ def _line_inlet(length: float) -> float:
     return min(_LINE_INLET * length, max(_LINE_FAR, _LINE_SHORTER * length))
 
 
-def _line_most(duty: BearingDuty, race: Race, load: float) -> float:
+def _line_most(contact: RollerContact) -> float:
     """Half-widths to where a roller begins to fall away from a parabola, or what a grid takes."""
-    roller = duty.radii(race.angle, inner=race.inner).element_x
-    return min(0.5 * roller / _half_width(line_contact(duty, race, load)), _LINE_MOST)
+    return min(0.5 * contact.ring.radii.element_x / contact.half_width, _LINE_MOST)
 
 
-def _point_lengths(duty: BearingDuty, race: Race, load: float) -> tuple[float, float, float]:
-    """Lengths sqrt(2 R h) over which a ball's pressure builds up, in semi-axes, and the ratio of these."""
-    contact = point_contact(duty, race, load)
-    film = nijenbanning_venner_moes(contact).central_thickness
-    dry = dry_contact(load, contact.radius_x, contact.radius_y, duty.modulus)
+def roller_fits(contact: RollerContact) -> bool:
+    """Whether the domain holds the length over which a roller's film builds up."""
+    return _line_inlet(_line_length(contact)) <= _line_most(contact)
+
+
+def _point_lengths(contact: BallContact) -> tuple[float, float]:
+    """Lengths sqrt(2 R h) over which a ball's pressure builds up, along and across, in semi-axes."""
+    point, dry = contact.point, contact.dry
     along, across = (
-        math.sqrt(2.0 * radius * film) / axis
-        for radius, axis in ((contact.radius_x, dry.semi_axis_x), (contact.radius_y, dry.semi_axis_y))
+        math.sqrt(2.0 * radius * contact.film) / axis
+        for radius, axis in ((point.radius_x, dry.semi_axis_x), (point.radius_y, dry.semi_axis_y))
     )
-    return along, across, dry.semi_axis_y / dry.semi_axis_x
+    return along, across
 
 
-def point_domain(duty: BearingDuty, race: Race, load: float) -> dict[str, Any]:
+def point_domain(contact: BallContact) -> dict[str, Any]:
     """Domain and nodes of a ball's contact: as of other points, wider for a light load's thick film."""
-    along, across, ratio = _point_lengths(duty, race, load)
+    (along, across), dry = _point_lengths(contact), contact.dry
     inlet, outlet = max(4.5, min(_ALONG * along, _MOST[0])), max(1.5, min(_BEHIND * along, 0.1 * _MOST[0]))
-    side = max(default_side(ratio), min(1.0 + _ACROSS * across, _MOST[1]))
+    usual = default_side(dry.semi_axis_y / dry.semi_axis_x)
+    side = max(usual, min(1.0 + _ACROSS * across, _MOST[1]))
     nodes = max(257, 8 * math.ceil(inlet + outlet) + 1, 16 * math.ceil(side) + 1)
     return {"inlet": -inlet, "outlet": outlet, "side": side, "nodes": nodes}
 
 
-def least_load(duty: BearingDuty, race: Race) -> float:
-    """Load [N] below which a contact's film builds up over more than its domain can hold, to a third.
-
-    Lighter contacts have thicker films than this one's, so that its voltage is a lower bound of theirs.
-    """
-    for load in np.geomspace(1e-6, 1e6, 121):
-        if isinstance(duty.geometry, RollerBearing):
-            fits = _line_inlet(_line_length(duty, race, load)) <= _line_most(duty, race, load)
-        else:
-            along, across, _ = _point_lengths(duty, race, load)
-            fits = _ALONG * along <= _MOST[0] and 1.0 + _ACROSS * across <= _MOST[1]
-        if fits:
-            return float(load)
-    return math.inf
+def ball_fits(contact: BallContact) -> bool:
+    """Whether the domain holds the lengths over which a ball's film builds up."""
+    along, across = _point_lengths(contact)
+    return _ALONG * along <= _MOST[0] and 1.0 + _ACROSS * across <= _MOST[1]

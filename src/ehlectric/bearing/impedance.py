@@ -8,7 +8,8 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.bearing.circuit import leaking_admittance
-from ehlectric.bearing.result import BearingResult
+from ehlectric.bearing.solution import BearingSolution, lubrication
+from ehlectric.discharge.laws import relaxation_time
 
 # Frequencies that it is given up to [Hz], and from, over that of the oil's corner; how many.
 _HIGHEST, _BELOW_CORNER, _COUNT = 1e7, 1e-2, 400
@@ -44,12 +45,19 @@ class Impedance:
         return np.degrees(np.angle(self.values))
 
 
-def impedance_of(result: BearingResult) -> Impedance | None:
+def oil_relaxation_time(solution: BearingSolution) -> float | None:
+    """Relaxation time eps0 eps_r/sigma of the oil of a bearing [s]; None without a conductivity."""
+    conductivity = solution.case.discharge.conductivity
+    permittivity = solution.conditions.lubricant.relative_permittivity
+    return None if conductivity is None else relaxation_time(permittivity, conductivity)
+
+
+def impedance_of(solution: BearingSolution) -> Impedance | None:
     """Impedance of a bearing, around its films what ``fill`` says.
 
     Parameters
     ----------
-    result : BearingResult
+    solution : BearingSolution
         A solved bearing.
 
     Returns
@@ -57,17 +65,17 @@ def impedance_of(result: BearingResult) -> Impedance | None:
     Impedance or None
         None without a conductivity, where surfaces touch, and of ceramic elements.
     """
-    tau = result.impedance_time()
-    if tau is None or result.ceramic or result.lubrication == "conducting":
+    tau = oil_relaxation_time(solution)
+    if tau is None or solution.conditions.ceramic or lubrication(solution) == "conducting":
         return None
     corner = 1.0 / (2.0 * np.pi * tau)
     frequency = np.geomspace(_BELOW_CORNER * corner, max(_HIGHEST, corner / _BELOW_CORNER), _COUNT)
-    fill = result.solution.case.bearing.fill
+    fill = solution.case.bearing.fill
     y = np.zeros(frequency.shape, dtype=complex)
-    for position in result.solution.positions:
+    for position in solution.positions:
         inner, outer = (
-            (race.capacitance(fill), race.capacitance("oil") if fill == "oil" else race.inside)
-            for race in (position.inner, position.outer)
+            (ring.capacitance(fill), ring.capacitance("oil") if fill == "oil" else ring.values.inside)
+            for ring in position.rings
         )
         y = y + leaking_admittance(inner, outer, tau, frequency)
-    return Impedance(frequency, len(result.solution.positions) / y, corner)
+    return Impedance(frequency, len(solution.positions) / y, corner)

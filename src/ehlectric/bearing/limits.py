@@ -1,4 +1,4 @@
-"""Where the model of a bearing ends: duties that are refused, and what is to be warned of. SI units."""
+"""Limits of the model of a bearing: loads, contact angles and films that are refused. SI units."""
 
 from __future__ import annotations
 
@@ -7,22 +7,12 @@ import math
 import numpy as np
 from scipy.constants import g as gravity
 
-from ehlectric.bearing.conditions import BearingDuty
-from ehlectric.bearing.loads.balls import BallEquilibrium
-from ehlectric.bearing.loads.geometry import RollerBearing
-from ehlectric.bearing.loads.rollers import RollerEquilibrium
-from ehlectric.bearing.ring_contacts import Race, line_contact, point_contact
+from ehlectric.bearing.conditions import BearingConditions
+from ehlectric.bearing.loads.geometry import Geometry
+from ehlectric.bearing.loads.totals import Equilibrium
+from ehlectric.bearing.ring_contacts import Contact
 from ehlectric.cases.bearing import Bearing
 from ehlectric.errors import InputError
-from ehlectric.formulas.film_line import moes
-from ehlectric.formulas.film_point import nijenbanning_venner_moes
-
-Equilibrium = BallEquilibrium | RollerEquilibrium
-
-# Films up to this part of (f - 1/2) D, by which the groove is the larger circle, leave contact angles and gap
-# what they are without; a roller whose film builds up over a length sqrt(2 R h) of up to this part of its
-# radius is a parabola.
-_ROOM = 0.1
 
 # A contact that carries less than this part of the most loaded one may have its middle beyond the shoulder.
 _LIGHT = 0.02
@@ -31,7 +21,7 @@ _LIGHT = 0.02
 TAKEN = 1.0 / 3.0
 
 
-def check_load(bearing: Bearing, duty: BearingDuty) -> None:
+def check_load(conditions: BearingConditions[Geometry]) -> None:
     """Refuse loads below the weight of one element, which is left out of the equilibrium.
 
     Raises
@@ -39,7 +29,8 @@ def check_load(bearing: Bearing, duty: BearingDuty) -> None:
     InputError
         With the weight.
     """
-    weight = duty.geometry.element_mass(duty.element.density) * gravity
+    bearing = conditions.bearing
+    weight = conditions.geometry.element_mass(conditions.element.density) * gravity
     if math.hypot(bearing.radial_load, bearing.axial_load) < weight:
         raise InputError(
             "bearing.radial_load",
@@ -50,6 +41,8 @@ def check_load(bearing: Bearing, duty: BearingDuty) -> None:
 
 def shoulder_angle(bearing: Bearing, *, inner: bool) -> float:
     """Angle from the bottom of a ball's groove to its shoulder, arccos(1 - H/f) [rad].
+
+    It is infinite of a cylinder, which has no shoulder.
 
     Examples
     --------
@@ -62,19 +55,15 @@ def shoulder_angle(bearing: Bearing, *, inner: bool) -> float:
     >>> round(math.degrees(shoulder_angle(bearing, inner=True)), 1)
     50.6
     """
-    return math.acos(1.0 - _shoulder_height(bearing) / groove_ratio(bearing, inner=inner))
-
-
-def _shoulder_height(bearing: Bearing) -> float:
-    assert bearing.shoulder_height is not None
-    return bearing.shoulder_height
+    if bearing.shoulder_height is None:
+        return math.inf
+    return math.acos(1.0 - bearing.shoulder_height / groove_ratio(bearing, inner=inner))
 
 
 def groove_ratio(bearing: Bearing, *, inner: bool) -> float:
-    """Radius of a ball's groove over the ball's diameter."""
+    """Radius of a ball's groove over the ball's diameter; infinite of a cylinder."""
     groove = bearing.inner_groove if inner else bearing.outer_groove
-    assert groove is not None
-    return groove
+    return math.inf if groove is None else groove
 
 
 def check_shoulders(bearing: Bearing, at: Equilibrium) -> None:
@@ -85,32 +74,27 @@ def check_shoulders(bearing: Bearing, at: Equilibrium) -> None:
     InputError
         For a contact whose middle is beyond the shoulder, unless its load is next to nothing.
     """
-    if not isinstance(at, BallEquilibrium):
-        return
-    for name, angle, load in (
-        ("inner", at.inner_angle, at.inner_load),
-        ("outer", at.outer_angle, at.outer_load),
-    ):
-        furthest = float(np.max(np.abs(angle), where=load > _LIGHT * np.max(load), initial=0.0))
-        end = shoulder_angle(bearing, inner=name == "inner")
+    for name, inner in (("inner", True), ("outer", False)):
+        ring = at.ring(inner=inner)
+        loaded = ring.load > _LIGHT * np.max(ring.load)
+        furthest = float(np.max(np.abs(ring.angle), where=loaded, initial=0.0))
+        end = shoulder_angle(bearing, inner=inner)
         if furthest >= end:
             raise InputError(
                 "bearing.shoulder_height",
-                got=f"{_shoulder_height(bearing):g}, an {name} groove that ends {math.degrees(end):.1f} "
+                got=f"{bearing.shoulder_height:g}, an {name} groove that ends {math.degrees(end):.1f} "
                 f"deg up, and a contact at {math.degrees(furthest):.1f} deg;",
                 takes="a higher shoulder, a smaller contact angle, or less axial load",
             )
 
 
-def check_film(duty: BearingDuty, race: Race, load: float) -> None:
+def check_film(contact: Contact) -> None:
     """Refuse films for which there is no room between element and raceway.
 
     Parameters
     ----------
-    duty, race : BearingDuty and Race
-        The contacts with one ring.
-    load : float
-        Of the most loaded of them [N].
+    contact : BallContact or RollerContact
+        The most loaded contact with one ring.
 
     Raises
     ------
@@ -118,19 +102,13 @@ def check_film(duty: BearingDuty, race: Race, load: float) -> None:
         Where a film formula that holds for light contacts too gives more than a tenth of (f - 1/2) D, or of a
         roller's film builds up over more than a tenth of its radius.
     """
-    if isinstance(duty.geometry, RollerBearing):
-        line = line_contact(duty, race, load)
-        film = moes(line).central_thickness
-        most = (_ROOM * 0.5 * duty.geometry.roller_diameter) ** 2 / (2.0 * line.reduced_radius)
-    else:
-        film = nijenbanning_venner_moes(point_contact(duty, race, load)).central_thickness
-        most = _ROOM * duty.geometry.offsets[0 if race.inner else 1]
+    film, most, ring = contact.film, contact.thickest_film, contact.ring
     if film > most:
-        name, oil = "inner" if race.inner else "outer", duty.lubricant.viscosity
+        oil = ring.conditions.lubricant.viscosity
         raise InputError(
             "bearing",
-            got=f"an {name} film of {1e6 * film:.3g} um, at {load:.3g} N, {race.speed:.3g} m/s and "
-            f"{oil:.3g} Pa s;",
+            got=f"an {ring.name} film of {1e6 * film:.3g} um, at {contact.load:.3g} N, "
+            f"{ring.speed:.3g} m/s and {oil:.3g} Pa s;",
             takes=f"a load, a speed and an oil at its temperature for at most {1e6 * most:.3g} um, "
             "beyond which the bodies leave it no room",
         )

@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 
 from ehlectric.bearing.by_formula import check_formula
-from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solver import solve_bearing
 from ehlectric.cases.bearing import BearingDischarge
 from ehlectric.cases.bearing_case import BearingCase
@@ -60,12 +59,12 @@ def over_speed(
     for part in np.geomspace(_LEAST, _MOST, count):
         speed = case.bearing.inner_speed * float(part)
         try:
-            solution = solve_bearing(changed.replace({"bearing.inner_speed": speed}))
+            result = solve_bearing(changed.replace({"bearing.inner_speed": speed}))
         except InputError as error:
             text = f"over speed, {speed * 30.0 / np.pi:.4g} rpm: {error}"
             left_out.append(ResultWarning("speed-left-out", text))
         else:
-            points.append((speed, BearingResult(solution).summary()))
+            points.append((speed, result.summary()))
     return points, left_out
 
 

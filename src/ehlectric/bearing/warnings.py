@@ -7,37 +7,98 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
-from ehlectric.bearing.conditions import BearingDuty
 from ehlectric.bearing.contacts import ContactSolution
-from ehlectric.bearing.limits import TAKEN, Equilibrium, groove_ratio, shoulder_angle
-from ehlectric.bearing.loads.balls import BallEquilibrium
-from ehlectric.bearing.loads.geometry import RollerBearing
-from ehlectric.bearing.state import RaceState
+from ehlectric.bearing.limits import TAKEN, groove_ratio, shoulder_angle
+from ehlectric.bearing.solution import (
+    BearingSolution,
+    Position,
+    capacitance_is_bound,
+    insulating,
+    lambda_ratio,
+    lubrication,
+)
 from ehlectric.cases.bearing import Bearing
 from ehlectric.errors import ResultWarning
 
+# Below it the viscosity from 40 and 100 degC is a bold extrapolation [K].
+_COLD = 273.15
 
-def edge_warnings(
-    bearing: Bearing, states: Sequence[tuple[Equilibrium, RaceState, RaceState]]
-) -> Iterator[ResultWarning]:
-    """Warnings of contact ellipses that reach over the shoulder of a groove, one for each ring.
+
+def bearing_warnings(solution: BearingSolution) -> list[ResultWarning]:
+    """Warnings that tell where a result is unreliable, each once."""
+    found = [*film_warnings(solution), *voltage_warnings(solution), *_warnings_of_contacts(solution)]
+    return list(dict.fromkeys(found))
+
+
+def film_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
+    """Warnings of the films of the whole bearing."""
+    if solution.case.contacts == "formula":
+        text = "contacts by formula: films may be 30 % off, and fields are voltages over the minimum film"
+        yield ResultWarning("formula-contacts", text)
+    if solution.conditions.film_factor == 1.0:
+        given = solution.case.bearing.film_factor
+        name = given if isinstance(given, str) else f"{given:g}"
+        text = f"film_factor {name}: the film is isothermal and fully flooded, voltages are upper bounds"
+        yield ResultWarning("isothermal-film", text)
+    if solution.case.lubricant.temperature is None:
+        text = "lubricant.viscosity is given: bearing.temperature has no part in the films"
+        yield ResultWarning("temperature-unused", text)
+    elif solution.case.bearing.temperature < _COLD:
+        cold = solution.case.bearing.temperature - 273.15
+        text = f"bearing.temperature is {cold:.3g} °C: the viscosity from 40 and 100 °C may be far off"
+        yield ResultWarning("temperature-low", text)
+    yield from clearance_warnings(solution.conditions.geometry.clearance, solution.positions[0])
+
+
+def voltage_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
+    """Warnings of the capacitance and the voltages of the bearing."""
+    state, ceramic = lubrication(solution), solution.conditions.ceramic
+    touching = f"lambda is {lambda_ratio(solution):.2g}: surfaces"
+    if state == "conducting":
+        text = f"{touching} touch and conduct, nothing breaks down, and no shaft voltage is stated"
+        yield ResultWarning("touching", text)
+    elif state == "touching":
+        yield ResultWarning("touching", f"{touching} touch, and the elements insulate")
+    elif state == "partial film":
+        text = f"{touching} may touch" + ("" if ceramic else ", voltages are upper bounds")
+        yield ResultWarning("partial-film", text)
+    if capacitance_is_bound(solution):
+        yield ResultWarning(
+            "capacitance-bound",
+            "the elements are ceramic: the capacitance is an upper bound, that of conducting ones, and "
+            "no shaft voltage follows from it; bearing.element_capacitance gives one",
+        )
+    if solution.case.discharge.weibull is not None and insulating(solution):
+        text = "first break and through breakdown are voltages at a probability of 63.2 % (Weibull)"
+        yield ResultWarning("weibull-voltage", text)
+
+
+def _warnings_of_contacts(solution: BearingSolution) -> Iterator[ResultWarning]:
+    """Warnings of single contacts, and of those at the edge of their groove."""
+    yield from edge_warnings(solution.case.bearing, solution.positions)
+    yield from contact_warnings(
+        {"inner": solution.inner_curve.solutions, "outer": solution.outer_curve.solutions}
+    )
+
+
+def edge_warnings(bearing: Bearing, positions: Sequence[Position]) -> Iterator[ResultWarning]:
+    """Warnings of ellipses that reach over the shoulder of a groove, of the heaviest with each ring.
 
     Parameters
     ----------
     bearing : Bearing
         Its grooves.
-    states : sequence of (equilibrium, RaceState, RaceState)
-        At each position of the cage, with the contacts of the inner and of the outer ring.
+    positions : sequence of Position
+        Contacts at each position of the cage.
     """
     for k, name in enumerate(("inner", "outer")):
-        shoulder, load, reached = math.inf, 0.0, 0.0
-        for at, *races in states:
-            if not isinstance(at, BallEquilibrium):
-                return
-            shoulder = shoulder_angle(bearing, inner=k == 0)
-            arc = races[k].semi_axis_y / (groove_ratio(bearing, inner=k == 0) * bearing.element_diameter)
-            ends = np.abs(getattr(at, f"{name}_angle")) + arc
-            over = np.where(ends > shoulder, races[k].load, 0.0)
+        shoulder = shoulder_angle(bearing, inner=k == 0)
+        groove = groove_ratio(bearing, inner=k == 0) * bearing.element_diameter
+        load, reached = 0.0, 0.0
+        for position in positions:
+            ring, angle = position.rings[k], position.equilibrium.ring(inner=k == 0).angle
+            ends = np.abs(angle) + ring.values.semi_axis_y / groove
+            over = np.where(ends > shoulder, ring.load, 0.0)
             heaviest = int(np.argmax(over))
             if over[heaviest] > load:
                 load, reached = float(over[heaviest]), float(ends[heaviest])
@@ -50,24 +111,19 @@ def edge_warnings(
             )
 
 
-def clearance_warnings(
-    duty: BearingDuty, at: Equilibrium, inner: RaceState, outer: RaceState
-) -> Iterator[ResultWarning]:
-    """Warning of films that take up the clearance, which the equilibrium leaves out.
+def clearance_warnings(clearance: float, position: Position) -> Iterator[ResultWarning]:
+    """Warnings of films that take up the clearance, of which the equilibrium knows nothing.
 
     Parameters
     ----------
-    duty : BearingDuty
-        The bearing.
-    at : BallEquilibrium or RollerEquilibrium
-        Its loads.
-    inner, outer : RaceState
-        Its films.
+    clearance : float
+        Full diametral play [m]; negative with a preload.
+    position : Position
+        Loads and films.
     """
+    at, room = position.equilibrium, clearance
     most = int(np.argmax(at.inner_load))
-    films = float(inner.central_thickness[most] + outer.central_thickness[most])
-    geometry = duty.geometry
-    room = geometry.radial_clearance if isinstance(geometry, RollerBearing) else geometry.clearance
+    films = sum(float(ring.values.central_thickness[most]) for ring in position.rings)
     beside = "a clearance of"
     if room <= 0.0:
         # Preloaded elements have none, but are pressed in.

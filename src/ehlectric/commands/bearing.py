@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import csv
 import json
-from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -14,11 +12,7 @@ from ehlectric.commands.tables.bearing import bearing_table, films_table, loads_
 from ehlectric.commands.terminal import NOT_CONVERGED, print_table, progress_bar, user_errors, warn
 
 if TYPE_CHECKING:
-    from ehlectric.bearing.result import BearingResult
     from ehlectric.errors import ResultWarning
-
-
-SUMMARY, CONTACTS, IMPEDANCE = "summary.json", "contacts.csv", "impedance.csv"
 
 
 def bearing(
@@ -46,19 +40,19 @@ def bearing(
         if contacts:
             case = case.replace({"contacts": contacts})
 
-        from ehlectric.bearing.result import BearingResult
+        from ehlectric.bearing.files import FILES, save
         from ehlectric.bearing.solver import check_bearing, solve_bearing
         from ehlectric.figures.names import BEARING_FIGURE_FILES, SPEED_FIGURE_FILES
         from ehlectric.runtime.files import clear, prepare
 
         check_bearing(case)
-        names = (SUMMARY, CONTACTS, IMPEDANCE, *BEARING_FIGURE_FILES, *SPEED_FIGURE_FILES)
+        names = (*FILES, *BEARING_FIGURE_FILES, *SPEED_FIGURE_FILES)
         folder = prepare(output, names)
         with progress_bar(shown=not quiet) as progress:
-            result = BearingResult(solve_bearing(case, progress=progress))
+            result = solve_bearing(case, progress=progress)
         summary = result.summary()
         clear(folder, names)
-        files = _write(result, summary, folder)
+        files = save(result, folder)
         left_out: list[ResultWarning] = []
         if plots:
             from ehlectric.bearing.speeds import over_speed
@@ -80,26 +74,3 @@ def bearing(
     if not result.converged:
         typer.echo("error: not converged: a contact of the bearing", err=True)
         raise typer.Exit(NOT_CONVERGED)
-
-
-def _write(result: BearingResult, summary: dict[str, Any], folder: Path) -> list[Path]:
-    """Summary and tables as files; the impedance where there is one."""
-    from ehlectric.bearing.impedance import impedance_of
-    from ehlectric.runtime.files import whole
-
-    with whole(folder / SUMMARY) as beside:
-        beside.write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
-    rows = summary["contacts"]
-    tables: dict[str, tuple[list[str], Iterable[Iterable[Any]]]] = {
-        CONTACTS: (list(rows[0]), (row.values() for row in rows))
-    }
-    found = impedance_of(result)
-    if found is not None:
-        columns = found.frequency.tolist(), found.magnitude.tolist(), found.phase.tolist()
-        tables[IMPEDANCE] = ["frequency", "magnitude", "phase_degrees"], zip(*columns, strict=True)
-    for name, (heads, lines) in tables.items():
-        with whole(folder / name) as beside, beside.open("w", encoding="utf-8", newline="") as file:
-            writer = csv.writer(file)
-            writer.writerow(heads)
-            writer.writerows(lines)
-    return [folder / name for name in (SUMMARY, *tables)]

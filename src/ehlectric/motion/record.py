@@ -133,7 +133,7 @@ class MotionRun:
         kept = dataset.isel(left) if left else dataset
         if not kept.sizes["frame"]:
             raise InputError("dataset", got="no recorded instant", takes="one at least")
-        return cls(kept, case, KINDS[case.contact.geometry].resolve(case))
+        return cls(kept, case, KINDS[case.contact.geometry].contact.resolve(case))
 
     @property
     def kind(self) -> AnyKind:

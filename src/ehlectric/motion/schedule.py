@@ -54,7 +54,7 @@ class Schedule:
     --------
     A bump on surface 1 in pure rolling. The domain, -4 to 2 half-widths, has 64 grid intervals:
 
-    >>> from ehlectric.contact.conditions import resolve
+    >>> from ehlectric.contact.resolve import resolve
     >>> contact = {"reduced_radius": "14 mm", "reduced_modulus": "226 GPa"}
     >>> contact |= {"max_hertz_pressure": "0.5 GPa", "entrainment_speed": "4 m/s"}
     >>> bump = {"surface": 1, "generator": "asperity", "height": "50 nm", "width": "60 um"}

@@ -22,7 +22,6 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solver import solve_bearing
 from ehlectric.cases.any_case import case_of_dict
 from ehlectric.cases.bearing_case import BearingCase
@@ -101,7 +100,7 @@ def _solved(table: Mapping[str, Any]) -> tuple[bool, dict[str, Any], str]:
     """Whether a case is solved, its summary, and what is to be said where it is not."""
     case = case_of_dict(table)
     if isinstance(case, BearingCase):
-        bearing = BearingResult(solve_bearing(case, workers=1))
+        bearing = solve_bearing(case, workers=1)
         summary = bearing.summary()
         del summary["contacts"]  # a row for each would be more columns than a table has
         return bearing.converged, summary, "a contact of the bearing is not converged"

@@ -5,7 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ehlectric.bearing.circuit import Circuit, bearing_voltage_ratio, impedance, leaking_admittance
+from ehlectric.bearing.circuit import Circuit, impedance, leaking_admittance
+from ehlectric.bearing.shaft_voltage import voltage_ratio
 
 capacitances = st.floats(1e-12, 1e-9)
 strengths = st.floats(0.5, 500.0)
@@ -16,7 +17,7 @@ def circuit_of(*rows):
     return Circuit(*np.array(rows, dtype=float).T)
 
 
-def raised(inner, outer, inner_strength, outer_strength):
+def raised(inner, outer, inner_breakdown, outer_breakdown):
     """Voltages at which the first contact of one element breaks, and at which the second is gone too.
 
     A ramp in steps of one part in a thousand, the voltages from the charges: both contacts carry the same
@@ -34,13 +35,13 @@ def raised(inner, outer, inner_strength, outer_strength):
                     on[name] = voltage
             new = [
                 name
-                for name, holds in (("inner", inner_strength), ("outer", outer_strength))
+                for name, holds in (("inner", inner_breakdown), ("outer", outer_breakdown))
                 if not broken[name] and on[name] >= holds
             ]
             if not new:
                 break
             # One breaks after the other, the one furthest beyond its strength before.
-            holds = {"inner": inner_strength, "outer": outer_strength}
+            holds = {"inner": inner_breakdown, "outer": outer_breakdown}
             broken[max(new, key=lambda name: on[name] / holds[name])] = True
             first = voltage if first is None else first
         voltage *= 1.001
@@ -78,10 +79,10 @@ def test_a_bearing_is_its_elements(rows):
 def test_scales(rows, scale):
     """Capacitances alone say nothing of the voltages but by their ratios; strengths scale them."""
     one = circuit_of(*rows)
-    larger = Circuit(scale * one.inner, scale * one.outer, one.inner_strength, one.outer_strength)
+    larger = Circuit(scale * one.inner, scale * one.outer, one.inner_breakdown, one.outer_breakdown)
     assert larger.capacitance == pytest.approx(scale * one.capacitance, rel=1e-12, abs=0.0)
     assert larger.first_break == pytest.approx(one.first_break, rel=1e-9, abs=0.0)
-    stronger = Circuit(one.inner, one.outer, scale * one.inner_strength, scale * one.outer_strength)
+    stronger = Circuit(one.inner, one.outer, scale * one.inner_breakdown, scale * one.outer_breakdown)
     assert stronger.first_break == pytest.approx(scale * one.first_break, rel=1e-9, abs=0.0)
     assert stronger.through_breakdown == pytest.approx(scale * one.through_breakdown, rel=1e-9, abs=0.0)
 
@@ -134,7 +135,7 @@ def test_contacts_without_a_strength_never_break():
 )
 def test_voltage_ratio_is_the_charge_of_the_divider(wr, rf, first, second):
     """Winding at 1 V, frame at 0: the rotor's voltage at which all its charges add to nothing."""
-    rotor = bearing_voltage_ratio(wr, rf, first, second)
+    rotor = voltage_ratio(wr, rf, first, second)
     charges = wr * (rotor - 1.0) + (rf + first + second) * rotor
     assert abs(charges) < 1e-12 * (wr + rf + first + second)
     assert 0.0 < rotor < 1.0
@@ -142,7 +143,7 @@ def test_voltage_ratio_is_the_charge_of_the_divider(wr, rf, first, second):
 
 def test_voltage_ratio_by_hand():
     """20/(20 + 1000 + 70 + 110) = 1/60."""
-    found = bearing_voltage_ratio(20e-12, 1e-9, 70e-12, 110e-12)
+    found = voltage_ratio(20e-12, 1e-9, 70e-12, 110e-12)
     assert found == pytest.approx(1.0 / 60.0, rel=1e-12, abs=0.0)
 
 
@@ -170,12 +171,12 @@ def test_impedance_is_resistance_beside_capacitance(frequency):
 def test_the_first_break_of_a_weibull_strength_is_at_63_2_per_cent(rows, shape):
     """The probability that all contacts hold, one by one, at that bearing voltage: 1/e."""
     whole = circuit_of(*rows)
-    found = Circuit(whole.inner, whole.outer, whole.inner_strength, whole.outer_strength, shape)
+    found = Circuit(whole.inner, whole.outer, whole.inner_breakdown, whole.outer_breakdown, shape)
     hold = 1.0
-    for inner, outer, inner_strength, outer_strength in rows:
+    for inner, outer, inner_breakdown, outer_breakdown in rows:
         on_inner = found.first_break * outer / (inner + outer)
-        hold *= np.exp(-((on_inner / inner_strength) ** shape))
-        hold *= np.exp(-(((found.first_break - on_inner) / outer_strength) ** shape))
+        hold *= np.exp(-((on_inner / inner_breakdown) ** shape))
+        hold *= np.exp(-(((found.first_break - on_inner) / outer_breakdown) ** shape))
     assert hold == pytest.approx(np.exp(-1.0), rel=1e-6, abs=0.0)
     # Each of 2 n contacts alone breaks at no less than the first of a certain strength.
     assert found.first_break <= whole.first_break * (1.0 + 1e-12)

@@ -1,4 +1,4 @@
-"""A bearing file in numbers: materials, geometry and duty by hand, of bearings whose two sides differ."""
+"""A bearing file in numbers: materials and geometry by hand, of bearings whose two sides differ."""
 
 import dataclasses
 import math
@@ -6,8 +6,8 @@ import math
 import numpy as np
 import pytest
 
-from ehlectric.bearing.conditions import BearingDuty
 from ehlectric.bearing.loads.geometry import BallBearing
+from ehlectric.bearing.preparation import equilibria_of, resolve_bearing
 from ehlectric.lubricant.temperature import inlet_shear_factor
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, changed
 
@@ -26,12 +26,12 @@ ANGULAR = changed(
 def test_ceramic_balls_in_steel_rings():
     """2/E' = (1 - 0.26^2)/315 GPa + (1 - 0.3^2)/208 GPa; 3200 kg/m^3 on 30 mm at the cage's speed."""
     case = bearing_case(BALLS, **CERAMIC)
-    duty = BearingDuty.of(case)
+    conditions = resolve_bearing(case)
     by_hand = 2.0 / ((1.0 - 0.26**2) / 315e9 + (1.0 - 0.3**2) / 208e9)
-    assert duty.modulus == pytest.approx(by_hand, rel=1e-12, abs=0.0)
-    assert (duty.element.youngs_modulus, duty.ring.youngs_modulus) == (315e9, 208e9)
-    assert (duty.element.conducting, duty.ring.conducting) == (False, True)
-    at = duty.equilibria(case.bearing, 1)[0]
+    assert conditions.modulus == pytest.approx(by_hand, rel=1e-12, abs=0.0)
+    assert (conditions.element.youngs_modulus, conditions.ring.youngs_modulus) == (315e9, 208e9)
+    assert (conditions.element.conducting, conditions.ring.conducting) == (False, True)
+    at = equilibria_of(conditions, 1)[0]
     mass = 3200.0 * math.pi / 6.0 * D**3
     assert at.centrifugal_force == pytest.approx(mass * 0.5 * PITCH * at.cage_speed**2, rel=1e-9, abs=0.0)
 
@@ -40,7 +40,7 @@ def test_ceramic_balls_in_steel_rings():
 def test_centrifugal_force_of_a_files_rollers(material, density):
     """rho pi D^2 L/4 on d_m/2 at (1 - D/d_m)/2 of 3000 rpm."""
     case = bearing_case(ROLLERS, bearing__element_material=material)
-    at = BearingDuty.of(case).equilibria(case.bearing, 1)[0]
+    at = equilibria_of(resolve_bearing(case), 1)[0]
     cage = 0.5 * (1.0 - 11.0 / 60.0) * SPEED
     force = density * math.pi * 11e-3**2 * 10e-3 / 4.0 * 30e-3 * cage**2
     assert at.centrifugal_force == pytest.approx(force, rel=1e-9, abs=0.0)
@@ -48,13 +48,13 @@ def test_centrifugal_force_of_a_files_rollers(material, density):
 
 def test_each_groove_is_that_of_its_ring():
     """1/Ry = 2/D - 1/(f D); 1/Rx of Harris at the angle that is asked for."""
-    duty = BearingDuty.of(bearing_case(ANGULAR))
-    own = dataclasses.replace(duty.geometry, contact_angle=math.radians(40.0))
-    assert duty.geometry.contact_angle == pytest.approx(math.radians(40.0), rel=1e-12, abs=0.0)
+    conditions = resolve_bearing(bearing_case(ANGULAR))
+    own = dataclasses.replace(conditions.geometry, contact_angle=math.radians(40.0))
+    assert conditions.geometry.contact_angle == pytest.approx(math.radians(40.0), rel=1e-12, abs=0.0)
     assert own == BallBearing(9, D, PITCH, 0.52, 0.53, contact_angle=math.radians(40.0))
     for inner, groove, sign in ((True, 0.52, 1.0), (False, 0.53, -1.0)):
         for angle in (0.0, 0.7):
-            radii = duty.radii(angle, inner=inner)
+            radii = conditions.radii(angle, inner=inner)
             c = math.cos(angle)
             rolling = 1.0 / (2.0 / D + sign * 2.0 * c / (PITCH - sign * D * c))
             assert radii.radius_x == pytest.approx(rolling, rel=1e-12, abs=0.0)
@@ -64,7 +64,7 @@ def test_each_groove_is_that_of_its_ring():
 def test_loads_and_speed_of_the_file_are_the_rings():
     """The balls' forces add up to 1800 N radial and 300 N axial; entrainment w d_m (1 - g^2)/4."""
     case = bearing_case(BALLS)
-    for at in BearingDuty.of(case).equilibria(case.bearing, 3):
+    for at in equilibria_of(resolve_bearing(case), 3):
         q = at.inner_load
         assert q @ (np.cos(at.inner_angle) * np.cos(at.position)) == pytest.approx(1800.0, rel=1e-8, abs=0.0)
         assert q @ np.sin(at.inner_angle) == pytest.approx(300.0, rel=1e-7, abs=0.0)
@@ -77,7 +77,7 @@ def test_loads_and_speed_of_the_file_are_the_rings():
 @pytest.mark.parametrize("celsius", [40.0, 70.0, 100.0])
 def test_the_oil_is_that_of_the_bearings_temperature(celsius):
     """46 and 6.8 mm^2/s at 40 and 100 degC, 14.85 by hand between them, times the density there."""
-    lubricant = BearingDuty.of(bearing_case(BALLS, bearing__temperature=f"{celsius} degC")).lubricant
+    lubricant = resolve_bearing(bearing_case(BALLS, bearing__temperature=f"{celsius} degC")).lubricant
     kinematic = {40.0: 46e-6, 70.0: 14.85e-6, 100.0: 6.8e-6}[celsius]
     eta = kinematic * 870.0 * (1.0 - 6.5e-4 * (celsius - 15.0))
     assert lubricant.viscosity == pytest.approx(eta, rel=2e-4, abs=0.0)
@@ -88,8 +88,8 @@ def test_the_oil_is_that_of_the_bearings_temperature(celsius):
 @pytest.mark.parametrize(("tables", "exponent"), [(BALLS, 0.67), (ROLLERS, 0.69)])
 def test_film_factor_of_balls_and_of_rollers(tables, exponent):
     """Half of the film takes 0.5^(1/0.67) of the speed, or 0.5^(1/0.69)."""
-    duty = BearingDuty.of(bearing_case(tables, bearing__film_factor=0.5))
-    assert duty.entrainment_factor == pytest.approx(0.5 ** (1.0 / exponent), rel=1e-12, abs=0.0)
+    conditions = resolve_bearing(bearing_case(tables, bearing__film_factor=0.5))
+    assert conditions.entrainment_factor == pytest.approx(0.5 ** (1.0 / exponent), rel=1e-12, abs=0.0)
 
 
 def test_heat_of_the_inlet_of_an_angular_contact_bearing():
@@ -101,11 +101,13 @@ def test_heat_of_the_inlet_of_an_angular_contact_bearing():
         lubricant__temperature__thermal_conductivity="0.14 W/m/K",
         lubricant__temperature__expansion="2e-3 1/K",
     )
-    duty = BearingDuty.of(case)
+    conditions = resolve_bearing(case)
     gamma = D / PITCH * math.cos(math.radians(40.0))
     speed = 4.0 * SPEED * PITCH / 4.0 * (1.0 - gamma**2)
     eta = [case.lubricant.at(343.15 + d).viscosity for d in (-0.05, 0.05)]
-    expected = inlet_shear_factor(duty.lubricant.viscosity, math.log(eta[0] / eta[1]) / 0.1, speed, 0.14)
+    expected = inlet_shear_factor(
+        conditions.lubricant.viscosity, math.log(eta[0] / eta[1]) / 0.1, speed, 0.14
+    )
     assert expected < 0.9
     # Expansion goes by the density at 15 degC, of which there is 11 % less at 70 degC: 1 % of beta.
-    assert duty.film_factor == pytest.approx(expected, rel=2e-3, abs=0.0)
+    assert conditions.film_factor == pytest.approx(expected, rel=2e-3, abs=0.0)

@@ -5,15 +5,13 @@ import math
 import numpy as np
 import pytest
 
-from ehlectric.bearing.conditions import BearingDuty
-from ehlectric.bearing.contacts import contact_case
-from ehlectric.bearing.domain import least_load, line_domain, point_domain
-from ehlectric.bearing.ring_contacts import Race
+from ehlectric.bearing.domain import line_domain, point_domain
+from ehlectric.bearing.preparation import least_load
 from ehlectric.contact.resolve import resolve, resolve_point
 from ehlectric.formulas.film_line import LineContact, moes
 from ehlectric.formulas.film_point import PointContact, nijenbanning_venner_moes
 from ehlectric.formulas.hertz_point import dry_contact
-from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, changed
+from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, changed, contact_case, contact_of, ring_of
 
 D, PITCH, ROLLER, LENGTH = 11.906e-3, 60e-3, 11e-3, 10e-3
 MODULUS = 208e9 / (1.0 - 0.3**2)
@@ -24,7 +22,7 @@ UNLIKE = changed(BALLS, bearing__outer_groove=0.53)
 
 
 def of(tables, *, inner):
-    return BearingDuty.of(bearing_case(tables)), Race(inner, 0.0, SPEED)
+    return ring_of(bearing_case(tables), inner=inner, speed=SPEED)
 
 
 def roller(load, *, inner):
@@ -49,10 +47,10 @@ def ball(load, *, inner):
 @pytest.mark.parametrize("inner", [True, False])
 def test_heavy_contacts_have_the_domain_of_others(inner):
     """4 and 2 half-widths of a roller; 4.5 and 1.5 semi-axes of a ball, across 1.6 + 1.4/k of them."""
-    assert line_domain(*of(ROLLERS, inner=inner), 20e3) == {
+    assert line_domain(contact_of(of(ROLLERS, inner=inner), 20e3)) == {
         "inlet": -4.0, "outlet": 2.0, "nodes": 3201, "field_range": [-1.25, 1.25],
     }  # fmt: skip
-    found = point_domain(*of(UNLIKE, inner=inner), 5000.0)
+    found = point_domain(contact_of(of(UNLIKE, inner=inner), 5000.0))
     b, a, _, _ = ball(5000.0, inner=inner)
     assert (found["inlet"], found["outlet"], found["nodes"]) == (-4.5, 1.5, 257)
     assert found["side"] == pytest.approx(1.6 + 1.4 * b / a, rel=1e-9, abs=0.0)
@@ -62,7 +60,7 @@ def test_heavy_contacts_have_the_domain_of_others(inner):
 def test_a_light_rollers_domain(inner):
     """Ten lengths before it and two behind, with sixteen nodes over its contact."""
     load = 60.0
-    found = line_domain(*of(ROLLERS, inner=inner), load)
+    found = line_domain(contact_of(of(ROLLERS, inner=inner), load))
     b, length = roller(load, inner=inner)
     assert length > b
     assert -found["inlet"] * b == pytest.approx(10.0 * length, rel=1e-4, abs=0.0)
@@ -73,7 +71,7 @@ def test_a_light_rollers_domain(inner):
     for hardly in (5.0, 1.6):
         b, length = roller(hardly, inner=inner)
         expected = min(10.0 * length, max(100.0 * b, 8.0 * length), 300.0 * b)
-        inlet = -line_domain(*of(ROLLERS, inner=inner), hardly)["inlet"] * b
+        inlet = -line_domain(contact_of(of(ROLLERS, inner=inner), hardly))["inlet"] * b
         assert inlet == pytest.approx(expected, rel=1e-4, abs=0.0)
         # Where the roller falls away from its parabola, at half of its radius, the domain would end too.
         assert inlet < 0.25 * ROLLER
@@ -83,7 +81,7 @@ def test_a_light_rollers_domain(inner):
 def test_a_light_balls_domain(inner):
     """Ten lengths before it and one behind; beside it four of those across, from the ellipse's end."""
     load = 10.0
-    found = point_domain(*of(UNLIKE, inner=inner), load)
+    found = point_domain(contact_of(of(UNLIKE, inner=inner), load))
     b, a, along, across = ball(load, inner=inner)
     assert -found["inlet"] * b == pytest.approx(10.0 * along, rel=1e-4, abs=0.0)
     assert found["outlet"] * b == pytest.approx(max(1.5 * b, along), rel=1e-4, abs=0.0)
@@ -92,7 +90,7 @@ def test_a_light_balls_domain(inner):
     assert found["nodes"] - 1 >= 8.0 * (found["outlet"] - found["inlet"])
     assert found["nodes"] - 1 >= 16.0 * found["side"]
     # What a grid holds: 48 semi-axes before and 24 beside.
-    hardly = point_domain(*of(UNLIKE, inner=inner), 1e-3)
+    hardly = point_domain(contact_of(of(UNLIKE, inner=inner), 1e-3))
     ends = [hardly["inlet"], hardly["outlet"], hardly["side"]]
     assert ends == pytest.approx([-48.0, 4.8, 24.0], rel=1e-12, abs=0.0)
 
@@ -100,7 +98,7 @@ def test_a_light_balls_domain(inner):
 @pytest.mark.parametrize("inner", [True, False])
 def test_the_least_load_is_the_first_that_fits(inner):
     """Found among powers of 10^0.1: its lengths fit into the domain's end, those of a tenth less do not."""
-    least = least_load(*of(ROLLERS, inner=inner))
+    least = least_load(of(ROLLERS, inner=inner))
 
     def fits(load):
         b, length = roller(load, inner=inner)
@@ -115,9 +113,7 @@ def test_the_least_load_is_the_first_that_fits(inner):
 def test_cases_take_these_domains(inner, load):
     """In the units of the case: half-widths, or semi-axes along and across."""
     for tables in (UNLIKE, ROLLERS):
-        case = bearing_case(tables)
-        duty, race = of(tables, inner=inner)
-        made = contact_case(duty, race, load, case.discharge, case.solver.model_dump())
+        made = contact_case(of(tables, inner=inner), load, {})
         # Grids are refined until the estimated error of the least film is below 3 %.
         assert made.grid.refine == 0.03
         if tables is ROLLERS:

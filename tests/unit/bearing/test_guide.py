@@ -6,7 +6,6 @@ import sys
 
 import pytest
 
-from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solver import solve_bearing
 from tests.helpers.bearings import ROLLERS, bearing_case
 from tests.helpers.places import ROOT
@@ -31,6 +30,6 @@ def test_the_script_of_the_guide_runs_as_a_file(tmp_path):
     )
     assert done.returncode == 0, done.stderr
     assert done.stderr == ""
-    result = BearingResult(solve_bearing(case, workers=1))
+    result = solve_bearing(case, workers=1)
     expected = result.capacitance("oil"), result.breaks()["first_break"]
     assert [float(text) for text in done.stdout.split()] == pytest.approx(expected, rel=1e-6, abs=0.0)

@@ -6,14 +6,13 @@ import numpy as np
 import pytest
 
 from ehlectric import ConvergenceError, InputError
-from ehlectric.bearing.conditions import BearingDuty
 from ehlectric.bearing.limits import check_film, shoulder_angle
 from ehlectric.bearing.loads.balls import ball_equilibrium
-from ehlectric.bearing.loads.ring import Duty
-from ehlectric.bearing.result import BearingResult
-from ehlectric.bearing.ring_contacts import Race
+from ehlectric.bearing.loads.ring import Operation
+from ehlectric.bearing.preparation import equilibria_of, resolve_bearing
+from ehlectric.bearing.ring_contacts import RollerContact
 from ehlectric.bearing.solver import check_bearing, solve_bearing
-from tests.helpers.bearings import BALLS, ROLLERS, bearing_case
+from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, ring_of
 
 ANGULAR = {
     "bearing__kind": "angular-contact ball",
@@ -27,7 +26,7 @@ VG_460 = {
 
 
 def by_formula(tables, **changes):
-    return BearingResult(solve_bearing(bearing_case(tables, contacts="formula", **changes)))
+    return solve_bearing(bearing_case(tables, contacts="formula", **changes))
 
 
 def refusal(tables, **changes):
@@ -59,7 +58,7 @@ def test_a_load_is_more_than_the_weight_of_a_ball(radial, axial):
 def test_light_loads_balance_beside_the_centrifugal_force(load):
     """The rings' balance again from the contacts, to 1e-9 of F_c = 3.3 N and the load."""
     case = bearing_case(BALLS, bearing__radial_load=load, bearing__axial_load=0.0)
-    for at in BearingDuty.of(case).equilibria(case.bearing, 8):
+    for at in equilibria_of(resolve_bearing(case), 8):
         lifted = at.inner_load * np.cos(at.inner_angle) * np.cos(at.position)
         assert np.sum(lifted) == pytest.approx(load, abs=1e-9 * (load + at.centrifugal_force))
         assert at.residual < 1e-9
@@ -68,9 +67,9 @@ def test_light_loads_balance_beside_the_centrifugal_force(load):
 
 def test_a_load_of_next_to_nothing_has_no_balance():
     """From Python, where nothing is refused before: no error of division."""
-    geometry = BearingDuty.of(bearing_case(BALLS)).geometry
+    geometry = resolve_bearing(bearing_case(BALLS)).geometry
     try:
-        state = ball_equilibrium(geometry, Duty(1e-30, 0.0, 314.0), 226e9, 7800.0)
+        state = ball_equilibrium(geometry, Operation(1e-30, 0.0, 314.0), 226e9, 7800.0)
     except ConvergenceError:
         return
     assert state.residual < 1e-9
@@ -87,15 +86,15 @@ def test_films_without_room_are_refused(temperature):
 
 def test_a_roller_is_a_parabola_as_far_as_its_film_builds_up():
     """sqrt(2 R h) = 0.1 r: of 5.5 mm on 24.5 mm, R = 4.4917 mm, 33.7 um."""
-    duty = BearingDuty.of(bearing_case(ROLLERS))
+    ring = ring_of(bearing_case(ROLLERS), speed=4.55)
     for load in (0.2, 0.3, 0.5):
         # Of rigid bodies without a pressure-viscosity effect (Martin), h = 4.896 eta u R L/Q.
-        film = 4.896 * duty.lubricant.viscosity * 4.55 * 4.4917e-3 * 0.01 / load
+        film = 4.896 * ring.conditions.lubricant.viscosity * 4.55 * 4.4917e-3 * 0.01 / load
         if film > 33.7e-6:
             with pytest.raises(InputError, match=r"for at most 33\.7 um"):
-                check_film(duty, Race(True, 0.0, 4.55), load)
+                check_film(RollerContact(ring, load))
         else:
-            check_film(duty, Race(True, 0.0, 4.55), load)
+            check_film(RollerContact(ring, load))
 
 
 @pytest.mark.parametrize(("temperature", "warned"), [("20 degC", True), ("70 degC", False)])

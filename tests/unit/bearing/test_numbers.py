@@ -6,12 +6,12 @@ import math
 import numpy as np
 import pytest
 
-from ehlectric.bearing.by_formula import formula_contact
 from ehlectric.bearing.contacts import ContactCurve
 from ehlectric.bearing.result import BearingResult
-from ehlectric.bearing.ring_contacts import Race, rigid_capacitance
+from ehlectric.bearing.ring_contacts import RingContacts
+from ehlectric.bearing.solution import lambda_ratio, lubrication
 from ehlectric.bearing.solver import solve_bearing
-from tests.helpers.bearings import BALLS, bearing_case
+from tests.helpers.bearings import BALLS, bearing_case, formula_contact, rigid_capacitance, with_values
 
 # Fast, so that the outer ring carries more; with a wider outer groove and room for unloaded balls.
 CHANGES = {
@@ -25,7 +25,7 @@ CHANGES = {
 
 @pytest.fixture(scope="module", params=["oil", "air"])
 def result(request):
-    return BearingResult(solve_bearing(bearing_case(BALLS, **CHANGES, bearing__fill=request.param)))
+    return solve_bearing(bearing_case(BALLS, **CHANGES, bearing__fill=request.param))
 
 
 def by_elements(result, at, fill):
@@ -34,24 +34,23 @@ def by_elements(result, at, fill):
     Radii, angle and speed are those of the most loaded ball. Balls that touch nothing are rigid ones apart.
     """
     solution = result.solution
-    case, duty = solution.case, solution.duty
     first = solution.positions[0].equilibrium
     most = int(np.argmax(first.inner_load))
     parts = {}
     for name, inner in (("inner", True), ("outer", False)):
         angle = float(getattr(first, f"{name}_angle")[most])
         speed = float(getattr(first.speeds, f"{name}_entrainment")[most])
-        race = Race(inner, angle, speed)
+        ring = RingContacts(solution.conditions, inner, angle, speed)
         capacitances, strengths, films = [], [], []
         for load, gap in zip(getattr(at, f"{name}_load"), getattr(at, f"{name}_gap"), strict=True):
             if load > 0.0:
-                contact = formula_contact(case.bearing, duty, race, float(load), discharge=case.discharge)
+                contact = formula_contact(ring, float(load)).values
                 around = contact.outside_oil if fill == "oil" else contact.outside_air
                 capacitances.append(contact.inside + around)
                 strengths.append(contact.breakdown_voltage)
                 films.append(contact.minimum_thickness)
             else:
-                vacuum = rigid_capacitance(case.bearing, duty, race, float(gap))
+                vacuum = rigid_capacitance(ring, float(gap))
                 capacitances.append((2.4 if fill == "oil" else 1.0) * vacuum)
                 strengths.append(15e6 * float(gap))
         parts[name] = np.array(capacitances), np.array(strengths), min(films)
@@ -66,7 +65,7 @@ def test_a_bearing_from_its_elements(result):
     solution = result.solution
     found, fill = result.summary()["bearing"], solution.case.bearing.fill
     totals, firsts, throughs, films = [], [], [], []
-    for position, circuit in zip(solution.positions, result.circuits(fill), strict=True):
+    for position, circuit in zip(solution.positions, result.solution.circuits(fill), strict=True):
         parts = by_elements(result, position.equilibrium, fill)
         (inner, inner_holds, inner_film), (outer, outer_holds, outer_film) = parts["inner"], parts["outer"]
         np.testing.assert_allclose(circuit.inner, inner, rtol=0.02)
@@ -111,8 +110,8 @@ def test_breaks_of_strengths_that_are_anything(result):
         positions.append(
             dataclasses.replace(
                 position,
-                inner=dataclasses.replace(position.inner, breakdown_voltage=inner),
-                outer=dataclasses.replace(position.outer, breakdown_voltage=outer),
+                inner=with_values(position.inner, breakdown_voltage=inner),
+                outer=with_values(position.outer, breakdown_voltage=outer),
             )
         )
         one, other = position.inner.capacitance(fill), position.outer.capacitance(fill)
@@ -146,22 +145,25 @@ def test_lambda_is_that_of_the_thinnest_loaded_film(result, ring):
     *others, last = solution.positions
     race = getattr(last, ring)
     loaded = np.flatnonzero(race.load > 0.0)
-    films = race.minimum_thickness.copy()
+    films = race.values.minimum_thickness.copy()
     films[loaded[-1]] = 2e-9
     films[race.load == 0.0] = 1e-9
-    thin = dataclasses.replace(last, **{ring: dataclasses.replace(race, minimum_thickness=films)})
-    found = BearingResult(dataclasses.replace(solution, positions=(*others, thin)))
-    assert found.lambda_ratio == pytest.approx(2e-9 / 0.03e-6, rel=1e-12, abs=0.0)
-    assert found.lubrication == "conducting"
+    thin = dataclasses.replace(last, **{ring: with_values(race, minimum_thickness=films)})
+    found = dataclasses.replace(solution, positions=(*others, thin))
+    assert lambda_ratio(found) == pytest.approx(2e-9 / 0.03e-6, rel=1e-12, abs=0.0)
+    assert lubrication(found) == "conducting"
 
 
 def test_errors_are_the_larger_of_both_rings(result):
     """Of one ring interpolated exactly and of one whose contact in the middle is 10 % off its neighbours'."""
     solution = result.solution
     one = solution.outer_curve.solutions[-1]
-    rows = [dataclasses.replace(one, load=q, inside=1e-11 * q**0.5, error=0.02) for q in (1.0, 10.0, 100.0)]
+    rows = [
+        dataclasses.replace(with_values(one, inside=1e-11 * q**0.5), load=q, error=0.02)
+        for q in (1.0, 10.0, 100.0)
+    ]
     exact = ContactCurve(tuple(rows))
-    off = dataclasses.replace(rows[1], inside=1.1 * rows[1].inside, error=0.01)
+    off = dataclasses.replace(with_values(rows[1], inside=1.1 * rows[1].values.inside), error=0.01)
     bent = ContactCurve((rows[0], off, rows[2]))
     for inner, outer in ((exact, bent), (bent, exact)):
         curves = dataclasses.replace(solution, inner_curve=inner, outer_curve=outer)

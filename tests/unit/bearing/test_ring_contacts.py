@@ -5,7 +5,6 @@ import math
 import numpy as np
 import pytest
 
-from ehlectric.bearing.conditions import BearingDuty
 from ehlectric.bearing.gaps.groove import (
     LoadedContact,
     Raceway,
@@ -13,18 +12,16 @@ from ehlectric.bearing.gaps.groove import (
     groove_gap,
     outside_capacitance,
 )
-from ehlectric.bearing.gaps.roller import RollerRace, roller_capacitance, roller_tails
+from ehlectric.bearing.gaps.roller import RollerRaceway, roller_capacitance, roller_tails
 from ehlectric.bearing.ring_contacts import (
-    Race,
+    BallContact,
+    RollerContact,
     around_ball,
     around_roller,
-    line_contact,
-    point_contact,
     raceway_of,
-    rigid_capacitance,
 )
 from ehlectric.formulas.hertz_point import dry_contact, point_deflection
-from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, changed
+from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, changed, rigid_capacitance, ring_of
 
 D, PITCH = 11.906e-3, 60e-3
 MODULUS = 208e9 / (1.0 - 0.3**2)
@@ -34,9 +31,8 @@ UNLIKE = changed(BALLS, bearing__outer_groove=0.53)
 RINGS = [(True, 0.52, 1.0), (False, 0.53, -1.0)]
 
 
-def of(tables):
-    case = bearing_case(tables)
-    return case.bearing, BearingDuty.of(case)
+def of(tables, *, inner, angle=0.0):
+    return ring_of(bearing_case(tables), inner=inner, angle=angle, speed=4.5)
 
 
 def radii(groove, sign, angle):
@@ -48,9 +44,8 @@ def radii(groove, sign, angle):
 @pytest.mark.parametrize(("inner", "groove", "sign"), RINGS)
 def test_balls_contacts_by_hand(inner, groove, sign):
     """Radii, modulus of steel, and oil of 70 degC; the raceway's arc ends arccos(1 - 0.2/f) up the groove."""
-    bearing, duty = of(UNLIKE)
-    race = Race(inner, 0.3, 4.5)
-    contact, raceway = point_contact(duty, race, 600.0), raceway_of(bearing, race)
+    ring = of(UNLIKE, inner=inner, angle=0.3)
+    contact, raceway = BallContact(ring, 600.0).point, raceway_of(ring)
     rx, ry = radii(groove, sign, 0.3)
     found = [contact.radius_x, contact.radius_y, contact.reduced_modulus, contact.load]
     assert found == pytest.approx([rx, ry, MODULUS, 600.0], rel=1e-12, abs=0.0)
@@ -65,8 +60,7 @@ def test_balls_contacts_by_hand(inner, groove, sign):
 @pytest.mark.parametrize(("inner", "race_radius"), [(True, 24.5e-3), (False, -35.5e-3)])
 def test_rollers_contacts_by_hand(inner, race_radius):
     """1/R of 5.5 mm and (60 -+ 11)/2 mm; 1200 N on 10 mm."""
-    _, duty = of(ROLLERS)
-    contact = line_contact(duty, Race(inner, 0.0, 4.5), 1200.0)
+    contact = RollerContact(of(ROLLERS, inner=inner), 1200.0).line
     reduced = 1.0 / (1.0 / 5.5e-3 + 1.0 / race_radius)
     found = [contact.reduced_radius, contact.reduced_modulus, contact.load_per_length]
     assert found == pytest.approx([reduced, MODULUS, 120e3], rel=1e-12, abs=0.0)
@@ -78,11 +72,8 @@ def test_rollers_contacts_by_hand(inner, race_radius):
 @pytest.mark.parametrize("angle", [0.0, 0.3])
 def test_around_a_balls_film(inner, groove, sign, angle):
     """Of a film that is the deformed gap itself nothing is missed, and what is around it is that gap's."""
-    bearing, duty = of(UNLIKE)
-    race, raceway = (
-        Race(inner, angle, 4.5),
-        Raceway.of(D, PITCH, groove, 0.2, outer=not inner, contact_angle=angle),
-    )
+    ring = of(UNLIKE, inner=inner, angle=angle)
+    raceway = Raceway.of(D, PITCH, groove, 0.2, outer=not inner, contact_angle=angle)
     dry = dry_contact(600.0, *radii(groove, sign, angle), MODULUS)
     b, a = dry.semi_axis_x, dry.semi_axis_y
     x, y = np.linspace(-4.0 * b, 1.5 * b, 45), np.linspace(-1.6 * a, 1.6 * a, 31)
@@ -91,7 +82,7 @@ def test_around_a_balls_film(inner, groove, sign, angle):
     film = groove_gap(raceway, offset, *at) + point_deflection(*at, dry, MODULUS)
     # Within its edge a film may be anything.
     film[1:-1, 1:-1] = 3e-7
-    found, mismatch = around_ball(bearing, point_contact(duty, race, 600.0), race, (x, y), film)
+    found, mismatch = around_ball(BallContact(ring, 600.0), (x, y), film)
     expected = outside_capacitance(raceway, LoadedContact(dry, MODULUS, offset, 0.0), (x[0], x[-1], y[-1]))
     assert mismatch < 1e-9
     assert found == pytest.approx(expected, rel=1e-9, abs=0.0)
@@ -100,24 +91,21 @@ def test_around_a_balls_film(inner, groove, sign, angle):
 @pytest.mark.parametrize(("inner", "race_radius"), [(True, 24.5e-3), (False, 35.5e-3)])
 def test_around_a_rollers_film(inner, race_radius):
     """Tails of 10 mm length from both ends, of which the inlet is further out."""
-    _, duty = of(ROLLERS)
     b, x = 1e-4, np.linspace(-4e-4, 2e-4, 7)
     film = 5e-7 + 1e-5 * (x / 4e-4) ** 2
     tails = roller_tails(
-        RollerRace(5.5e-3, race_radius, not inner), b, (-4e-4, 2e-4), (5e-7 + 1e-5, 5e-7 + 2.5e-6)
+        RollerRaceway(5.5e-3, race_radius, not inner), b, (-4e-4, 2e-4), (5e-7 + 1e-5, 5e-7 + 2.5e-6)
     )
-    found = around_roller(duty, Race(inner, 0.0, 4.5), b, x, film)
+    found = around_roller(of(ROLLERS, inner=inner), b, x, film)
     assert found == pytest.approx(10e-3 * sum(tails), rel=1e-12, abs=0.0)
 
 
 @pytest.mark.parametrize(("inner", "groove", "sign"), RINGS)
 def test_rigid_bodies_apart(inner, groove, sign):
     """Balls in grooves at their contact angle, and rollers on races of (60 -+ 11)/2 mm, 10 mm long."""
-    bearing, duty = of(UNLIKE)
     raceway = Raceway.of(D, PITCH, groove, 0.2, outer=not inner, contact_angle=0.3)
-    found = rigid_capacitance(bearing, duty, Race(inner, 0.3, 4.5), 5e-6)
+    found = rigid_capacitance(of(UNLIKE, inner=inner, angle=0.3), 5e-6)
     assert found == pytest.approx(groove_capacitance(raceway, 5e-6), rel=1e-12, abs=0.0)
-    bearing, duty = of(ROLLERS)
-    race = RollerRace(5.5e-3, 0.5 * (60e-3 - sign * 11e-3), outer=not inner)
-    found = rigid_capacitance(bearing, duty, Race(inner, 0.0, 4.5), 5e-6)
+    race = RollerRaceway(5.5e-3, 0.5 * (60e-3 - sign * 11e-3), outer=not inner)
+    found = rigid_capacitance(of(ROLLERS, inner=inner), 5e-6)
     assert found == pytest.approx(10e-3 * roller_capacitance(race, 5e-6), rel=1e-12, abs=0.0)

@@ -4,20 +4,17 @@ import numpy as np
 import pytest
 
 from ehlectric import InputError
-from ehlectric.bearing.conditions import BearingDuty
-from ehlectric.bearing.contacts import contact_case, solve_contact
-from ehlectric.bearing.domain import least_load
+from ehlectric.bearing.preparation import LOADS, least_load
 from ehlectric.bearing.result import BearingResult
-from ehlectric.bearing.ring_contacts import Race
-from ehlectric.bearing.solver import LOADS, POSITIONS, check_bearing, solve_bearing
+from ehlectric.bearing.solver import POSITIONS, check_bearing, solve_bearing
 from ehlectric.contact.resolve import resolve, resolve_point
 from ehlectric.formulas.film_point import PointContact, chittenden
-from tests.helpers.bearings import BALLS, ROLLERS, bearing_case
+from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, contact_case, ring_of, solve_contact
 
 
 @pytest.fixture(scope="module")
 def rollers():
-    return solve_bearing(bearing_case(ROLLERS), workers=1)
+    return solve_bearing(bearing_case(ROLLERS), workers=1).solution
 
 
 def test_solved_loads_hold_those_of_all_elements(rollers):
@@ -36,7 +33,7 @@ def test_solved_loads_hold_those_of_all_elements(rollers):
         assert loads[-1] == pytest.approx(np.max(of_elements), rel=1e-9, abs=0.0)
         # What is below a five hundredth of the largest, or has a film that no domain holds, is not reached.
         least = np.min(of_elements[of_elements > 0.0])
-        lightest = max(least, 0.002 * loads[-1], least_load(rollers.duty, race))
+        lightest = max(least, 0.002 * loads[-1], least_load(race))
         assert loads[0] <= lightest * (1.0 + 1e-9)
         # Nor is anything lighter solved.
         assert loads[0] == pytest.approx(lightest, rel=1e-9, abs=0.0)
@@ -60,17 +57,10 @@ def test_an_elements_contact_is_the_one_solved_at_its_load(rollers):
         (rollers.outer, position.outer, rollers.outer_curve),
     ):
         for k in np.flatnonzero(state.solved)[:3]:
-            alone = solve_contact(
-                case.bearing,
-                rollers.duty,
-                race,
-                float(state.load[k]),
-                discharge=case.discharge,
-                solver=case.solver.model_dump(),
-            )
+            alone = solve_contact(race, float(state.load[k]), case.solver.model_dump()).values
             tolerance = curve.interpolation_error
-            assert state.inside[k] == pytest.approx(alone.inside, rel=tolerance)
-            assert state.breakdown_voltage[k] == pytest.approx(alone.breakdown_voltage, rel=tolerance)
+            assert state.values.inside[k] == pytest.approx(alone.inside, rel=tolerance)
+            assert state.values.breakdown_voltage[k] == pytest.approx(alone.breakdown_voltage, rel=tolerance)
 
 
 def test_entrainment_is_that_of_pure_rolling(rollers):
@@ -82,9 +72,9 @@ def test_entrainment_is_that_of_pure_rolling(rollers):
 
 def test_a_film_factor_thins_the_films(rollers):
     """By about its own part, through the speed, and voltages with them."""
-    lean = solve_bearing(bearing_case(ROLLERS, bearing__film_factor=0.7), workers=1)
+    lean = solve_bearing(bearing_case(ROLLERS, bearing__film_factor=0.7), workers=1).solution
     assert lean.inner.speed == pytest.approx(0.7 ** (1.0 / 0.69) * rollers.inner.speed, rel=1e-9, abs=0.0)
-    thick, thin = (s.inner_curve.solutions[-1].central_thickness for s in (rollers, lean))
+    thick, thin = (s.inner_curve.solutions[-1].values.central_thickness for s in (rollers, lean))
     # The solved film goes with a power of the speed that is a little above the formula's 0.69.
     assert thin / thick == pytest.approx(0.7, rel=0.03)
     breaks = [BearingResult(s).summary()["bearing"]["first_break"] for s in (rollers, lean)]
@@ -98,7 +88,7 @@ def test_progress_counts_the_contacts():
         bearing_case(ROLLERS, **changes),
         progress=lambda done, number, text: told.append((done, number, text)),
         workers=1,
-    )
+    ).solution
     number = len(solution.inner_curve.solutions) + len(solution.outer_curve.solutions)
     assert [row[:2] for row in told] == [(k, number) for k in range(number + 1)]
     assert told[-1][2].startswith("contact with")
@@ -110,12 +100,11 @@ def test_progress_counts_the_contacts():
 def test_below_the_least_load_a_domain_is_at_its_end(tables):
     """Lengths that the film of rigid bodies builds up over grow as the load falls; cases stay valid ones."""
     case = bearing_case(tables)
-    duty = BearingDuty.of(case)
-    race = Race(False, 0.0, 4.5)
-    least = least_load(duty, race)
+    ring = ring_of(case, inner=False, speed=4.5)
+    least = least_load(ring)
     inlets = []
     for load in least * np.array([4.0, 1.0, 0.25, 1e-3]):
-        made = contact_case(duty, race, float(load), case.discharge, case.solver.model_dump())
+        made = contact_case(ring, float(load), case.solver.model_dump())
         axis = resolve_point(made).semi_axis_x if tables is BALLS else resolve(made).half_width
         inlets.append(-made.grid.inlet * axis)
     # A roller's film goes with 1/w, and the length with its root: 2 from 4 w to w, or nearly, as yet; a long
@@ -149,7 +138,7 @@ def test_an_oil_below_freezing_is_doubted():
     """ASTM D341 goes on below any pour point."""
     for temperature, doubted in (("-10 degC", True), ("70 degC", False)):
         case = bearing_case(BALLS, contacts="formula", bearing__temperature=temperature)
-        texts = list(map(str, BearingResult(solve_bearing(case)).warnings()))
+        texts = list(map(str, solve_bearing(case).warnings()))
         assert any(text.startswith("bearing.temperature is") for text in texts) == doubted
         # A bearing's contacts have no grid that its file could change.
         assert not any("grid." in text for text in texts)
@@ -163,35 +152,37 @@ def test_a_6208_as_a_whole_and_between_the_loads_that_were_solved():
     them it was up to a third off.
     """
     case = bearing_case(BALLS)
-    solution = solve_bearing(case)
-    result = BearingResult(solution)
+    result = solve_bearing(case)
+    solution = result.solution
     found = result.summary()["bearing"]
     assert result.converged
     assert found["discretisation_error"] < 0.03
     assert not [
         text for text in map(str, result.warnings()) if "too short" in text or "does not cavitate" in text
     ]
-    formula = BearingResult(solve_bearing(case.replace({"contacts": "formula"}))).summary()["bearing"]
+    formula = solve_bearing(case.replace({"contacts": "formula"})).summary()["bearing"]
     for key in ("capacitance", "capacitance_plate", "first_break", "through_breakdown", "lambda_ratio"):
         assert formula[key] == pytest.approx(found[key], rel=0.3), key
-    oil = solution.duty.lubricant
+    oil = solution.conditions.lubricant
     for race, curve in ((solution.inner, solution.inner_curve), (solution.outer, solution.outer_curve)):
-        radii = solution.duty.radii(race.angle, inner=race.inner)
+        radii = race.radii
         for contact in curve.solutions:
             film = chittenden(
                 PointContact(
-                    radii.radius_x, radii.radius_y, solution.duty.modulus, contact.load, race.speed,
+                    radii.radius_x, radii.radius_y, solution.conditions.modulus, contact.load, race.speed,
                     oil.viscosity, oil.pressure_viscosity_coefficient,
                 )
             )  # fmt: skip
             if contact.moes_m > 100.0:
-                assert contact.central_thickness == pytest.approx(film.central_thickness, rel=0.15)
+                assert contact.values.central_thickness == pytest.approx(film.central_thickness, rel=0.15)
             assert contact.mismatch < 0.1
     curve, race = solution.outer_curve, solution.outer
-    rest = {"discharge": case.discharge, "solver": case.solver.model_dump()}
     for load in (4.22, 5.35, 13.15):
-        alone = solve_contact(case.bearing, solution.duty, race, load, **rest)
+        alone = solve_contact(race, load, case.solver.model_dump()).values
         for name in ("inside", "breakdown_voltage"):
-            at = curve.at(name, np.array([load]))[0]
-            assert at == pytest.approx(getattr(alone, name), rel=curve.interpolation_error), (name, load)
+            at = getattr(curve.at(np.array([load])), name)[0]
+            assert at == pytest.approx(getattr(alone, name), rel=curve.interpolation_error), (
+                name,
+                load,
+            )
             assert at == pytest.approx(getattr(alone, name), rel=0.02), (name, load)

@@ -5,7 +5,7 @@ import math
 import pytest
 
 from ehlectric import InputError
-from ehlectric.contact.conditions import resolve, resolve_point
+from ehlectric.contact.resolve import resolve, resolve_point
 from ehlectric.motion.schedule import schedule_of
 from tests.helpers.moving_cases import LINE, POINT, moving
 

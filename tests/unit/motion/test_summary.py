@@ -8,7 +8,7 @@ import pytest
 import xarray as xr
 
 from ehlectric import Case
-from ehlectric.contact.conditions import resolve, resolve_point
+from ehlectric.contact.resolve import resolve, resolve_point
 from ehlectric.figures.motion.save import save_motion_figures
 from ehlectric.figures.names import MOTION_FIGURE_FILES
 from ehlectric.motion import kinds, schedule

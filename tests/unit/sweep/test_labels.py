@@ -6,7 +6,6 @@ from pathlib import Path
 import pytest
 
 from ehlectric import Case, solve
-from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solver import solve_bearing
 from ehlectric.cases.keys import INPUT_NAMES, input_field
 from ehlectric.cases.quantity import to_si
@@ -49,7 +48,7 @@ def summary(kind, folder):
     if kind in TABLES:
         return solve(case).summary()
     if kind in ("balls", "rollers"):
-        return BearingResult(solve_bearing(case)).summary()
+        return solve_bearing(case).summary()
     run_motion(case, folder)
     return summary_of(read_motion(folder))
 

@@ -10,7 +10,7 @@ import pytest
 import xarray as xr
 from typer.testing import CliRunner
 
-from ehlectric.bearing.conditions import BearingDuty
+from ehlectric.bearing.preparation import resolve_bearing
 from ehlectric.commands.app import app
 from ehlectric.figures.names import SPEED_FIGURE_FILES
 from ehlectric.figures.sweep.lines import value_lines
@@ -161,7 +161,7 @@ def test_tables_have_texts_and_a_film_factor_beside_the_one_that_was_varied(tmp_
     assert [row["bearing.film_factor"] for row in rows] == ["none"] * 2 + ["inlet-shear"] * 2 + ["0.5"] * 2
     factors = [float(row["lubricant.film_factor"]) for row in rows]
     assert factors[:2] == [1.0, 1.0]
-    resolved = BearingDuty.of(base.replace({"bearing.film_factor": "inlet-shear"})).film_factor
+    resolved = resolve_bearing(base.replace({"bearing.film_factor": "inlet-shear"})).film_factor
     assert factors[2:4] == pytest.approx([resolved, resolved], rel=1e-12)
     assert factors[4:] == [0.5, 0.5]
     assert [row["bearing.lubrication"] for row in rows] == ["full film", "conducting"] * 3

@@ -30,7 +30,7 @@ _HALF = 0.5 * np.pi
 
 
 @dataclass(frozen=True)
-class RollerRace:
+class RollerRaceway:
     """The race of one ring and the roller on it.
 
     Attributes
@@ -56,13 +56,13 @@ class RollerRace:
 
 
 def roller_capacitance(
-    race: RollerRace, gap: float, relative_permittivity: float = 1.0, *, obliquity: float = _HALF
+    race: RollerRaceway, gap: float, relative_permittivity: float = 1.0, *, obliquity: float = _HALF
 ) -> float:
     """Capacitance per length between an unloaded, rigid roller and its race.
 
     Parameters
     ----------
-    race : RollerRace
+    race : RollerRaceway
         The race and the roller.
     gap : float
         h0, the least [m], positive.
@@ -81,7 +81,7 @@ def roller_capacitance(
     --------
     Of parabolas, h0 + x^2/(2 R), without an end it would be eps0 pi sqrt(2 R/h0):
 
-    >>> race = RollerRace(5.5e-3, 27.25e-3, outer=False)
+    >>> race = RollerRaceway(5.5e-3, 27.25e-3, outer=False)
     >>> reduced = 1.0 / (1.0 / 5.5e-3 + 1.0 / 27.25e-3)
     >>> parabolas = epsilon_0 * np.pi * np.sqrt(2.0 * reduced / 1e-6)
     >>> round(float(roller_capacitance(race, 1e-6) / parabolas), 3)
@@ -96,7 +96,7 @@ def roller_capacitance(
 
 
 def roller_tails(
-    race: RollerRace,
+    race: RollerRaceway,
     half_width: float,
     domain: tuple[float, float],
     thickness: tuple[float, float],
@@ -111,7 +111,7 @@ def roller_tails(
 
     Parameters
     ----------
-    race : RollerRace
+    race : RollerRaceway
         The race and the roller.
     half_width : float
         b of the dry contact [m].
@@ -133,7 +133,7 @@ def roller_tails(
 
     Examples
     --------
-    >>> race = RollerRace(5.5e-3, 27.25e-3, outer=False)
+    >>> race = RollerRaceway(5.5e-3, 27.25e-3, outer=False)
     >>> reduced = 1.0 / (1.0 / 5.5e-3 + 1.0 / 27.25e-3)
     >>> film = 5e-7 + 4e-4**2 / (2.0 * reduced)
     >>> inlet, outlet = roller_tails(race, 1e-4, (-4e-4, 4e-4), (film, film))
@@ -154,19 +154,19 @@ def roller_tails(
     return scale * tail(-domain[0], thickness[0]), scale * tail(domain[1], thickness[1])
 
 
-def _opening(race: RollerRace, half_width: float, x: Array) -> Array:
+def _opening(race: RollerRaceway, half_width: float, x: Array) -> Array:
     # What the dry contact's gap has beyond that of the parabolas; of a line its zero is free.
     radius = reduced_radius(race.roller_radius, -1.0 / race.curvature)
     return half_width**2 / radius * line_gap(x / half_width) - 0.5 * x**2 / radius
 
 
-def _charge(race: RollerRace, gap: Array, tilt: Array, weights: Array) -> float:
+def _charge(race: RollerRaceway, gap: Array, tilt: Array, weights: Array) -> float:
     """Integral of the charge density over the arc of the race, dimensionless."""
     density = charge_density(gap, tilt, 1.0 / race.roller_radius, race.curvature)
     return race.race_radius * float(np.vdot(weights, density))
 
 
-def _distances(race: RollerRace, gap: float, phi: Array) -> tuple[Array, Array]:
+def _distances(race: RollerRaceway, gap: float, phi: Array) -> tuple[Array, Array]:
     """The gap along the radius of the roller [m], and the angle of that radius to the normal of the race."""
     pitch, near, q = race.pitch_radius(gap), race.roller_radius + gap, np.sin(0.5 * phi) ** 2
     further = 4.0 * race.race_radius * pitch * q
@@ -175,6 +175,6 @@ def _distances(race: RollerRace, gap: float, phi: Array) -> tuple[Array, Array]:
     return gap + beyond, np.arctan2(pitch * np.sin(phi), along)
 
 
-def _reach(race: RollerRace, gap: float, obliquity: float) -> float:
+def _reach(race: RollerRaceway, gap: float, obliquity: float) -> float:
     """Azimuth at which the normal of the race meets the roller at this angle from its normal [rad]."""
     return float(np.arcsin(race.roller_radius * np.sin(obliquity) / race.pitch_radius(gap)))

@@ -21,7 +21,7 @@ from numpy.polynomial import Chebyshev
 from ehlectric.arrays import Array
 from ehlectric.bearing.loads.geometry import BallBearing
 from ehlectric.bearing.loads.kinematics import Speeds, centrifugal_force, gyroscopic_moment, rolling_speeds
-from ehlectric.bearing.loads.ring import GOOD, UNLOADED, Duty, Reaction, balance
+from ehlectric.bearing.loads.ring import GOOD, UNLOADED, Operation, Reaction, RingLoads, balance
 from ehlectric.bearing.loads.seating import Grooves, Seats, lean_outward, seat
 from ehlectric.errors import ConvergenceError, InputError, shown
 from ehlectric.formulas.hertz_point import dry_contact
@@ -96,6 +96,14 @@ class BallEquilibrium:
     residual: float
     iterations: int
 
+    def ring(self, *, inner: bool) -> RingLoads:
+        """Contacts of all balls with the inner or the outer ring."""
+        if inner:
+            speed = np.asarray(self.speeds.inner_entrainment)
+            return RingLoads(self.inner_load, self.inner_angle, self.inner_approach, self.inner_gap, speed)
+        speed = np.asarray(self.speeds.outer_entrainment)
+        return RingLoads(self.outer_load, self.outer_angle, self.outer_approach, self.outer_gap, speed)
+
 
 def contact_stiffness(bearing: BallBearing, modulus: float, angle: float, *, inner: bool) -> float:
     """K of Q = K delta^(3/2) at one contact, from the exact ellipse.
@@ -166,21 +174,21 @@ class _Angles:
 
 @dataclass(frozen=True)
 class _Model:
-    """A bearing and its duty, as the rounds of the solution need them."""
+    """A bearing and its operation, as the rounds of the solution need them."""
 
     bearing: BallBearing
-    duty: Duty
+    operation: Operation
     modulus: float
     density: float
 
     @property
     def position(self) -> Array:
-        return self.duty.positions(self.bearing.elements)
+        return self.operation.positions(self.bearing.elements)
 
     @property
     def load(self) -> Array:
         """On the ring, axial, along the radial load, and lateral [N]."""
-        return np.array([self.duty.axial_load, self.duty.radial_load, 0.0])
+        return np.array([self.operation.axial_load, self.operation.radial_load, 0.0])
 
     @property
     def basis(self) -> Array:
@@ -200,9 +208,13 @@ class _Model:
         return float(np.average(np.asarray(self.speeds(angles).cage), weights=weights))
 
     def speeds(self, angles: _Angles) -> Speeds:
-        bearing, duty = self.bearing, self.duty
+        bearing, operation = self.bearing, self.operation
         return rolling_speeds(
-            bearing.ball_diameter, bearing.pitch_diameter, duty.inner_speed, duty.outer_speed, angles.mean
+            bearing.ball_diameter,
+            bearing.pitch_diameter,
+            operation.inner_speed,
+            operation.outer_speed,
+            angles.mean,
         )
 
     def grooves(self, angles: _Angles, outward: float) -> Grooves:
@@ -232,7 +244,7 @@ class _Model:
     def start(self) -> tuple[Array, _Angles]:
         """Displacement at which the ring just touches under its axial load, and the free contact angles."""
         angle = np.full(self.bearing.elements, self.bearing.free_angle)
-        axial = np.sign(self.duty.axial_load) * 0.5 * self.bearing.endplay
+        axial = np.sign(self.operation.axial_load) * 0.5 * self.bearing.endplay
         return np.array([axial, 0.0, 0.0]), _Angles(angle, angle)
 
 
@@ -285,14 +297,14 @@ def _solve(model: _Model) -> tuple[_State, int]:
     return state, iterations
 
 
-def _refuse(bearing: BallBearing, duty: Duty, unloaded: str) -> None:
+def _refuse(bearing: BallBearing, operation: Operation, unloaded: str) -> None:
     """Raise InputError for what the bearing cannot do."""
     if unloaded not in UNLOADED:
         raise InputError("unloaded", got=shown(unloaded), takes=f"one of {', '.join(UNLOADED)}")
-    if bearing.contact_angle is not None and duty.axial_load <= 0.0:
+    if bearing.contact_angle is not None and operation.axial_load <= 0.0:
         raise InputError(
             "axial_load",
-            got=f"{duty.axial_load:g} N",
+            got=f"{operation.axial_load:g} N",
             takes="one above 0: an angular-contact bearing carries it one way, and a radial load only "
             "with it",
         )
@@ -308,7 +320,7 @@ def _placed(state: _State, g: Array, unloaded: str) -> Seats:
 
 
 def ball_equilibrium(
-    bearing: BallBearing, duty: Duty, modulus: float, density: float, *, unloaded: str = "centred"
+    bearing: BallBearing, operation: Operation, modulus: float, density: float, *, unloaded: str = "centred"
 ) -> BallEquilibrium:
     """Equilibrium of the inner ring over all balls.
 
@@ -322,7 +334,7 @@ def ball_equilibrium(
     ----------
     bearing : BallBearing
         Its geometry.
-    duty : Duty
+    operation : Operation
         Loads, speeds and position.
     modulus : float
         Reduced modulus E' of ball and ring [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
@@ -347,13 +359,13 @@ def ball_equilibrium(
     Examples
     --------
     >>> bearing = BallBearing(9, 11.906e-3, 60e-3, 0.52, 0.52, radial_clearance=10e-6)
-    >>> state = ball_equilibrium(bearing, Duty(0.0, 900.0), 226e9, 7800.0)
+    >>> state = ball_equilibrium(bearing, Operation(0.0, 900.0), 226e9, 7800.0)
     >>> angle = state.inner_angle[0]
     >>> bool(np.allclose(state.inner_load * np.sin(angle), 100.0, rtol=1e-9))
     True
     """
-    _refuse(bearing, duty, unloaded)
-    model = _Model(bearing, duty, modulus, density)
+    _refuse(bearing, operation, unloaded)
+    model = _Model(bearing, operation, modulus, density)
     state, iterations = _solve(model)
     seats = _placed(state, model.centres(state.ring), unloaded)
     angles = _Angles.of(seats)

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -287,11 +288,24 @@ class RollerBearing:
             depth, outward = 0.0005, np.maximum(0.0, (2.0 * x - self.roller_length) / end + 1.0)
         return np.asarray(-depth * self.roller_diameter * np.log1p(-(outward**2)))
 
-    def radii(self, *, inner: bool) -> ContactRadii:
-        """Radii of roller and ring at the inner or outer contact: a line contact."""
+    @property
+    def clearance(self) -> float:
+        """Full diametral play P_d [m]."""
+        return self.radial_clearance
+
+    @property
+    def free_angle(self) -> float:
+        """Free contact angle [rad]: zero, rollers press radially."""
+        return 0.0
+
+    def radii(self, _angle: float = 0.0, *, inner: bool) -> ContactRadii:
+        """Radii of roller and ring at the inner or outer contact: a line contact at the angle zero."""
         rolling = _rolling_radius(self.roller_diameter, self.pitch_diameter, 0.0, inner=inner)
         return ContactRadii(self.roller_diameter / 2.0, math.inf, rolling, math.inf)
 
     def element_mass(self, density: float) -> float:
         """Mass of a roller of a density [kg/m^3], rho pi D^2 L/4 [kg]."""
         return density * math.pi * self.roller_diameter**2 * self.roller_length / 4.0
+
+
+Geometry: TypeAlias = BallBearing | RollerBearing

@@ -36,8 +36,33 @@ _FLAT = 1e-13
 
 
 @dataclass(frozen=True)
-class Duty:
-    """What a bearing does.
+class RingLoads:
+    """Contacts of all elements with one ring, as the equilibrium leaves them.
+
+    Attributes
+    ----------
+    load : ndarray, shape (n,)
+        Load of each contact [N].
+    angle : ndarray
+        Contact angle of each element [rad]; zero of rollers.
+    approach : ndarray
+        By how much element and ring come closer in the contact [m].
+    gap : ndarray
+        Distance of element and ring where they do not touch [m], else 0.
+    entrainment_speed : ndarray
+        Entrainment speed of pure rolling [m/s].
+    """
+
+    load: Array
+    angle: Array
+    approach: Array
+    gap: Array
+    entrainment_speed: Array
+
+
+@dataclass(frozen=True)
+class Operation:
+    """Loads on a bearing, speeds of its rings, and the position of its cage.
 
     Attributes
     ----------

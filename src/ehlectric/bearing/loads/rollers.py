@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import ClassVar
 
 import numpy as np
 from scipy.optimize import brentq
@@ -20,7 +21,7 @@ from scipy.optimize import brentq
 from ehlectric.arrays import Array, Mask
 from ehlectric.bearing.loads.geometry import RollerBearing
 from ehlectric.bearing.loads.kinematics import Speeds, centrifugal_force, rolling_speeds
-from ehlectric.bearing.loads.ring import GOOD, UNLOADED, Duty, Reaction, balance
+from ehlectric.bearing.loads.ring import GOOD, UNLOADED, Operation, Reaction, RingLoads, balance
 from ehlectric.errors import ConvergenceError, InputError, shown
 from ehlectric.formulas.hertz_line import body_compliance, reduced_modulus
 
@@ -83,6 +84,25 @@ class RollerEquilibrium:
     lateral_displacement: float
     residual: float
     iterations: int
+
+    # Cylindrical rollers are not pushed along the axis, nor do they tilt the ring or precess.
+    axial_displacement: ClassVar[None] = None
+    moment: ClassVar[None] = None
+    gyroscopic_moment: ClassVar[None] = None
+
+    @property
+    def cage_speed(self) -> float:
+        """Angular speed of the cage about the bearing's axis [rad/s]."""
+        return float(self.speeds.cage)
+
+    def ring(self, *, inner: bool) -> RingLoads:
+        """Contacts of all rollers with the inner or the outer ring, at a contact angle of zero."""
+        angle = np.zeros_like(self.inner_load)
+        if inner:
+            speed = np.broadcast_to(self.speeds.inner_entrainment, angle.shape)
+            return RingLoads(self.inner_load, angle, self.inner_approach, self.inner_gap, speed)
+        speed = np.broadcast_to(self.speeds.outer_entrainment, angle.shape)
+        return RingLoads(self.outer_load, angle, self.outer_approach, self.outer_gap, speed)
 
 
 def line_stiffness(length: float, modulus: float) -> float:
@@ -209,14 +229,14 @@ class _Rollers:
         return reaction
 
 
-def _refuse(duty: Duty, unloaded: str, slices: int) -> None:
+def _refuse(operation: Operation, unloaded: str, slices: int) -> None:
     """Raise InputError for what the bearing, or its model, cannot do."""
     if unloaded not in UNLOADED:
         raise InputError("unloaded", got=shown(unloaded), takes=f"one of {', '.join(UNLOADED)}")
-    if duty.axial_load != 0.0:
+    if operation.axial_load != 0.0:
         raise InputError(
             "axial_load",
-            got=f"{duty.axial_load:g} N",
+            got=f"{operation.axial_load:g} N",
             takes="0: the raceways of a cylindrical roller bearing carry none",
         )
     if slices < _LEAST_SLICES or slices % 2 == 0:
@@ -225,7 +245,7 @@ def _refuse(duty: Duty, unloaded: str, slices: int) -> None:
 
 def roller_equilibrium(
     bearing: RollerBearing,
-    duty: Duty,
+    operation: Operation,
     modulus: float,
     density: float,
     *,
@@ -243,7 +263,7 @@ def roller_equilibrium(
     ----------
     bearing : RollerBearing
         Its geometry.
-    duty : Duty
+    operation : Operation
         Load, speeds and position.
     modulus : float
         Reduced modulus E' of roller and ring [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
@@ -270,26 +290,26 @@ def roller_equilibrium(
     Examples
     --------
     >>> bearing = RollerBearing(14, 11e-3, 60e-3, 11e-3, 0.0, "none")
-    >>> state = roller_equilibrium(bearing, Duty(5000.0), 226e9, 7800.0)
+    >>> state = roller_equilibrium(bearing, Operation(5000.0), 226e9, 7800.0)
     >>> round(float(state.inner_load[0]) * 14 / 5000.0, 2)
     4.09
     """
-    _refuse(duty, unloaded, slices)
+    _refuse(operation, unloaded, slices)
     length = bearing.roller_length
     x = ((np.arange(slices) + 0.5) / slices - 0.5) * length
     stiffness = line_stiffness(length, modulus)
     speeds = rolling_speeds(
-        bearing.roller_diameter, bearing.pitch_diameter, duty.inner_speed, duty.outer_speed
+        bearing.roller_diameter, bearing.pitch_diameter, operation.inner_speed, operation.outer_speed
     )
     outward = centrifugal_force(bearing.element_mass(density), bearing.pitch_diameter, float(speeds.cage))
     rollers = _Rollers(2.0**_POWER * stiffness / slices, bearing.relief(x), outward)
 
-    position = duty.positions(bearing.elements)
+    position = operation.positions(bearing.elements)
     basis = np.stack([np.cos(position), np.sin(position)], axis=1)
     reaction = rollers.reaction(basis, bearing.radial_clearance)
-    load = np.array([duty.radial_load, 0.0])
-    reach = (duty.radial_load / stiffness) ** (1.0 / _POWER) + abs(bearing.radial_clearance)
-    scale = duty.radial_load + outward
+    load = np.array([operation.radial_load, 0.0])
+    reach = (operation.radial_load / stiffness) ** (1.0 / _POWER) + abs(bearing.radial_clearance)
+    scale = operation.radial_load + outward
     ring, residual, iterations = balance(reaction, load, np.zeros(2), reach, scale)
 
     play = basis @ ring - 0.5 * bearing.radial_clearance

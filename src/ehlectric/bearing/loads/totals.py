@@ -1,16 +1,18 @@
-"""What the loads of a bearing do to it, as totals: displacements, moments, inertia and speeds. SI units."""
+"""Totals of a bearing in equilibrium: displacements, moments, inertia and speeds. SI units."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
 from ehlectric.bearing.loads.balls import BallEquilibrium
 from ehlectric.bearing.loads.rollers import RollerEquilibrium
 
+Equilibrium: TypeAlias = BallEquilibrium | RollerEquilibrium
 
-def mechanics_of(at: BallEquilibrium | RollerEquilibrium) -> dict[str, Any]:
+
+def mechanics_of(at: Equilibrium) -> dict[str, Any]:
     """Loads, displacements and speeds of a bearing, nested as summary.json.
 
     Parameters
@@ -30,23 +32,23 @@ def mechanics_of(at: BallEquilibrium | RollerEquilibrium) -> dict[str, Any]:
     against it at 50 (1 - g^2)/g.
 
     >>> from ehlectric.bearing.loads.geometry import RollerBearing
-    >>> from ehlectric.bearing.loads.ring import Duty
+    >>> from ehlectric.bearing.loads.ring import Operation
     >>> from ehlectric.bearing.loads.rollers import roller_equilibrium
     >>> bearing = RollerBearing(14, 11e-3, 60e-3, 11e-3, 0.0, "none")
-    >>> found = mechanics_of(roller_equilibrium(bearing, Duty(5000.0, inner_speed=100.0), 226e9, 7800.0))
+    >>> found = mechanics_of(roller_equilibrium(bearing, Operation(5000.0, inner_speed=100.0), 226e9, 7800.0))
     >>> round(found["cage_speed"], 3), round(found["element_speed"], 3)
     (40.833, 263.561)
     """
-    balls = at if isinstance(at, BallEquilibrium) else None
-    inner, outer = (float(np.max(e)) for e in (at.speeds.inner_entrainment, at.speeds.outer_entrainment))
+    inner, outer = (float(np.max(at.ring(inner=inner).entrainment_speed)) for inner in (True, False))
+    gyroscopic = None if at.gyroscopic_moment is None else float(np.max(at.gyroscopic_moment))
     return {
         "max_load": np.max(at.outer_load),
         "radial_displacement": at.radial_displacement,
-        "axial_displacement": balls.axial_displacement if balls else None,
-        "moment": balls.moment if balls else None,
+        "axial_displacement": at.axial_displacement,
+        "moment": at.moment,
         "centrifugal_force": at.centrifugal_force,
-        "gyroscopic_moment": float(np.max(balls.gyroscopic_moment)) if balls else None,
-        "cage_speed": balls.cage_speed if balls else float(at.speeds.cage),
+        "gyroscopic_moment": gyroscopic,
+        "cage_speed": at.cage_speed,
         "element_speed": float(np.max(at.speeds.spin)),
         "entrainment_speed": inner,
         "entrainment_speed_inner": inner,

@@ -42,7 +42,7 @@ def contact_capacitances(result: BearingResult, ax: Axes | None = None) -> Axes:
     """
     ax = axes_or_new(ax)
     fill = result.solution.case.bearing.fill
-    circuit = result.circuits(fill)[0]
+    circuit = result.solution.circuits(fill)[0]
     factor, unit = unit_for(float(max(np.max(circuit.inner), np.max(circuit.outer))), "F", least=1.0)
     at = np.arange(circuit.inner.size)
     ax.bar(at - 0.2, factor * circuit.inner, 0.4, color=BLUE, label="inner contact")
@@ -72,7 +72,7 @@ def voltage_shares(result: BearingResult, ax: Axes | None = None) -> Axes:
         In per cent.
     """
     ax = axes_or_new(ax)
-    inner = 100.0 * result.circuits(result.solution.case.bearing.fill)[0].inner_share
+    inner = 100.0 * result.solution.circuits()[0].inner_share
     at = np.arange(inner.size)
     ax.bar(at, inner, 0.8, color=BLUE, label="inner contact")
     ax.bar(at, 100.0 - inner, 0.8, bottom=inner, color=ORANGE, label="outer contact")
@@ -100,7 +100,7 @@ def breakdown_voltages(result: BearingResult, ax: Axes | None = None) -> Axes:
         positions.
     """
     ax = axes_or_new(ax)
-    circuit = result.circuits(result.solution.case.bearing.fill)[0]
+    circuit = result.solution.circuits()[0]
     at = np.arange(circuit.inner.size)
     inner, outer = circuit.inner_breaks, circuit.outer_breaks
     marks: dict[str, Any] = {"ls": "none", "ms": 6.0, "zorder": 4.0}
@@ -199,7 +199,7 @@ def impedance_phase(result: BearingResult, ax: Axes | None = None) -> Axes:
 
 
 def _found(result: BearingResult) -> Impedance:
-    found = impedance_of(result)
+    found = impedance_of(result.solution)
     assert found is not None
     return found
 
@@ -226,7 +226,7 @@ def capacitance_over_pitch(result: BearingResult, ax: Axes | None = None) -> Axe
         With oil and with air around the films.
     """
     ax = axes_or_new(ax)
-    oil, air = (np.array([c.capacitance for c in result.circuits(fill)]) for fill in ("oil", "air"))
+    oil, air = (np.array([c.capacitance for c in result.solution.circuits(fill)]) for fill in ("oil", "air"))
     factor, unit = unit_for(float(np.max(oil)), "F", least=1.0)
     for fill, values, color in (("oil", oil, BLUE), ("air", air, GREY)):
         mean = factor * float(np.mean(values))
@@ -254,7 +254,7 @@ def breakdown_over_pitch(result: BearingResult, ax: Axes | None = None) -> Axes:
         With the shaft voltage, where there is a motor.
     """
     ax = axes_or_new(ax)
-    circuits = result.circuits(result.solution.case.bearing.fill)
+    circuits = result.solution.circuits()
     first = np.array([circuit.first_break for circuit in circuits])
     through = np.array([circuit.through_breakdown for circuit in circuits])
     shaft = result.shaft_voltage

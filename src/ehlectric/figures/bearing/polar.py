@@ -15,8 +15,8 @@ from matplotlib.projections.polar import PolarAxes
 from matplotlib.ticker import FixedLocator, NullLocator
 
 from ehlectric.arrays import Array
-from ehlectric.bearing.result import CONDUCTING, PARTIAL, BearingResult
-from ehlectric.bearing.state import RaceState
+from ehlectric.bearing.result import BearingResult
+from ehlectric.bearing.solution import CONDUCTING, PARTIAL, RingState
 from ehlectric.cases.quantity import unit_for
 from ehlectric.figures.axes import is_wide, round_numbers
 from ehlectric.figures.style import BLUE, GREY, ORANGE
@@ -89,9 +89,11 @@ def film_around(result: BearingResult, ax: Axes | None = None) -> Axes:
     ax = _polar_or_new(result, ax)
     states = [(position.inner, position.outer) for position in result.solution.positions]
     rq = result.solution.case.bearing.composite_rq
-    films = np.concatenate([race.minimum_thickness for pair in states for race in pair])
+    films = np.concatenate([race.values.minimum_thickness for pair in states for race in pair])
     # Gaps without load may be next to nothing, or far above the films.
-    thinnest = min(float(np.min(race.minimum_thickness[race.solved])) for pair in states for race in pair)
+    thinnest = min(
+        float(np.min(race.values.minimum_thickness[race.solved])) for pair in states for race in pair
+    )
     factor, unit = unit_for(thinnest, "m")
     # Circles far below the films would leave them little room.
     ratios = [ratio for ratio in (CONDUCTING, PARTIAL) if films.min() < _FAR * ratio * rq]
@@ -103,7 +105,7 @@ def film_around(result: BearingResult, ax: Axes | None = None) -> Axes:
         ax.plot(angles, np.full_like(angles, factor * ratio * rq), color=GREY, lw=0.9, ls=line, label=label)
     for k, ring in reversed(list(enumerate(_RINGS))):
         races = [pair[k] for pair in states]
-        values = [factor * race.minimum_thickness for race in races]
+        values = [factor * race.values.minimum_thickness for race in races]
         _ring(result, ax, ring, races, values, at_rest="not loaded: gap")
     _radius(ax, everything, _between(result), log=is_wide(everything))
     ax.set_title(f"minimum film $h_\\mathrm{{min}}$ [{unit}]")
@@ -127,7 +129,7 @@ def _ring(
     result: BearingResult,
     ax: Axes,
     ring: tuple[str, str, float, float],
-    races: Sequence[RaceState],
+    races: Sequence[RingState],
     values: Sequence[Array],
     *,
     at_rest: str,

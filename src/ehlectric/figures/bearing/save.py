@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 
 from ehlectric.bearing.impedance import impedance_of
 from ehlectric.bearing.result import BearingResult
+from ehlectric.bearing.solution import insulating, lambda_ratio, lubrication
 from ehlectric.figures.bearing.circuit import (
     breakdown_over_pitch,
     breakdown_voltages,
@@ -47,13 +48,13 @@ def bearing_figures_of(result: BearingResult) -> dict[str, tuple[Draw, ...]]:
     """
     loads, circuit, pitch, impedance = BEARING_FIGURE_FILES
     found: dict[str, tuple[Draw, ...]] = {loads: (load_around, film_around)}
-    if result.ceramic:
+    if result.solution.conditions.ceramic:
         return found
     breaks = result.breaks()["first_break"] is not None
-    shares = (voltage_shares,) if result.insulating else ()
+    shares = (voltage_shares,) if insulating(result.solution) else ()
     found[circuit] = (contact_capacitances, *shares, *((breakdown_voltages,) if breaks else ()))
     found[pitch] = (capacitance_over_pitch, *((breakdown_over_pitch,) if breaks else ()))
-    if impedance_of(result) is not None and result.insulating:
+    if impedance_of(result.solution) is not None and insulating(result.solution):
         found[impedance] = (impedance_magnitude, impedance_phase)
     return found
 
@@ -143,16 +144,16 @@ def _save(ax: Axes, title: str, path: Path, *, converged: bool) -> Path:
 
 def _title(result: BearingResult, *, voltages: bool) -> str:
     """Title of the case, and below it the duty and what the film is worth, and voltages where it has them."""
-    bearing, duty = result.solution.case.bearing, result.solution.duty
+    bearing, factor = result.solution.case.bearing, result.solution.conditions.film_factor
     loads = ((bearing.radial_load, "radial"), (bearing.axial_load, "axial"))
     parts = [f"{load:.4g} N {way}" for load, way in loads if load]
     parts += [f"{bearing.inner_speed * 30.0 / np.pi:.4g} rpm", f"{bearing.temperature - 273.15:.4g} °C"]
-    isothermal = duty.film_factor == 1.0
-    film = "isothermal film" if isothermal else f"film factor {duty.film_factor:.3g}"
-    film += f", least λ {result.lambda_ratio:.2g}"
-    if result.lubrication in ("conducting", "touching"):
+    isothermal = factor == 1.0
+    film = "isothermal film" if isothermal else f"film factor {factor:.3g}"
+    film += f", least λ {lambda_ratio(result.solution):.2g}"
+    if lubrication(result.solution) in ("conducting", "touching"):
         film += ": surfaces touch"
-    elif voltages and (isothermal or result.lubrication == "partial film"):
+    elif voltages and (isothermal or lubrication(result.solution) == "partial film"):
         film += ": voltages are upper bounds"
     title = textwrap.shorten(result.solution.case.title, 70, placeholder=" ...")
     return "\n".join(filter(None, [title, ", ".join(parts), film]))

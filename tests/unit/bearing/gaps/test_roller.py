@@ -7,11 +7,11 @@ from hypothesis import strategies as st
 from scipy.constants import epsilon_0
 from scipy.integrate import quad
 
-from ehlectric.bearing.gaps.roller import RollerRace, roller_capacitance, roller_tails
+from ehlectric.bearing.gaps.roller import RollerRaceway, roller_capacitance, roller_tails
 from ehlectric.formulas.hertz_line import line_gap, reduced_radius
 
 ROLLER, INNER, OUTER = 5.5e-3, 27.25e-3, 38.25e-3  # nearly an NU 208
-RACES = [RollerRace(ROLLER, INNER, outer=False), RollerRace(ROLLER, OUTER, outer=True)]
+RACES = [RollerRaceway(ROLLER, INNER, outer=False), RollerRaceway(ROLLER, OUTER, outer=True)]
 
 
 def exact(race, gap, phi):
@@ -168,7 +168,7 @@ def test_laws(gap, factor, size, permittivity):
     for race in RACES:
         one = roller_capacitance(race, gap)
         assert roller_capacitance(race, factor * gap) < one
-        larger = RollerRace(size * ROLLER, size * race.race_radius, race.outer)
+        larger = RollerRaceway(size * ROLLER, size * race.race_radius, race.outer)
         assert roller_capacitance(larger, size * gap) == pytest.approx(one, rel=1e-10, abs=0.0)
         assert roller_capacitance(race, gap, permittivity) == pytest.approx(
             permittivity * one, rel=1e-14, abs=0.0

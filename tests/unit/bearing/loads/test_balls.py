@@ -14,7 +14,7 @@ from ehlectric import InputError
 from ehlectric.bearing.loads.balls import ball_equilibrium, contact_stiffness
 from ehlectric.bearing.loads.geometry import BallBearing
 from ehlectric.bearing.loads.kinematics import rolling_speeds
-from ehlectric.bearing.loads.ring import Duty
+from ehlectric.bearing.loads.ring import Operation
 from ehlectric.formulas.film_point import PointContact
 
 E, DENSITY = 226e9, 7800.0
@@ -25,7 +25,7 @@ ANGULAR = BallBearing(12, 11.906e-3, 60e-3, 0.52, 0.53, contact_angle=math.radia
 
 
 def solve(bearing, *duty, **other):
-    return ball_equilibrium(bearing, Duty(*duty), E, DENSITY, **other)
+    return ball_equilibrium(bearing, Operation(*duty), E, DENSITY, **other)
 
 
 def many(elements, clearance=0.0):
@@ -320,7 +320,7 @@ def test_turning_rings_the_same_way_is_the_cage_that_counts():
 
 def test_ceramic_balls_are_lighter_and_stiffer():
     steel = solve(B6208, 1800.0, 0.0, 20_000 * RPM)
-    ceramic = ball_equilibrium(B6208, Duty(1800.0, 0.0, 20_000 * RPM), 267e9, 3200.0)
+    ceramic = ball_equilibrium(B6208, Operation(1800.0, 0.0, 20_000 * RPM), 267e9, 3200.0)
     assert ceramic.centrifugal_force / steel.centrifugal_force == pytest.approx(3200 / 7800, rel=1e-9)
     assert ceramic.radial_displacement < steel.radial_displacement
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ehlectric import InputError
-from ehlectric.bearing.loads.ring import Duty, balance
+from ehlectric.bearing.loads.ring import Operation, balance
 
 
 def springs(directions, clearance, power):
@@ -50,9 +50,9 @@ def test_no_balance_is_said():
 
 
 def test_duties():
-    positions = Duty(1.0, cage_angle=0.1).positions(4)
+    positions = Operation(1.0, cage_angle=0.1).positions(4)
     np.testing.assert_allclose(positions, 0.1 + np.array([0.0, 0.5, 1.0, 1.5]) * np.pi, rtol=1e-15)
     with pytest.raises(InputError, match="radial_load, axial_load: both are 0"):
-        Duty(0.0)
+        Operation(0.0)
     with pytest.raises(InputError, match="radial_load: got -1 N, takes 0 or more"):
-        Duty(-1.0)
+        Operation(-1.0)

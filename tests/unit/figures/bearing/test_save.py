@@ -8,12 +8,11 @@ import tomli_w
 from matplotlib.figure import Figure
 from typer.testing import CliRunner
 
-from ehlectric.bearing.conditions import BearingDuty
-from ehlectric.bearing.contacts import ContactCurve, ContactSolution
+from ehlectric.bearing.contacts import ContactCurve
+from ehlectric.bearing.preparation import equilibria_of, resolve_bearing
 from ehlectric.bearing.result import BearingResult
-from ehlectric.bearing.ring_contacts import Race
-from ehlectric.bearing.solver import BearingSolution, Position
-from ehlectric.bearing.state import race_state
+from ehlectric.bearing.ring_contacts import RingContacts
+from ehlectric.bearing.solution import BearingSolution, Position, ring_state
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.commands.app import app
 from ehlectric.figures.bearing import circuit as bearing_circuit_plot
@@ -21,6 +20,7 @@ from ehlectric.figures.bearing import polar as bearing_polar
 from ehlectric.figures.bearing import speeds as bearing_speed_plot
 from ehlectric.figures.bearing.save import bearing_figures_of, save_bearing_figures, save_speed_figures
 from ehlectric.figures.names import BEARING_FIGURE_FILES, SPEED_FIGURE_FILES
+from tests.helpers.bearings import contact_solution
 
 LOADS, CIRCUIT, PITCH, IMPEDANCE = BEARING_FIGURE_FILES
 
@@ -66,7 +66,7 @@ OVER_SPEED = (bearing_speed_plot.capacitance_over_speed, bearing_speed_plot.brea
 def contact(load, film, strength):
     """A contact of a film that thins with load^-0.07 and a capacitance that goes with load^0.4."""
     thickness = film * (load / 900.0) ** -0.07
-    return ContactSolution(
+    return contact_solution(
         load=load,
         max_pressure=1.9e9 * (load / 900.0) ** (1.0 / 3.0),
         semi_axis_x=1.5e-4,
@@ -97,23 +97,22 @@ def by_hand(*, film=0.2e-6, positions=2, **changes):
         else:
             table[name] = table[name] | values
     case = BearingCase.from_dict(table)
-    duty = BearingDuty.of(case)
+    conditions = resolve_bearing(case)
     strength = case.discharge.dielectric_strength
-    races = (Race(inner=True, angle=0.0, speed=4.5), Race(inner=False, angle=0.0, speed=4.5))
+    rings = [RingContacts(conditions, inner, angle=0.0, speed=4.5) for inner in (True, False)]
     curves = [
         ContactCurve(tuple(contact(load, thick, strength) for load in (1.0, 900.0)))
         for thick in (film, 1.2 * film)
     ]
     states = []
-    for at in duty.equilibria(case.bearing, positions):
+    for at in equilibria_of(conditions, positions):
         of_rings = ((at.inner_load, at.inner_gap), (at.outer_load, at.outer_gap))
-        given = {"discharge": case.discharge}
         both = [
-            race_state(case.bearing, duty, race, curve, load=load, gap=gap, **given)
-            for race, curve, (load, gap) in zip(races, curves, of_rings, strict=True)
+            ring_state(ring, curve, load=load, gap=gap)
+            for ring, curve, (load, gap) in zip(rings, curves, of_rings, strict=True)
         ]
         states.append(Position(at, *both))
-    return BearingResult(BearingSolution(case, duty, *races, *curves, tuple(states), seconds=1.0))
+    return BearingResult(BearingSolution(case, conditions, *rings, *curves, tuple(states), seconds=1.0))
 
 
 @pytest.fixture(scope="module")
@@ -210,14 +209,14 @@ def test_voltages_of_contacts_are_those_of_the_bearing(result):
     expected = [row["breakdown_voltage"] / row["voltage_share"] for row in rows]
     np.testing.assert_allclose(inner, expected[::2], rtol=1e-12)
     np.testing.assert_allclose(outer, expected[1::2], rtol=1e-12)
-    circuit = result.circuits("oil")[0]
+    circuit = result.solution.circuits("oil")[0]
     assert min(*inner, *outer) == pytest.approx(circuit.first_break, rel=1e-12)
     assert line(ax, "first break").get_ydata()[0] == result.breaks()["first_break"]
     assert line(ax, "shaft voltage").get_ydata()[0] == result.shaft_voltage
 
 
 def test_bars_are_capacitances_and_shares(result):
-    circuit = result.circuits("oil")[0]
+    circuit = result.solution.circuits("oil")[0]
     heights = [bar.get_height() for bar in bearing_circuit_plot.contact_capacitances(result).patches]
     np.testing.assert_allclose(heights, 1e12 * np.concatenate([circuit.inner, circuit.outer]), rtol=1e-12)
     tops = [bar.get_y() + bar.get_height() for bar in bearing_circuit_plot.voltage_shares(result).patches[9:]]
@@ -265,13 +264,13 @@ def test_the_command_draws_unless_told_not_to(result, monkeypatch, tmp_path):
     """And takes the figures of an earlier bearing away."""
     file = tmp_path / "bearing.toml"
     file.write_text(tomli_w.dumps(TABLE), encoding="utf-8")
-    monkeypatch.setattr("ehlectric.bearing.solver.solve_bearing", lambda *_args, **_kwargs: result.solution)
+    monkeypatch.setattr("ehlectric.bearing.solver.solve_bearing", lambda *_args, **_kwargs: result)
     drawn = *BEARING_FIGURE_FILES, *SPEED_FIGURE_FILES
     for option, figures in (("--plots", drawn), ("--no-plots", ())):
         done = CliRunner().invoke(app, ["bearing", str(file), "-o", str(tmp_path / "out"), "-q", option])
         assert done.exit_code == 0, done.output
         written = {path.name for path in (tmp_path / "out").iterdir()}
-        assert written == {"summary.json", "contacts.csv", "impedance.csv", *figures}
+        assert written == {"summary.json", "contacts.csv", "impedance.csv", "bearing.nc", *figures}
 
 
 @pytest.mark.parametrize(
@@ -310,7 +309,7 @@ def test_radii_are_named_where_no_mark_is():
 def test_a_bearings_capacitance_over_its_contacts_is_that_of_the_position_shown(result):
     """Not the mean over a pitch, which the summary has."""
     title = bearing_circuit_plot.contact_capacitances(result).get_title(loc="right")
-    here, mean = result.circuits("oil")[0].capacitance, result.capacitance("oil")
+    here, mean = result.solution.circuits("oil")[0].capacitance, result.capacitance("oil")
     assert f"{1e12 * here:.4g}" != f"{1e12 * mean:.4g}"
     assert title == f"bearing, cage as here: {1e12 * here:.4g} pF, oil fill"
 

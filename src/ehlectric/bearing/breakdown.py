@@ -1,0 +1,81 @@
+"""Breakdown of a bearing: first break, through breakdown, and the largest field strength in its films."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ehlectric.bearing.circuit import Circuit
+from ehlectric.bearing.solution import BearingSolution, insulating
+
+
+@dataclass(frozen=True)
+class Breakdown:
+    """Bearing voltages at which films break down, over the positions of the cage.
+
+    Attributes
+    ----------
+    first_break, first_break_mean : float
+        Voltage at which some contact breaks down, least and mean over the positions [V].
+    first_break_at : str
+        The contact that breaks down first.
+    through_breakdown, through_breakdown_mean : float
+        Voltage at which some element breaks down from ring to ring, least and mean over the positions [V].
+    """
+
+    first_break: float
+    first_break_mean: float
+    first_break_at: str
+    through_breakdown: float
+    through_breakdown_mean: float
+
+
+def breakdown_of(solution: BearingSolution) -> Breakdown | None:
+    """Bearing voltages at which films break down.
+
+    Parameters
+    ----------
+    solution : BearingSolution
+        A solved bearing.
+
+    Returns
+    -------
+    Breakdown or None
+        None of ceramic elements, where surfaces touch, and without a strength.
+    """
+    circuits = solution.circuits()
+    first = np.array([circuit.first_break for circuit in circuits])
+    through = np.array([circuit.through_breakdown for circuit in circuits])
+    if not insulating(solution) or not np.all(np.isfinite(through)):
+        return None
+    return Breakdown(
+        first_break=float(np.min(first)),
+        first_break_mean=float(np.mean(first)),
+        first_break_at=_weakest(circuits[int(np.argmin(first))]),
+        through_breakdown=float(np.min(through)),
+        through_breakdown_mean=float(np.mean(through)),
+    )
+
+
+def _weakest(circuit: Circuit) -> str:
+    """Which contact of which element breaks first."""
+    k = int(np.argmin(circuit.first_breaks))
+    return f"{'inner' if circuit.inner_first[k] else 'outer'} contact of element {k}"
+
+
+def strength_per_volt(solution: BearingSolution) -> float | None:
+    """Largest field strength in the bearing over its voltage, over the positions [1/m].
+
+    None of ceramic elements, and where surfaces touch.
+    """
+    if not insulating(solution):
+        return None
+    return max(
+        float(np.max(share * ring.values.strength_per_volt))
+        for position, circuit in zip(solution.positions, solution.circuits(), strict=True)
+        for share, ring in (
+            (circuit.inner_share, position.inner),
+            (1.0 - circuit.inner_share, position.outer),
+        )
+    )

@@ -1,0 +1,128 @@
+"""Summary of a solved bearing: its totals, its voltages, and a row for every contact."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Any
+
+from ehlectric.bearing.breakdown import Breakdown, breakdown_of, strength_per_volt
+from ehlectric.bearing.impedance import oil_relaxation_time
+from ehlectric.bearing.loads.totals import mechanics_of
+from ehlectric.bearing.shaft_voltage import bearing_voltage_ratio, margin, shaft_voltage
+from ehlectric.bearing.solution import (
+    BearingSolution,
+    capacitance,
+    insulating,
+    lambda_ratio,
+    lubrication,
+    plate_capacitance,
+)
+from ehlectric.bearing.warnings import bearing_warnings
+from ehlectric.runtime.files import plain
+from ehlectric.runtime.stored_warnings import texts_and_codes
+
+SCHEMA = "ehlectric.bearing/1"
+
+_VOLTAGES = tuple(field.name for field in dataclasses.fields(Breakdown))
+
+
+def summary_of(solution: BearingSolution) -> dict[str, Any]:
+    """Totals, SI units, nested as summary.json; never NaN."""
+    case, conditions, oil = solution.case, solution.conditions, solution.case.lubricant.temperature
+    summary: dict[str, Any] = plain(
+        {
+            "schema": SCHEMA,
+            "version": solution.version,
+            "title": case.title,
+            "converged": solution.converged,
+            **texts_and_codes(bearing_warnings(solution)),
+            "inputs": case.to_dict(),
+            "lubricant": {
+                "temperature": case.bearing.temperature,
+                "viscosity": conditions.lubricant.viscosity,
+                "pressure_viscosity_coefficient": conditions.lubricant.pressure_viscosity_coefficient,
+                "expansion": None if oil is None else oil.expansion,
+                "film_factor": conditions.film_factor,
+            },
+            "bearing": _totals(solution),
+            "mechanics": mechanics_of(solution.positions[0].equilibrium),
+            "contacts": contact_rows(solution),
+            "seconds": solution.seconds,
+        }
+    )
+    return summary
+
+
+def _totals(solution: BearingSolution) -> dict[str, Any]:
+    """Capacitances and voltages of the whole bearing."""
+    own, plate = capacitance(solution), plate_capacitance(solution)
+    strength, shaft = strength_per_volt(solution), shaft_voltage(solution)
+    errors = [contact.error for curve in solution.curves for contact in curve.solutions]
+    known = [error for error in errors if error is not None]
+    return {
+        "contacts": solution.case.contacts,
+        "capacitance": own,
+        "capacitance_oil": capacitance(solution, "oil"),
+        "capacitance_air": capacitance(solution, "air"),
+        "capacitance_plate": plate,
+        "capacitance_ratio": None if plate is None else own / plate,
+        "lambda_ratio": lambda_ratio(solution),
+        "lubrication": lubrication(solution),
+        "film_factor": solution.conditions.film_factor,
+        **breaks(solution),
+        "strength_per_volt": strength,
+        "max_strength": None if strength is None or shaft is None else strength * shaft,
+        "bearing_voltage_ratio": bearing_voltage_ratio(solution),
+        "shaft_voltage": shaft,
+        "relaxation_time": oil_relaxation_time(solution),
+        "discretisation_error": max(known) if len(known) == len(errors) else None,
+        "interpolation_error": max(curve.interpolation_error for curve in solution.curves),
+    }
+
+
+def breaks(solution: BearingSolution) -> dict[str, Any]:
+    """Voltages of breakdown over the positions [V] and their margins, None where there are none."""
+    breakdown, shaft = breakdown_of(solution), shaft_voltage(solution)
+    if breakdown is None:
+        return dict.fromkeys((*_VOLTAGES, "margin", "through_margin"))
+    return dataclasses.asdict(breakdown) | {
+        "margin": margin(breakdown.first_break, shaft),
+        "through_margin": margin(breakdown.through_breakdown, shaft),
+    }
+
+
+def contact_rows(solution: BearingSolution) -> list[dict[str, Any]]:
+    """A row for every element and ring, cage at its first position, SI units."""
+    position, circuit, shaft = solution.positions[0], solution.circuits()[0], shaft_voltage(solution)
+    at, holds, ceramic = position.equilibrium, insulating(solution), solution.conditions.ceramic
+    fill, rq = solution.case.bearing.fill, solution.case.bearing.composite_rq
+    rows = []
+    for k in range(at.position.size):
+        for name, ring, share in (
+            ("inner", position.inner, circuit.inner_share),
+            ("outer", position.outer, 1.0 - circuit.inner_share),
+        ):
+            values = ring.values
+            strength = share[k] * values.strength_per_volt[k] if holds else None
+            rows.append(
+                {
+                    "element": k,
+                    "ring": name,
+                    "position": at.position[k],
+                    "load": ring.load[k],
+                    "contact_angle": at.ring(inner=name == "inner").angle[k],
+                    "max_pressure": values.max_pressure[k] or None,
+                    "semi_axis_x": values.semi_axis_x[k] or None,
+                    "semi_axis_y": values.semi_axis_y[k] or None,
+                    "minimum_thickness": values.minimum_thickness[k],
+                    "central_thickness": values.central_thickness[k],
+                    "lambda_ratio": values.minimum_thickness[k] / rq,
+                    "capacitance": None if ceramic else ring.capacitance(fill)[k],
+                    "voltage_share": share[k] if holds else None,
+                    "strength_per_volt": strength,
+                    "max_strength": None if strength is None or shaft is None else strength * shaft,
+                    "breakdown_voltage": values.breakdown_voltage[k] if holds else None,
+                    "solved": bool(ring.solved[k]),
+                }
+            )
+    return [plain(row) for row in rows]
