@@ -5,13 +5,14 @@ import copy
 import pickle
 import re
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 import ehlectric
-from ehlectric.bearing.ring_contacts import Race, of_contact
+from ehlectric.bearing.ring_contacts import of_contact
 from ehlectric.cases.case import Case
 from ehlectric.errors import InputError, MemoryLimitError
 from ehlectric.surfaces.files import read_surface
@@ -26,6 +27,8 @@ CASE = {
     },
     "lubricant": {"base": "paper"},
 }
+# A contact of the inner ring, as an error names it.
+INNER = SimpleNamespace(ring=SimpleNamespace(name="inner"), load=800.0)
 # Any text, and what a line or a key may not hold.
 TEXTS = st.text(max_size=20) | st.sampled_from(["a\nb", "x;", "got", "takes", "a: b", "\x85", "\r\n"])
 
@@ -194,7 +197,7 @@ def test_refused_file_is_the_key(tmp_path: Path) -> None:
     ],
 )
 def test_contact_of_a_bearing_is_to_blame_by_key(error: InputError, line: str) -> None:
-    with pytest.raises(type(error)) as refused, of_contact(Race(inner=True, angle=0.0, speed=1.0), 800.0):
+    with pytest.raises(type(error)) as refused, of_contact(INNER):
         raise error
     assert str(refused.value) == f"bearing: inner contact at 800 N: {line}"
     assert (refused.value.key, refused.value.takes) == ("bearing", error.takes)
@@ -205,7 +208,7 @@ def test_contact_of_a_bearing_is_to_blame_by_key(error: InputError, line: str) -
     [InputError("contacts.width", got=1), InputError("contact a file"), InputError("lubricant", got=1)],
 )
 def test_others_than_the_contact_are_not_rewritten(error: InputError) -> None:
-    with pytest.raises(InputError) as refused, of_contact(Race(inner=True, angle=0.0, speed=1.0), 800.0):
+    with pytest.raises(InputError) as refused, of_contact(INNER):
         raise error
     assert refused.value is error
 
