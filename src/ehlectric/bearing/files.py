@@ -117,17 +117,17 @@ def load(path: str | Path) -> BearingResult:
         path.open("rb").close()
     except OSError as error:
         reason = (error.strerror or str(error)).lower()
-        raise InputError(f"{path}: cannot be read, {reason}") from None
+        raise InputError(path, f"cannot be read, {reason}") from None
     try:
         with warnings.catch_warnings(), xr.open_dataset(path, engine="h5netcdf") as file:
             warnings.simplefilter("ignore")  # of what xarray thinks of files that are refused below
             dataset = file.load()
     except Exception:  # whatever HDF5 and its wrappers raise at damaged files
-        raise InputError(f"{path}: is not a NetCDF file") from None
+        raise InputError(path, "is not a NetCDF file") from None
     try:
         return BearingResult(_solution_of(dataset))
     except (InputError, ArithmeticError, AttributeError, LookupError, TypeError, ValueError):
-        raise InputError(f"{path}: is not the result of a bearing of ehlectric, or damaged") from None
+        raise InputError(path, "is not the result of a bearing of ehlectric, or damaged") from None
 
 
 def _dataset(solution: BearingSolution) -> xr.Dataset:

@@ -14,6 +14,7 @@ from ehlectric.cases.case import Case
 from ehlectric.contact.solution import Solution
 from ehlectric.film.state import NewtonStep
 from ehlectric.runtime.files import plain
+from ehlectric.runtime.stored_warnings import as_attributes
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -197,7 +198,7 @@ def dataset_of(solution: Solution[Any, Any, Any], layout: Layout, summary: Mappi
                 "converged": int(solution.converged),
                 **({"case": case.to_toml()} if isinstance(case, Case) else {}),
                 "summary": json.dumps(summary),
-                "warnings": json.dumps(solution.warnings),
+                **as_attributes(solution.warnings),
                 "rough": json.dumps(plain(solution.rough)),
                 "film_solver": solution.film_solver,
                 "field_solver": solution.field_solver,

@@ -12,6 +12,7 @@ from ehlectric.contact.setup import Setup
 from ehlectric.contact.solution import Solution
 from ehlectric.formulas.film_line import Thickness
 from ehlectric.runtime.files import plain
+from ehlectric.runtime.stored_warnings import texts_and_codes
 
 SCHEMA = "ehlectric.summary/1"
 
@@ -36,7 +37,7 @@ def summary_of(solution: Solution[Any, Any, Any]) -> dict[str, Any]:
         "title": solution.case.title,
         "converged": solution.converged,
         "status": film.status,
-        "warnings": list(solution.warnings),
+        **texts_and_codes(solution.warnings),
         "inputs": inputs_of(solution.case, conditions),
         "groups": groups_of(conditions),
         "hertz": hertz_of(conditions),

@@ -33,12 +33,12 @@ def file(tmp_path):
 
 
 def same(one, other):
-    for name in ("mass", "density", "free"):
+    for name in ("mass", "density", "full_film"):
         np.testing.assert_array_equal(getattr(one, name), getattr(other, name))
     for name in ("pressure", "thickness", "h00"):
         np.testing.assert_array_equal(getattr(one.state, name), getattr(other.state, name))
     assert one.time == other.time
-    assert one.free.dtype == bool
+    assert one.full_film.dtype == bool
 
 
 def test_what_is_kept_is_read_to_the_last_bit(file):
@@ -96,7 +96,7 @@ def test_the_layout_is_that_of_earlier_versions(file):
         (now.state.thickness, before.state.thickness),
         (now.mass, before.mass),
         (now.density, before.density),
-        (now.free.astype("i1"), before.free.astype("i1")),
+        (now.full_film.astype("i1"), before.full_film.astype("i1")),
         (now.time, before.time),
         (now.state.h00, before.state.h00),
     ):

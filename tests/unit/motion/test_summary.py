@@ -424,7 +424,7 @@ def test_a_stored_run_needs_no_surface_file(tmp_path, table):
 
 def test_a_summary_parses_and_resolves_its_case_once(monkeypatch):
     dataset, calls = beside(), []
-    parse, resolves = Case.from_dict.__func__, kinds.LINE.resolve
+    parse, resolves = Case.from_dict.__func__, kinds.LINE.contact.resolve
 
     def parsed(cls, *values):
         calls.append("parsed")
@@ -435,6 +435,7 @@ def test_a_summary_parses_and_resolves_its_case_once(monkeypatch):
         return resolves(case)
 
     monkeypatch.setattr(Case, "from_dict", classmethod(parsed))
-    monkeypatch.setitem(kinds.KINDS, "line", replace(kinds.LINE, resolve=resolved))
+    stationary = replace(kinds.LINE.contact, resolve=resolved)
+    monkeypatch.setitem(kinds.KINDS, "line", replace(kinds.LINE, contact=stationary))
     assert summary_of(dataset)["beside_stationary"] is not None
     assert calls == ["parsed", "resolved"]
