@@ -16,6 +16,7 @@ copyright = author
 version = release = __version__
 
 extensions = [
+    "architecture",
     "from_code",
     "myst_parser",
     "numpydoc",

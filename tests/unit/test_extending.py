@@ -1,16 +1,21 @@
 """A law of the oil and a film-thickness formula added as an extender would: one function, one entry."""
 
 import math
+import re
+import shutil
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from ehlectric import Case, InputError, load, save, solve
+from ehlectric import Case, InputError, errors, load, save, solve
 from ehlectric.bearing.solver import solve_bearing
+from ehlectric.cases import library
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.changes import flattened
 from ehlectric.cases.lubricant import effective_alpha, viscosity_law
 from ehlectric.commands.check import meaning
+from ehlectric.contact.kinds import KINDS, LINE
 from ehlectric.contact.problems import film_problem
 from ehlectric.contact.resolve import resolve
 from ehlectric.errors import ResultWarning
@@ -257,3 +262,37 @@ def test_a_piezoviscous_formula_gives_nothing_for_an_isoviscous_oil(monkeypatch)
     printed, summary, _ = meaning(Case.from_dict({"contact": PAPER_CONTACT, "lubricant": oil}))
     assert set(summary["film_formulas"]["mine"].values()) == {None}
     assert not any(name.startswith("My formula") for name in rows(printed))
+
+
+def test_a_lubricant_of_the_library_is_one_file(tmp_path, monkeypatch):
+    """A copy of the library gains a file, whose name a case takes and a message lists."""
+    folder = tmp_path / "library"
+    shutil.copytree(library._FOLDER, folder)
+    oil = (folder / "lubricants" / "paper.toml").read_text(encoding="utf-8")
+    (folder / "lubricants" / "thick.toml").write_text(
+        re.sub(r"^viscosity = .*$", 'viscosity = "0.4 Pa s"', oil, flags=re.MULTILINE), encoding="utf-8"
+    )
+    monkeypatch.setattr(library, "_FOLDER", folder)
+    case = Case.from_dict({"contact": PAPER_CONTACT, "lubricant": {"base": "thick"}})
+    assert case.lubricant.viscosity == 0.4
+    with pytest.raises(InputError, match="paper, thick"):
+        Case.from_dict({"contact": PAPER_CONTACT, "lubricant": {"base": "tar"}})
+
+
+def test_a_warning_is_a_code_and_a_condition(monkeypatch):
+    """A code in the list, and a generator that gives it: results, summary and files carry it."""
+    monkeypatch.setattr(errors, "CODES", {**errors.CODES, "fast": errors.Cause("The contact is fast.")})
+    before = LINE.case_warnings
+
+    def case_warnings(setup, conditions):
+        yield from before(setup, conditions)
+        if conditions.entrainment_speed > 3.0:
+            yield ResultWarning("fast", f"the surfaces move at {conditions.entrainment_speed:g} m/s")
+
+    monkeypatch.setitem(KINDS, "line", replace(LINE, case_warnings=case_warnings))
+    fast = Case.from_dict({"contact": PAPER_CONTACT, "lubricant": {"base": "paper"}, "grid": {"nodes": 801}})
+    summary = solve(fast).summary()
+    told = dict(zip(summary["warning_codes"], summary["warnings"], strict=True))
+    assert told["fast"] == "the surfaces move at 4 m/s"
+    slow = solve(fast.replace({"contact.entrainment_speed": 2.0}))
+    assert "fast" not in slow.summary()["warning_codes"]

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import tomllib
 from importlib import resources
+from importlib.resources.abc import Traversable
 from typing import Any
+
+_FOLDER: Traversable = resources.files(__name__)
 
 
 def _names(kind: str) -> list[str]:
-    folder = resources.files(__name__) / f"{kind}s"
-    return sorted(f.name.removesuffix(".toml") for f in folder.iterdir())
+    return sorted(file.name.removesuffix(".toml") for file in (_FOLDER / f"{kind}s").iterdir())
 
 
 def _table(kind: str, name: str) -> dict[str, Any]:
-    path = resources.files(__name__) / f"{kind}s" / f"{name}.toml"
+    path = _FOLDER / f"{kind}s" / f"{name}.toml"
     table: dict[str, Any] = tomllib.loads(path.read_text(encoding="utf-8"))[kind]
     return table
 
