@@ -1,4 +1,4 @@
-"""What the solvers are measured against: dense Newton for the film, SuperLU for the field."""
+"""Baselines for the solvers: dense Newton for the film, SuperLU for the field."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from scipy.sparse.linalg import splu
 
 from ehlectric.arrays import Array
 from ehlectric.field.poisson import FieldProblem
-from ehlectric.film import line as film
 from ehlectric.film import newton
+from ehlectric.film import solution as stationary
 from ehlectric.film.flow import Fluid
 from ehlectric.film.gap import Gap
 from ehlectric.film.levels import Level
-from ehlectric.film.line import Film
+from ehlectric.film.line import Film, solve_film
 from ehlectric.film.multigrid import Linearised
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.reynolds import OFFSETS
@@ -25,7 +25,7 @@ from ehlectric.film.state import Residual, State
 def dense_direction(
     fluid: Fluid, levels: list[Level], state: State, now: Residual
 ) -> tuple[Array, float, int]:
-    """The same Newton direction by LAPACK: the whole Jacobian, factorised."""
+    """Newton direction by LAPACK: the whole Jacobian is assembled and factorised."""
     level = levels[0]
     jacobian = Linearised.of(Gap(level, state.thickness), now.flow, now.full_film)
     held = np.where(now.full_film, 0.0, fluid.ambient_pressure - state.pressure)
@@ -48,12 +48,12 @@ def dense_direction(
 
 def solve_film_densely(problem: FilmProblem) -> Film:
     """``solve_film`` with every linear system solved by LAPACK on all threads."""
-    direction, threads = newton._direction, film.one_blas_thread
-    newton._direction, film.one_blas_thread = dense_direction, np.errstate
+    direction, threads = newton._direction, stationary.one_blas_thread
+    newton._direction, stationary.one_blas_thread = dense_direction, np.errstate
     try:
-        return film.solve_film(problem)
+        return solve_film(problem)
     finally:
-        newton._direction, film.one_blas_thread = direction, threads
+        newton._direction, stationary.one_blas_thread = direction, threads
 
 
 def capacitance_by_superlu(problem: FieldProblem, across: int = 65) -> float:
