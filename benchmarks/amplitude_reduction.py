@@ -66,8 +66,8 @@ class Reduction:
     """Computed amplitude reduction of one waviness in one contact.
 
     ``wavelength`` is divided by the half-width b, ``amplitude`` by the smooth central film ``central`` (H at
-    X = 0). ``ratio`` is A_d/A_i. ``error`` is a third of the difference from the grid of half the nodes, as for
-    a scheme of second order.
+    X = 0). ``ratio`` is A_d/A_i. ``error`` is a third of the difference from the grid of half the nodes, as
+    for a scheme of second order.
     """
 
     moes_m: float

@@ -18,7 +18,7 @@ from ehlectric.film.levels import Level
 from ehlectric.film.line import Film, solve_film
 from ehlectric.film.multigrid import Linearised
 from ehlectric.film.problem import FilmProblem
-from ehlectric.film.reynolds import OFFSETS
+from ehlectric.film.reynolds import ALONG, OFFSETS
 from ehlectric.film.state import Residual, State
 
 
@@ -26,19 +26,20 @@ def dense_direction(
     fluid: Fluid, levels: list[Level], state: State, now: Residual
 ) -> tuple[Array, float, int]:
     """Newton direction by LAPACK: the whole Jacobian is assembled and factorised."""
-    level = levels[0]
-    jacobian = Linearised.of(Gap(level, state.thickness), now.flow, now.full_film)
+    gap = Gap(levels[0], state.thickness)
+    jacobian = Linearised.of(gap, now.flow, now.full_film)
     held = np.where(now.full_film, 0.0, fluid.ambient_pressure - state.pressure)
     change, load = jacobian(held, 0.0)
     n = state.pressure.size
     matrix = np.zeros((n + 1, n + 1))
     matrix[:n, :n] = jacobian.by_p.matrix()
-    for k, offset in enumerate(OFFSETS):
+    deflection = gap.matrix()
+    for k, (offset, _) in enumerate(OFFSETS[:ALONG]):
         rows = slice(max(0, -offset), n - max(0, offset))
         columns = slice(max(0, offset), n + min(0, offset))
-        matrix[rows, :n] += jacobian.by_h.coefficients[k, rows] * level.deflection_matrix[columns]
+        matrix[rows, :n] += jacobian.by_h.coefficients[k, rows] * deflection[columns]
     matrix[:n, n] = jacobian.by_h.coefficients.sum(axis=0)[:, 0]
-    matrix[n, :n] = np.where(now.full_film, level.weights, 0.0)[:, 0]
+    matrix[n, :n] = np.where(now.full_film, gap.load_weights(), 0.0)[:, 0]
     fixed = np.flatnonzero(~now.full_film[:, 0])
     matrix[fixed, fixed] = 1.0
     right = np.append(np.where(now.full_film, -now.reynolds - change, 0.0), now.load - load)

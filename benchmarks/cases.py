@@ -49,7 +49,7 @@ def point_film_problem(example: str, nodes: int, wedge: str) -> FilmProblem:
 
 
 def point_field_problem(example: str, columns: int) -> PointFieldProblem:
-    """Field problem of a point contact in ``examples`` on columns x columns columns, with as many film nodes."""
+    """Field problem of a point contact in ``examples`` on columns x columns columns and film nodes."""
     grid = {"grid.nodes": columns, "grid.field_nodes": columns, "grid.field_nodes_y": columns}
     case = Case.from_toml(EXAMPLES / f"{example}.toml").replace(grid)
     conditions = resolve_point(case)

@@ -40,7 +40,7 @@ def iterations(film: Film, nodes: int) -> tuple[int, float]:
 
 
 def film_rows() -> Iterator[tuple[str, ...]]:
-    """Rows of the film table for each contact, wedge and grid: time, Newton steps, GMRES iterations, memory."""
+    """Rows of the film table by contact, wedge and grid: time, Newton steps, GMRES iterations, memory."""
     for contact, example in CONTACTS.items():
         for wedge in WEDGES[contact]:
             for nodes, limit in SECONDS.items():
