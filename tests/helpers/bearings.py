@@ -1,4 +1,4 @@
-"""Bearing files that tests change: a 6208 and a roller bearing that is nobody's."""
+"""Bearing files that tests change: a 6208 and an invented roller bearing; contacts with their rings."""
 
 import copy
 import dataclasses
@@ -50,7 +50,7 @@ BALLS = {
     **OTHERS,
 }
 
-# About the size of an NU 208, whose internal geometry is not published: made up.
+# About the size of an NU 208. Its internal geometry is not published, so the values are invented.
 ROLLERS = {
     "bearing": DUTY
     | {
@@ -68,22 +68,22 @@ ROLLERS = {
 
 
 def changed(tables, **changes):
-    """A copy of nested tables with values at keys such as ``bearing__fill`` in place; None takes one out."""
-    found = copy.deepcopy(tables)
+    """Copy of nested tables with changed values; ``bearing__fill`` names a key, and None removes it."""
+    copied = copy.deepcopy(tables)
     for key, value in changes.items():
         *path, last = key.split("__")
-        table = found
+        table = copied
         for name in path:
             table = table.setdefault(name, {})
         if value is None:
             table.pop(last, None)
         else:
             table[last] = value
-    return found
+    return copied
 
 
 def bearing_case(tables, **changes):
-    """The case of changed tables."""
+    """Bearing case of tables with changed values."""
     return BearingCase.from_dict(changed(tables, **changes))
 
 
@@ -108,7 +108,7 @@ def solve_contact(ring, load, solver):
 
 
 def formula_contact(ring, load):
-    """Contact with a ring at a load [N] by film formulas."""
+    """Contact with a ring at a load [N], computed by film formulas."""
     return kind_of(ring).by_formula(contact_of(ring, load))
 
 
@@ -118,12 +118,12 @@ def rigid_capacitance(ring, gap):
 
 
 def contact_solution(**numbers):
-    """A made-up contact, its values and what else there is of it in one go."""
+    """Invented solution of a contact from all of its attributes, including its values."""
     names = {field.name for field in dataclasses.fields(ContactValues)}
     values = ContactValues(**{name: numbers.pop(name) for name in names})
     return ContactSolution(values=values, **numbers)
 
 
 def with_values(one, **values):
-    """A contact or the contacts with a ring with other values."""
+    """Copy of a contact, or of the contacts with a ring, with other values."""
     return dataclasses.replace(one, values=dataclasses.replace(one.values, **values))
