@@ -99,8 +99,8 @@ below.set(xlabel="voltage [V]", ylabel="probability of breakdown", ylim=(0, 1), 
 # The energy of a spark at the breakdown voltage, for a line of 10 mm. The energy of the contact alone falls
 # as the film gets thinner: its capacitance is proportional to 1/h, the square of its voltage to h². The
 # external capacitance, here 1 nF for the rotor, is constant. The grey line is the energy that melts a
-# hemisphere of 1.7 µm, the mean pit of Plazenet et al. as the paper quotes it, with 10.2 GJ/m³ for iron and an
-# efficiency of 0.183, which is an assumption.
+# hemisphere of 1.7 µm, the mean pit of Plazenet et al. as the paper quotes it, with 10.2 GJ/m³ for iron and
+# an efficiency of 0.183, which is an assumption.
 pit = 10.2e9 * np.pi * MEAN_PIT**3 / 12.0 / 0.183
 figure, ax = plt.subplots()
 for pressure, colour in pressures.items():
