@@ -10,7 +10,7 @@ from ehlectric.film.unsteady import UnsteadyFilm
 
 
 def problem_of(paper_case, nodes, **values):
-    """Film problem of a line contact with the paper's oil, at 0.8 GPa and 1 m/s, X from -3 to 2, or others."""
+    """Film problem of a line contact with the paper's oil, by default at 0.8 GPa, 1 m/s and -3 <= X <= 2."""
     contact = {"contact.max_hertz_pressure": "0.8 GPa", "contact.entrainment_speed": "1 m/s"}
     grid = {"grid.nodes": nodes, "grid.inlet": -3.0, "grid.outlet": 2.0}
     case = paper_case.replace(contact | grid | values)
