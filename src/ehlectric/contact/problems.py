@@ -293,8 +293,8 @@ def _columns(setup: Case | Setup, conditions: Conditions, film: Film, *, refine:
     """Positions of the columns of the field [m].
 
     They are the film's nodes in the field range and its two ends, or ``grid.field_nodes`` equidistant
-    columns. The slope of a rough wall changes within a distance as short as the gap. With ``refine`` the intervals
-    between nodes are therefore divided, if possible down to half the minimum film thickness.
+    columns. The slope of a rough wall changes within a distance as short as the gap. With ``refine`` the
+    intervals between nodes are therefore divided, if possible down to half the minimum film thickness.
     """
     nodes = columns_within(
         film.x, [conditions.half_width * end for end in setup.grid.field_range], setup.grid.field_nodes

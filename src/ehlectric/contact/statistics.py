@@ -56,8 +56,8 @@ def line_roughness(solution: LineSolution) -> RoughnessStatistics:
     x = solution.film.x
     heights = solution.roughness[:, np.abs(x) <= solution.conditions.half_width]
     rq_1, rq_2 = (float(rq) for rq in np.std(heights, axis=1))
-    # The film depends on the sum of the heights. The surfaces may be correlated, so that rq_combined cannot be
-    # computed from rq_1 and rq_2.
+    # The film depends on the sum of the heights. The surfaces may be correlated, so rq_combined does not
+    # follow from rq_1 and rq_2.
     combined = of_profile(Profile(float(x[1] - x[0]), heights.sum(axis=0)))
     return _beside_film(solution, (rq_1, rq_2, combined.rq), vars(combined))
 
