@@ -1,4 +1,4 @@
-"""Input files and tables of either kind, of a contact or of a bearing."""
+"""Reading of input files and tables that describe either a contact or a bearing."""
 
 from __future__ import annotations
 

@@ -14,7 +14,7 @@ Groups = tuple[tuple[tuple[str, ...], ...], ...]
 
 
 def set_keys(table: dict[str, Any], flat: Mapping[str, Any]) -> None:
-    """Set values of nested tables by dotted key; a table in a list has its number, from 1, in the key.
+    """Set values of nested tables by dotted key; a table in a list is named by its number, from 1.
 
     Raises
     ------

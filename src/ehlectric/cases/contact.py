@@ -27,8 +27,8 @@ class Body(Table):
     radius_y: _SignedRadius | None = None
 
 
-# Alternative inputs by geometry: a case gives all keys of exactly one row of each group. For a line contact
-# the bodies are one alternative; for a point contact their radii and their elastic constants are separate.
+# Alternative inputs by geometry: a case gives all keys of exactly one row of each group. In a line contact
+# the tables of both bodies form a row. In a point contact their radii and elastic constants are in two groups.
 Alternatives = tuple[tuple[tuple[str, ...], ...], ...]
 _SPEEDS = (("entrainment_speed",), ("speed_1", "speed_2"))
 _BODIES = ("body_1", "body_2")

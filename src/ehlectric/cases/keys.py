@@ -113,7 +113,7 @@ def input_field(key: str) -> FieldInfo:
 
 
 def number_of(field: FieldInfo) -> Quantity | Count | None:
-    """Unit and bounds of a field that is a number; None for a text, a list or a choice.
+    """Quantity or count of a field that is a number; None for a text, a list or a choice.
 
     Examples
     --------
@@ -159,7 +159,7 @@ def unit_of(key: str) -> str:
 
 
 def kind_of(key: str) -> Quantity | Count | None:
-    """Unit and bounds of a dotted key that is a number of the case; None for every other key.
+    """Quantity or count of a dotted key that is a number of the case; None for every other key.
 
     Examples
     --------

@@ -21,14 +21,14 @@ if TYPE_CHECKING:
 _PREFIXES = {1e9: "G", 1e6: "M", 1e3: "k", 1.0: "", 1e-3: "m", 1e-6: "µ", 1e-9: "n", 1e-12: "p"}
 
 # Products and quotients of named units with one-digit exponents. No quantity here needs other units, and pint
-# would not come to an end with a tower of exponents.
+# would compute for ever on nested exponents.
 _NAME = r"[A-Za-zµμΩ°]+(?:(?:\*\*|\^)?[-+]?[1-9]|²|³)?"
 _UNIT = re.compile(rf"(?:1?\s*/\s*)?{_NAME}(?:(?:\s*[*/·]\s*|\s+){_NAME})*")
 _EXPONENT = re.compile(r"(?<=[A-Za-zµμΩ°])(?:\*\*|\^)?([-+]?[1-9])")
 _ANGLE = re.compile("rad|rpm|rev|turn|deg")
 _NUMBER_AND_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*")
 
-# Frequent mistakes, by the SI unit of the quantity: unit of the quantity that is given instead, and advice.
+# Frequent mistakes, by the SI unit of the quantity: unit of another quantity that users write, and advice.
 _HINTS = {
     "Pa*s": ("m**2/s", "multiply a kinematic viscosity by the density"),
     "m/s": ("1/s", "multiply a rotational speed, in rad/s, by the radius"),

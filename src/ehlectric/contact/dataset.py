@@ -244,7 +244,7 @@ def attributes(layout: Layout, film: Any, field: Any) -> dict[str, str]:
 
 
 def film_parts(layout: Layout, dataset: xr.Dataset) -> dict[str, Any]:
-    """Arguments that make the film of a dataset, without its scales."""
+    """Arguments of the class of the film, read from a dataset, without the scales of the film."""
     arrays: dict[str, Any] = dict(_arrays(dataset, layout.film))
     arrays["cavitated"] = arrays["cavitated"].astype(bool)
     history = zip(*(dataset[name].values for name in _HISTORY), strict=True)
@@ -253,7 +253,7 @@ def film_parts(layout: Layout, dataset: xr.Dataset) -> dict[str, Any]:
 
 
 def field_parts(layout: Layout, dataset: xr.Dataset) -> dict[str, Any]:
-    """Arguments that make the field of a dataset."""
+    """Arguments of the class of the field, read from a dataset."""
     return {**dict(_arrays(dataset, layout.field)), **json.loads(dataset.attrs["field"])}
 
 

@@ -189,7 +189,7 @@ def _roughness(zone: str) -> Keys:
 
 
 def _statistics(where: str, keys: Keys) -> Keys:
-    """Keys of the statistics of z1 + z2, whose meaning names the region that they cover."""
+    """Keys of the statistics of z1 + z2 over a region; ``where`` is the name of the region."""
     return {
         name: ResultKey(f"{key.meaning}, of z1 + z2 over the {where}", key.unit) for name, key in keys.items()
     }

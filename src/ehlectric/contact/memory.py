@@ -32,7 +32,7 @@ RECORD_BYTES = 64
 
 
 def check_memory(case: Case) -> None:
-    """Raise a MemoryLimitError if a case, or the stored instants of its motion, do not fit into memory.
+    """Raise a MemoryLimitError if a case does not fit into the memory of this machine.
 
     Parameters
     ----------
@@ -42,7 +42,7 @@ def check_memory(case: Case) -> None:
     Raises
     ------
     MemoryLimitError
-        If film and field need more than the physical memory.
+        If film and field, or the stored instants of a motion, need more than the physical memory.
     """
     if case.motion is not None:
         _check_record(case.motion, case.grid, _NODES[case.contact.geometry](case.grid))
@@ -71,7 +71,7 @@ def check_grid(geometry: str, grid: Grid, *, rough: bool) -> None:
 
 
 def _check_record(motion: Motion, grid: Grid, nodes: int) -> None:
-    """Raise a MemoryLimitError if the stored instants of a motion, read back at its end, do not fit."""
+    """Raise a MemoryLimitError if the instants of a motion, all read back at its end, do not fit."""
     steps = motion.steps or (math.inf if motion.passes is None else motion.passes * grid.nodes)
     available, needed = physical_memory(), RECORD_BYTES * nodes * min(motion.record, steps + 1)
     if needed > available:

@@ -294,7 +294,8 @@ def _columns(setup: Case | Setup, conditions: Conditions, film: Film, *, refine:
 
     They are the film's nodes in the field range and its two ends, or ``grid.field_nodes`` equidistant
     columns. The slope of a rough wall changes within a distance as short as the gap. With ``refine`` the
-    intervals between nodes are therefore divided, if possible down to half the minimum film thickness.
+    intervals between nodes are therefore divided down to half the minimum film thickness, but into at most
+    ``_MOST_PARTS`` parts.
     """
     nodes = columns_within(
         film.x, [conditions.half_width * end for end in setup.grid.field_range], setup.grid.field_nodes
@@ -309,7 +310,10 @@ def _columns(setup: Case | Setup, conditions: Conditions, film: Film, *, refine:
 
 
 def columns_within(nodes: Array, ends: Sequence[float], number: int | None) -> Array:
-    """Film nodes between two ends, and both ends [m]; or ``number`` equidistant columns, unless None."""
+    """Positions of the columns of the field between two ends [m].
+
+    They are the film nodes between the ends and both ends, or ``number`` equidistant positions.
+    """
     start, stop = ends
     if number is not None:
         return np.linspace(start, stop, number)

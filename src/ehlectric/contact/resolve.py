@@ -31,7 +31,7 @@ def resolve(case: Case) -> Conditions:
     ------
     InputError
         If the values contradict each other: no positive reduced radius, a Hertz pressure near the ambient
-        pressure, or a dry contact too wide for its bodies. Also for a point contact.
+        pressure, or a dry contact too wide for its bodies. Also if the case is of a point contact.
 
     Examples
     --------
@@ -104,7 +104,7 @@ def resolve_point(case: Case) -> PointConditions:
     InputError
         If the values contradict each other: no positive reduced radius in a plane, a Hertz pressure near the
         ambient pressure, a dry contact too wide for its bodies, or a grid too coarse across entrainment. Also
-        for a line contact.
+        if the case is of a line contact.
 
     Examples
     --------

@@ -26,7 +26,7 @@ FieldT = TypeVar("FieldT", bound=Field | PointField)
 
 @dataclass(frozen=True)
 class Smooth:
-    """Film and field of a rough contact's counterpart with smooth surfaces, for comparison.
+    """Film and field of a rough contact that is solved with smooth surfaces, for comparison.
 
     Attributes
     ----------

@@ -166,8 +166,8 @@ def solve_contact(
     Returns
     -------
     Result or PointResult
-        Result of a line contact or of a point contact; its ``case`` is a ``Setup``. A file of this result
-        cannot be loaded.
+        Result of a line contact or of a point contact; its ``case`` is a ``Setup``. ``load`` cannot read a
+        file of this result.
 
     Raises
     ------

@@ -55,7 +55,7 @@ def zone_capacitances(
         permittivity = filled_permittivity(oil, fraction, outlet)
         thin = epsilon_0 * permittivity / gap
         # The thin gap at the columns is interpolated from the film's nodes, not computed from the gap of the
-        # field. It then cancels the sum over the nodes, also where the columns are finer than the nodes.
+        # field. It then cancels the sum over the nodes inside the field range, also if the columns are finer.
         thin_gap = at_columns(film, field, thin)
         correction = field.capacitance_density * at_columns(film, field, permittivity / oil) - thin_gap
         by_outlet[outlet] = {

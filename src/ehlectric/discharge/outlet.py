@@ -13,8 +13,8 @@ def oil_fraction(thickness: Array, density: Array, cavitated: Mask) -> Array:
     """Fraction of the gap that is filled with oil behind the exit of the film: (rho H)_exit/(rho H).
 
     Behind the exit no pressure gradient drives the oil. The oil that leaves the full film is carried on by
-    surfaces that diverge. A rough film may cavitate and form again several times. The oil mass rho H that
-    flows on is then at most the smallest oil mass at the exits upstream.
+    surfaces that diverge. A rough film may cavitate and reform several times. The oil mass rho H that flows
+    on is then at most the smallest oil mass at the exits upstream.
 
     Parameters
     ----------

@@ -114,7 +114,7 @@ def breakdown(discharge: Discharge, utilisation: FieldUtilisation, voltage: floa
     Returns
     -------
     Breakdown
-        Breakdown voltage and probability; all None without a dielectric strength and a Weibull law.
+        Breakdown voltage and probability; all None if the case gives neither a strength nor a Weibull law.
     """
     if discharge.weibull is not None:
         return _weibull_breakdown(discharge, utilisation, voltage, size)

@@ -27,7 +27,7 @@ class FieldUtilisation:
     strength : ndarray, shape (nx,) or (nx, ny)
         Largest field strength in each column of the solved field [V/m].
     dielectric_strength : ndarray, shape (nx,) or (nx, ny)
-        Dielectric strength at each column [V/m]; 1 V/m if the case gives none, or a Weibull law.
+        Dielectric strength at each column [V/m]; 1 V/m if the case gives none, or gives a Weibull law.
     position : tuple of float
         Position of the largest utilisation, (x,) or (x, y) [m].
     extent : float
@@ -84,7 +84,7 @@ def dielectric_strength(discharge: Discharge, pressure: Array) -> Array:
     -------
     ndarray, shape (...)
         Dielectric strength [V/m]. A table is interpolated linearly, and its end values hold beyond its ends.
-        Without a constant strength and a table it is 1 V/m.
+        If the case gives neither a constant nor a table, it is 1 V/m.
 
     Examples
     --------
