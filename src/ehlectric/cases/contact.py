@@ -28,7 +28,7 @@ class Body(Table):
 
 
 # Alternative inputs by geometry: a case gives all keys of exactly one row of each group. In a line contact
-# the tables of both bodies form a row. In a point contact their radii and elastic constants are in two groups.
+# the tables of both bodies form a row. In a point contact radii and elastic constants are in two groups.
 Alternatives = tuple[tuple[tuple[str, ...], ...], ...]
 _SPEEDS = (("entrainment_speed",), ("speed_1", "speed_2"))
 _BODIES = ("body_1", "body_2")
