@@ -32,7 +32,7 @@ _MANY = (1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0)
 
 
 def scale_axis(axis: Axis, text: str, *, values: Array, log: bool) -> None:
-    """Label an axis, and make it logarithmic where asked for, with ticks at round numbers.
+    """Label an axis; where ``log`` is set, make it logarithmic with ticks at round numbers.
 
     Parameters
     ----------

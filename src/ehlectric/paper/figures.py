@@ -99,7 +99,7 @@ def _middle(
     label: str,
     exits: dict[int, tuple[float, float]],
 ) -> Figure:
-    """Draw the field strength at mid-film over x/b, by both readings of mid-film, one panel a Hertz pressure.
+    """Draw the field strength at mid-film over x/b, by both readings of mid-film, a panel for each pressure.
 
     ``scale`` gives the factor from V/m to the drawn unit; ``exits`` has the ranges of x/b at the exit that
     insets show, by Hertz pressure [GPa].
@@ -152,7 +152,7 @@ def rough_middle(study: Study) -> Figure:
 
 
 def profile_and_pressure(study: Study) -> Figure:
-    """Draw Figure 8: the profile as the film sees it, and the pressure of a contact with and without it."""
+    """Draw Figure 8: the profile in the contact, and the pressure of a contact with and without it."""
     left, right = new_panels(1, 2, (10.0, 3.8))
     result, smooth = study.rough[CONTACTS[3]], study.smooth[CONTACTS[3]]
     x = result.film.x / result.conditions.half_width

@@ -210,7 +210,7 @@ def readings_differ_by(result: Result) -> float:
 
 
 def _line(case: Case, *, beside_smooth: bool = True) -> Result:
-    """Solve a line contact, for rough ones with the smooth contact beside it by default."""
+    """Solve a line contact; with ``beside_smooth``, a rough contact is solved between smooth surfaces too."""
     result = solve(case, beside_smooth=beside_smooth)
     assert isinstance(result, Result)
     return result

@@ -88,7 +88,7 @@ def sobol(
     Notes
     -----
     A and B are the halves of a scrambled Sobol sequence in 2d dimensions. Saltelli et al., Comput. Phys.
-    Commun. 181 (2010) 259, doi:10.1016/j.cpc.2009.09.018, table 2; The values computed at
+    Commun. 181 (2010) 259, doi:10.1016/j.cpc.2009.09.018, table 2. The values computed at
     these points are f_A, f_B and f_AB of ``scipy.stats.sobol_indices``.
 
     Examples

@@ -186,7 +186,8 @@ def curve_of(x: Array, values: Array, *, log_x: bool, log: bool) -> tuple[Array,
 def applied_at(results: SweepResults, selection: Slice, along: Array, across: Any) -> Array | None:
     """Exact applied voltage between the points of a slice over a surface potential.
 
-    Interpolation of the applied voltage is inexact where it goes through zero.
+    The applied voltage is an absolute difference of two potentials. Linear interpolation of it is wrong where
+    the potentials cross.
 
     Parameters
     ----------
@@ -271,8 +272,8 @@ def spaced_log(results: SweepResults, key: str, values: Array) -> bool:
     Returns
     -------
     bool
-        The spacing of the key's range in a "sobol" design. For other designs True where the logarithms of the
-        values are more evenly spaced than the values.
+        In a "sobol" design, True where the range of the key has logarithmic spacing. In other designs, True
+        where the logarithms of the values are more evenly spaced than the values.
     """
     if key in results.ranges:
         return results.ranges[key].spacing == "log"

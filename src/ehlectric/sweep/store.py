@@ -183,7 +183,7 @@ class Store:
             refuse_special(folder / name)
         self._lock = _locked(folder / LOCK)
         try:
-            with _told(self._path):
+            with _one_line_errors(self._path):
                 self._file = _opened(self._path, "rwc")
                 self._file.execute("PRAGMA journal_mode = TRUNCATE")
                 self._file.execute("PRAGMA synchronous = FULL")
@@ -230,7 +230,7 @@ class Store:
 
     def open_points(self) -> list[tuple[str, dict[str, Any]]]:
         """Keys and inputs of the points that are still to be solved, each case once."""
-        with _told(self._path):
+        with _one_line_errors(self._path):
             rows = self._file.execute(
                 "SELECT points.key, inputs, min(number) FROM points LEFT JOIN results USING (key) "
                 f"WHERE points.key IS NOT NULL AND (results.key IS NULL OR NOT {_DONE}) "
@@ -240,7 +240,7 @@ class Store:
 
     def counts(self) -> dict[str, int]:
         """Number of points by status; points that are to be tried again count as "open"."""
-        with _told(self._path):
+        with _one_line_errors(self._path):
             rows = self._file.execute(
                 "SELECT CASE WHEN points.key IS NULL THEN 'failed' "
                 f"WHEN results.key IS NULL OR NOT {_DONE} THEN 'open' ELSE results.status END AS status, "
@@ -264,7 +264,7 @@ class Store:
     @contextmanager
     def _transaction(self) -> Iterator[None]:
         """Commit what is written in the context, or roll it back where an exception is raised."""
-        with _told(self._path):
+        with _one_line_errors(self._path):
             self._file.execute("BEGIN IMMEDIATE")
             try:
                 yield
@@ -298,7 +298,7 @@ def read_sweep(folder: str | Path) -> SweepResults:
         path.open("rb").close()
     except OSError as error:
         raise InputError(path, f"cannot be read, {(error.strerror or str(error)).lower()}") from None
-    with _told(path):
+    with _one_line_errors(path):
         file = _opened(path, "rw")
         try:
             file.execute("BEGIN")
@@ -329,7 +329,7 @@ def saved_points(folder: str | Path) -> tuple[int, int]:
         Where the file cannot be used, or is not a sweep.
     """
     path = Path(folder) / NAME
-    with _told(path):
+    with _one_line_errors(path):
         file = _opened(path, "rw")
         try:
             saved, points = file.execute(
@@ -424,8 +424,8 @@ def _locked(path: Path) -> sqlite3.Connection:
 
 
 @contextmanager
-def _told(path: Path) -> Iterator[None]:
-    """Context in which errors of SQLite become an InputError of one line."""
+def _one_line_errors(path: Path) -> Iterator[None]:
+    """Context manager in which errors of SQLite become an InputError of one line."""
     try:
         yield
     except sqlite3.OperationalError as error:

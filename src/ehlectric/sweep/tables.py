@@ -81,7 +81,7 @@ def write_tables(results: SweepResults, folder: str | Path) -> list[Path]:
 
 
 def columns_of(results: SweepResults) -> dict[str, list[Any]]:
-    """Columns of the table of a sweep, one row a point.
+    """Columns of the table of a sweep, with one row for each point.
 
     Parameters
     ----------

@@ -209,6 +209,8 @@ def _film_lines(result: PointResult, ax: Axes, along: str, values: Array) -> lis
 def cuts(result: PointResult, axes: Sequence[Axes] | None = None) -> Axes:
     """Draw pressure, film and field on cuts along entrainment (left) and across it (right).
 
+    The cuts run through the centre and through the minimum film, or for the field through its maximum.
+
     Parameters
     ----------
     result : PointResult
@@ -241,7 +243,7 @@ def field_section(result: PointResult, ax: Axes | None = None, *, along: str = "
     ax : Axes, optional
         Axes to draw on; those of a new figure if omitted.
     along : str
-        Direction of the cuts: "x", along entrainment, or "y", across it.
+        Direction of the section: "x", along entrainment, or "y", across it.
 
     Returns
     -------

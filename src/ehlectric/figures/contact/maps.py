@@ -188,7 +188,7 @@ def draw_map(
 
 
 def film_unit(result: PointResult) -> tuple[float, str]:
-    """Unit that suits the film thicknesses of a contact, and the factor from metres to it.
+    """Factor from metres, and unit, that suit the film thicknesses of a contact.
 
     Film thicknesses below a micrometre are in nanometres, as in interferograms.
     """
