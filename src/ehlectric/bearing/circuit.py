@@ -74,12 +74,12 @@ class Circuit:
 
     @property
     def inner_breaks(self) -> Array:
-        """Bearing voltages at which the inner contacts break down before the outer ones, shape (n,) [V]."""
+        """Bearing voltages at which the inner contacts break down, outer ones intact, shape (n,) [V]."""
         return self.inner_breakdown / self.inner_share
 
     @property
     def outer_breaks(self) -> Array:
-        """Bearing voltages at which the outer contacts break down before the inner ones, shape (n,) [V]."""
+        """Bearing voltages at which the outer contacts break down, inner ones intact, shape (n,) [V]."""
         return self.outer_breakdown / (1.0 - self.inner_share)
 
     @property

@@ -80,7 +80,10 @@ def ring_state(ring: RingContacts[Any], curve: ContactCurve, *, load: Array, gap
 
 
 def _loaded(ring: RingContacts[Any], curve: ContactCurve, load: Array) -> ContactValues[Array]:
-    """Values at loads [N]. Below the lightest solved load: its film, but the dry contact of the own load."""
+    """Values of contacts at loads [N].
+
+    Contacts with less than the lightest solved load have the film at that load, but their own dry contact.
+    """
     pressure, along, across, *others = curve.at(load).columns()
     lighter = np.minimum(1.0, load / curve.solutions[0].load)
     exponents = kind_of(ring).dry_exponents

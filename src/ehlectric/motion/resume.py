@@ -1,6 +1,6 @@
 """Last two films of a transient run in its file, from which a stopped run is resumed.
 
-The time integration needs the films of two instants, so a run is resumed from two instants. The group
+The time integration uses the films of the last two instants, so a run is resumed from both. The group
 "resume" of the file stores them in double precision, alternately in two places. If the run stops while an
 instant is written, the other place is still intact. A checksum of each place tells whether it is complete.
 """

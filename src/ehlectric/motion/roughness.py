@@ -1,7 +1,8 @@
 """Moving roughness: heights of the surfaces of a transient contact over position and time.
 
-A point that the case puts at x is at x - D + u_k t, with the length D of the domain and the speed u_k of its
-surface. Roughness that the case puts beyond the far end of the domain is left out. Moving roughness therefore
+The case describes each surface at rest. A point at x in the case is at x - D + u_k t at the time t, with the
+length D of the domain and the speed u_k of its surface; where u_k is negative, it is at x + D + u_k t.
+Roughness that lies beyond the far end of the domain in the case is left out. Moving roughness therefore
 begins with a front, behind which its height rises from zero over one half-width.
 """
 

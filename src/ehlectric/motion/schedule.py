@@ -3,8 +3,8 @@
 The schedule follows from the case and its conditions alone; it does not need the heights of the surfaces.
 
 Time is dimensionless, T = t u/b with the mean speed u and the half-width b, and positions are in half-widths,
-X = x/b. At T = 0 all moving roughness lies outside the domain. A point that the case puts at x is at
-x - D + u_k t, with the length D of the domain and the speed u_k of its surface: at the time D/u_k it lies
+X = x/b. At T = 0 all moving roughness lies outside the domain. A point at x in the case is at x - D + u_k t
+at the time t, with the length D of the domain and the speed u_k of its surface. At the time D/u_k it lies
 where the case puts it.
 """
 

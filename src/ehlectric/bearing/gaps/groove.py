@@ -14,9 +14,9 @@ abs(Q - O) - r. ``ehlectric.bearing.gaps.thin.charge_density`` gives the charge 
 integrated across the groove from shoulder to shoulder. Along rolling, it is integrated over the part that
 half of the ball faces: to where the normal of the raceway is tangent to the ball.
 
-Neglected are the field lines from the lands beside the groove, from the raceway between two balls, and from
-the ball to cage and shields. For a ball over an infinite plane, the neglected part would be 30 % of the total
-at h0/r = 1e-3. It is less in a groove, which partly encloses the ball.
+The model neglects the field lines from the lands beside the groove, from the raceway between two balls, and
+from the ball to cage and shields. For a ball over an infinite plane, the neglected part would be 30 % of the
+total at h0/r = 1e-3. It is less in a groove, which partly encloses the ball.
 """
 
 from __future__ import annotations
@@ -366,7 +366,7 @@ def _reach(race: Raceway, gap: float, psi: Array, obliquity: float) -> Array:
 
 
 def _across(race: Raceway, first: float, last: float, scale: float, nodes: int) -> tuple[Array, Array]:
-    """Nodes psi [rad] and weights between two angles from the contact, or between them and the shoulders."""
+    """Nodes psi [rad] and weights between two angles from the contact, as far as both are in the groove."""
     ends = np.clip([first, last], *(np.array([-1.0, 1.0]) * race.shoulder_angle - race.contact_angle))
     u, weights = stretched(ends[0], ends[1], scale, nodes)
     return race.contact_angle + u, weights

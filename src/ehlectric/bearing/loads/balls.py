@@ -63,7 +63,7 @@ class BallEquilibrium:
     centrifugal_force : float
         Centrifugal force on each ball at ``cage_speed`` [N].
     axial_displacement : float
-        Displacement of the inner ring from where both grooves face each other [m]; A sin a_0 is free play.
+        Displacement of the inner ring from where both grooves face each other [m]; A sin a_0 is play.
     radial_displacement, lateral_displacement : float
         Displacement of the inner ring along the radial load, and towards the angle of 90 deg [m].
     moment, lateral_moment : float
@@ -263,7 +263,7 @@ class _State:
     @classmethod
     def solved(cls, model: _Model, grooves: Grooves, ring: Array) -> tuple[_State, int]:
         """State in equilibrium, from an initial displacement, and the number of Newton steps."""
-        # Under a light load the centrifugal force is the larger one, and rounding errors scale with it.
+        # Rounding errors scale with contact forces, and the centrifugal force may exceed a light load.
         scale = float(np.linalg.norm(model.load)) + grooves.outward
         reach = _REACH * model.bearing.groove_distance
         ring, residual, steps = balance(model.reaction(grooves), model.load, ring, reach, scale)

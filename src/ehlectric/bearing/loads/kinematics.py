@@ -1,8 +1,8 @@
 """Speeds in a rolling bearing, and the inertial forces on its elements. SI units.
 
 The elements roll without sliding on both rings, and the cage turns with them. Both rings may turn; all speeds
-are positive in the same sense of rotation. Both contacts of an element have the same contact angle here: for
-a ball at speed it is the mean of the two.
+are positive in the same sense of rotation. The formulas have one contact angle for both contacts of an
+element. For a ball at speed, whose contact angles differ, it is their mean.
 """
 
 from __future__ import annotations
@@ -46,8 +46,8 @@ def rolling_speeds(
 
     Let g = D cos a/d_m. The cage turns at w_c = (w_i (1 - g) + w_o (1 + g))/2. Relative to the cage, the
     element turns at (w_i - w_o) (1 - g^2) d_m/(2 D). The inner raceway, with the radius d_m (1 - g)/2, turns
-    at w_i - w_c relative to the cage; the outer one, with d_m (1 + g)/2, at w_o - w_c in the other sense. In
-    pure rolling, the speed of both is the entrainment speed, (w_i - w_o) (1 - g^2) d_m/4.
+    at w_i - w_c relative to the cage. The outer raceway, with the radius d_m (1 + g)/2, turns at w_c - w_o in
+    the other sense. The surface speed of both is the entrainment speed, (w_i - w_o) (1 - g^2) d_m/4.
 
     Parameters
     ----------

@@ -115,7 +115,7 @@ def _direction(missing: Array, tangent: Array, reach: float) -> Array:
 def _shortened(
     reaction: Reaction, load: Array, position: Array, step: Array, slope: float
 ) -> tuple[Array, Array, Array, bool]:
-    """Position after a shortened step, force and tangent there, and whether a longer step is possible."""
+    """Position after a shortened step, force and tangent there, and whether a longer one may be tried."""
     part = 1.0
     for trial in range(_MOST_TRIALS):
         there = position + part * step

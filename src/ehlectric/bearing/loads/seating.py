@@ -35,7 +35,7 @@ _MOST_TRIALS = 40
 # at its start.
 _OVERSHOOT = 0.5
 
-# Relative rounding errors: of the forces on a ball, and of its position over the distance of both centres.
+# Relative rounding errors: of the forces on a ball, and of its position over the distance of groove centres.
 _ROUNDING = 1e-15
 _NUDGE = 4e-16
 
@@ -47,7 +47,8 @@ class Contacts:
     Attributes
     ----------
     normal : ndarray, shape (n, 2)
-        Unit vector n from the centre of the outer groove, or towards the centre of the inner groove.
+        Unit vector n along the contact: from the centre of the outer groove to the ball, or from the ball to
+        the centre of the inner groove.
     depth : ndarray, shape (n,)
         Elastic approach [m]; where the ball does not touch, it is negative, the gap with a minus sign.
     load : ndarray, shape (n,)
@@ -163,8 +164,8 @@ def _corner(g: Array, inner: Array, outer: Array) -> Array:
 def _at_rest(grooves: Grooves, g: Array) -> tuple[Array, Mask]:
     """Positions of the balls without centrifugal force, and which of them are loaded.
 
-    Each ball lies on the line of both groove centres. A loaded ball divides the approach by the stiffnesses
-    of its contacts; an unloaded ball lies in the middle of its clearance.
+    Each ball lies on the line through both groove centres. The approach of a loaded ball is divided between
+    its contacts according to their stiffnesses. An unloaded ball lies in the middle of its clearance.
     """
     g = np.maximum(g, _INWARD)
     length = np.hypot(g[:, 0], g[:, 1])
@@ -238,8 +239,8 @@ def _settled(grooves: Grooves, g: Array, held: Mask, p: Array) -> Array:
 def seat(grooves: Grooves, g: Array, guess: Seats | None = None) -> Seats:
     """Positions and contacts of balls between grooves with their centres at 0 and g.
 
-    At speed, centrifugal force presses an unloaded ball to the bottom of the outer groove. It stays there if
-    it does not touch the inner groove. At rest, an unloaded ball lies in the middle of its clearance.
+    At speed, a ball that does not touch the inner groove lies at the bottom of the outer groove, where
+    centrifugal force presses it. At rest, an unloaded ball lies in the middle of its clearance.
 
     Parameters
     ----------

@@ -25,7 +25,7 @@ from ehlectric.figures.style import BLUE, GREY, ORANGE
 # the line of the inner ring is drawn last, over the wider line of the outer ring.
 _RINGS = (("inner", BLUE, 1.1, 4.0), ("outer", ORANGE, 2.2, 6.5))
 
-# Radius of the circle of the smallest value over that of the largest value.
+# Radius of the inner circle, at which the scale begins, over the radius of the outer circle.
 _CORE = 0.3
 
 # The circle of a lambda ratio is shown if the smallest film is below this many times its film thickness.
@@ -162,7 +162,7 @@ def _between(result: BearingResult) -> float:
 
 
 def _radius(ax: Axes, values: Array, at: float, *, log: bool) -> None:
-    """Scale the radius, which begins at a circle, not a point; write a few numbers along an angle [rad]."""
+    """Scale the radius from an inner circle outwards, and write a few numbers along an angle [rad]."""
     assert isinstance(ax, PolarAxes)
     low, high = float(np.min(values)), float(np.max(values))
     if log:

@@ -126,7 +126,7 @@ def _image(drawn: Frames) -> Image.Image:
     image = Image.fromarray(pixels).convert("RGB")
     if not drawn.colours:
         return image.quantize(256)
-    # A palette of its own would give each image few colours for the maps, and other ones at each instant.
+    # A palette of its own would give each image few colours for the maps, and different ones at each instant.
     return image.quantize(palette=_palette(drawn.colours), dither=Image.Dither.NONE)
 
 

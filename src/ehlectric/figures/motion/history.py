@@ -14,7 +14,7 @@ from ehlectric.motion.record import MotionRun
 
 
 def least_film(run: MotionRun, ax: Axes | None = None) -> Axes:
-    """Draw the smallest film thickness over time, with its values before the motion and without motion.
+    """Draw the smallest film thickness over time, and compare it with stationary roughness.
 
     Parameters
     ----------
@@ -26,7 +26,7 @@ def least_film(run: MotionRun, ax: Axes | None = None) -> Axes:
     Returns
     -------
     Axes
-        Axes over time, with a line at every time step.
+        Axes over time. Horizontal lines show the value before the motion, and with stationary roughness.
     """
     ax = axes_or_new(ax)
     factor, unit = film_unit(run)
