@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import model_validator
@@ -38,8 +39,8 @@ class Electric(Table):
 _LEAST_COLUMNS = 16
 _FieldEnd = Annotated[float, Quantity("", least=-100.0, most=100.0, reason="in half-widths")]
 
-# What a grid of a point contact has where the case does not say; lengths in its semi-axes.
-POINT_GRID: dict[str, Any] = {"nodes": 257, "inlet": -4.5, "outlet": 1.5, "field_side": 1.25}
+# Defaults of a point contact's grid; lengths in semi-axes of the dry contact.
+_POINT_GRID: dict[str, Any] = {"nodes": 257, "inlet": -4.5, "outlet": 1.5, "field_side": 1.25}
 
 # Keys of a point contact alone.
 POINT_GRID_KEYS = ("nodes_y", "side", "field_side", "field_nodes_y")
@@ -173,6 +174,28 @@ class Grid(Table):
                 got=f"{nodes} across {2.0 * side:g} semi-axes",
                 takes=f"at least {least} there: sixteen in the Hertz zone",
             )
+
+
+def point_grid(table: Mapping[str, Any]) -> dict[str, Any]:
+    """Table of a point contact's grid, completed by the defaults of point contacts.
+
+    Parameters
+    ----------
+    table : mapping
+        Keys of ``Grid`` that are given, with their values.
+
+    Returns
+    -------
+    dict
+        The given keys, and the defaults of the others that a point contact has its own defaults for.
+
+    Examples
+    --------
+    >>> grid = Grid.from_dict(point_grid({"inlet": -9.0}))
+    >>> grid.nodes, grid.inlet, grid.outlet, grid.field_side
+    (257, -9.0, 1.5, 1.25)
+    """
+    return {**_POINT_GRID, **table}
 
 
 class Solver(Table):
