@@ -1,5 +1,7 @@
 """Whole bearings, solved: loads that are chosen, contacts of elements between them, laws of scale."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -8,6 +10,7 @@ from ehlectric.bearing.preparation import LOADS, least_load
 from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solver import POSITIONS, check_bearing, solve_bearing
 from ehlectric.contact.resolve import resolve, resolve_point
+from ehlectric.errors import MemoryLimitError
 from ehlectric.formulas.film_point import PointContact, chittenden
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, contact_case, ring_of, solve_contact
 
@@ -123,6 +126,19 @@ def test_a_load_wider_than_the_balls_is_refused_before_anything_is_solved(contac
         InputError, match=r"^bearing: inner contact at .* N: the dry contact would be .* wide"
     ):
         check_bearing(case)
+
+
+@pytest.mark.parametrize(("tables", "size"), [(BALLS, "257 x 257"), (ROLLERS, "3201")])
+def test_a_contact_beyond_the_memory_is_named(monkeypatch, tables, size):
+    """By both that check and solve; the contact is one of the ring's, its grid no table of the file."""
+    monkeypatch.setattr("ehlectric.contact.memory.physical_memory", lambda: 1e6)
+    case = bearing_case(tables)
+    for refused in (check_bearing, lambda case: solve_bearing(case, workers=1)):
+        with pytest.raises(MemoryLimitError) as error:
+            refused(case)
+        assert error.value.key == "bearing"
+        line = rf"bearing: (inner|outer) contact at [\d.]+ N: grid\.nodes: got {size} with"
+        assert re.match(line, str(error.value))
 
 
 @pytest.mark.parametrize("tables", [BALLS, ROLLERS])
