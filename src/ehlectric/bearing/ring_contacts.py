@@ -29,6 +29,10 @@ from ehlectric.formulas.hertz_point import DryContact, dry_contact
 # builds up, over the roller's radius, at which the roller is still a parabola.
 _ROOM = 0.1
 
+# Least entrainment speed of a contact [m/s], the same as in a case: slower contacts have no film, and the
+# numbers of their film equations leave the range of floating-point arithmetic.
+_LEAST_SPEED = 1e-9
+
 
 @dataclass(frozen=True)
 class RingContacts(Generic[G_co]):
@@ -200,13 +204,14 @@ def check_contact(contact: Contact, grid: Grid | None = None) -> None:
     Raises
     ------
     InputError
-        Where the dry contact is too wide for its bodies or its pressure near the ambient one, with ring and
-        load; where the permittivity of the oil has no value at the Hertz pressure.
+        Where the contact is too slow for a film, too wide for its bodies, or its Hertz pressure too low, with
+        ring and load; where the permittivity of the oil has no value at the Hertz pressure.
     MemoryLimitError
         Where the machine cannot hold film and field on the grid.
     """
     conditions = contact.conditions
     try:
+        _check_speed(conditions.contact.entrainment_speed)
         for half_width, radius in contact.widths:
             check_width(half_width, radius)
         check_pressure(conditions.max_pressure, contact.ring.conditions.lubricant)
@@ -214,6 +219,16 @@ def check_contact(contact: Contact, grid: Grid | None = None) -> None:
             check_grid(conditions.geometry, grid, rough=False)
     except InputError as error:
         raise error_of_contact(contact, error) from None
+
+
+def _check_speed(speed: float) -> None:
+    """Refuse a contact without a film, by the entrainment speed [m/s] of isothermal oil with its film."""
+    if speed < _LEAST_SPEED:
+        raise InputError(
+            "contact",
+            f"the film would be that of an entrainment speed of {speed:.3g} m/s",
+            takes=f"an inner_speed and a film_factor that give at least {_LEAST_SPEED:g} m/s",
+        )
 
 
 def error_of_contact(contact: Contact, error: InputError) -> InputError:

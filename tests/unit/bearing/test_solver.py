@@ -141,6 +141,17 @@ def test_a_contact_beyond_the_memory_is_named(monkeypatch, tables, size):
         assert re.match(line, str(error.value))
 
 
+@pytest.mark.parametrize("changes", [{"bearing__inner_speed": 1e-9}, {"bearing__film_factor": 1e-7}])
+@pytest.mark.parametrize("contacts", ["solved", "formula"])
+@pytest.mark.parametrize("tables", [BALLS, ROLLERS])
+def test_a_bearing_without_a_film_is_refused(tables, contacts, changes):
+    """At 1e-10 m/s nothing of an atom's size is left of a film: no solver is begun."""
+    case = bearing_case(tables, contacts=contacts, **changes)
+    for refused in (check_bearing, lambda case: solve_bearing(case, workers=1)):
+        with pytest.raises(InputError, match=r"^bearing: \w+ contact at .* N: the film would be that of an"):
+            refused(case)
+
+
 @pytest.mark.parametrize("tables", [BALLS, ROLLERS])
 def test_formulas_take_piezoviscous_oils(tables):
     case = bearing_case(tables, contacts="formula", lubricant__viscosity_law="constant")
