@@ -42,7 +42,7 @@ def check_formula(discharge: Discharge, lubricant: Lubricant) -> None:
     Raises
     ------
     InputError
-        For a Weibull law and for a strength over pressure, which take the field in the whole film; for a
+        For a Weibull law and for a strength over pressure, which need the field in the whole film; for a
         viscosity that does not grow with pressure.
     """
     if effective_alpha(lubricant) == 0.0:
@@ -81,9 +81,10 @@ def ball_by_formula(contact: BallContact) -> ContactSolution:
 
     Notes
     -----
-    Film thickness by Chittenden, Dowson, Dunn and Taylor (1985), doi:10.1098/rspa.1985.0014. The gap is that
-    of the dry contact plus the central film thickness; its capacitance takes the permittivity under the Hertz
-    pressure. The largest field strength is the voltage over the minimum film thickness.
+    Film thickness by Chittenden, Dowson, Dunn and Taylor (1985), doi:10.1098/rspa.1985.0014. The gap is
+    the gap of the dry contact plus the central film thickness. The capacitance is computed with the
+    permittivity under the Hertz pressure; the largest field strength is the voltage over the minimum film
+    thickness.
     """
     check_contact(contact)
     conditions, dry, oil = contact.conditions, contact.dry, contact.ring.conditions.lubricant
@@ -130,9 +131,9 @@ def roller_by_formula(contact: RollerContact) -> ContactSolution:
 
     Notes
     -----
-    Film thickness by Pan and Hamrock (1989), doi:10.1115/1.3261900. The gap is that of the dry contact plus
-    the central film thickness; its capacitance takes the permittivity under the Hertz pressure. The largest
-    field strength is the voltage over the minimum film thickness.
+    Film thickness by Pan and Hamrock (1989), doi:10.1115/1.3261900. The gap is the gap of the dry contact
+    plus the central film thickness. The capacitance is computed with the permittivity under the Hertz
+    pressure; the largest field strength is the voltage over the minimum film thickness.
     """
     check_contact(contact)
     conditions, length, oil = contact.conditions, contact.length, contact.ring.conditions.lubricant

@@ -86,7 +86,7 @@ def resolve_bearing(case: BearingCase) -> BearingConditions[Any]:
         element=element,
         ring=ring,
         modulus=reduced_modulus(element.compliance, ring.compliance),
-        # The ambient pressure acts on the bodies from all sides: contacts have the pressure above it.
+        # The ambient pressure acts on the bodies from all sides: pressures are those above it.
         lubricant=lubricant.model_copy(update={"ambient_pressure": 0.0}),
         discharge=case.discharge.at(bearing.temperature),
         film_factor=_film_factor(case, geometry, lubricant),
@@ -202,13 +202,14 @@ def least_load(ring: RingContacts[Any]) -> float:
 def loads_to_solve(prepared: PreparedBearing, ring: RingContacts[Any]) -> list[float]:
     """Loads of a ring's contacts to solve [N], by increasing load.
 
-    Six loads are evenly spaced in their logarithm; lighter ones lie below where elements are lightly loaded.
+    Six loads are evenly spaced in their logarithm. Lighter loads come before them where elements carry
+    hardly more than their centrifugal force.
     """
     all_loads = np.concatenate([at.ring(inner=ring.inner).load for at in prepared.equilibria])
     largest = float(np.max(all_loads))
     least = float(np.min(all_loads[all_loads >= _LEAST * largest]))
     loads = np.geomspace(least, largest, LOADS) if largest / least > _ALIKE else np.array([largest])
-    # Elements that only their centrifugal force presses outward are far lighter loaded than the others.
+    # Elements that are pressed outward only by their centrifugal force carry far less than the others.
     light = all_loads[(all_loads > 0.0) & (all_loads < _LEAST * largest)]
     lightest = least_load(ring)
     own = max(float(np.min(light)), _LIGHTEST * largest, lightest) if light.size else math.inf

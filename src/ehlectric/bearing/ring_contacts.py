@@ -45,7 +45,7 @@ class RingContacts(Generic[G_co]):
     inner : bool
         True for the inner ring, False for the outer ring.
     angle : float
-        Contact angle of the radii [rad].
+        Contact angle at which the radii are taken [rad].
     speed : float
         Entrainment speed (u1 + u2)/2 [m/s].
     """

@@ -187,7 +187,7 @@ def point_grid(table: Mapping[str, Any]) -> dict[str, Any]:
     Returns
     -------
     dict
-        The given keys, and the defaults of the others that a point contact has its own defaults for.
+        Given keys, and defaults where those of a point contact differ from those of a line contact.
 
     Examples
     --------
