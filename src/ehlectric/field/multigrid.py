@@ -223,7 +223,7 @@ class GapMultigrid:
             self.levels.append(grid.level(eigenvalues))
 
     def __call__(self, residual: Array) -> Array:
-        """Correction of the potential, shape (nx, ny, ns), for a residual of this shape; zero on the walls."""
+        """Correction of the potential for a residual, both (nx, ny, ns); it is zero on the walls."""
         by_mode = self.modes.T @ residual.reshape(-1, residual.shape[2]).T
         corrected = self._cycle(by_mode.ravel(), 0).reshape(by_mode.shape)
         correction: Array = (corrected.T @ self.modes.T).reshape(residual.shape)
