@@ -97,7 +97,7 @@ def filled(heights: Array, spacing_x: float, spacing_y: float) -> Array:
 
 
 def _laplacian(whole: Array, void: Mask, dx: float, dy: float) -> tuple[sparse.csr_array, Array]:
-    """Negative Laplacian over the n void points as a matrix, and the Laplacian of the initial guess there (n,).
+    """Negative Laplacian over the n void points as a matrix, and Laplacian of the initial guess there (n,).
 
     ``whole`` (nx, ny) has the initial guess at the ``void`` points and the measured heights elsewhere.
     """
