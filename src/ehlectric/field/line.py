@@ -96,7 +96,7 @@ class Field(GapField):
     def inner(self) -> Mask:
         """Mask of the columns that are more than three gaps away from both ends, shape (nx,).
 
-        Nearer to an end its face disturbs the field.
+        Closer to an end, the end face disturbs the field.
         """
         gap = self.voltage / self.thin_gap_strength
         inner: Mask = (self.x > self.x[0] + 3.0 * gap[0]) & (self.x < self.x[-1] - 3.0 * gap[-1])

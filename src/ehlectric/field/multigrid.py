@@ -1,10 +1,10 @@
 """Preconditioner for the electric field of a point contact: modes across the gap, multigrid along it.
 
 The potential is expanded in modes across the gap. Between flat walls the modes are independent, and each
-obeys a screened Poisson equation over (x, y): -div(h eps grad u) + (lambda eps/h) u = f with lambda near (k
-pi)^2. Slopes of the walls couple the modes weakly. One V-cycle solves for all modes approximately. It relaxes
-lines along x and along y. It therefore also converges on stretched grids, and for gaps that are much wider or
-narrower than the grid spacing.
+obeys a screened Poisson equation over (x, y): -div(h eps grad u) + (lambda eps/h) u = f, with lambda near
+(k pi)^2. Slopes of the walls couple the modes weakly. One V-cycle solves for all modes approximately. Because
+it relaxes lines along x and along y, it also converges on stretched grids, and for gaps that are much wider
+or narrower than the grid spacing.
 """
 
 from __future__ import annotations

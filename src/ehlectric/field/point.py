@@ -104,7 +104,7 @@ class PointField(GapField):
     def inner(self) -> Mask:
         """Mask of the columns that are more than three gaps away from the side faces, shape (nx, ny).
 
-        Nearer to a side face it disturbs the field.
+        Closer to a side face, the face disturbs the field.
         """
         far = 3.0 * self.voltage / self.thin_gap_strength
         x, y = self.x[:, np.newaxis], self.y

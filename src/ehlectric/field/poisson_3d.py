@@ -31,7 +31,7 @@ _FACES: tuple[tuple[int | slice, ...], ...] = ((0,), (-1,), (slice(None), 0), (s
 # capacitance from the energy is its square. In the worst case all of the error lies in one column.
 TOLERANCE = 1e-11
 
-# Lubricant films take about six iterations, walls with a slope of 3 about forty.
+# Largest number of iterations. Lubricant films take about six, walls with a slope of 3 about forty.
 MAX_ITERATIONS = 300
 
 # Potentials on the faces x[0], x[-1], y[0] and y[-1].
@@ -339,8 +339,8 @@ def conjugate_gradients(
     right : ndarray
         Right side.
     scale : float
-        Square of the energy norm to which the error is relative. The square of the energy norm of the
-        solution, about, takes its place where it is larger.
+        Square of the energy norm that ``TOLERANCE`` refers to, unless the energy norm of the solution is
+        larger.
 
     Returns
     -------

@@ -30,15 +30,15 @@ def full_film_nodes(
     Parameters
     ----------
     excess : ndarray, shape (nx, ny)
-        P - P_amb of the iterate.
+        Excess pressure P - P_amb of the iterate.
     residual : ndarray, shape (nx, ny)
-        r of the iterate.
+        Residual r of the Reynolds equation at the iterate.
     poiseuille : ndarray, shape (nx, ny)
         Diagonal of the Poiseuille term.
     rate : float
         Size of the coefficient of the wedge term, 1/dX, or 1/dT of a transient film.
     thickness : ndarray, shape (nx, ny)
-        H.
+        Film thickness H, dimensionless.
     inner : ndarray of bool, shape (nx, ny)
         Nodes inside the domain; the nodes on its edges are at ambient pressure.
 

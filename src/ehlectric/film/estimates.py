@@ -33,7 +33,7 @@ def richardson(fine: tuple[Mesh, Array], coarse: tuple[Mesh, Array], *, order: i
     Notes
     -----
     The minimum lies at the constriction, where the pressure gradient jumps. With a scheme of second order it
-    converges with an observed order of 1.25 or more; the estimate uses 1.25.
+    converges with an observed order of 1.25 or more. The estimate uses 1.25 for the minimum.
 
     Examples
     --------
@@ -61,7 +61,7 @@ def discretisation_error(
 
 
 def inlet_deficit(fluid: Fluid, geometry: Geometry, mesh: Mesh, pressure: Array, mass: Array) -> float:
-    """Share of the reduced pressure that is missing because the domain begins at its inlet.
+    """Share of the reduced pressure that is missing because it would build up upstream of the domain.
 
     Parameters
     ----------
@@ -106,7 +106,7 @@ def inlet_deficit(fluid: Fluid, geometry: Geometry, mesh: Mesh, pressure: Array,
 
 
 def side_deficit(problem: FilmProblem, mesh: Mesh, pressure: Array, thickness: Array) -> float:
-    """Share of the reduced pressure that is missing because a point contact's domain ends at its sides.
+    """Share of the reduced pressure that is missing because the domain's sides are at ambient pressure.
 
     Parameters
     ----------

@@ -92,9 +92,9 @@ class Dependence:
     def outflow(self, of_node: Array) -> tuple[Array, Array, Array]:
         """Derivatives of -dF/dX at the inner nodes by an unknown of the neighbours and of the node itself.
 
-        ``of_node`` (n, m) is the derivative of q at a node by the unknown of this node. The results are the
-        derivatives by the unknown of the node before, of the node itself and of the node after, each (n - 2,
-        m).
+        ``of_node`` (n, m) is the derivative of q at a node by the unknown of this node. The results, each of
+        shape (n - 2, m), are the derivatives by the unknown of the node before, of the node itself and of the
+        node after.
         """
         before, after = self.by_value[:-1], self.by_value[1:]
         return of_node[:-2] * before, -of_node[1:-1] * (after - before), -of_node[2:] * after

@@ -29,7 +29,7 @@ class Gap:
     level : Level
         Grid with its dry gap and its deflection operator.
     thickness : ndarray, shape (nx, ny)
-        H, dimensionless.
+        Film thickness H, dimensionless.
     """
 
     level: Level
@@ -73,8 +73,8 @@ class Gap:
     def elastic_weight(self, density: Array) -> Array:
         """Elastic part of the diagonal of the Reynolds equation, shape (nx, ny).
 
-        It is the change of the wedge term at a node per rise of its pressure, if the pressure of the
-        neighbour falls by the same amount. ``density`` (nx, ny) is rho/rho_0.
+        It is the change of the wedge term at a node if the pressure P of the node rises by one and P of its
+        neighbour falls by one. ``density`` (nx, ny) is rho/rho_0.
         """
         weight: Array = density * ((self.along(0) - self.along(1)) * self.level.rate)
         return weight

@@ -70,9 +70,9 @@ class Transfer:
         return cls(interpolation(coarse.x.size, fine.x.size), across)
 
     def averaging(self, coarse: Mesh, fine: Mesh) -> Transfer:
-        """Full weighting of values from the fine to the coarse mesh, for the interpolation back.
+        """Full weighting from the fine to the coarse mesh: the adjoint of this interpolation.
 
-        It is the adjoint of the interpolation in the inner products of the two meshes.
+        The inner products of the adjoint are the integrals over the two meshes.
         """
         across = None
         if self.across is not None:

@@ -1,4 +1,4 @@
-"""Solution for the stationary lubricant film of a line contact, with the result in SI units."""
+"""Solver for the stationary lubricant film of a line contact, with the result in SI units."""
 
 from __future__ import annotations
 

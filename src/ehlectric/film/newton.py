@@ -88,7 +88,7 @@ def newton(
         Last iterate, with its status.
     """
     level = levels[0]
-    # A row has the difference of film thicknesses over dX: rounding of H causes a residual of this size.
+    # The residual contains differences of H over dX, so that rounding of H causes a residual of this size.
     tolerance = max(tolerance, ROUNDING * level.rate)
     steps: list[NewtonStep] = []
     now = assess(fluid, level, state)
@@ -111,7 +111,7 @@ def newton(
 
 
 def assess(fluid: Fluid, level: Level, state: State) -> Residual:
-    """Residual of the film equations at a state, with the decision which nodes have a full film.
+    """Residual of the film equations at a state, with the nodes that have a full film there.
 
     The norm takes the rows of the Reynolds equation over their diagonal, so that each is a pressure over p_h.
 

@@ -1,4 +1,4 @@
-"""Solution for the stationary lubricant film of a point contact, with maps over (x, y) in SI units."""
+"""Solver for the stationary lubricant film of a point contact, with maps over (x, y) in SI units."""
 
 from __future__ import annotations
 
@@ -37,8 +37,8 @@ class PointFilm(FilmSolution):
         Semi-axis of the dry contact across entrainment [m]. The semi-axis along entrainment is
         ``scales.length``.
     side_deficit : float or None
-        Share of the reduced pressure that is missing because the domain ends at its sides, where the pressure
-        is ambient. None for an instant of a transient film.
+        Share of the reduced pressure that is missing because the sides of the domain are at ambient pressure.
+        None for an instant of a transient film.
     """
 
     y: Array

@@ -42,8 +42,8 @@ class FilmProblem:
     Parameters
     ----------
     fluid : Fluid
-        Lubricant over dimensionless pressure P, with the velocity parameter lambda = 6 eta0 u_s R^2/(b^3
-        p_h), u_s = u1 + u2, and the ambient pressure over p_h.
+        Lubricant over dimensionless pressure P, with the ambient pressure over p_h and the velocity parameter
+        lambda = 6 eta0 u_s R^2/(b^3 p_h), u_s = u1 + u2.
     nodes : int
         Number of nodes along x, at least 65.
     inlet, outlet : float

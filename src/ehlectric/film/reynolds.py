@@ -141,14 +141,14 @@ def residual(flow: Flow, wedge: Stencil, thickness: Array, mesh: Mesh) -> Array:
     wedge : Stencil
         Operator of the wedge term on the mass rho H.
     thickness : ndarray, shape (nx, ny)
-        H, dimensionless.
+        Film thickness H, dimensionless.
     mesh : Mesh
         Grid.
 
     Returns
     -------
     ndarray, shape (nx, ny)
-        r, dimensionless; positive where more oil leaves a node than enters it.
+        Residual r, dimensionless; positive where more oil leaves a node than enters it.
     """
     r = wedge(flow.coefficients.density * thickness)
     r[1:-1] -= flow.along.divergence()
@@ -171,7 +171,7 @@ def linearise(flow: Flow, wedge: Stencil, thickness: Array, mesh: Mesh) -> tuple
     wedge : Stencil
         Operator of the wedge term on the mass rho H.
     thickness : ndarray, shape (nx, ny)
-        H, dimensionless.
+        Film thickness H, dimensionless.
     mesh : Mesh
         Grid.
 

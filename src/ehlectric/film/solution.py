@@ -35,7 +35,7 @@ class FilmSolution:
     pressure, thickness : ndarray
         Pressure [Pa] and film thickness [m].
     deflection : ndarray
-        Elastic deflection, by which the pressure opens the gap [m]; a line contact's is known up to a
+        Elastic deflection [m], by which the pressure opens the gap. In a line contact it is known up to a
         constant.
     density : ndarray
         Density over the density at zero pressure, dimensionless.
@@ -44,8 +44,10 @@ class FilmSolution:
     scales : Scales
         Length b [m], pressure p_h [Pa] and thickness b^2/R [m] that made the problem dimensionless.
     status : str
-        "converged"; "stalled" (residual above the tolerance at the last step allowed); "diverged"; or
-        "film collapsed": not converged, with gaps below a hundredth of the central film.
+        Outcome of the iteration. "converged": the residual is below the tolerance. "stalled": it is still
+        above the tolerance after the largest number of steps. "diverged": the iteration ended at an invalid
+        iterate. "film collapsed": the film did not converge and is thinner somewhere than 1 % of its central
+        thickness.
     load_residual : float
         abs(load carried/load applied - 1), dimensionless.
     reynolds_residual : ndarray or None
@@ -62,8 +64,8 @@ class FilmSolution:
         Richardson estimate of the relative error of the minimum or the central film thickness, whichever is
         larger. None if there is no estimate.
     inlet_deficit : float or None
-        Share of the reduced pressure that is missing because the domain begins at its inlet. None for an
-        instant of a transient film.
+        Share of the reduced pressure that is missing because it would build up upstream of the domain. None
+        for an instant of a transient film.
     """
 
     x: Array
@@ -153,7 +155,7 @@ def stationary_film(problem: FilmProblem, solutions: list[GridSolution], shaped:
 
 
 def _comparable(problem: FilmProblem, solutions: list[GridSolution]) -> GridSolution | None:
-    """Solution on the next coarser grid for the same surfaces, which serves an error estimate; else None."""
+    """Solution on the next coarser grid for the same surfaces, for the error estimate; None if missing."""
     if any(g.status == "converged" and g.level.nodes == problem.nodes for g in solutions[:-1]):
         # The roughness was raised in steps on the finest grid, so the coarser grid's film belongs to other
         # surfaces.

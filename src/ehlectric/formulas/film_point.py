@@ -93,8 +93,8 @@ def hamrock_dowson(contact: PointContact) -> BothThicknesses:
     -----
     B. J. Hamrock and D. Dowson, J. Lubr. Technol. 99 (1977) 264-275, doi:10.1115/1.3453074. The formulas are
     fits to solutions for hard contacts (steel and oil) with k from 1 to 8 and entrainment along the minor
-    axis. Contacts with Ry below Rx are outside their range. The exact k replaces the fit of the paper, k =
-    1.03 (Ry/Rx)^0.64, which is 3 % too high for a circle.
+    axis. Contacts with Ry below Rx are outside their range. The exact k replaces the fit of the paper,
+    k = 1.03 (Ry/Rx)^0.64, which is 3 % too high for a circle.
 
     Examples
     --------

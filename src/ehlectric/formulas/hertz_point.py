@@ -10,7 +10,7 @@ gap between the surfaces by (2/(pi E')) times the integral of p/r. This deflecti
 
 The three integrals in I are complete elliptic integrals in Carlson's symmetric form: 2 R_F(0, a^2, b^2), and
 (2/3) R_D(0, a^2, b^2) with a and b in both orders. This form needs no distinction of the longer axis, and
-loses no digits for a circle.
+loses no accuracy for a circle.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ _CIRCLE = 1e-6
 
 @dataclass(frozen=True)
 class DryContact:
-    """Dimensions and pressure of the dry (Hertz) contact of two bodies.
+    """Semi-axes, largest pressure and approach of the dry (Hertz) contact of two bodies.
 
     Attributes
     ----------

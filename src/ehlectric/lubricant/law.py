@@ -26,7 +26,7 @@ from ehlectric.errors import ResultWarning
 
 
 class PressureLaw(Protocol):
-    """Law of viscosity or density whose parameters have their values."""
+    """Law of viscosity or density with fixed parameters, as a function of pressure and temperature."""
 
     def __call__(self, pressure: ArrayLike, temperature: ArrayLike | None = None, /) -> tuple[Array, Array]:
         """Value, dimensionless, and derivative by pressure [1/Pa] at pressure [Pa] and temperature [K]."""
@@ -34,7 +34,7 @@ class PressureLaw(Protocol):
 
 
 class DensityRatioLaw(Protocol):
-    """Law of permittivity whose parameters have their values."""
+    """Law of permittivity with fixed parameters, as a function of density ratio and temperature."""
 
     def __call__(self, density_ratio: ArrayLike, temperature: ArrayLike | None = None, /) -> Array:
         """Relative permittivity, dimensionless, at a density ratio, dimensionless, and a temperature [K]."""

@@ -52,14 +52,14 @@ def roelands_exponent(
 
 
 def roelands_alpha(viscosity: float, roelands_z: float, roelands_pressure: float) -> float:
-    """Pressure-viscosity coefficient of Roelands' law at the viscosity of any temperature.
+    """Pressure-viscosity coefficient of Roelands' law from the viscosity at a temperature.
 
     alpha = z (ln eta0 + 9.67)/p0, with eta0 in Pa s.
 
     Parameters
     ----------
     viscosity : float
-        Viscosity eta0 at zero pressure and at the temperature [Pa s].
+        Viscosity eta0 at zero pressure and at this temperature [Pa s].
     roelands_z : float
         Exponent z, dimensionless; it hardly changes with temperature.
     roelands_pressure : float

@@ -13,7 +13,7 @@ from ehlectric.cases.roughness import Roughness
 
 @dataclass(frozen=True)
 class Domain:
-    """Rectangle over which the film is solved, and so a surface is needed.
+    """Domain of the film, over which the heights of rough surfaces are needed.
 
     Attributes
     ----------
@@ -38,7 +38,7 @@ class Domain:
         return min(self.length, 2.0 * self.side)
 
     def reach(self, table: Roughness) -> tuple[float, float]:
-        """Distances [m] from the middle of a surface within which it covers the domain, along its own axes.
+        """Half-lengths [m] that a surface needs along its own x and y axes to cover the domain.
 
         ``table`` has the shift and the orientation of the surface.
         """

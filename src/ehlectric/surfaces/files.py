@@ -75,7 +75,7 @@ class Surface:
     def height_step(self) -> float | None:
         """Step in which the heights are stored [m].
 
-        It is None if the distinct heights are more than half as many as the points.
+        It is None if no step is visible, as the number of distinct heights exceeds half the number of points.
         """
         levels = np.unique(self.heights[np.isfinite(self.heights)])
         if levels.size < 2 or levels.size > 0.5 * self.heights.size:

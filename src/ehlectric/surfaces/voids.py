@@ -52,8 +52,8 @@ def filled(heights: Array, spacing_x: float, spacing_y: float) -> Array:
     """Map with its voids filled by a harmonic function, the shape of a soap film.
 
     Inside a void the discrete Laplacian of the heights is zero, and the filling joins the measured heights at
-    the rim of the void. It is nowhere higher or lower than the heights at the rim. At a side of the map its
-    slope is zero.
+    the rim of the void. It stays between the lowest and the highest height at the rim. At a side of the map
+    its slope is zero.
 
     Parameters
     ----------

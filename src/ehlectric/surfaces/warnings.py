@@ -1,4 +1,4 @@
-"""Warnings about rough surfaces that are possible before a film is computed."""
+"""Warnings about rough surfaces, which need no film."""
 
 from __future__ import annotations
 
