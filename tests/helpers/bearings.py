@@ -8,6 +8,8 @@ from ehlectric.bearing.kinds import kind_of
 from ehlectric.bearing.preparation import resolve_bearing
 from ehlectric.bearing.ring_contacts import RingContacts
 from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.case import Case
+from ehlectric.cases.grid import Solver
 
 OIL = {
     "base": "paper",
@@ -98,13 +100,37 @@ def contact_of(ring, load):
 
 
 def contact_case(ring, load, solver):
-    """Case of a contact with a ring at a load [N]."""
-    return kind_of(ring).case(contact_of(ring, load), solver)
+    """Case that a user would write of a contact with a ring at a load [N], with isothermal, flooded oil."""
+    conditions, radii = ring.conditions, ring.radii
+    assert conditions.film_factor == 1.0
+    contact = {"body_1": elastic(conditions.ring), "body_2": elastic(conditions.element)}
+    length, discharge = conditions.bearing.roller_length, {}
+    if length is None:
+        contact |= {"geometry": "point", "load": load}
+        contact["body_1"] |= {"radius_x": radii.ring_x, "radius_y": radii.ring_y}
+        contact["body_2"] |= {"radius_x": radii.element_x, "radius_y": radii.element_y}
+    else:
+        contact |= {"radius_1": radii.ring_x, "radius_2": radii.element_x, "load_per_length": load / length}
+        discharge = {"length": length}
+    return Case.from_dict(
+        {
+            "contact": contact | {"entrainment_speed": ring.speed},
+            "lubricant": conditions.lubricant.model_dump(exclude_none=True, exclude={"base"}),
+            "grid": kind_of(ring).grid(contact_of(ring, load)).model_dump(exclude_none=True),
+            "discharge": conditions.discharge.model_dump(exclude_none=True) | discharge,
+            "solver": solver,
+        }
+    )
+
+
+def elastic(solid):
+    """Elastic constants of a body of a case."""
+    return {"youngs_modulus": solid.youngs_modulus, "poissons_ratio": solid.poissons_ratio}
 
 
 def solve_contact(ring, load, solver):
-    """Solution of a contact with a ring at a load [N]."""
-    return kind_of(ring).solve(contact_of(ring, load), solver)
+    """Solution of a contact with a ring at a load [N], with the values of a table ``[solver]``."""
+    return kind_of(ring).solve(contact_of(ring, load), Solver.from_dict(solver))
 
 
 def formula_contact(ring, load):
