@@ -5,7 +5,8 @@ import pytest
 import sympy as sp
 from scipy.constants import epsilon_0
 
-from ehlectric.paper.sor import CartesianGrid, over_relax, stencil, young_factor
+from ehlectric.paper.cartesian import CartesianGrid, stencil
+from ehlectric.paper.sor import over_relax, young_factor
 
 
 def manufactured():

@@ -6,18 +6,8 @@ from scipy.constants import epsilon_0
 
 from ehlectric.errors import ConvergenceError
 from ehlectric.field.poisson import FieldProblem
-from ehlectric.paper.sor import (
-    EAST,
-    NORTH,
-    SOUTH,
-    WEST,
-    CartesianGrid,
-    cartesian,
-    over_relax,
-    solve_field,
-    stencil,
-    young_factor,
-)
+from ehlectric.paper.cartesian import EAST, NORTH, SOUTH, WEST, CartesianGrid, stencil
+from ehlectric.paper.sor import cartesian, over_relax, solve_field, young_factor
 
 
 def plates(nx=9, height=1.0, **changes):
