@@ -6,7 +6,6 @@ import csv
 import dataclasses
 import json
 import tomllib
-import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -26,7 +25,8 @@ from ehlectric.bearing.ring_contacts import RingContacts
 from ehlectric.bearing.solution import BearingSolution, Position, RingState
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.errors import InputError
-from ehlectric.runtime.files import clear, prepare, whole
+from ehlectric.runtime.files import clear, prepare, whole, write_json
+from ehlectric.runtime.netcdf import read_dataset
 from ehlectric.runtime.stored_warnings import texts_and_codes, warnings_of
 
 if TYPE_CHECKING:
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 SUMMARY, CONTACTS, IMPEDANCE, NETCDF = "summary.json", "contacts.csv", "impedance.csv", "bearing.nc"
 FILES = (SUMMARY, CONTACTS, IMPEDANCE, NETCDF)
 
-# Format of bearing.nc.
+# Name and version of the layout of bearing.nc.
 SCHEMA = "ehlectric.bearing.solution/1"
 
 _RINGS = ("inner", "outer")
@@ -53,14 +53,14 @@ def save(result: BearingResult, folder: str | Path) -> list[Path]:
     Parameters
     ----------
     result : BearingResult
-        As ``solve_bearing`` returns it.
+        Result of ``solve_bearing``.
     folder : str or Path
-        Where to; made if it is not there.
+        Folder of the files; it is made if it does not exist.
 
     Returns
     -------
     list of Path
-        The files written.
+        Files written.
 
     Raises
     ------
@@ -70,8 +70,7 @@ def save(result: BearingResult, folder: str | Path) -> list[Path]:
     folder = prepare(folder, FILES)
     clear(folder, FILES)
     summary, impedance = result.summary(), impedance_of(result.solution)
-    with whole(folder / SUMMARY) as path:
-        path.write_text(json.dumps(summary, indent=2, allow_nan=False) + "\n", encoding="utf-8")
+    write_json(folder / SUMMARY, summary)
     rows = summary["contacts"]
     _write_table(folder / CONTACTS, list(rows[0]), (row.values() for row in rows))
     written = [SUMMARY, CONTACTS]
@@ -93,7 +92,7 @@ def _write_table(path: Path, heads: Sequence[str], lines: Iterable[Iterable[Any]
 
 
 def load(path: str | Path) -> BearingResult:
-    """Read a bearing's result back from its NetCDF file.
+    """Load the result of a bearing from its NetCDF file.
 
     Parameters
     ----------
@@ -103,27 +102,37 @@ def load(path: str | Path) -> BearingResult:
     Returns
     -------
     BearingResult
-        As it was saved.
+        Result, equal to the one that was saved.
 
     Raises
     ------
     InputError
         Where the file cannot be read or is not the result of a bearing.
     """
-    import xarray as xr
-
     path = Path(path)
-    try:
-        path.open("rb").close()
-    except OSError as error:
-        reason = (error.strerror or str(error)).lower()
-        raise InputError(path, f"cannot be read, {reason}") from None
-    try:
-        with warnings.catch_warnings(), xr.open_dataset(path, engine="h5netcdf") as file:
-            warnings.simplefilter("ignore")  # of what xarray thinks of files that are refused below
-            dataset = file.load()
-    except Exception:  # whatever HDF5 and its wrappers raise at damaged files
-        raise InputError(path, "is not a NetCDF file") from None
+    return result_of(read_dataset(path), path)
+
+
+def result_of(dataset: xr.Dataset, path: Path) -> BearingResult:
+    """Result of a bearing from its dataset.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        Contents of a bearing.nc.
+    path : Path
+        The file, named in the error.
+
+    Returns
+    -------
+    BearingResult
+        Result, equal to the one that was saved.
+
+    Raises
+    ------
+    InputError
+        Where the dataset is not the result of a bearing.
+    """
     try:
         return BearingResult(_solution_of(dataset))
     except (InputError, ArithmeticError, AttributeError, LookupError, TypeError, ValueError):
@@ -131,7 +140,7 @@ def load(path: str | Path) -> BearingResult:
 
 
 def _dataset(solution: BearingSolution) -> xr.Dataset:
-    """A solution as variables over loads, positions of the cage, rings and elements, SI units."""
+    """Dataset of a solution: variables over loads, cage positions, rings and elements, SI units."""
     import xarray as xr
 
     variables: dict[str, tuple[tuple[str, ...], Array, dict[str, str]]] = {}
@@ -169,7 +178,7 @@ def _over_elements(name: str, values: Any) -> tuple[tuple[str, ...], Array, dict
 
 
 def _curve_variables(ring: str, curve: ContactCurve) -> dict[str, Any]:
-    """Solved contacts with one ring, over their load; an error that is not known is NaN."""
+    """Variables of the solved contacts with one ring over their load; NaN where an error is unknown."""
     solutions, dims = curve.solutions, (f"{ring}_load",)
     columns = dict(zip(ContactValues.__dataclass_fields__, curve.stack().columns(), strict=True))
     others = {
@@ -187,7 +196,7 @@ def _curve_variables(ring: str, curve: ContactCurve) -> dict[str, Any]:
 
 
 def _equilibrium_variables(equilibria: Sequence[Equilibrium]) -> dict[str, Any]:
-    """Equilibria at the positions of the cage, each quantity with the dimensions it has."""
+    """Variables of the equilibria over the cage positions, each with its own further dimensions."""
     elements = equilibria[0].position.size
     variables = {}
     for name, values in _stacked(equilibria).items():
@@ -198,7 +207,7 @@ def _equilibrium_variables(equilibria: Sequence[Equilibrium]) -> dict[str, Any]:
 
 
 def _stacked(equilibria: Sequence[Equilibrium]) -> dict[str, Array]:
-    """Quantities of equilibria by name, those of their speeds with a prefix, over the positions."""
+    """Quantities of the equilibria by name, stacked over the cage positions; speeds have a prefix."""
     tables = []
     for at in equilibria:
         table = {field.name: getattr(at, field.name) for field in dataclasses.fields(at)}
@@ -208,13 +217,13 @@ def _stacked(equilibria: Sequence[Equilibrium]) -> dict[str, Array]:
 
 
 def _solution_of(dataset: xr.Dataset) -> BearingSolution:
-    """The solution that ``_dataset`` made a dataset of."""
+    """Solution of a dataset that ``_dataset`` made."""
     attributes = dataset.attrs
     if attributes["schema"] != SCHEMA:
         raise ValueError("another format")
     case = BearingCase.from_dict(tomllib.loads(attributes["case"]))
     conditions = resolve_bearing(case)
-    told = json.loads(attributes["warnings"])
+    stored = json.loads(attributes["warnings"])
     inner, outer = (
         RingContacts(conditions, name == "inner", float(angle), float(speed))
         for name, angle, speed in zip(
@@ -222,7 +231,7 @@ def _solution_of(dataset: xr.Dataset) -> BearingSolution:
         )
     )
     inner_curve, outer_curve = (
-        _curve_of(dataset, name, texts) for name, texts in zip(_RINGS, told, strict=True)
+        _curve_of(dataset, name, texts) for name, texts in zip(_RINGS, stored, strict=True)
     )
     shape = float(attributes["weibull_shape"]) if attributes["weibull_shape"] else None
     positions = tuple(
@@ -244,7 +253,7 @@ def _solution_of(dataset: xr.Dataset) -> BearingSolution:
     )
 
 
-def _curve_of(dataset: xr.Dataset, ring: str, told: Sequence[Mapping[str, Any]]) -> ContactCurve:
+def _curve_of(dataset: xr.Dataset, ring: str, stored: Sequence[Mapping[str, Any]]) -> ContactCurve:
     columns = {
         name: dataset[f"{ring}_curve_{name}"].values
         for name in (*ContactValues.__dataclass_fields__, "load", "error", "moes_m", "moes_l", "mismatch")
@@ -257,12 +266,14 @@ def _curve_of(dataset: xr.Dataset, ring: str, told: Sequence[Mapping[str, Any]])
                 texts,
                 converged=bool(converged[k]),
             )
-            for k, texts in enumerate(told)
+            for k, texts in enumerate(stored)
         )
     )
 
 
-def _contact_of(numbers: Mapping[str, float], told: Mapping[str, Any], *, converged: bool) -> ContactSolution:
+def _contact_of(
+    numbers: Mapping[str, float], stored: Mapping[str, Any], *, converged: bool
+) -> ContactSolution:
     error = numbers["error"]
     return ContactSolution(
         load=numbers["load"],
@@ -272,7 +283,7 @@ def _contact_of(numbers: Mapping[str, float], told: Mapping[str, Any], *, conver
         moes_l=numbers["moes_l"],
         mismatch=numbers["mismatch"],
         converged=converged,
-        warnings=warnings_of(told),
+        warnings=warnings_of(stored),
     )
 
 

@@ -15,11 +15,11 @@ from ehlectric.bearing.ring_contacts import of_contact
 from ehlectric.bearing.solution import BearingSolution, Position, ring_state
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.contact.check import check_case
+from ehlectric.runtime.progress import Progress, silent
 from ehlectric.runtime.workers import cores, run_all
 
 # Positions of the cage over one pitch of the elements.
 POSITIONS = 8
-Progress = Callable[[int, int, str], None]
 
 
 def solve_bearing(
@@ -53,7 +53,7 @@ def solve_bearing(
     prepared = prepare_bearing(case, POSITIONS)
     tasks = [_tasks(case, prepared, inner=inner) for inner in (True, False)]
     processes = 1 if case.contacts == "formula" else workers or cores()
-    solutions = _solved([*tasks[0], *tasks[1]], progress or (lambda _done, _of, _text: None), processes)
+    solutions = _solved([*tasks[0], *tasks[1]], progress or silent, processes)
     first = len(tasks[0])
     curves = ContactCurve(tuple(solutions[:first])), ContactCurve(tuple(solutions[first:]))
     return BearingResult(

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from ehlectric.arrays import Array
@@ -15,6 +16,7 @@ from ehlectric.figures.style import (
     GREY,
     ORANGE,
     axes_or_new,
+    figure_of,
     legend_above,
     new_panels,
     save_figure,
@@ -128,8 +130,21 @@ def parts(results: SweepResults, found: Sensitivity, ax: Axes | None = None) -> 
     return ax
 
 
-def save_sensitivity(results: SweepResults, found: Sensitivity, path: Path) -> None:
-    """Draw the distribution beside the indices as a PNG file."""
+def sensitivity_figure(results: SweepResults, found: Sensitivity) -> Figure:
+    """Figure of the distribution of a value beside the sensitivity indices of the inputs.
+
+    Parameters
+    ----------
+    results : SweepResults
+        Results of a sweep of the design "sobol".
+    found : Sensitivity
+        Sensitivity of the results, as ``sensitivity`` gives it.
+
+    Returns
+    -------
+    Figure
+        The figure, with its title.
+    """
     with style():
         high = max(3.4, 1.6 + 0.42 * len(found.indices))
         left, right = new_panels(1, 2, (8.4, high))
@@ -138,4 +153,9 @@ def save_sensitivity(results: SweepResults, found: Sensitivity, path: Path) -> N
         dropped = f"{found.dropped} of {found.rows} rows dropped: not solved" if found.dropped else ""
         doubtful = f'{found.doubtful} of {found.used} used rows have points that say "do not use"'
         name_figure(left, results, ", ".join(filter(None, [dropped, doubtful if found.doubtful else ""])))
-        save_figure(left, path)
+    return figure_of(left)
+
+
+def save_sensitivity(results: SweepResults, found: Sensitivity, path: Path) -> None:
+    """Draw the distribution beside the indices as a PNG file."""
+    save_figure(sensitivity_figure(results, found), path)
