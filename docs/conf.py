@@ -38,6 +38,7 @@ myst_dmath_double_inline = True
 # Docstrings: the types stand in them in words.
 autodoc_typehints = "none"
 autodoc_member_order = "bysource"
+autodoc_preserve_defaults = True  # as written, not the value of a table of functions
 autosummary_generate = True
 numpydoc_show_class_members = False
 nitpick_ignore_regex = [("py:class", r"pydantic\..*|pydantic_.*")]

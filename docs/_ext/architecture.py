@@ -18,9 +18,9 @@ from sphinx.application import Sphinx
 import ehlectric
 
 PACKAGE = Path(ehlectric.__file__).parent
-_WIDTH, _HEIGHT, _FLOOR = 2.9, 0.78, 1.25  # of a box, and from layer to layer, in units of the picture
-# Aside, so that arrows to the layers below them pass beside them.
-_SHIFTED = {"sweep": -1.6, "cases": 3.2, "lubricant": 0.3, "runtime": -0.3}
+_WIDTH, _HEIGHT, _FLOOR = 3.0, 0.92, 1.32  # of a box, and from layer to layer, in units of the picture
+# Moved aside, so that arrows between other packages pass beside these boxes.
+_SHIFTED = {"cases": 3.2, "lubricant": 0.3, "runtime": -0.3}
 _COLOURS = {"arrow": "#7a869a", "box": "#e8eef7", "edge": "#34527a", "text": "#14263d"}
 
 
@@ -64,7 +64,7 @@ def direct(found: Counter[tuple[str, str]]) -> list[tuple[str, str]]:
 def draw(root: Path) -> Figure:
     """Packages as boxes in the layers of the import contract, with the imports between them as arrows."""
     rows = layers(root)
-    figure = Figure(figsize=(7.6, 8.2), layout="constrained")
+    figure = Figure(figsize=(6.2, 8.6), layout="constrained")
     ax = figure.add_subplot()
     places = {}
     for level, row in enumerate(reversed(rows)):
@@ -97,8 +97,8 @@ def _box(ax: Axes, name: str, x: float, y: float) -> None:
         )
     )
     first, *_ = (import_module(f"ehlectric.{name}").__doc__ or "").splitlines()
-    text = fill(first.partition(":")[0].rstrip("."), 42)
-    for height, size, words in ((0.24, 9.5, name), (-0.13, 6.4, text)):
+    text = fill(first.partition(":")[0].rstrip("."), 34)
+    for height, size, words in ((0.26, 10.0, name), (-0.14, 6.8, text)):
         ax.text(x, y + height, words, ha="center", va="center", size=size, color=_COLOURS["text"], zorder=4)
 
 

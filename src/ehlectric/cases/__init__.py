@@ -1,1 +1,1 @@
-"""Input files: every key with its unit, bounds and default; the library of oils, solids and bearings."""
+"""Input files: every key with unit, bounds and default; library of lubricants, solids and bearings."""

@@ -1,4 +1,4 @@
-"""Cases of contacts and of bearings: which of the two a file or a table is."""
+"""Reading of input files and tables that describe either a contact or a bearing."""
 
 from __future__ import annotations
 
@@ -14,23 +14,23 @@ AnyCase = Case | BearingCase
 
 
 def case_of_dict(table: Mapping[str, Any]) -> AnyCase:
-    """A bearing where the tables have one, else a contact.
+    """Make a bearing case from tables with the key ``bearing``, else a case of a contact.
 
     Raises
     ------
     InputError
-        One line with the key, what it got and what it takes.
+        If the tables are not valid; the message names the key, its value, and what is allowed.
     """
     return (BearingCase if "bearing" in table else Case).from_dict(table)
 
 
 def case_of_file(path: str | Path) -> AnyCase:
-    """The case of a TOML file, a bearing's or a contact's.
+    """Read a case of a contact or of a bearing from a TOML file.
 
     Raises
     ------
     InputError
-        Where it cannot be read, is not TOML, or is neither.
+        If the file cannot be read, is not TOML, or is neither of the two.
     """
     table = read_toml(path)
     find_files(table, Path(path).parent)

@@ -1,4 +1,4 @@
-"""What a bearing file takes: the bearing and its duty, its oil over temperature, the motor around it."""
+"""Tables of a bearing file: bearing with load and speed, lubricant over temperature, discharge, motor."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _Viscosity = Annotated[float, Quantity("m**2/s", least=1e-7, most=1.0, reason="k
 _Absolute = Annotated[float, Quantity("Pa*s", least=1e-7, most=1e6, reason="at ambient pressure")]
 _Load = Annotated[float, Quantity("N", least=0.0, most=1e8, reason="on the inner ring")]
 
-# Keys of bearings with balls and of those with rollers, and those of them that have a default.
+# Keys that only ball bearings have, and keys that only roller bearings have.
 _OF_BALLS = ("inner_groove", "outer_groove", "shoulder_height", "contact_angle")
 _OF_ROLLERS = ("roller_length", "profile")
 
@@ -38,12 +38,12 @@ def _material(name: str) -> str:
     return name
 
 
-def _film_factor(given: Any) -> float | str:
-    if given in ("none", "inlet-shear"):
-        return str(given)
-    if isinstance(given, bool) or not isinstance(given, int | float) or not 0.0 < given <= 1.0:
-        raise InputError(got=shown(given), takes="'none', 'inlet-shear', or a number above 0 and at most 1")
-    return float(given)
+def _film_factor(value: Any) -> float | str:
+    if value in ("none", "inlet-shear"):
+        return str(value)
+    if isinstance(value, bool) or not isinstance(value, int | float) or not 0.0 < value <= 1.0:
+        raise InputError(got=shown(value), takes="'none', 'inlet-shear', or a number above 0 and at most 1")
+    return float(value)
 
 
 _Material = Annotated[str, AfterValidator(_material)]
@@ -84,7 +84,7 @@ class Bearing(Table):
     @model_validator(mode="before")
     @classmethod
     def _from_base(cls, table: Any) -> Any:
-        """The named bearing of the library, with what the file gives in place of its values."""
+        """Values of the bearing that ``base`` names in the library, replaced by those of the file."""
         if not isinstance(table, Mapping) or table.get("base") is None:
             return table
         name = library_name(table["base"], library.bearing_names())
@@ -128,7 +128,7 @@ class Bearing(Table):
 
 
 class OilTemperature(Table):
-    """Kinematic viscosity at two temperatures, and density, of an oil."""
+    """Viscosity, density, thermal expansion and thermal conductivity of an oil over temperature."""
 
     kinematic_viscosity_40: _Viscosity
     kinematic_viscosity_100: _Viscosity
@@ -141,14 +141,21 @@ class OilTemperature(Table):
 
 
 class BearingLubricant(Lubricant):
-    """Lubricant of a bearing: with ``temperature`` its viscosity is that of the bearing's temperature."""
+    """Lubricant of a bearing.
+
+    With the table ``temperature``, its viscosity is computed at the temperature of the bearing.
+    """
 
     viscosity: _Absolute | None = None  # type: ignore[assignment]
     temperature: OilTemperature | None = None
 
     @classmethod
     def _with_base(cls, table: Any) -> Any:
-        """The named lubricant, without the viscosity that ``temperature`` gives and what follows from it."""
+        """Values of the lubricant that ``base`` names in the library, replaced by those of the file.
+
+        With the table ``temperature``, the viscosity of the library and the parameters that derive from the
+        viscosity are left out, because they are computed.
+        """
         full = with_lubricant(table)
         if not isinstance(table, Mapping) or table.get("temperature") is None or full is table:
             return full
@@ -164,12 +171,12 @@ class BearingLubricant(Lubricant):
         return self
 
     def at(self, temperature: float) -> Lubricant:
-        """The lubricant at an absolute temperature [K].
+        """Return the lubricant at an absolute temperature [K].
 
         Raises
         ------
         InputError
-            Where the oil has no viscosity there, or lacks what its laws take.
+            If the viscosity at this temperature is not valid, or a parameter of a law is missing.
         """
         table = self.model_dump(exclude_none=True, exclude={"temperature", "base"})
         oil = self.temperature
@@ -185,19 +192,18 @@ class BearingLubricant(Lubricant):
             raise error.under("lubricant") from None
 
     def walther(self) -> Walther:
-        """Kinematic viscosity over temperature."""
+        """Walther's law of kinematic viscosity over temperature, through the values at 40 and 100 degC."""
         assert self.temperature is not None
         return Walther.of(self.temperature.kinematic_viscosity_40, self.temperature.kinematic_viscosity_100)
 
     def _derived(self, viscosity: float) -> dict[str, float]:
-        """Parameters of the viscosity law that are not given and follow from the viscosity [Pa s]."""
+        """Parameters of the viscosity law that the file lacks, computed from the viscosity [Pa s]."""
         derived = {}
         for parameter in VISCOSITY_LAWS[self.viscosity_law].parameters:
             rule = parameter.derivation
             if rule is None or self.parameter(parameter.name) is not None:
                 continue
-            given = map(self.parameter, rule.parameters)
-            values = [value for value in given if value is not None]
+            values = [value for value in map(self.parameter, rule.parameters) if value is not None]
             if len(values) < len(rule.parameters):
                 raise InputError.missing(
                     f"lubricant.{parameter.name}",
@@ -208,7 +214,7 @@ class BearingLubricant(Lubricant):
 
 
 class BearingDischarge(Discharge):
-    """Discharge of a bearing: a strength over temperature is that of the bearing's temperature."""
+    """Discharge of a bearing; a strength table over temperature is read at the bearing's temperature."""
 
     def _check_temperature(self) -> None:
         if self.temperature is not None:
@@ -219,12 +225,12 @@ class BearingDischarge(Discharge):
             )
 
     def at(self, temperature: float) -> Discharge:
-        """The discharge at an absolute temperature [K].
+        """Return the inputs of the discharge at an absolute temperature [K].
 
         Raises
         ------
         InputError
-            Where a table of the strength does not reach there.
+            If the temperature is outside a strength table over temperature.
 
         Examples
         --------
@@ -242,7 +248,7 @@ class BearingDischarge(Discharge):
 
 
 class Motor(Table):
-    """Capacitances of the machine around the bearing."""
+    """Common-mode voltage and capacitances of the motor around the bearing."""
 
     common_mode_voltage: Annotated[float, Quantity("V", above=0.0, most=1e6, reason="peak")]
     winding_rotor_capacitance: _Capacitance

@@ -1,4 +1,4 @@
-"""A bearing file: bearing, lubricant, discharge and motor, read from TOML."""
+"""Case of a rolling bearing, read from TOML, written back, and changed."""
 
 from __future__ import annotations
 
@@ -16,18 +16,18 @@ from ehlectric.cases.grid import Solver
 from ehlectric.cases.table import Table, read_toml
 from ehlectric.errors import InputError
 
-# What displaces each other where a key changes.
+# Alternative keys, by table: a key that changes replaces its alternatives.
 _ALTERNATIVES: dict[str, Groups] = {
     "lubricant": ((("viscosity",), ("temperature",)),),
     "discharge": (STRENGTHS, TABLES),
 }
 
-# Of [discharge], what a bearing gives itself.
+# Keys of [discharge] that a bearing file may not have.
 _NOT_OF_BEARINGS = ("length", "external_capacitance", "peak_current", "pit")
 
 
 class BearingCase(Table):
-    """A rolling bearing in its machine: everything its capacitance and breakdown voltage depend on."""
+    """Rolling bearing in its machine: all inputs on which its capacitance and breakdown voltage depend."""
 
     title: Title = ""
     contacts: Literal["solved", "formula"] = "solved"
@@ -53,12 +53,12 @@ class BearingCase(Table):
 
     @classmethod
     def from_toml(cls, path: str | Path) -> Self:
-        """Bearing of a TOML file.
+        """Read a bearing case from a TOML file.
 
         Raises
         ------
         InputError
-            Where the file cannot be read, is not TOML, or is not a bearing.
+            If the file cannot be read, is not TOML, or is not a valid bearing case.
         """
         table = read_toml(path)
         if "contact" in table and "bearing" not in table:
@@ -68,22 +68,33 @@ class BearingCase(Table):
         return cls.from_dict(table)
 
     def to_dict(self) -> dict[str, Any]:
-        """Nested tables of all values that are set, SI floats."""
+        """Return all values that are set as nested tables, in SI units."""
         return self.model_dump(mode="json", exclude_none=True)
 
     def to_toml(self) -> str:
-        """TOML text that ``from_toml`` reads back to an equal case."""
+        """Return the case as TOML text, which ``from_toml`` reads back to an equal case."""
         import tomli_w
 
         return tomli_w.dumps(self.to_dict())
 
     def replace(self, changes: Mapping[str, Any]) -> Self:
-        """A changed copy, with new values by dotted key; a new key displaces its alternative.
+        """Return a changed copy of the case.
+
+        Parameters
+        ----------
+        changes : mapping
+            New values by dotted key, as in ``{"bearing.radial_load": "1 kN"}``. A new key replaces its
+            alternative; a new ``lubricant.base`` replaces all values of the lubricant.
+
+        Returns
+        -------
+        BearingCase
+            Case with the new values.
 
         Raises
         ------
         InputError
-            As for a bearing file.
+            If a key is unknown, or the changed case is not valid.
         """
         table = self.to_dict()
         if "lubricant.base" in changes:

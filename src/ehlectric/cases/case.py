@@ -1,7 +1,8 @@
-"""A case: what is solved, read from TOML, written back, and changed.
+"""Case of a line or point contact, read from TOML, written back, and changed.
 
-A case is frozen and holds SI floats. Alternatives (two radii or the reduced one, load or Hertz pressure,
-entrainment speed or two speeds) stay as they were given; ``ehlectric.contact.resolve`` resolves them.
+A case is frozen and holds SI floats. Alternative inputs (two radii or the reduced radius, load or Hertz
+pressure, entrainment speed or two speeds) are stored as the file gives them; ``ehlectric.contact.resolve``
+computes the operating conditions from them.
 """
 
 from __future__ import annotations
@@ -30,12 +31,12 @@ def _title(text: str) -> str:
     return text
 
 
-# One line, as a file or a figure is headed.
+# Title of files and figures, on one line.
 Title = Annotated[str, AfterValidator(_title)]
 
 
 class Case(Table):
-    """A charged line or point contact: everything a solution depends on.
+    """Charged line or point contact: all inputs on which film and electric field depend.
 
     Examples
     --------
@@ -67,7 +68,7 @@ class Case(Table):
     @model_validator(mode="before")
     @classmethod
     def _point_grid(cls, table: Any) -> Any:
-        """The grid of a point contact, with its own defaults where the case gives none."""
+        """Add the defaults of a point contact's grid for the keys that the case does not give."""
         if not isinstance(table, Mapping) or _geometry(table.get("contact")) != "point":
             return table
         grid = table.get("grid", {})
@@ -109,12 +110,12 @@ class Case(Table):
 
     @classmethod
     def from_toml(cls, path: str | Path) -> Self:
-        """Case of a TOML file.
+        """Read a case from a TOML file.
 
         Raises
         ------
         InputError
-            Where the file cannot be read, is not TOML, or is not a case.
+            If the file cannot be read, is not TOML, or is not a valid case.
         """
         table = read_toml(path)
         if "bearing" in table and "contact" not in table:
@@ -125,38 +126,40 @@ class Case(Table):
         return cls.from_dict(table)
 
     def to_dict(self) -> dict[str, Any]:
-        """Nested tables of all values that are set, SI floats."""
+        """Return all values that are set as nested tables, in SI units."""
         return self.model_dump(mode="json", exclude_none=True)
 
     def to_toml(self) -> str:
-        """TOML text that ``from_toml`` reads back to an equal case."""
+        """Return the case as TOML text, which ``from_toml`` reads back to an equal case."""
         import tomli_w
 
         return tomli_w.dumps(self.to_dict())
 
     def replace(self, changes: Mapping[str, Any] | None = None, /, **tables: Any) -> Self:
-        """A changed copy.
+        """Return a changed copy of the case.
+
+        A new key replaces its alternative: a Hertz pressure replaces the load, two radii replace the reduced
+        radius, and a new ``lubricant.base`` replaces all values of the lubricant. A new geometry removes the
+        keys that only the old geometry has, and the lengths and nodes of its grid.
 
         Parameters
         ----------
         changes : mapping, optional
-            New values by dotted key, as in ``{"contact.entrainment_speed": "2 m/s"}``; of rough surfaces with
-            their number from 1, as in ``{"roughness.1.rescale_rq": "50 nm"}``.
+            New values by dotted key, as in ``{"contact.entrainment_speed": "2 m/s"}``. The key of a rough
+            surface has the number of its table, from 1, as in ``{"roughness.1.rescale_rq": "50 nm"}``.
         **tables
-            Whole keys of the case, or tables of what changes in them, as in
-            ``contact={"entrainment_speed": "2 m/s"}``.
+            New values by table, as in ``contact={"entrainment_speed": "2 m/s"}``, or by key of the case, as
+            in ``title="A"``. Other keys of a table stay.
 
         Returns
         -------
         Case
-            A new key displaces its alternative: a Hertz pressure the load, two radii the reduced one, a
-            lubricant base all that was given of the old lubricant. A new geometry drops what only the old one
-            has, and the lengths and nodes of its grid.
+            Case with the new values.
 
         Raises
         ------
         InputError
-            As for a case file.
+            If a key is unknown, or the changed case is not valid.
         """
         flat = {**flattened(tables), **(changes or {})}
         table = self.to_dict()
@@ -169,7 +172,10 @@ class Case(Table):
 
 
 def find_files(table: dict[str, Any], folder: Path) -> None:
-    """Files named in a case lie relative to it; their names hold wherever the case is written to."""
+    """Make the names of roughness files absolute; in a case file they are relative to its ``folder``.
+
+    They then stay valid if the case is written to another folder.
+    """
     rough = table.get("roughness")
     for surface in rough if isinstance(rough, list) else []:
         if isinstance(surface, dict) and isinstance(surface.get("file"), str):
@@ -182,12 +188,13 @@ def _geometry(contact: Any) -> Any:
     return getattr(contact, "geometry", None)
 
 
-# What a grid keeps where the geometry changes: no lengths, which are in other units there, and no nodes.
+# Keys of a grid that stay if the geometry changes. Lengths and numbers of nodes are removed, because the
+# other geometry has other units of length and other defaults.
 _GRID_OF_ANY = ("wedge", "field_degree", "refine")
 
 
 def _drop_geometry(table: dict[str, Any], geometry: str) -> None:
-    """Drop what only contacts of this geometry have."""
+    """Remove the keys of a case that only contacts of this geometry have."""
     for key in ONLY[geometry]:
         drop(table["contact"], key)
     drop(table, "discharge.length")
@@ -195,7 +202,7 @@ def _drop_geometry(table: dict[str, Any], geometry: str) -> None:
 
 
 def _displace(table: dict[str, Any], changes: Mapping[str, Any], geometry: object) -> None:
-    """Drop from ``table`` what the changes are alternatives to."""
+    """Remove from the tables of a case the keys that the changes replace."""
     if "lubricant.base" in changes:
         table["lubricant"] = {}
     alternatives = {

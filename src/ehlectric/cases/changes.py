@@ -1,4 +1,4 @@
-"""Changes of the nested tables of a file by dotted keys: what is set, and what that displaces."""
+"""Changes of nested tables by dotted keys: new values are set, and alternatives to them are removed."""
 
 from __future__ import annotations
 
@@ -9,17 +9,17 @@ from pydantic import BaseModel
 
 from ehlectric.errors import InputError, shown
 
-# Groups of alternatives in one table: rows of keys of which one is given.
+# Groups of alternative keys in one table. A group is a tuple of rows, and a table has the keys of one row.
 Groups = tuple[tuple[tuple[str, ...], ...], ...]
 
 
 def set_keys(table: dict[str, Any], flat: Mapping[str, Any]) -> None:
-    """Set values by dotted key, those of a list of tables with their number from 1.
+    """Set values of nested tables by dotted key; a table in a list is named by its number, from 1.
 
     Raises
     ------
     InputError
-        Where a key leads into no table.
+        If a part of a key is not the name of a table, or not the number of a table in a list.
 
     Examples
     --------
@@ -35,13 +35,13 @@ def set_keys(table: dict[str, Any], flat: Mapping[str, Any]) -> None:
             target = _part(target, parent, key)
         if isinstance(target, list):
             raise InputError(key, "is a table", takes=f"one of its keys, as {key}.surface")
-        # An empty table changes nothing, but is there.
+        # An empty table adds a table that does not exist, but does not change one that does.
         if not (value == {} and isinstance(target.get(leaf), dict)):
             target[leaf] = value
 
 
 def _part(table: Any, name: str, key: str) -> Any:
-    """The table of this name within another, or of this number, from 1, within a list."""
+    """Table with this name in a table, or with this number, from 1, in a list of tables."""
     if isinstance(table, list):
         if not (name.isdecimal() and 1 <= int(name) <= len(table)):
             there = f"a number from 1 to {len(table)}" if table else "none, as there are no tables"
@@ -54,7 +54,7 @@ def _part(table: Any, name: str, key: str) -> Any:
 
 
 def flattened(tables: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
-    """Values of nested tables by dotted key, as they are given.
+    """Flatten nested tables to values by dotted key.
 
     Examples
     --------
@@ -73,7 +73,16 @@ def flattened(tables: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
 
 
 def displace(table: dict[str, Any], changes: Mapping[str, Any], alternatives: Mapping[str, Groups]) -> None:
-    """Drop from nested tables what the changes, by dotted key, are alternatives to.
+    """Remove from nested tables the keys that are alternatives to changed keys.
+
+    Parameters
+    ----------
+    table : dict
+        Nested tables, changed in place.
+    changes : mapping
+        New values by dotted key.
+    alternatives : mapping of str to Groups
+        Groups of alternative keys, by the name of the table.
 
     Examples
     --------
@@ -87,12 +96,12 @@ def displace(table: dict[str, Any], changes: Mapping[str, Any], alternatives: Ma
 
 
 def _names_in(table: str, changes: Mapping[str, Any]) -> set[str]:
-    """Keys of one table that change, without its name."""
+    """Changed keys of one table, without the name of the table."""
     return {key.removeprefix(f"{table}.") for key in flattened(changes) if key.startswith(f"{table}.")}
 
 
 def _displace_in(table: dict[str, Any], names: set[str], groups: Groups) -> None:
-    """Drop from one table what is an alternative to the keys that change."""
+    """Remove from one table the keys that are alternatives to its changed keys."""
     for group in groups:
         for row in group:
             if any(_within(name, key) for name in names for key in row):
@@ -102,12 +111,12 @@ def _displace_in(table: dict[str, Any], names: set[str], groups: Groups) -> None
 
 
 def _within(name: str, key: str) -> bool:
-    """Whether a dotted name is the key, or lies in the table of that name."""
+    """Whether a dotted name is equal to the key, or is a key inside the table ``key``."""
     return name == key or name.startswith(f"{key}.")
 
 
 def drop(table: dict[str, Any], key: str) -> None:
-    """Drop a dotted key, and its table where that leaves it empty."""
+    """Remove a dotted key from nested tables, and its table if no key is left in it."""
     first, _, leaf = key.partition(".")
     if not leaf:
         table.pop(first, None)

@@ -1,4 +1,4 @@
-"""The contact of a case: geometry, elasticity, load and speed, each with its unit and its bounds."""
+"""Table ``contact`` of a case: geometry, elasticity, load and speed, with units and bounds."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _Speed = Annotated[float, Quantity("m/s", least=-1e4, most=1e4, reason="surface 
 
 
 class Body(Table):
-    """Elastic constants of one body and, of a point contact, its radii in both planes."""
+    """Elastic constants of one body and, for a point contact, its radii in both planes."""
 
     youngs_modulus: _Modulus | None = None
     poissons_ratio: (
@@ -27,8 +27,8 @@ class Body(Table):
     radius_y: _SignedRadius | None = None
 
 
-# Alternatives of each geometry: exactly one row of each group is given, whole. A line takes its bodies
-# whole, a point their radii and their elastic constants each for itself.
+# Alternative inputs by geometry: a case gives all keys of exactly one row of each group. In a line contact
+# the tables of both bodies form a row. In a point contact radii and elastic constants are in two groups.
 Alternatives = tuple[tuple[tuple[str, ...], ...], ...]
 _SPEEDS = (("entrainment_speed",), ("speed_1", "speed_2"))
 _BODIES = ("body_1", "body_2")
@@ -53,7 +53,7 @@ CONTACT_ALTERNATIVES: dict[str, Alternatives] = {
     ),
 }
 
-# Keys of one geometry that the other has no use for.
+# Keys that only contacts of one geometry have.
 ONLY: dict[str, tuple[str, ...]] = {
     "line": ("reduced_radius", "radius_1", "radius_2", "load_per_length"),
     "point": (
@@ -65,7 +65,7 @@ OTHER = {"line": "point", "point": "line"}
 
 
 class Contact(Table):
-    """Geometry, elasticity, load and speed of the contact."""
+    """Geometry, elasticity, load and speed of a contact."""
 
     geometry: Literal["line", "point"] = "line"
     radius_x: _Radius | None = None
@@ -108,13 +108,13 @@ class Contact(Table):
         return self
 
     def value(self, key: str) -> Any:
-        """What a dotted key of this table gives, None where it is not there."""
+        """Value of a dotted key of this table; None if the case does not give it."""
         table, _, leaf = key.rpartition(".")
         part = getattr(self, table) if table else self
         return None if part is None else getattr(part, leaf)
 
     def _check_geometry(self) -> None:
-        """Refuse keys of the other geometry, and bodies of a line with a part missing."""
+        """Raise an InputError for keys of the other geometry, and for incomplete bodies of a line contact."""
         for key in ONLY[OTHER[self.geometry]]:
             if self.value(key) is not None:
                 radii, _, load, _ = CONTACT_ALTERNATIVES[self.geometry]
@@ -155,14 +155,14 @@ class Contact(Table):
                 )
 
     def _check_alternatives(self, group: tuple[tuple[str, ...], ...]) -> None:
-        given = [[name for name in row if self.value(name) is not None] for row in group]
+        present = [[name for name in row if self.value(name) is not None] for row in group]
         choices = " or ".join(" and ".join(row) for row in group)
-        used = [k for k, names in enumerate(given) if names]
+        used = [k for k, names in enumerate(present) if names]
         if len(used) > 1:
-            both = ", ".join(name for names in given for name in names)
-            raise InputError(given[0][0], got=f"{both} together", takes=f"either {choices}")
+            both = ", ".join(name for names in present for name in names)
+            raise InputError(present[0][0], got=f"{both} together", takes=f"either {choices}")
         if not used:
             raise InputError.missing(group[0][0], f"either {choices}")
         for name in group[used[0]]:
-            if name not in given[used[0]]:
+            if name not in present[used[0]]:
                 raise InputError.missing(name, f"either {choices}")

@@ -1,4 +1,4 @@
-"""What a discharge takes beside film and field: the strength of the film, conductivity, what is connected."""
+"""Table ``discharge`` of a case: dielectric strength, filling of the outlet, conductivity, circuit, pit."""
 
 from __future__ import annotations
 
@@ -14,16 +14,17 @@ _STRENGTH = Quantity("V/m", least=1e4, most=1e10, reason="of the film, not of th
 _PRESSURE = Quantity("Pa", least=0.0, most=2e10, reason="in the film")
 _TEMPERATURE = Quantity("K", least=100.0, most=1000.0, reason="absolute, of the film")
 
-# Alternatives of the strength, and of what a table of it is over: keys of at the most one of them are given.
+# Alternative keys of the dielectric strength, and of the variable of a strength table. A case gives the keys
+# of at most one row of each.
 STRENGTHS = (("dielectric_strength",), ("strength_table", "temperature"), ("weibull",))
 TABLES = (("strength_table.pressure",), ("strength_table.temperature", "temperature"))
 
-# Keys for which a line contact must know its length.
+# Keys that need the length of a line contact.
 _OF_LENGTH = ("weibull", "external_capacitance", "peak_current", "pit")
 
 
 class StrengthTable(Table):
-    """Dielectric strength over the pressure in the film, or over its temperature; linear in between."""
+    """Dielectric strength over the pressure or the temperature of the film, interpolated linearly."""
 
     pressure: Annotated[tuple[float, ...], Quantities(_PRESSURE, least=2)] | None = None
     temperature: Annotated[tuple[float, ...], Quantities(_TEMPERATURE, least=2)] | None = None
@@ -31,12 +32,12 @@ class StrengthTable(Table):
 
     @property
     def over(self) -> Literal["pressure", "temperature"]:
-        """What the strength is given over."""
+        """Variable of the table: "pressure" or "temperature"."""
         return "pressure" if self.temperature is None else "temperature"
 
     @property
     def places(self) -> tuple[float, ...]:
-        """Pressures [Pa] or temperatures [K] of the table."""
+        """Pressures [Pa] or temperatures [K] at which the table gives the dielectric strength."""
         places = self.pressure if self.temperature is None else self.temperature
         assert places is not None
         return places
@@ -58,7 +59,7 @@ class StrengthTable(Table):
 
 
 class Weibull(Table):
-    """Probability of breakdown 1 - exp(-integral of (E/scale)^shape dA/reference_area)."""
+    """Weibull law of breakdown, probability 1 - exp(-integral of (E/scale)^shape dA/reference_area)."""
 
     scale: Annotated[float, _STRENGTH]
     shape: Annotated[float, Quantity("", least=0.5, most=200.0, reason="the larger, the less it scatters")]
@@ -68,7 +69,7 @@ class Weibull(Table):
 
 
 class Pit(Table):
-    """What the energy of a discharge melts."""
+    """Efficiency and melting energy, from which the volume that a discharge melts is computed."""
 
     efficiency: Annotated[
         float,
@@ -80,7 +81,7 @@ class Pit(Table):
 
 
 class Discharge(Table):
-    """Assessment of the discharge: nothing has a default that is a property of a material."""
+    """Inputs of the assessment of a discharge; no property of a material has a default."""
 
     dielectric_strength: Annotated[float, _STRENGTH] | None = None
     strength_table: StrengthTable | None = None
@@ -105,16 +106,16 @@ class Discharge(Table):
 
     @property
     def has_strength(self) -> bool:
-        """Whether there is a strength that a field reaches or not: a constant or a table of it."""
+        """Whether the case gives a constant dielectric strength or a strength table."""
         return self.dielectric_strength is not None or self.strength_table is not None
 
     @model_validator(mode="after")
     def _check(self) -> Self:
         names = [row[0] for row in STRENGTHS]
-        given = [name for name in names if getattr(self, name) is not None]
-        if len(given) > 1:
-            together, takes = " and ".join(given), ", ".join(names)
-            raise InputError(given[0], got=f"{together} together", takes=f"one of {takes}")
+        present = [name for name in names if getattr(self, name) is not None]
+        if len(present) > 1:
+            together, takes = " and ".join(present), ", ".join(names)
+            raise InputError(present[0], got=f"{together} together", takes=f"one of {takes}")
         if self.pit is not None and self.external_capacitance is None:
             raise InputError.worded(
                 "external_capacitance",
@@ -145,17 +146,17 @@ class Discharge(Table):
             )
 
     def check_geometry(self, geometry: str) -> None:
-        """Refuse a length where there is none, and what needs it without it.
+        """Check that a point contact has no length, and that a line contact has one if a key needs it.
 
         Parameters
         ----------
         geometry : str
-            Of the contact, "line" or "point".
+            Geometry of the contact, "line" or "point".
 
         Raises
         ------
-        ValueError
-            With the key, what it got and what it takes.
+        InputError
+            If a point contact has a length, or a line contact lacks a length that a key needs.
         """
         if geometry == "point":
             if self.length is not None:

@@ -1,4 +1,4 @@
-"""Lubricant, potentials, grid and solver of a case: every input with its unit, its bounds and its default."""
+"""Tables ``electric``, ``grid`` and ``solver`` of a case: potentials, discretisation and stopping rule."""
 
 from __future__ import annotations
 
@@ -30,22 +30,22 @@ class Electric(Table):
 
     @property
     def voltage(self) -> float:
-        """Between the surfaces [V], above 0."""
+        """Voltage between the surfaces [V], above 0."""
         return abs(self.potential_2 - self.potential_1)
 
 
-# Columns of the field below which the film's own nodes do not resolve it.
+# Smallest number of film nodes in the field range that resolve the field.
 _LEAST_COLUMNS = 16
 _FieldEnd = Annotated[float, Quantity("", least=-100.0, most=100.0, reason="in half-widths")]
 
-# What a grid of a point contact has where the case does not say; lengths in its semi-axes.
+# Defaults of a point contact's grid where they differ from those of a line contact; lengths in semi-axes.
 POINT_GRID: dict[str, Any] = {"nodes": 257, "inlet": -4.5, "outlet": 1.5, "field_side": 1.25}
 
-# Keys of a point contact alone.
+# Keys that only the grid of a point contact has.
 POINT_GRID_KEYS = ("nodes_y", "side", "field_side", "field_nodes_y")
 
-# Nodes across a point contact's Hertz zone below which its film has no shape, and along an axis above which a
-# film takes more memory than a workstation has.
+# Smallest number of nodes across the Hertz zone of a point contact that resolve its film. Largest number of
+# nodes along an axis; a film on a finer grid needs more memory than a workstation has.
 LEAST_ACROSS = 16
 _MOST_AXIS = 4097
 
@@ -53,8 +53,8 @@ _MOST_AXIS = 4097
 class Grid(Table):
     """Discretisation of the film and of the field.
 
-    Lengths are in half-widths of a line contact; of a point contact in the semi-axis along entrainment, but
-    those of ``side`` and ``field_side`` in the semi-axis across.
+    The unit of length is the half-width of a line contact. For a point contact it is the semi-axis along
+    entrainment; for ``side`` and ``field_side`` it is the semi-axis across.
     """
 
     nodes: Annotated[
@@ -95,12 +95,12 @@ class Grid(Table):
 
     @property
     def of_point(self) -> bool:
-        """Whether this is a point contact's grid: a case gives each of them a ``field_side``."""
+        """Whether this is the grid of a point contact, which always has a ``field_side``."""
         return self.field_side is not None
 
     @property
     def nodes_across(self) -> int:
-        """Nodes across a point contact, as many as along it where the case does not say."""
+        """Number of nodes across a point contact; ``nodes`` if ``nodes_y`` is not given."""
         return self.nodes if self.nodes_y is None else self.nodes_y
 
     @model_validator(mode="after")
@@ -150,7 +150,7 @@ class Grid(Table):
             self.check_across(self.side)
 
     def check_across(self, side: float) -> None:
-        """Refuse a point contact's grid that is too coarse across entrainment, or less wide than its field.
+        """Check the grid of a point contact across entrainment.
 
         Parameters
         ----------
@@ -159,8 +159,8 @@ class Grid(Table):
 
         Raises
         ------
-        ValueError
-            With the key, what it got and what it takes.
+        InputError
+            If the grid is too coarse across entrainment, or the domain is narrower than the field range.
         """
         assert self.field_side is not None
         if self.field_side > side:
@@ -176,7 +176,7 @@ class Grid(Table):
 
 
 class Solver(Table):
-    """When the iteration of the film stops."""
+    """Stopping rule of the film solver."""
 
     tolerance: Annotated[
         float, Quantity("", least=1e-11, most=1e-3, reason="of the largest scaled residual")

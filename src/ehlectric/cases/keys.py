@@ -1,4 +1,4 @@
-"""Inputs of a case by their dotted keys: what each takes."""
+"""Inputs of a case by dotted key: field, type of number, unit, and name in labels."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from ehlectric.cases.quantity import Count, Quantities, Quantity
 from ehlectric.cases.table import Table, nearest_key, table_of
 from ehlectric.errors import InputError
 
-# Tables and keys of a bearing file alone.
+# Tables and keys that only a bearing file has.
 _OF_BEARINGS = ("bearing", "motor", "contacts")
 
-# Name and symbol of inputs, where they have one of their own; their units stand in the case.
+# Name and symbol of inputs in labels; the label of another input shows its dotted key. Units are in the case.
 INPUT_NAMES: Mapping[str, tuple[str, str]] = {
     "contact.entrainment_speed": ("entrainment speed", r"$(u_1 + u_2)/2$"),
     "contact.speed_1": ("speed of surface 1", "$u_1$"),
@@ -64,17 +64,22 @@ INPUT_NAMES: Mapping[str, tuple[str, str]] = {
 
 
 def input_field(key: str) -> FieldInfo:
-    """What the case says of an input.
+    """Field of an input, with its annotation and default.
 
     Parameters
     ----------
     key : str
-        Dotted key of the case, rough surfaces with their number, as "roughness.1.rescale_rq".
+        Dotted key of the case; the key of a rough surface has its number, as in "roughness.1.rescale_rq".
+
+    Returns
+    -------
+    FieldInfo
+        Field of the table that the key belongs to.
 
     Raises
     ------
     InputError
-        Where there is no such key, or it is a table; with the nearest known one.
+        If the key is unknown or is a table; the message names the nearest known key, or a key of the table.
 
     Examples
     --------
@@ -108,19 +113,19 @@ def input_field(key: str) -> FieldInfo:
 
 
 def number_of(field: FieldInfo) -> Quantity | Count | None:
-    """What a key takes that is a number; None of a text, a list or a choice.
+    """Quantity or count of a field that is a number; None for a text, a list or a choice.
 
     Examples
     --------
     >>> number_of(input_field("contact.entrainment_speed")).unit
     'm/s'
     """
-    found = None if get_origin(field.annotation) is tuple else _annotation(field)
-    return None if isinstance(found, Quantities) else found
+    annotation = None if get_origin(field.annotation) is tuple else _annotation(field)
+    return None if isinstance(annotation, Quantities) else annotation
 
 
 def _annotation(field: FieldInfo) -> Quantity | Quantities | Count | None:
-    """Annotation of a key that takes one number or a list of them."""
+    """Annotation of a field that is a number or a list of numbers; None for other fields."""
     parts = [field, *(part for part in get_args(field.annotation) if hasattr(part, "__metadata__"))]
     for part in parts:
         for item in getattr(part, "__metadata__", ()) or getattr(part, "metadata", ()):
@@ -130,12 +135,14 @@ def _annotation(field: FieldInfo) -> Quantity | Quantities | Count | None:
 
 
 def unit_of(key: str) -> str:
-    """SI unit of an input as pint writes it; empty for one without a unit, a text or an unknown key.
+    """SI unit of an input, as pint writes it.
+
+    It is empty for a dimensionless number, a text or an unknown key.
 
     Parameters
     ----------
     key : str
-        Dotted key of the case, also of an item of a list.
+        Dotted key of the case; the key of an item of a list ends in its number.
 
     Examples
     --------
@@ -143,15 +150,16 @@ def unit_of(key: str) -> str:
     ('N/m', 'V/m')
     """
     try:
-        found = _annotation(input_field(key.rstrip("0123456789").rstrip(".") if key[-2:-1] == "." else key))
+        name = key.rstrip("0123456789").rstrip(".") if key[-2:-1] == "." else key
+        annotation = _annotation(input_field(name))
     except InputError:
         return ""
-    each = found.each if isinstance(found, Quantities) else found
+    each = annotation.each if isinstance(annotation, Quantities) else annotation
     return each.unit if isinstance(each, Quantity) else ""
 
 
 def kind_of(key: str) -> Quantity | Count | None:
-    """What a dotted key takes where it is a number of the case, None otherwise.
+    """Quantity or count of a dotted key that is a number of the case; None for every other key.
 
     Examples
     --------

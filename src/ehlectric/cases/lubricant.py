@@ -1,4 +1,4 @@
-"""The lubricant of a case, and its laws with its values."""
+"""Table ``lubricant`` of a case, and the laws of the lubricant with the parameters of the case."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from ehlectric.lubricant.law import DensityRatioLaw, Law, Parameter, PressureLaw
 from ehlectric.lubricant.permittivity import PERMITTIVITY_LAWS, RELATIVE_PERMITTIVITY
 from ehlectric.lubricant.viscosity import VISCOSITY_LAWS
 
-# Keys that choose a law by its name, each with its table, in the order of the case file.
+# Keys that choose a law by name, each with the table of its laws, in the order of the case file.
 LAWS: dict[str, Mapping[str, Law]] = {
     "viscosity_law": VISCOSITY_LAWS,
     "density_law": DENSITY_LAWS,
@@ -37,17 +37,17 @@ LAWS: dict[str, Mapping[str, Law]] = {
 
 
 def law_parameters(*choices: str) -> dict[str, Parameter]:
-    """Parameters of all laws by name.
+    """Parameters of the laws of a lubricant, by name.
 
     Parameters
     ----------
     *choices : str
-        Keys of ``LAWS``, whose laws count; those of all keys if none is given.
+        Keys of ``LAWS``, such as "density_law"; all keys if none is given.
 
     Returns
     -------
     dict of str to Parameter
-        As the tables of laws are at the moment of the call.
+        Parameters of the laws that are in the tables at the time of the call.
 
     Examples
     --------
@@ -61,41 +61,41 @@ def law_parameters(*choices: str) -> dict[str, Parameter]:
 
 
 def _bound(law: Law, lubricant: Lubricant) -> Callable[..., Any]:
-    """A law with its parameters from the case."""
+    """Function of a law with the parameters of the case."""
     return partial(law.function, **_values(law, lubricant))
 
 
 def _values(law: Law, lubricant: Lubricant) -> dict[str, float]:
-    """Values of a law's parameters by name, without those that the case does not give."""
-    given = {parameter.name: lubricant.parameter(parameter.name) for parameter in law.parameters}
-    return {name: value for name, value in given.items() if value is not None}
+    """Values of those parameters of a law that the case gives, by name, SI units."""
+    values = {parameter.name: lubricant.parameter(parameter.name) for parameter in law.parameters}
+    return {name: value for name, value in values.items() if value is not None}
 
 
 def viscosity_law(lubricant: Lubricant) -> PressureLaw:
-    """ln(eta/eta0) and its derivative [1/Pa] over pressure [Pa] and temperature [K]."""
+    """Viscosity law: ln(eta/eta0) and its derivative [1/Pa] over pressure [Pa] and temperature [K]."""
     return _bound(VISCOSITY_LAWS[lubricant.viscosity_law], lubricant)
 
 
 def density_law(lubricant: Lubricant) -> PressureLaw:
-    """rho/rho0 and its derivative [1/Pa] over pressure [Pa] and temperature [K]."""
+    """Density law: rho/rho0 and its derivative [1/Pa] over pressure [Pa] and temperature [K]."""
     return _bound(DENSITY_LAWS[lubricant.density_law], lubricant)
 
 
 def permittivity_law(lubricant: Lubricant) -> DensityRatioLaw:
-    """Relative permittivity over rho/rho0 and temperature [K]."""
+    """Permittivity law: relative permittivity over rho/rho0 and temperature [K]."""
     return _bound(PERMITTIVITY_LAWS[lubricant.permittivity_law], lubricant)
 
 
 def effective_alpha(lubricant: Lubricant) -> float:
-    """Pressure-viscosity coefficient that the film formulas take: slope of ln(eta) at zero pressure [1/Pa].
+    """Pressure-viscosity coefficient for the film formulas: slope of ln(eta) at zero pressure [1/Pa].
 
-    Zero for a constant viscosity; alpha itself for the laws of Barus and Roelands.
+    It is zero for a constant viscosity, and alpha for the laws of Barus and Roelands.
     """
     return float(viscosity_law(lubricant)(np.zeros(1))[1][0])
 
 
 def law_warnings(lubricant: Lubricant, max_pressure: float) -> Iterator[ResultWarning]:
-    """Warnings about the laws of a lubricant, in a contact of that Hertz pressure [Pa]."""
+    """Warnings about the laws of a lubricant in a contact with this Hertz pressure [Pa]."""
     for key, laws in LAWS.items():
         law = laws[getattr(lubricant, key)]
         if law.warnings is not None:
@@ -115,12 +115,14 @@ def _law(laws: Mapping[str, object]) -> AfterValidator:
 
 
 def with_lubricant(table: Any) -> Any:
-    """A table with the values of the lubricant that it names, where it gives none itself.
+    """Add to a table the values of the lubricant that ``base`` names in the library.
+
+    Values of the table itself replace those of the library.
 
     Raises
     ------
-    ValueError
-        Where the library has none of that name.
+    InputError
+        If the library has no lubricant of this name.
     """
     if not isinstance(table, Mapping) or table.get("base") is None:
         return table
@@ -129,12 +131,12 @@ def with_lubricant(table: Any) -> Any:
 
 
 def library_name(base: Any, names: Sequence[str]) -> str:
-    """A base, where the library has one of that name; a number is none, whatever its digits.
+    """Check that ``base`` is a name of the library, and return it; the number 6208 is not the name "6208".
 
     Raises
     ------
-    ValueError
-        Where the library has none of that name.
+    InputError
+        If the base is not a text, or not a name of the library.
     """
     if not isinstance(base, str):
         raise InputError("base", got=shown(base), takes=f"a text, a name of the library: {', '.join(names)}")
@@ -144,7 +146,7 @@ def library_name(base: Any, names: Sequence[str]) -> str:
 
 
 def quantity_of(parameter: Parameter) -> Quantity:
-    """Parser of a parameter's values, with its unit and bounds."""
+    """Quantity with the unit and the bounds of a parameter, which parses its values."""
     return Quantity(
         parameter.unit,
         above=parameter.above,
@@ -156,11 +158,11 @@ def quantity_of(parameter: Parameter) -> Quantity:
 
 
 class Lubricant(Table):
-    """Properties of the lubricant and the laws they enter.
+    """Properties of a lubricant, and its laws of viscosity, density and permittivity.
 
-    Parameters of the laws are keys of the table too. They are no fields of the class: which there are, and
-    what they take, is read from the tables of laws when a case is read (``known_keys``). One that the case
-    does not give is None. A parameter of a law that is not chosen may be given, as a base gives it.
+    The parameters of the laws are keys of this table, but not fields of the class. Their names, units and
+    bounds come from the tables of laws at the time a case is read (``known_keys``). A parameter that the case
+    does not give is None. A case may give parameters of laws that it does not use, for example by its base.
 
     Examples
     --------
@@ -180,7 +182,7 @@ class Lubricant(Table):
     ambient_pressure: Annotated[float, Quantity("Pa", least=0.0, most=1e8, reason="around the contact")] = 1e5
 
     if TYPE_CHECKING:
-        # Parameters that other packages and users read as attributes.
+        # Parameters that users and other packages read as attributes.
         pressure_viscosity_coefficient: float | None = None
         roelands_z: float | None = None
         roelands_pressure: float | None = None
@@ -195,13 +197,13 @@ class Lubricant(Table):
                 raise
 
     def parameter(self, name: str) -> float | None:
-        """Value of a law's parameter, SI; None where the case does not give it."""
+        """Value of a parameter of a law in SI units; None if the case does not give it."""
         value: float | None = getattr(self, name)
         return value
 
     @classmethod
     def known_keys(cls) -> dict[str, FieldInfo]:
-        """Keys of the table: its fields, and after the choice of each law the parameters of such laws."""
+        """Keys of the table: its fields, and behind each choice of a law the parameters of these laws."""
         known: dict[str, FieldInfo] = {}
         for name, field in cls.model_fields.items():
             known[name] = field
@@ -213,12 +215,12 @@ class Lubricant(Table):
 
     @model_validator(mode="wrap")
     @classmethod
-    def _parse(cls, given: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
-        """Table with the values of its base, whose parameters are in SI and within their bounds.
+    def _parse(cls, source: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
+        """Add the values of the base, and validate fields and parameters.
 
-        Errors of parameters and of fields are told together, in the order of ``known_keys``.
+        Errors of fields and of parameters are raised together, in the order of ``known_keys``.
         """
-        table = cls._with_base(given)
+        table = cls._with_base(source)
         if not isinstance(table, Mapping):
             return handler(table)
         fields, errors = _parsed(cls, table)
@@ -242,24 +244,24 @@ class Lubricant(Table):
 
     @classmethod
     def _with_base(cls, table: Any) -> Any:
-        """The named lubricant of the library, with what the case gives in place of its values."""
+        """Values of the lubricant that ``base`` names in the library, replaced by those of the case."""
         return with_lubricant(table)
 
     @model_validator(mode="after")
     def _check(self) -> Self:
         for key, laws in LAWS.items():
             name = getattr(self, key)
-            law, given = laws[name], _values(laws[name], self)
-            missing = [parameter.name for parameter in law.parameters if parameter.name not in given]
+            law, values = laws[name], _values(laws[name], self)
+            missing = [parameter.name for parameter in law.parameters if parameter.name not in values]
             if missing:
                 also = f" with {', '.join(missing[1:])}" if missing[1:] else ""
-                hint = law.hint(self.viscosity, given) if law.hint else ""
+                hint = law.hint(self.viscosity, values) if law.hint else ""
                 raise InputError.worded(missing[0], f"missing, {key} {name!r} takes it{also}{hint}")
         return self
 
     @model_serializer(mode="wrap")
     def _in_order(self, handler: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        """Keys in the order of ``known_keys``."""
+        """Serialise the table with its keys in the order of ``known_keys``."""
         table = handler(self)
         return {name: table[name] for name in type(self).known_keys() if name in table}
 
@@ -267,7 +269,10 @@ class Lubricant(Table):
 def _parsed(
     model: type[Lubricant], table: Mapping[Any, Any]
 ) -> tuple[dict[Any, Any], list[InitErrorDetails]]:
-    """Values of a table with its parameters in SI, and the errors of parameters and of unknown keys."""
+    """Parse the parameters of a table to SI units.
+
+    Returns the table with parsed parameters, and the errors of parameters and of unknown keys.
+    """
     known, fields = law_parameters(), dict(table)
     errors: list[InitErrorDetails] = []
     for name in [name for name in table if isinstance(name, str) and name not in model.model_fields]:

@@ -1,4 +1,4 @@
-"""How long rough surfaces move through a contact, and what is kept of it."""
+"""Table ``motion`` of a case: duration, time steps and stored instants of roughness that moves."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ehlectric.errors import InputError
 
 
 class Motion(Table):
-    """Roughness that moves with its surface.
+    """Duration, time steps and stored instants of roughness that moves with its surface.
 
     Examples
     --------

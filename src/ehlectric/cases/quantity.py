@@ -1,4 +1,4 @@
-"""Numbers with units at the edge of the program: what a case file may write for a physical quantity."""
+"""Numbers and units in case files: conversion of texts to SI values, and checks of bounds."""
 
 from __future__ import annotations
 
@@ -20,30 +20,30 @@ if TYPE_CHECKING:
 
 _PREFIXES = {1e9: "G", 1e6: "M", 1e3: "k", 1.0: "", 1e-3: "m", 1e-6: "µ", 1e-9: "n", 1e-12: "p"}
 
-# A product and quotient of named units with one-digit exponents. Anything more is no unit of the field, and a
-# tower of exponents would keep pint busy for ever.
+# Products and quotients of named units with one-digit exponents. No quantity here needs other units, and pint
+# would compute for ever on nested exponents.
 _NAME = r"[A-Za-zµμΩ°]+(?:(?:\*\*|\^)?[-+]?[1-9]|²|³)?"
 _UNIT = re.compile(rf"(?:1?\s*/\s*)?{_NAME}(?:(?:\s*[*/·]\s*|\s+){_NAME})*")
 _EXPONENT = re.compile(r"(?<=[A-Za-zµμΩ°])(?:\*\*|\^)?([-+]?[1-9])")
 _ANGLE = re.compile("rad|rpm|rev|turn|deg")
 _NUMBER_AND_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*")
 
-# What is often given in place of a quantity, by the units of both, and what turns it into that.
+# Frequent mistakes, by the SI unit of the quantity: unit of another quantity that users write, and advice.
 _HINTS = {
     "Pa*s": ("m**2/s", "multiply a kinematic viscosity by the density"),
     "m/s": ("1/s", "multiply a rotational speed, in rad/s, by the radius"),
     "N/m": ("N", "divide a load by the length of the line"),
 }
 
-# Units of an absolute temperature, with the zero of each in kelvin.
+# Units of an absolute temperature, and the zero point of each unit [K].
 _ZEROS = {"K": 0.0, "degC": 273.15, "°C": 273.15}
 
 
 def unit_for(largest: float, unit: str, *, least: float = 0.1) -> tuple[float, str]:
-    """Factor and prefixed unit in which ``largest`` is from ``least`` to a thousand times that."""
+    """Factor and prefixed unit in which ``largest`` is between ``least`` and a thousand times ``least``."""
     size = next((p for p in _PREFIXES if least * p <= largest), 1e-12)
     prefixed = _PREFIXES[size] + unit
-    # Breakdown strengths are given in V/µm.
+    # Dielectric strengths are usually given in V/µm.
     return 1.0 / size, "V/µm" if prefixed == "MV/m" else prefixed
 
 
@@ -55,14 +55,14 @@ def _registry() -> pint.UnitRegistry[float]:
 
 
 def to_si(text: str, unit: str) -> float:
-    """SI value of a text such as "1.57 MN/m".
+    """Convert a text such as "1.57 MN/m" to a value in an SI unit.
 
     Parameters
     ----------
     text : str
-        A number and its unit.
+        Number and unit.
     unit : str
-        The SI unit of the quantity, as pint writes it.
+        SI unit of the quantity, as pint writes it.
 
     Returns
     -------
@@ -72,7 +72,7 @@ def to_si(text: str, unit: str) -> float:
     Raises
     ------
     ValueError
-        Where the text is not a number with a unit of the right dimension.
+        If the text is not a number with a unit of the right dimension.
 
     Examples
     --------
@@ -87,25 +87,25 @@ def to_si(text: str, unit: str) -> float:
         raise ValueError("it has no unit")
     if unit == "K":
         return _absolute(float(number), written)
-    # Fifteen digits undo the rounding of factors such as 1e-3, which are no binary numbers.
+    # Fifteen digits remove the rounding error of factors such as 1e-3, which are not binary numbers.
     return float(f"{float(number) * _factor(written, unit):.15g}")
 
 
 def _absolute(number: float, written: str) -> float:
-    """Absolute temperature [K]: 70 degC is 343.15 K, not a difference of 70 K."""
+    """Convert an absolute temperature to kelvin: 70 degC is 343.15 K, not a difference of 70 K."""
     if written not in _ZEROS:
         raise ValueError(f"{shown(written)} is not a unit of an absolute temperature: {', '.join(_ZEROS)}")
     return float(f"{number + _ZEROS[written]:.15g}")
 
 
 def _factor(written: str, unit: str) -> float:
-    """What a value in the unit written is multiplied with to be in ``unit``."""
+    """Factor that converts a value from the unit ``written`` to ``unit``."""
     import pint
 
     if _UNIT.fullmatch(written) is None:
         raise ValueError(f"{shown(written)} is not a unit")
     if unit == "rad/s" and _ANGLE.search(written) is None:
-        # Angles are dimensionless: 50 Hz would be 50 rad/s.
+        # Angles are dimensionless in pint, which would convert 50 Hz to 50 rad/s.
         raise ValueError(f"{written} is a frequency and leaves open what turns, takes rpm, rad/s or deg/s")
     plain = _EXPONENT.sub(r"**\1", written).removeprefix("1").lstrip()
     expression = f"1{plain}" if plain.startswith("/") else plain
@@ -123,23 +123,22 @@ def _factor(written: str, unit: str) -> float:
 
 
 def to_fraction(text: str) -> float:
-    """Part of one that a text in percent says.
+    """Convert a text in percent to a fraction.
 
     Parameters
     ----------
     text : str
-        A number and a percent sign, or the word.
+        Number, followed by "%" or "percent".
 
     Returns
     -------
     float
-        The fraction, dimensionless.
+        Fraction, dimensionless.
 
     Raises
     ------
     ValueError
-        Where the text is not a number in percent: no other unit is a part of something, though an angle is
-        dimensionless too.
+        If the text is not a number in percent. Other dimensionless units, such as rad, are refused.
 
     Examples
     --------
@@ -153,12 +152,12 @@ def to_fraction(text: str) -> float:
 
 
 def length_unit(text: str) -> str:
-    """The text, if it is a unit of length.
+    """Check that a text is a unit of length, and return it.
 
     Raises
     ------
-    ValueError
-        Where it is none.
+    InputError
+        If the text is not a unit of length.
 
     Examples
     --------
@@ -174,9 +173,20 @@ def length_unit(text: str) -> str:
 
 @dataclass(frozen=True)
 class Quantity:
-    """Pydantic annotation: a float in SI, or a text with its unit, within bounds.
+    """Pydantic annotation of a physical quantity: number in SI units or text with unit, within bounds.
 
-    ``reason`` says why the bounds are there; a ``fraction`` may be a text in percent.
+    Attributes
+    ----------
+    unit : str
+        SI unit as pint writes it; empty for a dimensionless quantity.
+    above, below : float
+        Bounds in ``unit`` that are not allowed themselves.
+    least, most : float
+        Smallest and largest value allowed, in ``unit``.
+    reason : str
+        Reason for the bounds, or a description of the quantity, for messages.
+    fraction : bool
+        Whether the value may be a text in percent.
     """
 
     unit: str
@@ -190,40 +200,40 @@ class Quantity:
     def __get_pydantic_core_schema__(self, _: Any, __: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.no_info_plain_validator_function(self.parse)
 
-    def parse(self, given: object) -> float:
-        """SI value of what the case gives.
+    def parse(self, entry: object) -> float:
+        """Convert an entry of a case to a value in SI units.
 
         Raises
         ------
-        ValueError
-            With what it got and what the quantity takes.
+        InputError
+            If the entry is not a number, has a wrong unit, or is out of bounds.
         """
         try:
-            value = self._number(given)
+            value = self._number(entry)
             if not math.isfinite(value):
                 raise ValueError("it is not finite")
             if not (self.above < value < self.below and self.least <= value <= self.most):
                 raise ValueError("")
         except ValueError as error:
             why = f" ({error})" if str(error) else ""
-            raise InputError(got=f"{shown(given)}{why}", takes=self.takes) from None
+            raise InputError(got=f"{shown(entry)}{why}", takes=self.takes) from None
         return value
 
-    def _number(self, given: object) -> float:
-        if isinstance(given, str) and self.unit:
-            return to_si(given, self.unit)
-        if isinstance(given, str) and self.fraction:
-            return to_fraction(given)
-        if isinstance(given, bool) or not isinstance(given, numbers.Real):
+    def _number(self, entry: object) -> float:
+        if isinstance(entry, str) and self.unit:
+            return to_si(entry, self.unit)
+        if isinstance(entry, str) and self.fraction:
+            return to_fraction(entry)
+        if isinstance(entry, bool) or not isinstance(entry, numbers.Real):
             raise ValueError("it is not a number")
         try:
-            return float(given)
+            return float(entry)
         except OverflowError:
             raise ValueError("it is too large") from None
 
     @property
     def takes(self) -> str:
-        """What the quantity takes, for messages."""
+        """Description of the values that are allowed, for messages."""
         text = f"a number in {self.unit} or a text with its unit" if self.unit else "a number"
         text += " or a text in percent" if self.fraction else ""
         bounds = [
@@ -243,7 +253,15 @@ class Quantity:
 
 @dataclass(frozen=True)
 class Quantities:
-    """Pydantic annotation: a list of quantities of one kind, as a tuple of floats in SI."""
+    """Pydantic annotation of a list of quantities of one kind, parsed to a tuple of floats in SI units.
+
+    Attributes
+    ----------
+    each : Quantity
+        Unit and bounds of each value.
+    least : int
+        Smallest number of values.
+    """
 
     each: Quantity
     least: int = 1
@@ -251,24 +269,24 @@ class Quantities:
     def __get_pydantic_core_schema__(self, _: Any, __: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.no_info_plain_validator_function(self.parse)
 
-    def parse(self, given: object) -> tuple[float, ...]:
-        """SI values of what the case gives.
+    def parse(self, entry: object) -> tuple[float, ...]:
+        """Convert an entry of a case to values in SI units.
 
         Raises
         ------
-        ValueError
-            With what it got and what each quantity takes.
+        InputError
+            If the entry is not a list, is too short, or a value is not valid.
         """
-        if not isinstance(given, list | tuple) or len(given) < self.least:
+        if not isinstance(entry, list | tuple) or len(entry) < self.least:
             raise InputError(
-                got=shown(given), takes=f"a list of {self.least} or more, each {self.each.takes}"
+                got=shown(entry), takes=f"a list of {self.least} or more, each {self.each.takes}"
             )
-        return tuple(self.each.parse(item) for item in given)
+        return tuple(self.each.parse(item) for item in entry)
 
 
 @dataclass(frozen=True)
 class Count:
-    """Pydantic annotation: a whole number within bounds."""
+    """Pydantic annotation of a whole number from ``least`` to ``most``; ``reason`` is for messages."""
 
     least: int
     most: int
@@ -277,17 +295,17 @@ class Count:
     def __get_pydantic_core_schema__(self, _: Any, __: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.no_info_plain_validator_function(self.parse)
 
-    def parse(self, given: object) -> int:
-        """The whole number given.
+    def parse(self, entry: object) -> int:
+        """Check an entry of a case and return it as a whole number.
 
         Raises
         ------
-        ValueError
-            With what it got and what the count takes.
+        InputError
+            If the entry is not a whole number or is out of bounds.
         """
-        whole = isinstance(given, numbers.Integral) and not isinstance(given, bool)
-        if not (whole and self.least <= int(given) <= self.most):  # type: ignore[call-overload]
+        whole = isinstance(entry, numbers.Integral) and not isinstance(entry, bool)
+        if not (whole and self.least <= int(entry) <= self.most):  # type: ignore[call-overload]
             raise InputError(
-                got=shown(given), takes=f"a whole number from {self.least} to {self.most}: {self.reason}"
+                got=shown(entry), takes=f"a whole number from {self.least} to {self.most}: {self.reason}"
             )
-        return int(given)  # type: ignore[call-overload, no-any-return]
+        return int(entry)  # type: ignore[call-overload, no-any-return]

@@ -1,7 +1,7 @@
-"""Keys of results: what each number of a summary means, and its SI unit.
+"""Keys of results: meaning, SI unit, name and symbol of each number of a summary.
 
-Every package has a table of the keys that it fills, in its module ``keys``. Labels of figures, attributes of
-NetCDF files and the tables of the documentation are made from these tables.
+Each package lists the keys that it fills in its module ``keys``. Labels of figures, attributes of NetCDF
+files and tables of the documentation are made from these lists.
 """
 
 from __future__ import annotations
@@ -17,13 +17,13 @@ class ResultKey:
     Attributes
     ----------
     meaning : str
-        Meaning of the value, a phrase as the documentation shows it.
+        Meaning of the value, as a phrase for the documentation.
     unit : str
         SI unit as pint writes it, such as "V/m"; empty for a dimensionless number, a text or a choice.
     name : str
-        Name in labels, such as "minimum film thickness"; empty where a label shows the dotted key.
+        Name in labels, such as "minimum film thickness"; if it is empty, labels show the dotted key.
     symbol : str
-        Symbol in labels, in LaTeX; empty for none.
+        Symbol in labels, in LaTeX; empty if there is none.
     """
 
     meaning: str
@@ -32,20 +32,20 @@ class ResultKey:
     symbol: str = ""
 
 
-# Keys of a summary, or of one of its tables. Items of a list have the key of their list, and ``*`` stands for
-# any one name.
+# Keys of a summary, or of one of its tables. An item of a list has the key of the list; ``*`` stands for any
+# single name.
 Keys = Mapping[str, ResultKey]
 
 
 def under(table: str, keys: Keys) -> dict[str, ResultKey]:
-    """Keys of a table of a summary, as dotted keys of the summary.
+    """Convert the keys of a table to dotted keys of the summary that contains the table.
 
     Parameters
     ----------
     table : str
         Dotted key of the table.
     keys : mapping of str to ResultKey
-        Keys within that table.
+        Keys within the table.
 
     Examples
     --------
@@ -56,19 +56,19 @@ def under(table: str, keys: Keys) -> dict[str, ResultKey]:
 
 
 def key_of(keys: Keys, dotted: str) -> ResultKey | None:
-    """Entry of a dotted key of a flat summary.
+    """Look up a dotted key of a summary.
 
     Parameters
     ----------
     keys : mapping of str to ResultKey
         Keys of the summary.
     dotted : str
-        Dotted key, with the numbers of items of lists.
+        Dotted key; items of lists are numbered, as in "contacts.0.load".
 
     Returns
     -------
     ResultKey or None
-        None where the tables do not have the key.
+        Meaning, unit, name and symbol of the key; None if the key is unknown.
 
     Examples
     --------
@@ -79,7 +79,7 @@ def key_of(keys: Keys, dotted: str) -> ResultKey | None:
     'source of a number'
     """
     parts = [part for part in dotted.split(".") if not part.isdigit()]
-    found = keys.get(".".join(parts))
+    entry = keys.get(".".join(parts))
     for k in range(1, len(parts)):
-        found = found or keys.get(".".join([*parts[:k], "*", *parts[k + 1 :]]))
-    return found
+        entry = entry or keys.get(".".join([*parts[:k], "*", *parts[k + 1 :]]))
+    return entry

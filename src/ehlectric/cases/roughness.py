@@ -1,4 +1,4 @@
-"""The rough surfaces of a case: files and generators, and what is done to them."""
+"""Tables ``roughness`` of a case: rough surfaces from files or generators, and their processing steps."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _Angle = Annotated[
     float, Quantity("deg", least=-180.0, most=180.0, reason="from the x axis, counter-clockwise")
 ]
 
-# What each generator needs, and what it may have beside that.
+# Required keys and optional keys of each generator.
 GENERATORS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "sinusoid": (("amplitude", "wavelength"), ("phase", "orientation")),
     "gaussian": (("rq", "correlation_length", "seed"), ("correlation_length_y", "orientation")),
@@ -35,7 +35,7 @@ _STEPS = ("form", "cutoff_long", "cutoff_short", "trim", "rescale_rq", "truncate
 
 
 class Roughness(Table):
-    """One rough surface: from a file or made, and what is done to it."""
+    """One rough surface, read from a file or generated, and its processing steps."""
 
     surface: Literal[1, 2]
     file: str | None = None
@@ -86,12 +86,12 @@ class Roughness(Table):
         return self
 
     def _given(self) -> set[str]:
-        """Names of what differs from its default."""
+        """Names of the keys whose value differs from the default."""
         fields = type(self).model_fields.items()
         return {name for name, field in fields if getattr(self, name) != field.default}
 
     def _check_generator(self) -> set[str]:
-        """Names of what the generator may have."""
+        """Check the keys of the generator, and return the names of all keys that it may have."""
         if self.generator not in GENERATORS:
             raise InputError(
                 "generator", got=shown(self.generator), takes=f"one of {', '.join(map(repr, GENERATORS))}"
@@ -117,17 +117,17 @@ class Roughness(Table):
         return {"generator", *needed, *optional, *(() if self.generator in SHAPES else _STEPS)}
 
     def check_geometry(self, geometry: str) -> None:
-        """Refuse what means something to the other kind of contact only.
+        """Check that the surface has no key that only the other kind of contact may have.
 
         Parameters
         ----------
         geometry : str
-            Of the contact, "line" or "point".
+            Geometry of the contact, "line" or "point".
 
         Raises
         ------
-        ValueError
-            Without ``roughness.`` before the key.
+        InputError
+            If a key does not fit the geometry; the key in the message is not preceded by ``roughness.``.
         """
         if geometry == "line":
             for name in _POINT_KEYS:
@@ -151,12 +151,12 @@ class Roughness(Table):
 
 
 def check_geometry(tables: Iterable[Roughness], geometry: str) -> None:
-    """Refuse surfaces that do not fit the contact.
+    """Check that rough surfaces have only keys that fit the geometry of the contact, "line" or "point".
 
     Raises
     ------
     InputError
-        With the key, what it got and what it takes.
+        If a key does not fit; the message names the key, its value, and what is allowed.
     """
     for table in tables:
         try:

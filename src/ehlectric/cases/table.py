@@ -1,4 +1,4 @@
-"""Tables of a case file, and their errors as one line for the user: which key, what it got, what it takes."""
+"""Base class of the tables of a case file, and validation errors as one line for the user."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ from ehlectric.runtime.files import reading
 
 
 class Table(BaseModel):
-    """A frozen table of a case file that refuses unknown keys."""
+    """Frozen table of a case file; unknown keys are errors."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     @classmethod
     def from_dict(cls, table: Mapping[str, Any]) -> Self:
-        """Validated input of nested tables, as a TOML parser gives them.
+        """Validate nested tables, as read from a TOML file, and make an instance from them.
 
         Raises
         ------
         InputError
-            One line with the key, what it got and what it takes.
+            If the tables are not valid; the message names the key, its value, and what is allowed.
         """
         try:
             return cls.model_validate(dict(table))
@@ -38,17 +38,17 @@ class Table(BaseModel):
 
     @classmethod
     def known_keys(cls) -> dict[str, FieldInfo]:
-        """Keys of the table, each with its annotation and default."""
+        """Keys of the table, each with its field (annotation and default)."""
         return dict(cls.model_fields)
 
 
 def read_toml(path: str | Path) -> dict[str, Any]:
-    """Nested tables of a TOML file.
+    """Read the nested tables of a TOML file.
 
     Raises
     ------
     InputError
-        Where the file cannot be read or is not TOML.
+        If the file cannot be read or is not TOML.
     """
     path = Path(path)
     try:
@@ -65,12 +65,15 @@ def read_toml(path: str | Path) -> dict[str, Any]:
 
 
 def nearest(name: str, known: Iterable[str]) -> str:
-    """The known name that is most like ``name``."""
+    """Known name that is most similar to ``name``."""
     return difflib.get_close_matches(name, list(known), n=1, cutoff=0.0)[0]
 
 
 def first_error(error: ValidationError, model: type[Table]) -> InputError:
-    """The first thing to mend: an unknown key before a missing one, which it often is."""
+    """Convert a validation error to an InputError about the first thing that the user should correct.
+
+    An unknown key comes before a missing key, because it is often the missing key with a wrong name.
+    """
     first, *others = sorted(error.errors(), key=lambda e: e["type"] != "extra_forbidden")
     wrong, more = _error(first, model), ""
     if first["type"] == "missing":
@@ -84,39 +87,42 @@ def first_error(error: ValidationError, model: type[Table]) -> InputError:
 
 
 def _error(detail: ErrorDetails, model: type[Table]) -> InputError:
-    # The place within a list is of no use to somebody who wrote the list.
+    # The number of an item in a list is left out, because it does not help the user.
     key = ".".join(_shown_key(part) for part in detail["loc"] if isinstance(part, str))
-    given = shown(detail["input"])
+    value = shown(detail["input"])
     match detail["type"]:
         case "extra_forbidden":
             return InputError.unknown(key, nearest_key(key, model))
         case "missing" if isinstance(detail["loc"][-1], str):
             return InputError.missing(key, f"a {_kind(key, model)}")
         case "value_error":
-            # A quantity does not know the key that it is the value of, a table not its own name.
+            # The error of a quantity has no key, and the error of a table lacks the name of the table.
             wrong = detail["ctx"]["error"]
             return (wrong if isinstance(wrong, InputError) else InputError(str(wrong))).under(key)
         case "literal_error":
-            return InputError(key, got=given, takes=detail["ctx"]["expected"])
+            return InputError(key, got=value, takes=detail["ctx"]["expected"])
         case "model_type" | "model_attributes_type" | "dict_type":
-            return InputError(key, got=given, takes="a table")
+            return InputError(key, got=value, takes="a table")
         case "string_type":
-            return InputError(key, got=given, takes="a text")
+            return InputError(key, got=value, takes="a text")
         case "missing" | "tuple_type" | "too_long" | "too_short":
             kind = (
                 f"tables, each headed [[{key}]]" if _kind(key, model) == "table" else "a list of two numbers"
             )
-            return InputError(key, got=given, takes=kind)
-    return InputError(key, got=f"{given}, {detail['msg']}")
+            return InputError(key, got=value, takes=kind)
+    return InputError(key, got=f"{value}, {detail['msg']}")
 
 
 def _shown_key(key: str) -> str:
-    """A key as it was written, unless it would break the line."""
+    """Key as the user wrote it; quoted and shortened if it is long or not printable."""
     return key if key and key.isprintable() and len(key) <= 60 else shown(key)
 
 
 def nearest_key(key: str, model: type[Table]) -> str:
-    """The known key nearest to an unknown one: in its own table, or of the same name elsewhere."""
+    """Known key that is nearest to an unknown key.
+
+    A key with the same name in another table comes first, then the most similar key in the same table.
+    """
     table, _, leaf = key.rpartition(".")
     known = list(_keys(model))
     elsewhere = [name for name in known if name.rpartition(".")[2] == leaf]
@@ -134,12 +140,12 @@ def _keys(model: type[Table], prefix: str = "") -> Iterator[str]:
 
 
 def _kind(key: str, model: type[Table]) -> str:
-    """Whether a key is a table or a value."""
+    """Kind of a key: "table" or "value"."""
     return "table" if any(name.startswith(key + ".") for name in _keys(model)) else "value"
 
 
 def table_of(annotation: Any) -> type[Table] | None:
-    """The table that an annotation holds, alone, as an alternative or in a list; None where it holds none."""
+    """Table class in an annotation, where it may be an alternative or the item of a list; else None."""
     candidates = get_args(annotation) if get_origin(annotation) in (Union, UnionType, tuple) else [annotation]
     for candidate in candidates:
         if isinstance(candidate, type) and issubclass(candidate, Table):

@@ -1,1 +1,1 @@
-"""One line or point contact: operating conditions, the problems to solve, the solution, and its files."""
+"""One line or point contact: operating conditions, film and field problems, solution, and result files."""

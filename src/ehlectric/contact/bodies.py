@@ -1,4 +1,4 @@
-"""What a contact says of its two bodies: elasticity and speeds, and where the model ends."""
+"""Reduced modulus and speeds of a contact from its two bodies, and checks of the limits of the model."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ehlectric.formulas import hertz_line as hertz
 
 
 def modulus_of(contact: Contact) -> tuple[float, float]:
-    """Reduced modulus, and the part of 2/E' that is surface 1's: a half where only E' is known."""
+    """Reduced modulus E' [Pa], and surface 1's share of 2/E': 0.5 if only E' is known."""
     if contact.reduced_modulus is not None:
         return contact.reduced_modulus, 0.5
     assert contact.body_1 is not None and contact.body_2 is not None
@@ -25,7 +25,7 @@ def _compliance(body: Body) -> float:
 
 
 def speeds_of(contact: Contact) -> tuple[float, float]:
-    """Entrainment speed and slide-to-roll ratio."""
+    """Entrainment speed [m/s] and slide-to-roll ratio of a contact."""
     if contact.entrainment_speed is not None:
         return contact.entrainment_speed, contact.slide_to_roll_ratio or 0.0
     assert contact.speed_1 is not None and contact.speed_2 is not None
@@ -34,7 +34,7 @@ def speeds_of(contact: Contact) -> tuple[float, float]:
 
 
 def surface_ratios(slide_to_roll_ratio: float) -> tuple[float, float]:
-    """Speeds of both surfaces over the entrainment speed.
+    """Speeds of surfaces 1 and 2, each divided by the entrainment speed.
 
     Examples
     --------
@@ -45,7 +45,10 @@ def surface_ratios(slide_to_roll_ratio: float) -> tuple[float, float]:
 
 
 def check_width(half_width: float, radius: float) -> None:
-    """Refuse a dry contact as wide as its bodies, which no half-space or parabola describes."""
+    """Raise an InputError if the half-width [m] exceeds half the smallest radius [m].
+
+    Half-space deflection and a parabolic gap hold only for contacts that are small compared to the bodies.
+    """
     if half_width > 0.5 * radius:
         raise InputError(
             "contact",
@@ -56,7 +59,10 @@ def check_width(half_width: float, radius: float) -> None:
 
 
 def check_pressure(pressure: float, lubricant: Lubricant) -> None:
-    """Refuse a Hertz pressure near the ambient one, or one at which the permittivity has no value."""
+    """Raise an InputError if the Hertz pressure [Pa] is near the ambient pressure.
+
+    The permittivity law, too, raises an InputError if it has no value at this pressure.
+    """
     least = max(1e4, 10.0 * lubricant.ambient_pressure)
     if pressure < least:
         raise InputError(
@@ -65,6 +71,6 @@ def check_pressure(pressure: float, lubricant: Lubricant) -> None:
             takes=f"a load that gives at least {least:.3g} Pa, well above the ambient "
             f"{lubricant.ambient_pressure:.3g} Pa",
         )
-    # A permittivity law that fails at the Hertz pressure does so here; one that fails at the pressure spike
-    # alone can only do so when the film is there.
+    # A permittivity law that has no value at the Hertz pressure raises its error here. A law that fails only
+    # at the higher pressure spike raises it after the film has been computed.
     permittivity_law(lubricant)(density_law(lubricant)(np.array([pressure]))[0])

@@ -1,4 +1,4 @@
-"""Warnings of a contact that are known before it is solved."""
+"""Warnings about the operating conditions of a contact, known before it is solved."""
 
 from __future__ import annotations
 
@@ -14,25 +14,26 @@ from ehlectric.errors import ResultWarning
 from ehlectric.formulas import film_line as film_formulas
 from ehlectric.formulas import film_point as point_formulas
 
-# Hertz pressure at which bearing steel deforms permanently, of line contacts (ISO 76) [Pa].
+# Hertz pressure at which bearing steel deforms permanently in line contacts (ISO 76) [Pa].
 _LINE_PERMANENT = 4e9
 
-# A rigid film builds up over some ten sqrt(2 R h), which is this over M in half-widths.
+# The film between rigid bodies builds up over about 10 sqrt(2 R h), which in half-widths of a line contact is
+# this number over Moes' M.
 _RIGID_INLET = 14.0
 
-# Hertz pressure at which bearing steel deforms permanently, of point contacts (ISO 76) [Pa].
+# Hertz pressure at which bearing steel deforms permanently in point contacts (ISO 76) [Pa].
 _POINT_PERMANENT = 4.2e9
 
 
 def line_case_warnings(setup: Case | Setup, conditions: Conditions) -> Iterator[ResultWarning]:
-    """Warnings of a line contact that are known before it is solved."""
+    """Warnings about the operating conditions of a line contact, known before it is solved."""
     yield from regime_warnings(conditions)
     width = (setup.grid.outlet - setup.grid.inlet) / (0.5 * np.pi)
     yield from pressure_warnings(setup.lubricant, conditions.max_pressure, width, "line", _LINE_PERMANENT)
 
 
 def regime_warnings(conditions: Conditions) -> Iterator[ResultWarning]:
-    """Warning of a line contact in a regime that the film formulas were not made for."""
+    """Warning about a line contact in a regime for which the film formulas were not made."""
     regime = film_formulas.regime(conditions.contact)
     if regime == "isoviscous-rigid":
         yield rigid_warning("half-width", "half-widths", _RIGID_INLET / conditions.contact.moes_m)
@@ -43,7 +44,11 @@ def regime_warnings(conditions: Conditions) -> Iterator[ResultWarning]:
 
 
 def rigid_warning(length: str, lengths: str, reach: float) -> ResultWarning:
-    """Warning of a film between rigid bodies, which builds up over ``reach`` of those lengths."""
+    """Warning about a contact in the isoviscous-rigid regime.
+
+    The film builds up over ``reach`` half-widths or semi-axes; ``length`` and ``lengths`` are the name of
+    this unit in singular and plural.
+    """
     return ResultWarning(
         "regime",
         f"isoviscous-rigid regime: the bodies hardly deform, and {length} and Hertz pressure scale "
@@ -54,11 +59,11 @@ def rigid_warning(length: str, lengths: str, reach: float) -> ResultWarning:
 def pressure_warnings(
     lubricant: Lubricant, pressure: float, domain: float, kind: str, permanent: float
 ) -> Iterator[ResultWarning]:
-    """Warnings of a contact that follow from its Hertz pressure [Pa] and its lubricant.
+    """Warnings that follow from the Hertz pressure of a contact and from its lubricant.
 
-    ``domain`` is the load of a unit pressure over the whole domain, in that of the dry contact at a unit
-    Hertz pressure; ``permanent`` the Hertz pressure above which bearing steel deforms permanently in contacts
-    of that ``kind`` [Pa].
+    ``pressure`` is the Hertz pressure [Pa]. ``domain`` is the load carried by a uniform pressure over the
+    whole domain, divided by the load of a dry contact whose Hertz pressure is the same. ``permanent`` is the
+    Hertz pressure above which bearing steel deforms permanently in contacts of this ``kind`` [Pa].
     """
     ambient_load = lubricant.ambient_pressure / pressure * domain
     if ambient_load > 0.01:
@@ -78,7 +83,7 @@ def pressure_warnings(
 
 
 def point_case_warnings(setup: Case | Setup, conditions: PointConditions) -> Iterator[ResultWarning]:
-    """Warnings of a point contact that are known before it is solved."""
+    """Warnings about the operating conditions of a point contact, known before it is solved."""
     yield from point_regime_warnings(conditions)
     area = (setup.grid.outlet - setup.grid.inlet) * 2.0 * conditions.side
     domain = area / (2.0 * np.pi / 3.0)
@@ -86,12 +91,12 @@ def point_case_warnings(setup: Case | Setup, conditions: PointConditions) -> Ite
 
 
 def point_regime_warnings(conditions: PointConditions) -> Iterator[ResultWarning]:
-    """Warning of a point contact in a regime that the film formulas were not made for."""
+    """Warning about a point contact in a regime for which the film formulas were not made."""
     contact = conditions.contact
     regime = point_formulas.regime(contact)
     if regime == "isoviscous-rigid":
         film = point_formulas.nijenbanning_venner_moes(contact).central_thickness
-        # A rigid film builds up over some ten sqrt(2 R h).
+        # The film between rigid bodies builds up over about 10 sqrt(2 R h).
         reach = 10.0 * float(np.sqrt(2.0 * contact.radius_x * film)) / conditions.semi_axis_x
         yield rigid_warning("semi-axis", "semi-axes", reach)
     elif regime == "isoviscous-elastic":

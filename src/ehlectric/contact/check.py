@@ -1,4 +1,4 @@
-"""Contact of a case made ready to be solved: its conditions, its rough surfaces, and whether it can be."""
+"""Preparation of a case: operating conditions, rough surfaces, and checks before the contact is solved."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ from ehlectric.surfaces.rough_profiles import RoughSurface
 
 @dataclass(frozen=True)
 class PreparedContact:
-    """One contact ready to be solved, its surfaces read or made.
+    """Contact that is ready to be solved, with its rough surfaces read from files or generated.
 
     Attributes
     ----------
     case : Case or Setup
-        The case that it is of, or the setup where there is none.
+        Case of the contact, or setup if there is no case.
     conditions : Conditions or PointConditions
         Operating conditions, SI units.
     domain : Domain
-        Where the film is solved [m].
+        Domain in which the film is solved [m].
     rough : sequence of RoughSurface or RoughMap
-        Rough surfaces, as many as there are tables of roughness.
+        Rough surfaces, one for each table of roughness.
     """
 
     case: Case | Setup
@@ -39,22 +39,22 @@ class PreparedContact:
 
     @property
     def kind(self) -> AnyKind:
-        """Functions for each step that its kind of contact takes in a way of its own."""
+        """Functions of the kind of this contact, line or point."""
         return KINDS[self.conditions.geometry]
 
     def warnings(self) -> Iterator[ResultWarning]:
-        """Warnings before it is solved: about its conditions and its rough surfaces."""
+        """Warnings before the solution: about the operating conditions and the rough surfaces."""
         yield from self.kind.case_warnings(self.case, self.conditions)
         yield from self.surface_warnings(self.case)
 
     def surface_warnings(self, setup: Case | Setup) -> Iterator[ResultWarning]:
-        """Warnings about its rough surfaces on the grid of a setup."""
+        """Warnings about the rough surfaces on the grid of a setup."""
         spacings = self.kind.spacings(setup, self.conditions)
         yield from self.kind.surface_warnings(self.case.roughness, self.rough, self.domain, *spacings)
 
 
 def check_case(case: Case) -> PreparedContact:
-    """Contact of a case, refused before a folder is made for its results if it cannot be solved.
+    """Check a case and prepare its contact, before any folder is made for its results.
 
     Parameters
     ----------
@@ -64,12 +64,13 @@ def check_case(case: Case) -> PreparedContact:
     Returns
     -------
     PreparedContact
-        For ``solve``, which then reads no surface again.
+        Contact to pass to ``solve``, which then does not read the surfaces again.
 
     Raises
     ------
     InputError
-        Where the values contradict each other, a surface cannot be used or the grid fits into no memory.
+        If the values contradict each other, a surface cannot be used, or the case needs more than the
+        physical memory.
     """
     kind = KINDS[case.contact.geometry]
     conditions = kind.resolve(case)

@@ -1,4 +1,4 @@
-"""Operating conditions of a contact: bodies, load, speeds, the dry contact and the dimensionless groups."""
+"""Operating conditions of line and point contacts: bodies, load, speeds, and size of the dry contact."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from ehlectric.formulas import hertz_point
 from ehlectric.formulas.film_line import LineContact
 from ehlectric.formulas.film_point import PointContact
 
-# Half of the domain's width in semi-axes across: this much beside a long ellipse, whose sides hardly matter,
-# three beside a circle, and no more than the inlet has along entrainment where the ellipse is short across.
+# Half of the domain's width across entrainment, in semi-axes across: 1.6 for a long ellipse, whose sides
+# hardly matter; 3.0 for a circle; at most 4.5, as long as the inlet, for an ellipse that is short across.
 _LEAST_SIDE, _CIRCLE_SIDE, _MOST_SIDE = 1.6, 3.0, 4.5
 
-# Powers of the entrainment speed that the film thickness of hard contacts goes with: of lines (Pan and
-# Hamrock), of points (Hamrock and Dowson). A film factor acts through the speed that gives it by them.
+# Exponents of the entrainment speed in the film thickness of hard contacts: lines (Pan and Hamrock), points
+# (Hamrock and Dowson). By them, a film factor is converted to a factor of the entrainment speed.
 LINE_FILM_EXPONENT, POINT_FILM_EXPONENT = 0.69, 0.67
 
 
@@ -30,20 +30,19 @@ class Conditions:
     Attributes
     ----------
     reduced_radius, reduced_modulus, load_per_length : float
-        R [m], E' [Pa] with the factor two, and w [N/m].
+        R [m], E' [Pa] by 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2, and w [N/m].
     entrainment_speed : float
         (u1 + u2)/2 [m/s].
     slide_to_roll_ratio : float
-        (u1 - u2)/entrainment_speed.
+        (u1 - u2)/entrainment_speed, dimensionless.
     viscosity, pressure_viscosity_coefficient : float
-        Of the oil at ambient pressure, eta0 [Pa s] and alpha [1/Pa].
+        eta0 [Pa s] and alpha [1/Pa] of the oil at ambient pressure.
     half_width, max_pressure : float
-        b [m] and p_h [Pa] of the dry contact.
+        Half-width b [m] and Hertz pressure p_h [Pa] of the dry contact.
     curvature_share, compliance_share : float
-        Parts of 1/R and of 2/E' that are surface 1's; a half where only the reduced values are known.
+        Surface 1's shares of 1/R and of 2/E', dimensionless; 0.5 if only the reduced values are known.
     film_factor : float
-        Film thickness over that of isothermal, fully flooded oil, dimensionless; ``contact`` says how it
-        acts.
+        Film thickness over the isothermal, fully flooded film thickness, dimensionless; see ``contact``.
     """
 
     geometry: ClassVar[str] = "line"
@@ -63,10 +62,10 @@ class Conditions:
 
     @property
     def contact(self) -> LineContact:
-        """The contact as the film-thickness formulas and the Reynolds equation take it.
+        """Inputs of the film-thickness formulas and of the Reynolds equation.
 
-        This is the one place where ``film_factor`` acts: the entrainment speed here is that at which
-        isothermal, fully flooded oil has a film as thin, u film_factor^(1/0.69).
+        ``film_factor`` acts only here. It reduces the entrainment speed to u film_factor^(1/0.69), at which
+        an isothermal, fully flooded film is thinner by that factor.
         """
         return LineContact(
             self.reduced_radius,
@@ -79,12 +78,12 @@ class Conditions:
 
     @property
     def formulas(self) -> LineContact:
-        """Another name of ``contact``."""
+        """Alias of ``contact``."""
         return self.contact
 
     @property
     def velocity_parameter(self) -> float:
-        """Lambda = 6 eta0 u_s R^2/(b^3 p_h) with u_s = u1 + u2, dimensionless."""
+        """Dimensionless velocity parameter Lambda = 6 eta0 u_s R^2/(b^3 p_h), where u_s = u1 + u2."""
         return velocity_parameter(
             viscosity=self.viscosity,
             entrainment_speed=self.contact.entrainment_speed,
@@ -95,12 +94,12 @@ class Conditions:
 
     @property
     def semi_axes(self) -> tuple[float, ...]:
-        """Half-width of the dry contact [m]."""
+        """Half-width of the dry contact [m], as a tuple of one number."""
         return (self.half_width,)
 
     @property
     def thickness_scale(self) -> float:
-        """b^2/R, the film thickness of H = 1 [m]."""
+        """Film thickness that corresponds to H = 1, b^2/R [m]."""
         return self.half_width**2 / self.reduced_radius
 
 
@@ -117,36 +116,36 @@ def line_conditions(
     compliance_share: float = 0.5,
     film_factor: float = 1.0,
 ) -> Conditions:
-    """Operating conditions of a line contact from resolved numbers, SI units, without a case.
+    """Compute the operating conditions of a line contact from numbers in SI units, without a case.
 
     Parameters
     ----------
     lubricant : Lubricant
-        Its viscosity and ambient pressure.
+        Lubricant; its viscosity, ambient pressure and laws are used.
     reduced_radius, reduced_modulus, load_per_length : float
         R [m], E' [Pa] and w [N/m].
     entrainment_speed, slide_to_roll_ratio : float
-        (u1 + u2)/2 [m/s], and (u1 - u2) over it.
+        (u1 + u2)/2 [m/s], and (u1 - u2)/entrainment_speed, dimensionless.
     bodies : sequence of float
-        Radii of the bodies [m], where they are known.
+        Radii of both bodies [m], if they are known; the dry contact must be small compared to them.
     curvature_share, compliance_share, film_factor : float
-        As those of ``Conditions``.
+        Surface 1's shares of 1/R and of 2/E', and the film factor, dimensionless; see ``Conditions``.
 
     Returns
     -------
     Conditions
-        With the half-width and the Hertz pressure of the dry contact.
+        Operating conditions, including half-width [m] and Hertz pressure [Pa] of the dry contact.
 
     Raises
     ------
     InputError
-        Where the dry contact is wider than its bodies, or its pressure near the ambient one.
+        If the dry contact is too wide for its bodies, or the Hertz pressure is near the ambient pressure.
 
     Examples
     --------
     >>> oil = Lubricant.from_dict({"base": "paper"})
-    >>> given = {"reduced_radius": 0.01, "reduced_modulus": 226e9, "load_per_length": 3e5}
-    >>> conditions = line_conditions(oil, **given, entrainment_speed=2.0)
+    >>> inputs = {"reduced_radius": 0.01, "reduced_modulus": 226e9, "load_per_length": 3e5}
+    >>> conditions = line_conditions(oil, **inputs, entrainment_speed=2.0)
     >>> round(conditions.max_pressure / 1e9, 3)
     1.039
     """
@@ -172,12 +171,12 @@ def line_conditions(
 
 @dataclass(frozen=True)
 class PointConditions:
-    """Operating conditions of a point contact, SI units; x along entrainment, y across it.
+    """Operating conditions of a point contact, SI units; x runs along entrainment, y across it.
 
     Attributes
     ----------
     radius_x, radius_y : float
-        Reduced radii [m].
+        Reduced radii along and across entrainment [m].
     reduced_modulus : float
         E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
     load : float
@@ -185,18 +184,17 @@ class PointConditions:
     entrainment_speed : float
         (u1 + u2)/2 [m/s].
     slide_to_roll_ratio : float
-        (u1 - u2)/entrainment_speed.
+        (u1 - u2)/entrainment_speed, dimensionless.
     viscosity, pressure_viscosity_coefficient : float
-        Of the oil at ambient pressure, eta0 [Pa s] and alpha [1/Pa].
+        eta0 [Pa s] and alpha [1/Pa] of the oil at ambient pressure.
     semi_axis_x, semi_axis_y, max_pressure : float
-        b, a [m] and p_h [Pa] of the dry contact.
+        Semi-axes b along and a across entrainment [m], and Hertz pressure p_h [Pa] of the dry contact.
     side : float
-        Half of the domain's width, in semi-axes across.
+        Half of the domain's width across entrainment, in semi-axes across.
     compliance_share : float
-        Part of 2/E' that is surface 1's; a half where only the reduced value is known.
+        Surface 1's share of 2/E', dimensionless; 0.5 if only the reduced modulus is known.
     film_factor : float
-        Film thickness over that of isothermal, fully flooded oil, dimensionless; ``contact`` says how it
-        acts.
+        Film thickness over the isothermal, fully flooded film thickness, dimensionless; see ``contact``.
     """
 
     geometry: ClassVar[str] = "point"
@@ -218,10 +216,10 @@ class PointConditions:
 
     @property
     def contact(self) -> PointContact:
-        """The contact as the film-thickness formulas and the Reynolds equation take it.
+        """Inputs of the film-thickness formulas and of the Reynolds equation.
 
-        This is the one place where ``film_factor`` acts: the entrainment speed here is that at which
-        isothermal, fully flooded oil has a film as thin, u film_factor^(1/0.67).
+        ``film_factor`` acts only here. It reduces the entrainment speed to u film_factor^(1/0.67), at which
+        an isothermal, fully flooded film is thinner by that factor.
         """
         return PointContact(
             self.radius_x,
@@ -235,12 +233,12 @@ class PointConditions:
 
     @property
     def formulas(self) -> PointContact:
-        """Another name of ``contact``."""
+        """Alias of ``contact``."""
         return self.contact
 
     @property
     def velocity_parameter(self) -> float:
-        """Lambda = 6 eta0 u_s Rx^2/(b^3 p_h) with u_s = u1 + u2, dimensionless."""
+        """Dimensionless velocity parameter Lambda = 6 eta0 u_s Rx^2/(b^3 p_h), where u_s = u1 + u2."""
         return velocity_parameter(
             viscosity=self.viscosity,
             entrainment_speed=self.contact.entrainment_speed,
@@ -251,7 +249,7 @@ class PointConditions:
 
     @property
     def half_width(self) -> float:
-        """The length that x is in, the semi-axis along entrainment [m]."""
+        """Semi-axis of the dry contact along entrainment [m], which scales x and y."""
         return self.semi_axis_x
 
     @property
@@ -261,12 +259,12 @@ class PointConditions:
 
     @property
     def ratio(self) -> float:
-        """Ratio k of the semi-axes, across over along entrainment."""
+        """Ratio k of the semi-axes of the dry contact, across over along entrainment, dimensionless."""
         return self.semi_axis_y / self.semi_axis_x
 
     @property
     def thickness_scale(self) -> float:
-        """b^2/Rx, the film thickness of H = 1 [m]."""
+        """Film thickness that corresponds to H = 1, b^2/Rx [m]."""
         return self.semi_axis_x**2 / self.radius_x
 
 
@@ -283,40 +281,41 @@ def point_conditions(
     compliance_share: float = 0.5,
     film_factor: float = 1.0,
 ) -> PointConditions:
-    """Operating conditions of a point contact from resolved numbers, SI units, without a case.
+    """Compute the operating conditions of a point contact from numbers in SI units, without a case.
 
     Parameters
     ----------
     lubricant : Lubricant
-        Its viscosity and ambient pressure.
+        Lubricant; its viscosity, ambient pressure and laws are used.
     radii : tuple of float
         Reduced radii along and across entrainment [m].
     reduced_modulus, load : float
         E' [Pa] and F [N].
     entrainment_speed, slide_to_roll_ratio : float
-        (u1 + u2)/2 [m/s], and (u1 - u2) over it.
+        (u1 + u2)/2 [m/s], and (u1 - u2)/entrainment_speed, dimensionless.
     bodies : tuple of sequence of float
-        Radii of the bodies along and across entrainment [m], where they are known.
+        Radii of both bodies along and across entrainment [m], if they are known; the dry contact must be
+        small compared to them.
     side : float, optional
-        Half of the domain's width in semi-axes across; that of ``default_side`` if not given.
+        Half of the domain's width, in semi-axes across; ``default_side`` if not given.
     compliance_share, film_factor : float
-        As those of ``PointConditions``.
+        Surface 1's share of 2/E', and the film factor, dimensionless; see ``PointConditions``.
 
     Returns
     -------
     PointConditions
-        With the semi-axes and the Hertz pressure of the dry contact.
+        Operating conditions, including semi-axes [m] and Hertz pressure [Pa] of the dry contact.
 
     Raises
     ------
     InputError
-        Where the dry contact is wider than its bodies, or its pressure near the ambient one.
+        If the dry contact is too wide for its bodies, or the Hertz pressure is near the ambient pressure.
 
     Examples
     --------
     >>> oil = Lubricant.from_dict({"base": "paper"})
-    >>> given = {"radii": (0.01, 0.01), "reduced_modulus": 226e9, "load": 20.0}
-    >>> conditions = point_conditions(oil, **given, entrainment_speed=2.0)
+    >>> inputs = {"radii": (0.01, 0.01), "reduced_modulus": 226e9, "load": 20.0}
+    >>> conditions = point_conditions(oil, **inputs, entrainment_speed=2.0)
     >>> round(conditions.max_pressure / 1e9, 3)
     0.791
     """
@@ -343,17 +342,17 @@ def point_conditions(
 
 
 def default_side(ratio: float) -> float:
-    """Half of the domain's width where the case gives none, in semi-axes across: 1.6 + 1.4/k, at most 4.5.
+    """Default half-width of the domain of a point contact: 1.6 + 1.4/k, at most 4.5 semi-axes across.
 
     Parameters
     ----------
     ratio : float
-        k, the semi-axis across over that along entrainment.
+        Ratio k of the semi-axes of the dry contact, across over along entrainment, dimensionless.
 
     Returns
     -------
     float
-        In semi-axes across, dimensionless.
+        Half of the domain's width, in semi-axes across, dimensionless.
 
     Examples
     --------

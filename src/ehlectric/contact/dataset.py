@@ -1,4 +1,4 @@
-"""Film and field as variables of a dataset and back: names, dimensions, long names and units."""
+"""Conversion of a solved contact to an xarray dataset and back: names, dimensions and units of variables."""
 
 from __future__ import annotations
 
@@ -26,10 +26,20 @@ Variables = Mapping[str, tuple[str, tuple[str, ...], str, str]]
 
 @dataclass(frozen=True)
 class Layout:
-    """How the arrays of one kind of contact lie in a file.
+    """Names and dimensions of the arrays of one kind of contact in a file.
 
-    ``film_grid`` and ``field_grid`` are the dimensions of values at the film's nodes and at the columns of
-    the field; ``film_numbers`` and ``field_numbers`` name what is no array.
+    Attributes
+    ----------
+    title : str
+        Title of a dataset whose case has none.
+    film, field : mapping
+        Variables of the film and of the field, as in ``Variables``.
+    film_grid, field_grid : tuple of str
+        Dimensions of values at the film's nodes, and at the columns of the field.
+    film_numbers, field_numbers : tuple of str
+        Attributes of the film and of the field that are not arrays.
+    coordinates : tuple of str
+        Variables that are coordinates.
     """
 
     title: str
@@ -43,7 +53,7 @@ class Layout:
 
 
 def on_nodes(*grid: str) -> Variables:
-    """What every film has at its nodes."""
+    """Variables that every film has at its nodes; ``grid`` names their dimensions."""
     return {
         "pressure": ("pressure", grid, "pressure", "Pa"),
         "thickness": ("thickness", grid, "film thickness", "m"),
@@ -60,7 +70,7 @@ def on_nodes(*grid: str) -> Variables:
 
 
 def on_columns(*grid: str) -> Variables:
-    """What every field has at its columns."""
+    """Variables that every field has at its columns; ``grid`` names the dimensions of the columns."""
     return {
         "permittivity": ("permittivity", (*grid, "s"), "relative permittivity", "1"),
         "potential": ("potential", (*grid, "s"), "electric potential", "V"),
@@ -143,7 +153,10 @@ _SMOOTH = {
 def variables(
     layout: Layout, film: Any, field: Any, roughness: Array, smooth: Mapping[str, Array] | None
 ) -> dict[str, Any]:
-    """All arrays, as xarray takes them: dimensions, values, and long name and unit."""
+    """All arrays of a solution in the form that xarray expects.
+
+    Each variable is a tuple of its dimensions, its values, and a dict with its long name and unit.
+    """
     named: dict[str, Any] = {}
     for part, table in ((film, layout.film), (field, layout.field)):
         for name, (attribute, dimensions, long_name, unit) in table.items():
@@ -164,22 +177,22 @@ def variables(
 
 
 def dataset_of(solution: Solution[Any, Any, Any], layout: Layout, summary: Mapping[str, Any]) -> xr.Dataset:
-    """Dataset of a solved contact.
+    """Make the dataset of a solved contact.
 
     Parameters
     ----------
     solution : Solution
-        Film and field.
+        Film and field of the contact.
     layout : Layout
-        Of its kind of contact.
+        Names and dimensions of the arrays of this kind of contact.
     summary : mapping
-        Its key figures.
+        Key figures of the contact.
 
     Returns
     -------
     xarray.Dataset
-        All arrays with their units; the case, the summary and the solver history as attributes. Without a
-        case there is no attribute ``case``, and ``load`` refuses it.
+        All arrays with their units; case, summary and solver history are attributes. A contact that was
+        solved without a case has no attribute ``case``, and ``load`` refuses its file.
     """
     import xarray as xr
 
@@ -212,19 +225,19 @@ def dataset_of(solution: Solution[Any, Any, Any], layout: Layout, summary: Mappi
 
 
 def smooth_of(dataset: xr.Dataset) -> dict[str, Array] | None:
-    """Arrays of the smooth contact, where there is one."""
+    """Arrays of the same contact with smooth surfaces; None if the dataset has none."""
     if "smooth_pressure" not in dataset:
         return None
     return {name: dataset[f"smooth_{name}"].values for name in _SMOOTH}
 
 
 def roughness_of(dataset: xr.Dataset) -> Array:
-    """The roughness a dataset was made of."""
+    """Roughness heights of both surfaces in a dataset [m], shape (2, nx) or (2, nx, ny)."""
     return np.stack([dataset["roughness_1"].values, dataset["roughness_2"].values])
 
 
 def attributes(layout: Layout, film: Any, field: Any) -> dict[str, str]:
-    """What is no array, as JSON."""
+    """Attributes of the film and of the field that are not arrays, as one JSON text each."""
     return {
         "film": json.dumps({name: getattr(film, name) for name in layout.film_numbers}),
         "field": json.dumps({name: getattr(field, name) for name in layout.field_numbers}),
@@ -232,7 +245,7 @@ def attributes(layout: Layout, film: Any, field: Any) -> dict[str, str]:
 
 
 def film_parts(layout: Layout, dataset: xr.Dataset) -> dict[str, Any]:
-    """What the film of a dataset was made of, but its scales."""
+    """Arguments of the class of the film, read from a dataset, without the scales of the film."""
     arrays: dict[str, Any] = dict(_arrays(dataset, layout.film))
     arrays["cavitated"] = arrays["cavitated"].astype(bool)
     history = zip(*(dataset[name].values for name in _HISTORY), strict=True)
@@ -241,7 +254,7 @@ def film_parts(layout: Layout, dataset: xr.Dataset) -> dict[str, Any]:
 
 
 def field_parts(layout: Layout, dataset: xr.Dataset) -> dict[str, Any]:
-    """What the field of a dataset was made of."""
+    """Arguments of the class of the field, read from a dataset."""
     return {**dict(_arrays(dataset, layout.field)), **json.loads(dataset.attrs["field"])}
 
 

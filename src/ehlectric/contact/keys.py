@@ -1,4 +1,4 @@
-"""Keys of the summary.json of a contact."""
+"""Keys of the summary.json of a contact: meaning, unit, name and symbol of each value."""
 
 from __future__ import annotations
 
@@ -164,7 +164,7 @@ _SECONDS: Keys = {
 
 
 def _roughness(zone: str) -> Keys:
-    """Keys of the roughness over the Hertz zone of a contact, its surfaces and statistics left out."""
+    """Keys of the table ``roughness``, without those of its surfaces and its statistics."""
     return {
         "surfaces": ResultKey(
             "for each rough surface its source, size, voids and statistics after every step"
@@ -189,7 +189,7 @@ def _roughness(zone: str) -> Keys:
 
 
 def _statistics(where: str, keys: Keys) -> Keys:
-    """Statistics of the sum of both surfaces, with the place where they are taken."""
+    """Keys of the statistics of z1 + z2 over a region; ``where`` is the name of the region."""
     return {
         name: ResultKey(f"{key.meaning}, of z1 + z2 over the {where}", key.unit) for name, key in keys.items()
     }
@@ -222,5 +222,5 @@ POINT_KEYS: Keys = {
     **under("roughness.combined", _statistics("rectangle around the Hertz ellipse", MAP_STATISTICS)),
 }
 
-# Keys by the geometry of a case.
+# Keys of the summary by the geometry of the contact.
 CONTACT_KEYS: dict[str, Keys] = {"line": LINE_KEYS, "point": POINT_KEYS}

@@ -1,4 +1,4 @@
-"""Table of the two kinds of contact: how line and point contacts take the steps that all contacts share."""
+"""Functions of line and of point contacts, one table each, for the steps in which the two kinds differ."""
 
 from __future__ import annotations
 
@@ -43,35 +43,36 @@ ProblemT = TypeVar("ProblemT", FieldProblem, PointFieldProblem)
 
 @dataclass(frozen=True)
 class Kind(Generic[ConditionsT, ContactT, RoughT, FilmT, ProblemT, FieldT]):
-    """One kind of contact: a function for each step that line and point contacts take differently.
+    """Functions of one kind of contact, line or point, for each step in which the kinds differ.
 
     Attributes
     ----------
     resolve : callable
         Case -> operating conditions.
     domain, spacings : callable
-        Setup and conditions -> domain of the film [m], and distances of its nodes along each axis [m].
+        Setup, conditions -> domain of the film [m]; setup, conditions -> node spacing along each axis [m].
     rough : callable
-        Tables of the rough surfaces and the domain -> surfaces, read or made.
+        Tables of the rough surfaces, domain -> rough surfaces, read from files or generated.
     film_problem, solve_film : callable
-        Setup, conditions and rough surfaces -> the film's problem, and its solution.
+        Setup, conditions, rough surfaces -> film problem; film problem -> film.
     field_problem, solve_field : callable
-        Setup, conditions, film and roughness -> the field's problem, and its solution over the whole range.
+        Setup, conditions, film, roughness -> field problem; field problem -> field over the whole range.
     case_warnings, surface_warnings : callable
-        Warnings before anything is solved: about the conditions, and about the rough surfaces.
+        Functions that yield warnings before the solution: about the operating conditions, and about the
+        rough surfaces.
     result_warnings : callable
-        Warnings about a film and its field.
+        Setup, film, field -> warnings about the solution.
     film, field : type
-        What a film and a field are made of when a result is read from a file.
+        Classes of the film and of the field, which a result file is read into.
     layout : Layout
-        Names and dimensions of the arrays in a file.
+        Names and dimensions of the arrays in a result file.
     formulas, regime : mapping and callable
-        Published film-thickness formulas by name, and the regime of lubrication.
+        Published film-thickness formulas by name, and the function that names the lubrication regime.
     contact_keys, grid_keys, hertz_keys : tuple of str
-        Numbers of the conditions that a summary gives as inputs of the contact, inputs of the grid, and as
-        the dry contact.
+        Attributes of the operating conditions that a summary lists under ``inputs.contact``,
+        ``inputs.grid`` and ``hertz``.
     film_summary, field_summary : callable
-        Solution -> key figures of the film and of the field that this kind alone has.
+        Solution -> key figures of the film and of the field that are specific to this kind of contact.
     roughness : callable
         Solution -> statistics of the roughness over the Hertz zone.
     """
@@ -141,7 +142,7 @@ def _point_field(solution: Solution[PointConditions, PointFilm, PointField]) -> 
 
 
 def _whole_field(problem: PointFieldProblem) -> PointField:
-    """Field on both sides of the plane y = 0, also where its problem is posed on one side of it."""
+    """Field on both sides of the plane y = 0, also where the problem covers only the half y >= 0."""
     field = solve_point_field(problem)
     return field.mirrored() if field.y[0] == 0.0 else field
 
@@ -209,8 +210,8 @@ POINT: Kind[PointConditions, PointContact, RoughMap, PointFilm, PointFieldProble
     roughness=point_roughness,
 )
 
-# A kind whose types are not known, as that of a case read from a file.
+# Kind of contact whose types are not known before run time, for example that of a case read from a file.
 AnyKind = Kind[Any, Any, Any, Any, Any, Any]
 
-# Kinds of contact by the geometry that a case and its conditions name.
+# Kinds of contact by the ``geometry`` of a case or of operating conditions.
 KINDS: Mapping[str, AnyKind] = {"line": LINE, "point": POINT}

@@ -1,4 +1,4 @@
-"""What a grid takes, and what the machine has: no case dies in the middle for want of memory."""
+"""Memory that a case needs. A case that does not fit into this machine is refused before it is solved."""
 
 from __future__ import annotations
 
@@ -12,26 +12,27 @@ from ehlectric.errors import MemoryLimitError
 from ehlectric.film.newton import KRYLOV_LIMIT
 from ehlectric.runtime.memory import physical_memory
 
-# Peak memory [bytes], measured up to a million nodes: of the film by node, of the field by column and by the
-# square of its degree plus one.
+# Peak memory of a line contact [bytes], measured up to a million nodes: of the film per node; of the field
+# per column and per (degree + 1)^2.
 FILM_BYTES = 1400
 FIELD_BYTES = 64
 
-# The same of a point contact: of the film by node that is solved for, with the vectors that flexible GMRES
-# keeps, two an iteration, where it takes all that ``newton.KRYLOV_LIMIT`` allows; of the field by column that
-# is solved for and degree plus one. Measured on 129 x 129 to 1025 x 1025 nodes, halves and wholes, a circle
-# and an ellipse, at degrees 3 to 12: 790 to 950 bytes beside those vectors, and 580 to 660. A fifth is added.
+# Peak memory of a point contact [bytes]: of the film per node that is solved for, plus the vectors of
+# flexible GMRES, two per iteration and at most ``newton.KRYLOV_LIMIT`` iterations; of the field per column
+# that is solved for and per (degree + 1). Measured on 129 x 129 to 1025 x 1025 nodes, on half and on whole
+# contacts, for a circle and an ellipse, at degrees 3 to 12: 790 to 950 bytes for the film without those
+# vectors, and 580 to 660 for the field. A fifth is added.
 POINT_FILM_BYTES = 1140
 KRYLOV_VECTORS = 2 * KRYLOV_LIMIT + 1
 POINT_FIELD_BYTES = 790
 
-# Bytes of a node of an instant of roughness that moves: six maps in single precision as they are read again,
-# and those of them that figures take in double.
+# Memory of moving roughness [bytes], per node and stored instant: six maps in single precision, as they are
+# read back, and copies in double precision of the maps that figures use.
 RECORD_BYTES = 64
 
 
 def check_memory(case: Case) -> None:
-    """Refuse a grid, or instants of a motion, that the memory of this machine cannot hold.
+    """Raise a MemoryLimitError if a case does not fit into the memory of this machine.
 
     Parameters
     ----------
@@ -41,7 +42,7 @@ def check_memory(case: Case) -> None:
     Raises
     ------
     MemoryLimitError
-        Where film and field would take more than the physical memory.
+        If film and field, or the stored instants of a motion, need more than the physical memory.
     """
     if case.motion is not None:
         _check_record(case.motion, case.grid, _NODES[case.contact.geometry](case.grid))
@@ -49,28 +50,28 @@ def check_memory(case: Case) -> None:
 
 
 def check_grid(geometry: str, grid: Grid, *, rough: bool) -> None:
-    """Refuse a grid whose film and field the memory of this machine cannot hold.
+    """Raise a MemoryLimitError if film and field on a grid do not fit into memory.
 
     Parameters
     ----------
     geometry : str
-        Of the contact, "line" or "point".
+        Geometry of the contact, "line" or "point".
     grid : Grid
-        Its discretisation.
+        Grid of the film and of the field.
     rough : bool
-        Whether its surfaces may differ from their mirror image.
+        Whether a surface is rough, so that a point contact may not be symmetric about y = 0.
 
     Raises
     ------
     MemoryLimitError
-        Where film and field would take more than the physical memory.
+        If film and field need more than the physical memory.
     """
     sizes = _SIZES[geometry](grid)
     _refuse_beyond(grid, _NEEDED[geometry](grid, rough=rough), sizes)
 
 
 def _check_record(motion: Motion, grid: Grid, nodes: int) -> None:
-    """Refuse instants of a motion that the memory cannot hold, as all are read again at its end."""
+    """Raise a MemoryLimitError if the instants of a motion, all read back at its end, do not fit."""
     steps = motion.steps or (math.inf if motion.passes is None else motion.passes * grid.nodes)
     available, needed = physical_memory(), RECORD_BYTES * nodes * min(motion.record, steps + 1)
     if needed > available:
@@ -82,7 +83,10 @@ def _check_record(motion: Motion, grid: Grid, nodes: int) -> None:
 
 
 def _refuse_beyond(grid: Grid, needed: tuple[float, float], sizes: tuple[str, str]) -> None:
-    """Refuse what film and field need [bytes] of their nodes and columns, beyond the memory that there is."""
+    """Raise a MemoryLimitError if the memory needed by film and field exceeds the physical memory.
+
+    ``needed`` is the memory of the film and of the field [bytes]; ``sizes`` are their grids as text.
+    """
     available, (film, field) = physical_memory(), needed
     if film + field > available:
         of_film = grid.field_nodes is None or film > field
@@ -95,33 +99,33 @@ def _refuse_beyond(grid: Grid, needed: tuple[float, float], sizes: tuple[str, st
 
 
 def _columns_along(grid: Grid) -> int:
-    """Columns of the field along entrainment."""
+    """Number of columns of the field along entrainment."""
     start, stop = grid.field_range
     return grid.field_nodes or int(grid.nodes * (stop - start) / (grid.outlet - grid.inlet))
 
 
 def line_memory(grid: Grid, *, rough: bool) -> tuple[float, float]:
-    """Memory that the film and the field of a line contact take at most [bytes], rough or not."""
+    """Largest memory of the film and of the field of a line contact [bytes], rough or smooth."""
     del rough
     film = FILM_BYTES * grid.nodes
     return film, FIELD_BYTES * _columns_along(grid) * (grid.field_degree + 1) ** 2
 
 
 def point_memory(grid: Grid, *, rough: bool) -> tuple[float, float]:
-    """Memory that a point contact takes at most.
+    """Largest memory of the film and of the field of a point contact.
 
     Parameters
     ----------
     grid : Grid
-        Of a point contact.
+        Grid of a point contact.
     rough : bool
-        Whether its surfaces may differ from their mirror image: half of a smooth contact is solved for,
-        where an odd number of nodes lies across it.
+        Whether a surface is rough. If both are smooth and the number of nodes across is odd, only half of the
+        contact is solved.
 
     Returns
     -------
     tuple of float
-        Of its film and of its field [bytes].
+        Memory of the film and of the field [bytes].
 
     Examples
     --------
@@ -142,9 +146,9 @@ def point_memory(grid: Grid, *, rough: bool) -> tuple[float, float]:
 
 
 def _point_sizes(grid: Grid) -> tuple[int, int, int]:
-    """Nodes across the contact, and columns of its field along and across, all of them."""
+    """Numbers of film nodes across, and of field columns along and across, in a whole point contact."""
     assert grid.field_side is not None
-    # The narrowest domain a point contact has: more columns of the field lie in its range than in any other.
+    # 1.6 is the narrowest default domain. It has the largest share of its columns in the field range.
     side = 1.6 if grid.side is None else grid.side
     nodes_y = grid.nodes_across
     columns_y = grid.field_nodes_y or int(nodes_y * min(1.0, grid.field_side / side))
@@ -160,7 +164,8 @@ def _point_size(grid: Grid) -> tuple[str, str]:
     return f"{grid.nodes} x {nodes_y}", f"{columns} x {columns_y}"
 
 
-# By the geometry of the contact: memory of film and field, their sizes in words, and nodes of the film.
+# Functions of a grid by the geometry of the contact: memory of film and field, their grids as text, and
+# number of film nodes.
 _NEEDED = {"line": line_memory, "point": point_memory}
 _SIZES = {"line": _line_size, "point": _point_size}
 _NODES: dict[str, Callable[[Grid], int]] = {

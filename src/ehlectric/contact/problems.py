@@ -1,4 +1,4 @@
-"""Problems that a contact poses to the solvers of the film and of the field."""
+"""Film and field problems of a contact, made from its setup and operating conditions for the solvers."""
 
 from __future__ import annotations
 
@@ -28,34 +28,35 @@ from ehlectric.surfaces.domain import Domain
 from ehlectric.surfaces.rough_maps import RoughMap
 from ehlectric.surfaces.rough_profiles import RoughSurface
 
-# Part of the largest height by which a surface may differ from its mirror image and be symmetric.
+# Largest difference between a surface and its mirror image, relative to the largest height, at which the
+# surface counts as symmetric.
 _ROUNDING = 1e-9
 
-# Gap over the length of the field range above which there is no contact, but a film that was not found.
+# Largest gap over the length of the field range. Only an unconverged film has a larger gap.
 WIDEST = 100.0
 
-# Parts into which an interval of the film is refined for the field at the most.
+# Largest number of parts into which an interval between film nodes is divided for the field.
 _MOST_PARTS = 32
 
-# A film node this near to an end of the field range, in grid spacings, is that end.
+# Largest distance, in node spacings, at which a film node counts as an end of the field range.
 _SAME_NODE = 1e-6
 
 
 def domain_of(setup: Case | Setup, conditions: PointConditions) -> Domain:
-    """Where the film of a case is solved."""
+    """Domain in which the film of a point contact is solved [m]."""
     b, grid = conditions.semi_axis_x, setup.grid
     return Domain(b * grid.inlet, b * grid.outlet, conditions.side * conditions.semi_axis_y)
 
 
 def spacings(setup: Case | Setup, conditions: PointConditions) -> tuple[float, float]:
-    """Distances of the film's nodes along and across entrainment [m]."""
+    """Node spacings of the film of a point contact, along and across entrainment [m]."""
     domain, grid = domain_of(setup, conditions), setup.grid
     along, across = domain.outlet - domain.inlet, 2.0 * domain.side
     return along / (grid.nodes - 1), across / (grid.nodes_across - 1)
 
 
 def geometry_of(conditions: PointConditions) -> Geometry:
-    """Kernel, dry gap and load of a contact."""
+    """Geometry of a point contact for the film equations: deflection kernel, dry gap and load."""
     deflection = 2.0 * conditions.max_pressure * conditions.radius_x
     return point_geometry(
         radius_ratio=conditions.radius_x / conditions.radius_y,
@@ -67,9 +68,10 @@ def geometry_of(conditions: PointConditions) -> Geometry:
 def point_film_problem(
     setup: Case | Setup, conditions: PointConditions, rough: Sequence[RoughMap] = ()
 ) -> FilmProblem:
-    """The film equations of a contact; of rough surfaces only the sum of their heights enters them.
+    """Film problem of a point contact with smooth or rough surfaces.
 
-    Half of the contact is solved where both halves are alike.
+    The film equations depend on the sum of both surfaces' heights only. If film and surfaces are symmetric
+    about y = 0, only half of the contact is solved.
     """
     b, scale = conditions.semi_axis_x, conditions.thickness_scale
 
@@ -90,7 +92,7 @@ def point_film_problem(
 
 
 def _symmetric(setup: Case | Setup, conditions: PointConditions, rough: Sequence[RoughMap]) -> bool:
-    """Whether the surfaces are their own mirror image, at the nodes of the film."""
+    """Whether the surfaces are symmetric about y = 0 at the nodes of the film."""
     if not rough:
         return True
     domain, grid = domain_of(setup, conditions), setup.grid
@@ -104,21 +106,22 @@ def _symmetric(setup: Case | Setup, conditions: PointConditions, rough: Sequence
 def point_field_problem(
     setup: Case | Setup, conditions: PointConditions, film: PointFilm, roughness: Array
 ) -> PointFieldProblem:
-    """The Poisson problem in a solved film; a cavitated gap counts as filled with oil.
+    """Field problem of a point contact with a known film; cavitated regions count as full of oil.
 
     Parameters
     ----------
     setup, conditions : Case or Setup, PointConditions
-        What was solved.
+        Lubricant, potentials and grid; operating conditions.
     film : PointFilm
-        Its film.
+        Film of the contact.
     roughness : ndarray, shape (2, nx, ny)
         Heights of both surfaces at the film's nodes [m].
 
     Returns
     -------
     PointFieldProblem
-        On the columns that ``grid`` asks for, of the half y >= 0 alone where both halves are alike.
+        Poisson problem on the columns that the grid defines. It covers only the half y >= 0 if film and
+        surfaces are symmetric about y = 0.
     """
     grid = setup.grid
     assert grid.field_side is not None
@@ -129,7 +132,7 @@ def point_field_problem(
         y = y[y.size // 2 :]
         y[0] = 0.0
     lower, upper = point_surfaces(conditions, film, roughness)
-    # Middle and gap, not the two walls: between two nodes walls of their own might cross.
+    # Middle and gap are interpolated, because separately interpolated walls could cross between nodes.
     middle = _resampled(film, 0.5 * (lower + upper), x, y)
     gap = np.clip(_resampled(film, film.thickness, x, y), ATOM, WIDEST * np.ptp(x))
     return PointFieldProblem(
@@ -145,7 +148,7 @@ def point_field_problem(
 
 
 def halves_alike(film: PointFilm, roughness: Array) -> bool:
-    """Whether film and walls are their own mirror image."""
+    """Whether film and roughness are symmetric about y = 0."""
     return bool(
         np.array_equal(film.thickness, film.thickness[:, ::-1])
         and np.allclose(roughness, roughness[:, :, ::-1], rtol=0.0, atol=_ROUNDING * film.scales.thickness)
@@ -153,17 +156,17 @@ def halves_alike(film: PointFilm, roughness: Array) -> bool:
 
 
 def _resampled(film: PointFilm, values: Array, x: Array, y: Array) -> Array:
-    """Values at the film's nodes between them, along one axis after the other."""
+    """Interpolate values at the film's nodes to the positions x and y [m], along x first, then along y."""
     return resampled(film.y, resampled(film.x, values, x), y, axis=1)
 
 
 def point_surfaces(conditions: PointConditions, film: PointFilm, roughness: Array) -> tuple[Array, Array]:
-    """Heights of the two surfaces over the film's nodes [m], shape (nx, ny).
+    """Heights of the two surfaces at the film's nodes [m], shape (nx, ny).
 
-    The gap as the film knows it, measured across: a groove and its ball bend it as a whole, by more than ten
-    degrees at the ends of the ellipse, which the field in a gap a ten-thousandth as thick as their radii does
-    not feel. Each body keeps its own part of the deflection and its own roughness; smooth equal bodies lie at
-    -h/2 and h/2.
+    Half of the dry gap belongs to each surface. In a groove the whole film is curved, by more than ten
+    degrees at the ends of the ellipse; this curvature is neglected. Its effect on the field is negligible,
+    because the gap is ten thousand times smaller than the radii. Each body keeps its own share of the
+    deflection and its own roughness. Smooth bodies of equal elasticity lie at -h/2 and h/2.
     """
     dry = 0.5 * (film.x[:, np.newaxis] ** 2 / conditions.radius_x + film.y**2 / conditions.radius_y)
     rigid = film.thickness - dry - film.deflection + roughness.sum(axis=0)
@@ -172,7 +175,7 @@ def point_surfaces(conditions: PointConditions, film: PointFilm, roughness: Arra
 
 
 def _dimensionless(law: PressureLaw, scale: float) -> FluidLaw:
-    """A law of the pressure in Pa, at the temperature of the case, as one of P = p/scale."""
+    """Convert a law over pressure [Pa], at the temperature of the case, to a law over P = p/scale."""
 
     def of_dimensionless(pressure: Array) -> tuple[Array, Array]:
         value, slope = law(scale * pressure)
@@ -182,7 +185,7 @@ def _dimensionless(law: PressureLaw, scale: float) -> FluidLaw:
 
 
 def fluid_of(lubricant: Lubricant, max_pressure: float, velocity_parameter: float) -> Fluid:
-    """The lubricant over P = p/``max_pressure``."""
+    """Density and viscosity of the lubricant over the dimensionless pressure P = p/``max_pressure``."""
     return Fluid(
         density=_dimensionless(density_law(lubricant), max_pressure),
         log_viscosity=_dimensionless(viscosity_law(lubricant), max_pressure),
@@ -192,20 +195,23 @@ def fluid_of(lubricant: Lubricant, max_pressure: float, velocity_parameter: floa
 
 
 def line_domain_of(setup: Case | Setup, conditions: Conditions) -> Domain:
-    """Where the film of a line contact is solved."""
+    """Domain in which the film of a line contact is solved [m]."""
     b, grid = conditions.half_width, setup.grid
     return Domain(b * grid.inlet, b * grid.outlet)
 
 
 def spacing(setup: Case | Setup, conditions: Conditions) -> float:
-    """Distance of the film's nodes along entrainment [m]."""
+    """Node spacing of the film of a line contact [m]."""
     return conditions.half_width * (setup.grid.outlet - setup.grid.inlet) / (setup.grid.nodes - 1)
 
 
 def film_problem(
     setup: Case | Setup, conditions: Conditions, rough: Sequence[RoughSurface] = ()
 ) -> FilmProblem:
-    """The film equations of a contact; of rough surfaces only the sum of their heights enters them."""
+    """Film problem of a line contact with smooth or rough surfaces.
+
+    The film equations depend on the sum of both surfaces' heights only.
+    """
     smooth = smooth_problem(setup, conditions, moes(conditions.contact))
     return replace(smooth, added_gap=_added_gap(conditions, rough) if rough else None)
 
@@ -213,7 +219,10 @@ def film_problem(
 def smooth_problem(
     setup: Case | Setup, conditions: Conditions | PointConditions, expected: CentralThickness
 ) -> FilmProblem:
-    """What the film equations of all contacts share, with the central film that a formula expects."""
+    """Film problem of a smooth line contact, and the basis of the film problem of all other contacts.
+
+    ``expected`` is the film thickness by a formula; its central value [m] scales the initial guess.
+    """
     grid, guess = setup.grid, expected.central_thickness
     return FilmProblem(
         fluid=fluid_of(setup.lubricant, conditions.max_pressure, conditions.velocity_parameter),
@@ -229,7 +238,7 @@ def smooth_problem(
 
 
 def _added_gap(conditions: Conditions, rough: Sequence[RoughSurface]) -> Callable[[Array, Array], Array]:
-    """The gap that both surfaces' roughness adds, dimensionless: peaks narrow it."""
+    """Dimensionless gap that the roughness of both surfaces adds, over X; it is negative at asperities."""
     b, scale = conditions.half_width, conditions.thickness_scale
 
     def added_gap(x: Array, _y: Array) -> Array:
@@ -240,7 +249,7 @@ def _added_gap(conditions: Conditions, rough: Sequence[RoughSurface]) -> Callabl
 
 
 def heights_of(rough: Sequence[RoughSurface] | Sequence[RoughMap], *axes: Array) -> Array:
-    """Roughness of both surfaces at the nodes of a grid [m], shape (2, nx) or (2, nx, ny)."""
+    """Roughness heights of both surfaces at the nodes of a grid [m], shape (2, nx) or (2, nx, ny)."""
     heights = np.zeros((2, *(axis.size for axis in axes)))
     for surface in rough:
         heights[surface.surface - 1] += surface.height(*axes)
@@ -248,25 +257,25 @@ def heights_of(rough: Sequence[RoughSurface] | Sequence[RoughMap], *axes: Array)
 
 
 def field_problem(setup: Case | Setup, conditions: Conditions, film: Film, roughness: Array) -> FieldProblem:
-    """The Poisson problem in a solved film; a cavitated gap counts as filled with oil.
+    """Field problem of a line contact with a known film; cavitated regions count as full of oil.
 
     Parameters
     ----------
     setup, conditions : Case or Setup, Conditions
-        What was solved.
+        Lubricant, potentials and grid; operating conditions.
     film : Film
-        Its film.
+        Film of the contact.
     roughness : ndarray, shape (2, nx)
         Heights of both surfaces at the film's nodes [m].
 
     Returns
     -------
     FieldProblem
-        On the columns that ``grid`` asks for.
+        Poisson problem on the columns that the grid defines.
     """
     x = _columns(setup, conditions, film, refine=bool(np.any(roughness)))
     lower, upper = surfaces(conditions, film, roughness)
-    # Middle and gap, not the two walls: between two nodes walls of their own might cross.
+    # Middle and gap are interpolated, because separately interpolated walls could cross between nodes.
     middle = resampled(film.x, 0.5 * (lower + upper), x)
     gap = np.clip(resampled(film.x, film.thickness, x), ATOM, WIDEST * np.ptp(x))
     return FieldProblem(
@@ -281,10 +290,12 @@ def field_problem(setup: Case | Setup, conditions: Conditions, film: Film, rough
 
 
 def _columns(setup: Case | Setup, conditions: Conditions, film: Film, *, refine: bool) -> Array:
-    """Columns of the field: the film's own nodes and the two ends of the range, unless a number is given.
+    """Positions of the columns of the field [m].
 
-    Rough walls turn within the distance of the other wall: there each interval is parted until half of the
-    least gap is resolved.
+    They are the film's nodes in the field range and its two ends, or ``grid.field_nodes`` equidistant
+    columns. The slope of a rough wall changes within a distance as short as the gap. With ``refine`` the
+    intervals between nodes are therefore divided down to half the minimum film thickness, but into at most
+    ``_MOST_PARTS`` parts.
     """
     nodes = columns_within(
         film.x, [conditions.half_width * end for end in setup.grid.field_range], setup.grid.field_nodes
@@ -299,7 +310,10 @@ def _columns(setup: Case | Setup, conditions: Conditions, film: Film, *, refine:
 
 
 def columns_within(nodes: Array, ends: Sequence[float], number: int | None) -> Array:
-    """A film's nodes between two ends, with the ends; or so many columns at equal distances."""
+    """Positions of the columns of the field between two ends [m].
+
+    They are the film nodes between the ends and both ends, or ``number`` equidistant positions.
+    """
     start, stop = ends
     if number is not None:
         return np.linspace(start, stop, number)
@@ -309,16 +323,19 @@ def columns_within(nodes: Array, ends: Sequence[float], number: int | None) -> A
 
 
 def resampled(x: Array, values: Array, at: Array, *, axis: int = 0) -> Array:
-    """Monotone cubic interpolation: exact at the nodes, and no film thinner than the solved one."""
+    """Interpolate nodal values to new positions by monotone cubic interpolation.
+
+    It is exact at the nodes, and an interpolated film is nowhere thinner than the computed film.
+    """
     resampled: Array = PchipInterpolator(x, values, axis=axis)(at)
     return resampled
 
 
 def surfaces(conditions: Conditions, film: Film, roughness: Array) -> tuple[Array, Array]:
-    """Heights of the two surfaces over the film's nodes [m].
+    """Heights of the two surfaces at the film's nodes [m], shape (nx,).
 
-    Each body keeps its own part of the curvature and of the deflection, and its own roughness; smooth equal
-    bodies, and those of which only the reduced values are known, lie at -h/2 and h/2.
+    Each body keeps its own share of the curvature and of the deflection, and its own roughness. Smooth equal
+    bodies lie at -h/2 and h/2, and so do smooth bodies of which only the reduced values are known.
     """
     parabola = 0.5 * film.x**2 / conditions.reduced_radius
     rigid = film.thickness - parabola - film.deflection + roughness.sum(axis=0)
@@ -329,7 +346,7 @@ def surfaces(conditions: Conditions, film: Film, roughness: Array) -> tuple[Arra
 
 
 def scales_of(setup: Case | Setup, conditions: Conditions | PointConditions) -> Scales:
-    """What turns the dimensionless film of a case into SI units."""
+    """Scales that convert the dimensionless film of a contact to SI units."""
     return Scales(
         length=conditions.half_width,
         pressure=conditions.max_pressure,

@@ -1,4 +1,4 @@
-"""Film of a contact on its own grid, or on the first of twice as many intervals that is fine enough."""
+"""Grid refinement: the intervals of the grid are doubled until the error of the film is small enough."""
 
 from __future__ import annotations
 
@@ -14,25 +14,25 @@ from ehlectric.errors import InputError, ResultWarning
 from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
 
-# Grids in succession on which nothing becomes known of the error, after which refining is given up: each
-# takes several times as long as the one before.
+# Number of successive grids without an error estimate after which refinement stops. Each grid takes several
+# times as long as the grid before.
 _UNKNOWN = 3
 
 
 @dataclass(frozen=True)
 class Refined:
-    """A film with the setup it was solved on.
+    """Film of the last grid of a refinement, and the setup with this grid.
 
     Attributes
     ----------
     film : Film or PointFilm
-        Of the last grid.
+        Film on the last grid.
     setup : Setup
-        With that grid, which asks for no further refinement.
+        Setup with the last grid; its ``grid.refine`` is None.
     seconds : float
-        Time that all grids took [s].
+        Time taken by the films of all grids [s].
     warnings : tuple of ResultWarning
-        Warnings about refinement.
+        A warning if the target error was not reached.
     """
 
     film: Any
@@ -42,42 +42,44 @@ class Refined:
 
 
 def refined(setup: Setup, geometry: str, solved: Callable[[Setup], Film | PointFilm]) -> Refined:
-    """Film whose discretisation error is below ``grid.refine``, where a grid gives it.
+    """Solve a film, and refine its grid until the discretisation error is below ``grid.refine``.
+
+    The film is solved on one grid only if ``grid.refine`` is None.
 
     Parameters
     ----------
     setup : Setup
-        With the first grid.
+        Setup with the first grid.
     geometry : str
-        Of the contact, "line" or "point".
+        Geometry of the contact, "line" or "point".
     solved : callable
-        Film on the grid of a setup.
+        Function that solves the film: setup -> film.
 
     Returns
     -------
     Refined
-        The last film, with a warning where the error was not reached.
+        Film of the last grid, with a warning if the target error was not reached.
     """
     started, target = time.perf_counter(), setup.grid.refine
     warnings: tuple[ResultWarning, ...] = ()
-    at = replace(setup, grid=setup.grid.model_copy(update={"refine": None}))
+    current = replace(setup, grid=setup.grid.model_copy(update={"refine": None}))
     errors: list[float | None] = []
-    film = solved(at)
+    film = solved(current)
     while target is not None and not _within(film, target):
         errors.append(film.discretisation_error)
         if len(errors) >= _UNKNOWN and not any(errors[-_UNKNOWN:]):
             unknown = f"nothing is known of its error on {_UNKNOWN} grids in succession"
-            warnings = (_not_reached(target, at.grid, unknown),)
+            warnings = (_not_reached(target, current.grid, unknown),)
             break
         try:
-            finer = _doubled(at.grid)
+            finer = _doubled(current.grid)
             check_grid(geometry, finer, rough=bool(setup.roughness))
         except InputError as error:
-            warnings = (_not_reached(target, at.grid, str(error)),)
+            warnings = (_not_reached(target, current.grid, str(error)),)
             break
-        at = replace(at, grid=finer)
-        film = solved(at)
-    return Refined(film, at, time.perf_counter() - started, warnings)
+        current = replace(current, grid=finer)
+        film = solved(current)
+    return Refined(film, current, time.perf_counter() - started, warnings)
 
 
 def _not_reached(target: float, grid: Grid, reason: str) -> ResultWarning:
@@ -86,7 +88,10 @@ def _not_reached(target: float, grid: Grid, reason: str) -> ResultWarning:
 
 
 def _doubled(grid: Grid) -> Grid:
-    """Grid with twice as many intervals, where a case takes it."""
+    """Grid with twice as many intervals.
+
+    Raises an InputError if the finer grid exceeds the bounds of a case.
+    """
     table = grid.model_dump(mode="json", exclude_none=True)
     table |= {key: 2 * table[key] - 1 for key in ("nodes", "nodes_y") if key in table}
     try:
@@ -96,5 +101,5 @@ def _doubled(grid: Grid) -> Grid:
 
 
 def _within(film: Film | PointFilm, target: float) -> bool:
-    """Whether a film's discretisation error is known to be below a target."""
+    """Whether the discretisation error of a film is known and at most the target."""
     return film.discretisation_error is not None and film.discretisation_error <= target

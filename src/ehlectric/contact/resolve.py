@@ -1,4 +1,4 @@
-"""Operating conditions of a case, with every alternative that it leaves open resolved."""
+"""Operating conditions of a case, computed from whichever alternative inputs the case gives."""
 
 from __future__ import annotations
 
@@ -12,23 +12,26 @@ from ehlectric.formulas import hertz_point
 
 
 def resolve(case: Case) -> Conditions:
-    """Operating conditions of a case.
+    """Compute the operating conditions of a case of a line contact.
+
+    Two radii are converted to the reduced radius, a Hertz pressure to the load, and two speeds to the
+    entrainment speed and the slide-to-roll ratio.
 
     Parameters
     ----------
     case : Case
-        A valid case.
+        A valid case of a line contact.
 
     Returns
     -------
     Conditions
-        With every alternative resolved.
+        Operating conditions, SI units.
 
     Raises
     ------
     InputError
-        Where the values contradict each other: no positive reduced radius, a Hertz pressure below the
-        ambient one, a dry contact wider than its bodies.
+        If the values contradict each other: no positive reduced radius, a Hertz pressure near the ambient
+        pressure, or a dry contact too wide for its bodies. Also if the case is of a point contact.
 
     Examples
     --------
@@ -65,7 +68,7 @@ def resolve(case: Case) -> Conditions:
 
 
 def _line_radius(contact: Contact) -> tuple[float, float]:
-    """Reduced radius, and the part of 1/R that is surface 1's: a half where only R is known."""
+    """Reduced radius R [m], and surface 1's share of 1/R: 0.5 if only R is known."""
     if contact.reduced_radius is not None:
         return contact.reduced_radius, 0.5
     r1, r2 = contact.radius_1, contact.radius_2
@@ -81,23 +84,27 @@ def _line_radius(contact: Contact) -> tuple[float, float]:
 
 
 def resolve_point(case: Case) -> PointConditions:
-    """Operating conditions of a case of a point contact.
+    """Compute the operating conditions of a case of a point contact.
+
+    The radii of two bodies are converted to the reduced radii, a Hertz pressure to the load, and two speeds
+    to the entrainment speed and the slide-to-roll ratio.
 
     Parameters
     ----------
     case : Case
-        A valid case.
+        A valid case of a point contact.
 
     Returns
     -------
     PointConditions
-        With every alternative resolved.
+        Operating conditions, SI units.
 
     Raises
     ------
     InputError
-        Where the values contradict each other: no positive reduced radius in a plane, a Hertz pressure below
-        the ambient one, a dry contact wider than its bodies, a grid too coarse across; or for a line contact.
+        If the values contradict each other: no positive reduced radius in a plane, a Hertz pressure near the
+        ambient pressure, a dry contact too wide for its bodies, or a grid too coarse across entrainment. Also
+        if the case is of a line contact.
 
     Examples
     --------
@@ -141,13 +148,13 @@ def resolve_point(case: Case) -> PointConditions:
 
 
 def _bodies(contact: Contact, key: str) -> list[float]:
-    """Radii of the bodies in one plane as far as they are given, without their signs."""
+    """Magnitudes of those body radii [m] in one plane that the case gives."""
     radii = [contact.value(f"{body}.{key}") for body in ("body_1", "body_2")]
     return [abs(radius) for radius in radii if radius is not None]
 
 
 def _point_radius(contact: Contact, key: str) -> float:
-    """Reduced radius of one plane."""
+    """Reduced radius in one plane [m]; ``key`` is "radius_x" or "radius_y"."""
     reduced: float | None = contact.value(key)
     if reduced is not None:
         return reduced

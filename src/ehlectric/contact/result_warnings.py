@@ -1,4 +1,4 @@
-"""Warnings of a contact that follow from its film and its field."""
+"""Warnings about the film and the field of a solved contact."""
 
 from __future__ import annotations
 
@@ -15,19 +15,19 @@ from ehlectric.field.poisson import ATOM
 from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
 
-# Field above which any insulator breaks down [V/m].
+# Field strength above which any insulator breaks down [V/m].
 _NO_INSULATOR = 1e9
 
-# Places where surfaces would touch that are named one by one.
+# Largest number of positions that the warning about touching surfaces lists.
 _NAMED = 8
 
-# Part of its film that a point contact may lose to the edges of its domain without a word: the default domain
-# costs about 0.01.
+# Relative loss of film thickness, caused by a domain that is too small, above which a point contact gets a
+# warning. The loss in the default domain is about 0.01.
 _LOSS = 0.02
 
 
 def film_warnings(setup: Case | Setup, film: Film | PointFilm) -> Iterator[ResultWarning]:
-    """Warnings that follow from the film of any contact."""
+    """Warnings about the film of a line or point contact."""
     if not film.converged:
         yield ResultWarning(
             "not-converged",
@@ -74,7 +74,7 @@ def film_warnings(setup: Case | Setup, film: Film | PointFilm) -> Iterator[Resul
 
 
 def line_result_warnings(setup: Case | Setup, film: Film, field: Field) -> Iterator[ResultWarning]:
-    """Warnings of a line contact: its inlet and the range of its field."""
+    """Warnings about the inlet of a line contact and about the grid and range of its field."""
     deficit = film.inlet_deficit
     if deficit is not None and deficit > 0.01:
         code, effect = "inlet-too-short", "the film is about that much off"
@@ -99,7 +99,7 @@ def line_result_warnings(setup: Case | Setup, film: Film, field: Field) -> Itera
 
 
 def point_result_warnings(setup: Case | Setup, film: PointFilm, field: PointField) -> Iterator[ResultWarning]:
-    """Warnings of a point contact: its domain and the range of its field."""
+    """Warnings about the domain of a point contact and about the grid and range of its field."""
     loss, before, beside = film.domain_loss, film.inlet_deficit, film.side_deficit
     if loss is not None and before is not None and beside is not None and loss > _LOSS:
         code, effect = "domain-too-small", f"by about {100 * loss:.2g} %"
@@ -113,8 +113,8 @@ def point_result_warnings(setup: Case | Setup, film: PointFilm, field: PointFiel
         )
     for key, of_field, of_film in (("field_nodes", field.x, film.x), ("field_nodes_y", field.y, film.y)):
         inside = int(np.count_nonzero((of_film >= of_field[0]) & (of_film <= of_field[-1])))
-        given = getattr(setup.grid, key)
-        if given is not None and given < inside:
+        columns = getattr(setup.grid, key)
+        if columns is not None and columns < inside:
             yield ResultWarning(
                 "field-grid-too-coarse",
                 f"grid.{key} is coarser than the film, which has {inside} nodes in the field range: the area "
@@ -129,7 +129,7 @@ def point_result_warnings(setup: Case | Setup, film: PointFilm, field: PointFiel
 
 
 def field_warnings(max_strength: float) -> Iterator[ResultWarning]:
-    """Warning of the largest field strength [V/m] of any contact."""
+    """Warning about a largest field strength [V/m] that no insulator withstands."""
     if max_strength > _NO_INSULATOR:
         yield ResultWarning(
             "field-above-insulators",

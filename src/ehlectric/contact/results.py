@@ -1,4 +1,4 @@
-"""Results of line and of point contacts: a solution with its summary, its dataset and its formulas."""
+"""Results of line and of point contacts: film and field, with summary, dataset and film formulas."""
 
 from __future__ import annotations
 
@@ -26,24 +26,24 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class ContactResult(Solution[ConditionsT, FilmT, FieldT]):
-    """Film and field of one contact, with the views that files, tables and figures take of them."""
+    """Film and field of one contact, with the summary and the dataset that files and figures use."""
 
     def summary(self) -> dict[str, Any]:
-        """Key figures in SI units, nested as summary.json.
+        """Key figures in SI units, as nested tables with the keys of summary.json.
 
         Returns
         -------
         dict
-            Values are numbers, texts, lists, or None where a value has no meaning; never NaN.
+            Numbers, texts and lists; None where a value has no meaning, never NaN.
         """
         return summary_of(self)
 
     def to_xarray(self) -> xr.Dataset:
-        """All arrays with their units, and the case, summary and solver history as attributes."""
+        """Dataset of all arrays with their units; case, summary and solver history are attributes."""
         return dataset_of(self, KINDS[self.conditions.geometry].layout, summary_of(self))
 
     def formulas(self) -> Mapping[str, Thickness]:
-        """Film thickness by each of the published formulas [m]."""
+        """Film thickness by each of the published formulas [m], by the name of the formula."""
         return formulas_of(self.conditions)
 
     @cached_property
@@ -55,18 +55,18 @@ class ContactResult(Solution[ConditionsT, FilmT, FieldT]):
 
 @dataclass(frozen=True)
 class Result(ContactResult[Conditions, Film, Field]):
-    """Film and field of one line contact; its attributes are those of ``Solution``."""
+    """Film and field of one line contact; its attributes are listed under ``Solution``."""
 
 
 @dataclass(frozen=True)
 class PointResult(ContactResult[PointConditions, PointFilm, PointField]):
-    """Film and field of one point contact; its attributes are those of ``Solution``."""
+    """Film and field of one point contact; its attributes are listed under ``Solution``."""
 
     @property
     def zones(self) -> dict[str, Zone]:
-        """Parts of the contact whose capacitances add up to the whole: ``contact_zones``."""
+        """Hertz zone, inlet, outlet and sides, whose capacitances add up; see ``contact_zones``."""
         return contact_zones(self.conditions.semi_axis_x, self.conditions.semi_axis_y)
 
 
-# Results by the geometry of the contact.
+# Class of the result by the geometry of the contact.
 RESULTS: Mapping[str, type[Result] | type[PointResult]] = {"line": Result, "point": PointResult}

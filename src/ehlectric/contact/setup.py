@@ -14,26 +14,26 @@ from ehlectric.cases.roughness import Roughness
 
 @dataclass(frozen=True)
 class Setup:
-    """What a contact is solved with besides its operating conditions.
+    """Inputs of a contact other than its operating conditions.
 
-    A case has the same attributes: functions that read these alone take either.
+    A ``Case`` has the same attributes. Functions that read only these attributes accept a case or a setup.
 
     Attributes
     ----------
     lubricant : Lubricant
-        Laws of the oil.
+        Lubricant with its viscosity, density and permittivity laws.
     grid : Grid
-        Discretisation; that of a point contact has a ``field_side``.
+        Grid of the film and of the field; the grid of a point contact must have a ``field_side``.
     electric : Electric
-        Potentials of the surfaces.
+        Potentials of the two surfaces.
     solver : Solver
-        When the iteration of the film stops.
+        Tolerance and largest number of iterations of the film solver.
     discharge : Discharge or None
-        Strength of the film, where a discharge is assessed.
+        Dielectric strength and other inputs of a discharge; None if no discharge is assessed.
     roughness : tuple of Roughness
-        Tables of the rough surfaces.
+        Tables of the rough surfaces; empty if both surfaces are smooth.
     title : str
-        Heading of files and figures.
+        Title of files and figures.
     """
 
     lubricant: Lubricant
@@ -46,7 +46,7 @@ class Setup:
 
     @classmethod
     def of(cls, case: Case | Setup) -> Setup:
-        """Setup of a case, or a copy of a setup."""
+        """Make the setup of a case, or a copy of a setup."""
         return cls(
             lubricant=case.lubricant,
             grid=case.grid,
@@ -58,7 +58,7 @@ class Setup:
         )
 
     def to_dict(self) -> dict[str, Any]:
-        """Nested tables of all values that are set, SI floats, with the keys of a case."""
+        """Return all values that are set as nested tables, in SI units, with the keys of a case."""
         tables = {
             name: getattr(self, name).model_dump(mode="json", exclude_none=True)
             for name in ("lubricant", "electric", "grid", "solver")

@@ -1,4 +1,4 @@
-"""Solution of a contact: film and field, how they were obtained, and numbers that follow from both."""
+"""Solution of a contact: film and field, how they were computed, and quantities derived from them."""
 
 from __future__ import annotations
 
@@ -26,10 +26,14 @@ FieldT = TypeVar("FieldT", bound=Field | PointField)
 
 @dataclass(frozen=True)
 class Smooth:
-    """The same contact with smooth surfaces, to set a rough one beside.
+    """Film and field of a rough contact that is solved with smooth surfaces, for comparison.
 
-    ``pressure`` [Pa] and ``thickness`` [m] at the film's nodes, ``middle_strength`` [V/m] at the columns of
-    the field.
+    Attributes
+    ----------
+    pressure, thickness : ndarray, shape (nx,) or (nx, ny)
+        Pressure [Pa] and film thickness [m] at the film's nodes.
+    middle_strength : ndarray
+        Field strength at mid-film, at the columns of the field [V/m].
     """
 
     pressure: Array
@@ -38,7 +42,7 @@ class Smooth:
 
     @property
     def minimum_thickness(self) -> float:
-        """Film thickness of the lowest node [m]."""
+        """Smallest film thickness of all nodes [m]."""
         return float(np.min(self.thickness))
 
 
@@ -49,25 +53,25 @@ class Solution(Generic[ConditionsT, FilmT, FieldT]):
     Attributes
     ----------
     case : Case or Setup
-        The case that was solved; the setup where a contact was solved without a case.
+        Case that was solved, or setup if the contact was solved without a case.
     conditions : Conditions or PointConditions
         Operating conditions, SI units.
     film, field : Film and Field, or PointFilm and PointField
-        The solution, SI units.
+        Film and electric field, SI units.
     roughness : ndarray, shape (2, nx) or (2, nx, ny)
         Heights of both surfaces' roughness at the film's nodes, positive out of the body [m].
     rough : tuple of dict
-        Where each rough surface came from and its statistics after every step, SI units.
+        Source of each rough surface, and its statistics after each processing step, SI units.
     smooth : Smooth or None
-        The contact without its roughness; None where it has none, or was not solved without.
+        Same contact with smooth surfaces; None if the surfaces are smooth, or if it was not solved.
     warnings : tuple of ResultWarning
-        What is unreliable about it, each with a code and a severity.
+        Warnings about unreliable results, each with a code and a severity.
     film_solver, field_solver : str
-        "ehlectric", or "paper" where the paper's own methods solved it.
+        Solver of the film and of the field: "ehlectric", or "paper" for the methods of the paper.
     film_seconds, field_seconds : float
-        Time it took [s].
+        Time taken by the solvers of the film and of the field [s].
     version, date : str
-        Of the program that made it, and when (ISO 8601).
+        Version of the program, and date of the solution (ISO 8601).
     """
 
     case: Case | Setup
@@ -87,34 +91,37 @@ class Solution(Generic[ConditionsT, FilmT, FieldT]):
 
     @property
     def converged(self) -> bool:
-        """Whether the film is a solution; without it nothing here is one."""
+        """Whether the film converged; if it did not, no number of this result may be used."""
         return self.film.converged
 
     @property
     def strength_scale(self) -> float:
-        """h_min/voltage, which makes a field strength dimensionless, eq. (18) of the paper [m/V]."""
+        """Factor h_min/voltage that makes a field strength dimensionless, eq. (18) of the paper [m/V]."""
         return self.film.minimum_thickness / self.field.voltage
 
     @property
     def max_dimensionless(self) -> float:
-        """Largest field strength times h_min over the voltage."""
+        """Largest field strength times h_min/voltage, dimensionless."""
         return self.field.max_strength * self.strength_scale
 
     @property
     def thin_gap_error(self) -> float | None:
-        """(max_strength - voltage/h_min)/max_strength, None where the field range leaves h_min out."""
+        """Relative error of the thin-gap field strength: (max_strength - voltage/h_min)/max_strength.
+
+        None if the minimum film thickness is outside the field range.
+        """
         if not self.in_field_range(self.film.minimum_position):
             return None
         return 1.0 - self.field.voltage / self.film.minimum_thickness / self.field.max_strength
 
     def in_field_range(self, position: float | tuple[float, ...]) -> bool:
-        """Whether the field was solved at a position x or (x, y) [m]."""
+        """Whether a position x or (x, y) [m] is inside the field range."""
         places = np.atleast_1d(position)
         return all(bool(axis[0] <= at <= axis[-1]) for at, axis in zip(places, self.field.axes, strict=True))
 
     @cached_property
     def discharge(self) -> Assessment | None:
-        """Breakdown voltage, capacitance by zone, energy; None where the case has no ``[discharge]``."""
+        """Assessment of the discharge; None if the case has no table ``discharge``."""
         if self.case.discharge is None:
             return None
         return assess(
@@ -123,5 +130,5 @@ class Solution(Generic[ConditionsT, FilmT, FieldT]):
 
     @cached_property
     def capacitance_by_zone(self) -> dict[str, float]:
-        """Capacitance of each zone of the field range [F]; of a line contact per length [F/m]."""
+        """Capacitance of each zone of the field range [F]; for a line contact per length [F/m]."""
         return self.field.capacitance_by_zone(*self.conditions.semi_axes)

@@ -1,4 +1,4 @@
-"""solve(case) and solve_contact(conditions, ...): the only place where film and field meet."""
+"""Solution of a contact, first the film, then its electric field: ``solve`` and ``solve_contact``."""
 
 from __future__ import annotations
 
@@ -37,16 +37,16 @@ from ehlectric.version import __version__
 
 @dataclass(frozen=True)
 class Solvers:
-    """Solvers of the film and the field of a contact, by the name under which a result says so.
+    """Solvers of the film and of the field of a contact.
 
     Attributes
     ----------
     name : str
-        As a command takes it and a result gives it.
+        Name of the solvers in commands and in results.
     film, field : mapping
-        Solver of a film's or a field's problem, by the geometry of the contact.
+        Function that solves a film problem or a field problem, by the geometry of the contact.
     check : callable
-        Raises an InputError for cases that they do not take, before anything is solved.
+        Function that raises an InputError for a case that these solvers cannot solve.
     """
 
     name: str
@@ -72,35 +72,35 @@ def solve(
     beside_smooth: bool = True,
     prepared: PreparedContact | None = None,
 ) -> Result | PointResult:
-    """Film and electric field of a case.
+    """Solve the film and the electric field of a case.
 
     Parameters
     ----------
     case : Case
-        What to solve.
+        Case of a line or point contact, without ``motion``.
     progress : callable, optional
         Called with (nodes, Newton step, residual) before every Newton step of the film.
     require_convergence : bool
-        Raise where the film was not solved, instead of giving back its status.
+        Whether to raise a ConvergenceError if the film does not converge, instead of returning its status.
     solvers : Solvers
-        The package's own, or those of ``ehlectric.paper.solvers``.
+        Solvers of this package, or solvers of ``ehlectric.paper.solvers``.
     beside_smooth : bool
-        Solve a rough contact with smooth surfaces too, for ``Result.smooth``.
+        Whether to solve a rough contact with smooth surfaces too, for ``Result.smooth``.
     prepared : PreparedContact, optional
-        The contact of the case as ``check_case`` gave it, so that no surface is read again.
+        Contact of the same case as returned by ``check_case``; surface files are then not read again.
 
     Returns
     -------
     Result or PointResult
-        By the geometry of the contact, with ``converged`` false where the film was not solved; its field is
-        then that of the last film.
+        Result of a line contact or of a point contact. If the film did not converge, ``converged`` is False
+        and the field is that of the last film.
 
     Raises
     ------
     InputError
-        Where the values of the case contradict each other, or its roughness moves.
+        If the values of the case contradict each other, or the case has a table ``motion``.
     ConvergenceError
-        Where the film was not solved and ``require_convergence`` is set, or its field was not.
+        If the film did not converge and ``require_convergence`` is True, or if the field did not converge.
 
     Examples
     --------
@@ -140,48 +140,51 @@ def solve_contact(
     require_convergence: bool = False,
     beside_smooth: bool = True,
 ) -> Result | PointResult:
-    """Film and electric field of a contact whose operating conditions are known, without a case.
+    """Solve the film and the electric field of a contact from its operating conditions, without a case.
 
     Parameters
     ----------
     conditions : Conditions or PointConditions
-        As ``line_conditions`` or ``point_conditions`` gives them; their ``film_factor`` thins the film.
+        Operating conditions from ``line_conditions`` or ``point_conditions``; a ``film_factor`` below 1
+        reduces the film thickness.
     lubricant : Lubricant
-        Laws of the oil, from which the conditions were made.
+        Lubricant from which the operating conditions were computed.
     grid : Grid
-        Discretisation; of a point contact with a ``field_side``.
+        Grid of the film and of the field; the grid of a point contact must have a ``field_side``.
     electric, solver : Electric and Solver, optional
-        Potentials of the surfaces, and when the iteration stops; those of a case that does not give them.
+        Potentials of the surfaces, and stopping rule of the film solver; defaults as in a case file.
     discharge : Discharge, optional
-        Strength of the film, where its discharge is to be assessed.
+        Dielectric strength and other inputs of a discharge; without it no discharge is assessed.
     roughness, rough : sequences, optional
-        Tables of the rough surfaces, and the surfaces themselves, which are read or made if not given.
+        Tables of the rough surfaces, and the surfaces made from them. Without ``rough`` the surfaces are
+        read from files or generated.
     title : str
-        Heading of files and figures.
+        Title of files and figures.
     progress, require_convergence, beside_smooth
-        As those of ``solve``.
+        See ``solve``.
 
     Returns
     -------
     Result or PointResult
-        As that of ``solve``; its ``case`` is a ``Setup``, and it cannot be loaded from a file.
+        Result of a line contact or of a point contact; its ``case`` is a ``Setup``. ``load`` cannot read a
+        file of this result.
 
     Raises
     ------
     InputError
-        Where a surface cannot be used or the grid fits into no memory.
+        If a surface cannot be used, or film and field need more than the physical memory.
     ConvergenceError
-        Where the film was not solved and ``require_convergence`` is set, or its field was not.
+        If the film did not converge and ``require_convergence`` is True, or if the field did not converge.
 
     Examples
     --------
     >>> from ehlectric.contact.conditions import line_conditions
     >>> oil = Lubricant.from_dict({"base": "paper"})
-    >>> given = {"reduced_radius": 0.0141, "reduced_modulus": 226e9, "load_per_length": 3.92e5}
-    >>> full, thinned = (
-    ...     line_conditions(oil, **given, entrainment_speed=4.0, film_factor=factor) for factor in (1.0, 0.8)
-    ... )
-    >>> films = [solve_contact(one, oil, grid=Grid(nodes=801)).film for one in (full, thinned)]
+    >>> inputs = {"reduced_radius": 0.0141, "reduced_modulus": 226e9, "load_per_length": 3.92e5}
+    >>> contacts = [
+    ...     line_conditions(oil, **inputs, entrainment_speed=4.0, film_factor=factor) for factor in (1.0, 0.8)
+    ... ]
+    >>> films = [solve_contact(conditions, oil, grid=Grid(nodes=801)).film for conditions in contacts]
     >>> round(films[1].central_thickness / films[0].central_thickness, 2)
     0.8
     """
@@ -215,7 +218,7 @@ def _solved(
     solvers: Solvers = OWN,
     beside_smooth: bool = True,
 ) -> Result | PointResult:
-    """Film, then field of a prepared contact, with the warnings about both."""
+    """Solve the film and then the field of a prepared contact, and collect the warnings."""
     kind, case, conditions, rough = contact.kind, contact.case, contact.conditions, contact.rough
     geometry = conditions.geometry
     films = refined(
@@ -227,16 +230,16 @@ def _solved(
     if require_convergence and not film.converged:
         raise ConvergenceError(f"film {film.status} at the residual {film.residual:.1e}")
     roughness = heights_of(rough, *film.axes)
-    # The field of a film that did not converge is for looking at: our own solver always has one.
-    of_field = solvers if film.converged else OWN
+    # The field of an unconverged film is for inspection only. Solvers other than OWN may not converge for it.
+    field_solvers = solvers if film.converged else OWN
     started = time.perf_counter()
-    field = of_field.field[geometry](kind.field_problem(case, conditions, film, roughness))
+    field = field_solvers.field[geometry](kind.field_problem(case, conditions, film, roughness))
     smooth = None
     if rough and beside_smooth:
         smooth = _smooth(replace(contact, case=films.setup), field.axes, solvers)
     return RESULTS[geometry](
         case=case,
-        conditions=conditions,  # type: ignore[arg-type]  # of the kind that the geometry names
+        conditions=conditions,  # type: ignore[arg-type]  # their type follows from the geometry
         film=film,
         roughness=roughness,
         rough=tuple(surface.describe() for surface in rough),
@@ -252,7 +255,7 @@ def _solved(
             *field_warnings(field.max_strength),
         ),
         film_solver=solvers.name,
-        field_solver=of_field.name,
+        field_solver=field_solvers.name,
         film_seconds=films.seconds,
         field_seconds=time.perf_counter() - started,
         version=__version__,
@@ -261,7 +264,10 @@ def _solved(
 
 
 def _smooth(contact: PreparedContact, columns: tuple[Array, ...], solvers: Solvers) -> Smooth | None:
-    """The contact without its roughness, on the same grids; None where that is not solved."""
+    """Solve the contact with smooth surfaces on the same grids; None if its film does not converge.
+
+    ``columns`` are the axes of the rough contact's field [m].
+    """
     smooth = replace(contact, case=replace(Setup.of(contact.case), roughness=()), rough=())
     result = _solved(smooth, solvers=solvers)
     if not result.converged:

@@ -1,4 +1,4 @@
-"""Roughness of a solved contact over its Hertz zone, beside its film."""
+"""Statistics of the roughness of a solved contact over its Hertz zone, and the lambda ratio."""
 
 from __future__ import annotations
 
@@ -25,19 +25,21 @@ PointSolution = Solution[PointConditions, PointFilm, PointField]
 
 @dataclass(frozen=True)
 class RoughnessStatistics:
-    """Roughness of both surfaces over the Hertz zone, and the film over it.
+    """Statistics of the roughness over the Hertz zone, and ratios of film thickness to roughness.
 
     Attributes
     ----------
     rq_1, rq_2, rq_combined : float
-        Root mean square height of each surface and of their sum [m].
+        Root-mean-square heights of surface 1, of surface 2, and of the sum of both surfaces [m].
     combined : mapping
-        All statistics of the sum, SI units.
-    lambda_ratio, lambda_ratio_smooth : float or None
-        Minimum film thickness, and that between smooth surfaces, over ``rq_combined``; None where the Hertz
-        zone is smooth or the smooth contact was not solved.
+        All statistics of the sum of both surfaces, SI units.
+    lambda_ratio : float or None
+        Minimum film thickness over ``rq_combined``, dimensionless; None if the Hertz zone is smooth.
+    lambda_ratio_smooth : float or None
+        ``smooth_minimum_thickness`` over ``rq_combined``, dimensionless; None if the Hertz zone is smooth or
+        the smooth contact was not solved.
     smooth_minimum_thickness : float or None
-        Minimum film thickness between smooth surfaces [m].
+        Minimum film thickness of the same contact with smooth surfaces [m]; None if it was not solved.
     """
 
     rq_1: float
@@ -54,7 +56,8 @@ def line_roughness(solution: LineSolution) -> RoughnessStatistics:
     x = solution.film.x
     heights = solution.roughness[:, np.abs(x) <= solution.conditions.half_width]
     rq_1, rq_2 = (float(rq) for rq in np.std(heights, axis=1))
-    # Of the sum, which alone the film feels: surfaces may be alike, or fill each other's valleys.
+    # The film depends on the sum of the heights. The surfaces may be correlated, so rq_combined does not
+    # follow from rq_1 and rq_2.
     combined = of_profile(Profile(float(x[1] - x[0]), heights.sum(axis=0)))
     return _beside_film(solution, (rq_1, rq_2, combined.rq), vars(combined))
 

@@ -1,4 +1,4 @@
-"""Key figures of a contact as nested tables, before it is solved and after."""
+"""Key figures of a contact as nested tables, before and after the contact is solved."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ SCHEMA = "ehlectric.summary/1"
 
 
 def summary_of(solution: Solution[Any, Any, Any]) -> dict[str, Any]:
-    """Key figures of a solved contact in SI units, nested as summary.json.
+    """Key figures of a solved contact in SI units, as nested tables with the keys of summary.json.
 
     Parameters
     ----------
     solution : Solution
-        Film and field.
+        Film and field of the contact.
 
     Returns
     -------
     dict
-        Values are numbers, texts, lists, or None where a value has no meaning; never NaN.
+        Numbers, texts and lists; None where a value has no meaning, never NaN.
     """
     kind, film, conditions = KINDS[solution.conditions.geometry], solution.film, solution.conditions
     summary: dict[str, Any] = {
@@ -84,19 +84,20 @@ def _field(solution: Solution[Any, Any, Any]) -> dict[str, Any]:
 
 
 def case_summary(case: Case | Setup, conditions: Conditions | PointConditions) -> dict[str, Any]:
-    """Key figures of a contact before it is solved, SI units, with the keys of summary.json.
+    """Key figures that are known before a contact is solved, in SI units, with the keys of summary.json.
 
     Parameters
     ----------
     case : Case or Setup
-        What is to be solved.
+        Inputs of the contact.
     conditions : Conditions or PointConditions
-        Its operating conditions.
+        Operating conditions of the contact.
 
     Returns
     -------
     dict
-        Inputs, groups, dry contact, regime, and film thickness by the published formulas.
+        Inputs, dimensionless groups, dry contact, lubrication regime, and film thickness by the published
+        formulas.
     """
     return {
         "schema": SCHEMA.replace("summary", "check"),
@@ -111,7 +112,7 @@ def case_summary(case: Case | Setup, conditions: Conditions | PointConditions) -
 
 
 def inputs_of(case: Case | Setup, conditions: Conditions | PointConditions) -> dict[str, Any]:
-    """Nested tables of a case, its alternatives resolved."""
+    """Inputs of a contact as nested tables, with the resolved operating conditions as its contact."""
     kind, inputs = KINDS[conditions.geometry], case.to_dict()
     contact = {name: getattr(conditions, name) for name in kind.contact_keys}
     inputs["contact"] = {"geometry": conditions.geometry} | contact
@@ -126,11 +127,11 @@ def groups_of(conditions: Conditions | PointConditions) -> dict[str, float]:
 
 
 def hertz_of(conditions: Conditions | PointConditions) -> dict[str, float]:
-    """Size [m] and largest pressure [Pa] of the dry contact."""
+    """Half-width or semi-axes [m] and Hertz pressure [Pa] of the dry contact."""
     return {name: getattr(conditions, name) for name in KINDS[conditions.geometry].hertz_keys}
 
 
 def formulas_of(conditions: Conditions | PointConditions) -> Mapping[str, Thickness]:
-    """Film thickness [m] by each of the published formulas."""
+    """Film thickness by each of the published formulas [m], by the name of the formula."""
     formulas = KINDS[conditions.geometry].formulas
     return {name: formula(conditions.contact) for name, formula in formulas.items()}

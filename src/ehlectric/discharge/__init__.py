@@ -1,1 +1,1 @@
-"""Electrical discharge of a solved contact: breakdown voltage, capacitance by zone, energy and pit size."""
+"""Electrical discharge through a solved contact: breakdown voltage, capacitance by zone, energy, pit size."""

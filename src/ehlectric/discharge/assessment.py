@@ -1,4 +1,4 @@
-"""The discharge of a solved contact: at what voltage its film breaks down, where, and at what cost."""
+"""Assessment of a discharge through a solved contact: breakdown voltage and zone, capacitances, energies."""
 
 from __future__ import annotations
 
@@ -35,23 +35,23 @@ from ehlectric.film.point import PointFilm
 
 @dataclass(frozen=True)
 class Assessment:
-    """Discharge of one contact in five parts, SI units; None where the case does not give what a value takes.
+    """Assessment of a discharge through one contact, in five parts, SI units.
 
-    Every value of a part is an attribute of the assessment too: ``assessment.breakdown_voltage`` is
-    ``assessment.breakdown.breakdown_voltage``.
+    A value is None if the case lacks an input that it needs. Every value of a part is also an attribute of
+    the assessment: ``assessment.breakdown_voltage`` is ``assessment.breakdown.breakdown_voltage``.
 
     Attributes
     ----------
     breakdown : Breakdown
-        Breakdown voltage, and probability of breakdown.
+        Breakdown voltage and probability of breakdown.
     zone : BreakdownZone
         Zone of the film that breaks down first.
     capacitances : Capacitances
-        Capacitance of the contact and of its zones.
+        Capacitances of the contact and of its zones.
     costs : DischargeCosts
-        Energy of a discharge, the pit that it melts, and its current density.
+        Energy of a discharge, size of the pit that it melts, and current density.
     leakage : Leakage
-        Relaxation time of the charge.
+        Charge relaxation time of the oil.
     """
 
     breakdown: Breakdown
@@ -98,7 +98,7 @@ class Assessment:
     corner_frequency = property(attrgetter("leakage.corner_frequency"))
 
     def summary(self) -> dict[str, Any]:
-        """Values of all parts, as ``discharge`` in summary.json, with the sources of what is not computed."""
+        """Values of all parts, with their sources and assumptions, as in ``discharge`` of summary.json."""
         values: dict[str, Any] = {}
         for part in (self.breakdown, self.zone, self.capacitances, self.costs, self.leakage):
             values |= asdict(part)
@@ -106,29 +106,29 @@ class Assessment:
 
 
 def assess(
-    given: Discharge,
+    discharge: Discharge,
     lubricant: Lubricant,
     semi_axes: tuple[float, ...],
     film: Film | PointFilm,
     field: Field | PointField,
 ) -> Assessment:
-    """Assess the discharge of a solved contact.
+    """Assess a discharge through a solved contact.
 
     Parameters
     ----------
-    given : Discharge
-        Strength of the lubricant, and what is connected to the contact.
+    discharge : Discharge
+        Inputs of the discharge: dielectric strength, outlet filling, external capacitance and others.
     lubricant : Lubricant
-        Its permittivity.
+        Lubricant, for its relative permittivity.
     semi_axes : tuple of float
-        Half-width of a line contact, or both semi-axes of a point contact, along and across entrainment [m].
-    film, field
-        The solution.
+        Half-width of a line contact, or semi-axes of a point contact along and across entrainment [m].
+    film, field : Film and Field, or PointFilm and PointField
+        Solution of the contact.
 
     Returns
     -------
     Assessment
-        SI units.
+        Breakdown, breakdown zone, capacitances, energies and leakage, SI units.
 
     Examples
     --------
@@ -140,22 +140,24 @@ def assess(
     >>> round(result.discharge.breakdown_voltage, 1)
     11.1
     """
-    size = Size.of(semi_axes, given)
-    used = FieldUtilisation.of(given, film, field)
-    voltages = breakdown(given, used, field.voltage, size)
-    found = capacitances(given, lubricant, semi_axes, film, field)
+    size = Size.of(semi_axes, discharge)
+    utilisation = FieldUtilisation.of(discharge, film, field)
+    voltages = breakdown(discharge, utilisation, field.voltage, size)
+    by_zone = capacitances(discharge, lubricant, semi_axes, film, field)
     return Assessment(
         breakdown=voltages,
-        zone=breakdown_zone(used, size),
-        capacitances=found,
-        costs=discharge_costs(given, found.capacitance, field.voltage, voltages.breakdown_voltage, size),
-        leakage=leakage(given, lubricant.relative_permittivity),
+        zone=breakdown_zone(utilisation, size),
+        capacitances=by_zone,
+        costs=discharge_costs(
+            discharge, by_zone.capacitance, field.voltage, voltages.breakdown_voltage, size
+        ),
+        leakage=leakage(discharge, lubricant.relative_permittivity),
     )
 
 
-def discharge_warnings(given: Discharge | None, film: Film | PointFilm) -> Iterator[ResultWarning]:
-    """Warnings of the discharge; none without a ``[discharge]``."""
-    if given is None:
+def discharge_warnings(discharge: Discharge | None, film: Film | PointFilm) -> Iterator[ResultWarning]:
+    """Warnings about the assessment of a discharge; none if the case has no table ``discharge``."""
+    if discharge is None:
         return
     if film.minimum_thickness < TUNNELLING:
         yield ResultWarning(
@@ -163,7 +165,7 @@ def discharge_warnings(given: Discharge | None, film: Film | PointFilm) -> Itera
             f"the film is {film.minimum_thickness * 1e9:.2g} nm thin: below about {TUNNELLING * 1e9:g} nm "
             "electrons tunnel through it, which is not in the model",
         )
-    table = given.strength_table
+    table = discharge.strength_table
     if table is not None and table.over == "pressure":
         low, high = table.places[0], table.places[-1]
         least, most = float(np.min(film.pressure)), film.max_pressure

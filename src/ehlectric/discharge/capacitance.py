@@ -1,4 +1,4 @@
-"""Capacitance of a contact by zone, over the whole domain of its film."""
+"""Capacitance of each zone of a contact, over the whole domain of its film."""
 
 from __future__ import annotations
 
@@ -23,28 +23,29 @@ def zone_capacitances(
     zones: tuple[Mapping[str, Array], Mapping[str, Array]],
     permittivity_law: Callable[[Array], Array],
 ) -> dict[str, dict[str, float]]:
-    """Capacitance of each zone, by what fills the gap behind the exit.
+    """Capacitance of each zone, for each assumption about the filling of the gap behind the exit.
 
-    Inside the field range it is that of the solved field, outside it eps0 eps/h of a thin gap: the thin gap
-    everywhere, and where the field was solved what that differs from it. Where gas fills a part of the gap
-    both are scaled as ``filled_permittivity`` says: the walls behind the exit open slowly enough that a field
-    solved anew gives the same to 1e-5.
+    Inside the field range the capacitance follows from the solved field, outside from a thin gap,
+    eps0 eps/h per area. The thin gap is summed over the whole domain. The difference between the solved field
+    and the thin gap is then added inside the field range. Where gas fills a part of the gap, both are scaled
+    by ``filled_permittivity``. This agrees to 1e-5 with a field that is solved with the gas in the gap,
+    because the walls diverge slowly behind the exit.
 
     Parameters
     ----------
     film, field : Film and Field, or PointFilm and PointField
-        The solution.
+        Solution of the contact.
     zones : pair of mapping
-        By name, the width [m] or area [m^2] of each node's part of a zone: of the film's nodes, and of the
-        columns of the field.
+        Width [m] or area [m^2] of each node's part of a zone, by the name of the zone: one mapping for the
+        film's nodes, and one for the columns of the field.
     permittivity_law : callable
-        Relative permittivity over the density ratio.
+        Function that gives the relative permittivity of the oil from its density ratio.
 
     Returns
     -------
     dict of dict
-        For "full", "fingers" and "layers", the capacitance per length [F/m] or the capacitance [F] of each
-        zone.
+        Capacitance per length [F/m] of a line contact, or capacitance [F] of a point contact, by the filling
+        ("full", "fingers", "layers") and by the name of the zone.
     """
     oil = permittivity_law(film.density)
     fraction = oil_fraction(film.thickness, film.density, film.cavitated)
@@ -53,9 +54,10 @@ def zone_capacitances(
     for outlet in OUTLETS:
         permittivity = filled_permittivity(oil, fraction, outlet)
         thin = epsilon_0 * permittivity / gap
-        # Of the film's nodes, not of the field's own gap: finer columns then take away all of the thin gap.
-        instead = at_columns(film, field, thin)
-        correction = field.capacitance_density * at_columns(film, field, permittivity / oil) - instead
+        # The thin gap at the columns is interpolated from the film's nodes, not computed from the gap of the
+        # field. It then cancels the sum over the nodes inside the field range, also if the columns are finer.
+        thin_gap = at_columns(film, field, thin)
+        correction = field.capacitance_density * at_columns(film, field, permittivity / oil) - thin_gap
         by_outlet[outlet] = {
             name: float(np.vdot(weights, thin) + np.vdot(zones[1][name], correction))
             for name, weights in zones[0].items()

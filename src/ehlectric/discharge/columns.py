@@ -1,4 +1,4 @@
-"""Values of a film at the columns of its field."""
+"""Interpolation of values from the nodes of a film to the columns of its field."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from ehlectric.film.point import PointFilm
 
 
 def at_columns(film: Film | PointFilm, field: Field | PointField, values: Array) -> Array:
-    """Values at the nodes of a film at the columns of its field, linear in between."""
-    # A column at the edge of the domain may lie outside it by rounding.
+    """Interpolate values linearly from the nodes of a film to the columns of its field."""
+    # A column at the edge of the domain may be outside it because of rounding.
     columns = [np.clip(at, axis[0], axis[-1]) for at, axis in zip(field.axes, film.axes, strict=True)]
     interpolated = RegularGridInterpolator(film.axes, values)
-    at_them: Array = interpolated(tuple(np.meshgrid(*columns, indexing="ij")))
-    return at_them
+    values_at_columns: Array = interpolated(tuple(np.meshgrid(*columns, indexing="ij")))
+    return values_at_columns

@@ -6,7 +6,7 @@ from ehlectric.cases.result_key import Keys, ResultKey
 
 
 def _keys(capacitance: str) -> Keys:
-    """Keys of the discharge of a contact whose capacitances have this unit."""
+    """Keys of the discharge of a contact; ``capacitance`` is the unit of its capacitances."""
     return {**_BREAKDOWN, **_ZONE, **_capacitances(capacitance), **_COSTS}
 
 

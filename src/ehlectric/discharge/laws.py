@@ -1,6 +1,6 @@
-"""From a field to its discharge: breakdown voltage and probability, energy, pit, leakage. SI units.
+"""Laws of a discharge: breakdown voltage and probability, energy, pit size, and charge relaxation time.
 
-The field is linear in the voltage, so that one solution answers for every voltage.
+All quantities are in SI units. The field is proportional to the voltage, so one solution serves all voltages.
 """
 
 from __future__ import annotations
@@ -12,17 +12,18 @@ from scipy.constants import epsilon_0
 
 from ehlectric.arrays import Array
 
-# Lateral size of pits from discharges in bearings, the largest and the mean [m].
+# Lateral size of the pits that discharges leave in bearings: the largest and the mean [m].
 LARGEST_PIT, MEAN_PIT = 4.0e-6, 1.7e-6
 
-# Film thickness below which electrons tunnel through it in numbers [m].
+# Film thickness below which electrons tunnel through the film in large numbers [m].
 TUNNELLING = 2e-9
 
-# Apparent current density above which bearings suffer, peak current over Hertz area [A/m^2].
+# Published limits of the apparent current density, peak current over Hertz area, above which bearings are
+# damaged [A/m^2].
 CURRENT_DENSITY_LIMITS = (1e5, 3e5, 8e5)
 _PITS = "Plazenet et al., as quoted by Morris et al. (2022), doi:10.3390/lubricants10050087"
 
-# Where the numbers come from that neither the case nor the solution gives, by the key they stand under.
+# Sources and assumptions of those values of a summary that do not follow from case and solution alone.
 SOURCES = {
     "zone_size": "assumption: where the strength is used to 95 % of the most",
     "zone_area": "assumption: as zone_size",
@@ -48,28 +49,27 @@ SOURCES = {
     "corner_frequency": "assumption: as relaxation_time",
 }
 
-# The zone that breaks first is where the strength is used to at least this part of the most.
+# Utilisation is the ratio of field strength to dielectric strength. The zone that breaks down first is where
+# the utilisation is at least this part of its maximum.
 BREAKING = 0.95
 
 
 def breakdown_voltage(voltage: float, strength: Array, dielectric_strength: Array | float) -> float:
-    """Voltage at which the field reaches the dielectric strength somewhere.
-
-    V_b = V/max(E/E_b)
+    """Voltage at which the field first reaches the dielectric strength: V_b = V/max(E/E_b).
 
     Parameters
     ----------
     voltage : float
-        V, at which the field was solved [V].
+        Voltage V at which the field was solved [V].
     strength : ndarray, shape (...)
         Field strength E [V/m].
-    dielectric_strength : ndarray or float
-        E_b of the same places [V/m].
+    dielectric_strength : ndarray, shape (...), or float
+        Dielectric strength E_b at the same positions [V/m].
 
     Returns
     -------
     float
-        [V].
+        Breakdown voltage V_b [V].
 
     Examples
     --------
@@ -81,23 +81,23 @@ def breakdown_voltage(voltage: float, strength: Array, dielectric_strength: Arra
 
 @dataclass(frozen=True)
 class WeakestLink:
-    """Weibull's law for a solved field: P(V) = 1 - exp(-(V/V_0)^m).
+    """Weibull law of breakdown for a solved field: P(V) = 1 - exp(-(V/V_0)^m).
 
-    The exponent is the integral of (E/E_0)^m dA/A_0, and E grows with V, so that all of the field enters
-    through ``characteristic_voltage``. A larger stressed area is more likely to break.
+    The exponent (V/V_0)^m is the integral of (E/E_0)^m dA/A_0. The field strength E is proportional to the
+    voltage V, so V_0 describes the whole field. A larger stressed area is more likely to break down.
 
     W. Weibull, J. Appl. Mech. 18 (1951) 293, doi:10.1115/1.4010337.
 
     Attributes
     ----------
     shape : float
-        m.
+        Weibull shape m, dimensionless.
     characteristic_voltage : float
-        V_0, at which the probability is 1 - 1/e, 63.2 % [V].
+        Voltage V_0 at which the probability of breakdown is 1 - 1/e, 63.2 % [V].
 
     Examples
     --------
-    A uniform field of half the scale over four reference areas, m = 2: the exponent is 1.
+    A uniform field of half the scale E_0 over four reference areas, with m = 2, gives the exponent 1:
 
     >>> law = WeakestLink.of(10.0, np.full(4, 5e6), np.full(4, 1e-6), 10e6, 2.0, 1e-6)
     >>> law.characteristic_voltage, round(law.probability(10.0), 4)
@@ -111,9 +111,19 @@ class WeakestLink:
     def of(
         cls, voltage: float, strength: Array, areas: Array, scale: float, shape: float, reference_area: float
     ) -> WeakestLink:
-        """The law of a field strength [V/m] at a voltage [V] over areas [m^2] of one shape."""
+        """Weibull law of a solved field.
+
+        Parameters
+        ----------
+        voltage : float
+            Voltage at which the field was solved [V].
+        strength, areas : ndarray, shape (...)
+            Field strength E [V/m], and the area on which it acts [m^2].
+        scale, shape, reference_area : float
+            Scale E_0 [V/m], shape m, and reference area A_0 [m^2] of the Weibull law.
+        """
         largest = float(np.max(strength))
-        # Of the largest field, whose power alone would overflow.
+        # The field strength is divided by its maximum, as a high power of the strength alone would overflow.
         area = float(np.vdot((strength / largest) ** shape, areas))
         return cls(shape, voltage * scale / largest * (reference_area / area) ** (1.0 / shape))
 
@@ -124,13 +134,13 @@ class WeakestLink:
         return float(-np.expm1(-exponent))
 
     def voltage(self, probability: float) -> float:
-        """Voltage [V] at which the probability of breakdown is this, above 0 and below 1."""
+        """Voltage [V] at which breakdown has a given probability, above 0 and below 1."""
         exponent = -np.log1p(-probability)
         return float(self.characteristic_voltage * exponent ** (1.0 / self.shape))
 
 
 def stored_energy(capacitance: float, voltage: float) -> float:
-    """Energy of a charged capacitance, C V^2/2 [J].
+    """Energy stored in a capacitance C [F] at a voltage V [V], C V^2/2 [J].
 
     Examples
     --------
@@ -141,21 +151,21 @@ def stored_energy(capacitance: float, voltage: float) -> float:
 
 
 def melted_volume(energy: float, efficiency: float, melting_energy: float) -> float:
-    """Volume that a part of an energy heats and melts.
+    """Volume of one surface that a discharge melts: efficiency times energy over melting energy.
 
     Parameters
     ----------
     energy : float
-        Of the discharge [J].
+        Energy of the discharge [J].
     efficiency : float
-        Part of it that goes into melting one surface, from 0 to 1.
+        Part of the energy that melts one surface, from 0 to 1, dimensionless.
     melting_energy : float
-        To heat and melt a volume [J/m^3].
+        Energy to heat and melt the material, per volume [J/m^3].
 
     Returns
     -------
     float
-        [m^3].
+        Melted volume [m^3].
 
     Examples
     --------
@@ -166,7 +176,7 @@ def melted_volume(energy: float, efficiency: float, melting_energy: float) -> fl
 
 
 def pit_diameter(volume: float) -> float:
-    """Diameter of a hemispherical pit of a volume [m^3]: V = pi d^3/12 [m].
+    """Diameter d of a hemispherical pit [m] from its volume V = pi d^3/12 [m^3].
 
     Examples
     --------
@@ -177,9 +187,9 @@ def pit_diameter(volume: float) -> float:
 
 
 def relaxation_time(relative_permittivity: float, conductivity: float) -> float:
-    """Time in which charge leaks through a dielectric, eps0 eps_r/sigma, of a conductivity in S/m [s].
+    """Charge relaxation time of a dielectric, eps0 eps_r/sigma [s], with the conductivity sigma [S/m].
 
-    Above the frequency 1/(2 pi) of its inverse the film is a capacitor, below it a resistor.
+    Above the frequency 1/(2 pi tau), where tau is this time, the film is a capacitor; below it, a resistor.
 
     Examples
     --------

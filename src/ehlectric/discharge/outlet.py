@@ -1,4 +1,4 @@
-"""Oil and gas in the gap behind the contact: how much oil there is, and the permittivity of both together."""
+"""Oil and gas in the gap behind the contact: fraction of oil, and relative permittivity of both together."""
 
 from __future__ import annotations
 
@@ -10,24 +10,24 @@ from ehlectric.arrays import Array, Mask
 
 
 def oil_fraction(thickness: Array, density: Array, cavitated: Mask) -> Array:
-    """Part of the gap that oil fills behind the exit of the film.
+    """Fraction of the gap that is filled with oil behind the exit of the film: (rho H)_exit/(rho H).
 
-    (rho H)_exit/(rho H): behind the exit no pressure gradient drives the oil, and what left it is carried on
-    between surfaces that part. A rough film may end and form again; no more oil goes on than came through the
-    narrowest of the ends before.
+    Behind the exit no pressure gradient drives the oil. The oil that leaves the full film is carried on by
+    surfaces that diverge. A rough film may cavitate and reform several times. The oil mass rho H that flows
+    on is then at most the smallest oil mass at the exits upstream.
 
     Parameters
     ----------
     thickness, density : ndarray, shape (nx,) or (nx, ny)
-        Film thickness and density, in any unit; x along entrainment.
+        Film thickness and density, in any unit; the first axis runs along entrainment.
     cavitated : ndarray of bool, of the same shape
-        Where the pressure is held at ambient.
+        Whether the film is cavitated, that is at ambient pressure.
 
     Returns
     -------
     ndarray, of the same shape
-        From 0 to 1; 1 before the first exit of each line along x, and where the film is full. An exit is the
-        first cavitated node behind a full one.
+        Oil fraction from 0 to 1, dimensionless. It is 1 in the full film, and before the first exit of each
+        line along x. An exit is the first cavitated node behind a full-film node.
 
     Examples
     --------
@@ -54,9 +54,9 @@ def _layers(permittivity: Array, fraction: Array) -> Array:
     return 1.0 / (fraction / permittivity + (1.0 - fraction))
 
 
-# Relative permittivity of a gap over that of the oil and its fraction, by what ``outlet`` says: oil alone;
-# fingers of oil from wall to wall with gas beside them, in parallel; layers of oil on the walls with gas
-# between them, in series.
+# Functions of the oil's relative permittivity and the oil fraction that give the relative permittivity of the
+# gap, by the name of the filling: oil alone; fingers of oil from wall to wall with gas beside them, in
+# parallel; layers of oil on the walls with gas between them, in series.
 OUTLETS: dict[str, Callable[[Array, Array], Array]] = {
     "full": _full,
     "fingers": _fingers,
@@ -65,22 +65,23 @@ OUTLETS: dict[str, Callable[[Array, Array], Array]] = {
 
 
 def filled_permittivity(permittivity: Array, fraction: Array, outlet: str) -> Array:
-    """Relative permittivity of a gap that oil fills in part, the rest being gas.
+    """Relative permittivity of a gap that is filled with oil and gas.
 
     Parameters
     ----------
     permittivity : ndarray, shape (...)
-        Of the oil.
+        Relative permittivity of the oil, dimensionless.
     fraction : ndarray, shape (...)
-        Part that oil fills, from 0 to 1.
+        Fraction f of the gap that is filled with oil, from 0 to 1, dimensionless.
     outlet : str
-        "full", "fingers" (eps = f eps_oil + 1 - f) or "layers" (1/eps = f/eps_oil + 1 - f). The last two
-        bound every arrangement (O. Wiener, Abh. Math.-Phys. Kl. Saechs. Ges. Wiss. 32 (1912) 509).
+        "full" (oil alone), "fingers" (eps = f eps_oil + 1 - f) or "layers" (1/eps = f/eps_oil + 1 - f). The
+        permittivity of any arrangement of oil and gas is between that of fingers and of layers (O. Wiener,
+        Abh. Math.-Phys. Kl. Saechs. Ges. Wiss. 32 (1912) 509).
 
     Returns
     -------
     ndarray, shape (...)
-        Dimensionless.
+        Relative permittivity of the gap, dimensionless.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Parts of the assessment of a discharge: breakdown, its zone, capacitances, energies and leakage."""
+"""Parts of the assessment of a discharge: breakdown, breakdown zone, capacitances, energies and leakage."""
 
 from __future__ import annotations
 
@@ -38,11 +38,11 @@ class Size:
     half_width : float
         Half-width of a line contact, or semi-axis of a point contact along entrainment [m].
     hertz : float
-        Width of the dry contact of a line [m], or area of that of a point [m^2].
+        Width of a dry line contact [m], or area of a dry point contact [m^2].
     length : float or None
-        Length of a line contact [m], None where the case does not give it; 1 for a point contact.
+        Length of a line contact [m], None if the case does not give it; 1 for a point contact.
     line : bool
-        Whether it is a line contact.
+        Whether the contact is a line contact.
     """
 
     half_width: float
@@ -51,21 +51,26 @@ class Size:
     line: bool
 
     @classmethod
-    def of(cls, semi_axes: tuple[float, ...], given: Discharge) -> Size:
-        """Size of a dry contact from its half-width, or from both of its semi-axes [m]."""
+    def of(cls, semi_axes: tuple[float, ...], discharge: Discharge) -> Size:
+        """Size of a dry contact from its half-width [m], or from its two semi-axes [m]."""
         b = semi_axes[0]
         if len(semi_axes) == 1:
-            return cls(b, 2.0 * b, given.length, line=True)
+            return cls(b, 2.0 * b, discharge.length, line=True)
         return cls(b, np.pi * b * semi_axes[1], 1.0, line=False)
 
     def total(self, per_length: float) -> float | None:
-        """Value of the contact from one per length of a line; None for a line without a length."""
+        """Value of the whole contact from a value per length; None for a line contact of unknown length.
+
+        A value of a point contact is returned unchanged.
+        """
         return None if self.length is None else self.length * per_length
 
 
 @dataclass(frozen=True)
 class Breakdown:
-    """Voltage at which a film breaks down; None where the case does not give a strength.
+    """Breakdown voltage of a film and probability of breakdown.
+
+    All values are None if the case gives neither a dielectric strength nor a Weibull law.
 
     Attributes
     ----------
@@ -74,13 +79,13 @@ class Breakdown:
     dielectric_strength : float or None
         Dielectric strength in the zone that breaks down first [V/m]; None for a Weibull law.
     breakdown_voltage : float or None
-        Breakdown voltage [V]; of a Weibull law at a probability of 63.2 %.
+        Breakdown voltage [V]; for a Weibull law at a probability of 63.2 %.
     breakdown_voltage_low, breakdown_voltage_high : float or None
-        Breakdown voltage of a Weibull law at probabilities of 5 and 95 % [V]; None for other laws.
+        Breakdown voltage of a Weibull law at probabilities of 5 % and 95 % [V]; None for other laws.
     margin : float or None
-        Breakdown voltage over the voltage of the case.
+        Breakdown voltage over the voltage of the case, dimensionless.
     probability : float or None
-        Probability of breakdown at the voltage of the case; 0 or 1 unless the law is Weibull's.
+        Probability of breakdown at the voltage of the case; 0 or 1 unless the law is a Weibull law.
     """
 
     strength_law: str | None = None
@@ -92,47 +97,54 @@ class Breakdown:
     probability: float | None = None
 
 
-def breakdown(given: Discharge, used: FieldUtilisation, voltage: float, size: Size) -> Breakdown:
-    """Breakdown of a film by a Weibull law, or by a strength that is given.
+def breakdown(discharge: Discharge, utilisation: FieldUtilisation, voltage: float, size: Size) -> Breakdown:
+    """Breakdown of a film by a Weibull law, a constant dielectric strength, or a table of it.
 
     Parameters
     ----------
-    given : Discharge
-        Strength of the lubricant.
-    used : FieldUtilisation
+    discharge : Discharge
+        Inputs of the discharge, with the dielectric strength or the Weibull law.
+    utilisation : FieldUtilisation
         Field strength and dielectric strength of the film.
     voltage : float
         Voltage of the field [V].
     size : Size
         Size of the dry contact.
+
+    Returns
+    -------
+    Breakdown
+        Breakdown voltage and probability; all None if the case gives neither a strength nor a Weibull law.
     """
-    if given.weibull is not None:
-        return _weibull_breakdown(given, used, voltage, size)
-    if not given.has_strength:
+    if discharge.weibull is not None:
+        return _weibull_breakdown(discharge, utilisation, voltage, size)
+    if not discharge.has_strength:
         return Breakdown()
-    table = given.strength_table
-    breaks = breakdown_voltage(voltage, used.strength, used.dielectric_strength)
+    table = discharge.strength_table
+    breaking_voltage = breakdown_voltage(voltage, utilisation.strength, utilisation.dielectric_strength)
     return Breakdown(
         strength_law="constant" if table is None else f"table over {table.over}",
-        dielectric_strength=used.dielectric_strength_there,
-        breakdown_voltage=breaks,
-        margin=breaks / voltage,
-        probability=float(voltage >= breaks),
+        dielectric_strength=utilisation.dielectric_strength_there,
+        breakdown_voltage=breaking_voltage,
+        margin=breaking_voltage / voltage,
+        probability=float(voltage >= breaking_voltage),
     )
 
 
-def _weibull_breakdown(given: Discharge, used: FieldUtilisation, voltage: float, size: Size) -> Breakdown:
-    law = given.weibull
+def _weibull_breakdown(
+    discharge: Discharge, utilisation: FieldUtilisation, voltage: float, size: Size
+) -> Breakdown:
+    law = discharge.weibull
     assert law is not None and size.length is not None
-    areas = size.length * used.areas
-    weakest = WeakestLink.of(voltage, used.over_domain, areas, law.scale, law.shape, law.reference_area)
-    breaks = weakest.characteristic_voltage
+    areas, strength = size.length * utilisation.areas, utilisation.over_domain
+    weakest = WeakestLink.of(voltage, strength, areas, law.scale, law.shape, law.reference_area)
+    breaking_voltage = weakest.characteristic_voltage
     return Breakdown(
         strength_law="weibull",
-        breakdown_voltage=breaks,
+        breakdown_voltage=breaking_voltage,
         breakdown_voltage_low=weakest.voltage(0.05),
         breakdown_voltage_high=weakest.voltage(0.95),
-        margin=breaks / voltage,
+        margin=breaking_voltage / voltage,
         probability=weakest.probability(voltage),
     )
 
@@ -141,19 +153,21 @@ def _weibull_breakdown(given: Discharge, used: FieldUtilisation, voltage: float,
 class BreakdownZone:
     """Zone of a film that breaks down first.
 
+    Utilisation is the ratio of field strength to dielectric strength.
+
     Attributes
     ----------
     zone_position : float or tuple of float
-        Position at which the field uses most of the strength, x or (x, y) [m].
+        Position of the largest utilisation, x or (x, y) [m].
     zone_size : float
-        Width of the zone around it in which the field uses at least 95 % of that [m]; of a point contact the
-        diameter of a circle of the same area.
+        Width of the zone around this position where the utilisation is at least 95 % of its maximum [m]; for
+        a point contact the diameter of a circle with the area of the zone.
     zone_area : float or None
-        Area of the zone [m^2]; of a line contact its width times the length, None without a length.
+        Area of the zone [m^2]; for a line contact its width times the length, None if the length is unknown.
     zone_over_half_width : float
         ``zone_size`` over the half-width of the dry contact, or over its semi-axis along entrainment.
     zone_over_largest_pit, zone_over_mean_pit : float
-        ``zone_size`` over the published sizes of pits, 4 and 1.7 um.
+        ``zone_size`` over the largest and over the mean published size of a pit, 4 um and 1.7 um.
     """
 
     zone_position: float | tuple[float, ...]
@@ -164,12 +178,12 @@ class BreakdownZone:
     zone_over_mean_pit: float
 
 
-def breakdown_zone(used: FieldUtilisation, size: Size) -> BreakdownZone:
-    """Zone of a film in which the field uses most of the strength."""
-    extent = used.extent
+def breakdown_zone(utilisation: FieldUtilisation, size: Size) -> BreakdownZone:
+    """Zone of a film that breaks down first, where the utilisation is largest."""
+    extent = utilisation.extent
     across = extent if size.line else float(np.sqrt(4.0 * extent / np.pi))
     return BreakdownZone(
-        zone_position=used.position[0] if size.line else used.position,
+        zone_position=utilisation.position[0] if size.line else utilisation.position,
         zone_size=across,
         zone_area=size.total(extent),
         zone_over_half_width=across / size.half_width,
@@ -180,24 +194,26 @@ def breakdown_zone(used: FieldUtilisation, size: Size) -> BreakdownZone:
 
 @dataclass(frozen=True)
 class Capacitances:
-    """Capacitances of a contact, per length [F/m] for a line contact, in [F] for a point contact.
+    """Capacitances of a contact: per length [F/m] for a line contact, [F] for a point contact.
 
     Attributes
     ----------
     capacitance : float
         Capacitance over the whole domain of the film.
-    capacitance_hertz, capacitance_inlet, capacitance_outlet, capacitance_sides : float
-        Parts of the Hertz zone, before, behind and beside it; None for the sides of a line contact.
+    capacitance_hertz, capacitance_inlet, capacitance_outlet : float
+        Capacitances of the Hertz zone, of the inlet before it, and of the outlet behind it.
+    capacitance_sides : float or None
+        Capacitance of the sides of a point contact; None for a line contact.
     capacitance_plate : float
-        Capacitance of parallel plates, eps0 eps_r A/h(0) of the Hertz zone, eps_r at ambient pressure.
+        Capacitance of parallel plates over the Hertz zone, eps0 eps_r A/h(0), with eps_r at ambient pressure.
     capacitance_ratio : float
-        ``capacitance`` over ``capacitance_plate``.
+        ``capacitance`` over ``capacitance_plate``, dimensionless.
     capacitance_outlet_full, capacitance_outlet_fingers, capacitance_outlet_layers : float
-        Capacitance of the outlet by what fills the gap behind the exit.
+        Capacitance of the outlet for each filling of the gap behind the exit.
     capacitance_full, capacitance_fingers, capacitance_layers : float
-        Capacitance over the whole domain by what fills the outlet; of a point contact its sides differ too.
+        Capacitance over the whole domain for each filling. In a point contact it affects the sides too.
     outlet : str
-        Filling of the outlet that ``capacitance`` and the energies count with.
+        Filling of the outlet on which ``capacitance`` and the energies are based.
     """
 
     capacitance: float
@@ -217,63 +233,71 @@ class Capacitances:
 
 
 def capacitances(
-    given: Discharge,
+    discharge: Discharge,
     lubricant: Lubricant,
     semi_axes: tuple[float, ...],
     film: Film | PointFilm,
     field: Field | PointField,
 ) -> Capacitances:
-    """Capacitances of the zones of a contact, and of the outlet by what fills it.
+    """Capacitances of the zones of a contact, for each filling of the outlet.
 
     Parameters
     ----------
-    given : Discharge
-        Filling of the outlet.
+    discharge : Discharge
+        Inputs of the discharge, with the filling of the outlet.
     lubricant : Lubricant
-        Permittivity of the oil.
+        Lubricant, for its relative permittivity.
     semi_axes : tuple of float
-        Half-width of a line contact, or both semi-axes of a point contact [m].
-    film, field
-        The solution.
+        Half-width of a line contact, or semi-axes of a point contact along and across entrainment [m].
+    film, field : Film and Field, or PointFilm and PointField
+        Solution of the contact.
+
+    Returns
+    -------
+    Capacitances
+        Capacitances per length [F/m] of a line contact, or [F] of a point contact.
     """
     areas = line_zone_areas if len(semi_axes) == 1 else point_zone_areas
     zones = areas(film.axes, *semi_axes), areas(field.axes, *semi_axes)
     by_outlet = zone_capacitances(film, field, zones, permittivity_law(lubricant))
-    chosen, total = by_outlet[given.outlet], {name: sum(parts.values()) for name, parts in by_outlet.items()}
-    hertz = Size.of(semi_axes, given).hertz
+    chosen = by_outlet[discharge.outlet]
+    total = {name: sum(parts.values()) for name, parts in by_outlet.items()}
+    hertz = Size.of(semi_axes, discharge).hertz
     plate = epsilon_0 * lubricant.relative_permittivity * hertz / film.central_thickness
     return Capacitances(
-        capacitance=total[given.outlet],
+        capacitance=total[discharge.outlet],
         capacitance_hertz=chosen["hertz"],
         capacitance_inlet=chosen["inlet"],
         capacitance_outlet=chosen["outlet"],
         capacitance_sides=chosen.get("sides"),
         capacitance_plate=plate,
-        capacitance_ratio=total[given.outlet] / plate,
+        capacitance_ratio=total[discharge.outlet] / plate,
         capacitance_outlet_full=by_outlet["full"]["outlet"],
         capacitance_outlet_fingers=by_outlet["fingers"]["outlet"],
         capacitance_outlet_layers=by_outlet["layers"]["outlet"],
         capacitance_full=total["full"],
         capacitance_fingers=total["fingers"],
         capacitance_layers=total["layers"],
-        outlet=given.outlet,
+        outlet=discharge.outlet,
     )
 
 
 @dataclass(frozen=True)
 class DischargeCosts:
-    """Energy and current of a discharge; None where the case does not give what it takes.
+    """Energy of a discharge, size of the pit that it melts, and current density.
+
+    A value is None if the case lacks an input that it needs.
 
     Attributes
     ----------
     contact_energy : float or None
-        Energy C V^2/2 of the contact at the voltage of the case [J].
+        Energy C V^2/2 stored in the contact at the voltage of the case [J].
     discharge_energy : float or None
-        The same energy with the capacitance that is connected to the contact [J].
+        Energy C V^2/2 stored in the contact and in the external capacitance, at the voltage of the case [J].
     breakdown_energy : float or None
-        ``discharge_energy`` at the breakdown voltage [J].
+        Energy C V^2/2 stored in the contact and in the external capacitance, at the breakdown voltage [J].
     pit_volume : float or None
-        Volume that ``discharge_energy`` melts of one surface [m^3].
+        Volume of one surface that ``discharge_energy`` melts [m^3].
     pit_diameter : float or None
         Diameter of a hemisphere of that volume [m].
     current_density : float or None
@@ -292,37 +316,45 @@ class DischargeCosts:
 
 
 def discharge_costs(
-    given: Discharge, capacitance: float, voltage: float, breaks: float | None, size: Size
+    discharge: Discharge, capacitance: float, voltage: float, breaking_voltage: float | None, size: Size
 ) -> DischargeCosts:
-    """Energy of a discharge, the pit that it melts, and its apparent current density.
+    """Energy of a discharge, size of the pit that it melts, and apparent current density.
 
     Parameters
     ----------
-    given : Discharge
-        External capacitance, pit and peak current.
+    discharge : Discharge
+        Inputs of the discharge, with external capacitance, pit and peak current.
     capacitance : float
         Capacitance per length of a line contact [F/m], or of a point contact [F].
-    voltage, breaks : float
-        Voltage of the case, and breakdown voltage or None [V].
+    voltage : float
+        Voltage of the case [V].
+    breaking_voltage : float or None
+        Breakdown voltage [V]; None if it is unknown.
     size : Size
         Size of the dry contact.
+
+    Returns
+    -------
+    DischargeCosts
+        Values in SI units; None if the case lacks an input that a value needs.
     """
-    total, external = size.total(capacitance), given.external_capacitance
+    total, external = size.total(capacitance), discharge.external_capacitance
     together = None if total is None or external is None else total + external
     energy = _energy(together, voltage)
     volume = (
         None
-        if given.pit is None or energy is None
-        else melted_volume(energy, given.pit.efficiency, given.pit.melting_energy)
+        if discharge.pit is None or energy is None
+        else melted_volume(energy, discharge.pit.efficiency, discharge.pit.melting_energy)
     )
-    area = None if given.peak_current is None else size.total(size.hertz)
+    current = discharge.peak_current
+    area = None if current is None else size.total(size.hertz)
     return DischargeCosts(
         contact_energy=_energy(total, voltage),
         discharge_energy=energy,
-        breakdown_energy=_energy(together, breaks),
+        breakdown_energy=_energy(together, breaking_voltage),
         pit_volume=volume,
         pit_diameter=None if volume is None else pit_diameter(volume),
-        current_density=None if given.peak_current is None or area is None else given.peak_current / area,
+        current_density=None if current is None or area is None else current / area,
         current_density_limits=None if area is None else CURRENT_DENSITY_LIMITS,
     )
 
@@ -333,23 +365,23 @@ def _energy(capacitance: float | None, voltage: float | None) -> float | None:
 
 @dataclass(frozen=True)
 class Leakage:
-    """Leakage of charge through the oil at ambient pressure; None without a conductivity.
+    """Leakage of charge through the oil at ambient pressure; None if the conductivity is unknown.
 
     Attributes
     ----------
     relaxation_time : float or None
         Charge relaxation time eps0 eps_r/sigma [s].
     corner_frequency : float or None
-        Frequency above which the film is a capacitor [Hz].
+        Frequency above which the film is a capacitor, 1/(2 pi ``relaxation_time``) [Hz].
     """
 
     relaxation_time: float | None = None
     corner_frequency: float | None = None
 
 
-def leakage(given: Discharge, permittivity: float) -> Leakage:
-    """Leakage of charge through an oil of a relative permittivity, where its conductivity is given."""
-    if given.conductivity is None:
+def leakage(discharge: Discharge, permittivity: float) -> Leakage:
+    """Leakage of charge through an oil with this relative permittivity and the conductivity of the case."""
+    if discharge.conductivity is None:
         return Leakage()
-    time = relaxation_time(permittivity, given.conductivity)
+    time = relaxation_time(permittivity, discharge.conductivity)
     return Leakage(relaxation_time=time, corner_frequency=1.0 / (2.0 * np.pi * time))

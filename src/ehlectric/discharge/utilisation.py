@@ -1,4 +1,4 @@
-"""The field of a contact as a discharge sees it: how much of the strength is used, and where first."""
+"""Utilisation of the dielectric strength by the field of a contact, and the position of its maximum."""
 
 from __future__ import annotations
 
@@ -20,21 +20,23 @@ from ehlectric.film.point import PointFilm
 
 @dataclass(frozen=True)
 class FieldUtilisation:
-    """Field strength of a contact beside the dielectric strength of its film.
+    """Utilisation of the dielectric strength: the ratio of field strength to dielectric strength.
 
     Attributes
     ----------
-    strength, dielectric_strength : ndarray, shape (nx,) or (nx, ny)
-        Largest field strength of each column of the solved field, and the dielectric strength there [V/m]; 1
-        V/m where the case gives none, or a Weibull law.
+    strength : ndarray, shape (nx,) or (nx, ny)
+        Largest field strength in each column of the solved field [V/m].
+    dielectric_strength : ndarray, shape (nx,) or (nx, ny)
+        Dielectric strength at each column [V/m]; 1 V/m if the case gives none, or gives a Weibull law.
     position : tuple of float
-        Place where the strength is used most [m].
+        Position of the largest utilisation, (x,) or (x, y) [m].
     extent : float
-        Width [m], or of a point contact area [m^2], of the zone around it where it is used to 95 % of that or
-        more.
-    over_domain, areas : ndarray, shape (n,)
-        Field strength over the whole domain of the film, that of a thin gap where no field was solved [V/m],
-        and the area of each part [m^2]; of a line contact the width [m].
+        Width [m], or area [m^2] for a point contact, of the zone around ``position`` where the utilisation
+        is at least 95 % of its maximum.
+    over_domain : ndarray, shape (n,)
+        Field strength over the whole domain of the film [V/m]; outside the field range that of a thin gap.
+    areas : ndarray, shape (n,)
+        Area that each value of ``over_domain`` stands for [m^2]; for a line contact the width [m].
     """
 
     strength: Array
@@ -46,53 +48,55 @@ class FieldUtilisation:
 
     @property
     def dielectric_strength_there(self) -> float:
-        """Dielectric strength where it is used most [V/m]."""
+        """Dielectric strength at the position of the largest utilisation [V/m]."""
         return float(self.dielectric_strength.flat[np.argmax(self.strength / self.dielectric_strength)])
 
     @classmethod
-    def of(cls, given: Discharge, film: Film | PointFilm, field: Field | PointField) -> FieldUtilisation:
-        """Utilisation of the strength in a solved contact."""
+    def of(cls, discharge: Discharge, film: Film | PointFilm, field: Field | PointField) -> FieldUtilisation:
+        """Utilisation of the dielectric strength in a solved contact."""
         strength, columns = field.column_strength, field.axes
-        limit = dielectric_strength(given, at_columns(film, field, film.pressure))
-        used = strength / limit
-        place = np.unravel_index(np.argmax(used), used.shape)
+        limit = dielectric_strength(discharge, at_columns(film, field, film.pressure))
+        utilisation = strength / limit
+        place = np.unravel_index(np.argmax(utilisation), utilisation.shape)
         thin = field.voltage / np.maximum(film.thickness, ATOM)
         around = areas(film.axes) - areas(film.axes, columns)
         return cls(
             strength=strength,
             dielectric_strength=limit,
             position=tuple(float(axis[k]) for axis, k in zip(columns, place, strict=True)),
-            extent=field.extent_above(used, BREAKING * float(np.max(used))),
+            extent=field.extent_above(utilisation, BREAKING * float(np.max(utilisation))),
             over_domain=np.concatenate([strength.ravel(), thin.ravel()]),
             areas=np.concatenate([areas(columns).ravel(), around.ravel()]),
         )
 
 
-def dielectric_strength(given: Discharge, pressure: Array) -> Array:
-    """Dielectric strength of a film.
+def dielectric_strength(discharge: Discharge, pressure: Array) -> Array:
+    """Dielectric strength of a film at given pressures.
 
     Parameters
     ----------
-    given : Discharge
-        What the case gives: a strength, a table of it over pressure or temperature, or none of them.
+    discharge : Discharge
+        Inputs of the discharge: a constant strength, a table over pressure or temperature, or neither.
     pressure : ndarray, shape (...)
         Pressure in the film [Pa].
 
     Returns
     -------
     ndarray, shape (...)
-        [V/m]; a table is linear in between and holds its ends, and without a strength it is 1 V/m.
+        Dielectric strength [V/m]. A table is interpolated linearly, and its end values hold beyond its ends.
+        If the case gives neither a constant nor a table, it is 1 V/m.
 
     Examples
     --------
     >>> table = {"pressure": ["0 GPa", "1 GPa"], "strength": ["15 V/um", "25 V/um"]}
-    >>> given = Discharge.from_dict({"strength_table": table})
-    >>> dielectric_strength(given, np.array([0.0, 0.5e9, 2e9])).tolist()
+    >>> discharge = Discharge.from_dict({"strength_table": table})
+    >>> dielectric_strength(discharge, np.array([0.0, 0.5e9, 2e9])).tolist()
     [15000000.0, 20000000.0, 25000000.0]
     """
-    table = given.strength_table
+    table = discharge.strength_table
     if table is None:
-        return np.full_like(pressure, 1.0 if given.dielectric_strength is None else given.dielectric_strength)
-    at = pressure if table.over == "pressure" else np.full_like(pressure, given.temperature)
+        constant = discharge.dielectric_strength
+        return np.full_like(pressure, 1.0 if constant is None else constant)
+    at = pressure if table.over == "pressure" else np.full_like(pressure, discharge.temperature)
     strength: Array = np.interp(at, table.places, table.strength)
     return strength

@@ -147,5 +147,8 @@ def at_centre(mesh: Mesh, values: Array) -> float:
     float
         In the unit of ``values``.
     """
-    line = np.array([np.interp(0.0, mesh.y, row) for row in values])
-    return float(np.interp(0.0, mesh.x, line))
+    # The two rows on either side of X = 0 suffice.
+    after = min(max(int(np.searchsorted(mesh.x, 0.0)), 1), mesh.x.size - 1)
+    rows = slice(after - 1, after + 1)
+    line = [np.interp(0.0, mesh.y, row) for row in values[rows]]
+    return float(np.interp(0.0, mesh.x[rows], line))

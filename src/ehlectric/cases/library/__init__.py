@@ -1,4 +1,4 @@
-"""Named lubricants, solids and bearings, one TOML file each, with the source of its numbers."""
+"""Library of named lubricants, solids and bearings: one TOML file each, with the sources of its numbers."""
 
 from __future__ import annotations
 
@@ -21,30 +21,30 @@ def _table(kind: str, name: str) -> dict[str, Any]:
 
 
 def lubricant_names() -> list[str]:
-    """Names a case file can use as ``lubricant.base``."""
+    """Names of lubricants that a case file can use as ``lubricant.base``."""
     return _names("lubricant")
 
 
 def lubricant(name: str) -> dict[str, Any]:
-    """The ``[lubricant]`` table of a named lubricant, as a case file would give it."""
+    """Table ``lubricant`` of a named lubricant, in the form of a case file."""
     return _table("lubricant", name)
 
 
 def solid_names() -> list[str]:
-    """Names a bearing file can use as materials."""
+    """Names of solids that a bearing file can use as materials."""
     return _names("solid")
 
 
 def solid(name: str) -> dict[str, Any]:
-    """Elastic constants and density of a named solid, with their units, and whether it conducts."""
+    """Elastic constants and density of a named solid, as texts with units, and whether it conducts."""
     return _table("solid", name)
 
 
 def bearing_names() -> list[str]:
-    """Names a bearing file can use as ``bearing.base``."""
+    """Names of bearings that a bearing file can use as ``bearing.base``."""
     return _names("bearing")
 
 
 def bearing(name: str) -> dict[str, Any]:
-    """The ``[bearing]`` table of a named bearing, as far as its geometry is published."""
+    """Table ``bearing`` of a named bearing, with those dimensions that are published."""
     return _table("bearing", name)
