@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 FileKind = Literal["contact", "motion", "bearing", "sweep"]
 
 # Tables and keys that only sweep files have.
-_OF_SWEEPS = ("case", "vary", "design", "ranges")
+_OF_SWEEPS = ("case", "vary", "design")
 
 
 @dataclass(frozen=True)
@@ -214,7 +214,7 @@ def run_bearing(
     workers: int | None = None,
 ) -> RunOutcome[BearingResult]:
     """Solve a bearing, and write its results; ``contacts``, "solved" or "formula", replaces the key."""
-    from ehlectric.bearing.run import run
+    from ehlectric.bearing.files import run
 
     case = case.replace({"contacts": contacts}) if contacts else case
     return run(case, folder, progress, workers=workers, others=(*BEARING_FIGURE_FILES, *SPEED_FIGURE_FILES))
