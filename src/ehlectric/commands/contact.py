@@ -79,7 +79,9 @@ def _transient_tables(outcome: RunOutcome[object]) -> Iterator[Table]:
 
 
 def plot(
-    result_file: Annotated[Path, typer.Argument(help="A result.nc, or a motion.nc.", show_default=False)],
+    result_file: Annotated[
+        Path, typer.Argument(help="A result.nc, bearing.nc or motion.nc.", show_default=False)
+    ],
     output: Annotated[
         Path | None,
         typer.Option("--output", "-o", metavar="DIR", help="Folder, default that of the file."),
