@@ -1,7 +1,7 @@
-"""How much of a waviness that rolls through a line contact is left in its film.
+"""Amplitude reduction of waviness in the film of a line contact in pure rolling.
 
-python -m benchmarks.amplitude_reduction    (ten minutes: the table of docs/data, and its figure)
-python -m benchmarks.amplitude_reduction --figure    (fit and figure of the table that is there)
+python -m benchmarks.amplitude_reduction    (ten minutes: writes the table of docs/data and its figure)
+python -m benchmarks.amplitude_reduction --figure    (fit and figure from the existing table)
 
 As defined by Venner, Couhier, Lubrecht and Greenwood, Amplitude reduction of waviness in transient EHL line
 contacts, Tribology Series 32 (1997) 103-112, doi:10.1016/S0167-8922(08)70440-1.
@@ -34,7 +34,7 @@ TABLE = ROOT / "docs/data/amplitude_reduction.csv"
 FIGURE = ROOT / "docs/figures/amplitude_reduction.png"
 PUBLISHED = ROOT / "tests/published/data/amplitude_reduction.csv"
 
-# Their oil, steel and radius; M and L follow from load and speed.
+# Oil, steel and radius of Venner et al.; load and speed follow from M and L.
 RADIUS, MODULUS, VISCOSITY, ALPHA = 14.1e-3, 226e9, 0.04, 22e-9
 LUBRICANT = {"base": "paper", "roelands_pressure": 1.96e8}
 
@@ -44,11 +44,11 @@ HEADER = """\
 # half the nodes; wavelength over b, amplitude over the smooth central film H = h R/b^2.
 """
 
-# Time steps a wavelength has at least, and grid spacings a step has at most: whole ones, which need no
-# interpolation.
+# Least number of time steps per wavelength, and largest number of grid spacings per step. Whole numbers of
+# spacings need no interpolation.
 STEPS_A_WAVELENGTH, MOST_SPACINGS = 100, 4
 
-# (M, L), the domain's inlet, and wavelengths over the half-width.
+# M, L, inlet of the domain, and wavelengths divided by the half-width.
 STUDY = (
     (100.0, 11.0, -2.5, (4.0, 2.0, 1.0, 0.5, 0.25, 0.125)),
     (20.0, 5.0, -4.0, (2.0, 1.0, 0.5, 0.25)),
@@ -63,10 +63,11 @@ STUDY = (
 
 @dataclass(frozen=True)
 class Reduction:
-    """One point: M, L, wavelength over b, amplitude over the smooth central film, A_d/A_i with its error.
+    """Computed amplitude reduction of one waviness in one contact.
 
-    ``error`` is a third of the difference to the grid of half the nodes, as of a scheme of second order;
-    ``central`` the smooth film H at X = 0.
+    ``wavelength`` is divided by the half-width b, ``amplitude`` by the smooth central film ``central`` (H at
+    X = 0). ``ratio`` is A_d/A_i. ``error`` is a third of the difference from the grid of half the nodes, as
+    for a scheme of second order.
     """
 
     moes_m: float
@@ -80,12 +81,12 @@ class Reduction:
 
     @property
     def nabla(self) -> float:
-        """(wavelength/b) M^(3/4)/L^(1/2), their parameter."""
+        """Parameter (wavelength/b) M^(3/4)/L^(1/2) of the published fit."""
         return self.wavelength * self.moes_m**0.75 / self.moes_l**0.5
 
 
 def contact(moes_m: float, moes_l: float, *, nodes: int, inlet: float = -2.5, outlet: float = 1.5) -> Case:
-    """A line contact of given Moes groups: L is a speed, and M then a load."""
+    """Line contact with given Moes groups: the speed follows from L, the load from M."""
     # 2 U and W of M = W (2 U)^(-1/2), L = alpha E' (2 U)^(1/4).
     double_speed = (moes_l / (ALPHA * MODULUS)) ** 4
     return Case.from_dict(
@@ -131,9 +132,9 @@ def amplitude_reduction(
     moes_m, moes_l : float
         M and L of the sum of the surface speeds.
     wavelength, amplitude : float
-        Over the half-width, and over the smooth film at X = 0.
+        Wavelength divided by the half-width; amplitude divided by the smooth film at X = 0.
     nodes : int
-        Of the finer grid.
+        Nodes of the finer grid.
     inlet : float
         X where the domain begins; it ends at 1.5.
     """
@@ -145,7 +146,7 @@ def amplitude_reduction(
 def _on_grid(
     moes_m: float, moes_l: float, wavelength: float, amplitude: float, nodes: int, inlet: float
 ) -> tuple[float, float]:
-    """A_d/A_i and the smooth central film on one grid."""
+    """Ratio A_d/A_i and smooth central film H(0) on one grid."""
     case = contact(moes_m, moes_l, nodes=nodes, inlet=inlet)
     problem = film_problem(case, resolve(case))
     with quiet_solution():
@@ -158,7 +159,7 @@ def _on_grid(
         spacings = int(np.clip(wavelength / (STEPS_A_WAVELENGTH * mesh.dx), 1, MOST_SPACINGS))
         duration = np.ptp(mesh.x) + 0.5 * wavelength + max(1.0, 2.0 * wavelength)
         times, films = _central_films(film, steady, spacings * mesh.dx, duration)
-    # At the last, the whole contact has been wavy for two periods.
+    # By the end, the whole contact has been wavy for two periods.
     last = np.linspace(times[-1] - wavelength, times[-1], 2001)
     return float(np.ptp(CubicSpline(times, films)(last))) / (2.0 * amplitude * central), central
 
@@ -166,7 +167,7 @@ def _on_grid(
 def _central_films(
     film: UnsteadyFilm, steady: GridSolution, step: float, duration: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """H(0, T) of all time steps."""
+    """Times T and central films H(0, T) of all time steps."""
     history = film.start(steady, step)
     times, films = [0.0], [at_centre(film.level.mesh, steady.state.thickness)]
     while history.now.time < duration:
@@ -177,13 +178,13 @@ def _central_films(
 
 
 def published_fit(nabla: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Their eq. (5)."""
+    """Amplitude reduction by eq. (5) of Venner et al. (1997)."""
     ratio: NDArray[np.float64] = 1.0 / (1.0 + 0.17 * nabla + 0.03 * nabla**2)
     return ratio
 
 
 def fitted(nabla: NDArray[np.float64], ratio: NDArray[np.float64]) -> tuple[float, float]:
-    """c and p of 1/(1 + c n^p), by least squares of the logarithms."""
+    """Parameters c and p of 1/(1 + c n^p), by least squares of the logarithms."""
 
     def misses(parameters: NDArray[np.float64]) -> NDArray[np.float64]:
         c, p = parameters
@@ -194,13 +195,13 @@ def fitted(nabla: NDArray[np.float64], ratio: NDArray[np.float64]) -> tuple[floa
 
 
 def scatter(ratio: NDArray[np.float64], fit: NDArray[np.float64]) -> str:
-    """Root mean square and largest of the relative distance of points from a fit."""
+    """Text with the root mean square and the maximum of the relative distance of points from a fit."""
     distance = 100.0 * (ratio / fit - 1.0)
     return f"scatter {np.sqrt(np.mean(distance**2)):.1f} %, at most {np.max(np.abs(distance)):.0f} %"
 
 
 def study() -> list[Reduction]:
-    """All points, written to the table as they come."""
+    """Compute all points; the table is written anew after each."""
     points = []
     for moes_m, moes_l, inlet, wavelengths in STUDY:
         for wavelength in wavelengths:
@@ -211,7 +212,7 @@ def study() -> list[Reduction]:
 
 
 def write(points: list[Reduction]) -> None:
-    """The table."""
+    """Write the points to the table."""
     with TABLE.open("w", newline="") as file:
         file.write(HEADER)
         table = csv.writer(file, lineterminator="\n")
@@ -221,7 +222,7 @@ def write(points: list[Reduction]) -> None:
 
 
 def read() -> list[Reduction]:
-    """The table that is there."""
+    """Points of the existing table."""
     with TABLE.open() as file:
         rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
     return [
@@ -232,7 +233,7 @@ def read() -> list[Reduction]:
 
 
 def report(points: list[Reduction]) -> None:
-    """Print fit and scatter, and draw the figure."""
+    """Print the fit and its scatter, and draw the figure."""
     points = sorted(points, key=lambda point: point.nabla)
     nabla = np.array([point.nabla for point in points])
     ratio = np.array([point.ratio for point in points])
@@ -252,7 +253,7 @@ def report(points: list[Reduction]) -> None:
 
 
 def draw(points: list[Reduction], fit: tuple[float, float]) -> None:
-    """The ratio over nabla, with both fits and the published table."""
+    """Draw the ratio over nabla, with both fits and the published table."""
     import matplotlib
 
     matplotlib.use("Agg")

@@ -1,4 +1,4 @@
-"""What the solvers are measured against: dense Newton for the film, SuperLU for the field."""
+"""Baselines for the solvers: dense Newton for the film, SuperLU for the field."""
 
 from __future__ import annotations
 
@@ -10,35 +10,36 @@ from scipy.sparse.linalg import splu
 
 from ehlectric.arrays import Array
 from ehlectric.field.poisson import FieldProblem
-from ehlectric.film import line as film
 from ehlectric.film import newton
+from ehlectric.film import solution as stationary
 from ehlectric.film.flow import Fluid
 from ehlectric.film.gap import Gap
 from ehlectric.film.levels import Level
-from ehlectric.film.line import Film
+from ehlectric.film.line import Film, solve_film
 from ehlectric.film.multigrid import Linearised
 from ehlectric.film.problem import FilmProblem
-from ehlectric.film.reynolds import OFFSETS
+from ehlectric.film.reynolds import ALONG, OFFSETS
 from ehlectric.film.state import Residual, State
 
 
 def dense_direction(
     fluid: Fluid, levels: list[Level], state: State, now: Residual
 ) -> tuple[Array, float, int]:
-    """The same Newton direction by LAPACK: the whole Jacobian, factorised."""
-    level = levels[0]
-    jacobian = Linearised.of(Gap(level, state.thickness), now.flow, now.full_film)
+    """Newton direction by LAPACK: the whole Jacobian is assembled and factorised."""
+    gap = Gap(levels[0], state.thickness)
+    jacobian = Linearised.of(gap, now.flow, now.full_film)
     held = np.where(now.full_film, 0.0, fluid.ambient_pressure - state.pressure)
     change, load = jacobian(held, 0.0)
     n = state.pressure.size
     matrix = np.zeros((n + 1, n + 1))
     matrix[:n, :n] = jacobian.by_p.matrix()
-    for k, offset in enumerate(OFFSETS):
+    deflection = gap.matrix()
+    for k, (offset, _) in enumerate(OFFSETS[:ALONG]):
         rows = slice(max(0, -offset), n - max(0, offset))
         columns = slice(max(0, offset), n + min(0, offset))
-        matrix[rows, :n] += jacobian.by_h.coefficients[k, rows] * level.deflection_matrix[columns]
+        matrix[rows, :n] += jacobian.by_h.coefficients[k, rows] * deflection[columns]
     matrix[:n, n] = jacobian.by_h.coefficients.sum(axis=0)[:, 0]
-    matrix[n, :n] = np.where(now.full_film, level.weights, 0.0)[:, 0]
+    matrix[n, :n] = np.where(now.full_film, gap.load_weights(), 0.0)[:, 0]
     fixed = np.flatnonzero(~now.full_film[:, 0])
     matrix[fixed, fixed] = 1.0
     right = np.append(np.where(now.full_film, -now.reynolds - change, 0.0), now.load - load)
@@ -48,12 +49,12 @@ def dense_direction(
 
 def solve_film_densely(problem: FilmProblem) -> Film:
     """``solve_film`` with every linear system solved by LAPACK on all threads."""
-    direction, threads = newton._direction, film.one_blas_thread
-    newton._direction, film.one_blas_thread = dense_direction, np.errstate
+    direction, threads = newton._direction, stationary.one_blas_thread
+    newton._direction, stationary.one_blas_thread = dense_direction, np.errstate
     try:
-        return film.solve_film(problem)
+        return solve_film(problem)
     finally:
-        newton._direction, film.one_blas_thread = direction, threads
+        newton._direction, stationary.one_blas_thread = direction, threads
 
 
 def capacitance_by_superlu(problem: FieldProblem, across: int = 65) -> float:

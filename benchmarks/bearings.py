@@ -1,4 +1,4 @@
-"""What a whole bearing costs: a 6208 at one operating point, its contacts solved and by formula.
+"""Wall time of a whole bearing: a 6208 at one operating point, with contacts solved and by formula.
 
 python -m benchmarks.bearings
 """
@@ -20,7 +20,7 @@ LIMITS = {"solved": (60.0, 1), "formula": (0.5, 5)}
 
 
 def main() -> None:
-    """Print the table."""
+    """Print the table of docs/performance.md."""
     print(f"{processor()}, {len(os.sched_getaffinity(0))} cores, Python {platform.python_version()}\n")
     print("| contacts of `examples/bearing_6208.toml` | seconds | limit |")
     print("| --- | ---: | ---: |")

@@ -1,4 +1,4 @@
-"""Wall time and memory of a call, a command, a process."""
+"""Wall time of calls and commands, and peak memory of processes."""
 
 from __future__ import annotations
 
@@ -15,7 +15,10 @@ EHLECTRIC = Path(sys.executable).with_name("ehlectric")
 
 
 def best(call: Callable[[], Any], repeats: int = 7) -> float:
-    """Shortest wall time of a call [s], after one that warms up: these machines are shared."""
+    """Shortest wall time of repeated calls [s].
+
+    The shortest one counts, since the machines are shared. A warm-up call comes first.
+    """
     times = []
     for _ in range(repeats + (repeats > 1)):
         started = time.perf_counter()
@@ -25,17 +28,18 @@ def best(call: Callable[[], Any], repeats: int = 7) -> float:
 
 
 def command(*arguments: str, repeats: int = 5) -> float:
-    """Wall time of the command [s]."""
+    """Wall time of an ``ehlectric`` command [s]."""
     return best(lambda: subprocess.run([EHLECTRIC, *arguments], capture_output=True, check=True), repeats)
 
 
 def peak_memory(problem: str, solver: str) -> tuple[float, float]:
     """Peak resident memory of a fresh process that solves a problem, and the part that solving it adds [GB].
 
-    Of the problem, an expression on ``benchmarks.cases``, and its solver, "module.function" of the package.
+    ``problem`` is an expression on ``benchmarks.cases``; ``solver`` is a function of the package with its
+    module, such as "film.line.solve_film".
     """
-    module, function = solver.split(".")
-    # Not ru_maxrss: a child begins with its parent's.
+    module, _, function = solver.rpartition(".")
+    # ru_maxrss is no measure here: a child process starts with the value of its parent.
     code = f"""
 from benchmarks import cases
 from ehlectric.{module} import {function}
@@ -53,7 +57,7 @@ print(resident("VmHWM"), resident("VmHWM") - before)
 
 
 def processor() -> str:
-    """Name of the processor."""
+    """Name of the processor of this machine."""
     for line in Path("/proc/cpuinfo").read_text().splitlines():
         if line.startswith("model name"):
             return line.split(":")[1].strip()

@@ -1,4 +1,4 @@
-"""Measure film and field of point contacts beside what they are to keep below, and print their tables.
+"""Measure film and field of point contacts, and print them in tables beside their limits.
 
 python benchmarks/point_contacts.py
 """
@@ -25,7 +25,7 @@ CONTACTS = {"20 N circle": "ball_contact", "6208 ball": "ball_bearing"}
 WEDGES = {"20 N circle": ("second-order", "first-order"), "6208 ball": ("second-order",)}
 REPEATS = {129: 7, 257: 5, 513: 3}  # by nodes along and across
 
-# What the solver is to keep below: seconds by grid, GMRES iterations a Newton step, GB, seconds of a field.
+# Limits of the solver: seconds by grid, GMRES iterations per Newton step, memory [GB], seconds for a field.
 SECONDS = {129: 1.5, 257: 4.0, 513: 20.0}
 ITERATIONS = 30
 MEMORY = 3.0
@@ -34,13 +34,13 @@ FIELD_COLUMNS = 257
 
 
 def iterations(film: Film, nodes: int) -> tuple[int, float]:
-    """GMRES iterations of a Newton step on one grid of a film: the most, and their mean."""
+    """Largest and mean number of GMRES iterations per Newton step on one grid of a film."""
     taken = [step.krylov_iterations for step in film.steps if step.nodes == nodes]
     return max(taken), float(np.mean(taken))
 
 
 def film_rows() -> Iterator[tuple[str, ...]]:
-    """Every contact, wedge and grid: seconds, Newton steps, GMRES iterations, memory."""
+    """Rows of the film table by contact, wedge and grid: time, Newton steps, GMRES iterations, memory."""
     for contact, example in CONTACTS.items():
         for wedge in WEDGES[contact]:
             for nodes, limit in SECONDS.items():
@@ -49,7 +49,7 @@ def film_rows() -> Iterator[tuple[str, ...]]:
                 seconds = best(lambda p=problem: solve_point_film(p), REPEATS[nodes])
                 most, mean = iterations(film, nodes)
                 _, memory = peak_memory(
-                    f"point_film_problem({example!r}, {nodes}, {wedge!r})", "point_film.solve_point_film"
+                    f"point_film_problem({example!r}, {nodes}, {wedge!r})", "film.point.solve_point_film"
                 )
                 yield (
                     f"{contact}, {wedge}",
@@ -63,7 +63,7 @@ def film_rows() -> Iterator[tuple[str, ...]]:
 
 
 def coarser_rows() -> Iterator[tuple[str, ...]]:
-    """GMRES iterations of a Newton step on all grids of the films on the finest."""
+    """Rows of GMRES iterations per Newton step on all grids of the nested iteration to the finest grid."""
     for contact, example in CONTACTS.items():
         for wedge in WEDGES[contact]:
             film = solve_point_film(cases.point_film_problem(example, max(SECONDS), wedge))
@@ -73,19 +73,19 @@ def coarser_rows() -> Iterator[tuple[str, ...]]:
 
 
 def whole_field(example: str) -> PointField:
-    """The field of a contact on both sides of its plane of symmetry."""
+    """Field of a contact on both sides of its plane of symmetry."""
     field = solve_point_field(cases.point_field_problem(example, FIELD_COLUMNS))
     return field.mirrored() if field.y[0] == 0.0 else field
 
 
 def field_rows() -> Iterator[tuple[str, ...]]:
-    """Every contact: seconds, conjugate gradients and memory of its field."""
+    """Rows of the field table, one for each contact: time, conjugate-gradient iterations, memory."""
     for contact, example in CONTACTS.items():
         problem = cases.point_field_problem(example, FIELD_COLUMNS)
         solved = solve_point_field(problem)
         seconds = best(lambda p=problem: solve_point_field(p).mirrored(), 5)
         _, memory = peak_memory(
-            f"point_field_problem({example!r}, {FIELD_COLUMNS})", "point_field.solve_point_field"
+            f"point_field_problem({example!r}, {FIELD_COLUMNS})", "field.point.solve_point_field"
         )
         yield (
             f"field, {contact}, {FIELD_COLUMNS} × {FIELD_COLUMNS} columns, degree {problem.degree}",
@@ -97,7 +97,7 @@ def field_rows() -> Iterator[tuple[str, ...]]:
 
 
 def markdown(head: tuple[str, ...], rows: Iterator[tuple[str, ...]]) -> None:
-    """Print a table, its first column to the left and the others to the right."""
+    """Print a Markdown table: first column left-aligned, the others right-aligned."""
     print("| " + " | ".join(head) + " |")
     print("| --- |" + " ---: |" * (len(head) - 1))
     for row in rows:
@@ -106,7 +106,7 @@ def markdown(head: tuple[str, ...], rows: Iterator[tuple[str, ...]]) -> None:
 
 
 def print_tables() -> None:
-    """Print the tables of point contacts."""
+    """Print the tables of the point contacts."""
     gmres = f"GMRES iterations a step (relative tolerance {LINEAR_TOLERANCE:g}, limit {ITERATIONS})"
     memory = f"memory [GB] (limit {MEMORY:g})"
     markdown(

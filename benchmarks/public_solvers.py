@@ -1,9 +1,9 @@
-"""Solve examples/ball_contact.toml with public packages too, and print docs/performance.md's table of them.
+"""Solve examples/ball_contact.toml with public packages, and print the table of docs/performance.md.
 
 python benchmarks/public_solvers.py
 
-Makes a virtual environment for each in a temporary folder and installs it from the package registry; takes
-up to an hour. Run it with the Python the packages are to have.
+For each package, a virtual environment is made in a temporary folder and the package is installed from the
+registry. This takes up to an hour. The packages get the Python that runs this file.
 """
 
 from __future__ import annotations
@@ -33,21 +33,22 @@ from ehlectric.film.point import solve_point_film
 
 WORKERS = Path(__file__).with_name("public_workers.py")
 GRIDS = (65, 129)
-# The finest that ours is solved on: what the films of all are to be compared with.
+# Finest grid of our solver, with which the films of all packages are compared.
 FINEST = 513
 # Seconds a solution may take; a finer grid is left out where no solution on the coarser one took less.
 LIMIT = 300.0
 INSTALL_LIMIT = 600.0
-# In place of a package's own limit of its iterations.
+# Replaces the limit of iterations of a package.
 ITERATIONS = 1_000_000
 
 
 @dataclass(frozen=True)
 class Package:
-    """A package of the registry, and what it needs where it cannot be installed as it is.
+    """A package of the registry.
 
-    ``lacks`` says what of the contact it cannot take. ``grids`` are those it is given, and ``relaxations``
-    the under-relaxation factors, first the one it has by itself.
+    ``lacks`` says which part of the contact it cannot solve. ``needs`` are the requirements to install if its
+    own cannot be met. ``grids`` are the grids it solves on, and ``relaxations`` its under-relaxation factors,
+    its own default first.
     """
 
     name: str
@@ -125,7 +126,7 @@ def contact() -> dict[str, Any]:
 
 
 def installed(package: Package, folder: Path) -> tuple[Path | None, str]:
-    """Python of a new environment with the package, None where it cannot be, and what went wrong."""
+    """Python of a new environment with the package, or None if it cannot be installed, and the reason."""
     subprocess.run([sys.executable, "-m", "venv", folder], check=True)
     python = folder / "bin" / "python"
     wanted = f"{package.name}=={package.version}"
@@ -139,7 +140,7 @@ def installed(package: Package, folder: Path) -> tuple[Path | None, str]:
 
 
 def _pip(python: Path, *arguments: str) -> str:
-    """Why pip did not install something, "" where it did."""
+    """Reason why pip did not install something, "" if it did."""
     # make limits the versions to those of this project's own environment.
     environment = {key: value for key, value in os.environ.items() if key != "PIP_CONSTRAINT"}
     command = [python, "-m", "pip", "install", "--quiet", *arguments]
@@ -156,7 +157,7 @@ def _pip(python: Path, *arguments: str) -> str:
 
 
 def answer(python: Path, package: str, problem: dict[str, Any], folder: Path) -> dict[str, Any]:
-    """What a package makes of a problem, in a process of its own, on one thread."""
+    """Solution of a problem by a package, in a process of its own, on one thread."""
     threads = {f"{library}_NUM_THREADS": "1" for library in ("OMP", "OPENBLAS", "MKL", "NUMBA")}
     environment = {key: value for key, value in os.environ.items() if key != "PYTHONPATH"} | threads
     command = [python, WORKERS, package, json.dumps(problem)]
@@ -180,7 +181,7 @@ def answer(python: Path, package: str, problem: dict[str, Any], folder: Path) ->
 
 
 def package_rows(package: Package) -> Iterator[tuple[str, ...]]:
-    """Rows of one package."""
+    """Rows of the table for one package."""
     name = f"{package.name} {package.version}"
     with tempfile.TemporaryDirectory() as folder:
         python, remark = installed(package, Path(folder) / "environment")
@@ -205,12 +206,12 @@ def package_rows(package: Package) -> Iterator[tuple[str, ...]]:
 
 
 def _seconds(taken: dict[str, Any]) -> float:
-    """Seconds of a solution, infinite where it is none."""
+    """Seconds that a solution took, infinite if there is none."""
     return float(taken["seconds"]) if taken.get("converged") else math.inf
 
 
 def own_rows() -> Iterator[tuple[str, ...]]:
-    """The same by ehlectric."""
+    """Rows of the table for ehlectric."""
     for wedge in ("first-order", "second-order"):
         for nodes in (*GRIDS, FINEST):
             problem = cases.point_film_problem("ball_contact", nodes, wedge)
@@ -235,7 +236,7 @@ def _row(name: str, grid: str, taken: dict[str, Any]) -> tuple[str, ...]:
 
 
 def main() -> None:
-    """Print the table."""
+    """Print the table of docs/performance.md."""
     head = ("package", "grid", "seconds", "h_min [µm]", "h(0) [µm]", "converged", "what it says")
     rows = [*own_rows()]
     for package in PACKAGES:

@@ -1,8 +1,8 @@
-"""The contact of examples/ball_contact.toml, put to public packages by their own interfaces.
+"""The contact of examples/ball_contact.toml, solved by public packages through their own interfaces.
 
 PYTHON benchmarks/public_workers.py PACKAGE CONTACT, with the Python that has the package and the contact as
-JSON (see ``public_solvers.Contact``); prints one line of JSON. Knows nothing of ehlectric, which need not be
-installed there.
+JSON (see ``public_solvers.Contact``); prints one line of JSON. It does not import
+ehlectric, which need not be installed there.
 """
 
 from __future__ import annotations
@@ -101,7 +101,7 @@ def _central(contact: Contact, line: Any) -> float:
 
 
 def tribology(contact: Contact) -> dict[str, Any]:
-    """The package's film thickness of a point contact: it has no Reynolds equation."""
+    """Film thickness of a point contact by the package's formula: it has no Reynolds equation."""
     import tribology as package
 
     started = time.perf_counter()
@@ -120,7 +120,7 @@ def tribology(contact: Contact) -> dict[str, Any]:
 
 
 def gapflow(contact: Contact) -> dict[str, Any]:
-    """A ball over a plane asked of GaPFlow: explicit in time, elastic, with Roelands' law."""
+    """A ball over a plane put to GaPFlow: explicit in time, elastic, with Roelands' law."""
     from GaPFlow.problem import Problem
 
     n, a = contact["nodes"], contact["half_width"]
@@ -162,7 +162,7 @@ PACKAGES = {"slippy": slippy, "tribology": tribology, "GaPFlow": gapflow}
 
 
 def main() -> None:
-    """Solve, and print what came of it."""
+    """Solve the contact, and print the result as JSON."""
     try:
         answer = PACKAGES[sys.argv[1]](json.loads(sys.argv[2]))
     except Exception as error:  # whatever a package raises is its answer

@@ -1,4 +1,4 @@
-"""What a sweep costs beside the solving: the engine's overhead, two workers against one, a map, a commit.
+"""Cost of a sweep beyond solving: overhead of the engine, two workers against one, a map, a commit.
 
 python -m benchmarks.sweeps
 """
@@ -22,14 +22,14 @@ from ehlectric.sweep.inputs import Sweep
 from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.store import Store, plan
 
-# 500 points of the paper's contact, 25 speeds and 20 loads.
+# 500 points: the paper's contact at 25 speeds and 20 loads.
 POINTS = (25, 20)
 MAP = (20, 20)
 COMMITS = 500
 
 
 def contact(shape: tuple[int, int]) -> Sweep:
-    """Speeds and loads of the paper's contact, evenly in their logarithms."""
+    """Sweep of the paper's contact over speeds and loads, evenly spaced in their logarithms."""
     speeds, loads = shape
     vary = {
         "contact.entrainment_speed": {"from": 0.5, "to": 8.0, "count": speeds, "spacing": "log"},
@@ -39,7 +39,7 @@ def contact(shape: tuple[int, int]) -> Sweep:
 
 
 def timed(sweep: Sweep, workers: int) -> tuple[float, SweepResults]:
-    """Wall time of a whole sweep in a new folder [s], and what it found."""
+    """Wall time of a whole sweep in a new folder [s], and its results."""
     with tempfile.TemporaryDirectory() as folder:
         started = time.perf_counter()
         results = run_sweep(sweep, folder, workers=workers)
@@ -47,7 +47,7 @@ def timed(sweep: Sweep, workers: int) -> tuple[float, SweepResults]:
 
 
 def solving(sweep: Sweep) -> float:
-    """Time of the same points one after another in this process, nothing saved [s]."""
+    """Time to solve the points of a sweep one after another in this process, nothing saved [s]."""
     cases = [sweep.case.replace(inputs) for inputs in sweep.points()]
     solve(cases[0])
     started = time.perf_counter()
@@ -57,7 +57,7 @@ def solving(sweep: Sweep) -> float:
 
 
 def commit(folder: Path) -> float:
-    """Time to commit one point [s]."""
+    """Time to commit one point to the database [s]."""
     sweep = contact(POINTS)
     planned: list[Any] = list(plan(sweep))
     outcome = solve_point(sweep.case.to_dict())
@@ -70,7 +70,7 @@ def commit(folder: Path) -> float:
 
 
 def main() -> None:
-    """Print the table."""
+    """Print the table of docs/performance.md."""
     sweep = contact(POINTS)
     timed(contact((2, 2)), 2)  # imports what writes tables, which else the first of them would pay for
     loop = solving(sweep)

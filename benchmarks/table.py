@@ -1,4 +1,4 @@
-"""Measure the solvers beside their baselines in one run and print the tables of docs/performance.md.
+"""Measure the solvers and their baselines in one run, and print the tables of docs/performance.md.
 
 python benchmarks/table.py
 """
@@ -28,7 +28,7 @@ from ehlectric.paper.contacts import CONTACTS
 
 
 def paper_methods() -> list[tuple[str, ...]]:
-    """Our solvers beside the paper's own: film to the same residual, field to the same columns."""
+    """Rows of our solvers and the paper's: film to the same residual, field on the same columns."""
     rows = []
     for contact in (CONTACTS[0], CONTACTS[7]):
         case = contact.case(wedge="first-order")
@@ -55,7 +55,7 @@ def _row(what: str, ours: float, against: str, theirs: float) -> tuple[str, ...]
 
 
 def main() -> None:
-    """Print the tables."""
+    """Print the tables of docs/performance.md."""
     rows = []
     film = {n: best(lambda n=n: solve_film(cases.film_problem(n))) for n in (801, 3201)}
     film |= {n: best(lambda n=n: solve_film(cases.film_problem(n)), 3) for n in (25_601, 102_401)}
@@ -91,7 +91,7 @@ def main() -> None:
     print("| --- | ---: | --- | ---: | ---: |")
     for row in rows:
         print("| " + " | ".join(row) + " |")
-    memory, _ = peak_memory("film_problem(102_401)", "film.solve_film")
+    memory, _ = peak_memory("film_problem(102_401)", "film.line.solve_film")
     print(f"\nPeak memory, film of 102 401 nodes: {memory:.2f} GB\n")
     point_contacts.print_tables()
 

@@ -1,4 +1,4 @@
-"""What a time step of a moving ridge takes: python -m benchmarks.unsteady_steps
+"""Cost of a time step of a moving ridge: python -m benchmarks.unsteady_steps
 
 Seconds are of the wall clock, and of the processor, which a busy machine does not change.
 """
@@ -19,7 +19,7 @@ from ehlectric.film.problem import FilmProblem
 from ehlectric.film.solution import quiet_solution
 from ehlectric.film.unsteady import Effort, UnsteadyFilm
 
-# Problem, its nodes, and time steps.
+# Problem, number of nodes, and number of time steps.
 CONTACTS = (
     ("line contact", lambda nodes: cases.film_problem(nodes), 3201, 2000),
     ("ball contact", lambda nodes: cases.point_film_problem("ball_contact", nodes, "second-order"), 129, 60),
@@ -34,7 +34,7 @@ def resident() -> float:
 
 
 def measured(problem: FilmProblem, steps: int) -> tuple[str, ...]:
-    """Milliseconds and iterations a step, and what memory grows by in the second half of the steps.
+    """Time [ms] and iterations per step, and growth of memory [MB] in the second half of the steps.
 
     A transverse ridge of half the film moves at the mean speed from the inlet on, a spacing in a step.
     """
@@ -61,7 +61,7 @@ def measured(problem: FilmProblem, steps: int) -> tuple[str, ...]:
 
 
 def main() -> None:
-    """Print the table."""
+    """Print the table of docs/performance.md."""
     print(f"{processor()}, {len(os.sched_getaffinity(0))} cores, load {os.getloadavg()[0]:.1f}\n")
     print("| contact | nodes | steps | ms a step | of the processor | Newton | GMRES | MB more |")
     print("| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |")

@@ -2,8 +2,8 @@
 A first film and its field
 ==========================
 
-A roller of 14.1 mm reduced radius on steel, 1.57 MN/m, surfaces rolling at 4 m/s each, one volt on either
-side of earth. This is the first contact of Morris, Leighton and Morris, `Lubricants 2022, 10(5), 87
+A roller of 14.1 mm reduced radius on steel, 1.57 MN/m, surfaces rolling at 4 m/s each, potentials of -1 V and
++1 V. This is the first contact of Morris, Leighton and Morris, `Lubricants 2022, 10(5), 87
 <https://doi.org/10.3390/lubricants10050087>`_.
 """
 
@@ -27,16 +27,15 @@ case = ehlectric.Case.from_dict(
 result = ehlectric.solve(case)
 
 # %%
-# The film first. The pressure follows Hertz but for the spike before the exit, where the film is
-# thinnest.
+# The film. The pressure follows Hertz's except for the spike before the exit, where the film is thinnest.
 plot.pressure_and_film(result, plt.subplots()[1])
 
 # %%
-# Then the potential, linear across the film. Heights are drawn hundreds of times larger than lengths.
+# The potential is linear across the film. Heights are drawn hundreds of times larger than lengths.
 plot.potential(result, plt.subplots()[1])
 
 # %%
-# The strength of the field, over that of the minimum film between plates:
+# The field strength, divided by that of parallel plates at the distance of the minimum film:
 plot.field_strength(result, plt.subplots()[1])
 
 # %%

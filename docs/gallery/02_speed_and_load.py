@@ -2,8 +2,8 @@
 Speed and load against the film formulas
 ========================================
 
-A film-thickness formula is a fit to films computed or measured in its time. Four of them are set beside
-the solved film here, over two decades of speed at two loads.
+A film-thickness formula is a fit to films that were computed or measured when it was published. Here four
+formulas are compared with the solved film, over two decades of speed at two loads.
 """
 
 import matplotlib.pyplot as plt
@@ -38,13 +38,13 @@ solved = {
 }
 
 # %%
-# Not every formula gives both films: each figure has those that give its own.
+# Not every formula gives both films: each figure shows the formulas for its film.
 STYLES = {"dowson_higginson": "--", "dowson_toyoda": "-.", "pan_hamrock": ":", "moes": (0, (6, 2))}
 NAMES = {name: (FORMULAS[name].name, style) for name, style in STYLES.items()}
 
 
 def compare(quantity, label):
-    """Solved films as dots, formulas as lines; below, the formulas over the solved film."""
+    """Draw solved films as dots and formulas as lines; below, the formulas divided by the solved film."""
     figure, (above, below) = plt.subplots(2, 1, figsize=(6.3, 5.4), sharex=True, height_ratios=(3, 2))
     drawn = []
     for pressure, colour in loads.items():
@@ -73,7 +73,7 @@ compare("minimum_thickness", r"minimum film $h_\mathrm{min}$")
 compare("central_thickness", "central film $h(0)$")
 
 # %%
-# The formulas differ from the solved film by tens of per cent, and from each other by more: the error of
-# a formula is the error of V12/h_min made with it. The solver's own error estimates:
+# The formulas differ from the solved film by tens of per cent, and from each other by more. The error of a
+# formula is also the error of V12/h_min computed with it. The error estimates of the solver are much smaller:
 worst = max(r.film.discretisation_error for rs in solved.values() for r in rs)
 print(f"largest discretisation error of these {2 * speeds.size} films: {100 * worst:.2f} %")

@@ -3,7 +3,7 @@ How good is voltage over film thickness?
 ========================================
 
 A film is a thousand times longer than it is thick, and so the field should be V12/h(x), as between
-parallel plates. How far it is not, the solved field says.
+parallel plates. The solved field shows the deviation.
 """
 
 import matplotlib.pyplot as plt
@@ -28,9 +28,9 @@ result = ehlectric.solve(case)
 
 # %%
 # The deviation from V12/h in per mille, enlarged around the exit. It is largest below the pressure spike,
-# where the walls turn most sharply; it changes its sign there, as a field is stronger on a wall that
-# bulges and weaker on one that is hollow. At the thinnest place, marked by the dotted line, it is hardly
-# to be seen.
+# where the curvature of the walls is largest. Its sign changes there, since the field is stronger on a convex
+# wall and weaker on a concave one. At the thinnest place, marked by the dotted line, the deviation is hardly
+# visible.
 ax = plot.field_deviation(result, plt.subplots()[1])
 b = result.conditions.half_width
 ax.axvline(result.film.minimum_position / b, color="black", ls=":", lw=0.8)
@@ -38,8 +38,8 @@ ax.set_xlim(0.78, 1.02)
 ax.get_legend().set_loc("lower right")
 
 # %%
-# So V12/h_min falls short of the largest field by parts in a million, and by the more the thicker the
-# film. Here from 0.25 to 32 m/s:
+# V12/h_min is therefore below the maximum field by parts in a million. The thicker the film, the larger the
+# difference, here from 0.25 to 32 m/s:
 speeds = np.geomspace(0.25, 32.0, 8)
 excess, films = [], []
 for speed in speeds:
@@ -55,4 +55,4 @@ ax.set(
 )
 
 # %%
-# Roughness changes this picture, as the example with a measured surface shows.
+# Roughness makes the deviation larger, as the example with a measured surface shows.

@@ -1,10 +1,10 @@
 """
-Inner ring, outer ring: which body bends
-========================================
+Inner ring, outer ring: the shape of both walls
+===============================================
 
-The film knows only the reduced radius and the reduced modulus. The field knows each wall: a roller
-between two rings has one contact with a convex raceway and one with a concave one, and the film of the
-second is a bent strip.
+The film depends only on the reduced radius and the reduced modulus. The field depends on each wall: a roller
+between two rings has one contact with a convex raceway and one with a concave raceway. The film of the second
+is a curved strip.
 """
 
 import matplotlib.pyplot as plt
@@ -29,8 +29,8 @@ results = {
 }
 
 # %%
-# The reduced radius is 6 mm throughout, so that the first three films are one film. Where it lies
-# differs. Heights are drawn enlarged.
+# The reduced radius is 6 mm in all cases, so that the first three films are equal in thickness. Their
+# positions differ. Heights are drawn enlarged.
 figure, axes = plt.subplots(2, 2, figsize=(6.3, 4.6), sharex=True, sharey=True)
 for ax, (name, result) in zip(axes.flat, results.items(), strict=True):
     field = result.field
@@ -44,9 +44,9 @@ for ax in axes[:, 0]:
     ax.set_ylabel("height $y$ [µm]")
 
 # %%
-# The bending of the film as a whole changes the largest field by a ten-thousandth: its radius is
-# millimetres, the film a fraction of a micrometre. The stiffer body, at the same Hertz pressure, makes
-# the contact narrower: less capacitance.
+# The curvature of the film as a whole changes the maximum field by a ten-thousandth: its radius is
+# millimetres, the film a fraction of a micrometre. At the same Hertz pressure, the stiffer body makes the
+# contact narrower and the capacitance smaller.
 print(f"{'contact':26}{'h_min [µm]':>12}{'E max [V/µm]':>14}{'over V12/h_min - 1':>20}{'C [nF/m]':>10}")
 for name, result in results.items():
     film, field = result.film, result.field

@@ -2,8 +2,8 @@
 A measured surface in the contact
 =================================
 
-A stylus profile on the lower body, held still while the other surface slides past. Form and long waves
-are taken out first; ``ehlectric surface`` shows the same steps without solving.
+A stylus profile on the lower body, which is at rest while the other surface slides over it. Form and long
+waves are removed first; ``ehlectric surface`` shows the same steps without solving.
 """
 
 import matplotlib.pyplot as plt
@@ -35,7 +35,7 @@ case = ehlectric.Case.from_dict(
 result = ehlectric.solve(case, require_convergence=True)
 
 # %%
-# What each step leaves of the profile:
+# The profile after each step:
 for step in result.rough[0]["steps"]:
     print(
         f"{step['step']:34} Rq {1e9 * step['rq']:6.1f} nm, "
@@ -52,12 +52,12 @@ plot.roughness(result, plt.subplots(figsize=(6.3, 2.4))[1])
 plot.pressure_and_film(result, plt.subplots()[1])
 
 # %%
-# The field follows the film; peaks of the rough wall stand out of it.
+# The field follows the film; it is highest on the peaks of the rough wall.
 plot.field_profiles(result, plt.subplots()[1])
 
 # %%
-# V12/h_min with the minimum of the *rough* film is within some per cent of the largest field. The smooth
-# film gives less: roughness takes some of the film.
+# V12/h_min with the minimum of the *rough* film is within some per cent of the maximum field. With the smooth
+# film it is lower, since roughness reduces the minimum film.
 summary = result.summary()
 smooth = result.smooth.minimum_thickness
 voltage = result.field.voltage

@@ -2,8 +2,8 @@
 Is the grid fine enough?
 ========================
 
-Every film carries an estimate of its own discretisation error, from the two finest grids of the nested
-iteration. Here it is set beside the true error, against a grid far finer than any of these.
+Every film includes an estimate of its discretisation error, from the two finest grids of the nested
+iteration. Here it is compared with the true error, relative to a far finer grid.
 """
 
 import matplotlib.pyplot as plt
@@ -30,7 +30,7 @@ QUANTITIES = {
 
 
 def film(count, wedge):
-    """The film on a grid."""
+    """Film on a grid of ``count`` nodes."""
     changes = {"grid.nodes": int(count), "grid.wedge": wedge}
     return ehlectric.solve(case.replace(changes), require_convergence=True).film
 
@@ -38,8 +38,8 @@ def film(count, wedge):
 reference = film(204_801, "second-order")
 
 # %%
-# True errors of the central and of the minimum film, and the one estimate that the film carries, which is
-# the larger of two.
+# True errors of the central and of the minimum film, and the estimate of the film, which is the larger one of
+# the estimates for these two.
 figure, axes = plt.subplots(1, 2, figsize=(6.8, 3.6), sharey=True)
 for ax, wedge in zip(axes, ("first-order", "second-order"), strict=True):
     films = [film(n, wedge) for n in nodes]
@@ -61,4 +61,4 @@ axes[0].set_ylabel("relative error [%]")
 # %%
 # The central film converges with the order of the scheme. The minimum lies beside the pressure spike, a
 # jump over two or three nodes on every grid, and converges more slowly with the second-order wedge. The
-# estimate knows that, and takes order 1.25 for it. It is an estimate, and no bound.
+# estimate therefore uses order 1.25 for it. It is an estimate, not a bound.

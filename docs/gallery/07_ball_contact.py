@@ -2,8 +2,8 @@
 A ball on a plane
 =================
 
-A steel ball of 10 mm radius on a steel plane, 20 N, rolling at 2 m/s, one volt on either side of earth: a
-point contact, whose dry contact is a circle. Film and field are maps over the plane.
+A steel ball of 10 mm radius on a steel plane, 20 N, rolling at 2 m/s, potentials of -1 V and +1 V: a point
+contact whose dry contact is a circle. Film and field are maps over the plane.
 """
 
 import matplotlib.pyplot as plt
@@ -31,7 +31,7 @@ result = ehlectric.solve(case)
 
 
 def axes_of_map():
-    """Axes as high as a map of a round contact, with its colour bar beside it."""
+    """Axes for a map of a round contact with a colour bar."""
     return plt.subplots(figsize=(5.8, 4.9), layout="compressed")[1]
 
 
@@ -46,18 +46,18 @@ point_plot.film_map(result, axes_of_map())
 point_plot.pressure_map(result, axes_of_map())
 
 # %%
-# The field follows the film: it is largest in the side lobes, and not at the exit as that of a line
-# contact is. The line around each lobe is at 95 % of the maximum.
+# The field follows the film: it is largest in the side lobes, not at the exit as in a line contact.
+# The contour around each lobe is at 95 % of the maximum.
 point_plot.field_map(result, axes_of_map())
 
 # %%
 # Pressure, film and field on lines along and across entrainment, through the centre and through the
-# least film.
+# minimum film.
 point_cuts.cuts(result, plt.subplots(3, 2, figsize=(7.0, 6.6))[1].ravel())
 
 # %%
-# The key figures. The capacitance over the range of the field is divided into the Hertz ellipse, the
-# strips before and behind it, and what lies beside them.
+# The key figures. The capacitance over the field range is divided into that of the Hertz ellipse, of the
+# strips before and behind it, and of the sides.
 film, field = result.film, result.field
 print(f"minimum film      {1e6 * film.minimum_thickness:.3f} µm")
 print(f"central film      {1e6 * film.central_thickness:.3f} µm")
@@ -70,7 +70,7 @@ for name, zone in result.zones.items():
     print(f"  {name:<15} {1e12 * field.capacitance_of(zone):.2f} pF")
 
 # %%
-# Beside it the film formulas, which are fits to solutions like this one:
+# For comparison the film formulas, which are fits to solutions like this one:
 for name, formula in result.formulas().items():
     for quantity, thickness in vars(formula).items():
         if thickness is not None:

@@ -3,8 +3,9 @@ A ball bearing, and how fine its grid must be
 =============================================
 
 The ball of a deep groove ball bearing 6208 on its inner ring, 600 N, mineral oil of ISO VG 68 at 70 °C,
-5 V across the film. The groove hugs the ball, so that the dry contact is a long ellipse across
-entrainment; the film is thin against it. Both make it harder to solve than a ball on a plane.
+5 V across the film. The groove conforms closely to the ball, so that the dry contact is a long ellipse
+across entrainment, and the film is thin compared with it. Both make this contact harder to solve than a ball
+on a plane.
 """
 
 import matplotlib.pyplot as plt
@@ -49,8 +50,8 @@ case = ehlectric.Case.from_dict(
 )
 
 # %%
-# The grid is doubled from 129 x 129 nodes on. The estimate of the error, from the two finest grids of
-# each solution, is large as long as the film at the exit is narrower than a few nodes.
+# The grid is doubled twice, from 129 x 129 nodes. The error estimate, from the two finest grids of each
+# solution, is large as long as the constriction at the exit is only a few nodes wide.
 nodes = np.array([129, 257, 513])
 results = {n: ehlectric.solve(case.replace({"grid.nodes": int(n)}), require_convergence=True) for n in nodes}
 for n, result in results.items():
@@ -76,9 +77,8 @@ for ax in (left, right):
     ax.minorticks_off()
 
 # %%
-# ``grid.refine`` does the same by itself: with ``refine = "3 %"`` the grid is doubled until the estimate
-# is below 3 %. Here that is the last of these grids. The ellipse, and the formulas beside the solved
-# film:
+# ``grid.refine`` does this automatically: with ``refine = "3 %"`` the grid is doubled until the estimate is
+# below 3 %, here up to the last of these grids. The ellipse, and the formulas compared with the solved film:
 result = results[513]
 conditions, film = result.conditions, result.film
 print(f"semi-axes         {1e6 * conditions.semi_axis_x:.0f} and {1e6 * conditions.semi_axis_y:.0f} µm")
@@ -95,11 +95,11 @@ for name, formula in result.formulas().items():
 point_plot.film_map(result, plt.subplots(figsize=(7.0, 4.2), layout="compressed")[1])
 
 # %%
-# And so is the field.
+# The field likewise.
 point_plot.field_map(result, plt.subplots(figsize=(7.0, 4.2), layout="compressed")[1])
 
 # %%
-# Its key figures. In a bearing this contact is in series with that of the ball on the outer ring, and
+# The key figures. In a bearing this contact is in series with that of the ball on the outer ring, and
 # the balls are in parallel.
 field = result.field
 print(f"largest field     {1e-6 * field.max_strength:.1f} V/µm")

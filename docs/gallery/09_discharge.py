@@ -2,9 +2,9 @@
 At what voltage does the film break down?
 =========================================
 
-A ``[discharge]`` table gives a solved contact its breakdown voltage, its capacitance and the energy of a
-spark. The strengths, the shape of the Weibull law, the length of the line and what is connected to it are
-assumptions here, as nothing of the kind is published for a film.
+With a ``[discharge]`` table the result of a contact contains its breakdown voltage, its capacitance and the
+energy of a spark. The strengths, the shape of the Weibull law, the length of the line and the external
+capacitance are assumptions here, since no such values are published for a film.
 """
 
 from dataclasses import replace
@@ -48,8 +48,8 @@ solved = {
 }
 
 # %%
-# A constant strength, 15 V/µm: the breakdown voltage is that times the minimum film. Left of where a line
-# crosses the voltage of the case the film breaks down.
+# A constant strength of 15 V/µm: the breakdown voltage is the strength times the minimum film. At speeds
+# below the intersection with the voltage of the case the film breaks down.
 figure, ax = plt.subplots()
 for pressure, colour in pressures.items():
     breaks = [result.discharge.breakdown_voltage for result in solved[pressure]]
@@ -65,10 +65,10 @@ ax.minorticks_off()
 ax.legend(title="Hertz pressure", loc="lower right")
 
 # %%
-# A Weibull law in place of it, with the same scale and a shape of 10, measured on 1 mm²: a longer line
-# stresses more of its film, and breaks down earlier. The film is solved already, and the result of a
-# changed assessment takes it as it is. Above, dots at 63.2 % and bars from 5 to 95 %; the dotted line is
-# the constant strength.
+# A Weibull law instead, with the same scale and a shape of 10, measured on 1 mm²: in a longer line more film
+# is stressed, and it breaks down at a lower voltage. The film is not solved again; only the assessment of the
+# discharge changes. Upper panel: dots at 63.2 %, bars from 5 to 95 %. The dotted line is the constant
+# strength.
 result = solved["1 GPa"][3]
 weibull = {"scale": "15 V/um", "shape": 10, "reference_area": "1 mm^2"}
 lengths = {"1 mm": "#56b4e9", "10 mm": "#0072b2", "100 mm": "black"}
@@ -77,11 +77,11 @@ figure, (above, below) = plt.subplots(2, 1, figsize=(6.3, 4.2), sharex=True, hei
 names = []
 for row, (length, colour) in enumerate(lengths.items()):
     law = result.case.replace({"discharge.weibull": weibull, "discharge.length": length})
-    found = replace(result, case=law).discharge
+    assessment = replace(result, case=law).discharge
     low, middle, high = (
-        found.breakdown_voltage_low,
-        found.breakdown_voltage,
-        found.breakdown_voltage_high,
+        assessment.breakdown_voltage_low,
+        assessment.breakdown_voltage,
+        assessment.breakdown_voltage_high,
     )
     above.plot([low, high], [row, row], "|-", ms=8, color=colour)
     above.plot(middle, row, "o", ms=5, color=colour)
@@ -96,17 +96,17 @@ for ax in (above, below):
 below.set(xlabel="voltage [V]", ylabel="probability of breakdown", ylim=(0, 1), xlim=(2, 12))
 
 # %%
-# The energy of a spark at the breakdown voltage, for a line of 10 mm. The contact alone has less and less
-# of it as the film gets thinner: its capacitance goes with 1/h, the square of its voltage with h². What is
-# connected to it, here 1 nF for the rotor, keeps its capacitance. The grey line is what melts a hemisphere of
-# 1.7 µm, the mean pit of Plazenet et al. as the paper quotes it, with 10.2 GJ/m³ for iron and an efficiency
-# of 0.183, which is an assumption.
+# The energy of a spark at the breakdown voltage, for a line of 10 mm. The energy of the contact alone falls
+# as the film gets thinner: its capacitance is proportional to 1/h, the square of its voltage to h². The
+# external capacitance, here 1 nF for the rotor, is constant. The grey line is the energy that melts a
+# hemisphere of 1.7 µm, the mean pit of Plazenet et al. as the paper quotes it, with 10.2 GJ/m³ for iron and
+# an efficiency of 0.183, which is an assumption.
 pit = 10.2e9 * np.pi * MEAN_PIT**3 / 12.0 / 0.183
 figure, ax = plt.subplots()
 for pressure, colour in pressures.items():
-    found = [result.discharge for result in solved[pressure]]
-    whole = [1e9 * f.breakdown_energy for f in found]
-    alone = [1e9 * stored_energy(0.01 * f.capacitance, f.breakdown_voltage) for f in found]
+    assessments = [result.discharge for result in solved[pressure]]
+    whole = [1e9 * a.breakdown_energy for a in assessments]
+    alone = [1e9 * stored_energy(0.01 * a.capacitance, a.breakdown_voltage) for a in assessments]
     ax.loglog(speeds, whole, "o-", ms=4, color=colour, label=f"{pressure}, with the rotor")
     ax.loglog(speeds, alone, "o--", ms=4, mfc="white", color=colour, label=f"{pressure}, contact alone")
 ax.axhline(1e9 * pit, color="0.5", lw=0.9)
@@ -124,11 +124,12 @@ ax.minorticks_off()
 ax.legend(loc="lower right")
 
 # %%
-# Where the breakdown energy is below the grey line the film is thin, and sparks come early and weak: a spark
-# that melts a pit takes a thick film, or a larger capacitance.
+# Where the breakdown energy is below the grey line the film is thin, and sparks occur at low voltages with
+# little energy. A spark that melts such a pit requires a thick film or a larger capacitance.
 for pressure in pressures:
-    found = solved[pressure][3].discharge
+    discharge = solved[pressure][3].discharge
     print(
-        f"{pressure}, 2 m/s: {1e9 * found.capacitance:.1f} nF/m, {found.capacitance_ratio:.2f} of the plate "
-        f"value, zone of {1e6 * found.zone_size:.1f} µm, {found.zone_over_mean_pit:.0f} mean pits wide"
+        f"{pressure}, 2 m/s: {1e9 * discharge.capacitance:.1f} nF/m, {discharge.capacitance_ratio:.2f} times "
+        f"the plate value, zone of {1e6 * discharge.zone_size:.1f} µm, "
+        f"{discharge.zone_over_mean_pit:.0f} mean pits wide"
     )

@@ -1,11 +1,11 @@
 """
-Steady against moving
-=====================
+Stationary and moving roughness
+===============================
 
-A waviness of the lower surface in a contact of the paper, 1 GPa at 4 m/s: held still while the other
-surface slides past, and carried along in pure rolling, as roughness is. Both lie alike at one instant, and
-there film, pressure and field are set beside each other. ``examples/moving_roughness.toml`` is the same on
-twice the nodes.
+A waviness on the lower surface in a contact of the paper, 1 GPa at 4 m/s. It is stationary while the other
+surface slides over it, or it is carried along in pure rolling, as real roughness is. At one instant both lie
+at the same position, and film, pressure and field are compared. ``examples/moving_roughness.toml`` is the
+same case on twice the nodes.
 """
 
 from tempfile import TemporaryDirectory
@@ -41,11 +41,11 @@ with TemporaryDirectory() as folder:
     motion = read_motion(folder)
 
 # %%
-# Where both lie alike. The black line is the film before the roughness has come, that of smooth surfaces.
-# Held still, the pressure flattens the waviness, and what is left of it in the film is that the oil is
-# denser where the pressure is higher. Moving, the inlet lets more and less oil through in turn, and what it
-# has let in is carried through the contact with the surface: the film keeps the waviness, and the pressure
-# hardly ripples.
+# The instant at which both lie at the same position. The black line is the film before the roughness arrives,
+# that of smooth surfaces. The pressure flattens the stationary waviness; the film varies only because the oil
+# is denser where the pressure is higher. With moving waviness the inlet lets alternately more and less oil
+# through, and this oil is carried through the contact with the surface: the film keeps the waviness, and the
+# pressure hardly varies.
 run = MotionRun.of(motion)
 frame = instant_beside(run)
 b = run.conditions.half_width
@@ -57,7 +57,7 @@ panels = {
 }
 figure, axes = plt.subplots(3, 1, figsize=(6.3, 6.6), sharex=True)
 for ax, (name, (label, scale, limits)) in zip(axes, panels.items(), strict=True):
-    ax.plot(x, scale * motion[f"stationary_{name}"], label="held still")
+    ax.plot(x, scale * motion[f"stationary_{name}"], label="stationary")
     ax.plot(x, scale * motion[name][frame], label="moving")
     ax.plot(x, scale * motion[name][0], color="black", lw=0.8, label="before the motion")
     ax.set(ylabel=label, ylim=limits, xlim=(-1.25, 1.25))
@@ -65,8 +65,8 @@ axes[0].legend(ncols=3, loc="upper center")
 axes[-1].set_xlabel("$x/b$")
 
 # %%
-# The film over position and time, from shortly before the front of the roughness is there. Its stripes lie
-# along the dashed line, on which oil travels; nothing of the waviness fades on the way.
+# The film over position and time, from shortly before the front of the roughness arrives. The stripes are
+# parallel to the dashed line, on which oil travels; the waviness does not decay on its way.
 late = slice(73, None)
 time = 1e3 * motion["frame_time"][late]
 inside = np.abs(x) < 1.25
@@ -78,19 +78,19 @@ ax.set(xlabel="$x/b$", ylabel="time [ms]", xlim=(-1.2, 1.2), ylim=(float(time[0]
 figure.colorbar(film, label="film [µm]")
 
 # %%
-# In numbers. Where both lie alike, the smallest film and the largest field hardly differ, as the crests
-# happen to lie; over time they do. One instant says little about a contact whose roughness moves, and the
-# film held still is no bound for it.
+# In numbers. At the instant of equal position the minimum film and the maximum field hardly differ, because
+# of the chance position of the crests; over time they do. One instant says little about a contact whose
+# roughness moves, and the stationary film is no bound for it.
 summary = summary_of(motion)
 alike, film, field, still = (summary[key] for key in ("beside_stationary", "film", "field", "stationary"))
 rows = (
-    ("where both lie alike", *(alike[key] for key in ("minimum_thickness", "maximum_strength"))),
-    ("least and largest over time", film["minimum_thickness"], field["max_strength"]),
-    ("held still", still["minimum_thickness"], still["max_strength"]),
+    ("at equal position", *(alike[key] for key in ("minimum_thickness", "maximum_strength"))),
+    ("extremes over time", film["minimum_thickness"], field["max_strength"]),
+    ("stationary", still["minimum_thickness"], still["max_strength"]),
     ("before the motion", film["before"], field["before"]),
 )
 for text, thickness, strength in rows:
-    print(f"{text:28} smallest film {1e6 * thickness:.3f} µm, largest field {1e-6 * strength:.3f} V/µm")
+    print(f"{text:18} minimum film {1e6 * thickness:.3f} µm, maximum field {1e-6 * strength:.3f} V/µm")
 print(
     f"largest differences at that instant: film {1e9 * alike['thickness_largest_difference']:.0f} nm, "
     f"pressure {1e-9 * alike['pressure_largest_difference']:.2f} GPa, "

@@ -1,6 +1,6 @@
 """Film and electric field of lubricated contacts.
 
-The public names are imported when they are first used, so that ``import ehlectric`` costs nothing.
+A public name is imported when it is first used, so ``import ehlectric`` takes hardly any time.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Types shared by the numerical rooms."""
+"""Types of NumPy arrays that all packages share."""
 
 from typing import TypeAlias
 

@@ -11,43 +11,44 @@ from typing import Literal, Self
 _SHORT = reprlib.Repr()
 _SHORT.maxstring = _SHORT.maxother = _SHORT.maxlong = 60
 
-# "severe": the numbers must not be used. "note": the numbers stand, the text says how they came about.
+# "severe": the numbers must not be used. "note": the numbers are valid, and the text tells how they were
+# obtained.
 Severity = Literal["note", "warning", "severe"]
 
 
 def _line(text: str) -> str:
-    """The text without line breaks."""
+    """Text without its line breaks."""
     return " ".join(text.splitlines())
 
 
 class InputError(ValueError):
-    """The input is wrong: one line that names the key, the value it got and what it takes.
+    """Error of a wrong input: one line that names the key, its value, and the values that are allowed.
 
-    The line is ``key: got VALUE, takes TAKES``, or ``key: missing, takes TAKES`` where there is no value. The
-    comma is left out after a value, or words in its place, that end in a semicolon. A single argument is the
-    whole line of an error without a key.
+    The line is ``key: got VALUE, takes TAKES``, or ``key: missing, takes TAKES`` without a value. There is no
+    comma after a value, or a text in its place, that ends in a semicolon. A single argument is the whole line
+    of an error without a key.
 
     Parameters
     ----------
     key : object, optional
-        What is wrong: the dotted key of an input, an option or a file.
+        Dotted key of the wrong input, or name of an option or a file.
     says : str, optional
-        Words in place of "got VALUE".
+        Text in place of "got VALUE".
     got : object, optional
-        The value, as it is to be shown.
+        Value of the input, as the line shows it.
     takes : str, optional
-        What is allowed.
+        Values that are allowed.
 
     Attributes
     ----------
     key : str or None
-        What is wrong; None where the error is about no single input.
+        Name of the wrong input; None where the error is not about a single input.
     text : str
         The line without the key.
     got : object
-        The value, or the words in its place; None where the value is missing or not told.
+        Value of the input, or the text in its place; None where the line has neither.
     takes : str or None
-        What is allowed, None where the line does not say.
+        Values that are allowed; None where the line does not state them.
 
     Examples
     --------
@@ -75,12 +76,12 @@ class InputError(ValueError):
         takes: str | None = None,
     ) -> None:
         if says is None and got is None and takes is None:
-            key, found = None, "" if key is None else str(key)
+            key, wrong = None, "" if key is None else str(key)
         else:
-            found = says if says is not None else "missing" if got is None else f"got {got}"
+            wrong = says if says is not None else "missing" if got is None else f"got {got}"
             got = says if got is None else got
-        comma = "" if found.endswith(";") else ","
-        self.text = _line(found if takes is None else f"{found}{comma} takes {takes}")
+        comma = "" if wrong.endswith(";") else ","
+        self.text = _line(wrong if takes is None else f"{wrong}{comma} takes {takes}")
         self.key = None if key is None else _line(str(key))
         self.got = got.removesuffix(";") if isinstance(got, str) else got
         self.takes = takes
@@ -88,7 +89,7 @@ class InputError(ValueError):
 
     @classmethod
     def missing(cls, key: str, takes: str) -> Self:
-        """Error of a key that is not given.
+        """Error of a required key that is missing.
 
         Examples
         --------
@@ -99,7 +100,7 @@ class InputError(ValueError):
 
     @classmethod
     def unknown(cls, key: str, nearest: str) -> Self:
-        """Error of a key that does not exist; ``nearest`` is the known one most like it.
+        """Error of a key that does not exist; ``nearest`` is the existing key with the most similar name.
 
         Examples
         --------
@@ -110,17 +111,17 @@ class InputError(ValueError):
 
     @classmethod
     def worded(cls, key: object, text: str, *, got: object = None, takes: str | None = None) -> Self:
-        """Error whose line is the key and a text of its own, with the value and what is allowed beside it."""
+        """Error whose line has a free text after the key; ``got`` and ``takes`` are attributes only."""
         error = cls(key, text)
         error.got, error.takes = got, takes
         return error
 
     def retold(self, key: str | None, text: str) -> Self:
-        """Copy of the error with another key and text; the value and what is allowed stay."""
+        """Copy of the error with another key and text, but the same ``got`` and ``takes``."""
         return self.worded(key, text, got=self.got, takes=self.takes)
 
     def under(self, table: str) -> Self:
-        """Copy of the error whose key lies in a table; an error without a key gets the table as its key.
+        """Copy of the error with its key in a table; an error without a key gets the table as its key.
 
         Examples
         --------
@@ -131,25 +132,25 @@ class InputError(ValueError):
 
 
 class MemoryLimitError(InputError):
-    """What was asked for does not fit into the memory of this machine; it may fit into that of another."""
+    """Error of a solution that does not fit into the memory of this machine; another one may have enough."""
 
 
 class LostError(RuntimeError):
-    """What solves the points of a sweep is gone, cluster or processes; what is solved is saved."""
+    """Error of a sweep whose cluster or worker processes were lost; the solved points are saved."""
 
 
 class ConvergenceError(RuntimeError):
-    """The equations were not solved; raised where the caller asks for a solution or nothing."""
+    """Error of an iteration that did not converge, where only a converged solution is of use."""
 
 
 def shown(value: object) -> str:
-    """What was given, short enough for a one-line message."""
+    """Representation of a value, short enough for a one-line message."""
     return _SHORT.repr(value)
 
 
 @dataclass(frozen=True)
 class Cause:
-    """Meaning of a warning code, in one sentence, and how severe its warnings are."""
+    """Meaning of a warning code, in one sentence, and severity of its warnings."""
 
     meaning: str
     severity: Severity = "warning"
@@ -157,7 +158,7 @@ class Cause:
 
 CODES: Mapping[str, Cause] = MappingProxyType(
     {
-        # Contact, before it is solved
+        # Contact, known before its film is computed
         "regime": Cause("The contact is in a regime that most film formulas were not made for."),
         "ambient-pressure": Cause("The ambient pressure carries more than 1 % of the load."),
         "plastic-deformation": Cause("The Hertz pressure deforms bearing steel permanently."),
@@ -224,21 +225,21 @@ CODES: Mapping[str, Cause] = MappingProxyType(
 
 @dataclass(frozen=True)
 class ResultWarning:
-    """Warning that a result carries: what is unreliable, in words and as a code.
+    """Warning of a result: a code for programs, and a text for people.
 
-    Programs decide by ``code`` and ``severity``; ``text`` is for people and may change its words.
+    Programs should use ``code`` and ``severity``, because the words of ``text`` may change.
 
     Parameters
     ----------
     code : str
-        One of ``CODES``, such as "grid-too-coarse".
+        Code of the warning, one of ``CODES``, such as "grid-too-coarse".
     text : str
-        One line: what is unreliable, and what to do.
+        One line that says what is unreliable, and what to do.
 
     Raises
     ------
     ValueError
-        Where ``CODES`` does not have the code.
+        Where the code is not in ``CODES``.
 
     Examples
     --------
@@ -261,5 +262,5 @@ class ResultWarning:
 
     @property
     def severity(self) -> Severity:
-        """Severity of its code: "note", "warning", or "severe" where the numbers must not be used."""
+        """Severity of the code: "note", "warning", or "severe" where the numbers must not be used."""
         return CODES[self.code].severity

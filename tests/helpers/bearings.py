@@ -1,4 +1,4 @@
-"""Bearing files that tests change: a 6208 and a roller bearing that is nobody's."""
+"""Bearing files that tests change: a 6208 and an invented roller bearing; contacts with their rings."""
 
 import copy
 import dataclasses
@@ -8,6 +8,8 @@ from ehlectric.bearing.kinds import kind_of
 from ehlectric.bearing.preparation import resolve_bearing
 from ehlectric.bearing.ring_contacts import RingContacts
 from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.case import Case
+from ehlectric.cases.grid import Solver
 
 OIL = {
     "base": "paper",
@@ -50,7 +52,7 @@ BALLS = {
     **OTHERS,
 }
 
-# About the size of an NU 208, whose internal geometry is not published: made up.
+# About the size of an NU 208. Its internal geometry is not published, so the values are invented.
 ROLLERS = {
     "bearing": DUTY
     | {
@@ -68,22 +70,22 @@ ROLLERS = {
 
 
 def changed(tables, **changes):
-    """A copy of nested tables with values at keys such as ``bearing__fill`` in place; None takes one out."""
-    found = copy.deepcopy(tables)
+    """Copy of nested tables with changed values; ``bearing__fill`` names a key, and None removes it."""
+    copied = copy.deepcopy(tables)
     for key, value in changes.items():
         *path, last = key.split("__")
-        table = found
+        table = copied
         for name in path:
             table = table.setdefault(name, {})
         if value is None:
             table.pop(last, None)
         else:
             table[last] = value
-    return found
+    return copied
 
 
 def bearing_case(tables, **changes):
-    """The case of changed tables."""
+    """Bearing case of tables with changed values."""
     return BearingCase.from_dict(changed(tables, **changes))
 
 
@@ -98,17 +100,41 @@ def contact_of(ring, load):
 
 
 def contact_case(ring, load, solver):
-    """Case of a contact with a ring at a load [N]."""
-    return kind_of(ring).case(contact_of(ring, load), solver)
+    """Case that a user would write of a contact with a ring at a load [N], with isothermal, flooded oil."""
+    conditions, radii = ring.conditions, ring.radii
+    assert conditions.film_factor == 1.0
+    contact = {"body_1": elastic(conditions.ring), "body_2": elastic(conditions.element)}
+    length, discharge = conditions.bearing.roller_length, {}
+    if length is None:
+        contact |= {"geometry": "point", "load": load}
+        contact["body_1"] |= {"radius_x": radii.ring_x, "radius_y": radii.ring_y}
+        contact["body_2"] |= {"radius_x": radii.element_x, "radius_y": radii.element_y}
+    else:
+        contact |= {"radius_1": radii.ring_x, "radius_2": radii.element_x, "load_per_length": load / length}
+        discharge = {"length": length}
+    return Case.from_dict(
+        {
+            "contact": contact | {"entrainment_speed": ring.speed},
+            "lubricant": conditions.lubricant.model_dump(exclude_none=True, exclude={"base"}),
+            "grid": kind_of(ring).grid(contact_of(ring, load)).model_dump(exclude_none=True),
+            "discharge": conditions.discharge.model_dump(exclude_none=True) | discharge,
+            "solver": solver,
+        }
+    )
+
+
+def elastic(solid):
+    """Elastic constants of a body of a case."""
+    return {"youngs_modulus": solid.youngs_modulus, "poissons_ratio": solid.poissons_ratio}
 
 
 def solve_contact(ring, load, solver):
-    """Solution of a contact with a ring at a load [N]."""
-    return kind_of(ring).solve(contact_of(ring, load), solver)
+    """Solution of a contact with a ring at a load [N], with the values of a table ``[solver]``."""
+    return kind_of(ring).solve(contact_of(ring, load), Solver.from_dict(solver))
 
 
 def formula_contact(ring, load):
-    """Contact with a ring at a load [N] by film formulas."""
+    """Contact with a ring at a load [N], computed by film formulas."""
     return kind_of(ring).by_formula(contact_of(ring, load))
 
 
@@ -118,12 +144,12 @@ def rigid_capacitance(ring, gap):
 
 
 def contact_solution(**numbers):
-    """A made-up contact, its values and what else there is of it in one go."""
+    """Invented solution of a contact from all of its attributes, including its values."""
     names = {field.name for field in dataclasses.fields(ContactValues)}
     values = ContactValues(**{name: numbers.pop(name) for name in names})
     return ContactSolution(values=values, **numbers)
 
 
 def with_values(one, **values):
-    """A contact or the contacts with a ring with other values."""
+    """Copy of a contact, or of the contacts with a ring, with other values."""
     return dataclasses.replace(one, values=dataclasses.replace(one.values, **values))

@@ -1,4 +1,4 @@
-"""The ehlectric command as a user types it, without the time that its imports take.
+"""Run the ehlectric command as a user types it, without the time that its imports take.
 
 A server process imports the package once; each command is a fork of it, with its own folder, output and exit
 status.
@@ -31,7 +31,7 @@ _server.set_forkserver_preload([__name__, *_PRELOADED])
 
 
 def _command(arguments, folder, output, errors):
-    """The command in a process of its own."""
+    """Run the command in this process, with output and errors in files."""
     from ehlectric.commands.app import main
 
     for number, path in ((1, output), (2, errors)):
@@ -47,16 +47,16 @@ def run_command(*words, cwd, timeout=120):
     Parameters
     ----------
     *words : str or Path
-        Its arguments and options.
+        Arguments and options of the command.
     cwd : Path
         Folder to run in.
     timeout : float
-        Time after which it is ended [s].
+        Time limit [s], after which the command is killed.
 
     Returns
     -------
     subprocess.CompletedProcess
-        With exit status and what was printed.
+        Exit status, output and errors of the command.
     """
     arguments = [str(word) for word in words]
     with tempfile.TemporaryDirectory() as scratch:

@@ -1,4 +1,4 @@
-"""The film of a line contact alone, for tests that look at neither its field nor its smooth counterpart."""
+"""Film of a line contact without its field and its smooth counterpart, for tests that need neither."""
 
 from ehlectric.contact.problems import film_problem, line_domain_of
 from ehlectric.contact.resolve import resolve
@@ -7,7 +7,7 @@ from ehlectric.surfaces.rough_profiles import rough_surfaces
 
 
 def film_alone(case):
-    """The film that ``solve`` gives for a case without ``refine``."""
+    """Film of a case, equal to that of ``solve`` without ``refine``."""
     conditions = resolve(case)
     rough = rough_surfaces(case.roughness, line_domain_of(case, conditions))
     return solve_film(film_problem(case, conditions, rough))

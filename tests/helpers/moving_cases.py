@@ -1,4 +1,4 @@
-"""Contacts whose roughness moves, small enough to be solved in a moment."""
+"""Small contacts with moving roughness, solved in about a second."""
 
 from ehlectric import Case
 
@@ -32,6 +32,6 @@ TABLES = {"line": LINE, "point": POINT}
 
 
 def moving(table=LINE, changes=None, **tables):
-    """A case of some tables; whole tables are replaced, then changed by dotted keys."""
+    """Case of these tables; whole tables are replaced first, then single values by dotted keys."""
     case = Case.from_dict(table | tables)
     return case.replace(changes) if changes else case

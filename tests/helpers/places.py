@@ -1,4 +1,4 @@
-"""Folders that tests read from."""
+"""Folders and files that tests read."""
 
 from pathlib import Path
 

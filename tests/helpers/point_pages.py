@@ -1,4 +1,4 @@
-"""Point contacts of every kind that is drawn in a way of its own, and their figures as they are saved."""
+"""Point contacts, one for each layout of the figures, and their figures as they are saved."""
 
 import tempfile
 from functools import cache
@@ -54,7 +54,7 @@ def result_of(kind):
 
 @cache
 def pages(kind):
-    """Figures by the names of their files."""
+    """Figures of a contact by the names of their files."""
     saved = []
     with tempfile.TemporaryDirectory() as folder, pytest.MonkeyPatch.context() as patch:
         patch.setattr(Figure, "savefig", lambda figure, _: saved.append(figure))
@@ -63,11 +63,11 @@ def pages(kind):
 
 
 def drawn(kind, draw):
-    """The first axes of a figure."""
+    """First axes of the figure that ``draw`` makes."""
     return pages(kind)[f"{draw.__name__}.png"].axes[0]
 
 
 def on_page(result, x, y):
-    """Positions [m] as they are drawn: entrainment points down where the ellipse is long across it."""
+    """Positions [m] in coordinates of the figure; entrainment points down if the ellipse is long across."""
     b = result.conditions.semi_axis_x
     return (y / b, x / b) if result.conditions.ratio > 1.2 else (x / b, y / b)

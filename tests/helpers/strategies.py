@@ -1,4 +1,4 @@
-"""Cases of every kind a case file may hold, for hypothesis."""
+"""Hypothesis strategies for cases of every kind that a case file may hold."""
 
 from hypothesis import strategies as st
 
@@ -14,7 +14,7 @@ def either(*alternatives):
 
 
 def merged(*parts):
-    """Tables of which each part gives some keys."""
+    """Strategy for tables that are merged from those of several strategies."""
     return st.tuples(*parts).map(lambda tables: {k: v for table in tables for k, v in table.items()})
 
 
@@ -38,7 +38,7 @@ groove = st.fixed_dictionaries({"radius_x": radius, "radius_y": radius.map(lambd
 
 
 def with_bodies(table):
-    """Both bodies in one table each, of what their radii and their elastic constants give."""
+    """Table in which each body has one table with its radii and its elastic constants."""
     kept = {key: value for key, value in table.items() if not isinstance(value, tuple)}
     for k, name in enumerate(("body_1", "body_2")):
         parts = [value[k] for value in table.values() if isinstance(value, tuple)]

@@ -1,4 +1,4 @@
-"""X3P and AL3D files for tests, right or wrong in every value."""
+"""Writers of X3P and AL3D files for tests, valid or with any value wrong."""
 
 import struct
 import zipfile
@@ -10,7 +10,7 @@ KINDS = {"D": "<f8", "F": "<f4", "L": "<i4", "I": "<i2"}
 
 
 def description(heights, *, valid=False, encoding="UTF-8", **changes):
-    """The description of an X3P file, with changes to its values; None takes one out."""
+    """XML description of an X3P file with changed values; None removes a value."""
     rows, columns = heights.shape
     values = {
         "FeatureType": "SUR", "CX/AxisType": "I", "CX/Increment": "1.5e-7", "CY/AxisType": "I",

@@ -1,4 +1,4 @@
-"""Sweeps of models that are known in closed form, as the engine would give them back."""
+"""Results of sweeps whose model is known in closed form, in the form that the engine returns."""
 
 import itertools
 from collections.abc import Callable, Mapping, Sequence
@@ -30,7 +30,7 @@ def case() -> Case:
 
 
 def breakdown(inputs: Inputs) -> dict[str, Any]:
-    """Summary with a breakdown voltage of 10 V (u/(4 m/s))^0.7 (w/(1 MN/m))^-0.1, at 5 V if not varied."""
+    """Summary with the breakdown voltage 10 V (u/(4 m/s))^0.7 (w/(1 MN/m))^-0.1; default voltage 5 V."""
     speed, load = inputs.get(SPEED, 4.0), inputs.get(LOAD, 1e6)
     voltage = inputs.get(POTENTIAL, 4.0) + 1.0
     strength = 10.0 * (speed / 4.0) ** 0.7 * (load / 1e6) ** -0.1
@@ -48,7 +48,7 @@ def breakdown(inputs: Inputs) -> dict[str, Any]:
 
 
 def doubtful_where(wrong: Callable[[Inputs], bool], model: Model = breakdown) -> Model:
-    """A model whose film is not to be used at some points."""
+    """Model with a severe warning at the points where ``wrong`` is true."""
 
     def warned(inputs: Inputs) -> dict[str, Any]:
         text = "the film may be 32 % off or more on this grid; do not use it"
@@ -61,24 +61,24 @@ def doubtful_where(wrong: Callable[[Inputs], bool], model: Model = breakdown) ->
 def points(
     rows: Sequence[Inputs], model: Model, status: Callable[[Inputs], str] = lambda _: "solved"
 ) -> tuple[Point, ...]:
-    """Points of a sweep; a summary where they are solved, and where they are not converged."""
-    found = []
+    """Points of a sweep; solved and unconverged points have a summary."""
+    of_sweep = []
     for number, row in enumerate(rows):
         state = status(row)
         summary = model(row) if state in ("solved", "not converged") else None
-        found.append(Point(number, row, state, summary=summary))  # type: ignore[arg-type]
-    return tuple(found)
+        of_sweep.append(Point(number, row, state, summary=summary))  # type: ignore[arg-type]
+    return tuple(of_sweep)
 
 
 def grid(axes: Mapping[str, Sequence[Any]], model: Model = breakdown, **how: Any) -> SweepResults:
-    """A grid, the last key fastest."""
+    """Sweep over a grid; the last key varies fastest."""
     rows = [dict(zip(axes, values, strict=True)) for values in itertools.product(*axes.values())]
     values = {key: tuple(axis) for key, axis in axes.items()}
     return SweepResults(case(), "grid", values, {}, 0, points(rows, model, **how))
 
 
 def paired(axes: Mapping[str, Sequence[Any]], model: Model = breakdown, **how: Any) -> SweepResults:
-    """Lists that go along with each other."""
+    """Sweep over paired lists of values."""
     rows = [dict(zip(axes, values, strict=True)) for values in zip(*axes.values(), strict=True)]
     values = {key: tuple(axis) for key, axis in axes.items()}
     return SweepResults(case(), "paired", values, {}, 0, points(rows, model, **how))
@@ -87,7 +87,7 @@ def paired(axes: Mapping[str, Sequence[Any]], model: Model = breakdown, **how: A
 def sobol(
     ranges: Mapping[str, Range], samples: int, model: Model, *, seed: int = 0, **how: Any
 ) -> SweepResults:
-    """Rows A, then B, then A with each column of B."""
+    """Sobol design: rows of A, then of B, then of A with each column of B."""
     base = qmc.Sobol(2 * len(ranges), seed=seed).random(samples)
     a, b = base[:, : len(ranges)], base[:, len(ranges) :]
     pages = [a, b]

@@ -1,4 +1,4 @@
-"""Small sweeps, and what solves their points in ways that tests ask for."""
+"""Small sweeps, and a solver of points that can die or be slow."""
 
 import os
 import signal
@@ -12,13 +12,13 @@ from tests.conftest import PAPER_CONTACT
 SPEED, LOAD, NODES = "contact.entrainment_speed", "contact.load_per_length", "grid.nodes"
 PRESSURE = "contact.max_hertz_pressure"
 
-# On 129 nodes a point takes some hundredths of a second; the film is rough and right.
+# On 129 nodes a point takes some hundredths of a second; the film is coarse but converged.
 TABLE = {"contact": PAPER_CONTACT, "lubricant": {"base": "paper"}, "grid": {"nodes": 129}}
 CASE = Case.from_dict(TABLE)
 
 # A point with so many nodes kills the process that solves it.
 DEADLY = 131
-# And one with so many takes its time.
+# A point with so many nodes takes half a second longer.
 SLOW = 133
 
 
@@ -31,7 +31,7 @@ def speeds(count):
 
 
 def solve_or_die(table):
-    """``solve_point``, but for points that are deadly or slow."""
+    """Solve a point by ``solve_point``; DEADLY nodes kill the process, SLOW nodes delay it."""
     if table["grid"]["nodes"] == DEADLY:
         os.kill(os.getpid(), signal.SIGKILL)
     if table["grid"]["nodes"] == SLOW:

@@ -1,4 +1,4 @@
-"""Films in time for the tests: a contact, a ridge that moves, and the steps in between."""
+"""Transient films for tests: a contact, a moving ridge, and the time steps."""
 
 import numpy as np
 
@@ -10,7 +10,7 @@ from ehlectric.film.unsteady import UnsteadyFilm
 
 
 def problem_of(paper_case, nodes, **values):
-    """A line contact of the paper's oil at 0.8 GPa and 1 m/s, X from -3 to 2, or with other values."""
+    """Film problem of a line contact with the paper's oil, by default at 0.8 GPa, 1 m/s and -3 <= X <= 2."""
     contact = {"contact.max_hertz_pressure": "0.8 GPa", "contact.entrainment_speed": "1 m/s"}
     grid = {"grid.nodes": nodes, "grid.inlet": -3.0, "grid.outlet": 2.0}
     case = paper_case.replace(contact | grid | values)
@@ -18,7 +18,7 @@ def problem_of(paper_case, nodes, **values):
 
 
 def steady(problem):
-    """The stationary film."""
+    """Converged stationary film of a problem."""
     with quiet_solution():
         solution = nested_iteration(problem, None)[-1]
     assert solution.status == "converged"
@@ -26,7 +26,7 @@ def steady(problem):
 
 
 def ridge(height, width, start, speed=1.0):
-    """A ridge as wide as a bell curve, at X = start + speed T; its height in units of H."""
+    """Gap of a ridge of Gaussian shape, centred at X = start + speed T, its height in units of H."""
 
     def gap(time, x, y):
         bell = -height * np.exp(-(((x - start - speed * time) / width) ** 2))
@@ -36,7 +36,7 @@ def ridge(height, width, start, speed=1.0):
 
 
 def histories(problem, gap, step, steps, start=None):
-    """The histories from 0 to ``steps`` time steps, from a steady film."""
+    """Histories after 0 to ``steps`` time steps, from a stationary film."""
     film = UnsteadyFilm(problem, gap)
     with quiet_solution():
         history = film.start(steady(problem) if start is None else start, step)
@@ -47,6 +47,6 @@ def histories(problem, gap, step, steps, start=None):
 
 
 def last(*arguments, **keywords):
-    """The instant after all time steps."""
+    """Instant after the last time step."""
     *_, history = histories(*arguments, **keywords)
     return history.now

@@ -1,1 +1,1 @@
-"""A whole rolling bearing: loads of its elements, films of its contacts, and its electrical circuit."""
+"""Rolling bearings: loads of the elements, films of the contacts, and the electrical circuit."""

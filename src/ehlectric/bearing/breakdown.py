@@ -1,4 +1,4 @@
-"""Breakdown of a bearing: first break, through breakdown, and the largest field strength in its films."""
+"""Breakdown voltages of a bearing, and the largest field strength in its films."""
 
 from __future__ import annotations
 
@@ -17,11 +17,12 @@ class Breakdown:
     Attributes
     ----------
     first_break, first_break_mean : float
-        Voltage at which some contact breaks down, least and mean over the positions [V].
+        Voltage at which the first contact breaks down, minimum and mean over the positions [V].
     first_break_at : str
-        The contact that breaks down first.
+        Name of the contact that breaks down first.
     through_breakdown, through_breakdown_mean : float
-        Voltage at which some element breaks down from ring to ring, least and mean over the positions [V].
+        Voltage at which the first element breaks down from ring to ring, minimum and mean over the positions
+        [V].
     """
 
     first_break: float
@@ -32,17 +33,17 @@ class Breakdown:
 
 
 def breakdown_of(solution: BearingSolution) -> Breakdown | None:
-    """Bearing voltages at which films break down.
+    """Bearing voltages at which the films of a solved bearing break down.
 
     Parameters
     ----------
     solution : BearingSolution
-        A solved bearing.
+        Solved bearing.
 
     Returns
     -------
     Breakdown or None
-        None of ceramic elements, where surfaces touch, and without a strength.
+        None for ceramic elements, where surfaces touch, or without a dielectric strength.
     """
     circuits = solution.circuits()
     first = np.array([circuit.first_break for circuit in circuits])
@@ -59,15 +60,15 @@ def breakdown_of(solution: BearingSolution) -> Breakdown | None:
 
 
 def _weakest(circuit: Circuit) -> str:
-    """Which contact of which element breaks first."""
+    """Name of the contact that breaks down first."""
     k = int(np.argmin(circuit.first_breaks))
     return f"{'inner' if circuit.inner_first[k] else 'outer'} contact of element {k}"
 
 
 def strength_per_volt(solution: BearingSolution) -> float | None:
-    """Largest field strength in the bearing over its voltage, over the positions [1/m].
+    """Largest field strength over the bearing voltage, of all contacts and positions of the cage [1/m].
 
-    None of ceramic elements, and where surfaces touch.
+    None for ceramic elements, and where surfaces touch.
     """
     if not insulating(solution):
         return None

@@ -1,4 +1,4 @@
-"""The circuit of a bearing: two contacts of each element in series, elements in parallel. SI units."""
+"""Electrical circuit of a bearing: both contacts of an element in series, elements in parallel. SI units."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ehlectric.arrays import Array, Mask
 
 
 def series(first: Array, second: Array) -> Array:
-    """Capacitance of two in series, C1 C2/(C1 + C2) [F].
+    """Capacitance of two capacitors in series, C1 C2/(C1 + C2) [F].
 
     Examples
     --------
@@ -27,22 +27,24 @@ class Circuit:
     Attributes
     ----------
     inner, outer : ndarray, shape (n,)
-        Capacitance of each element's contacts with the inner and the outer ring [F].
+        Capacitance of the contact of each element with the inner and the outer ring [F].
     inner_breakdown, outer_breakdown : ndarray, shape (n,)
-        Breakdown voltage of each contact by itself [V]; infinite where it has none.
+        Breakdown voltage of each contact by itself [V]; infinite without a dielectric strength.
     shape : float or None
-        m of Weibull's law, whose 63.2 % those voltages then are; none where the strength is a certain one.
+        Shape parameter m of Weibull's law. The breakdown voltages are then those at a probability of 63.2 %.
+        None for a strength without scatter.
 
     Examples
     --------
-    Two equal contacts share the voltage; where one breaks down at half of what the other withstands, that one
-    holds on alone.
+    Two equal contacts have half of the bearing voltage each. The inner one, which withstands 5 V, breaks down
+    at a bearing voltage of 10 V. The outer one then carries the whole voltage, up to 20 V:
 
     >>> circuit = Circuit(np.array([1e-10]), np.array([1e-10]), np.array([5.0]), np.array([20.0]))
     >>> circuit.capacitance, circuit.first_break, circuit.through_breakdown
     (5e-11, 10.0, 20.0)
 
-    By Weibull's law four equal contacts break sooner than one, by the power 1/m of their number:
+    By Weibull's law the voltage of the first break falls with the number of equal contacts to the power -1/m,
+    here from 10 V for a single contact to 5 V for four:
 
     >>> pair, both = np.full(2, 1e-10), np.full(2, 5.0)
     >>> round(Circuit(pair, pair, both, both, shape=2.0).first_break, 9)
@@ -57,7 +59,7 @@ class Circuit:
 
     @property
     def elements(self) -> Array:
-        """Capacitance of each element from ring to ring [F]."""
+        """Capacitance of each element from ring to ring, shape (n,) [F]."""
         return series(self.inner, self.outer)
 
     @property
@@ -67,44 +69,45 @@ class Circuit:
 
     @property
     def inner_share(self) -> Array:
-        """Part of the bearing's voltage on each inner contact; the outer one has the rest."""
+        """Share of the bearing voltage on each inner contact, shape (n,); the outer one has the rest."""
         return self.outer / (self.inner + self.outer)
 
     @property
     def inner_breaks(self) -> Array:
-        """Bearing voltages at which the inner contacts break down, their partners being whole [V]."""
+        """Bearing voltages at which the inner contacts break down, outer ones intact, shape (n,) [V]."""
         return self.inner_breakdown / self.inner_share
 
     @property
     def outer_breaks(self) -> Array:
-        """Bearing voltages at which the outer contacts break down, their partners being whole [V]."""
+        """Bearing voltages at which the outer contacts break down, inner ones intact, shape (n,) [V]."""
         return self.outer_breakdown / (1.0 - self.inner_share)
 
     @property
     def inner_first(self) -> Mask:
-        """Whether the inner contact of each element breaks down before the outer one, or with it."""
+        """Whether the inner contact of each element breaks down before or with the outer one, shape (n,)."""
         return self.inner_breaks <= self.outer_breaks
 
     @property
     def first_breaks(self) -> Array:
-        """Bearing voltages at which the first contact of each element breaks down [V]."""
+        """Bearing voltages at which the first contact of each element breaks down, shape (n,) [V]."""
         return np.minimum(self.inner_breaks, self.outer_breaks)
 
     @property
     def through_breaks(self) -> Array:
-        """Bearing voltages at which each element breaks down through both contacts [V].
+        """Bearing voltages at which both contacts of each element have broken down, shape (n,) [V].
 
-        When the first one has broken down the other carries all of the voltage.
+        After the first of them has broken down, the other one carries the whole bearing voltage.
         """
         remaining = np.where(self.inner_first, self.outer_breakdown, self.inner_breakdown)
         return np.maximum(self.first_breaks, remaining)
 
     @property
     def first_break(self) -> float:
-        """Least bearing voltage at which some contact breaks down [V].
+        """Smallest bearing voltage at which a contact breaks down [V].
 
-        By Weibull's law that at which one of them has broken down with the probability 63.2 %: the exponents
-        of all, (V/V_k)^m with the bearing voltage V_k of each one's own 63.2 %, add up to 1.
+        With Weibull's law, it is the voltage at which the probability that any contact has broken down is
+        63.2 %. The exponents (V/V_k)^m of all contacts then add up to 1, where V_k is the bearing voltage at
+        which contact k alone has this probability.
 
         W. Weibull, J. Appl. Mech. 18 (1951) 293, doi:10.1115/1.4010337.
         """
@@ -112,38 +115,40 @@ class Circuit:
         if self.shape is None or not np.isfinite(least):
             return least
         breaks = np.concatenate([self.inner_breaks, self.outer_breaks])
-        # Of the weakest, whose power alone would overflow.
+        # Number of contacts as weak as the weakest one. Powers of the voltages themselves would overflow.
         number = float(np.sum((least / breaks) ** self.shape))
         return least * float(number ** (-1.0 / self.shape))
 
     @property
     def through_breakdown(self) -> float:
-        """Least bearing voltage at which some element breaks down from ring to ring [V].
+        """Smallest bearing voltage at which an element breaks down from ring to ring [V].
 
-        By Weibull's law each contact is taken at its own 63.2 %.
+        With Weibull's law, each contact breaks down at the voltage of its own 63.2 %.
         """
         return float(np.min(self.through_breaks))
 
 
 def impedance(capacitance: Array, relaxation_time: float, frequency: Array) -> Array:
-    """Impedance of capacitances whose dielectric leaks, Z = 1/(C (i 2 pi f + 1/tau)).
+    """Impedance of capacitors with a conducting dielectric, Z = 1/(C (i 2 pi f + 1/tau)).
 
     Parameters
     ----------
-    capacitance : ndarray
-        [F].
+    capacitance : float or ndarray, shape (n,)
+        Capacitance C [F].
     relaxation_time : float
-        tau = eps0 eps_r/sigma of the oil [s].
+        Charge relaxation time tau = eps0 eps_r/sigma of the oil [s].
     frequency : ndarray, shape (n,)
-        [Hz].
+        Frequency f [Hz].
 
     Returns
     -------
     ndarray of complex, shape (n,)
-        [Ohm].
+        Impedance Z [Ohm].
 
     Examples
     --------
+    At zero frequency only the resistance tau/C remains:
+
     >>> z = impedance(1e-10, 1.0, np.array([0.0]))
     >>> float(abs(z[0]))
     10000000000.0
@@ -155,28 +160,28 @@ def impedance(capacitance: Array, relaxation_time: float, frequency: Array) -> A
 def leaking_admittance(
     inner: tuple[Array, Array], outer: tuple[Array, Array], relaxation_time: float, frequency: Array
 ) -> Array:
-    """Admittance of a bearing whose oil leaks, and the air around its films does not.
+    """Admittance of a bearing whose oil conducts, while the air around its films does not.
 
-    A contact has i 2 pi f C + C_oil/tau; those of an element are in series, elements in parallel.
+    A contact has the admittance i 2 pi f C + C_oil/tau. Both contacts of an element are in series, and the
+    elements are in parallel.
 
     Parameters
     ----------
     inner, outer : tuple of ndarray, shape (n,)
-        Of each element's contacts with the inner and the outer ring all of the capacitance, and that of the
-        oil in it [F].
+        Capacitance of each element's contact with the ring, and the part of it in oil [F].
     relaxation_time : float
-        tau = eps0 eps_r/sigma of the oil [s].
+        Charge relaxation time tau = eps0 eps_r/sigma of the oil [s].
     frequency : ndarray, shape (m,)
-        [Hz].
+        Frequency f [Hz].
 
     Returns
     -------
     ndarray of complex, shape (m,)
-        [S].
+        Admittance [S].
 
     Examples
     --------
-    All of it in oil, 1/Z of the bearing's capacitance:
+    With oil everywhere, it is 1/Z of the bearing's capacitance:
 
     >>> both = np.array([2e-10]), np.array([2e-10])
     >>> y = leaking_admittance(both, both, 1.0, np.array([1.0]))

@@ -22,7 +22,19 @@ G_co = TypeVar("G_co", bound=Geometry, covariant=True)
 
 @dataclass(frozen=True)
 class Solid:
-    """Elastic constants and density of a material, SI units, and whether it conducts."""
+    """Material of a ring or of the elements.
+
+    Attributes
+    ----------
+    youngs_modulus : float
+        Young's modulus [Pa].
+    poissons_ratio : float
+        Poisson's ratio, dimensionless.
+    density : float
+        Density [kg/m^3].
+    conducting : bool
+        Whether the material conducts electricity.
+    """
 
     youngs_modulus: float
     poissons_ratio: float
@@ -31,7 +43,7 @@ class Solid:
 
     @classmethod
     def of(cls, name: str) -> Solid:
-        """A material of the library."""
+        """Material of the library by its name."""
         table: dict[str, Any] = library.solid(name)
         return cls(
             to_si(table["youngs_modulus"], "Pa"),
@@ -42,32 +54,31 @@ class Solid:
 
     @property
     def compliance(self) -> float:
-        """(1 - nu^2)/E [1/Pa]."""
+        """Plane-strain compliance (1 - nu^2)/E [1/Pa]."""
         return hertz.body_compliance(self.youngs_modulus, self.poissons_ratio)
 
 
 @dataclass(frozen=True)
 class BearingConditions(Generic[G_co]):
-    """Conditions that all contacts of a bearing share.
+    """Conditions that all contacts of a bearing share, SI units.
 
     Attributes
     ----------
     bearing : Bearing
-        Table of the bearing file.
+        Table ``[bearing]`` of the file.
     geometry : BallBearing or RollerBearing
         Internal geometry.
     element, ring : Solid
         Materials.
     modulus : float
-        E' of element and ring [Pa].
+        Reduced modulus E' of element and ring [Pa].
     lubricant : Lubricant
-        Oil at the temperature of the bearing.
+        Oil at the temperature of the bearing. Its ambient pressure is 0: the ambient pressure acts on the
+        bodies from all sides, and pressures in the contacts are those above it.
     discharge : Discharge
         Dielectric strength and conductivity at the temperature of the bearing.
     film_factor : float
-        Film over the isothermal, fully flooded film, dimensionless, at most 1.
-    entrainment_factor : float
-        Factor on the entrainment product that thins the film by the film factor, dimensionless.
+        Film thickness over that of isothermal, fully flooded oil, dimensionless, at most 1.
     """
 
     bearing: Bearing
@@ -78,15 +89,19 @@ class BearingConditions(Generic[G_co]):
     lubricant: Lubricant
     discharge: Discharge
     film_factor: float
-    entrainment_factor: float
 
     @property
     def ceramic(self) -> bool:
-        """Whether the elements do not conduct: no film has all of a voltage, and nothing breaks down."""
+        """Whether the elements are insulators, so that nothing breaks down in the films."""
         return not self.element.conducting
 
+    @property
+    def ring_share(self) -> float:
+        """Share of the ring in the compliance 2/E' of a contact, dimensionless."""
+        return self.ring.compliance / (self.ring.compliance + self.element.compliance)
+
     def radii(self, angle: float, *, inner: bool) -> ContactRadii:
-        """Radii of a contact at a contact angle [rad]."""
+        """Radii of element and ring [m] at a contact angle [rad]."""
         return self.geometry.radii(angle, inner=inner)
 
     def gap_breakdown(self, thickness: float) -> float:

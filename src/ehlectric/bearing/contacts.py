@@ -1,55 +1,55 @@
-"""Contacts of a bearing with one ring, solved over its loads: film, capacitance and breakdown voltage."""
+"""Solved contacts of a bearing with one ring over their load: films, capacitances, breakdown voltages."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
-from typing import Any, Generic, TypeVar
+from dataclasses import dataclass, replace
+from typing import Generic, TypeVar
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from ehlectric.arrays import Array
-from ehlectric.bearing.conditions import BearingConditions, Solid
-from ehlectric.bearing.domain import line_domain, point_domain
+from ehlectric.bearing.domain import ball_grid, roller_grid
 from ehlectric.bearing.ring_contacts import (
     BallContact,
     Contact,
     RollerContact,
     around_ball,
     around_roller,
-    of_contact,
+    check_contact,
 )
-from ehlectric.cases.case import Case
+from ehlectric.cases.grid import Solver
 from ehlectric.contact.results import PointResult, Result
-from ehlectric.contact.solver import solve
+from ehlectric.contact.solver import solve_contact
 from ehlectric.errors import ResultWarning
 
-# Error of the minimum film that grids are refined to.
-REFINE = 0.03
-
-# A number of one contact, or an array of them, one a contact.
+# Number of one contact, or array with a number for each contact.
 N = TypeVar("N", float, Array)
 
 
 @dataclass(frozen=True)
 class ContactValues(Generic[N]):
-    """Quantities of a contact that change with its load, SI units; numbers of one contact or arrays of many.
+    """Quantities that change with the load, SI units: numbers of one contact or arrays of many.
 
     Attributes
     ----------
-    max_pressure, semi_axis_x, semi_axis_y : float or ndarray, shape (n,)
-        Hertz pressure and semi-axes of the dry contact [Pa, m]; of a roller half of its length across.
+    max_pressure : float or ndarray, shape (n,)
+        Hertz pressure of the dry contact [Pa].
+    semi_axis_x, semi_axis_y : float or ndarray, shape (n,)
+        Semi-axes of the dry contact along and across entrainment [m]; half of a roller's length across.
     minimum_thickness, central_thickness : float or ndarray, shape (n,)
-        Film thickness, or the gap of bodies that do not touch [m].
-    inside, outside_oil, outside_air : float or ndarray, shape (n,)
-        Capacitance over the film's domain, and outside it with oil and with air there [F].
+        Film thickness, or the gap between bodies that do not touch [m].
+    inside : float or ndarray, shape (n,)
+        Capacitance over the domain of the film [F].
+    outside_oil, outside_air : float or ndarray, shape (n,)
+        Capacitance outside the domain of the film, with oil and with air in the gap [F].
     plate : float or ndarray, shape (n,)
-        eps0 eps_r A/h(0) of the Hertz area [F].
+        Capacitance eps0 eps_r A/h(0) of the Hertz area A as a plate [F].
     strength_per_volt : float or ndarray, shape (n,)
-        Largest field strength over the contact's voltage [1/m].
+        Largest field strength over the voltage of the contact [1/m].
     breakdown_voltage : float or ndarray, shape (n,)
-        Breakdown voltage of the contact by itself [V]; infinite without a strength.
+        Voltage on the contact at which its film breaks down [V]; infinite without a strength.
     """
 
     max_pressure: N
@@ -65,13 +65,13 @@ class ContactValues(Generic[N]):
     breakdown_voltage: N
 
     def columns(self) -> tuple[N, ...]:
-        """All quantities, in the order of their names above."""
+        """All quantities, in the order of the attributes."""
         return tuple(vars(self).values())
 
 
 @dataclass(frozen=True)
 class ContactSolution:
-    """One loaded contact, SI units.
+    """Film, capacitances and voltages of one loaded contact, SI units.
 
     Attributes
     ----------
@@ -80,15 +80,16 @@ class ContactSolution:
     values : ContactValues
         Film, capacitances and voltages.
     error : float or None
-        Estimate of the film's discretisation error, relative.
+        Estimated discretisation error of the film, relative; None where it is unknown.
     moes_m, moes_l : float
-        Moes' groups.
+        Load parameter M and lubricant parameter L of Moes, dimensionless.
     mismatch : float
-        Largest difference of the gaps at the edge of the film's domain, relative.
+        Largest relative difference, at the edge of the domain, between the film thickness and the gap
+        outside.
     converged : bool
         Whether the film is converged.
     warnings : tuple of ResultWarning
-        Warnings of its solution.
+        Warnings about the film and the field.
     """
 
     load: float
@@ -101,103 +102,70 @@ class ContactSolution:
     warnings: tuple[ResultWarning, ...]
 
 
-def ball_case(contact: BallContact, solver: dict[str, Any]) -> Case:
-    """The case of a ball's contact, with the table ``[solver]`` of a bearing file."""
-    conditions, radii = contact.ring.conditions, contact.ring.radii
-    tables = {
-        "geometry": "point",
-        "body_1": _body(conditions.ring) | {"radius_x": radii.ring_x, "radius_y": radii.ring_y},
-        "body_2": _body(conditions.element) | {"radius_x": radii.element_x, "radius_y": radii.element_y},
-        "load": contact.load,
-    }
-    return _case(contact, tables, point_domain(contact), {}, solver)
-
-
-def roller_case(contact: RollerContact, solver: dict[str, Any]) -> Case:
-    """The case of a roller's contact, with the table ``[solver]`` of a bearing file."""
-    conditions, radii = contact.ring.conditions, contact.ring.radii
-    tables = {
-        "radius_1": radii.ring_x,
-        "radius_2": radii.element_x,
-        "body_1": _body(conditions.ring),
-        "body_2": _body(conditions.element),
-        "load_per_length": contact.load / contact.length,
-    }
-    return _case(contact, tables, line_domain(contact), {"length": contact.length}, solver)
-
-
-def _body(solid: Solid) -> dict[str, float]:
-    return {"youngs_modulus": solid.youngs_modulus, "poissons_ratio": solid.poissons_ratio}
-
-
-def _case(
-    contact: Contact,
-    tables: dict[str, Any],
-    grid: dict[str, Any],
-    discharge: dict[str, Any],
-    solver: dict[str, Any],
-) -> Case:
-    """The case of a contact of either kind, from what is its own."""
-    conditions: BearingConditions[Any] = contact.ring.conditions
-    return Case.from_dict(
-        {
-            "contact": {"entrainment_speed": contact.ring.speed} | tables,
-            # Pressures are those above ambient, which acts on the bodies from all sides.
-            "lubricant": conditions.lubricant.model_dump(exclude_none=True, exclude={"base"})
-            | {"ambient_pressure": 0.0},
-            "grid": grid | {"refine": REFINE},
-            "discharge": conditions.discharge.model_dump(exclude_none=True) | discharge,
-            "solver": solver,
-        }
-    )
-
-
-def solve_ball(contact: BallContact, solver: dict[str, Any]) -> ContactSolution:
-    """Solve film and field of a ball's contact, and add the gap around them.
+def solve_ball(contact: BallContact, solver: Solver) -> ContactSolution:
+    """Film and field of a ball's contact, and the capacitance outside its film.
 
     Parameters
     ----------
     contact : BallContact
         Contact and load.
-    solver : dict
-        ``[solver]`` of the bearing file.
+    solver : Solver
+        Table ``[solver]`` of the bearing file.
 
     Returns
     -------
     ContactSolution
-        Film, field and the gap around them.
+        Numbers of the solved contact.
+
+    Raises
+    ------
+    InputError
+        As ``check_contact`` does.
     """
-    with of_contact(contact):
-        result = solve(ball_case(contact, solver), beside_smooth=False)
+    grid, bearing = ball_grid(contact), contact.ring.conditions
+    check_contact(contact, grid)
+    assert grid.side is not None
+    conditions = replace(contact.conditions, side=grid.side)
+    result = solve_contact(
+        conditions, bearing.lubricant, grid=grid, solver=solver, discharge=bearing.discharge
+    )
     assert isinstance(result, PointResult)
-    film, conditions = result.film, result.conditions
-    axes = conditions.semi_axis_x, conditions.semi_axis_y
+    film = result.film
     outside, mismatch = around_ball(contact, (film.x, film.y), film.thickness)
+    axes = conditions.semi_axis_x, conditions.semi_axis_y
     return _solution(contact, result, axes=axes, outside=outside, mismatch=mismatch)
 
 
-def solve_roller(contact: RollerContact, solver: dict[str, Any]) -> ContactSolution:
-    """Solve film and field of a roller's contact, and add the gap around them.
+def solve_roller(contact: RollerContact, solver: Solver) -> ContactSolution:
+    """Film and field of a roller's contact, and the capacitance outside its film.
 
     Parameters
     ----------
     contact : RollerContact
         Contact and load.
-    solver : dict
-        ``[solver]`` of the bearing file.
+    solver : Solver
+        Table ``[solver]`` of the bearing file.
 
     Returns
     -------
     ContactSolution
-        Film, field and the gap around them.
+        Numbers of the solved contact.
+
+    Raises
+    ------
+    InputError
+        As ``check_contact`` does.
     """
-    with of_contact(contact):
-        result = solve(roller_case(contact, solver), beside_smooth=False)
+    grid, bearing, length = roller_grid(contact), contact.ring.conditions, contact.length
+    check_contact(contact, grid)
+    conditions = contact.conditions
+    discharge = bearing.discharge.model_copy(update={"length": length})
+    result = solve_contact(conditions, bearing.lubricant, grid=grid, solver=solver, discharge=discharge)
     assert isinstance(result, Result)
-    film, width = result.film, result.conditions.half_width
-    outside = around_roller(contact.ring, width, film.x, film.thickness)
-    axes = width, 0.5 * contact.length
-    return _solution(contact, result, axes=axes, outside=outside, mismatch=0.0, length=contact.length)
+    film = result.film
+    outside = around_roller(contact.ring, conditions.half_width, film.x, film.thickness)
+    axes = conditions.half_width, 0.5 * length
+    return _solution(contact, result, axes=axes, outside=outside, mismatch=0.0, length=length)
 
 
 def _solution(
@@ -209,8 +177,8 @@ def _solution(
     mismatch: float,
     length: float = 1.0,
 ) -> ContactSolution:
-    """Numbers of a contact of either kind; capacitances of the result are per length where it is a line's."""
-    discharge, formulas = result.discharge, result.conditions.formulas
+    """Numbers of a solved contact; ``length`` is that of a line contact [m], 1 for a point contact."""
+    discharge, formulas = result.discharge, result.conditions.contact
     assert discharge is not None
     breakdown = discharge.breakdown_voltage
     values = ContactValues(
@@ -239,42 +207,43 @@ def _solution(
 
 
 def without_regime(warnings: Iterable[ResultWarning]) -> tuple[ResultWarning, ...]:
-    """Warnings of a contact but for those of its regime: the domain of a light contact is chosen for it."""
+    """Warnings without those about the regime, since the domain of a bearing's contact suits its regime."""
     return tuple(warning for warning in warnings if warning.code != "regime")
 
 
 @dataclass(frozen=True)
 class ContactCurve:
-    """A contact over its load, between the loads that were solved.
+    """Quantities of a contact over its load, interpolated between solved loads.
 
     Attributes
     ----------
     solutions : tuple of ContactSolution
-        By increasing load.
+        Solved contacts by increasing load.
     """
 
     solutions: tuple[ContactSolution, ...]
 
     @property
     def loads(self) -> Array:
-        """Loads that were solved [N]."""
+        """Solved loads [N]."""
         return np.array([solution.load for solution in self.solutions])
 
     def stack(self) -> ContactValues[Array]:
-        """Quantities at the loads that were solved, as arrays."""
+        """Quantities at the solved loads, as arrays."""
         rows = [solution.values.columns() for solution in self.solutions]
         return ContactValues(*np.array(rows).T)
 
     def at(self, load: Array) -> ContactValues[Array]:
-        """Quantities at loads [N], interpolated in the logarithms of both."""
+        """Quantities at loads [N], interpolated in the logarithms of load and quantity."""
         loads = self.loads
         return ContactValues(*(_interpolated(loads, column, load) for column in self.stack().columns()))
 
     @property
     def interpolation_error(self) -> float:
-        """Largest relative error at a load, were it left out, of capacitance and breakdown voltage.
+        """Largest relative error of capacitance and breakdown voltage when one solved load is left out.
 
-        At twice the distance of the loads it bounds what is left with all of them.
+        Without that load the distance of the loads is twice as large, so that this is an upper bound of the
+        interpolation error with all loads.
         """
         worst, loads, stack = 0.0, self.loads, self.stack()
         for k in range(1, loads.size - 1):
@@ -286,7 +255,10 @@ class ContactCurve:
 
 
 def _interpolated(loads: Array, values: Array, load: Array) -> Array:
-    """Values at other loads [N], monotone in the logarithms of both; infinite where one of them is."""
+    """Monotone interpolation of values over the load [N] in the logarithms of both.
+
+    The result is infinite at all loads where one of the values is infinite.
+    """
     if not np.all(np.isfinite(values)):
         return np.full(np.shape(load), np.inf)
     if loads.size == 1:

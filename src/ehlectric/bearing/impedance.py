@@ -1,4 +1,4 @@
-"""Impedance of a solved bearing over frequency, where its oil leaks. SI units."""
+"""Impedance of a solved bearing over frequency, with the conductivity of its oil. SI units."""
 
 from __future__ import annotations
 
@@ -11,7 +11,8 @@ from ehlectric.bearing.circuit import leaking_admittance
 from ehlectric.bearing.solution import BearingSolution, lubrication
 from ehlectric.discharge.laws import relaxation_time
 
-# Frequencies that it is given up to [Hz], and from, over that of the oil's corner; how many.
+# Frequencies reach up to at least _HIGHEST [Hz], and down to _BELOW_CORNER times the corner frequency of the
+# oil; _COUNT is their number.
 _HIGHEST, _BELOW_CORNER, _COUNT = 1e7, 1e-2, 400
 
 
@@ -22,12 +23,12 @@ class Impedance:
     Attributes
     ----------
     frequency : ndarray, shape (n,)
-        [Hz].
+        Frequencies [Hz].
     values : ndarray of complex, shape (n,)
-        [Ohm], of the mean admittance over the positions of the cage.
+        Impedance from the mean admittance over the positions of the cage [Ohm].
     corner : float
-        1/(2 pi tau) of the oil alone [Hz]: that of the bearing where the oil fills it, and above the
-        bearing's own where there is air, which does not leak.
+        Corner frequency 1/(2 pi tau) of the oil alone [Hz]. A bearing filled with oil has the same corner
+        frequency; with air around the films, which does not conduct, that of the bearing is lower.
     """
 
     frequency: Array
@@ -36,34 +37,34 @@ class Impedance:
 
     @property
     def magnitude(self) -> Array:
-        """abs(Z) [Ohm]."""
+        """Magnitude of the impedance, abs(Z), shape (n,) [Ohm]."""
         return np.abs(self.values)
 
     @property
     def phase(self) -> Array:
-        """From 0, a resistor, to -90 degrees, a capacitor."""
+        """Phase of the impedance, shape (n,) [degrees]: 0 for a resistor, -90 for a capacitor."""
         return np.degrees(np.angle(self.values))
 
 
 def oil_relaxation_time(solution: BearingSolution) -> float | None:
-    """Relaxation time eps0 eps_r/sigma of the oil of a bearing [s]; None without a conductivity."""
+    """Charge relaxation time eps0 eps_r/sigma of a bearing's oil [s]; None without a conductivity."""
     conductivity = solution.case.discharge.conductivity
     permittivity = solution.conditions.lubricant.relative_permittivity
     return None if conductivity is None else relaxation_time(permittivity, conductivity)
 
 
 def impedance_of(solution: BearingSolution) -> Impedance | None:
-    """Impedance of a bearing, around its films what ``fill`` says.
+    """Impedance of a solved bearing, with oil or air around its films according to ``fill``.
 
     Parameters
     ----------
     solution : BearingSolution
-        A solved bearing.
+        Solved bearing.
 
     Returns
     -------
     Impedance or None
-        None without a conductivity, where surfaces touch, and of ceramic elements.
+        None without a conductivity, where surfaces touch, and for ceramic elements.
     """
     tau = oil_relaxation_time(solution)
     if tau is None or solution.conditions.ceramic or lubrication(solution) == "conducting":

@@ -171,7 +171,7 @@ _MECHANICS: Keys = {
     ),
 }
 
-# A row of ``contacts``, which contacts.csv has too.
+# Keys of a row of ``contacts``, which are also the columns of contacts.csv.
 CONTACT_KEYS: Keys = {
     "element": ResultKey("number of the element from 0, which lies on the load line"),
     "ring": ResultKey('"inner" or "outer"'),

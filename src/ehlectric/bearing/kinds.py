@@ -1,4 +1,4 @@
-"""Table of the kinds of bearings: the steps that balls and rollers take each in their own way."""
+"""Table of the kinds of bearings, with the functions that differ between balls and rollers."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Any, Generic, TypeVar
 
 from ehlectric.bearing.by_formula import ball_by_formula, roller_by_formula
-from ehlectric.bearing.contacts import ContactSolution, ball_case, roller_case, solve_ball, solve_roller
-from ehlectric.bearing.domain import ball_fits, roller_fits
+from ehlectric.bearing.contacts import ContactSolution, solve_ball, solve_roller
+from ehlectric.bearing.domain import ball_fits, ball_grid, roller_fits, roller_grid
 from ehlectric.bearing.loads.balls import ball_equilibrium
 from ehlectric.bearing.loads.geometry import BallBearing, RollerBearing
 from ehlectric.bearing.loads.ring import Operation
@@ -22,7 +22,7 @@ from ehlectric.bearing.ring_contacts import (
     rigid_roller,
 )
 from ehlectric.cases.bearing import ANGULAR, ROLLERS, Bearing
-from ehlectric.cases.case import Case
+from ehlectric.cases.grid import Grid, Solver
 
 G = TypeVar("G", BallBearing, RollerBearing)
 C = TypeVar("C", BallContact, RollerContact)
@@ -30,40 +30,40 @@ C = TypeVar("C", BallContact, RollerContact)
 
 @dataclass(frozen=True)
 class Kind(Generic[G, C]):
-    """Steps of a solution that differ between bearings with balls and with rollers.
+    """Functions of a solution that differ between bearings with balls and with rollers.
 
     Attributes
     ----------
     geometry : callable
-        Internal geometry of the table of a bearing file.
+        Table ``[bearing]`` -> internal geometry.
     equilibrium : callable
-        Loads of all elements of a geometry in an operation, with the reduced modulus [Pa] and the density of
-        the elements [kg/m^3].
+        Geometry, operation, reduced modulus [Pa] and density of the elements [kg/m^3] -> loads of all
+        elements.
     contact : callable
-        Contact of an element with a ring at a load [N].
-    case : callable
-        Case of a contact, with the table ``[solver]`` of the bearing file.
-    solve, by_formula : callable
-        Solution of a contact, of its film and field with the table ``[solver]``, or of film formulas.
+        Contacts with a ring and load [N] -> contact.
+    grid : callable
+        Contact -> grid of its film and field.
+    solve : callable
+        Contact and table ``[solver]`` -> contact with its film and field solved.
+    by_formula : callable
+        Contact -> contact by film formulas.
     fits : callable
-        Whether the domain holds the length over which a contact's film builds up.
+        Contact -> whether the domain holds the length over which the film builds up.
     rigid_capacitance : callable
-        Capacitance in vacuum [F] of an element and its raceway, rigid and a gap [m] apart.
-    film_exponent : float
-        Exponent of the entrainment product in the film thickness.
+        Contacts with a ring and gap [m] -> capacitance in vacuum [F] of a rigid element and its raceway.
     dry_exponents : tuple of float
-        Exponents of the load in the Hertz pressure and in the semi-axes along and across the rolling.
+        Exponents of the load in the Hertz pressure and in the semi-axes along and across the rolling
+        direction.
     """
 
     geometry: Callable[[Bearing], G]
     equilibrium: Callable[[G, Operation, float, float], Equilibrium]
     contact: Callable[[RingContacts[G], float], C]
-    case: Callable[[C, dict[str, Any]], Case]
-    solve: Callable[[C, dict[str, Any]], ContactSolution]
+    grid: Callable[[C], Grid]
+    solve: Callable[[C, Solver], ContactSolution]
     by_formula: Callable[[C], ContactSolution]
     fits: Callable[[C], bool]
     rigid_capacitance: Callable[[RingContacts[G], float], float]
-    film_exponent: float
     dry_exponents: tuple[float, float, float]
 
 
@@ -97,33 +97,29 @@ _BALLS = Kind[BallBearing, BallContact](
     geometry=_ball_geometry,
     equilibrium=ball_equilibrium,
     contact=BallContact,
-    case=ball_case,
+    grid=ball_grid,
     solve=solve_ball,
     by_formula=ball_by_formula,
     fits=ball_fits,
     rigid_capacitance=rigid_ball,
-    # Hamrock and Dowson, of points.
-    film_exponent=0.67,
     dry_exponents=(1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0),
 )
 _ROLLERS = Kind[RollerBearing, RollerContact](
     geometry=_roller_geometry,
     equilibrium=roller_equilibrium,
     contact=RollerContact,
-    case=roller_case,
+    grid=roller_grid,
     solve=solve_roller,
     by_formula=roller_by_formula,
     fits=roller_fits,
     rigid_capacitance=rigid_roller,
-    # Dowson and Toyoda, of lines.
-    film_exponent=0.69,
     dry_exponents=(0.5, 0.5, 0.0),
 )
 
-# By bearing.kind of a bearing file.
+# Kinds of bearings by ``bearing.kind`` of a bearing file.
 KINDS: dict[str, Kind[Any, Any]] = {"deep-groove ball": _BALLS, ANGULAR: _BALLS, ROLLERS: _ROLLERS}
 
 
 def kind_of(ring: RingContacts[Any]) -> Kind[Any, Any]:
-    """Kind of the bearing that a ring is of."""
+    """Kind of the bearing of a ring."""
     return KINDS[ring.conditions.bearing.kind]

@@ -14,20 +14,21 @@ from ehlectric.bearing.ring_contacts import Contact
 from ehlectric.cases.bearing import Bearing
 from ehlectric.errors import InputError
 
-# A contact that carries less than this part of the most loaded one may have its middle beyond the shoulder.
+# Contacts with less than this part of the largest load may have their centre beyond the shoulder.
 _LIGHT = 0.02
 
-# Part of the clearance, or of what the elements are pressed in by, that films take up without a word.
+# Part of the clearance, or of the elastic approach of preloaded elements, that films may take up without a
+# warning.
 TAKEN = 1.0 / 3.0
 
 
 def check_load(conditions: BearingConditions[Geometry]) -> None:
-    """Refuse loads below the weight of one element, which is left out of the equilibrium.
+    """Refuse loads below the weight of one element, because the equilibrium neglects weights.
 
     Raises
     ------
     InputError
-        With the weight.
+        Where the load is too small; the message states the weight.
     """
     bearing = conditions.bearing
     weight = conditions.geometry.element_mass(conditions.element.density) * gravity
@@ -42,10 +43,12 @@ def check_load(conditions: BearingConditions[Geometry]) -> None:
 def shoulder_angle(bearing: Bearing, *, inner: bool) -> float:
     """Angle from the bottom of a ball's groove to its shoulder, arccos(1 - H/f) [rad].
 
-    It is infinite of a cylinder, which has no shoulder.
+    It is infinite for a cylinder, which has no shoulder.
 
     Examples
     --------
+    Inner ring of a 6208, in degrees:
+
     >>> bearing = Bearing.from_dict(
     ...     {
     ...         "base": "6208", "radial_clearance": 1e-5, "radial_load": 1000.0, "inner_speed": 300.0,
@@ -61,18 +64,19 @@ def shoulder_angle(bearing: Bearing, *, inner: bool) -> float:
 
 
 def groove_ratio(bearing: Bearing, *, inner: bool) -> float:
-    """Radius of a ball's groove over the ball's diameter; infinite of a cylinder."""
+    """Radius of the groove over the diameter of the ball; infinite for a cylinder."""
     groove = bearing.inner_groove if inner else bearing.outer_groove
     return math.inf if groove is None else groove
 
 
 def check_shoulders(bearing: Bearing, at: Equilibrium) -> None:
-    """Refuse balls whose contact has left the groove.
+    """Refuse ball contacts outside the groove.
 
     Raises
     ------
     InputError
-        For a contact whose middle is beyond the shoulder, unless its load is next to nothing.
+        Where the centre of a contact is beyond the shoulder. Contacts with less than 2 % of the largest load
+        do not count.
     """
     for name, inner in (("inner", True), ("outer", False)):
         ring = at.ring(inner=inner)
@@ -89,18 +93,19 @@ def check_shoulders(bearing: Bearing, at: Equilibrium) -> None:
 
 
 def check_film(contact: Contact) -> None:
-    """Refuse films for which there is no room between element and raceway.
+    """Refuse films that are too thick for the space between element and raceway.
 
     Parameters
     ----------
     contact : BallContact or RollerContact
-        The most loaded contact with one ring.
+        Most loaded contact with one ring.
 
     Raises
     ------
     InputError
-        Where a film formula that holds for light contacts too gives more than a tenth of (f - 1/2) D, or of a
-        roller's film builds up over more than a tenth of its radius.
+        Where the film of a ball is thicker than a tenth of (f - 1/2) D, or the film of a roller builds up
+        over more than a tenth of its radius. The film is that of a formula that holds for light contacts,
+        too.
     """
     film, most, ring = contact.film, contact.thickest_film, contact.ring
     if film > most:

@@ -1,4 +1,4 @@
-"""A bearing before its contacts are solved: conditions, equilibria, and the loads to solve."""
+"""Bearing before its contacts are solved: conditions, equilibria, and the loads to solve."""
 
 from __future__ import annotations
 
@@ -25,33 +25,35 @@ from ehlectric.errors import InputError
 from ehlectric.formulas.hertz_line import reduced_modulus
 from ehlectric.lubricant.temperature import inlet_shear_factor
 
-# Loads of each ring that are solved, but for those of light elements, and the least of them over the largest.
+# Number of loads that are solved for each ring, without those of light elements, and the least of these loads
+# over the largest.
 LOADS, _LEAST = 6, 0.02
 
-# The least load over the largest: below it films hardly change any more what a bearing's circuit sees.
+# Least load that is solved over the largest: the films of lighter contacts hardly change the circuit of the
+# bearing.
 _LIGHTEST = 0.002
 
-# Loads between that one and the six: about one for each of these ratios, up to six. They crowd at the light
-# end, where the film of rigid bodies, which goes with 1/Q, turns into that of bodies that deform: a power of
-# their number, since halving the distance there is worth more than elsewhere.
+# Light loads that are solved below the others: about one for each of these ratios, up to six. Their
+# distances, a power of their number, are shortest at the light end, where the film of rigid bodies, which is
+# proportional to 1/Q, turns into the film of bodies that deform.
 _BETWEEN, _MOST_BETWEEN, _CROWDED = 1.5, 6, 1.5
 
-# Loads closer than this ratio are one.
+# Ratio of the largest to the least load below which all loads count as equal.
 _ALIKE = 1.001
 
 
 @dataclass(frozen=True)
 class PreparedBearing:
-    """A bearing whose contacts are not solved yet.
+    """Bearing with its equilibria, whose contacts are not solved yet.
 
     Attributes
     ----------
     conditions : BearingConditions
         Geometry, materials, oil and strength.
     equilibria : tuple of BallEquilibrium or RollerEquilibrium
-        One for each position of the cage, the first with an element on the load line.
+        Equilibrium at each position of the cage; at the first, an element is on the load line.
     inner, outer : RingContacts
-        Contacts with both rings.
+        Contacts with the inner and with the outer ring.
     """
 
     conditions: BearingConditions[Any]
@@ -66,35 +68,34 @@ class PreparedBearing:
 
 
 def resolve_bearing(case: BearingCase) -> BearingConditions[Any]:
-    """Conditions of a bearing file: its geometry, and materials, oil and strength at its temperature.
+    """Conditions of a bearing file: geometry and materials, oil and strength at the bearing's temperature.
 
     Raises
     ------
     InputError
-        Where the elements do not fit, or the oil or its strength are not known at the temperature.
+        Where the elements do not fit, or the oil or its strength has no value at the temperature.
     """
     bearing, kind = case.bearing, KINDS[case.bearing.kind]
     element, ring = Solid.of(bearing.element_material), Solid.of(bearing.ring_material)
     lubricant = case.lubricant.at(bearing.temperature)
     with _keys_of_bearing():
         geometry = kind.geometry(bearing)
-    factor = _film_factor(case, geometry, lubricant)
     return BearingConditions(
         bearing=bearing,
         geometry=geometry,
         element=element,
         ring=ring,
         modulus=reduced_modulus(element.compliance, ring.compliance),
-        lubricant=lubricant,
+        # The ambient pressure acts on the bodies from all sides: pressures are those above it.
+        lubricant=lubricant.model_copy(update={"ambient_pressure": 0.0}),
         discharge=case.discharge.at(bearing.temperature),
-        film_factor=factor,
-        entrainment_factor=factor ** (1.0 / kind.film_exponent),
+        film_factor=_film_factor(case, geometry, lubricant),
     )
 
 
 @contextmanager
 def _keys_of_bearing() -> Iterator[None]:
-    """Errors of geometry and loads, which name a key, with the table of it."""
+    """Context in which the keys of errors about geometry and loads get their table, ``bearing``."""
     try:
         yield
     except InputError as error:
@@ -102,16 +103,16 @@ def _keys_of_bearing() -> Iterator[None]:
 
 
 def _film_factor(case: BearingCase, geometry: Geometry, lubricant: Lubricant) -> float:
-    """Part of the isothermal film, of what the file says."""
-    given = case.bearing.film_factor
-    if isinstance(given, float):
-        return given
-    if given == "none":
+    """Film thickness over that of isothermal, fully flooded oil, dimensionless, by the file."""
+    factor = case.bearing.film_factor
+    if isinstance(factor, float):
+        return factor
+    if factor == "none":
         return 1.0
     oil = case.lubricant.temperature
     assert oil is not None and oil.thermal_conductivity is not None
     bearing = case.bearing
-    # The speed of pure rolling at the free contact angle: it hardly changes with the loaded one.
+    # Speed at the free contact angle: it differs little from the speed at the loaded contact angle.
     speeds = rolling_speeds(
         bearing.element_diameter,
         bearing.pitch_diameter,
@@ -125,7 +126,10 @@ def _film_factor(case: BearingCase, geometry: Geometry, lubricant: Lubricant) ->
 
 
 def equilibria_of(conditions: BearingConditions[Any], positions: int) -> tuple[Equilibrium, ...]:
-    """Equilibrium at positions of the cage over a pitch, the first with an element on the load line."""
+    """Equilibria at evenly spaced positions of the cage over one pitch of the elements.
+
+    At the first position an element is on the load line.
+    """
     bearing, kind = conditions.bearing, KINDS[conditions.bearing.kind]
     pitch = 2.0 * math.pi / bearing.elements
     with _keys_of_bearing():
@@ -133,12 +137,24 @@ def equilibria_of(conditions: BearingConditions[Any], positions: int) -> tuple[E
             Operation(bearing.radial_load, bearing.axial_load, bearing.inner_speed, cage_angle=angle)
             for angle in pitch * np.arange(positions) / positions
         ]
-        given = conditions.modulus, conditions.element.density
-        return tuple(kind.equilibrium(conditions.geometry, operation, *given) for operation in operations)
+        solid = conditions.modulus, conditions.element.density
+        return tuple(kind.equilibrium(conditions.geometry, operation, *solid) for operation in operations)
 
 
 def prepare_bearing(case: BearingCase, positions: int) -> PreparedBearing:
-    """Conditions and equilibria of a bearing at positions of its cage, and the contacts with both rings.
+    """Conditions of a bearing, its equilibria at positions of the cage, and the contacts with both rings.
+
+    Parameters
+    ----------
+    case : BearingCase
+        Bearing file.
+    positions : int
+        Number of positions of the cage over one pitch of the elements.
+
+    Returns
+    -------
+    PreparedBearing
+        Bearing whose contacts can be solved.
 
     Raises
     ------
@@ -152,29 +168,29 @@ def prepare_bearing(case: BearingCase, positions: int) -> PreparedBearing:
     equilibria = equilibria_of(conditions, positions)
     for at in equilibria:
         check_shoulders(conditions.bearing, at)
-    inner, outer = (_ring_contacts(conditions, equilibria[0], inner=inner) for inner in (True, False))
+    inner, outer = (_contacts_with(conditions, equilibria[0], inner=inner) for inner in (True, False))
     prepared = PreparedBearing(conditions, equilibria, inner, outer)
     for ring in prepared.rings:
         check_film(kind_of(ring).contact(ring, largest_load(prepared, ring)))
     return prepared
 
 
-def _ring_contacts(conditions: BearingConditions[Any], at: Equilibrium, *, inner: bool) -> RingContacts[Any]:
-    """The contacts with one ring, their radii at the contact angle of the most loaded one."""
+def _contacts_with(conditions: BearingConditions[Any], at: Equilibrium, *, inner: bool) -> RingContacts[Any]:
+    """Contacts with one ring, at the contact angle and speed of the most loaded element."""
     most, ring = int(np.argmax(at.inner_load)), at.ring(inner=inner)
-    speed = float(ring.entrainment_speed[most]) * conditions.entrainment_factor
-    return RingContacts(conditions, inner, float(ring.angle[most]), speed)
+    return RingContacts(conditions, inner, float(ring.angle[most]), float(ring.entrainment_speed[most]))
 
 
 def largest_load(prepared: PreparedBearing, ring: RingContacts[Any]) -> float:
-    """Load of the most loaded contact with a ring [N], cage at its first position."""
+    """Load of the most loaded contact with a ring [N], at the first position of the cage."""
     return float(np.max(prepared.equilibria[0].ring(inner=ring.inner).load))
 
 
 def least_load(ring: RingContacts[Any]) -> float:
-    """Load [N] below which a contact's film builds up over more than its domain can hold, to a third.
+    """Least load [N], to within a third, at which the domain holds the length over which the film builds up.
 
-    Lighter contacts have thicker films than this one's, so that its voltage is a lower bound of theirs.
+    Lighter contacts have thicker films, so that the breakdown voltage at this load is a lower bound of
+    theirs.
     """
     kind = kind_of(ring)
     for load in np.geomspace(1e-6, 1e6, 121):
@@ -184,12 +200,16 @@ def least_load(ring: RingContacts[Any]) -> float:
 
 
 def loads_to_solve(prepared: PreparedBearing, ring: RingContacts[Any]) -> list[float]:
-    """Loads of a ring's contacts to solve [N]: evenly in their logarithm, and lighter ones below them."""
+    """Loads of a ring's contacts to solve [N], by increasing load.
+
+    Six loads are evenly spaced in their logarithm. Lighter loads come before them where elements carry
+    hardly more than their centrifugal force.
+    """
     all_loads = np.concatenate([at.ring(inner=ring.inner).load for at in prepared.equilibria])
     largest = float(np.max(all_loads))
     least = float(np.min(all_loads[all_loads >= _LEAST * largest]))
     loads = np.geomspace(least, largest, LOADS) if largest / least > _ALIKE else np.array([largest])
-    # Elements that their centrifugal force alone presses outward have a film of their own.
+    # Elements that are pressed outward only by their centrifugal force carry far less than the others.
     light = all_loads[(all_loads > 0.0) & (all_loads < _LEAST * largest)]
     lightest = least_load(ring)
     own = max(float(np.min(light)), _LIGHTEST * largest, lightest) if light.size else math.inf
@@ -197,7 +217,7 @@ def loads_to_solve(prepared: PreparedBearing, ring: RingContacts[Any]) -> list[f
 
 
 def _lighter(own: float, least: float) -> list[float]:
-    """Loads [N] from that of light elements up to the least of the others; none where they are close."""
+    """Loads [N] from that of light elements, ``own``, up to below ``least``; none where both are close."""
     if own >= 0.5 * least:
         return []
     ratio = math.log(least / own)

@@ -1,4 +1,4 @@
-"""BearingResult: what ``solve_bearing`` returns."""
+"""Result of a bearing, as ``solve_bearing`` returns it."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ehlectric.errors import ResultWarning
 
 @dataclass(frozen=True)
 class BearingResult:
-    """A solved bearing with the numbers that follow from it.
+    """Result of a bearing: its solution, and the summary, contacts and warnings from it.
 
     Attributes
     ----------
@@ -45,25 +45,31 @@ class BearingResult:
 
     @property
     def case(self) -> BearingCase:
-        """Bearing file that was solved."""
+        """Case of the bearing that was solved."""
         return self.solution.case
 
     @property
     def converged(self) -> bool:
-        """Whether all contacts are converged."""
+        """Whether the films of all contacts are converged."""
         return self.solution.converged
 
     @property
     def shaft_voltage(self) -> float | None:
-        """Voltage of the shaft by the capacitive divider [V]; None where there is none."""
+        """Shaft voltage by the capacitive divider of the motor [V].
+
+        None without a motor, where surfaces conduct, and for ceramic elements without a given capacitance.
+        """
         return shaft_voltage(self.solution)
 
     def capacitance(self, fill: str) -> float:
-        """Capacitance of the bearing [F], mean over the positions, with "oil" or "air" around the films."""
+        """Capacitance with "oil" or "air" around the films, mean over the positions of the cage [F]."""
         return capacitance(self.solution, fill)
 
     def breaks(self) -> dict[str, Any]:
-        """Voltages of breakdown over the positions [V] and their margins, None where there are none."""
+        """Breakdown voltages over the positions of the cage [V], and their ratios to the shaft voltage.
+
+        Values are None where there is no breakdown voltage or no shaft voltage.
+        """
         return breaks(self.solution)
 
     def warnings(self) -> list[ResultWarning]:
@@ -71,9 +77,9 @@ class BearingResult:
         return bearing_warnings(self.solution)
 
     def contacts(self) -> list[dict[str, Any]]:
-        """A row for every element and ring, cage at its first position, SI units."""
+        """Table of contacts, a row per element and ring, with the cage at its first position, SI units."""
         return contact_rows(self.solution)
 
     def summary(self) -> dict[str, Any]:
-        """Totals, SI units, nested as summary.json; never NaN."""
+        """Results nested as in summary.json, SI units; None in place of NaN."""
         return summary_of(self.solution)

@@ -1,9 +1,7 @@
-"""Contacts of a bearing's elements with one ring: as formulas take them, and the gap around their films."""
+"""Contacts of a bearing's elements with one ring: operating conditions, and the gap around their films."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Generic, TypeAlias
@@ -15,17 +13,25 @@ from ehlectric.bearing.conditions import BearingConditions, G_co
 from ehlectric.bearing.gaps.groove import Raceway, groove_capacitance, match_film, outside_capacitance
 from ehlectric.bearing.gaps.roller import RollerRaceway, roller_capacitance, roller_tails
 from ehlectric.bearing.loads.geometry import BallBearing, ContactRadii, RollerBearing
+from ehlectric.cases.grid import Grid
 from ehlectric.cases.lubricant import effective_alpha
+from ehlectric.contact.bodies import check_pressure, check_width
+from ehlectric.contact.conditions import Conditions, PointConditions, default_side
+from ehlectric.contact.memory import check_grid
 from ehlectric.errors import InputError
-from ehlectric.formulas.film_line import LineContact, moes
-from ehlectric.formulas.film_point import PointContact, nijenbanning_venner_moes
-from ehlectric.formulas.hertz_line import line_half_width
+from ehlectric.formulas.film_line import moes
+from ehlectric.formulas.film_point import nijenbanning_venner_moes
+from ehlectric.formulas.hertz_line import line_half_width, line_max_pressure
 from ehlectric.formulas.hertz_point import DryContact, dry_contact
 
-# A film is without influence on contact angles and gap up to this part of (f - 1/2) D, the difference of the
-# radii of groove and ball; a roller is a parabola where its film builds up over a length sqrt(2 R h) of up to
-# this part of its radius.
+# Largest film thickness over (f - 1/2) D, the difference of the radii of groove and ball, at which the film
+# does not change contact angle and gap. For a roller, the largest length sqrt(2 R h) over which the film
+# builds up, over the roller's radius, at which the roller is still a parabola.
 _ROOM = 0.1
+
+# Least entrainment speed of a contact [m/s], the same as in a case: slower contacts have no film, and the
+# numbers of their film equations leave the range of floating-point arithmetic.
+_LEAST_SPEED = 1e-9
 
 
 @dataclass(frozen=True)
@@ -35,13 +41,13 @@ class RingContacts(Generic[G_co]):
     Attributes
     ----------
     conditions : BearingConditions
-        The bearing.
+        Conditions that all contacts of the bearing share.
     inner : bool
-        Whether the ring is the inner one.
+        True for the inner ring, False for the outer ring.
     angle : float
         Contact angle at which the radii are taken [rad].
     speed : float
-        Entrainment speed [m/s], the film factor in it.
+        Entrainment speed (u1 + u2)/2 [m/s].
     """
 
     conditions: BearingConditions[G_co]
@@ -56,7 +62,7 @@ class RingContacts(Generic[G_co]):
 
     @property
     def radii(self) -> ContactRadii:
-        """Radii of element and ring at the contact angle."""
+        """Radii of element and ring at the contact angle [m]."""
         return self.conditions.radii(self.angle, inner=self.inner)
 
 
@@ -76,33 +82,51 @@ class BallContact:
     load: float
 
     @cached_property
-    def point(self) -> PointContact:
-        """Contact as film formulas take it."""
-        radii, conditions = self.ring.radii, self.ring.conditions
-        oil = conditions.lubricant
-        return PointContact(
-            radii.radius_x,
-            radii.radius_y,
-            conditions.modulus,
-            self.load,
-            self.ring.speed,
-            oil.viscosity,
-            effective_alpha(oil),
-        )
+    def dry(self) -> DryContact:
+        """Dry contact under the load."""
+        radii = self.ring.radii
+        return dry_contact(self.load, radii.radius_x, radii.radius_y, self.ring.conditions.modulus)
 
     @cached_property
-    def dry(self) -> DryContact:
-        """Dry contact of the load."""
-        return dry_contact(self.load, self.point.radius_x, self.point.radius_y, self.point.reduced_modulus)
+    def conditions(self) -> PointConditions:
+        """Operating conditions of the point contact, which ``check_contact`` may still refuse."""
+        bearing, radii, dry = self.ring.conditions, self.ring.radii, self.dry
+        return PointConditions(
+            radius_x=radii.radius_x,
+            radius_y=radii.radius_y,
+            reduced_modulus=bearing.modulus,
+            load=self.load,
+            entrainment_speed=self.ring.speed,
+            slide_to_roll_ratio=0.0,
+            viscosity=bearing.lubricant.viscosity,
+            pressure_viscosity_coefficient=effective_alpha(bearing.lubricant),
+            semi_axis_x=dry.semi_axis_x,
+            semi_axis_y=dry.semi_axis_y,
+            max_pressure=dry.max_pressure,
+            side=default_side(dry.semi_axis_y / dry.semi_axis_x),
+            compliance_share=bearing.ring_share,
+            film_factor=bearing.film_factor,
+        )
+
+    @property
+    def widths(self) -> tuple[tuple[float, float], ...]:
+        """Semi-axes of the dry contact along and across, each with the smallest radius in its plane [m]."""
+        radii, dry = self.ring.radii, self.dry
+        along = min(radii.radius_x, abs(radii.ring_x), abs(radii.element_x))
+        across = min(radii.radius_y, abs(radii.ring_y), abs(radii.element_y))
+        return (dry.semi_axis_x, along), (dry.semi_axis_y, across)
 
     @cached_property
     def film(self) -> float:
-        """Central film thickness [m] by a formula that holds for light contacts too."""
-        return nijenbanning_venner_moes(self.point).central_thickness
+        """Central film thickness [m] by the formula of Nijenbanning, Venner and Moes.
+
+        The formula holds for light contacts too.
+        """
+        return nijenbanning_venner_moes(self.conditions.contact).central_thickness
 
     @property
     def thickest_film(self) -> float:
-        """Film thickness [m] beyond which ball and groove leave the film no room."""
+        """Largest film thickness [m] for which there is room between ball and groove."""
         return _ROOM * self.ring.conditions.geometry.offsets[0 if self.ring.inner else 1]
 
 
@@ -121,62 +145,107 @@ class RollerContact:
     ring: RingContacts[RollerBearing]
     load: float
 
-    @cached_property
-    def line(self) -> LineContact:
-        """Contact as film formulas take it."""
-        conditions = self.ring.conditions
-        oil, load_per_length = conditions.lubricant, self.load / self.length
-        return LineContact(
-            self.ring.radii.radius_x,
-            conditions.modulus,
-            load_per_length,
-            self.ring.speed,
-            oil.viscosity,
-            effective_alpha(oil),
-        )
-
     @property
     def length(self) -> float:
         """Length of the roller [m]."""
         return self.ring.conditions.geometry.roller_length
 
     @cached_property
-    def half_width(self) -> float:
-        """Half-width b of the dry contact [m]."""
-        line = self.line
-        return line_half_width(line.load_per_length, line.reduced_radius, line.reduced_modulus)
+    def conditions(self) -> Conditions:
+        """Operating conditions of the line contact, which ``check_contact`` may still refuse."""
+        bearing, radii = self.ring.conditions, self.ring.radii
+        radius, modulus, load_per_length = radii.radius_x, bearing.modulus, self.load / self.length
+        return Conditions(
+            reduced_radius=radius,
+            reduced_modulus=modulus,
+            load_per_length=load_per_length,
+            entrainment_speed=self.ring.speed,
+            slide_to_roll_ratio=0.0,
+            viscosity=bearing.lubricant.viscosity,
+            pressure_viscosity_coefficient=effective_alpha(bearing.lubricant),
+            half_width=line_half_width(load_per_length, radius, modulus),
+            max_pressure=line_max_pressure(load_per_length, radius, modulus),
+            curvature_share=radius / radii.ring_x,
+            compliance_share=bearing.ring_share,
+            film_factor=bearing.film_factor,
+        )
+
+    @property
+    def widths(self) -> tuple[tuple[float, float], ...]:
+        """Half-width of the dry contact, with the smallest radius in its plane [m]."""
+        radii = self.ring.radii
+        return ((self.conditions.half_width, min(radii.radius_x, abs(radii.ring_x), abs(radii.element_x))),)
 
     @cached_property
     def film(self) -> float:
-        """Central film thickness [m] by a formula that holds for light contacts too."""
-        return moes(self.line).central_thickness
+        """Central film thickness [m] by the formula of Moes, which holds for light contacts too."""
+        return moes(self.conditions.contact).central_thickness
 
     @property
     def thickest_film(self) -> float:
-        """Film thickness [m] beyond which the roller is no parabola where its film builds up."""
+        """Largest film thickness [m] for which the roller is a parabola where its film builds up."""
         radius = 0.5 * self.ring.conditions.geometry.roller_diameter
-        return (_ROOM * radius) ** 2 / (2.0 * self.line.reduced_radius)
+        return (_ROOM * radius) ** 2 / (2.0 * self.conditions.reduced_radius)
 
 
 Contact: TypeAlias = BallContact | RollerContact
 
 
-@contextmanager
-def of_contact(contact: Contact) -> Iterator[None]:
-    """Errors of a contact, whose case nobody wrote, as errors of the bearing that name ring and load."""
+def check_contact(contact: Contact, grid: Grid | None = None) -> None:
+    """Refuse a contact that is beyond the model, or whose grid does not fit into the memory.
+
+    Parameters
+    ----------
+    contact : BallContact or RollerContact
+        Contact and load.
+    grid : Grid, optional
+        Grid of film and field, where these are to be solved.
+
+    Raises
+    ------
+    InputError
+        Where the contact is too slow for a film, too wide for its bodies, or its Hertz pressure too low, with
+        ring and load; where the permittivity of the oil has no value at the Hertz pressure.
+    MemoryLimitError
+        Where the machine cannot hold film and field on the grid.
+    """
+    conditions = contact.conditions
     try:
-        yield
+        _check_speed(conditions.contact.entrainment_speed)
+        for half_width, radius in contact.widths:
+            check_width(half_width, radius)
+        check_pressure(conditions.max_pressure, contact.ring.conditions.lubricant)
+        if grid is not None:
+            check_grid(conditions.geometry, grid, rough=False)
     except InputError as error:
-        table = (error.key or "").partition(".")[0]
-        if table not in ("contact", "contact_angle", "grid"):
-            raise
-        text = error.text if error.key == "contact" else str(error)
-        where = f"{contact.ring.name} contact at {contact.load:.4g} N"
-        raise error.retold("bearing", f"{where}: {text}") from None
+        raise error_of_contact(contact, error) from None
+
+
+def _check_speed(speed: float) -> None:
+    """Refuse a contact without a film, by the entrainment speed [m/s] of isothermal oil with its film."""
+    if speed < _LEAST_SPEED:
+        raise InputError(
+            "contact",
+            f"the film would be that of an entrainment speed of {speed:.3g} m/s",
+            takes=f"an inner_speed and a film_factor that give at least {_LEAST_SPEED:g} m/s",
+        )
+
+
+def error_of_contact(contact: Contact, error: InputError) -> InputError:
+    """Error of a contact or its grid as an error of the bearing that names ring and load.
+
+    Errors about other tables, such as the oil of the bearing file, stay as they are.
+    """
+    table = (error.key or "").partition(".")[0]
+    if table not in ("contact", "grid"):
+        return error
+    text = error.text if error.key == "contact" else str(error)
+    where = f"{contact.ring.name} contact at {contact.load:.4g} N"
+    return error.retold("bearing", f"{where}: {text}")
 
 
 def raceway_of(ring: RingContacts[BallBearing]) -> Raceway:
-    """The groove of one ring around a ball."""
+    """Groove of one ring, with a ball at the contact angle."""
     geometry, shoulder_height = ring.conditions.geometry, ring.conditions.bearing.shoulder_height
     assert shoulder_height is not None
     return Raceway.of(
@@ -190,13 +259,13 @@ def raceway_of(ring: RingContacts[BallBearing]) -> Raceway:
 
 
 def _roller_raceway(ring: RingContacts[RollerBearing]) -> RollerRaceway:
-    """The raceway of one ring and a roller on it."""
+    """Raceway of one ring, with a roller on it."""
     radii = ring.radii
     return RollerRaceway(radii.element_x, abs(radii.ring_x), outer=not ring.inner)
 
 
 def around_ball(contact: BallContact, nodes: tuple[Array, Array], thickness: Array) -> tuple[float, float]:
-    """Capacitance in vacuum outside the film of a ball.
+    """Capacitance between ball and groove outside the domain of the film, in vacuum.
 
     Parameters
     ----------
@@ -209,8 +278,11 @@ def around_ball(contact: BallContact, nodes: tuple[Array, Array], thickness: Arr
 
     Returns
     -------
-    capacitance, mismatch : float
-        [F], and the largest relative difference of the gaps at the edge of the film's domain.
+    capacitance : float
+        Capacitance in vacuum [F].
+    mismatch : float
+        Largest relative difference, at the edge of the domain, between the film thickness and the gap
+        outside.
     """
     raceway, modulus = raceway_of(contact.ring), contact.ring.conditions.modulus
     x, y = np.meshgrid(*nodes, indexing="ij")
@@ -222,7 +294,7 @@ def around_ball(contact: BallContact, nodes: tuple[Array, Array], thickness: Arr
 
 
 def around_roller(ring: RingContacts[RollerBearing], half_width: float, x: Array, thickness: Array) -> float:
-    """Capacitance in vacuum outside the film of a roller.
+    """Capacitance between roller and raceway outside the domain of the film, in vacuum.
 
     Parameters
     ----------
@@ -236,7 +308,7 @@ def around_roller(ring: RingContacts[RollerBearing], half_width: float, x: Array
     Returns
     -------
     float
-        [F].
+        Capacitance in vacuum over the length of the roller [F].
     """
     ends = (float(x[0]), float(x[-1])), (float(thickness[0]), float(thickness[-1]))
     tails = roller_tails(_roller_raceway(ring), half_width, *ends)
@@ -244,10 +316,10 @@ def around_roller(ring: RingContacts[RollerBearing], half_width: float, x: Array
 
 
 def rigid_ball(ring: RingContacts[BallBearing], gap: float) -> float:
-    """Capacitance in vacuum [F] of a ball and its groove, rigid and a gap [m] apart."""
+    """Capacitance in vacuum [F] of a rigid ball and its groove, a gap [m] apart."""
     return groove_capacitance(raceway_of(ring), gap)
 
 
 def rigid_roller(ring: RingContacts[RollerBearing], gap: float) -> float:
-    """Capacitance in vacuum [F] of a roller and its raceway, rigid and a gap [m] apart."""
+    """Capacitance in vacuum [F] of a rigid roller and its raceway, a gap [m] apart."""
     return ring.conditions.geometry.roller_length * roller_capacitance(_roller_raceway(ring), gap)

@@ -6,21 +6,21 @@ from ehlectric.bearing.solution import BearingSolution, capacitance, capacitance
 
 
 def voltage_ratio(winding_rotor: float, rotor_frame: float, first: float, second: float) -> float:
-    """Part of the common-mode voltage that is on the bearings.
+    """Bearing voltage ratio of a motor: share of the common-mode voltage that lies on its bearings.
 
-    C_wr/(C_wr + C_rf + C_DE + C_NDE)
+    The capacitive divider gives C_wr/(C_wr + C_rf + C_DE + C_NDE).
 
     Parameters
     ----------
     winding_rotor, rotor_frame : float
-        Capacitance from winding to rotor and from rotor to frame [F].
+        Capacitance C_wr from winding to rotor, and C_rf from rotor to frame [F].
     first, second : float
-        Capacitance of both bearings [F].
+        Capacitances C_DE and C_NDE of the bearings at the drive end and the non-drive end [F].
 
     Returns
     -------
     float
-        Dimensionless.
+        Bearing voltage ratio, dimensionless.
 
     Examples
     --------
@@ -31,9 +31,10 @@ def voltage_ratio(winding_rotor: float, rotor_frame: float, first: float, second
 
 
 def bearing_voltage_ratio(solution: BearingSolution) -> float | None:
-    """Part of the common-mode voltage of its motor that is on a bearing, dimensionless.
+    """Share of the motor's common-mode voltage that lies on a solved bearing, dimensionless.
 
-    None without a motor, where surfaces touch and conduct, and of a capacitance that is a bound.
+    None without a motor, where surfaces touch and conduct, and where only an upper bound of the capacitance
+    is known.
     """
     motor = solution.case.motor
     if motor is None or lubrication(solution) == "conducting" or capacitance_is_bound(solution):
@@ -49,11 +50,11 @@ def bearing_voltage_ratio(solution: BearingSolution) -> float | None:
 
 
 def shaft_voltage(solution: BearingSolution) -> float | None:
-    """Voltage of the shaft by the capacitive divider [V]; None where its ``bearing_voltage_ratio`` is."""
+    """Shaft voltage by the capacitive divider [V]; None where ``bearing_voltage_ratio`` is None."""
     motor, ratio = solution.case.motor, bearing_voltage_ratio(solution)
     return None if motor is None or ratio is None else ratio * motor.common_mode_voltage
 
 
 def margin(voltage: float, shaft: float | None) -> float | None:
-    """A breakdown voltage [V] over the shaft voltage [V], dimensionless; None without a shaft voltage."""
+    """Breakdown voltage [V] over shaft voltage [V], dimensionless; None without a shaft voltage."""
     return None if shaft is None else voltage / shaft

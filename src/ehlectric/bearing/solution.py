@@ -1,4 +1,4 @@
-"""A solved bearing as data: contacts of all elements, circuits, capacitance, and films against roughness."""
+"""Solution of a bearing: contacts of all elements, circuits, capacitance, and lambda ratio."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from ehlectric.bearing.ring_contacts import RingContacts
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.version import __version__
 
-# Lambda ratios below which surfaces touch, and below which they do now and then.
+# Lambda ratios below which surfaces touch, and below which they touch at times.
 CONDUCTING, PARTIAL = 1.0, 3.0
 
 
@@ -28,11 +28,12 @@ class RingState:
     Attributes
     ----------
     load, gap : ndarray, shape (n,)
-        Load [N], and the distance where element and ring do not touch [m], 0 elsewhere.
+        Load of each contact [N], and distance between element and ring [m]; it is 0 where they touch.
     solved : ndarray of bool, shape (n,)
-        Whether film and field are solved ones; a gap of rigid bodies otherwise.
+        Whether the contact is loaded and has a solved film and field. The others are gaps between rigid
+        bodies.
     values : ContactValues
-        Films, capacitances and voltages, shape (n,); pressure, semi-axes and plate are 0 without load.
+        Films, capacitances and voltages, shape (n,). Pressure, semi-axes and plate are 0 without load.
     """
 
     load: Array
@@ -41,27 +42,27 @@ class RingState:
     values: ContactValues[Array]
 
     def capacitance(self, fill: str) -> Array:
-        """Capacitance of each contact, with oil or air around the film [F]."""
+        """Capacitance of each contact with "oil" or "air" around the film, shape (n,) [F]."""
         values = self.values
         return values.inside + (values.outside_oil if fill == "oil" else values.outside_air)
 
 
 def ring_state(ring: RingContacts[Any], curve: ContactCurve, *, load: Array, gap: Array) -> RingState:
-    """Contacts of all elements with one ring.
+    """State of the contacts of all elements with one ring, from their loads and gaps.
 
     Parameters
     ----------
     ring : RingContacts
-        The ring.
+        Contacts with the ring, without their loads.
     curve : ContactCurve
-        Its loaded contacts.
+        Solved contacts over the load.
     load, gap : ndarray, shape (n,)
-        Load [N] and, without one, distance [m] of each element.
+        Load of each contact [N], and distance of elements that do not touch the ring [m].
 
     Returns
     -------
     RingState
-        Contacts without load count as rigid bodies.
+        Unloaded contacts are gaps between rigid bodies.
     """
     solved = load > 0.0
     pairs = zip(
@@ -79,7 +80,10 @@ def ring_state(ring: RingContacts[Any], curve: ContactCurve, *, load: Array, gap
 
 
 def _loaded(ring: RingContacts[Any], curve: ContactCurve, load: Array) -> ContactValues[Array]:
-    """Contacts at loads [N]: lighter ones than any solved have its film, but their own dry contact."""
+    """Values of contacts at loads [N].
+
+    Contacts with less than the lightest solved load have the film at that load, but their own dry contact.
+    """
     pressure, along, across, *others = curve.at(load).columns()
     lighter = np.minimum(1.0, load / curve.solutions[0].load)
     exponents = kind_of(ring).dry_exponents
@@ -91,7 +95,7 @@ def _loaded(ring: RingContacts[Any], curve: ContactCurve, load: Array) -> Contac
 
 
 def _unloaded(ring: RingContacts[Any], curve: ContactCurve, gap: Array) -> ContactValues[Array]:
-    """Contacts of rigid bodies a gap [m] apart, no narrower than the film that the lightest load leaves."""
+    """Values of rigid bodies at a gap [m]; it is at least the central film of the lightest solved load."""
     conditions, rigid = ring.conditions, kind_of(ring).rigid_capacitance
     apart = np.maximum(gap, curve.solutions[0].values.central_thickness)
     vacuum = np.array([rigid(ring, float(thickness)) for thickness in apart])
@@ -113,7 +117,17 @@ def _unloaded(ring: RingContacts[Any], curve: ContactCurve, gap: Array) -> Conta
 
 @dataclass(frozen=True)
 class Position:
-    """A bearing at one position of its cage; ``shape`` is that of a Weibull strength."""
+    """Bearing at one position of its cage.
+
+    Attributes
+    ----------
+    equilibrium : BallEquilibrium or RollerEquilibrium
+        Loads and displacements.
+    inner, outer : RingState
+        Contacts with the inner and the outer ring.
+    shape : float or None
+        Shape parameter of a Weibull strength; None for a strength without scatter.
+    """
 
     equilibrium: Equilibrium
     inner: RingState
@@ -126,7 +140,7 @@ class Position:
         return self.inner, self.outer
 
     def circuit(self, fill: str) -> Circuit:
-        """Circuit of the bearing, with oil or air around the films."""
+        """Circuit of the bearing with "oil" or "air" around the films."""
         return Circuit(
             self.inner.capacitance(fill),
             self.outer.capacitance(fill),
@@ -138,24 +152,24 @@ class Position:
 
 @dataclass(frozen=True)
 class BearingSolution:
-    """A bearing over one pitch of its elements.
+    """Solved bearing at several positions of its cage within one pitch of the elements.
 
     Attributes
     ----------
     case : BearingCase
-        Bearing file.
+        Case of the bearing.
     conditions : BearingConditions
-        Geometry, materials, oil and strength.
+        Geometry, materials, oil and dielectric strength.
     inner, outer : RingContacts
-        The contacts with both rings.
+        Contacts with the inner and the outer ring, without their loads.
     inner_curve, outer_curve : ContactCurve
-        Their solutions over the load.
+        Solved contacts with both rings over the load.
     positions : tuple of Position
-        Positions of the cage; the first has an element on the load line.
+        Bearing at each position of the cage. At the first one, an element is on the load line.
     seconds : float
-        Time it took [s].
+        Computing time [s].
     version : str
-        Version of ehlectric that solved it.
+        Version of ehlectric that solved the bearing.
     """
 
     case: BearingCase
@@ -170,21 +184,21 @@ class BearingSolution:
 
     @property
     def curves(self) -> tuple[ContactCurve, ContactCurve]:
-        """Solutions over the load of the contacts with the inner and with the outer ring."""
+        """Solved contacts over the load, with the inner and with the outer ring."""
         return self.inner_curve, self.outer_curve
 
     @property
     def converged(self) -> bool:
-        """Whether all contacts are converged."""
+        """Whether the films of all contacts are converged."""
         return all(contact.converged for curve in self.curves for contact in curve.solutions)
 
     def circuits(self, fill: str | None = None) -> list[Circuit]:
-        """The circuit at each position, with "oil" or "air" around the films, or what the file says."""
+        """Circuit at each position, with "oil" or "air" around the films; by default ``fill`` of the case."""
         return [position.circuit(fill or self.case.bearing.fill) for position in self.positions]
 
 
 def lambda_ratio(solution: BearingSolution) -> float:
-    """Least film thickness of the loaded contacts over the roughness of both surfaces, dimensionless."""
+    """Lambda ratio: smallest film thickness of the loaded contacts over ``composite_rq``, dimensionless."""
     films = [
         np.min(ring.values.minimum_thickness[ring.solved])
         for position in solution.positions
@@ -194,9 +208,10 @@ def lambda_ratio(solution: BearingSolution) -> float:
 
 
 def lubrication(solution: BearingSolution) -> str:
-    """Lubrication by the lambda ratio: "conducting" below 1, "partial film" up to 3, "full film" above.
+    """State of lubrication: "conducting", "touching", "partial film" or "full film".
 
-    Ceramic elements do not conduct where they touch: "touching" below 1.
+    Below a lambda ratio of 1 the surfaces touch: the bearing is "conducting", or with ceramic elements, which
+    insulate, "touching". Below 3 it has a "partial film", and otherwise a "full film".
     """
     ratio = lambda_ratio(solution)
     if ratio < CONDUCTING:
@@ -205,24 +220,26 @@ def lubrication(solution: BearingSolution) -> str:
 
 
 def insulating(solution: BearingSolution) -> bool:
-    """Whether there are voltages on films: elements conduct, and surfaces do not touch."""
+    """Whether the films carry voltages: the elements conduct, and the surfaces do not touch."""
     return not solution.conditions.ceramic and lubrication(solution) != "conducting"
 
 
 def capacitance(solution: BearingSolution, fill: str | None = None) -> float:
-    """Capacitance of the bearing, mean over the positions; of ceramic elements as given, or an upper bound.
+    """Capacitance of a solved bearing, mean over the positions of the cage.
+
+    For ceramic elements it follows from ``element_capacitance``, or is an upper bound without this key.
 
     Parameters
     ----------
     solution : BearingSolution
-        A solved bearing.
+        Solved bearing.
     fill : str, optional
-        "oil" or "air" around the films; as the file says if not given.
+        "oil" or "air" around the films; by default ``fill`` of the case.
 
     Returns
     -------
     float
-        [F].
+        Capacitance [F].
     """
     bearing = solution.case.bearing
     if bearing.element_capacitance is not None:
@@ -231,14 +248,14 @@ def capacitance(solution: BearingSolution, fill: str | None = None) -> float:
 
 
 def capacitance_is_bound(solution: BearingSolution) -> bool:
-    """Whether no more than an upper bound of the capacitance is known: of ceramic elements."""
+    """Whether the capacitance is only an upper bound: ceramic elements without ``element_capacitance``."""
     return solution.conditions.ceramic and solution.case.bearing.element_capacitance is None
 
 
 def plate_capacitance(solution: BearingSolution) -> float | None:
-    """Capacitance by plates of the Hertz areas, h(0) apart, mean over the positions [F].
+    """Capacitance of plates with the Hertz areas at the distance h(0), mean over the positions [F].
 
-    None of ceramic elements, which are no plate.
+    Elements count where both contacts are loaded. None for ceramic elements, which are no plates.
     """
     if solution.conditions.ceramic:
         return None

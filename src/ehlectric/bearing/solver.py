@@ -1,4 +1,4 @@
-"""solve_bearing(case): loads, films, fields and the circuit of a whole rolling bearing."""
+"""Solution of a whole rolling bearing: loads, films, fields and the circuit."""
 
 from __future__ import annotations
 
@@ -11,14 +11,13 @@ from ehlectric.bearing.kinds import kind_of
 from ehlectric.bearing.loads.totals import Equilibrium
 from ehlectric.bearing.preparation import PreparedBearing, largest_load, loads_to_solve, prepare_bearing
 from ehlectric.bearing.result import BearingResult
-from ehlectric.bearing.ring_contacts import of_contact
+from ehlectric.bearing.ring_contacts import check_contact
 from ehlectric.bearing.solution import BearingSolution, Position, ring_state
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.contact.check import check_case
 from ehlectric.runtime.progress import Progress, silent
 from ehlectric.runtime.workers import cores, run_all
 
-# Positions of the cage over one pitch of the elements.
+# Number of positions of the cage over one pitch of the elements.
 POSITIONS = 8
 
 
@@ -28,21 +27,24 @@ def solve_bearing(
     progress: Progress | None = None,
     workers: int | None = None,
 ) -> BearingResult:
-    """Solve a whole bearing.
+    """Loads, films, fields and the circuit of a whole rolling bearing.
+
+    Contacts with each ring are solved at six loads, and at the loads of light elements; the contacts of all
+    elements are interpolated between them.
 
     Parameters
     ----------
     case : BearingCase
-        What to solve.
+        Bearing file.
     progress : callable, optional
-        Called with (contacts done, contacts in all, a text).
+        Called with the number of solved contacts, the number of all contacts, and a text.
     workers : int, optional
-        Processes; as many as there are cores if not given.
+        Number of processes; the number of cores if not given.
 
     Returns
     -------
     BearingResult
-        Six loads of either ring are solved, those of light elements besides, and interpolated in between.
+        Result with its summary, its tables and its warnings.
 
     Raises
     ------
@@ -73,13 +75,13 @@ def solve_bearing(
 def _tasks(
     case: BearingCase, prepared: PreparedBearing, *, inner: bool
 ) -> list[Callable[[], ContactSolution]]:
-    """Calls that solve the contacts with one ring, by increasing load."""
+    """Functions that solve the contacts with one ring, by increasing load."""
     ring = prepared.inner if inner else prepared.outer
     kind = kind_of(ring)
     contacts = [kind.contact(ring, load) for load in loads_to_solve(prepared, ring)]
     if case.contacts == "formula":
         return [partial(kind.by_formula, contact) for contact in contacts]
-    return [partial(kind.solve, contact, case.solver.model_dump()) for contact in contacts]
+    return [partial(kind.solve, contact, case.solver) for contact in contacts]
 
 
 def _position(
@@ -96,25 +98,29 @@ def _position(
 
 
 def check_bearing(case: BearingCase) -> None:
-    """Refuse, before a folder is made for its results, a bearing that cannot be solved.
+    """Refuse a bearing that cannot be solved, before a folder is made for its results.
+
+    Parameters
+    ----------
+    case : BearingCase
+        Bearing file.
 
     Raises
     ------
     InputError
-        As ``solve_bearing`` does, of the cage's first position.
+        As ``solve_bearing`` does, for the most loaded contacts at the first position of the cage.
     """
     prepared = prepare_bearing(case, 1)
     for ring in prepared.rings:
         kind = kind_of(ring)
         contact = kind.contact(ring, largest_load(prepared, ring))
-        with of_contact(contact):
-            check_case(kind.case(contact, case.solver.model_dump()))
+        check_contact(contact, kind.grid(contact))
 
 
 def _solved(
     tasks: Sequence[Callable[[], ContactSolution]], progress: Progress, workers: int
 ) -> list[ContactSolution]:
-    """Contacts in the order of their tasks; the heaviest, which take longest, begin."""
+    """Contacts in the order of their tasks; the heaviest, which take longest, are solved first."""
     solutions: dict[int, ContactSolution] = {}
 
     def done(number: int, solution: ContactSolution) -> None:

@@ -1,4 +1,4 @@
-"""A bearing over the speed of its shaft, its contacts by formula."""
+"""Bearing at several shaft speeds, with contacts by formula."""
 
 from __future__ import annotations
 
@@ -12,31 +12,33 @@ from ehlectric.cases.bearing import BearingDischarge
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.errors import InputError, ResultWarning
 
-# From which part of the case's speed to which, in how many steps of its logarithm.
+# Smallest and largest speed over the speed of the case, and number of speeds in a geometric series.
 _LEAST, _MOST, COUNT = 0.1, 4.0, 9
 
 
 def over_speed(
     case: BearingCase, count: int = COUNT
 ) -> tuple[list[tuple[float, dict[str, Any]]], list[ResultWarning]]:
-    """A bearing at speeds around its own, its contacts by formula.
+    """Summaries of a bearing at speeds around that of its case, with contacts by formula.
 
     Parameters
     ----------
     case : BearingCase
-        The bearing; its temperature is held.
+        Case of the bearing; the temperature is the same at all speeds.
     count : int
-        Number of speeds, from a tenth to four times its own.
+        Number of speeds, from a tenth of the case's speed to four times this speed.
 
     Returns
     -------
     points : list of (float, dict)
-        Speed of the inner ring [rad/s], and the summary at it.
+        Speeds of the inner ring [rad/s] with their summaries.
     left_out : list of ResultWarning
-        Speeds that could not be solved, and why.
+        Warnings of what could not be computed, and why: single speeds, breakdown voltages, or everything.
 
     Examples
     --------
+    The capacitance falls with the speed, because the films become thicker:
+
     >>> case = BearingCase.from_dict(
     ...     {
     ...         "bearing": {
@@ -69,7 +71,11 @@ def over_speed(
 
 
 def _by_formula(case: BearingCase) -> tuple[BearingCase | None, list[ResultWarning]]:
-    """The case with contacts by formula, if need be without a strength, and what the formulas do not take."""
+    """Case with contacts by formula, and warnings of what the formulas cannot compute.
+
+    Where they cannot compute breakdown voltages, the case has no dielectric strength. Where they cannot be
+    used at all, there is no case.
+    """
     lubricant = case.lubricant.at(case.bearing.temperature)
     left_out: list[ResultWarning] = []
     for discharge in (case.discharge, BearingDischarge(conductivity=case.discharge.conductivity)):

@@ -1,4 +1,4 @@
-"""Summary of a solved bearing: its totals, its voltages, and a row for every contact."""
+"""Summary of a solved bearing: totals, breakdown voltages, and a row for every contact."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _VOLTAGES = tuple(field.name for field in dataclasses.fields(Breakdown))
 
 
 def summary_of(solution: BearingSolution) -> dict[str, Any]:
-    """Totals, SI units, nested as summary.json; never NaN."""
+    """Results of a bearing nested as in summary.json, SI units; None in place of NaN."""
     case, conditions, oil = solution.case, solution.conditions, solution.case.lubricant.temperature
     summary: dict[str, Any] = plain(
         {
@@ -54,7 +54,7 @@ def summary_of(solution: BearingSolution) -> dict[str, Any]:
 
 
 def _totals(solution: BearingSolution) -> dict[str, Any]:
-    """Capacitances and voltages of the whole bearing."""
+    """Capacitances, voltages and error estimates of the whole bearing."""
     own, plate = capacitance(solution), plate_capacitance(solution)
     strength, shaft = strength_per_volt(solution), shaft_voltage(solution)
     errors = [contact.error for curve in solution.curves for contact in curve.solutions]
@@ -81,7 +81,10 @@ def _totals(solution: BearingSolution) -> dict[str, Any]:
 
 
 def breaks(solution: BearingSolution) -> dict[str, Any]:
-    """Voltages of breakdown over the positions [V] and their margins, None where there are none."""
+    """Breakdown voltages over the positions of the cage [V], and their ratios to the shaft voltage.
+
+    Values are None where there is no breakdown voltage or no shaft voltage.
+    """
     breakdown, shaft = breakdown_of(solution), shaft_voltage(solution)
     if breakdown is None:
         return dict.fromkeys((*_VOLTAGES, "margin", "through_margin"))
@@ -92,9 +95,9 @@ def breaks(solution: BearingSolution) -> dict[str, Any]:
 
 
 def contact_rows(solution: BearingSolution) -> list[dict[str, Any]]:
-    """A row for every element and ring, cage at its first position, SI units."""
+    """Table of contacts, a row per element and ring, with the cage at its first position, SI units."""
     position, circuit, shaft = solution.positions[0], solution.circuits()[0], shaft_voltage(solution)
-    at, holds, ceramic = position.equilibrium, insulating(solution), solution.conditions.ceramic
+    at, insulates, ceramic = position.equilibrium, insulating(solution), solution.conditions.ceramic
     fill, rq = solution.case.bearing.fill, solution.case.bearing.composite_rq
     rows = []
     for k in range(at.position.size):
@@ -103,7 +106,7 @@ def contact_rows(solution: BearingSolution) -> list[dict[str, Any]]:
             ("outer", position.outer, 1.0 - circuit.inner_share),
         ):
             values = ring.values
-            strength = share[k] * values.strength_per_volt[k] if holds else None
+            strength = share[k] * values.strength_per_volt[k] if insulates else None
             rows.append(
                 {
                     "element": k,
@@ -118,10 +121,10 @@ def contact_rows(solution: BearingSolution) -> list[dict[str, Any]]:
                     "central_thickness": values.central_thickness[k],
                     "lambda_ratio": values.minimum_thickness[k] / rq,
                     "capacitance": None if ceramic else ring.capacitance(fill)[k],
-                    "voltage_share": share[k] if holds else None,
+                    "voltage_share": share[k] if insulates else None,
                     "strength_per_volt": strength,
                     "max_strength": None if strength is None or shaft is None else strength * shaft,
-                    "breakdown_voltage": values.breakdown_voltage[k] if holds else None,
+                    "breakdown_voltage": values.breakdown_voltage[k] if insulates else None,
                     "solved": bool(ring.solved[k]),
                 }
             )

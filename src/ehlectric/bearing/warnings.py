@@ -1,4 +1,4 @@
-"""Warnings of a solved bearing."""
+"""Warnings of a solved bearing: films, voltages, clearance, shoulders, and single contacts."""
 
 from __future__ import annotations
 
@@ -20,24 +20,24 @@ from ehlectric.bearing.solution import (
 from ehlectric.cases.bearing import Bearing
 from ehlectric.errors import ResultWarning
 
-# Below it the viscosity from 40 and 100 degC is a bold extrapolation [K].
+# Temperature below which the viscosity, extrapolated from 40 and 100 degC, may be far off [K].
 _COLD = 273.15
 
 
 def bearing_warnings(solution: BearingSolution) -> list[ResultWarning]:
-    """Warnings that tell where a result is unreliable, each once."""
-    found = [*film_warnings(solution), *voltage_warnings(solution), *_warnings_of_contacts(solution)]
-    return list(dict.fromkeys(found))
+    """Warnings that tell where the result of a bearing is unreliable, each once."""
+    warnings = [*film_warnings(solution), *voltage_warnings(solution), *_warnings_of_contacts(solution)]
+    return list(dict.fromkeys(warnings))
 
 
 def film_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
-    """Warnings of the films of the whole bearing."""
+    """Warnings of the films of a whole bearing: how they are computed, oil, temperature and clearance."""
     if solution.case.contacts == "formula":
         text = "contacts by formula: films may be 30 % off, and fields are voltages over the minimum film"
         yield ResultWarning("formula-contacts", text)
     if solution.conditions.film_factor == 1.0:
-        given = solution.case.bearing.film_factor
-        name = given if isinstance(given, str) else f"{given:g}"
+        factor = solution.case.bearing.film_factor
+        name = factor if isinstance(factor, str) else f"{factor:g}"
         text = f"film_factor {name}: the film is isothermal and fully flooded, voltages are upper bounds"
         yield ResultWarning("isothermal-film", text)
     if solution.case.lubricant.temperature is None:
@@ -51,7 +51,7 @@ def film_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
 
 
 def voltage_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
-    """Warnings of the capacitance and the voltages of the bearing."""
+    """Warnings of the capacitance and the voltages of a bearing: lubrication, ceramics, Weibull strength."""
     state, ceramic = lubrication(solution), solution.conditions.ceramic
     touching = f"lambda is {lambda_ratio(solution):.2g}: surfaces"
     if state == "conducting":
@@ -74,7 +74,7 @@ def voltage_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
 
 
 def _warnings_of_contacts(solution: BearingSolution) -> Iterator[ResultWarning]:
-    """Warnings of single contacts, and of those at the edge of their groove."""
+    """Warnings of single contacts, and of contacts that reach over the shoulder of a groove."""
     yield from edge_warnings(solution.case.bearing, solution.positions)
     yield from contact_warnings(
         {"inner": solution.inner_curve.solutions, "outer": solution.outer_curve.solutions}
@@ -82,12 +82,14 @@ def _warnings_of_contacts(solution: BearingSolution) -> Iterator[ResultWarning]:
 
 
 def edge_warnings(bearing: Bearing, positions: Sequence[Position]) -> Iterator[ResultWarning]:
-    """Warnings of ellipses that reach over the shoulder of a groove, of the heaviest with each ring.
+    """Warnings of contact ellipses that reach over the shoulder of a groove, at most one per ring.
+
+    Of the contacts that reach over, the warning names the one with the largest load.
 
     Parameters
     ----------
     bearing : Bearing
-        Its grooves.
+        Dimensions of the bearing, with its grooves.
     positions : sequence of Position
         Contacts at each position of the cage.
     """
@@ -112,21 +114,21 @@ def edge_warnings(bearing: Bearing, positions: Sequence[Position]) -> Iterator[R
 
 
 def clearance_warnings(clearance: float, position: Position) -> Iterator[ResultWarning]:
-    """Warnings of films that take up the clearance, of which the equilibrium knows nothing.
+    """Warnings of films that take up much of the clearance, an effect that the equilibrium neglects.
 
     Parameters
     ----------
     clearance : float
-        Full diametral play [m]; negative with a preload.
+        Diametral clearance [m]; negative with a preload.
     position : Position
-        Loads and films.
+        Loads and films at one position of the cage.
     """
     at, room = position.equilibrium, clearance
     most = int(np.argmax(at.inner_load))
     films = sum(float(ring.values.central_thickness[most]) for ring in position.rings)
     beside = "a clearance of"
     if room <= 0.0:
-        # Preloaded elements have none, but are pressed in.
+        # Preloaded elements have no clearance: the films are compared with the elastic approach.
         room, beside = float(at.inner_approach[most] + at.outer_approach[most]), "elements pressed in by"
     if films > TAKEN * room:
         yield ResultWarning(
@@ -137,37 +139,37 @@ def clearance_warnings(clearance: float, position: Position) -> Iterator[ResultW
 
 
 def contact_warnings(rings: Mapping[str, Sequence[ContactSolution]]) -> list[ResultWarning]:
-    """Warnings of the contacts of a bearing, equal ones of several contacts as one.
+    """Warnings of the contacts of a bearing; equal warnings of several contacts become one.
 
     Parameters
     ----------
     rings : mapping of str to sequence of ContactSolution
-        Contacts that were solved, by the name of their ring.
+        Solved contacts by the name of their ring.
 
     Returns
     -------
     list of ResultWarning
-        In the order in which they come up. A warning that all contacts share, such as one about their oil,
-        names none of them; other texts name ring and load.
+        Warnings in the order of the contacts. The text of a warning names ring and load, unless all contacts
+        have the same warning, for example about their oil.
     """
-    told: dict[ResultWarning, dict[str, list[float]]] = {}
+    loads_by_ring: dict[ResultWarning, dict[str, list[float]]] = {}
     for ring, contacts in rings.items():
         for contact in contacts:
             for warning in dict.fromkeys(contact.warnings):
-                told.setdefault(warning, {}).setdefault(ring, []).append(contact.load)
+                loads_by_ring.setdefault(warning, {}).setdefault(ring, []).append(contact.load)
     every = sum(map(len, rings.values()))
     return [
         warning
-        if sum(map(len, loads.values())) == every
+        if sum(map(len, by_ring.values())) == every
         else ResultWarning(
-            warning.code, ", ".join(_named(ring, those) for ring, those in loads.items()) + f": {warning}"
+            warning.code, ", ".join(_named(ring, loads) for ring, loads in by_ring.items()) + f": {warning}"
         )
-        for warning, loads in told.items()
+        for warning, by_ring in loads_by_ring.items()
     ]
 
 
 def _named(ring: str, loads: Sequence[float]) -> str:
-    """One contact or some of a ring, by their loads [N].
+    """Text that names one or several contacts with a ring by their loads [N].
 
     Examples
     --------

@@ -17,7 +17,7 @@ from pydantic import AfterValidator, model_validator
 from ehlectric.cases.changes import displace, drop, flattened, set_keys
 from ehlectric.cases.contact import CONTACT_ALTERNATIVES, ONLY, Contact
 from ehlectric.cases.discharge import STRENGTHS, TABLES, Discharge
-from ehlectric.cases.grid import POINT_GRID, POINT_GRID_KEYS, Electric, Grid, Solver
+from ehlectric.cases.grid import POINT_GRID_KEYS, Electric, Grid, Solver, point_grid
 from ehlectric.cases.lubricant import Lubricant
 from ehlectric.cases.motion import Motion
 from ehlectric.cases.roughness import Roughness, check_geometry
@@ -74,7 +74,7 @@ class Case(Table):
         grid = table.get("grid", {})
         if isinstance(grid, Grid):
             grid = grid.model_dump(exclude_unset=True)
-        return {**table, "grid": {**POINT_GRID, **grid}} if isinstance(grid, Mapping) else table
+        return {**table, "grid": point_grid(grid)} if isinstance(grid, Mapping) else table
 
     @model_validator(mode="after")
     def _check(self) -> Self:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import model_validator
@@ -39,7 +40,7 @@ _LEAST_COLUMNS = 16
 _FieldEnd = Annotated[float, Quantity("", least=-100.0, most=100.0, reason="in half-widths")]
 
 # Defaults of a point contact's grid where they differ from those of a line contact; lengths in semi-axes.
-POINT_GRID: dict[str, Any] = {"nodes": 257, "inlet": -4.5, "outlet": 1.5, "field_side": 1.25}
+_POINT_GRID: dict[str, Any] = {"nodes": 257, "inlet": -4.5, "outlet": 1.5, "field_side": 1.25}
 
 # Keys that only the grid of a point contact has.
 POINT_GRID_KEYS = ("nodes_y", "side", "field_side", "field_nodes_y")
@@ -173,6 +174,28 @@ class Grid(Table):
                 got=f"{nodes} across {2.0 * side:g} semi-axes",
                 takes=f"at least {least} there: sixteen in the Hertz zone",
             )
+
+
+def point_grid(table: Mapping[str, Any]) -> dict[str, Any]:
+    """Table of a point contact's grid, completed by the defaults of point contacts.
+
+    Parameters
+    ----------
+    table : mapping
+        Keys of ``Grid`` that are given, with their values.
+
+    Returns
+    -------
+    dict
+        Given keys, and defaults where those of a point contact differ from those of a line contact.
+
+    Examples
+    --------
+    >>> grid = Grid.from_dict(point_grid({"inlet": -9.0}))
+    >>> grid.nodes, grid.inlet, grid.outlet, grid.field_side
+    (257, -9.0, 1.5, 1.25)
+    """
+    return {**_POINT_GRID, **table}
 
 
 class Solver(Table):

@@ -1,1 +1,1 @@
-"""Poisson's equation in the gap between two conducting surfaces: from the walls to the electric field."""
+"""Electric field in the gap between two conducting surfaces, by a solution of Poisson's equation."""

@@ -1,4 +1,4 @@
-"""The electric field in the gap between two conductors: strength, capacitance, zone of high field."""
+"""Electric field in the gap of a line contact: strength, capacitance and the zone of high field."""
 
 from __future__ import annotations
 
@@ -24,25 +24,32 @@ from ehlectric.runtime.threads import one_blas_thread
 
 @dataclass(frozen=True)
 class Field(GapField):
-    """Potential and field strength between the walls, SI units.
+    """Electric potential and field strength in the gap of a line contact, in SI units.
+
+    The two walls are the surfaces of the contact; both are conductors of constant potential.
 
     Attributes
     ----------
     x, s : ndarray, shapes (nx,), (ns,)
-        Position along the gap [m] and fraction of the gap from the lower wall.
-    y, potential, field_x, field_y, strength : ndarray, shape (nx, ns)
-        Height [m], potential [V], components of E = -grad V and its magnitude [V/m].
+        Position along the gap [m]; height above the lower wall over the gap, from 0 to 1.
+    y, permittivity, potential : ndarray, shape (nx, ns)
+        Height [m], relative permittivity and potential [V].
+    field_x, field_y, strength : ndarray, shape (nx, ns)
+        Components of E = -grad V and its magnitude [V/m].
     middle_strength : ndarray, shape (nx,)
         abs(E) at s = 1/2 [V/m].
     thin_gap_strength : ndarray, shape (nx,)
         voltage/h(x) [V/m].
+    voltage : float
+        Magnitude of the potential difference of the walls [V].
     capacitance, capacitance_by_charge : float
-        Per length, from the energy of the field and from the charge of a wall [F/m]; without the free charge.
-        They agree unless the end faces have given potentials.
+        Capacitance per length of the contact [F/m], from the energy of the field and from the charge of a
+        wall. Free charge in the gap is left out. The two values agree, unless potentials are prescribed on
+        the end faces.
     thin_gap_capacitance : float
-        Integral of eps0 eps/h [F/m].
+        Integral of eps0 eps/h over x [F/m].
     capacitance_density : ndarray, shape (nx,)
-        Charge of a wall by voltage, length and width [F/m^2]; its integral by the trapezoidal rule is
+        Charge of a wall per area and voltage [F/m^2]. Its integral over x by the trapezoidal rule is
         ``capacitance_by_charge``.
     """
 
@@ -64,16 +71,19 @@ class Field(GapField):
 
     @property
     def axes(self) -> tuple[Array, ...]:
-        """Columns along entrainment [m], as a tuple of one axis."""
+        """Positions of the columns along entrainment [m], as a tuple with one array."""
         return (self.x,)
 
     def extent_above(self, values: Array, level: float) -> float:
-        """Width of the interval around the maximum where values at the columns reach a level [m]."""
+        """Width of the interval around the maximum where ``values`` (nx,) are at least ``level`` [m]."""
         start, stop = interval_above(self.x, values, level)
         return stop - start
 
     def capacitance_by_zone(self, half_width: float) -> dict[str, float]:
-        """Capacitance per length of the Hertz zone of a half-width [m], the inlet and the outlet [F/m]."""
+        """Capacitance per length of the Hertz zone, the inlet and the outlet [F/m].
+
+        The Hertz zone is abs(x) <= ``half_width`` [m].
+        """
         weights = line_zone_areas(self.axes, half_width)
         return {name: float(np.vdot(widths, self.capacitance_density)) for name, widths in weights.items()}
 
@@ -84,15 +94,20 @@ class Field(GapField):
 
     @property
     def inner(self) -> Mask:
-        """Columns more than three gaps from the ends of the range, whose faces disturb the field."""
+        """Mask of the columns that are more than three gaps away from both ends, shape (nx,).
+
+        Closer to an end, the end face disturbs the field.
+        """
         gap = self.voltage / self.thin_gap_strength
         inner: Mask = (self.x > self.x[0] + 3.0 * gap[0]) & (self.x < self.x[-1] - 3.0 * gap[-1])
         return inner
 
     @property
     def high_field_zone(self) -> tuple[float, float]:
-        """Ends of the contiguous interval around its maximum where the mid-film abs(E) is at least
-        95 % of that maximum [m], interpolated between nodes.
+        """Ends of the high-field zone [m], interpolated between nodes.
+
+        The zone is the contiguous interval around the maximum of the mid-film abs(E) where the mid-film
+        abs(E) is at least 95 % of this maximum.
         """
         level = HIGH_FIELD * float(np.max(self.middle_strength))
         return interval_above(self.x, self.middle_strength, level)
@@ -109,12 +124,12 @@ class Field(GapField):
         Parameters
         ----------
         height : float
-            The line's y [m].
+            Position y of the line [m].
 
         Returns
         -------
         ndarray, shape (nx,)
-            abs(E) [V/m], not a number where the line is outside the gap.
+            abs(E) [V/m]; NaN where the line is outside the gap.
         """
         lower, upper = self.y[:, 0], self.y[:, -1]
         at = ((height - lower) / (upper - lower))[:, np.newaxis]
@@ -127,26 +142,27 @@ class Field(GapField):
 
 
 def solve_field(problem: FieldProblem) -> Field:
-    """Solve the Poisson problem between two conducting walls.
+    """Solve Poisson's equation between the two conducting walls of a line contact.
 
     Parameters
     ----------
     problem : FieldProblem
-        Geometry, permittivity, potentials and charge, SI units.
+        Geometry, permittivity, potentials and charge, in SI units.
 
     Returns
     -------
     Field
-        Potential, field and what follows from them.
+        Potential, field strength and capacitance.
 
     Notes
     -----
-    Eq. (15) of Morris et al. (2022), doi:10.3390/lubricants10050087, with Dirichlet walls. The charge of
-    a wall is the residual of its nodes, so that energy and charge give one capacitance.
+    Eq. (15) of Morris et al. (2022), doi:10.3390/lubricants10050087, with prescribed potentials of the walls
+    (Dirichlet conditions). The charge of a wall is the residual at its nodes. With this definition, energy
+    and charge give the same capacitance.
 
     Examples
     --------
-    A plate capacitor, 1 mm wide with a gap of 1 um: eps0 times a thousand.
+    A plate capacitor, 1 mm wide and with a gap of 1 um, has the capacitance per length 1000 eps0:
 
     >>> import numpy as np
     >>> x = np.linspace(0.0, 1e-3, 11)
@@ -159,24 +175,27 @@ def solve_field(problem: FieldProblem) -> Field:
         quadrature = Quadrature.of(problem)
         elements = quadrature.elements()
         solver = BandedSolver(elements, fixed_ends=problem.end_potentials is not None)
-        # Relative to wall 1: a large common potential must not cost digits of the field.
+        # Potentials are relative to wall 1: a large common potential would cost digits of the field.
         lifted = _lift(problem, quadrature.across.nodes)
-        free = _solve(solver, elements, lifted, np.zeros_like(lifted))
-        potential = free
+        without_charge = _solve(solver, elements, lifted, np.zeros_like(lifted))
+        potential = without_charge
         if problem.charge_density is not None:
             load = quadrature.charge(problem.charge_density)
             potential = _solve(solver, elements, lifted, load)
-    charges = epsilon_0 * elements.apply(free)[:, -1]
+    charges = epsilon_0 * elements.apply(without_charge)[:, -1]
     return field_from_potential(
         problem,
         potential,
-        capacitance=epsilon_0 * quadrature.energy(free) / voltage**2,
+        capacitance=epsilon_0 * quadrature.energy(without_charge) / voltage**2,
         capacitance_density=charges / voltage / part_widths(problem.x, -np.inf, np.inf),
     )
 
 
 def _lift(problem: FieldProblem, s: Array) -> Array:
-    """Potential above wall 1 that meets the boundary conditions: linear across, or given on the end faces."""
+    """Potential relative to wall 1 that fulfils the boundary conditions [V], shape (nx, ns).
+
+    It is linear across the gap, except on end faces with a prescribed potential.
+    """
     linear = (problem.potential_2 - problem.potential_1) * s
     lifted = np.repeat(linear[np.newaxis], problem.x.size, axis=0)
     if problem.end_potentials is not None:
@@ -187,7 +206,7 @@ def _lift(problem: FieldProblem, s: Array) -> Array:
 
 
 def _solve(solver: BandedSolver, elements: Elements, lifted: Array, load: Array) -> Array:
-    """Nodal potential above wall 1 with the boundary values of ``lifted``."""
+    """Nodal potential relative to wall 1 with the boundary values of ``lifted`` [V], shape (nx, ns)."""
     potential = lifted.copy()
     potential[:, 1:-1] += solver((load - elements.apply(lifted))[:, 1:-1])
     return potential
@@ -196,23 +215,23 @@ def _solve(solver: BandedSolver, elements: Elements, lifted: Array, load: Array)
 def field_from_potential(
     problem: FieldProblem, potential: Array, *, capacitance: float, capacitance_density: Array
 ) -> Field:
-    """Field strength by differentiation of a potential, and the thin-gap estimates.
+    """Field strength of a potential by differentiation, with the estimates for a thin gap.
 
     Parameters
     ----------
     problem : FieldProblem
-        What was solved.
+        Problem that the potential solves.
     potential : ndarray, shape (nx, degree + 1)
-        Potential above wall 1 at the nodes [V].
+        Potential relative to wall 1 at the nodes [V].
     capacitance : float
-        Per length, from the energy [F/m].
+        Capacitance per length from the energy of the field [F/m].
     capacitance_density : ndarray, shape (nx,)
-        Charge of a wall by voltage, length and width [F/m^2].
+        Charge of a wall per area and voltage [F/m^2].
 
     Returns
     -------
     Field
-        All that follows from them.
+        Potential, field strength and capacitance.
     """
     across = Across.of_degree(problem.degree)
     x, s = problem.x, across.nodes

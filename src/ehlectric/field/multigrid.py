@@ -1,9 +1,10 @@
-"""Preconditioner of the field in three dimensions: modes across the gap, multigrid along it.
+"""Preconditioner for the electric field of a point contact: modes across the gap, multigrid along it.
 
-Where the walls are flat the potential's modes across the gap decouple, and each obeys a screened Poisson
-equation over (x, y): -div(h eps grad u) + (lambda eps/h) u = f with lambda near (k pi)^2. Slopes of the walls
-couple them weakly. A V-cycle solves all modes at once, approximately, with lines along x and along y as its
-relaxation, so that neither stretched grids nor gaps far wider or narrower than the columns hurt.
+The potential is expanded in modes across the gap. Between flat walls the modes are independent, and each
+obeys a screened Poisson equation over (x, y): -div(h eps grad u) + (lambda eps/h) u = f, with lambda near
+(k pi)^2. Slopes of the walls couple the modes weakly. One V-cycle solves for all modes approximately. Because
+it relaxes lines along x and along y, it also converges on stretched grids, and for gaps that are much wider
+or narrower than the grid spacing.
 """
 
 from __future__ import annotations
@@ -18,25 +19,27 @@ from scipy.linalg import eigh, lapack
 from ehlectric.arrays import Array, IntArray, Mask
 from ehlectric.field.poisson import Across
 
-# A direction of at most this many nodes is not coarsened: three are the fewest whose couplings are distinct.
+# An axis with at most this many nodes is not coarsened. With fewer than three nodes, index offsets of the
+# nine neighbours would coincide.
 COARSEST = 4
 
-# Of a relaxation by lines. All at once they overshoot: its eigenvalue is 2 for what alternates from line to
-# line. Where columns are long one way and the gap is far wider, nothing else reduces that.
+# Damping factor of the line relaxation. All lines are relaxed at once, and undamped they overshoot: an error
+# that alternates from line to line has the eigenvalue 2. On stretched grids with much wider gaps, no other
+# part of the cycle reduces this error.
 DAMPING = 0.8
 
-# The nine columns that a column is coupled to, itself in the middle, as steps along x and y.
+# The nine columns that a column is coupled to, as steps along x and y; the column itself is in the middle.
 NEIGHBOURS = tuple(product((-1, 0, 1), repeat=2))
 
 
 def neighbour_offsets(ny: int) -> IntArray:
-    """Distances of the neighbours in the order of the columns, y fastest, shape (9,)."""
+    """Index offsets of the ``NEIGHBOURS`` among columns numbered with y fastest, shape (9,)."""
     offsets: IntArray = np.array(NEIGHBOURS) @ np.array([ny, 1])
     return offsets
 
 
 def gap_modes(across: Across) -> tuple[Array, Array]:
-    """Modes across the gap that vanish on both walls.
+    """Eigenmodes of -d2/ds2 across the gap that vanish on both walls.
 
     Parameters
     ----------
@@ -45,14 +48,14 @@ def gap_modes(across: Across) -> tuple[Array, Array]:
 
     Returns
     -------
-    ndarray, shape (ns - 2,)
+    eigenvalues : ndarray, shape (ns - 2,)
         Eigenvalues of -d2/ds2, ascending.
-    ndarray, shape (ns, ns - 2)
-        Modes at the nodes, orthonormal in the quadrature.
+    modes : ndarray, shape (ns, ns - 2)
+        Modes at the nodes, orthonormal with the weights of the quadrature.
 
     Examples
     --------
-    The lowest are those of a string, (k pi)^2 with k = 1, 2, ...
+    The lowest eigenvalues are (k pi)^2 with k = 1, 2, ..., as for a vibrating string:
 
     >>> eigenvalues, _ = gap_modes(Across.of_degree(12))
     >>> [round(float(v), 6) for v in np.sqrt(eigenvalues[:3]) / np.pi]
@@ -67,7 +70,7 @@ def gap_modes(across: Across) -> tuple[Array, Array]:
 
 
 class _Lines:
-    """Tridiagonal factors of all lines of a direction, one after the other in one matrix."""
+    """Damped relaxation of all lines along one axis, with their tridiagonal matrices factorised as one."""
 
     def __init__(self, diagonal: Array, beside: Array) -> None:
         # The couplings from the end of one line to the start of the next are zero.
@@ -80,7 +83,10 @@ class _Lines:
 
 
 class _Level:
-    """All modes on one grid: the operator, its relaxations, and the transfers to the next coarser grid."""
+    """One grid of the V-cycle for all modes, with its operator, relaxations and prolongation.
+
+    ``shape`` is (modes, nx, ny); ``to_finer`` interpolates from the next coarser grid to this one.
+    """
 
     def __init__(self, shape: tuple[int, int, int], matrix: sparse.dia_array) -> None:
         self.shape = shape
@@ -104,7 +110,10 @@ class _Level:
 
 @dataclass(frozen=True)
 class _Grid:
-    """Couplings between the columns of one grid, summed over the gap, and the columns that are solved for."""
+    """Couplings between the columns of one grid, summed over the gap.
+
+    ``free`` marks the columns whose potential is unknown.
+    """
 
     x: Array
     y: Array
@@ -114,7 +123,10 @@ class _Grid:
 
     @classmethod
     def finest(cls, x: Array, y: Array, *, across: Array, along: Array, free: Mask) -> _Grid:
-        """The grid of all columns, of couplings stored by diagonals; without those of given columns."""
+        """Finest grid, from couplings stored by diagonals (9, nx * ny).
+
+        Couplings to columns with a prescribed potential are left out.
+        """
         keep = sparse.diags_array(free.astype(float))
         offsets, shape = neighbour_offsets(y.size), (free.size, free.size)
         matrices = []
@@ -124,11 +136,11 @@ class _Grid:
         return cls(x, y, _with_identity(matrices[0], free), matrices[1], free)
 
     def is_thin(self, eigenvalue: float) -> bool:
-        """Whether the gap is everywhere so narrow that relaxation alone solves even the lowest mode."""
+        """Whether the gap is everywhere so narrow that relaxation alone solves the mode of an eigenvalue."""
         return bool(np.all(self.along.diagonal() <= eigenvalue * self.across.diagonal()))
 
     def level(self, eigenvalues: Array) -> _Level:
-        """Operator and relaxations for all modes."""
+        """Level of the V-cycle on this grid, for the modes with these eigenvalues."""
         shape = (eigenvalues.size, self.x.size, self.y.size)
         offsets = neighbour_offsets(self.y.size)
         across, along = (_diagonals(m, offsets) for m in (self.across, self.along))
@@ -137,7 +149,10 @@ class _Grid:
         return _Level(shape, sparse.dia_array((data.reshape(9, n), offsets), shape=(n, n)))
 
     def coarser(self) -> tuple[_Grid, sparse.csr_array]:
-        """The grid of every other column either way, its couplings by Galerkin, and the prolongation."""
+        """Next coarser grid, with every other column along both axes, and the prolongation from it.
+
+        The couplings of the coarser grid are the Galerkin products.
+        """
         (x, by_x), (y, by_y) = _every_other(self.x), _every_other(self.y)
         kept = self.free.reshape(self.x.size, self.y.size)
         free = kept[np.ix_(*(np.searchsorted(a, b) for a, b in ((self.x, x), (self.y, y))))].ravel()
@@ -150,7 +165,7 @@ class _Grid:
 
 
 def _every_other(x: Array) -> tuple[Array, sparse.csr_array]:
-    """Every other position with both ends, and linear interpolation from there."""
+    """Every other position, including both ends, and the matrix of the linear interpolation from them."""
     if x.size <= COARSEST:
         return x, sparse.csr_array(sparse.eye_array(x.size))
     coarse = x[np.unique(np.append(np.arange(0, x.size, 2), x.size - 1))]
@@ -169,7 +184,7 @@ def _with_identity(matrix: sparse.csr_array, free: Mask) -> sparse.csr_array:
 
 
 def _diagonals(matrix: sparse.csr_array, offsets: IntArray) -> Array:
-    """Diagonals of a square matrix as scipy stores them: an entry stands at its column."""
+    """Diagonals of a square matrix as SciPy stores them: an entry is at its column of the matrix."""
     data = np.zeros((offsets.size, matrix.shape[0]))
     for row, offset in zip(data, offsets.tolist(), strict=True):
         diagonal = matrix.diagonal(offset)
@@ -179,17 +194,17 @@ def _diagonals(matrix: sparse.csr_array, offsets: IntArray) -> Array:
 
 
 class GapMultigrid:
-    """One V-cycle over all modes, an approximate inverse: symmetric and positive definite.
+    """Preconditioner of the field problem: one V-cycle over all modes, symmetric and positive definite.
 
     Parameters
     ----------
     x, y : ndarray, shapes (nx,), (ny,)
         Positions of the columns [m].
     across, along : ndarray, shape (9, nx * ny)
-        Couplings of each column with its neighbours, summed over the gap: of the derivatives across it, and
-        of those along x and y. An entry stands at the neighbour, as in a sparse matrix of diagonals.
-    fixed : ndarray, shape (nx, ny)
-        Columns whose potential is given.
+        Couplings of each column with its neighbours, summed over the gap, from the derivatives across the gap
+        and from the derivatives along x and y. They are stored as in a SciPy sparse matrix of diagonals.
+    fixed : ndarray of bool, shape (nx, ny)
+        Columns with a prescribed potential.
     of_gap : Across
         Nodes, weights and differentiation across the gap.
     """
@@ -208,14 +223,17 @@ class GapMultigrid:
             self.levels.append(grid.level(eigenvalues))
 
     def __call__(self, residual: Array) -> Array:
-        """Correction (nx, ny, ns) of a residual, zero on the walls."""
+        """Correction of the potential for a residual, both (nx, ny, ns); it is zero on the walls."""
         by_mode = self.modes.T @ residual.reshape(-1, residual.shape[2]).T
         corrected = self._cycle(by_mode.ravel(), 0).reshape(by_mode.shape)
         correction: Array = (corrected.T @ self.modes.T).reshape(residual.shape)
         return correction
 
     def _cycle(self, right: Array, depth: int) -> Array:
-        """Lines along x, along y, the coarser grid, and back in the reverse order."""
+        """Symmetric V-cycle from the level ``depth``, on the residual ``right`` of all modes.
+
+        The steps are lines along x, lines along y, the coarser grid, lines along y, lines along x.
+        """
         level = self.levels[depth]
         matrix = level.matrix
         u = level.relax_x(right)

@@ -1,4 +1,4 @@
-"""The electric field in the gap of a point contact: strength, capacitance and its map, area of high field."""
+"""Electric field in the gap of a point contact: strength, capacitance and the area of high field."""
 
 from __future__ import annotations
 
@@ -26,12 +26,14 @@ from ehlectric.runtime.threads import one_blas_thread
 
 @dataclass(frozen=True)
 class PointField(GapField):
-    """Potential and field strength between the walls in three dimensions, SI units.
+    """Electric potential and field strength in the gap of a point contact, in SI units.
+
+    The two walls are the surfaces of the contact; both are conductors of constant potential.
 
     Attributes
     ----------
     x, y, s : ndarray, shapes (nx,), (ny,), (ns,)
-        Positions along the gap [m] and fraction of the gap from the lower wall.
+        Positions along the gap [m]; height above the lower wall over the gap, from 0 to 1.
     z, permittivity, potential : ndarray, shape (nx, ny, ns)
         Height [m], relative permittivity, potential [V].
     field_x, field_y, field_z, strength : ndarray, shape (nx, ny, ns)
@@ -40,16 +42,18 @@ class PointField(GapField):
         abs(E) at s = 1/2 [V/m].
     thin_gap_strength : ndarray, shape (nx, ny)
         voltage/h(x, y) [V/m].
+    voltage : float
+        Magnitude of the potential difference of the walls [V].
     capacitance, capacitance_by_charge : float
-        From the energy of the field and from the charge of wall 2 [F]; without the free charge. They agree
-        unless side faces have given potentials.
+        Capacitance [F], from the energy of the field and from the charge of wall 2. Free charge in the gap is
+        left out. The two values agree, unless potentials are prescribed on side faces.
     thin_gap_capacitance : float
-        Integral of eps0 eps/h [F].
+        Integral of eps0 eps/h over x and y [F].
     capacitance_density : ndarray, shape (nx, ny)
-        Charge of wall 2 by voltage and area of the map [F/m^2]: that of each node over its part of the map,
-        so that the sum over ``node_areas`` is ``capacitance_by_charge``.
+        Charge of wall 2 at a node, divided by the voltage and by the area of the node [F/m^2]. Its sum,
+        weighted with ``node_areas``, is ``capacitance_by_charge``.
     iterations : int
-        Of the conjugate gradients, without the free charge.
+        Number of conjugate-gradient iterations for the potential without free charge.
     """
 
     x: Array
@@ -73,11 +77,11 @@ class PointField(GapField):
 
     @property
     def axes(self) -> tuple[Array, ...]:
-        """Columns along and across entrainment [m]."""
+        """Positions of the columns along and across entrainment [m]."""
         return self.x, self.y
 
     def extent_above(self, values: Array, level: float) -> float:
-        """Area of the lobe around the maximum where values at the columns reach a level [m^2]."""
+        """Area of the lobe around the maximum where ``values`` (nx, ny) are at least ``level`` [m^2]."""
         return lobe_above(self.x, self.y, values, level)
 
     @property
@@ -98,7 +102,10 @@ class PointField(GapField):
 
     @property
     def inner(self) -> Mask:
-        """Columns more than three gaps from the side faces, which disturb the field, shape (nx, ny)."""
+        """Mask of the columns that are more than three gaps away from the side faces, shape (nx, ny).
+
+        Closer to a side face, the face disturbs the field.
+        """
         far = 3.0 * self.voltage / self.thin_gap_strength
         x, y = self.x[:, np.newaxis], self.y
         along_x = (x > x[0] + far[0]) & (x < x[-1] - far[-1])
@@ -108,15 +115,16 @@ class PointField(GapField):
 
     @property
     def high_field_area(self) -> float:
-        """Area where the mid-film abs(E) is at least 95 % of its maximum, all lobes together, finer than the
-        cells [m^2].
+        """Area where the mid-film abs(E) is at least 95 % of its maximum [m^2], all lobes together.
+
+        It is interpolated within the cells.
         """
         level = HIGH_FIELD * float(np.max(self.middle_strength))
         return area_above(self.x, self.y, self.middle_strength, level)
 
     @property
     def node_areas(self) -> Array:
-        """Area of each node's part of the map [m^2], shape (nx, ny)."""
+        """Area that belongs to each node of the map [m^2], shape (nx, ny)."""
         return node_areas(self.x, self.y)
 
     def capacitance_of(self, zone: Zone) -> float:
@@ -125,33 +133,39 @@ class PointField(GapField):
         Parameters
         ----------
         zone : callable
-            Whether the points of two arrays x, y [m] are inside. Cells on its boundary are divided.
+            Function of two arrays x, y [m] that tells which points are inside. Cells on the boundary of the
+            zone count in part.
 
         Returns
         -------
         float
-            Charge of wall 2 inside by voltage [F]. Zones that share out the map add up to
-            ``capacitance_by_charge`` to rounding.
+            Charge of wall 2 inside the zone over the voltage [F]. For zones that cover the map without
+            overlap the values add up to ``capacitance_by_charge``, except for rounding.
         """
         return float(np.vdot(zone_areas(self.x, self.y, zone), self.capacitance_density))
 
     def capacitance_by_zone(self, semi_axis_x: float, semi_axis_y: float) -> dict[str, float]:
-        """Capacitance of each of the ``contact_zones`` of a dry contact of these semi-axes [m], in F."""
+        """Capacitance of the Hertz ellipse, the inlet, the outlet and the sides of the contact [F].
+
+        The zones are ``contact_zones`` of a Hertz ellipse with these semi-axes [m].
+        """
         zones = contact_zones(semi_axis_x, semi_axis_y)
         return {name: self.capacitance_of(zone) for name, zone in zones.items()}
 
     def mirrored(self) -> PointField:
-        """The field on both sides of a plane of symmetry, of one solved for y >= 0 without flux at y = 0.
+        """Field of the whole contact, from the field of its half y >= 0 and the mirror image of that half.
+
+        The half must have been solved without flux through the plane of symmetry y = 0.
 
         Returns
         -------
         PointField
-            The whole: 2 ny - 1 columns along y and twice the capacitances.
+            Field on 2 ny - 1 columns along y, with twice the capacitances.
 
         Raises
         ------
         InputError
-            Where y does not start at 0.
+            If y does not start at 0.
         """
         if self.y[0] != 0.0:
             raise InputError("y", got=f"a field from {self.y[0]:g} m on;", takes="one that starts at y = 0")
@@ -159,7 +173,7 @@ class PointField(GapField):
         def both(values: Array, sign: float = 1.0) -> Array:
             return np.concatenate([sign * values[:, :0:-1], values], axis=1)
 
-        # On the plane itself nothing points across it, which differences to one side give but nearly.
+        # On the plane of symmetry E_y vanishes; one-sided differences give zero only approximately.
         field_y = self.field_y.copy()
         field_y[:, 0] = 0.0
         field_x, field_y, field_z = both(self.field_x), both(field_y, -1.0), both(self.field_z)
@@ -183,33 +197,34 @@ class PointField(GapField):
 
 
 def solve_point_field(problem: PointFieldProblem) -> PointField:
-    """Solve the Poisson problem between two conducting walls in three dimensions.
+    """Solve Poisson's equation between the two conducting walls of a point contact.
 
     Parameters
     ----------
     problem : PointFieldProblem
-        Geometry, permittivity, potentials and charge, SI units.
+        Geometry, permittivity, potentials and charge, in SI units.
 
     Returns
     -------
     PointField
-        Potential, field and what follows from them.
+        Potential, field strength and capacitance.
 
     Raises
     ------
     InputError
-        Where there are fewer than three columns either way.
+        If there are fewer than three columns along x or y.
     ConvergenceError
-        Where the conjugate gradients do not converge: slopes of the walls far above one.
+        If the conjugate gradients do not converge. This happens where the walls have slopes far above one.
 
     Notes
     -----
-    Eq. (15) of Morris et al. (2022), doi:10.3390/lubricants10050087, with z added and Dirichlet walls. The
-    charge of a wall is the residual of its nodes, so that energy and charge give one capacitance.
+    Eq. (15) of Morris et al. (2022), doi:10.3390/lubricants10050087, with the third dimension added and
+    prescribed potentials of the walls (Dirichlet conditions). The charge of a wall is the residual at its
+    nodes. With this definition, energy and charge give the same capacitance.
 
     Examples
     --------
-    A plate capacitor, 1 mm square with a gap of 1 um: eps0 times a metre.
+    A plate capacitor, 1 mm square and with a gap of 1 um, has the capacitance eps0 times 1 m:
 
     >>> import numpy as np
     >>> x = np.linspace(0.0, 1e-3, 11)
@@ -223,13 +238,13 @@ def solve_point_field(problem: PointFieldProblem) -> PointField:
     voltage = problem.potential_2 - problem.potential_1
     with one_blas_thread():
         solver = PotentialSolver(problem)
-        # Relative to wall 1: a large common potential must not cost digits of the field.
-        free, iterations = solver.solve()
-        potential = free
+        # Potentials are relative to wall 1: a large common potential would cost digits of the field.
+        without_charge, iterations = solver.solve()
+        potential = without_charge
         if problem.charge_density is not None:
             potential, _ = solver.solve(solver.quadrature.charge(problem.charge_density))
-        charges = solver.operator(free)[:, :, -1]
-        energy = solver.quadrature.energy(free)
+        charges = solver.operator(without_charge)[:, :, -1]
+        energy = solver.quadrature.energy(without_charge)
         return _field(
             problem,
             potential,
@@ -242,9 +257,10 @@ def solve_point_field(problem: PointFieldProblem) -> PointField:
 def _field(
     problem: PointFieldProblem, potential: Array, *, capacitance: float, charges: Array, iterations: int
 ) -> PointField:
-    """Field strength by differentiation of a potential above wall 1, and the thin-gap estimates.
+    """Field of a potential relative to wall 1 [V], by differentiation, with the estimates for a thin gap.
 
-    ``charges`` are those of the nodes of wall 2 by voltage [F].
+    ``capacitance`` [F] follows from the energy. ``charges`` (nx, ny) are the charges of the nodes of wall 2
+    over the voltage [F].
     """
     across = Across.of_degree(problem.degree)
     x, y, s = problem.x, problem.y, across.nodes
@@ -290,6 +306,6 @@ def _magnitude(*components: Array) -> Array:
 
 
 def _middle(*components: Array) -> Array:
-    """Magnitude at s = 1/2, of components at the nodes."""
+    """Magnitude of a vector at s = 1/2, from its components at the nodes (nx, ny, ns)."""
     at_middle = Across.of_degree(components[0].shape[2] - 1).at_middle
     return _magnitude(*(component @ at_middle for component in components))

@@ -1,8 +1,8 @@
-"""Poisson's equation between two conductors, discretised in mapped coordinates.
+"""Poisson's equation in the gap of a line contact, discretised in coordinates that follow the walls.
 
-div(eps grad V) = -rho_q/eps0 between y1(x) and y2(x), with s = (y - y1)/h, so that both walls are grid lines.
-Galerkin: linear elements along x, one polynomial of a few degrees across the gap on Gauss-Lobatto-Legendre
-nodes. The matrix is symmetric, banded and factorised directly.
+div(eps grad V) = -rho_q/eps0 is solved between the walls y1(x) and y2(x). With the coordinate s = (y - y1)/h
+both walls are grid lines. The Galerkin method takes linear elements along x and one polynomial across the
+gap, on Gauss-Lobatto-Legendre nodes. The matrix is symmetric and banded, and is factorised directly.
 """
 
 from __future__ import annotations
@@ -17,10 +17,10 @@ from scipy.special import eval_legendre, roots_jacobi
 
 from ehlectric.arrays import Array
 
-# Two Gauss points along an element: more would not raise the order of linear elements.
+# Two Gauss points along an element: more points would not raise the order of linear elements.
 GAUSS = np.array([0.5 - 0.5 / np.sqrt(3.0), 0.5 + 0.5 / np.sqrt(3.0)])
 
-# Gap below which walls count as this far apart [m]: the size of an atom.
+# Smallest gap in the field problem [m], the size of an atom; thinner gaps are replaced by it.
 ATOM = 1e-10
 
 
@@ -38,20 +38,33 @@ def lobatto_nodes(degree: int) -> Array:
 
 @dataclass(frozen=True)
 class Across:
-    """Nodes, weights and differentiation across the gap, and the element matrices made of them."""
+    """Polynomial across the gap: nodes, quadrature weights, differentiation and element matrices.
 
-    nodes: Array  # (ns,)
-    weights: Array  # (ns,)
-    derivative: Array  # (ns, ns), d/ds at the nodes
-    at_middle: Array  # (ns,), interpolation to s = 1/2
-    slope: Array  # (ns, ns, ns): by quadrature point, product of two derivatives
-    mixed: Array  # value of the first times derivative of the second
-    mass: Array  # product of two values
+    Attributes
+    ----------
+    nodes, weights : ndarray, shape (ns,)
+        Gauss-Lobatto-Legendre nodes s on [0, 1], and the weights of their quadrature.
+    derivative : ndarray, shape (ns, ns)
+        Matrix of d/ds at the nodes.
+    at_middle : ndarray, shape (ns,)
+        Weights of the interpolation to s = 1/2.
+    slope, mixed, mass : ndarray, shape (ns, ns, ns)
+        Products of two shape functions at each quadrature point, the first axis: both differentiated, the
+        second differentiated, none differentiated.
+    """
+
+    nodes: Array
+    weights: Array
+    derivative: Array
+    at_middle: Array
+    slope: Array
+    mixed: Array
+    mass: Array
 
     @classmethod
     @cache
     def of_degree(cls, degree: int) -> Across:
-        """Everything across the gap that depends on the degree alone."""
+        """Nodes, weights and matrices of a polynomial degree, computed once per degree."""
         s = lobatto_nodes(degree)
         t = 2.0 * s - 1.0
         weights = 1.0 / (degree * (degree + 1) * eval_legendre(degree, t) ** 2)
@@ -77,24 +90,24 @@ class Across:
 
 @dataclass(frozen=True)
 class FieldProblem:
-    """Two conductors and what is between them.
+    """Problem of the electric field between the two conducting walls of a line contact, in SI units.
 
     Parameters
     ----------
     x : ndarray, shape (nx,)
         Positions along the gap [m], increasing, any spacing.
     lower, upper : ndarray, shape (nx,)
-        Surfaces y1(x) < y2(x) [m], at ``potential_1`` and ``potential_2``.
+        Heights y1(x) < y2(x) of the walls [m]. They have the potentials ``potential_1`` and ``potential_2``.
     permittivity : ndarray, shape (nx,) or (nx, degree + 1)
-        Relative permittivity, uniform across the gap or at its nodes.
+        Relative permittivity, one value per column or one per node.
     potential_1, potential_2 : float
-        Potentials of the walls [V], different.
+        Potentials of the walls [V]; they must differ.
     degree : int
         Polynomial degree across the gap, at least 2.
     charge_density : ndarray, shape (nx, degree + 1), optional
-        Free charge in the gap [C/m^3], at the nodes s = ``lobatto_nodes(degree)``.
+        Density of free charge [C/m^3] at the nodes s = ``lobatto_nodes(degree)``; no charge by default.
     end_potentials : pair of ndarray, shape (degree + 1,), optional
-        Potential on the end faces [V]; without it no flux leaves there.
+        Potentials on the end faces x[0] and x[-1] [V]. By default no flux passes through the end faces.
     """
 
     x: Array
@@ -110,14 +123,22 @@ class FieldProblem:
 
 @dataclass(frozen=True)
 class Elements:
-    """Element matrices between the two columns of every element, each (nx - 1, ns, ns)."""
+    """Element matrices, one set per element between two neighbouring columns of nodes.
+
+    Attributes
+    ----------
+    left, right : ndarray, shape (nx - 1, ns, ns)
+        Coupling of the left column, or of the right column, with itself.
+    cross : ndarray, shape (nx - 1, ns, ns)
+        Coupling of the left column (rows) with the right column (columns).
+    """
 
     left: Array
-    cross: Array  # rows of the left column, columns of the right
+    cross: Array
     right: Array
 
     def apply(self, v: Array) -> Array:
-        """The assembled operator times nodal values (nx, ns)."""
+        """Product of the assembled matrix and nodal values (nx, ns), shape (nx, ns)."""
         a, b = v[:-1], v[1:]
         product = np.zeros_like(v)
         product[:-1] += _rows(self.left, a) + _rows(self.cross, b)
@@ -132,18 +153,34 @@ def _rows(matrices: Array, vectors: Array) -> Array:
 
 @dataclass(frozen=True)
 class Quadrature:
-    """Geometry and permittivity at the quadrature points of the elements."""
+    """Geometry and permittivity at the quadrature points of the ne = nx - 1 elements.
+
+    Attributes
+    ----------
+    across : Across
+        Polynomial across the gap.
+    dx : ndarray, shape (ne,)
+        Lengths of the elements [m].
+    shapes : ndarray, shape (2, 2)
+        Linear shape functions of the two columns (rows) at the two Gauss points (columns).
+    gap : ndarray, shape (ne, 2)
+        Gap at the Gauss points [m].
+    slope : ndarray, shape (ne, ns)
+        Slope dy/dx of the lines of constant s.
+    permittivity : ndarray, shape (ne, 2, ns)
+        Relative permittivity at the Gauss points.
+    """
 
     across: Across
-    dx: Array  # (ne,)
-    shapes: Array  # (2 nodes, 2 Gauss points)
-    gap: Array  # (ne, 2 Gauss points)
-    slope: Array  # (ne, ns), dy/dx at fixed s
-    permittivity: Array  # (ne, 2 Gauss points, ns)
+    dx: Array
+    shapes: Array
+    gap: Array
+    slope: Array
+    permittivity: Array
 
     @classmethod
     def of(cls, problem: FieldProblem) -> Quadrature:
-        """The quadrature of a problem."""
+        """Quadrature of a field problem."""
         across = Across.of_degree(problem.degree)
         dx = np.diff(problem.x)
         gap = problem.upper - problem.lower
@@ -162,7 +199,7 @@ class Quadrature:
         )
 
     def elements(self) -> Elements:
-        """Element matrices of the integral of eps grad W . grad V over x and y.
+        """Element matrices of the integral of eps grad W . grad V over x and y, with test functions W.
 
         With the slope m of the lines of constant s, grad = (d/dx - (m/h) d/ds, (1/h) d/ds) and
         dx dy = h dx ds.
@@ -193,7 +230,7 @@ class Quadrature:
         return matrix
 
     def charge(self, density: Array) -> Array:
-        """Right side of a charge density (nx, ns): the integral of W rho_q/eps0."""
+        """Integral of W rho_q/eps0 [V], the right side for a charge density (nx, ns) [C/m^3]."""
         load = np.zeros_like(density)
         pair = np.stack([density[:-1], density[1:]])
         at_points = np.einsum("aeq,ag->egq", pair, self.shapes) * self.gap[:, :, np.newaxis]
@@ -203,7 +240,10 @@ class Quadrature:
         return load
 
     def energy(self, v: Array) -> float:
-        """Integral of eps abs(grad V)^2, from the gradients at the quadrature points [V^2]."""
+        """Integral of eps abs(grad V)^2 over x and y [V^2], for nodal potentials V (nx, ns) [V].
+
+        It is computed from the gradients at the quadrature points.
+        """
         derivative = v @ self.across.derivative.T
         total = 0.0
         along = np.diff(v, axis=0) / self.dx[:, np.newaxis]
@@ -217,21 +257,29 @@ class Quadrature:
 
 
 def nodal_values(values: Array, ns: int) -> Array:
-    """Values at the nodes (nx, ns), of values by column or by node."""
+    """Values at the nodes, shape (nx, ns), from values per column (nx,) or per node (nx, ns)."""
     return values if values.ndim == 2 else np.repeat(values[:, np.newaxis], ns, axis=1)
 
 
 def mean_permittivity(permittivity: Array) -> Array:
-    """Relative permittivity of a gap, of that at its nodes across (..., ns).
+    """Mean relative permittivity across a gap, shape (...), from the values at its nodes (..., ns).
 
-    Layers of different permittivity are in series: their reciprocals average across the gap.
+    It is the harmonic mean, as layers of different permittivity are in series.
     """
     mean: Array = 1.0 / ((1.0 / permittivity) @ Across.of_degree(permittivity.shape[-1] - 1).weights)
     return mean
 
 
 class BandedSolver:
-    """Banded Cholesky factors of the interior unknowns, ordered column by column."""
+    """Direct solver for the potential at the interior nodes, by a banded Cholesky factorisation.
+
+    Parameters
+    ----------
+    elements : Elements
+        Element matrices.
+    fixed_ends : bool
+        Whether the potentials of the two end columns are prescribed.
+    """
 
     def __init__(self, elements: Elements, *, fixed_ends: bool) -> None:
         inner = slice(1, -1)
@@ -255,7 +303,10 @@ class BandedSolver:
         )
 
     def __call__(self, right: Array) -> Array:
-        """Interior values (nx, ns) with the assembled operator times them equal to ``right``."""
+        """Solution of the assembled system with the right side ``right``, both of shape (nx, degree - 1).
+
+        It is zero in the end columns where these are fixed.
+        """
         r = right.copy()
         if self.fixed_ends:
             r[[0, -1]] = 0.0

@@ -1,8 +1,9 @@
-"""Poisson's equation between two conductors in three dimensions, discretised in mapped coordinates.
+"""Poisson's equation in the gap of a point contact, discretised in coordinates that follow the walls.
 
-div(eps grad V) = -rho_q/eps0 between z1(x, y) and z2(x, y), with s = (z - z1)/h, so that both walls are grid
-surfaces. Galerkin: bilinear elements along x and y, one polynomial of a few degrees across the gap on
-Gauss-Lobatto-Legendre nodes. The matrix is symmetric; conjugate gradients solve it.
+div(eps grad V) = -rho_q/eps0 is solved between the walls z1(x, y) and z2(x, y). With the coordinate
+s = (z - z1)/h both walls are grid surfaces. The Galerkin method takes bilinear elements along x and y, and
+one polynomial across the gap on Gauss-Lobatto-Legendre nodes. The matrix is symmetric and positive definite;
+the system is solved by preconditioned conjugate gradients.
 """
 
 from __future__ import annotations
@@ -19,42 +20,46 @@ from ehlectric.errors import ConvergenceError
 from ehlectric.field.multigrid import NEIGHBOURS, GapMultigrid, neighbour_offsets
 from ehlectric.field.poisson import GAUSS, Across
 
-# Corners of a cell, and by the same order its Gauss points, as (along x, along y).
+# Corners of a cell as steps (along x, along y). Its four Gauss points are numbered in the same order.
 _CORNERS = ((0, 0), (0, 1), (1, 0), (1, 1))
 
-# The side faces, as columns (nx, ny).
+# Indices of the columns on each of the four side faces in an array (nx, ny).
 _FACES: tuple[tuple[int | slice, ...], ...] = ((0,), (-1,), (slice(None), 0), (slice(None), -1))
 
-# Error of the potential in the norm of its energy, relative to that of the boundary values. The error
-# of the capacitance by charge is at most as large, of that by energy its square; one column may hold it all.
+# Error of the potential at which the iteration stops, in the energy norm and relative to the energy norm of
+# the boundary values. It bounds the relative error of the capacitance from the charge; that of the
+# capacitance from the energy is its square. In the worst case all of the error lies in one column.
 TOLERANCE = 1e-11
 
-# Films take about six, walls of slope 3 some forty.
+# Largest number of iterations. Lubricant films take about six, walls with a slope of 3 about forty.
 MAX_ITERATIONS = 300
+
+# Potentials on the faces x[0], x[-1], y[0] and y[-1].
 SidePotentials = tuple[Array | None, Array | None, Array | None, Array | None]
 
 
 @dataclass(frozen=True)
 class PointFieldProblem:
-    """Two conductors and what is between them, in three dimensions.
+    """Problem of the electric field between the two conducting walls of a point contact, in SI units.
 
     Parameters
     ----------
     x, y : ndarray, shapes (nx,), (ny,)
         Positions along the gap [m], increasing, any spacing, at least three each.
     lower, upper : ndarray, shape (nx, ny)
-        Surfaces z1(x, y) < z2(x, y) [m], at ``potential_1`` and ``potential_2``.
+        Heights z1(x, y) < z2(x, y) of the walls [m]. They have the potentials ``potential_1`` and
+        ``potential_2``.
     permittivity : ndarray, shape (nx, ny) or (nx, ny, degree + 1)
-        Relative permittivity, uniform across the gap or at its nodes.
+        Relative permittivity, one value per column or one per node.
     potential_1, potential_2 : float
-        Potentials of the walls [V], different.
+        Potentials of the walls [V]; they must differ.
     degree : int
         Polynomial degree across the gap, at least 2.
     charge_density : ndarray, shape (nx, ny, degree + 1), optional
-        Free charge in the gap [C/m^3], at the nodes s = ``lobatto_nodes(degree)``.
+        Density of free charge [C/m^3] at the nodes s = ``lobatto_nodes(degree)``; no charge by default.
     side_potentials : tuple of four ndarray or None, optional
-        Potentials [V] on the faces x[0], x[-1], shape (ny, degree + 1), and y[0], y[-1], shape
-        (nx, degree + 1). Through a face without one no flux leaves.
+        Potentials [V] on the faces x[0] and x[-1], shape (ny, degree + 1), and on the faces y[0] and y[-1],
+        shape (nx, degree + 1). No flux passes through a face whose entry is None.
     """
 
     x: Array
@@ -70,17 +75,17 @@ class PointFieldProblem:
 
     @property
     def given_sides(self) -> SidePotentials:
-        """Potentials on the four faces, none for a face without flux."""
+        """Potentials on the faces x[0], x[-1], y[0] and y[-1] [V]; None for a face without flux."""
         return self.side_potentials or (None, None, None, None)
 
 
 def by_node(permittivity: Array) -> Array:
-    """Permittivity as an array over (x, y, s), of length one across the gap where it is given by column."""
+    """Permittivity as an array over (x, y, s): shape (nx, ny, ns), or (nx, ny, 1) for values per column."""
     return permittivity if permittivity.ndim == 3 else permittivity[:, :, np.newaxis]
 
 
 def _between(values: Array, at: float, axis: int) -> Array:
-    """Linear interpolation between neighbours along an axis, at a fraction of their distance."""
+    """Linear interpolation between neighbours along an axis, at the fraction ``at`` of their distance."""
     v = np.moveaxis(values, axis, 0)
     interpolated: Array = np.moveaxis((1.0 - at) * v[:-1] + at * v[1:], 0, axis)
     return interpolated
@@ -93,7 +98,10 @@ def _at_points(values: Array) -> list[Array]:
 
 
 def _shapes() -> tuple[Array, Array, Array]:
-    """Shape functions at the Gauss points, (corners, points), and their unit derivatives along x and y."""
+    """Bilinear shape functions at the Gauss points, and their derivatives along x and y on a unit cell.
+
+    Each array has the shape (corners, points).
+    """
     value = np.stack([1.0 - GAUSS, GAUSS])
     sign = np.array([[-1.0, -1.0], [1.0, 1.0]])
     return np.kron(value, value), np.kron(sign, value), np.kron(value, sign)
@@ -101,20 +109,31 @@ def _shapes() -> tuple[Array, Array, Array]:
 
 @dataclass(frozen=True)
 class Operator:
-    """The integral of eps grad W . grad V over the gap, as a matrix over nodal values (nx, ny, ns).
+    """Matrix of the integral of eps grad W . grad V over the gap, for nodal values (nx, ny, ns).
 
-    With D the differentiation across the gap in each column it is D^T A D + D^T M + M^T D + C, and the four
-    matrices couple nodes of the same s alone.
+    W is the test function. With the matrix D that differentiates each column across the gap, the matrix is
+    D^T A D + D^T M + M^T D + C. Each of A, M and C couples only nodes of equal s.
+
+    Attributes
+    ----------
+    derivative : ndarray, shape (ns, ns)
+        D, the derivative d/ds at the nodes of one column.
+    across : sparse array
+        A, the product of the derivatives of W and V across the gap.
+    mixed, transposed : sparse array
+        M, the product of the derivative of W across the gap and the derivative of V along it; and M^T.
+    along : sparse array
+        C, the product of the derivatives of W and V along the gap.
     """
 
-    derivative: Array  # (ns, ns)
-    across: sparse.dia_array  # A: both differentiated across the gap
-    mixed: sparse.dia_array  # M: W across, V along
-    transposed: sparse.dia_array  # M^T
-    along: sparse.dia_array  # C: both along
+    derivative: Array
+    across: sparse.dia_array
+    mixed: sparse.dia_array
+    transposed: sparse.dia_array
+    along: sparse.dia_array
 
     def __call__(self, v: Array) -> Array:
-        """The matrix times nodal values."""
+        """Product of the matrix and nodal values, shape (nx, ny, ns)."""
         value = v.reshape(-1)
         by_s = (v @ self.derivative.T).reshape(-1)
         flux = self.across @ by_s + self.mixed @ value
@@ -125,22 +144,37 @@ class Operator:
 
 @dataclass(frozen=True)
 class Quadrature:
-    """Geometry and permittivity at the quadrature points: four Gauss points of a cell, the nodes across.
+    """Geometry and permittivity at the quadrature points of the cells.
 
-    The lists run over the Gauss points; slopes along x differ by the point's y alone, and along y by its x.
+    The quadrature points of a cell are its four Gauss points over (x, y), each with the ns nodes across the
+    gap.
+
+    Attributes
+    ----------
+    across : Across
+        Polynomial across the gap.
+    dx, dy : ndarray, shapes (nx - 1, 1, 1), (ny - 1, 1)
+        Lengths of the cells along x and y [m].
+    gap : list of 4 ndarray, shape (nx - 1, ny - 1, 1)
+        Gap at each Gauss point [m].
+    slope_x, slope_y : list of 4 ndarray, shape (nx - 1, ny - 1, ns)
+        Slopes dz/dx and dz/dy of the surfaces of constant s at each Gauss point. The slope along x is
+        constant along x within a cell, and the slope along y is constant along y.
+    weight : list of 4 ndarray, shape (nx - 1, ny - 1, ns)
+        Relative permittivity times the quadrature weight, an area [m^2], at each Gauss point.
     """
 
     across: Across
-    dx: Array  # (nx - 1, 1, 1)
-    dy: Array  # (ny - 1, 1)
-    gap: list[Array]  # 4 of (nx - 1, ny - 1, 1)
-    slope_x: list[Array]  # 4 of (nx - 1, ny - 1, ns), dz/dx at fixed s
-    slope_y: list[Array]  # the same by dy
-    weight: list[Array]  # the same: permittivity times area and weight
+    dx: Array
+    dy: Array
+    gap: list[Array]
+    slope_x: list[Array]
+    slope_y: list[Array]
+    weight: list[Array]
 
     @classmethod
     def of(cls, problem: PointFieldProblem) -> Quadrature:
-        """The quadrature of a problem."""
+        """Quadrature of a field problem."""
         across = Across.of_degree(problem.degree)
         dx = np.diff(problem.x)[:, np.newaxis, np.newaxis]
         dy = np.diff(problem.y)[:, np.newaxis]
@@ -160,7 +194,7 @@ class Quadrature:
         )
 
     def operator(self) -> Operator:
-        """The matrix of the integral of eps grad W . grad V over x, y and z.
+        """Matrix of the integral of eps grad W . grad V over x, y and z, with test functions W.
 
         With the slopes m of the surfaces of constant s, grad = (d/dx - (m_x/h) d/ds, d/dy - (m_y/h) d/ds,
         (1/h) d/ds) and dx dy dz = h dx dy ds.
@@ -179,11 +213,15 @@ class Quadrature:
         return Operator(self.across.derivative, a, m, transposed, c)
 
     def _couplings(self, points: list[Array], pairs: Array) -> sparse.dia_array:
-        """Matrix over the nodes of given values at points, and products of shapes (corner, corner, point)."""
+        """Matrix over the nodes, summed over the quadrature points.
+
+        ``points`` holds the factor at each point, ``pairs`` the products of two shape functions, of shape
+        (corner, corner, point).
+        """
         stacked = np.stack(points)
         cells = stacked.shape[1:]
         nx, ny, ns = cells[0] + 1, cells[1] + 1, cells[2]
-        # Row by the neighbour; a diagonal's entry stands at its column, as scipy has it.
+        # One row per neighbour. SciPy stores the entry of a diagonal at the column of the matrix.
         data = np.zeros((9, nx, ny, ns))
         for row, (i, j) in enumerate(_CORNERS):
             blocks = (pairs[row] @ stacked.reshape(len(points), -1)).reshape(4, *cells)
@@ -194,7 +232,7 @@ class Quadrature:
         return sparse.dia_array((data.reshape(9, -1), offsets), shape=(nx * ny * ns, nx * ny * ns))
 
     def charge(self, density: Array) -> Array:
-        """Right side of a charge density (nx, ny, ns): the integral of W rho_q/eps0."""
+        """Integral of W rho_q/eps0 [V m], the right side for a charge density (nx, ny, ns) [C/m^3]."""
         load = np.zeros_like(density)
         nx, ny, _ = density.shape
         quarter = 0.25 * self.dx * self.dy * self.across.weights / epsilon_0
@@ -205,7 +243,10 @@ class Quadrature:
         return load
 
     def energy(self, v: Array) -> float:
-        """Integral of eps abs(grad V)^2, from the gradients at the quadrature points [V^2 m]."""
+        """Integral of eps abs(grad V)^2 over x, y and z [V^2 m], for nodal potentials V (nx, ny, ns) [V].
+
+        It is computed from the gradients at the quadrature points.
+        """
         by_s = _at_points(v @ self.across.derivative.T)
         by_x = [_between(np.diff(v, axis=0) / self.dx, g, 1) for g in GAUSS]
         by_y = [_between(np.diff(v, axis=1) / self.dy, g, 0) for g in GAUSS]
@@ -218,7 +259,7 @@ class Quadrature:
 
 
 def fixed_columns(problem: PointFieldProblem) -> Mask:
-    """Columns on the faces whose potential is given, shape (nx, ny)."""
+    """Mask of the columns on side faces with a prescribed potential, shape (nx, ny)."""
     fixed = np.zeros(problem.lower.shape, dtype=bool)
     for face, potentials in zip(_FACES, problem.given_sides, strict=True):
         fixed[face] |= potentials is not None
@@ -226,7 +267,7 @@ def fixed_columns(problem: PointFieldProblem) -> Mask:
 
 
 class PotentialSolver:
-    """The discretised problem, its boundary values, and conjugate gradients for what is inside."""
+    """Solver for the potential of a discretised field problem, by preconditioned conjugate gradients."""
 
     def __init__(self, problem: PointFieldProblem) -> None:
         self.problem = problem
@@ -243,13 +284,16 @@ class PotentialSolver:
         )
 
     def _summed(self, couplings: sparse.dia_array) -> Array:
-        """Couplings between columns (9, nx * ny), summed over the gap."""
+        """Couplings of each column with its neighbours, summed over the gap, shape (9, nx * ny)."""
         ns = self.quadrature.across.nodes.size
         summed: Array = couplings.data.reshape(9, -1, ns).sum(axis=2)
         return summed
 
     def lifted(self) -> Array:
-        """Potential above wall 1 with the boundary values: linear across, or given on the side faces."""
+        """Potential relative to wall 1 that fulfils the boundary conditions [V], shape (nx, ny, ns).
+
+        It is linear across the gap, except on side faces with a prescribed potential.
+        """
         problem, s = self.problem, self.quadrature.across.nodes
         lifted = np.empty((*problem.lower.shape, s.size))
         lifted[...] = (problem.potential_2 - problem.potential_1) * s
@@ -259,7 +303,10 @@ class PotentialSolver:
         return lifted
 
     def solve(self, load: Array | None = None) -> tuple[Array, int]:
-        """Nodal potential above wall 1 [V], with the right side of a charge, and the iterations it took."""
+        """Nodal potential relative to wall 1 [V], and the number of conjugate-gradient iterations.
+
+        ``load`` (nx, ny, ns) is the right side of a charge density (``Quadrature.charge``).
+        """
         lifted = self.lifted()
         product = self.operator(lifted)
         scale = float(np.vdot(lifted, product))
@@ -270,7 +317,7 @@ class PotentialSolver:
         return lifted + inside, iterations
 
     def _inside(self, residual: Array) -> Array:
-        """The residual with zeros where the potential is given, in place."""
+        """Set the residual to zero, in place, at the nodes where the potential is prescribed."""
         residual[:, :, 0] = residual[:, :, -1] = 0.0
         residual[self.fixed] = 0.0
         return residual
@@ -283,31 +330,34 @@ def conjugate_gradients(
     *,
     scale: float,
 ) -> tuple[Array, int]:
-    """Preconditioned conjugate gradients from zero.
+    """Solve a linear system by preconditioned conjugate gradients, with the initial guess zero.
 
     Parameters
     ----------
     operator, preconditioner : callable
-        Symmetric and positive definite.
+        Matrix and approximate inverse, both applied to an array; symmetric and positive definite.
     right : ndarray
         Right side.
     scale : float
-        Square of the energy norm that the error is measured by, unless the solution's is larger.
+        Square of the energy norm that ``TOLERANCE`` refers to, unless the energy norm of the solution is
+        larger.
 
     Returns
     -------
-    ndarray, int
-        The solution, its error ``TOLERANCE`` in the energy norm, and the iterations it took.
+    solution : ndarray
+        Solution, with a relative error of at most about ``TOLERANCE`` in the energy norm.
+    iterations : int
+        Number of iterations.
 
     Raises
     ------
     ConvergenceError
-        Where ``MAX_ITERATIONS`` are not enough.
+        If the error is above ``TOLERANCE`` after ``MAX_ITERATIONS`` iterations.
     """
     solution = np.zeros_like(right)
     residual = right.copy()
     direction = preconditioner(residual)
-    # With a good preconditioner the product of residual and correction is the error's energy.
+    # With a good preconditioner the product of residual and correction is the energy of the error.
     error = float(np.vdot(residual, direction))
     limit = TOLERANCE**2 * max(scale, error)
     for iteration in range(MAX_ITERATIONS):

@@ -1,4 +1,4 @@
-"""What a field in a gap has in two and in three dimensions: where and how strong it is at the most."""
+"""Largest field strength in the gap of a contact, shared by line and point contacts."""
 
 from __future__ import annotations
 
@@ -8,25 +8,33 @@ from ehlectric.arrays import Array
 
 
 class GapField:
-    """A field between two walls, its arrays by column and, the last axis, by node across the gap."""
+    """Electric field in the gap between two walls, of a line or a point contact.
+
+    Attributes
+    ----------
+    strength : ndarray, shape (nx, ns) or (nx, ny, ns)
+        abs(E) at the nodes [V/m]; the last axis runs across the gap.
+    middle_strength : ndarray, shape (nx,) or (nx, ny)
+        abs(E) at mid-film [V/m].
+    """
 
     strength: Array
     middle_strength: Array
 
     @property
     def column_strength(self) -> Array:
-        """Largest abs(E) of every column, on either wall or mid-film [V/m]."""
+        """Largest abs(E) of each column, on either wall or at mid-film [V/m]."""
         strength: Array = np.max(self._sections, axis=0)
         return strength
 
     @property
     def max_strength(self) -> float:
-        """Largest abs(E) on either wall or mid-film [V/m]."""
+        """Largest abs(E) on either wall or at mid-film [V/m]."""
         return float(np.max(self._sections))
 
     @property
     def max_strength_wall(self) -> str:
-        """Where across the film the largest abs(E) is: "surface 1", "mid-film" or "surface 2"."""
+        """Location of the largest abs(E) across the film: "surface 1", "mid-film" or "surface 2"."""
         sections = self._sections.reshape(3, -1)
         return ("surface 1", "mid-film", "surface 2")[int(np.argmax(np.max(sections, axis=1)))]
 

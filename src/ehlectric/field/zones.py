@@ -1,4 +1,4 @@
-"""Parts of a line or a map, finer than its cells, and the zones of a contact."""
+"""Widths and areas of the zones of a contact, resolved more finely than the cells of its grid."""
 
 from __future__ import annotations
 
@@ -12,33 +12,36 @@ from scipy.ndimage import label
 
 from ehlectric.arrays import Array, Mask
 
-# Nodes along x, and of a point contact along y [m].
+# Nodes along x and, for a point contact, along y [m].
 Axes = tuple[Array, ...]
 
-# The zone of high field is where the field is at least this part of its maximum.
+# In the high-field zone the field strength is at least this fraction of its maximum.
 HIGH_FIELD = 0.95
 
-# Sample points of a zone by cell and direction: its area is right to about a hundredth of the cells it cuts.
+# Sample points per cell and axis. The error of a zone's area is about 1 % of the area of the cells that its
+# boundary cuts.
 SAMPLES = 8
 
-# Whether points (x, y) [m] are inside.
+# Zone of a point contact: a function of points x, y [m] that tells which of them are inside.
 Zone = Callable[[Array, Array], NDArray[Any]]
 
 
 def areas(axes: Axes, within: Axes | None = None) -> Array:
-    """Area of each node's part of the domain; of a line its width.
+    """Area that belongs to each node of a grid, or width for a grid along one axis.
+
+    They are the weights of the trapezoidal rule.
 
     Parameters
     ----------
     axes : tuple of ndarray
-        Nodes [m].
+        Nodes along each axis [m].
     within : tuple of ndarray, optional
-        Other nodes [m]: only what lies between their ends counts.
+        Positions along each axis [m]. Only the part of the domain between their first and last values counts.
 
     Returns
     -------
     ndarray, shape (nx,) or (nx, ny)
-        [m] or [m^2].
+        Widths [m] or areas [m^2].
 
     Examples
     --------
@@ -52,20 +55,20 @@ def areas(axes: Axes, within: Axes | None = None) -> Array:
 
 
 def contact_zones(semi_axis_x: float, semi_axis_y: float) -> dict[str, Zone]:
-    """Parts of a point contact that share it out.
+    """Zones of a point contact: the Hertz ellipse, the inlet, the outlet and the sides.
 
-    The Hertz ellipse; before it and behind it the strip as wide as the ellipse, its inlet and its outlet; and
-    the sides beyond that strip.
+    Inlet and outlet are the strip before and behind the ellipse, as wide as the ellipse. The sides lie beyond
+    this strip. Together the zones cover the plane without overlap.
 
     Parameters
     ----------
     semi_axis_x, semi_axis_y : float
-        b along and a across entrainment [m].
+        Semi-axes of the Hertz ellipse [m], b along and a across entrainment.
 
     Returns
     -------
     dict of callable
-        "hertz", "inlet", "outlet" and "sides": whether points x, y [m] are inside.
+        Zones "hertz", "inlet", "outlet" and "sides": functions of points x, y [m] that tell which are inside.
 
     Examples
     --------
@@ -87,7 +90,10 @@ def contact_zones(semi_axis_x: float, semi_axis_y: float) -> dict[str, Zone]:
 
 
 def line_zone_areas(axes: Axes, half_width: float) -> dict[str, Array]:
-    """Width of each node's part of a line contact's zones [m]: "hertz", abs(x) <= b, "inlet" and "outlet"."""
+    """Width that belongs to each node of a line contact, split by zone [m], each of shape (nx,).
+
+    The zones are "hertz", where abs(x) is at most ``half_width`` [m], "inlet" and "outlet".
+    """
     (x,) = axes
     return {
         "hertz": part_widths(x, -half_width, half_width),
@@ -97,26 +103,32 @@ def line_zone_areas(axes: Axes, half_width: float) -> dict[str, Array]:
 
 
 def point_zone_areas(axes: Axes, semi_axis_x: float, semi_axis_y: float) -> dict[str, Array]:
-    """Area of each node's part of the ``contact_zones`` [m^2]."""
+    """Area that belongs to each node of a point contact, split by zone [m^2], each of shape (nx, ny).
+
+    The zones are ``contact_zones`` of a Hertz ellipse with these semi-axes [m].
+    """
     x, y = axes
     zones = contact_zones(semi_axis_x, semi_axis_y)
     return {name: zone_areas(x, y, zone) for name, zone in zones.items()}
 
 
 def part_widths(x: Array, start: float, stop: float) -> Array:
-    """Width of each node's part of a line that is between two places.
+    """Width that belongs to each node of a line between two positions.
+
+    The sum of nodal values times these widths is the integral of their linear interpolant from ``start`` to
+    ``stop``.
 
     Parameters
     ----------
     x : ndarray, shape (nx,)
-        Nodes, increasing [m].
+        Positions of the nodes, increasing [m].
     start, stop : float
-        Places; beyond the nodes there is nothing [m].
+        Ends of the interval [m]. The parts of it beyond the nodes do not count.
 
     Returns
     -------
     ndarray, shape (nx,)
-        Times nodal values they give the integral of the linear interpolant from ``start`` to ``stop``.
+        Widths [m].
 
     Examples
     --------
@@ -132,19 +144,19 @@ def part_widths(x: Array, start: float, stop: float) -> Array:
 
 
 def interval_above(x: Array, values: Array, level: float) -> tuple[float, float]:
-    """Ends of the contiguous interval around the maximum where values are at least a level.
+    """Ends of the contiguous interval around the maximum where values are at least ``level``.
 
     Parameters
     ----------
     x, values : ndarray, shape (nx,)
-        Positions [m] and values, linear in between.
+        Positions of the nodes [m], and values there, in any unit. Between nodes the values are linear.
     level : float
-        Not above the maximum.
+        Level in the unit of ``values``, at most their maximum.
 
     Returns
     -------
     start, stop : float
-        Interpolated between nodes [m].
+        Ends of the interval, interpolated between nodes [m].
 
     Examples
     --------
@@ -165,7 +177,9 @@ def interval_above(x: Array, values: Array, level: float) -> tuple[float, float]
 
 
 def node_areas(x: Array, y: Array) -> Array:
-    """Area of each node's part of the map, shape (nx, ny): the weights of the trapezoidal rule.
+    """Area that belongs to each node of a map [m^2], shape (nx, ny): the weights of the trapezoidal rule.
+
+    ``x`` (nx,) and ``y`` (ny,) are the positions of the nodes [m].
 
     Examples
     --------
@@ -183,25 +197,32 @@ def node_areas(x: Array, y: Array) -> Array:
 
 
 def zone_areas(x: Array, y: Array, zone: Zone) -> Array:
-    """Area of each node's part of the map that is inside a zone.
+    """Area that belongs to each node of a map, of the part inside a zone.
+
+    The sum of nodal values times these areas approximates the integral over the zone.
 
     Parameters
     ----------
     x, y : ndarray, shapes (nx,), (ny,)
-        Nodes [m].
+        Positions of the nodes [m].
     zone : callable
-        Whether the points of two arrays x, y [m] of one shape are inside, as an array of that shape.
+        Function of two arrays x, y [m] of one shape. It returns an array of that shape, true at the points
+        inside the zone.
 
     Returns
     -------
     ndarray, shape (nx, ny)
-        Times nodal values they give the integral over the zone [m^2]: the cells are sampled, and each
-        sample counts for the corners by bilinear shares. Zones that share out the plane add up to
-        ``node_areas`` to rounding.
+        Areas [m^2].
+
+    Notes
+    -----
+    Each cell is sampled at 8 x 8 points, and the area of a sample inside the zone is shared among the four
+    corners by bilinear weights. For zones that cover the plane without overlap the areas add up to
+    ``node_areas``, except for rounding.
 
     Examples
     --------
-    A quarter of a unit disc.
+    A quarter of a unit disc has the area pi/4:
 
     >>> x = np.linspace(0.0, 1.0, 65)
     >>> round(float(np.sum(zone_areas(x, x, lambda x, y: x**2 + y**2 < 1.0))), 4)
@@ -211,7 +232,8 @@ def zone_areas(x: Array, y: Array, zone: Zone) -> Array:
     dx, dy = np.diff(x), np.diff(y)
     areas = np.zeros((x.size, y.size))
     columns = (y[:-1, np.newaxis] + dy[:, np.newaxis] * at).ravel()
-    for share in at:  # a fine line of each cell at a time: all samples would take 64 times a map's memory
+    # One line of samples of every cell at a time: all samples would take 64 times the memory of a map.
+    for share in at:
         inside = zone(*np.meshgrid(x[:-1] + share * dx, columns, indexing="ij"))
         sampled = np.asarray(inside, dtype=bool).reshape(dx.size, dy.size, SAMPLES)
         cell = np.outer(dx, dy) / SAMPLES**2
@@ -224,26 +246,30 @@ def zone_areas(x: Array, y: Array, zone: Zone) -> Array:
 
 
 def area_above(x: Array, y: Array, values: Array, level: float) -> float:
-    """Area where a map is at least a level.
+    """Area where the values of a map are at least ``level``.
 
     Parameters
     ----------
     x, y : ndarray, shapes (nx,), (ny,)
-        Nodes [m].
+        Positions of the nodes [m].
     values : ndarray, shape (nx, ny)
-        The map.
+        Values of the map at the nodes, in any unit.
     level : float
-        Not above its maximum.
+        Level in the unit of ``values``, at most their maximum.
 
     Returns
     -------
     float
-        Area [m^2]. The map is taken as linear over the four triangles between the corners of a cell and its
-        middle, so that the area converges with the square of the spacing.
+        Area [m^2].
+
+    Notes
+    -----
+    Each cell is divided into four triangles between its sides and its middle, and the map is linear in each
+    of them. The area converges with the square of the grid spacing.
 
     Examples
     --------
-    A cone above half its height.
+    Area of a cone above half its height:
 
     >>> x = np.linspace(-1.0, 1.0, 201)
     >>> cone = 1.0 - np.hypot(x[:, np.newaxis], x)
@@ -253,7 +279,7 @@ def area_above(x: Array, y: Array, values: Array, level: float) -> float:
     region: Mask = values >= level
     above = values - level
     corners = [slice(None, -1), slice(1, None)]
-    # Counted around the cell.
+    # Corners in their order around the cell.
     ring = [(corners[i], corners[j]) for i, j in ((0, 0), (1, 0), (1, 1), (0, 1))]
     touched = np.any([region[corner] for corner in ring], axis=0)
     cells = np.outer(np.diff(x), np.diff(y))[touched]
@@ -264,12 +290,16 @@ def area_above(x: Array, y: Array, values: Array, level: float) -> float:
 
 
 def lobe_above(x: Array, y: Array, values: Array, level: float) -> float:
-    """Area of the one connected part around the maximum of a map where it is at least a level.
+    """Area of the connected region around the maximum of a map where its values are at least ``level``.
 
     Parameters
     ----------
-    x, y, values, level
-        As of ``area_above``.
+    x, y : ndarray, shapes (nx,), (ny,)
+        Positions of the nodes [m].
+    values : ndarray, shape (nx, ny)
+        Values of the map at the nodes, in any unit.
+    level : float
+        Level in the unit of ``values``, at most their maximum.
 
     Returns
     -------
@@ -278,7 +308,7 @@ def lobe_above(x: Array, y: Array, values: Array, level: float) -> float:
 
     Examples
     --------
-    Of two cones with a unit base, the higher one above half of its height:
+    Two cones of unit base radius; only the higher one counts, above half of its height:
 
     >>> x = np.linspace(-1.0, 1.0, 201)
     >>> lower = 0.9 - np.hypot(x[:, np.newaxis], x)
@@ -293,7 +323,7 @@ def lobe_above(x: Array, y: Array, values: Array, level: float) -> float:
 
 
 def _positive_part(a: Array, b: Array, c: Array) -> Array:
-    """Part of a triangle's area where a linear function, a, b and c at its corners, is not negative."""
+    """Fraction of a triangle where a linear function is not negative; a, b and c are its corner values."""
     low, mid, high = np.sort([a, b, c], axis=0)
     part = np.where(low >= 0.0, 1.0, 0.0)
     one_below = (low < 0.0) & (mid >= 0.0)

@@ -1,1 +1,1 @@
-"""All figures; no other package draws."""
+"""Figures of all results; only this package draws."""

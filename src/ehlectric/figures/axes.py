@@ -17,33 +17,33 @@ from ehlectric.figures.style import figure_of
 
 COLOURS = colormaps["viridis"]
 
-# For lines and dots on white: without the lightest, which is hardly seen there.
+# For lines and dots on white: the lightest colours are left out, they can hardly be seen there.
 DARK_COLOURS = ListedColormap(COLOURS(np.linspace(0.0, 0.85, 256)))
 
-# Values that differ by more than this ratio have logarithmic colours or axes.
+# Colours and axes are logarithmic where the values differ by more than this ratio.
 WIDE = 20.0
 
-# How many values, of how many letters at most, are the ticks of their axis.
+# An axis has a tick at each value where there are at most so many, each of at most so many characters.
 _FEW_VALUES, _SHORT = 8, 4
 
-# Round numbers in a decade, few, some and many.
+# Round numbers of a decade: three, six and twelve of them.
 _FEW, _SOME = (1.0, 2.0, 5.0), (1.0, 1.5, 2.0, 3.0, 5.0, 7.0)
 _MANY = (1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0)
 
 
 def scale_axis(axis: Axis, text: str, *, values: Array, log: bool) -> None:
-    """Label an axis; where it is logarithmic, with ticks at round numbers.
+    """Label an axis; where ``log`` is set, make it logarithmic with ticks at round numbers.
 
     Parameters
     ----------
     axis : Axis
         The x or y axis.
     text : str
-        Its label.
+        Label of the axis.
     values : ndarray
-        What is drawn along it, in its unit.
+        Values drawn along the axis, in its unit. Values that are not finite are ignored.
     log : bool
-        Whether it is logarithmic.
+        Whether the axis is logarithmic.
     """
     axis.set_label_text(text)
     if not log:
@@ -59,14 +59,17 @@ def scale_axis(axis: Axis, text: str, *, values: Array, log: bool) -> None:
 
 
 def _ticks(values: Array) -> Array:
-    """The values themselves where they are few and short, else round numbers."""
+    """Ticks of a logarithmic axis: the values themselves where they are few and short, else round numbers."""
     if values.size <= _FEW_VALUES and all(len(f"{value:g}") <= _SHORT for value in values):
         return values
     return np.asarray(round_numbers(float(values[0]), float(values[-1])))
 
 
 def round_numbers(low: float, high: float) -> Array:
-    """Four or more round numbers from ``low`` to ``high``, evenly in their logarithm; decades of wide ranges.
+    """Round numbers from ``low`` to ``high``, at least four, about evenly spaced in their logarithm.
+
+    Over a wide range they are powers of ten. Over a range too narrow for four such numbers they are evenly
+    spaced, and the first and last may lie outside of it.
 
     Examples
     --------
@@ -75,32 +78,37 @@ def round_numbers(low: float, high: float) -> Array:
     """
     decades = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
     slack = 1e-9
-    found = np.empty(0)
     for steps in ((1.0,), _FEW, _SOME, _MANY):
         all_steps = np.array([float(f"{step}e{decade}") for decade in decades for step in steps])
-        found = all_steps[(all_steps >= low * (1.0 - slack)) & (all_steps <= high * (1.0 + slack))]
-        if found.size >= 4:
-            return found
+        inside = all_steps[(all_steps >= low * (1.0 - slack)) & (all_steps <= high * (1.0 + slack))]
+        if inside.size >= 4:
+            return inside
     return np.asarray(MaxNLocator(5).tick_values(low, high))
 
 
 def is_wide(values: Array) -> bool:
-    """Whether values, those that are finite, are positive and differ widely."""
+    """Whether the finite values are all positive and differ by more than the ratio ``WIDE``."""
     return by_logarithm(values, log_axis=False)
 
 
 def by_logarithm(values: Array, *, log_axis: bool) -> bool:
-    """Whether it is the logarithm of values that is linear between points.
+    """Whether values are interpolated linearly in their logarithm between points.
 
-    Film and breakdown voltage go nearly with powers of speed and load; straight lines over a logarithmic axis
-    would overstate them between the points.
+    Film thickness and breakdown voltage are nearly powers of speed and load. On a logarithmic axis of speed
+    or load, linear interpolation of the values themselves would overstate them between the points.
 
     Parameters
     ----------
     values : ndarray
-        Those that are not finite do not count.
+        Values at the points. Values that are not finite are ignored.
     log_axis : bool
-        Whether an axis that they lie over is logarithmic.
+        Whether an axis that the values are drawn over is logarithmic.
+
+    Returns
+    -------
+    bool
+        True where all finite values are positive, and an axis is logarithmic or they differ by more than the
+        ratio ``WIDE``.
 
     Examples
     --------
@@ -114,7 +122,14 @@ def by_logarithm(values: Array, *, log_axis: bool) -> bool:
 
 
 def levels_of(values: Array, *, log: bool) -> Array:
-    """Round levels from the least of values or below to the largest or above; not finite ones do not count.
+    """Round levels that enclose all finite values.
+
+    Parameters
+    ----------
+    values : ndarray
+        Values, of which at least one is finite; all positive where ``log``.
+    log : bool
+        Whether the levels are spaced evenly in their logarithm.
 
     Examples
     --------
@@ -130,23 +145,23 @@ def levels_of(values: Array, *, log: bool) -> Array:
     if log:
         steps = (1.0,) if high > 1e5 * low else _FEW if high > 300.0 * low else _SOME
         decades = range(math.floor(math.log10(low)) - 1, math.ceil(math.log10(high)) + 2)
-        found = np.array([float(f"{step}e{decade}") for decade in decades for step in steps])
+        levels = np.array([float(f"{step}e{decade}") for decade in decades for step in steps])
     else:
         room = 0.0 if high - low > 1e-6 * abs(high) else 0.01 * abs(high) or 1.0
-        found = np.asarray(MaxNLocator(14, steps=[1, 2, 2.5, 5, 10]).tick_values(low - room, high + room))
+        levels = np.asarray(MaxNLocator(14, steps=[1, 2, 2.5, 5, 10]).tick_values(low - room, high + room))
         low, high = low - room, high + room
-    first = int(np.searchsorted(found, low, side="right")) - 1
-    last = int(np.searchsorted(found, high, side="left"))
-    return found[max(first, 0) : max(last, first + 1) + 1]
+    first = int(np.searchsorted(levels, low, side="right")) - 1
+    last = int(np.searchsorted(levels, high, side="left"))
+    return levels[max(first, 0) : max(last, first + 1) + 1]
 
 
 def norm_of(levels: Array, *, log: bool) -> Normalize:
-    """Colours from the first level to the last."""
+    """Normalisation of colours from the first level to the last."""
     return LogNorm(levels[0], levels[-1]) if log else Normalize(levels[0], levels[-1])
 
 
 def colour_bar(ax: Axes, norm: Normalize, text: str, levels: Array, colours: Colormap = COLOURS) -> None:
-    """Colour bar with round levels, every second or third one named where they are many."""
+    """Add a colour bar with ticks at round levels, at every second or third one where there are many."""
     bar = figure_of(ax).colorbar(ScalarMappable(norm, colours), ax=ax, label=text, pad=0.02)
     ticks = levels if levels.size <= 9 else levels[:: 2 if levels.size <= 18 else 3]
     bar.set_ticks(list(ticks), labels=[f"{level:.6g}" for level in ticks])

@@ -1,4 +1,4 @@
-"""A section through the film between its walls, coloured by a value: of line and of point contacts."""
+"""Drawing of a section through the film of a line or point contact, coloured by the values of a field."""
 
 from __future__ import annotations
 
@@ -21,31 +21,33 @@ def draw_section(
     potentials: tuple[float, float],
     colours: str = "viridis",
 ) -> ContourSet:
-    """Fill the film of a section with colours, and draw the bodies beside it.
+    """Draw a section through the film, coloured by a value, with the bodies below and above it.
 
     Parameters
     ----------
     ax : Axes
-        Where to.
+        Axes to draw on.
     x : ndarray, shape (nx,)
         Position along the section, in the unit of its axis.
-    heights, values : ndarray, shape (nx, ns)
-        Height from the lower to the upper wall, in the unit of its axis, and what the colours are of.
+    heights : ndarray, shape (nx, ns)
+        Heights of the nodes, from the lower to the upper wall, in the unit of its axis.
+    values : ndarray, shape (nx, ns)
+        Values at the nodes that the colours show.
     limits : tuple of float
-        Values at the ends of the colours; beyond them the colours stay.
+        Values at the two ends of the colours. Values beyond them have the colour of the nearer end.
     potentials : tuple of float
-        Of surfaces 1 and 2 [V], for their names.
+        Potentials of surfaces 1 and 2 [V], written on the bodies.
     colours : str
         Name of the colour map.
 
     Returns
     -------
     ContourSet
-        For a colour bar.
+        The filled contours, from which a colour bar can be made.
     """
     along = np.broadcast_to(x[:, np.newaxis], heights.shape)
     levels = np.linspace(*limits, 401)
-    # Rounding may put a wall beyond its own potential, and so out of the levels.
+    # Without clipping, rounding may put the values at a wall outside the levels, and leave it without colour.
     clipped = np.clip(values, *limits)
     filled = ax.contourf(along, heights, clipped, levels, cmap=colours, antialiased=False)
     for wall in (0, -1):
@@ -73,7 +75,7 @@ def draw_section(
 
 
 def _limit_height(ax: Axes, heights: Array) -> None:
-    """Show the film, not the wide gap beside it: heights where the gap is up to six times the least."""
+    """Set the range of heights: the film is shown where the gap is at most six times its minimum."""
     gap = heights[:, -1] - heights[:, 0]
     near = gap <= 6.0 * np.min(gap)
     margin = 0.35 * float(np.max(gap[near]))

@@ -1,4 +1,4 @@
-"""What all figures share: style, colours, axes, units of axes and labels."""
+"""Style, colours, new axes, titles, legends and position axes of all figures."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ D = TypeVar("D")
 BLUE, ORANGE, GREEN, GREY = "#0072b2", "#d55e00", "#009e73", "#555555"
 BODY, OIL = "#c9ced6", "#fff1cc"
 
-# How the title of what is no solution is written.
+# Text properties of the title of a figure whose result is not converged.
 NOT_CONVERGED: dict[str, Any] = {"color": "red", "weight": "bold"}
 _STYLE: dict[str, Any] = {
     "font.size": 9.0,
@@ -45,54 +45,54 @@ _turn = threading.RLock()
 
 
 class OfContact(Protocol):
-    """What has a half-width for its positions: a result, or a run of roughness that moves."""
+    """Object with the conditions of a contact: a result, or a run with moving roughness."""
 
     @property
     def conditions(self) -> Conditions | PointConditions:
-        """Those of the contact."""
+        """Conditions of the contact, of which the half-width [m] is used."""
         ...
 
 
 @contextmanager
 def style() -> Iterator[None]:
-    """Context in which figures have the package's sizes of text and lines.
+    """Context manager in which figures have the package's text sizes and line widths.
 
     The settings of matplotlib belong to the whole process and are restored at the end. Threads that draw
     take turns, so that none restores the settings of another.
     """
     with _turn, mpl.rc_context(_STYLE), warnings.catch_warnings():  # type: ignore[arg-type]
-        # A title may use letters that the font does not have.
+        # The title of a case may contain characters that the font lacks.
         warnings.filterwarnings("ignore", message="Glyph .* missing")
         yield
 
 
 def new_panels(rows: int, columns: int, size: tuple[float, float]) -> list[Axes]:
-    """Axes of a new figure of a size in inches, row by row."""
+    """Axes of a new figure of size (width, height) [inches], row by row."""
     figure = Figure(figsize=size)
     FigureCanvasAgg(figure)
     return list(figure.subplots(rows, columns, squeeze=False).ravel())
 
 
 def axes_or_new(ax: Axes | None) -> Axes:
-    """The axes given, or those of a new figure."""
+    """``ax`` itself, or the axes of a new figure where ``ax`` is None."""
     return new_panels(1, 1, (6.3, 3.4))[0] if ax is None else ax
 
 
 def figure_of(ax: Axes) -> Figure:
-    """The whole figure that axes are part of."""
+    """The figure that the axes belong to, also where they are in a subfigure."""
     figure = ax.get_figure(root=True)
     assert figure is not None
     return figure
 
 
 def name_over(ax: Axes, text: str, *, converged: bool = True) -> None:
-    """Title over all panels of a figure, in red where what it shows is no solution."""
+    """Write a title over all panels of a figure, in bold red where the result is not converged."""
     how: dict[str, Any] = {} if converged else NOT_CONVERGED
     figure_of(ax).suptitle(text, x=0.01, ha="left", size=9.0, parse_math=False, **how)
 
 
 def save_figure(figure: Figure, path: Path) -> None:
-    """Write a figure as a PNG file, whole or not at all."""
+    """Write a figure as a PNG file; an interrupted write leaves no partial file."""
     with style(), whole(path) as beside:
         figure.savefig(beside)
 
@@ -117,7 +117,7 @@ def drawing_of(drawings: Mapping[str, D], name: str) -> D:
 
 
 def legend_above(ax: Axes, handles: Sequence[Artist] | None = None, columns: int = 2) -> None:
-    """Legend above the axes, where no data are, of these or of all that is labelled."""
+    """Place a legend above the axes, of the given artists, or of all that have a label."""
     ax.legend(
         handles=ax.get_legend_handles_labels()[0] if handles is None else list(handles),
         loc="lower left",
@@ -132,11 +132,11 @@ def legend_above(ax: Axes, handles: Sequence[Artist] | None = None, columns: int
 
 
 def in_half_widths(result: OfContact, x: Array) -> Array:
-    """Positions in half-widths."""
+    """Positions [m] divided by the half-width of the contact."""
     return x / result.conditions.half_width
 
 
 def label_position(result: OfContact, ax: Axes, axis: str = "x") -> None:
-    """Label of a horizontal axis of positions in half-widths, with the half-width."""
+    """Label the horizontal axis with x/b or y/b, and with the value of the half-width b."""
     factor, unit = unit_for(result.conditions.half_width, "m", least=1.0)
     ax.set_xlabel(f"${axis}/b$   ($b$ = {factor * result.conditions.half_width:.4g} {unit})")

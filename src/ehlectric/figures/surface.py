@@ -1,4 +1,4 @@
-"""Figures of a surface by itself, as read and after its last step: a profile or a map."""
+"""Figures of a rough surface without a contact: a profile or a map, as read and after its last step."""
 
 from __future__ import annotations
 
@@ -13,24 +13,25 @@ from ehlectric.figures.style import BLUE, axes_or_new, figure_of, new_panels, sa
 from ehlectric.surfaces.maps import Map
 from ehlectric.surfaces.profiles import Profile, rms, statistics
 
-# Part of the heights of a map that may lie beyond either end of its colours: dust would take them all.
+# Part of the heights of a map [%] that lies beyond either end of its colours. Without it, a grain of dust
+# would stretch the colours so far that the rest of the surface has only one.
 _BEYOND = 0.1
 
 
 def profile(drawn: Profile, ax: Axes | None = None) -> Axes:
-    """Heights of a profile about their mean, with its Rq.
+    """Draw the heights of a profile about their mean, with Rq, Ra, Rsk and Rku in the title.
 
     Parameters
     ----------
     drawn : Profile
-        What to draw.
+        Profile to draw.
     ax : Axes, optional
-        Where to; new axes otherwise.
+        Axes to draw on; those of a new figure if omitted.
 
     Returns
     -------
     Axes
-        With the unit of height that fits.
+        Axes with the profile. The units of height and of position are chosen to suit the values.
     """
     ax = axes_or_new(ax)
     heights = drawn.heights - np.mean(drawn.heights)
@@ -47,19 +48,20 @@ def profile(drawn: Profile, ax: Axes | None = None) -> Axes:
 
 
 def height_map(drawn: Map, ax: Axes | None = None) -> Axes:
-    """Heights of a map about their mean as colours, with its Sq; both axes to the same scale.
+    """Draw the heights of a map about their mean as colours, with Sq beside the colour bar.
 
     Parameters
     ----------
     drawn : Map
-        What to draw.
+        Map to draw.
     ax : Axes, optional
-        Where to; new axes otherwise.
+        Axes to draw on; those of a new figure if omitted.
 
     Returns
     -------
     Axes
-        With a colour bar of the heights, whose ends leave out a thousandth of the points each.
+        Axes with the map, x and y to the same scale, and a colour bar. The lowest and the highest 0.1 % of
+        the heights lie beyond the ends of the colours.
     """
     ax = axes_or_new(ax)
     heights = drawn.heights - np.mean(drawn.heights)
@@ -86,17 +88,17 @@ def height_map(drawn: Map, ax: Axes | None = None) -> Axes:
 
 
 def save_surface(steps: Sequence[tuple[str, Profile | Map]], path: Path) -> None:
-    """Draw a profile or map as read and after its last step as a PNG file."""
+    """Write a PNG file of a profile or map, as read and after its last step."""
     with style():
-        shown = [steps[0], steps[-1]] if len(steps) > 1 else [steps[0]]
+        first_and_last = [steps[0], steps[-1]] if len(steps) > 1 else [steps[0]]
         of_map = isinstance(steps[0][1], Map)
         # Maps stand side by side, profiles one above the other.
-        rows, columns = (1, len(shown)) if of_map else (len(shown), 1)
+        rows, columns = (1, len(first_and_last)) if of_map else (len(first_and_last), 1)
         panels = new_panels(rows, columns, (3.6 * columns, 3.4) if of_map else (6.3, 4.2))
         if of_map:
-            # Colour bars as high as their maps, whose axes shrink to keep their scale.
+            # Axes of equal scale shrink; this layout makes the colour bars as high as the shrunk axes.
             figure_of(panels[0]).set_layout_engine("compressed")
-        for ax, (name, step) in zip(panels, shown, strict=True):
+        for ax, (name, step) in zip(panels, first_and_last, strict=True):
             drawn = height_map(step, ax) if isinstance(step, Map) else profile(step, ax)
             drawn.set_title(name if step is steps[0][1] else "after the last step", loc="left")
         save_figure(figure_of(panels[0]), path)

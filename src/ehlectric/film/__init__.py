@@ -1,1 +1,1 @@
-"""Reynolds equation, deflection, cavitation and load: from a dimensionless problem to a film."""
+"""Lubricant film of one contact: Reynolds equation, elastic deflection, cavitation and balance of load."""

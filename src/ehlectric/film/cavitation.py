@@ -5,10 +5,10 @@ where more oil would leave a node than enters it, every node fulfils the complem
 
     P >= P_amb,   r >= 0,   (P - P_amb) r = 0.
 
-In the full film r = 0 and the pressure follows. Where the film cavitates P = P_amb, and the oil does not fill
-the gap. Newton's method solves r = 0 at the full-film nodes and P = P_amb at the others, and decides anew
-before each step: a primal-dual active set method (M. Hintermueller, K. Ito and K. Kunisch, SIAM J. Optim. 13
-(2002) 865, doi:10.1137/S1052623401383558).
+In the full film r = 0, from which the pressure follows. Where the film is cavitated, P = P_amb and the oil
+does not fill the gap. Newton's method solves r = 0 at the full-film nodes and P = P_amb at the cavitated
+nodes. Before each step it decides anew which nodes are cavitated. This is a primal-dual active set method (M.
+Hintermueller, K. Ito and K. Kunisch, SIAM J. Optim. 13 (2002) 865, doi:10.1137/S1052623401383558).
 """
 
 from __future__ import annotations
@@ -17,35 +17,35 @@ import numpy as np
 
 from ehlectric.arrays import Array, Mask
 
-# Multiple of the wedge term in 1/c. With a smaller one, nodes inside the Hertz zone, where eps vanishes,
-# would change to cavitated.
+# Multiple of the wedge term in 1/c. With a smaller multiple, nodes inside the Hertz zone, where eps vanishes,
+# would become cavitated.
 _WEDGE_PART = 20.0
 
 
 def full_film_nodes(
     excess: Array, residual: Array, *, poiseuille: Array, rate: float, thickness: Array, inner: Mask
 ) -> Mask:
-    """Nodes with a full film: (P - P_amb) - c r >= 0.
+    """Mask of the nodes with a full film, where (P - P_amb) - c r >= 0.
 
     Parameters
     ----------
     excess : ndarray, shape (nx, ny)
-        P - P_amb of the iterate.
+        Excess pressure P - P_amb of the iterate.
     residual : ndarray, shape (nx, ny)
-        r of the iterate.
+        Residual r of the Reynolds equation at the iterate.
     poiseuille : ndarray, shape (nx, ny)
         Diagonal of the Poiseuille term.
     rate : float
         Size of the coefficient of the wedge term, 1/dX, or 1/dT of a transient film.
     thickness : ndarray, shape (nx, ny)
-        H.
+        Film thickness H, dimensionless.
     inner : ndarray of bool, shape (nx, ny)
-        Nodes that are on no edge of the domain; the edges are at ambient pressure.
+        Nodes inside the domain; the nodes on its edges are at ambient pressure.
 
     Returns
     -------
     ndarray of bool, shape (nx, ny)
-        True where the film is full, False where it is cavitated.
+        True where the film is full, False where it is cavitated and on the edges.
 
     Notes
     -----
@@ -53,7 +53,8 @@ def full_film_nodes(
 
     Examples
     --------
-    Oil under pressure, oil that flows into a gap at ambient pressure, and more oil leaving than entering:
+    Three nodes: oil under pressure; ambient pressure with more oil entering than leaving; ambient pressure
+    with more oil leaving than entering:
 
     >>> excess, residual = np.array([0.5, 0.0, 0.0]), np.array([0.1, -1.0, 1.0])
     >>> ones, inner = np.ones(3), np.ones(3, dtype=bool)

@@ -1,13 +1,13 @@
-"""Discretisation of a transient film along the lines on which oil travels, X - T = const.
+"""Discretisation of the transient film equations along the lines X - T = const, on which oil travels.
 
 Dimensionless, with T = t u/b for the mean speed u of the surfaces, the two terms of the mass rho H are one
 derivative along these lines:
 
     d(rho H)/dT + d(rho H)/dX = D(rho H)/DT
 
-It is discretised by a backward difference over two steps (BDF2). The mass of the last two instants is carried
-along the lines to the nodes. A time step is thus a Reynolds equation whose wedge term is the mass at the node
-times a rate, and whose right side is the carried mass.
+This derivative is discretised by a backward difference over two steps (BDF2). The mass of the last two
+instants is carried along the lines to the nodes. A time step is therefore a Reynolds equation whose wedge
+term is the mass at the node times a rate, and whose right side follows from the carried mass.
 """
 
 from __future__ import annotations
@@ -21,36 +21,36 @@ from ehlectric.film.levels import SECOND_DIFFERENCE, Level
 from ehlectric.film.reynolds import ALONG, Stencil
 from ehlectric.film.state import GridSolution
 
-# Part of a grid spacing within which the foot of a line counts as a node.
+# Distance in grid spacings within which the foot of a line counts as a node.
 _SAME_NODE = 1e-9
 
 
 def step_levels(
     levels: list[Level], masses: tuple[Array, Array], steps: tuple[float, float], added_gap: Array
 ) -> list[Level]:
-    """Grids with the equation of one time step.
+    """Grids with the Reynolds equation of one time step.
 
     Parameters
     ----------
     levels : list of Level
         Grids of the stationary contact, from the finest to the coarsest.
     masses : tuple of ndarray, shape (nx, ny)
-        rho H on the finest grid at the last instant and at the one before.
+        Oil mass rho H on the finest grid at the last instant and at the instant before it.
     steps : tuple of float
-        T from the last instant to the new one, and from the one before to the last.
+        Time T from the last instant to the new instant, and from the instant before to the last instant.
     added_gap : ndarray, shape (nx, ny)
-        Gap that moving roughness adds on the finest grid at the new instant; a peak adds a negative one.
+        Gap that moving roughness adds on the finest grid at the new instant. A peak adds a negative gap.
 
     Returns
     -------
     list of Level
-        In the order of ``levels``.
+        Grids in the order of ``levels``.
 
     Notes
     -----
-    With r = step/last step the BDF2 weights of the new, the last and the earlier mass are (1 + 2r)/(1 + r),
-    -(1 + r) and r^2/(1 + r), over the step. Where the line of the earlier mass begins before the inlet, the
-    difference is over one step.
+    With r = step/last step, the BDF2 weights of the new, the last and the earlier mass are (1 + 2r)/(1 + r),
+    -(1 + r) and r^2/(1 + r), all divided by the step. Where the line of the earlier mass begins upstream of
+    the inlet, the difference is over one step only.
     """
     finest, mesh = levels[0], levels[0].mesh
     step, last = steps
@@ -69,34 +69,34 @@ def step_levels(
 
 
 def in_time(level: Level, rate: float) -> Level:
-    """Return a grid whose wedge term is ``rate`` times the mass at the node itself."""
+    """Grid for a transient film, whose wedge term is ``rate`` times the mass at the node itself."""
     wedge = _mass_term(level.mesh.shape, np.full(level.nodes, rate))
     return replace(level, wedge=wedge, rate=rate, distribution=SECOND_DIFFERENCE)
 
 
 def _mass_term(shape: tuple[int, int], rates: Array) -> Stencil:
-    """Operator that multiplies the mass of each line across by its rate (nx,); the two end rows are zero."""
+    """Operator that multiplies the mass at each position x by its rate (nx,); the two end rows are zero."""
     coefficients = np.zeros((ALONG, *shape))
     coefficients[2, 1:-1] = rates[1:-1, np.newaxis]
     return Stencil(coefficients)
 
 
 def carried(values: Array, distance: float) -> Array:
-    """Nodal values carried along x by a number of grid spacings.
+    """Nodal values after they have been carried downstream along x.
 
     Parameters
     ----------
     values : ndarray, shape (nx, ny)
         Values at the nodes.
     distance : float
-        Grid spacings by which they are carried, >= 0. Whole numbers are exact; between nodes the values are
+        Distance in grid spacings, >= 0. For whole numbers the result is exact; otherwise the values are
         interpolated by a cubic.
 
     Returns
     -------
     ndarray, shape (nx, ny)
-        Values at the nodes afterwards. Those that come from beyond the ends are extrapolated by a parabola,
-        as the gap there is about one.
+        Values at the nodes afterwards. Values from outside the domain are extrapolated by a parabola, which
+        is about the shape of the gap there.
 
     Examples
     --------
@@ -115,7 +115,7 @@ def carried(values: Array, distance: float) -> Array:
     if abs(part) <= _SAME_NODE:
         moved: Array = padded[start : start + n].copy()
         return moved
-    # Lagrange's weights of the nodes two behind, one behind, at, and one ahead.
+    # Lagrange weights of the two nodes behind the foot of the line and the two nodes ahead of it.
     weights = (
         (-2, (part + 1.0) * part * (part - 1.0) / 6.0),
         (-1, -(part + 1.0) * part * (part - 2.0) / 2.0),
@@ -126,17 +126,19 @@ def carried(values: Array, distance: float) -> Array:
 
 
 def mass_after(step: GridSolution) -> Array:
-    """Mass rho H after a time step; at cavitated nodes the oil that is left, which does not fill the gap.
+    """Oil mass rho H after a time step.
+
+    At cavitated nodes it is the mass of the oil that is left, which does not fill the gap.
 
     Parameters
     ----------
     step : GridSolution
-        Solution of the equation of ``step_levels``.
+        Solution on the grids of ``step_levels``.
 
     Returns
     -------
     ndarray, shape (nx, ny)
-        Dimensionless, at least zero.
+        Oil mass, dimensionless, not negative.
     """
     level, final = step.level, step.final
     mass = final.coefficients.density * step.state.thickness
@@ -149,7 +151,9 @@ def mass_after(step: GridSolution) -> Array:
 
 
 def stationary_mass(stationary: GridSolution) -> Array:
-    """Mass rho H of a stationary film; at cavitated nodes behind X = 0 the oil that flows in.
+    """Oil mass rho H of a stationary film.
+
+    At cavitated nodes behind X = 0 it is the mass of the oil that flows in.
 
     Parameters
     ----------
@@ -159,13 +163,13 @@ def stationary_mass(stationary: GridSolution) -> Array:
     Returns
     -------
     ndarray, shape (nx, ny)
-        Dimensionless, at least zero.
+        Oil mass, dimensionless, not negative.
     """
     level, final = stationary.level, stationary.final
     full = final.coefficients.density * stationary.state.thickness
     mass = full.copy()
     cavitated = ~final.full_film & level.mesh.inner & (level.mesh.x > 0.0)[:, np.newaxis]
-    # Oil that the pressure drives into a node, most of all into the first beyond the full film.
+    # Oil that the pressure gradient drives into a node, mainly into the first node behind the full film.
     driven = level.wedge(full) - final.reynolds
     for i in np.flatnonzero(cavitated.any(axis=1)):
         flowing = (4.0 * mass[i - 1] - mass[i - 2] + 2.0 * level.mesh.dx * driven[i]) / 3.0

@@ -18,7 +18,7 @@ from ehlectric.formulas.hertz_line import line_pressure
 
 
 def line_influence(nodes: int, dx: float) -> Array:
-    """Influence coefficients of a line contact: gap opened at a distance k dX by a unit pressure on one cell.
+    """Influence coefficients of a line contact: deflection at distances k dX under unit pressure on one cell.
 
     Parameters
     ----------
@@ -30,13 +30,13 @@ def line_influence(nodes: int, dx: float) -> Array:
     Returns
     -------
     ndarray, shape (nodes, 1)
-        -K_k/pi for k = 0 ... nodes - 1, dimensionless. The undetermined rigid displacement of a line
-        contact is part of H00.
+        -K_k/pi for k = 0 ... nodes - 1, dimensionless. The deflection of a line contact is determined up to a
+        rigid displacement, which is part of H00.
 
     Notes
     -----
-    Eqs. (1) and (5) of Morris et al. (2022), doi:10.3390/lubricants10050087: the integral of ln|X| over
-    the cell. H follows with the reduced modulus of 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
+    K_k of eqs. (1) and (5) of Morris et al. (2022), doi:10.3390/lubricants10050087, is the integral of ln|X|
+    over the cell. The reduced modulus is defined by 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
 
     Examples
     --------
@@ -51,12 +51,12 @@ def line_influence(nodes: int, dx: float) -> Array:
 
 
 def point_influence(nodes: tuple[int, int], dx: float, dy: float) -> Array:
-    """Influence coefficients of a point contact: displacement at (k dX, l dY) by a unit pressure on one cell.
+    """Influence coefficients of a point contact: integral of 1/r over one cell, at distances (k dX, l dY).
 
     Parameters
     ----------
     nodes : tuple of int
-        Number of distances along x and y, from 0 on.
+        Numbers of distances along x and y, counted from the distance 0.
     dx, dy : float
         Grid spacings, dimensionless.
 
@@ -68,12 +68,12 @@ def point_influence(nodes: tuple[int, int], dx: float, dy: float) -> Array:
     Notes
     -----
     A. E. H. Love, Phil. Trans. R. Soc. Lond. A 228 (1929) 377-420, doi:10.1098/rsta.1929.0009, at the
-    surface. H follows with the factor 2 p_h Rx/(pi E' b), 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2, which is
-    2/pi^2 for a circle.
+    surface. The deflection is the integral times 2 p_h Rx/(pi E' b), with
+    2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2. This factor is 2/pi^2 for a circular contact.
 
     Examples
     --------
-    Far away the cell acts as a point:
+    Far away the pressure on the cell acts like a point load:
 
     >>> float(round(point_influence((101, 1), 0.5, 0.5)[100, 0] * 50.0 / 0.25, 4))
     1.0
@@ -92,15 +92,15 @@ class Geometry:
     Attributes
     ----------
     influence : callable
-        Influence coefficients of the deflection: (number of distances along x and y), dX, dY -> (nx, ny).
+        Influence coefficients of the deflection: function of (nx, ny), dX and dY -> (nx, ny).
     dry_gap : callable
-        Gap of the undeformed bodies that just touch: X (nx,), Y (ny,) -> H (nx, ny).
+        Gap of the undeformed bodies that just touch: function of X (nx,) and Y (ny,) -> H (nx, ny).
     dry_pressure : callable
-        Hertz pressure: X (nx,), Y (ny,) -> P (nx, ny).
+        Hertz pressure: function of X (nx,) and Y (ny,) -> P (nx, ny).
     load : float
-        Integral of P over the contact.
+        Dimensionless load, the integral of P over the contact.
     radius_ratio : float
-        Reduced radius along entrainment over that across, zero for a line contact.
+        Reduced radius along entrainment over the reduced radius across it, Rx/Ry; zero for a line contact.
     """
 
     influence: Callable[[tuple[int, int], float, float], Array]
@@ -126,16 +126,16 @@ def point_geometry(*, radius_ratio: float, ellipse_ratio: float, compliance: flo
     Parameters
     ----------
     radius_ratio : float
-        Rx/Ry of the reduced radii along and across entrainment.
+        Ratio Rx/Ry of the reduced radii along and across entrainment.
     ellipse_ratio : float
-        Semi-axis of the dry contact across entrainment over that along it.
+        Semi-axis of the dry contact across entrainment over the semi-axis along it.
     compliance : float
-        2 p_h Rx/(pi E' b), zero for rigid bodies.
+        Factor of the deflection 2 p_h Rx/(pi E' b), dimensionless; zero for rigid bodies.
 
     Returns
     -------
     Geometry
-        With H = H00 + X^2/2 + (Rx/Ry) Y^2/2 + deflection, and the load 2 pi/3 times the ratio.
+        Geometry with H = H00 + X^2/2 + (Rx/Ry) Y^2/2 + deflection, and the load 2 pi ellipse_ratio/3.
 
     Examples
     --------
@@ -156,14 +156,14 @@ def point_geometry(*, radius_ratio: float, ellipse_ratio: float, compliance: flo
 
 @dataclass(frozen=True)
 class Deflection:
-    """Elastic deflection operator of one grid; call it with a pressure (nx, ny).
+    """Operator of the elastic deflection on one grid; it is called with a pressure (nx, ny).
 
     Attributes
     ----------
     influence : ndarray, shape (nx, lines)
         Influence coefficients for non-negative distances.
     spectrum : ndarray
-        Their discrete Fourier transform, real as they are even.
+        Discrete Fourier transform of the influence coefficients; it is real, as they are even.
     padded : tuple of int
         Zero-padded shape of the transform.
     symmetric : bool
@@ -188,23 +188,23 @@ class Deflection:
 
     @classmethod
     def on(cls, mesh: Mesh, geometry: Geometry) -> Deflection:
-        """Operator of a contact on a mesh."""
+        """Deflection operator of a contact on a mesh."""
         nx, ny = mesh.shape
-        # The mirror image of the last line is twice as far from it as the first.
+        # On a symmetric mesh the last line is 2 ny - 2 spacings away from its own mirror image.
         lines = 2 * ny - 1 if mesh.symmetric else ny
         influence = geometry.influence((nx, lines), mesh.dx, mesh.dy or 0.0)
         return cls.from_influence(influence, symmetric=mesh.symmetric)
 
     @classmethod
     def from_influence(cls, influence: Array, *, symmetric: bool = False) -> Deflection:
-        """Operator with influence coefficients for non-negative distances, shape (nx, ny).
+        """Deflection operator from influence coefficients for non-negative distances, shape (nx, ny).
 
-        On the half y >= 0 of a symmetric contact they include the distances to the mirror image, shape
-        (nx, 2 ny - 1).
+        For the half y >= 0 of a symmetric contact the coefficients have the shape (nx, 2 ny - 1). They then
+        include the distances to the mirror image.
         """
         nx, lines = influence.shape
         mx = fft.next_fast_len(2 * nx - 1, real=True)
-        # Periods of even sequences, of which one half is kept.
+        # A cosine transform needs only one half of the period of an even sequence.
         my = fft.next_fast_len(lines - 1) if symmetric else fft.next_fast_len(2 * lines - 1)
         my = 1 if lines == 1 else my
         wrapped = np.zeros((mx, my + 1 if symmetric else my))
@@ -212,12 +212,12 @@ class Deflection:
         wrapped[mx - nx + 1 :] = wrapped[nx - 1 : 0 : -1]
         if lines > 1 and not symmetric:
             wrapped[:, my - lines + 1 :] = wrapped[:, lines - 1 : 0 : -1]
-        # The coefficients are even along both axes, and their transform is real.
+        # The coefficients are even along both axes, so that their transform is real.
         spectrum = _transform(wrapped, wrapped.shape, symmetric=symmetric).real.copy()
         return cls(influence, spectrum, (mx, wrapped.shape[1]), symmetric)
 
     def matrix(self) -> Array:
-        """Return the operator as a dense matrix on the nodes in order, shape (nx ny, nx ny)."""
+        """Deflection operator as a dense matrix over the nodes, y fastest, shape (nx ny, nx ny)."""
         nx, lines = self.influence.shape
         ny = (lines + 1) // 2 if self.symmetric else lines
         x, y = np.divmod(np.arange(nx * ny), ny)
@@ -228,7 +228,7 @@ class Deflection:
         return matrix
 
     def __call__(self, pressure: Array) -> Array:
-        """Gap opened by ``pressure`` (nx, ny), dimensionless, shape (nx, ny)."""
+        """Deflection under ``pressure`` (nx, ny), by which the gap opens; dimensionless, shape (nx, ny)."""
         nx, ny = pressure.shape
         mx, my = self.padded
         product = _transform(pressure, self.padded, symmetric=self.symmetric)
@@ -242,7 +242,11 @@ class Deflection:
 
 
 def _transform(values: Array, padded: tuple[int, int], *, symmetric: bool) -> ComplexArray:
-    """Zero-padded Fourier transform, real along x; along y only for a point contact."""
+    """Zero-padded Fourier transform of nodal values.
+
+    The transform is a real one along x. Along y it is a cosine transform for a symmetric mesh, a complex one
+    for a whole point contact, and none for a line contact.
+    """
     mx, my = padded
     if symmetric:
         values = fft.dct(values, 1, my, axis=1)

@@ -1,4 +1,4 @@
-"""How far off a film may be: by its grid, and by where its domain ends."""
+"""Error estimates of a film: discretisation error, and pressure that is lost at the ends of the domain."""
 
 from __future__ import annotations
 
@@ -11,29 +11,29 @@ from ehlectric.film.mesh import Mesh, at_centre
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.state import GridSolution
 
-# Least observed order of the minimum film, of a scheme of second order.
+# Lowest order of convergence of the minimum film thickness observed with the scheme of second order.
 MINIMUM_ORDER = 1.25
 
 
 def richardson(fine: tuple[Mesh, Array], coarse: tuple[Mesh, Array], *, order: int) -> float:
-    """Richardson's estimate of the discretisation error of a film.
+    """Richardson estimate of the discretisation error of a film.
 
     Parameters
     ----------
     fine, coarse : pair of Mesh and ndarray
-        Nodes and film thickness (nx, ny) on two grids over one domain, in any unit.
+        Grid and film thickness (nx, ny) in any unit, for two grids over the same domain.
     order : int
-        Of the discretisation.
+        Order of the discretisation.
 
     Returns
     -------
     float
-        The larger relative error of the minimum and the central thickness.
+        Relative error of the minimum or of the central film thickness, whichever is larger.
 
     Notes
     -----
-    The minimum lies at the constriction, where the pressure gradient jumps: with a scheme of second order it
-    converges with observed orders from 1.25 up, and is taken to do so with the least of them.
+    The minimum lies at the constriction, where the pressure gradient jumps. With a scheme of second order it
+    converges with an observed order of 1.25 or more. The estimate uses 1.25 for the minimum.
 
     Examples
     --------
@@ -50,7 +50,10 @@ def richardson(fine: tuple[Mesh, Array], coarse: tuple[Mesh, Array], *, order: i
 def discretisation_error(
     problem: FilmProblem, fine: GridSolution, coarse: GridSolution | None
 ) -> float | None:
-    """Estimated relative error of a film by its grid; None where either film is not converged."""
+    """Relative discretisation error of a film, estimated from its solutions on two grids.
+
+    None if there is no coarser grid, or if either solution did not converge.
+    """
     if coarse is None or fine.status != "converged" or coarse.status != "converged":
         return None
     of_fine, of_coarse = ((g.level.mesh, g.state.thickness) for g in (fine, coarse))
@@ -58,13 +61,31 @@ def discretisation_error(
 
 
 def inlet_deficit(fluid: Fluid, geometry: Geometry, mesh: Mesh, pressure: Array, mass: Array) -> float:
-    """Share of the reduced pressure that would be built up before the domain begins.
+    """Share of the reduced pressure that is missing because it would build up upstream of the domain.
 
-    On the line Y = 0, of pressure P and mass rho H (nx, ny), dimensionless. The Reynolds equation integrated
-    once, dP/dX = eta lambda (rho H - q)/(rho H^3) with the flow q, builds up the reduced pressure, the
-    integral of dP/eta. Before the inlet P is about ambient and H about a parabola. Where oil also flows off
-    to the sides, between H = X^2/2 + (Rx/Ry) Y^2/2, the pressure is that of a line contact over
-    1 + (2/3) Rx/Ry (P. Kapitza, Zh. Tekh. Fiz. 25 (1955) 747).
+    Parameters
+    ----------
+    fluid : Fluid
+        Lubricant over dimensionless pressure.
+    geometry : Geometry
+        Kind of contact.
+    mesh : Mesh
+        Grid.
+    pressure, mass : ndarray, shape (nx, ny)
+        Pressure P and oil mass rho H, dimensionless.
+
+    Returns
+    -------
+    float
+        Share of the reduced pressure, from 0 to 1, on the line Y = 0; 0 for an invalid iterate.
+
+    Notes
+    -----
+    The reduced pressure is the integral of dP/eta. It follows from the Reynolds equation integrated once,
+    dP/dX = eta lambda (rho H - q)/(rho H^3) with the flow q. Upstream of the domain P is taken as ambient and
+    H as a parabola. In a point contact, with H = X^2/2 + (Rx/Ry) Y^2/2, oil also flows off to the sides. The
+    pressure is then that of a line contact, divided by 1 + (2/3) Rx/Ry (P. Kapitza, Zh. Tekh. Fiz. 25 (1955)
+    747).
     """
     if not (np.all(np.isfinite(pressure)) and np.all(mass > 0.0)):
         return 0.0
@@ -74,7 +95,7 @@ def inlet_deficit(fluid: Fluid, geometry: Geometry, mesh: Mesh, pressure: Array,
     fluidity = np.exp(-fluid.log_viscosity(np.maximum(pressure, fluid.ambient_pressure))[0])
     increments = 0.5 * (fluidity[1:] + fluidity[:-1]) * np.diff(pressure)
     inside = float(np.max(np.cumsum(increments)))
-    # With X = inlet/t, 0 < t < 1, the integrand is smooth, about t^2.
+    # With X = inlet/t and 0 < t < 1 the integrand is smooth: it is about t^2.
     points, weights = np.polynomial.legendre.leggauss(40)
     t = 0.5 * (points + 1.0)
     gap = float(mass[0]) + 0.5 * float(x[0]) ** 2 * (1.0 / t**2 - 1.0)
@@ -85,12 +106,28 @@ def inlet_deficit(fluid: Fluid, geometry: Geometry, mesh: Mesh, pressure: Array,
 
 
 def side_deficit(problem: FilmProblem, mesh: Mesh, pressure: Array, thickness: Array) -> float:
-    """Share of the reduced pressure there would be where the domain ends at its sides.
+    """Share of the reduced pressure that is missing because the domain's sides are at ambient pressure.
 
-    Of pressure and film thickness (nx, ny), dimensionless. Between H = X^2/2 + (Rx/Ry) Y^2/2 + const the
-    pressure is -lambda X/((3 + 2 Rx/Ry) H^2) (P. Kapitza, Zh. Tekh. Fiz. 25 (1955) 747), which solves the
-    Reynolds equation of a constant viscosity exactly; it is compared with the largest reduced pressure of the
-    line Y = 0, the integral of dP/eta.
+    Parameters
+    ----------
+    problem : FilmProblem
+        Dimensionless problem of the contact.
+    mesh : Mesh
+        Grid.
+    pressure, thickness : ndarray, shape (nx, ny)
+        Pressure P and film thickness H, dimensionless.
+
+    Returns
+    -------
+    float
+        Share of the reduced pressure, from 0 to 1; 0 for an invalid iterate.
+
+    Notes
+    -----
+    For H = X^2/2 + (Rx/Ry) Y^2/2 + const the reduced pressure is -lambda X/((3 + 2 Rx/Ry) H^2), an exact
+    solution of the Reynolds equation for constant viscosity (P. Kapitza, Zh. Tekh. Fiz. 25 (1955) 747). Its
+    largest value on the sides is compared with the largest reduced pressure, the integral of dP/eta, on the
+    line Y = 0.
     """
     fluid = problem.fluid
     if not np.all(np.isfinite(pressure)):

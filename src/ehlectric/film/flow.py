@@ -5,9 +5,9 @@ term. For a Newtonian fluid, dimensionless,
 
     F = eps dP/dX,   eps = rho H^3/(eta lambda)
 
-along entrainment, and the same with dP/dY across it. F is the mass flux towards smaller X or Y: oil flows
-from high to low pressure. A face lies half-way between two nodes. Quantities that are known at nodes enter as
-the mean of the two, and this module is the only place that takes this mean.
+along entrainment; across entrainment dP/dY replaces dP/dX. F is the mass flux towards smaller X or Y, as oil
+flows from high to low pressure. A face lies half-way between two nodes. Quantities that are known at nodes
+enter as the mean of the two nodes, and this mean is taken in this module only.
 
 Another relation between flux and pressure gradient, for example that of a shear-thinning fluid, is one more
 function in ``FLOWS``.
@@ -24,7 +24,7 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.film.mesh import Mesh
 
-# A law of the fluid: dimensionless pressure -> (value, derivative).
+# Law of the lubricant: dimensionless pressure -> (value, derivative by pressure).
 FluidLaw: TypeAlias = Callable[[Array], tuple[Array, Array]]
 
 
@@ -35,16 +35,16 @@ class Fluid:
     Attributes
     ----------
     density : callable
-        P -> (rho/rho_0, its derivative by P).
+        Density law: P -> (rho/rho_0, its derivative by P).
     log_viscosity : callable
-        P -> (ln(eta/eta_0), its derivative by P).
+        Viscosity law: P -> (ln(eta/eta_0), its derivative by P).
     velocity_parameter : float
-        lambda = 6 eta_0 u_s R^2/(b^3 p_h) with u_s = u_1 + u_2.
+        Velocity parameter lambda = 6 eta_0 u_s R^2/(b^3 p_h) with u_s = u_1 + u_2.
     ambient_pressure : float
-        Ambient pressure over p_h. Below it density and viscosity keep their values at ambient pressure: an
-        iterate may pass through pressures that a liquid cannot have, a solution cannot.
+        Ambient pressure over p_h. Below it density and viscosity keep their values at ambient pressure, as
+        the pressure of an iterate may be lower than a liquid can have.
     flow : str
-        Key of ``FLOWS``: how the flux through a face follows from pressure and film thickness.
+        Name of the relation between flux, pressure and film thickness, a key of ``FLOWS``.
     """
 
     density: FluidLaw
@@ -56,7 +56,15 @@ class Fluid:
 
 @dataclass(frozen=True)
 class Coefficients:
-    """Density rho, mobility eps and their derivatives by P and H at the nodes, each (nx, ny)."""
+    """Density ratio and mobility at the nodes with their derivatives, each of shape (nx, ny).
+
+    Attributes
+    ----------
+    density, density_p : ndarray
+        rho/rho_0 and its derivative by P.
+    eps, eps_p, eps_h : ndarray
+        Mobility eps = rho H^3/(eta lambda) and its derivatives by P and by H.
+    """
 
     density: Array
     density_p: Array
@@ -67,12 +75,12 @@ class Coefficients:
 
 @dataclass(frozen=True)
 class Dependence:
-    """Derivatives of a flux by a quantity q(P, H) whose mean over the two nodes of a face it depends on.
+    """Derivatives of a flux that depends on a quantity q(P, H) through its mean over the nodes of a face.
 
     Attributes
     ----------
     by_value : ndarray, shape (n - 1, m)
-        Derivative of the flux by q at either node of a face.
+        Derivative of the flux by q at one of the two nodes of a face; it is equal for both.
     by_pressure, by_thickness : ndarray, shape (n, m)
         Derivatives of q by P and by H at the nodes.
     """
@@ -82,9 +90,11 @@ class Dependence:
     by_thickness: Array
 
     def outflow(self, of_node: Array) -> tuple[Array, Array, Array]:
-        """Derivatives of -dF/dX at the inner nodes by an unknown of the node before, at and after.
+        """Derivatives of -dF/dX at the inner nodes by an unknown of the neighbours and of the node itself.
 
-        ``of_node`` (n, m) is the derivative of q at a node by its unknown; the results are (n - 2, m) each.
+        ``of_node`` (n, m) is the derivative of q at a node by the unknown of this node. The results, each of
+        shape (n - 2, m), are the derivatives by the unknown of the node before, of the node itself and of the
+        node after.
         """
         before, after = self.by_value[:-1], self.by_value[1:]
         return of_node[:-2] * before, -of_node[1:-1] * (after - before), -of_node[2:] * after
@@ -94,17 +104,17 @@ class Dependence:
 class FaceFlow:
     """Pressure-driven flow through the n - 1 faces between n nodes along one axis.
 
-    The first axis of the arrays is that of the flow. All fluxes are divided by the grid spacing, so that the
-    difference of two neighbouring faces approximates the derivative of F.
+    The first axis of the arrays is the direction of the flow. All fluxes are divided by the grid spacing, so
+    that the difference of the fluxes of two neighbouring faces approximates the derivative of F.
 
     Attributes
     ----------
     flux : ndarray, shape (n - 1, m)
-        F over the spacing, positive where the pressure rises with X or Y.
+        F over the grid spacing, positive where the pressure rises with X or Y.
     conductance : ndarray, shape (n - 1, m)
         Derivative of the flux by the pressure difference of the two nodes, at fixed nodal quantities.
     dependences : tuple of Dependence
-        Nodal quantities that the flux depends on, besides the pressure difference.
+        Derivatives by the nodal quantities that the flux depends on, besides the pressure difference.
     """
 
     flux: Array
@@ -112,7 +122,7 @@ class FaceFlow:
     dependences: tuple[Dependence, ...]
 
     def divergence(self) -> Array:
-        """Difference of the fluxes on both sides of the inner nodes, dF/dX, shape (n - 2, m)."""
+        """Divergence dF/dX at the inner nodes: difference of the fluxes on both sides, shape (n - 2, m)."""
         return np.diff(self.flux, axis=0)
 
     def weight(self) -> Array:
@@ -121,7 +131,10 @@ class FaceFlow:
         return weight
 
     def by_pressure(self) -> tuple[Array, Array, Array]:
-        """Derivatives of -dF/dX at the inner nodes by P of the node before, at and after, each (n - 2, m)."""
+        """Derivatives of -dF/dX at the inner nodes by P, each of shape (n - 2, m).
+
+        They are the derivatives by P of the node before, of the node itself and of the node after.
+        """
         faces = self.conductance
         before, at, after = -faces[:-1], faces[:-1] + faces[1:], -faces[1:]
         for quantity in self.dependences:
@@ -130,7 +143,10 @@ class FaceFlow:
         return before, at, after
 
     def by_thickness(self) -> tuple[Array, Array, Array]:
-        """Derivatives of -dF/dX at the inner nodes by H of the node before, at and after, each (n - 2, m)."""
+        """Derivatives of -dF/dX at the inner nodes by H, each of shape (n - 2, m).
+
+        They are the derivatives by H of the node before, of the node itself and of the node after.
+        """
         first, *others = (quantity.outflow(quantity.by_thickness) for quantity in self.dependences)
         before, at, after = first
         for parts in others:
@@ -147,10 +163,10 @@ class Flow:
     coefficients : Coefficients
         Density and mobility at the nodes.
     along : FaceFlow
-        Pressure-driven flow along entrainment; arrays (nx - 1, ny).
+        Pressure-driven flow along entrainment, with arrays (nx - 1, ny).
     across : FaceFlow or None
-        Pressure-driven flow across entrainment, arrays (lines - 1, nx); None for a line contact. The lines
-        include the mirror image beyond a line of symmetry.
+        Pressure-driven flow across entrainment, with arrays (lines - 1, nx); None for a line contact. For a
+        symmetric mesh the lines include the mirror image beyond the line of symmetry.
     """
 
     coefficients: Coefficients
@@ -162,14 +178,14 @@ FlowLaw: TypeAlias = Callable[[Fluid, Array, Array, Mesh], Flow]
 
 
 def flow(fluid: Fluid, pressure: Array, thickness: Array, mesh: Mesh) -> Flow:
-    """Flow of the lubricant through all faces of a grid, by the fluid's own law.
+    """Flow of the lubricant through all faces of a grid, after the law that the fluid names.
 
     Parameters
     ----------
     fluid : Fluid
-        Lubricant; ``fluid.flow`` names the law.
+        Lubricant; ``fluid.flow`` is the name of the law.
     pressure, thickness : ndarray, shape (nx, ny)
-        P and H, dimensionless, H > 0.
+        Pressure P and film thickness H, dimensionless, H > 0.
     mesh : Mesh
         Grid.
 
@@ -181,7 +197,7 @@ def flow(fluid: Fluid, pressure: Array, thickness: Array, mesh: Mesh) -> Flow:
     Raises
     ------
     KeyError
-        Where ``FLOWS`` has no law of that name.
+        If ``FLOWS`` has no law of this name.
 
     Examples
     --------
@@ -205,12 +221,12 @@ def evaluate(fluid: Fluid, pressure: Array, thickness: Array) -> Coefficients:
     fluid : Fluid
         Lubricant.
     pressure, thickness : ndarray, shape (nx, ny)
-        P and H, dimensionless, H > 0.
+        Pressure P and film thickness H, dimensionless, H > 0.
 
     Returns
     -------
     Coefficients
-        Each of shape (nx, ny), dimensionless.
+        Density ratio, mobility and derivatives, dimensionless, each of shape (nx, ny).
     """
     clipped = np.maximum(pressure, fluid.ambient_pressure)
     density, density_p = fluid.density(clipped)
@@ -233,14 +249,14 @@ def newtonian(fluid: Fluid, pressure: Array, thickness: Array, mesh: Mesh) -> Fl
     fluid : Fluid
         Lubricant.
     pressure, thickness : ndarray, shape (nx, ny)
-        P and H, dimensionless, H > 0.
+        Pressure P and film thickness H, dimensionless, H > 0.
     mesh : Mesh
         Grid.
 
     Returns
     -------
     Flow
-        Second-order accurate at the faces.
+        Fluxes, conductances and derivatives; the fluxes are accurate to second order.
     """
     k = evaluate(fluid, pressure, thickness)
     nodes = (k.eps, k.eps_p, k.eps_h, pressure)
@@ -254,11 +270,11 @@ def newtonian(fluid: Fluid, pressure: Array, thickness: Array, mesh: Mesh) -> Fl
 def _poiseuille(
     eps: Array, eps_p: Array, eps_h: Array, pressure: Array, *, spacing: float, across: bool = False
 ) -> FaceFlow:
-    """Flow along the first axis of a mobility eps under a pressure, all given at the nodes (n, m)."""
+    """Poiseuille flow along the first axis, from mobility, its derivatives and pressure at nodes (n, m)."""
     mean = 0.5 * (eps[1:] + eps[:-1])
     difference, square = np.diff(pressure, axis=0), spacing**2
     return FaceFlow(
-        # Each axis has its own order of operations, so that results are reproducible to the last digit.
+        # The order of operations differs between the axes, to keep results reproducible to the last digit.
         flux=mean * (difference / square) if across else mean * difference / square,
         conductance=mean / square,
         dependences=(Dependence(0.5 * difference / square, eps_p, eps_h),),
@@ -266,9 +282,9 @@ def _poiseuille(
 
 
 def _with_mirror(values: Array, mesh: Mesh) -> Array:
-    """Nodal values (nx, ny), with the line beyond a line of symmetry added before the first."""
+    """Nodal values (nx, ny); for a symmetric mesh with one line of the mirror image before the first line."""
     return np.concatenate([values[:, 1:2], values], axis=1) if mesh.symmetric else values
 
 
-# Laws of the flow through a face, by the name that a fluid gives.
+# Laws of the flow through a face, by name.
 FLOWS: Mapping[str, FlowLaw] = {"newtonian": newtonian}

@@ -4,9 +4,9 @@ Dimensionless, with X = x/b, P = p/p_h and H = h R/b^2:
 
     H = H00 + dry gap + deflection(P),   load = integral of P over the contact
 
-The dry gap holds the curvature and the roughness of the surfaces, H00 their rigid displacement. This module
-is the only place that composes H and the load. A pressure that depends on the gap, such as the contact
-pressure of asperities, would enter here.
+The dry gap contains the curvature and the roughness of the surfaces; H00 is their rigid displacement. H and
+the load are composed in this module only. A pressure that depends on the gap, such as the contact pressure of
+asperities, would be added here.
 """
 
 from __future__ import annotations
@@ -22,14 +22,14 @@ from ehlectric.film.levels import Level
 
 @dataclass(frozen=True)
 class Gap:
-    """Gap on one grid at one state of the film, with its derivatives by P and H00 there.
+    """Gap on one grid at one state of the film, with its derivatives by P and H00.
 
     Attributes
     ----------
     level : Level
         Grid with its dry gap and its deflection operator.
     thickness : ndarray, shape (nx, ny)
-        H, dimensionless.
+        Film thickness H, dimensionless.
     """
 
     level: Level
@@ -42,7 +42,7 @@ class Gap:
         return cls(level, h00 + opened)
 
     def load(self, pressure: Array) -> float:
-        """Load that a pressure (nx, ny) carries, its integral over the contact."""
+        """Dimensionless load that a pressure P (nx, ny) carries, its integral over the contact."""
         return float(np.vdot(self.level.weights, pressure))
 
     def change(self, dp: Array, dh00: float) -> tuple[Array, float]:
@@ -50,17 +50,20 @@ class Gap:
         return self.level.deflection(dp) + dh00, self.load(dp)
 
     def along(self, distance: int) -> float:
-        """Derivative of H by P of a node so many nodes away along x."""
+        """Derivative of H at a node by P of the node that is ``distance`` nodes away along x."""
         return float(self.level.deflection.influence[abs(distance), 0])
 
     def block(self, rows: slice, columns: slice) -> Array:
-        """Derivative of H at the nodes ``rows`` of a line contact by P at the nodes ``columns`` of these."""
+        """Derivative of H at the nodes ``rows`` of a line contact by P at some of these nodes.
+
+        ``columns`` selects the nodes of P within ``rows``.
+        """
         kernel = toeplitz(self.level.deflection.influence[: rows.stop - rows.start, 0])
         block: Array = kernel[:, columns]
         return block
 
     def matrix(self) -> Array:
-        """Derivative of H by P of all nodes, dense, (nx ny, nx ny); for the coarsest grid."""
+        """Derivative of H by P of all nodes, dense, shape (nx ny, nx ny); for the coarsest grid."""
         return self.level.deflection_matrix
 
     def load_weights(self) -> Array:
@@ -70,8 +73,8 @@ class Gap:
     def elastic_weight(self, density: Array) -> Array:
         """Elastic part of the diagonal of the Reynolds equation, shape (nx, ny).
 
-        It is the change of the wedge term at a node whose pressure rises while that of the neighbour falls as
-        much; ``density`` (nx, ny) is rho/rho_0.
+        It is the change of the wedge term at a node if the pressure P of the node rises by one and P of its
+        neighbour falls by one. ``density`` (nx, ny) is rho/rho_0.
         """
         weight: Array = density * ((self.along(0) - self.along(1)) * self.level.rate)
         return weight

@@ -1,4 +1,4 @@
-"""Hierarchy of grids for the film, each with its operators and its transfers to the next finer grid."""
+"""Hierarchy of grids for the film equations, with their operators and the transfers between them."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from ehlectric.film.deflection import Deflection, Geometry
 from ehlectric.film.mesh import Mesh, Width
 from ehlectric.film.reynolds import Stencil, wedge_stencil
 
-# The hierarchy ends at the first grid of at most this many nodes, for line and for point contacts: the dense
-# solve there costs less than one more grid.
+# The hierarchy ends at the first grid with at most this many nodes, in a line and in a point contact. The
+# dense solve on this grid costs less than one more grid.
 COARSEST = 101
 COARSEST_POINT = 600
 
@@ -30,12 +30,12 @@ def interpolation(coarse: int, fine: int) -> sparse.csr_array:
     Parameters
     ----------
     coarse, fine : int
-        Nodes of the grid to interpolate from, and of the grid to interpolate to.
+        Number of nodes of the grid to interpolate from, and of the grid to interpolate to.
 
     Returns
     -------
     sparse array, shape (fine, coarse)
-        Its rows sum to one.
+        Matrix of the interpolation; its rows sum to one.
     """
     numerator = np.arange(fine) * (coarse - 1)
     left = np.minimum(numerator // (fine - 1), coarse - 2)
@@ -50,26 +50,37 @@ def interpolation(coarse: int, fine: int) -> sparse.csr_array:
 
 @dataclass(frozen=True)
 class Transfer:
-    """Linear interpolation between two grids, along and across entrainment."""
+    """Linear transfer of nodal values from one grid to another.
+
+    Attributes
+    ----------
+    along : sparse array
+        Matrix of the transfer along x.
+    across : sparse array or None
+        Matrix of the transfer along y; None for a line contact.
+    """
 
     along: sparse.csr_array
     across: sparse.csr_array | None
 
     @classmethod
     def between(cls, coarse: Mesh, fine: Mesh) -> Transfer:
-        """Interpolation from a coarse mesh to a fine one over one domain, or back."""
+        """Linear interpolation from the mesh ``coarse`` to the mesh ``fine``; either may be the finer one."""
         across = None if coarse.y.size == 1 else interpolation(coarse.y.size, fine.y.size)
         return cls(interpolation(coarse.x.size, fine.x.size), across)
 
     def averaging(self, coarse: Mesh, fine: Mesh) -> Transfer:
-        """Full weighting from the fine mesh to the coarse one: the adjoint in the integral inner products."""
+        """Full weighting from the fine to the coarse mesh: the adjoint of this interpolation.
+
+        The inner products of the adjoint are the integrals over the two meshes.
+        """
         across = None
         if self.across is not None:
             across = _adjoint(self.across, coarse.weights_across, fine.weights_across)
         return Transfer(_adjoint(self.along, coarse.weights_along, fine.weights_along), across)
 
     def __call__(self, values: Array) -> Array:
-        """Interpolate values (nx, ny) to the other mesh."""
+        """Transfer values (nx, ny) to the other mesh."""
         moved: Array = self.along @ values
         return moved if self.across is None else (self.across @ moved.T).T
 
@@ -78,11 +89,11 @@ def _adjoint(matrix: sparse.csr_array, coarse: Array, fine: Array) -> sparse.csr
     return sparse.csr_array(matrix.T.multiply(fine).multiply(1.0 / coarse[:, np.newaxis]))
 
 
-# How an unknown of the line relaxation is distributed over the pressures of its line: (offset, part) of its
-# own node and of others. The wedge term of a stationary film contains the first difference of the deflection,
-# whose kernel decays as 1/(i - j - 1/2). With dipoles as unknowns it decays as 1/(i - j)^2 and is diagonally
-# dominant. The wedge term of a transient film contains the deflection itself, whose kernel is a logarithm;
-# second differences have the same effect on it.
+# Distribution of one unknown of the line relaxation over the pressures of its line: (offset of a node, part).
+# The wedge term of a stationary film contains the first difference of the deflection, whose kernel decays as
+# 1/(i - j - 1/2). With dipoles as unknowns the kernel decays as 1/(i - j)^2 and is diagonally dominant. The
+# wedge term of a transient film contains the deflection itself, whose kernel is a logarithm. With second
+# differences as unknowns it decays in the same way.
 Distribution: TypeAlias = tuple[tuple[int, float], ...]
 DIPOLE: Distribution = ((0, 1.0), (-1, -1.0))
 SECOND_DIFFERENCE: Distribution = ((0, 1.0), (-1, -0.5), (1, -0.5))
@@ -95,18 +106,18 @@ class Level:
     Attributes
     ----------
     mesh : Mesh
-        Nodes.
+        Nodes of the grid.
     weights : ndarray, shape (nx, ny)
         Trapezoidal weights of the integral over the contact.
     deflection : Deflection
         Elastic deflection of a pressure.
     dry_gap : ndarray, shape (nx, ny)
-        Gap of the undeformed surfaces, roughness included.
+        Gap of the undeformed surfaces, with their roughness.
     load : float
-        Load of the contact, the integral of P.
+        Dimensionless load of the contact, the integral of P.
     wedge : Stencil
-        Operator of the wedge term on the mass rho H: the upstream difference along x or, for a transient
-        film, a multiple of the mass at the node itself.
+        Operator of the wedge term on the mass rho H. For a stationary film it is the upstream difference
+        along x, for a transient film a multiple of the mass at the node itself.
     rate : float
         Size of the coefficient of the wedge term: 1/dX, or about 1/dT for a transient film.
     source : ndarray, shape (nx, ny)
@@ -116,7 +127,7 @@ class Level:
     averaged : Transfer or None
         Full weighting of residuals of the next finer grid; None for the finest and for line contacts.
     distribution : tuple of (int, float)
-        How an unknown of the line relaxation is distributed over the nodes of its line.
+        Distribution of one unknown of the line relaxation over the nodes of its line: (offset, part).
     """
 
     mesh: Mesh
@@ -138,21 +149,22 @@ class Level:
         return self.mesh.x.size
 
     def inject(self, values: Array) -> Array:
-        """Interpolate values of the next finer grid to the nodes of this one."""
+        """Interpolate values (nx, ny) of the next finer grid to the nodes of this grid."""
         assert self.from_finer is not None
         return self.from_finer(values)
 
     def prolong(self, values: Array) -> Array:
-        """Interpolate values of this grid linearly to the next finer one."""
+        """Interpolate values (nx, ny) of this grid linearly to the nodes of the next finer grid."""
         assert self.to_finer is not None
         return self.to_finer(values)
 
     def restrict(self, residual: Array) -> Array:
-        """Transfer a residual of the next finer grid to this one.
+        """Transfer a residual (nx, ny) of the next finer grid to this grid.
 
-        In a line contact it is injected: beside the pressure spike neighbouring rows differ by orders of
-        magnitude, and an average would add the errors of large rows to small ones. In a point contact it is
-        averaged: neighbouring lines are hardly coupled in the Hertz zone, so that their residuals may differ.
+        In a line contact the residual is injected. Beside the pressure spike neighbouring rows differ by
+        orders of magnitude, and an average would add the errors of large rows to small rows. In a point
+        contact the residual is averaged. Neighbouring lines are hardly coupled in the Hertz zone, so that
+        their residuals may differ.
         """
         if self.averaged is None:
             return self.inject(residual)
@@ -160,7 +172,7 @@ class Level:
 
     @cached_property
     def deflection_matrix(self) -> Array:
-        """Dense matrix of the deflection, (nx ny, nx ny); for the coarsest grid only."""
+        """Dense matrix of the deflection, shape (nx ny, nx ny); used on the coarsest grid only."""
         return self.deflection.matrix()
 
 
@@ -174,32 +186,32 @@ def hierarchy(
     width: Width | None = None,
     source: Callable[[Array, Array], Array] | None = None,
 ) -> list[Level]:
-    """Grids of a contact from the finest to the coarsest, each with half the intervals of the one before.
+    """Grids of a contact from the finest to the coarsest, each with half the intervals of the grid before.
 
     Parameters
     ----------
     nodes : int
-        Nodes along x of the finest grid.
+        Number of nodes along x of the finest grid.
     inlet, outlet : float
-        Ends of the domain along x in half-widths.
+        Ends of the domain along x, in half-widths.
     geometry : Geometry
         Deflection kernel, dry gap and load of the contact.
     second_order : bool
-        Whether the wedge term is of second order, else of first.
+        Whether the wedge term is of second order; otherwise it is of first order.
     width : Width, optional
         Domain across entrainment, for a point contact.
     source : callable, optional
-        Right side of the Reynolds equation, X (nx,), Y (ny,) -> (nx, ny); zero by default.
+        Right side of the Reynolds equation: function of X (nx,) and Y (ny,) -> (nx, ny); zero by default.
 
     Returns
     -------
     list of Level
-        Two grids at least.
+        At least two grids.
 
     Notes
     -----
-    An odd number of intervals is halved upwards. Such grids share only their end nodes, and the transfers
-    interpolate between the others.
+    Half of an odd number of intervals is rounded up. Two such grids share only their end nodes, and the
+    transfers interpolate at all others.
     """
     meshes = _meshes(nodes, inlet, outlet, width)
     levels = []
@@ -232,7 +244,8 @@ def _meshes(nodes: int, inlet: float, outlet: float, width: Width | None) -> lis
     coarsest = COARSEST if width is None else COARSEST_POINT
     while meshes[-1].weights.size > coarsest or len(meshes) < 2:
         mesh = meshes[-1]
-        # Lines are relaxed along x only: where nodes are much closer across, only that axis is coarsened.
+        # Only lines along x are relaxed. Where the nodes across are much closer, only the y axis is
+        # coarsened.
         if mesh.dy is None or mesh.dx <= NEARER * mesh.dy:
             nodes = nodes // 2 + 1
         if width is not None:

@@ -1,4 +1,4 @@
-"""The lubricant film of a loaded line contact in SI units."""
+"""Solver for the stationary lubricant film of a line contact, with the result in SI units."""
 
 from __future__ import annotations
 
@@ -15,34 +15,34 @@ from ehlectric.film.state import Progress
 
 @dataclass(frozen=True)
 class Film(FilmSolution):
-    """Film of a line contact in SI units, with how it was obtained.
+    """Lubricant film of a line contact in SI units, with its status and residuals.
 
-    Its attributes are those of ``FilmSolution``; nodal values have the shape (nx,).
+    The attributes are described in ``FilmSolution``; nodal values have the shape (nx,).
     """
 
     @classmethod
     def of(cls, film: FilmSolution) -> Film:
-        """Film of a line contact whose nodal values (nx,) are known."""
+        """Film of a line contact from a ``FilmSolution`` with nodal values (nx,)."""
         return cls(**vars(film))
 
     @property
     def axes(self) -> tuple[Array, ...]:
-        """Nodes along entrainment [m], as a tuple of one axis."""
+        """Positions of the nodes along entrainment [m], as a tuple with one array."""
         return (self.x,)
 
     @property
     def minimum_position(self) -> float:
-        """Position of the lowest node [m]."""
+        """Position of the node with the smallest film thickness [m]."""
         return float(self.x[np.argmin(self.thickness)])
 
     @property
     def central_thickness(self) -> float:
-        """Film thickness at x = 0, interpolated [m]."""
+        """Film thickness at x = 0 [m], interpolated between nodes."""
         return float(np.interp(0.0, self.x, self.thickness))
 
     @property
     def mean_thickness(self) -> float:
-        """Mean film thickness over the Hertz zone, by the trapezoidal rule [m]."""
+        """Mean film thickness over the Hertz zone [m], by the trapezoidal rule."""
         b = self.scales.length
         inside = np.abs(self.x) < b
         x = np.concatenate([[-b], self.x[inside], [b]])
@@ -50,16 +50,19 @@ class Film(FilmSolution):
 
     @property
     def collapsed_positions(self) -> Array:
-        """Positions where a collapsed film is thinner than a hundredth of its central thickness [m]."""
+        """Positions [m], shape (n,), where a collapsed film is thinner than 1 % of its central thickness.
+
+        Empty unless the status is "film collapsed".
+        """
         if self.status != "film collapsed":
             return np.empty(0)
         return self.x[self.thickness < COLLAPSED * self.central_thickness]
 
     @property
     def cavitates(self) -> bool:
-        """Whether the film cavitates before the domain ends, behind its minimum and its largest pressure.
+        """Whether the film cavitates inside the domain, behind its minimum thickness and largest pressure.
 
-        Not only at its end: waves of a rough surface refill pockets of a cavitated outlet.
+        All nodes behind them count, as waves of a rough surface may refill parts of a cavitated outlet.
         """
         behind = max(int(np.argmin(self.thickness)), int(np.argmax(self.pressure)))
         return bool(np.any(self.cavitated[behind:-1]))
@@ -71,20 +74,20 @@ def solve_film(problem: FilmProblem, *, progress: Progress | None = None) -> Fil
     Parameters
     ----------
     problem : FilmProblem
-        The contact, dimensionless.
+        Dimensionless problem of the contact.
     progress : callable, optional
-        Called with (nodes, Newton step, residual) before every Newton step.
+        Function that is called with (nodes, Newton step, residual) before every Newton step.
 
     Returns
     -------
     Film
-        Whatever was reached, with its status: nothing is raised where it is not a solution.
+        Last iterate, with its status. No error is raised if it did not converge.
 
     Notes
     -----
-    Eqs. (1) to (13) of Morris et al. (2022), doi:10.3390/lubricants10050087, and the complementarity
-    condition for cavitation that they leave out. The nested iteration is that of full multigrid: every
-    grid starts from the solution on the next coarser.
+    The equations are (1) to (13) of Morris et al. (2022), doi:10.3390/lubricants10050087, and a
+    complementarity condition for cavitation, which the paper leaves out. The iteration is nested as in full
+    multigrid: the initial guess on every grid is the solution on the next coarser grid.
 
     Examples
     --------

@@ -19,12 +19,12 @@ class Width:
     Attributes
     ----------
     nodes : int
-        Nodes from side to side.
+        Number of nodes from side to side.
     side : float
         Largest Y, in semi-axes along entrainment.
     symmetric : bool
-        Whether the contact is symmetric about Y = 0. With an odd number of nodes it is then solved for Y >= 0
-        only.
+        Whether the contact is symmetric about Y = 0. If it is, and the number of nodes is odd, the film is
+        solved for Y >= 0 only.
     """
 
     nodes: int
@@ -33,20 +33,20 @@ class Width:
 
     @property
     def halved(self) -> bool:
-        """Whether the contact is solved for Y >= 0 only."""
+        """Whether the film is solved for Y >= 0 only."""
         return self.symmetric and self.nodes % 2 == 1
 
     @property
     def y(self) -> Array:
-        """Positions Y of the nodes that are solved for, from 0 or from -side to side, shape (ny,)."""
+        """Positions Y of the nodes of the solution, from 0 or from -side to side, shape (ny,)."""
         if self.halved:
             return np.linspace(0.0, self.side, self.nodes // 2 + 1)
         return np.linspace(-self.side, self.side, self.nodes)
 
     def coarser(self) -> Width:
-        """Return the domain with half the intervals, solved for the same range of Y."""
+        """Domain with half the number of intervals and the same range of Y."""
         nodes = 2 * (self.y.size // 2) + 1 if self.halved else self.nodes // 2 + 1
-        # With an even number of nodes the whole domain is solved for, on every grid.
+        # If the finest grid covers the whole domain, all coarser grids do so too.
         return replace(self, nodes=nodes, symmetric=self.halved)
 
 
@@ -57,9 +57,9 @@ class Mesh:
     Attributes
     ----------
     x, y : ndarray, shapes (nx,), (ny,)
-        Positions along and across entrainment, equidistant. A line contact has one line, y = 0.
+        Equidistant positions along and across entrainment. A line contact has one position y = 0.
     symmetric : bool
-        Whether the lines y < 0, the mirror image of the lines y > 0, are left out.
+        Whether the mesh covers only y >= 0 of a symmetric contact.
     """
 
     x: Array
@@ -68,24 +68,27 @@ class Mesh:
 
     @classmethod
     def over(cls, nodes: int, inlet: float, outlet: float, width: Width | None = None) -> Mesh:
-        """Mesh from ``inlet`` to ``outlet``; that of a line contact where ``width`` is None."""
+        """Mesh with ``nodes`` nodes along x from ``inlet`` to ``outlet``.
+
+        ``width`` is the domain of a point contact across entrainment; None makes the mesh of a line contact.
+        """
         x = np.linspace(inlet, outlet, nodes)
         y = np.zeros(1) if width is None else width.y
         return cls(x, y, symmetric=width is not None and width.halved)
 
     @property
     def shape(self) -> tuple[int, int]:
-        """Number of nodes along and across entrainment."""
+        """Numbers of nodes (nx, ny) along and across entrainment."""
         return self.x.size, self.y.size
 
     @property
     def dx(self) -> float:
-        """Distance of neighbours along entrainment."""
+        """Grid spacing along entrainment, dimensionless."""
         return float(self.x[-1] - self.x[0]) / (self.x.size - 1)
 
     @property
     def dy(self) -> float | None:
-        """Distance of neighbours across entrainment, None for a line contact."""
+        """Grid spacing across entrainment, dimensionless; None for a line contact."""
         return None if self.y.size == 1 else float(self.y[-1] - self.y[0]) / (self.y.size - 1)
 
     @property
@@ -99,7 +102,7 @@ class Mesh:
     def weights_across(self) -> Array:
         """Trapezoidal weights of the integral over y, shape (ny,).
 
-        They count both halves of a symmetric contact. A line contact has the weight one.
+        For a symmetric contact they include the half y < 0. A line contact has the weight one.
         """
         if self.dy is None:
             return np.ones(1)
@@ -114,7 +117,10 @@ class Mesh:
 
     @cached_property
     def inner(self) -> Mask:
-        """Mask of the nodes on no edge of the domain, shape (nx, ny); a line of symmetry is no edge."""
+        """Mask of the nodes inside the domain, shape (nx, ny).
+
+        It is False on the edges of the domain. A line of symmetry is not an edge.
+        """
         inner = np.ones(self.shape, dtype=bool)
         inner[[0, -1]] = False
         if self.y.size > 1:
@@ -123,12 +129,16 @@ class Mesh:
         return inner
 
     def mirrored(self, values: NDArray[Any]) -> NDArray[Any]:
-        """Complete values (nx, ny) by their mirror image where the mesh covers y >= 0 only."""
+        """Values over the whole contact, from nodal values (nx, ny).
+
+        If the mesh covers only y >= 0, the mirror image is added; otherwise the values are returned
+        unchanged.
+        """
         return np.concatenate([values[:, :0:-1], values], axis=1) if self.symmetric else values
 
     @property
     def whole_y(self) -> Array:
-        """Positions across entrainment of the values that ``mirrored`` returns."""
+        """Positions across entrainment of the whole contact, for the values that ``mirrored`` returns."""
         return np.concatenate([-self.y[:0:-1], self.y]) if self.symmetric else self.y
 
 
@@ -140,12 +150,12 @@ def at_centre(mesh: Mesh, values: Array) -> float:
     mesh : Mesh
         Grid.
     values : ndarray, shape (nx, ny)
-        Nodal values.
+        Nodal values, in any unit.
 
     Returns
     -------
     float
-        In the unit of ``values``.
+        Value at the centre, in the unit of ``values``.
     """
     # The two rows on either side of X = 0 suffice.
     after = min(max(int(np.searchsorted(mesh.x, 0.0)), 1), mesh.x.size - 1)

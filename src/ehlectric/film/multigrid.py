@@ -1,7 +1,8 @@
 """V-cycle over all grids that preconditions the Newton steps of the film.
 
-One V-cycle solves J (dP, dH00) = (r, load) approximately: the residual goes down to the coarsest grid and is
-solved there by a dense factorisation; each finer grid adds one line relaxation on the way up.
+One V-cycle solves J (dP, dH00) = (r, load) approximately, with the Jacobian J. The residual is restricted to
+the coarsest grid, where a dense factorisation solves the system. Each finer grid adds one line relaxation on
+the way back.
 """
 
 from __future__ import annotations
@@ -19,10 +20,10 @@ from ehlectric.film.levels import Level
 from ehlectric.film.relaxation import LineRelaxation, distributed_nodes
 from ehlectric.film.reynolds import Stencil, linearise, poiseuille_weight
 
-# Change of ln eps between neighbours above which a coarser grid cannot represent the nodes.
+# Change of ln eps between neighbours above which a coarser grid cannot resolve the solution.
 _UNRESOLVED = 1.5
 
-# Part of the residual that one cycle on a coarser grid may leave without a second.
+# Fraction of the residual below which one cycle on a coarser grid is enough, and no second cycle follows.
 _ENOUGH = 0.1
 
 
@@ -30,8 +31,7 @@ _ENOUGH = 0.1
 class Linearised:
     """Jacobian of the film equations on one grid, as a linear operator on its full-film nodes.
 
-    Cavitated nodes do not change: a change of pressure must be zero there, and the changes that the solvers
-    return are.
+    The pressure of cavitated nodes does not change: dP must be zero there, and the solvers return zero there.
 
     Attributes
     ----------
@@ -44,9 +44,9 @@ class Linearised:
     poiseuille : ndarray, shape (nx, ny)
         Diagonal of the Poiseuille term.
     scale, unscale : ndarray, shape (nx, ny)
-        One over the diagonal of the Reynolds equation, and the diagonal; zero at cavitated nodes.
+        Reciprocal of the diagonal of the Reynolds equation, and the diagonal; both zero at cavitated nodes.
     resolved : ndarray of bool, shape (nx, ny)
-        Nodes whose residual the coarser grids receive.
+        Nodes whose residual is passed to the coarser grids.
     """
 
     gap: Gap
@@ -60,7 +60,7 @@ class Linearised:
 
     @classmethod
     def of(cls, gap: Gap, at_faces: Flow, full_film: Mask) -> Linearised:
-        """Jacobian at a state with this gap, this flow and these full-film nodes (nx, ny)."""
+        """Jacobian at a state, from its gap, its flow and its full-film nodes (nx, ny)."""
         level = gap.level
         by_p, by_h = linearise(at_faces, level.wedge, gap.thickness, level.mesh)
         poiseuille = poiseuille_weight(at_faces, level.mesh)
@@ -78,39 +78,39 @@ class Linearised:
 
     @property
     def level(self) -> Level:
-        """Grid."""
+        """Grid of the Jacobian."""
         return self.gap.level
 
     def __call__(self, dp: Array, dh00: float) -> tuple[Array, float]:
-        """Change of the Reynolds residual (nx, ny) and of the load."""
+        """Change of the Reynolds residual (nx, ny) and of the load for changes dP (nx, ny) and dH00."""
         dh, load = self.gap.change(dp, dh00)
         return self.by_p(dp) + self.by_h(dh), load
 
     def image(self, change: Array) -> Array:
-        """Scaled residual and load of a change of P and H00, each pair in one vector."""
+        """Change of scaled residual and load, as one vector, for a change of P and H00, as one vector."""
         r, load = self(change[:-1].reshape(self.full_film.shape), float(change[-1]))
         return np.append(self.scale * r, load)
 
     @cached_property
     def relax(self) -> LineRelaxation:
-        """Line relaxation with this Jacobian: r (nx, ny) -> dP (nx, ny)."""
+        """Line relaxation with this Jacobian, a function r (nx, ny) -> dP (nx, ny)."""
         distributed = distributed_nodes(self.level, self.poiseuille, self.full_film)
         return LineRelaxation.of(self.gap, (self.by_p, self.by_h), self.full_film, distributed)
 
     @cached_property
     def solve_dense(self) -> DenseSolver:
-        """Exact solver with this Jacobian, for the coarsest grid: (r, load) -> (dP, dH00)."""
+        """Direct solver with this Jacobian for the coarsest grid, a function (r, load) -> (dP, dH00)."""
         return DenseSolver.of(self.gap, self.by_p, self.by_h, self.full_film)
 
 
 @dataclass(frozen=True)
 class DenseSolver:
-    """Jacobian of a grid with the balance of load, factorised whole.
+    """Direct solver for the Jacobian of a grid and the balance of load, by a dense LU factorisation.
 
     Attributes
     ----------
     full_film : ndarray of bool, shape (nx, ny)
-        Nodes that are solved for; the change of the others is zero.
+        Nodes whose pressure changes; the change at all others is zero.
     factors, pivots : ndarray
         LU factorisation of the matrix of nx ny + 1 rows.
     """
@@ -121,7 +121,10 @@ class DenseSolver:
 
     @classmethod
     def of(cls, gap: Gap, by_p: Stencil, by_h: Stencil, full_film: Mask) -> DenseSolver:
-        """Factorise the Jacobian with these derivatives, whose rows are zero at cavitated nodes."""
+        """Factorise the Jacobian, from the derivatives of the residual by P and by H.
+
+        The rows of the derivatives must be zero at cavitated nodes.
+        """
         n = full_film.size
         matrix = np.zeros((n + 1, n + 1))
         matrix[:n, :n] = by_p.matrix() + by_h.matrix() @ gap.matrix()
@@ -133,17 +136,17 @@ class DenseSolver:
         return cls(full_film, factors, pivots)
 
     def __call__(self, r: Array, load: float) -> tuple[Array, float]:
-        """Change (dP, dH00) that the right side r (nx, ny) and ``load`` ask for."""
+        """Solution dP (nx, ny) and dH00 for the right side r (nx, ny) and ``load``."""
         right = np.append(np.where(self.full_film, r, 0.0), load)
         solution, _ = lapack.dgetrs(self.factors, self.pivots, right)
         return np.where(self.full_film, solution[:-1].reshape(r.shape), 0.0), float(solution[-1])
 
 
 def _resolved(level: Level, eps: Array, full_film: Mask) -> Mask:
-    """Nodes whose residual the coarser grids receive.
+    """Mask of the nodes whose residual is passed to the coarser grids.
 
     Beside the pressure spike of a line contact eps changes by orders of magnitude from node to node. There
-    the relaxation, which is almost exact, works alone.
+    only the relaxation acts, which is almost exact.
     """
     resolved = full_film.copy()
     if level.mesh.dy is None:
@@ -162,7 +165,7 @@ def linearise_levels(
     thickness: Array,
     full_film: Mask,
 ) -> list[Linearised]:
-    """Jacobian on every grid: at the given state on the first, at the injected state on the others.
+    """Jacobian on every grid, at the state of the finest grid and at its injection on the coarser grids.
 
     Parameters
     ----------
@@ -178,7 +181,7 @@ def linearise_levels(
     Returns
     -------
     list of Linearised
-        In the order of ``levels``.
+        Jacobians in the order of ``levels``.
     """
     jacobians = [Linearised.of(Gap(levels[0], thickness), at_faces, full_film)]
     for level in levels[1:]:
@@ -192,12 +195,12 @@ def linearise_levels(
 
 
 def v_cycle(jacobians: list[Linearised], r: Array, load: float) -> tuple[Array, float]:
-    """Approximate (dP, dH00) with J (dP, dH00) = (r, load) on the full-film nodes of the finest grid.
+    """One V-cycle: approximate solution of J (dP, dH00) = (r, load) on the full-film nodes.
 
     Parameters
     ----------
     jacobians : list of Linearised
-        From the finest grid to the coarsest.
+        Jacobians from the finest grid to the coarsest.
     r : ndarray, shape (nx, ny)
         Right side of the Reynolds equation, dimensionless.
     load : float
@@ -205,8 +208,10 @@ def v_cycle(jacobians: list[Linearised], r: Array, load: float) -> tuple[Array, 
 
     Returns
     -------
-    tuple
-        dP, ndarray of shape (nx, ny), zero at cavitated nodes, and dH00.
+    dp : ndarray, shape (nx, ny)
+        Change of P on the finest grid, zero at cavitated nodes.
+    dh00 : float
+        Change of H00.
     """
     finest, *coarser = jacobians
     if not coarser:
@@ -223,18 +228,19 @@ def v_cycle(jacobians: list[Linearised], r: Array, load: float) -> tuple[Array, 
 
 
 def cycled(jacobians: list[Linearised], image: Array) -> Array:
-    """One V-cycle from a scaled residual and load to a change of P and H00, each pair in one vector."""
+    """One V-cycle with vectors: from a scaled residual and load to a change of P and H00."""
     unscale = jacobians[0].unscale
     dp, dh00 = v_cycle(jacobians, unscale * image[:-1].reshape(unscale.shape), float(image[-1]))
     return np.append(dp, dh00)
 
 
 def _two_cycles(jacobians: list[Linearised], r: Array, load: float) -> tuple[Array, float]:
-    """Two V-cycles, combined so that the scaled residual becomes smallest.
+    """Two V-cycles, combined so that the norm of the scaled residual becomes smallest.
 
-    Along the ridge of pressure at the exit of a point contact a coarser grid overshoots, by factors that
-    grow from grid to grid. The best multiple of its correction does not. This is the K-cycle of Y. Notay and
-    P. S. Vassilevski, Numer. Linear Algebra Appl. 15 (2008) 473, doi:10.1002/nla.542.
+    Along the ridge of pressure at the exit of a point contact, the correction of a coarser grid is too large,
+    by a factor that grows from grid to grid. The combination finds the best multiple of the correction. This
+    is the K-cycle of Y. Notay and P. S. Vassilevski, Numer. Linear Algebra Appl. 15 (2008) 473,
+    doi:10.1002/nla.542.
     """
     finest = jacobians[0]
     right = np.append(finest.scale * r, load)

@@ -1,7 +1,7 @@
-"""Nested iteration for the film: the initial guess on every grid is the solution on the next coarser.
+"""Nested iteration for the film: the initial guess on every grid is the solution on the next coarser grid.
 
-Where this does not converge, the initial guess is the Hertz pressure. Where the film is as thin as its
-roughness, the roughness is raised from zero in steps (continuation).
+If the iteration does not converge from this guess, it starts again from the Hertz pressure. If a rough
+contact still does not converge, its roughness is raised from zero in steps (continuation).
 """
 
 from __future__ import annotations
@@ -19,16 +19,16 @@ from ehlectric.film.problem import FilmProblem
 from ehlectric.film.reynolds import wedge_stencil
 from ehlectric.film.state import GridSolution, Progress, State
 
-# Residual of the solutions on coarser grids, far below their discretisation error.
+# Tolerance of the residual on the coarser grids, far below their discretisation error.
 NESTED_TOLERANCE = 1e-6
 
-# The nested iteration starts from the Hertz pressure on the coarsest grid of at least this many nodes:
-# a quarter of them do not resolve a thin film.
+# The nested iteration starts on the coarsest grid with at least this many nodes along x, in a line and in a
+# point contact. A quarter of the nodes would not resolve a thin film.
 FIRST_GRID = 201
 _FIRST_GRID_POINT = 33
 
-# Continuation in roughness height: first and smallest increment as parts of the height, and the tolerance of
-# the films in between.
+# Continuation in roughness height: first and smallest increment as fractions of the full height, and the
+# tolerance of the intermediate films.
 _FIRST_RISE = 0.2
 _LEAST_RISE = 0.01
 _RISE_TOLERANCE = 1e-3
@@ -40,26 +40,27 @@ def nested_iteration(problem: FilmProblem, progress: Progress | None) -> list[Gr
     Parameters
     ----------
     problem : FilmProblem
-        Contact, dimensionless.
+        Dimensionless problem of the contact.
     progress : callable or None
-        Called with (nodes, Newton step, residual) before every Newton step.
+        Function that is called with (nodes, Newton step, residual) before every Newton step.
 
     Returns
     -------
     list of GridSolution
-        All solutions in the order in which they were computed. The last is that of ``problem`` on its own
-        grid, with its status; nothing is raised where it did not converge.
+        All solutions in the order in which they were computed. The last one is the solution of ``problem`` on
+        its own grid, with its status. No error is raised if it did not converge.
 
     Notes
     -----
-    A grid whose solution does not converge starts again from the Hertz pressure, and so does the next finer.
+    If the solution on a grid does not converge, this grid and the next finer grid start from the Hertz
+    pressure.
     """
     solutions: list[GridSolution] = []
     for levels in reversed(_grids(problem)):
         best = None
         if solutions and solutions[-1].status == "converged":
             best = _from_coarser(problem, levels, solutions[-1], progress)
-        # A solution that nearly converged is not worth another start.
+        # A solution that nearly converged does not start again.
         if best is None or best.final.norm > NESTED_TOLERANCE:
             *warm_up, restarted = _from_hertz(problem, levels, progress)
             solutions.extend(warm_up)
@@ -74,10 +75,10 @@ def nested_iteration(problem: FilmProblem, progress: Progress | None) -> list[Gr
 
 
 def _grids(problem: FilmProblem) -> list[list[Level]]:
-    """Grids to solve on, from the finest, each with the coarser grids of its preconditioner.
+    """Grids of the nested iteration from the finest on, each with the coarser grids of its preconditioner.
 
-    There are two at least, for the error estimate. Each has half the intervals of the one before along both
-    axes; the grids of a preconditioner may have half of them along one axis only.
+    There are at least two grids, for the error estimate. Each has half the intervals of the grid before,
+    along both axes. The grids of a preconditioner may have half the intervals along one axis only.
     """
     least = FIRST_GRID if problem.width is None else _FIRST_GRID_POINT
     grids = [_levels(problem, roughness=1.0)]
@@ -111,10 +112,11 @@ def _levels(problem: FilmProblem, *, roughness: float) -> list[Level]:
 def _raise_roughness(
     problem: FilmProblem, smooth: GridSolution, progress: Progress | None
 ) -> Iterator[GridSolution]:
-    """Solutions with the roughness raised from zero to its height, each the initial guess of the next.
+    """Solutions with the roughness raised in steps from zero to its full height (continuation).
 
-    An increment that does not converge is halved. The continuation ends where the smallest increment does not
-    converge; its unconverged solution is then the last.
+    Each converged solution is the initial guess of the next. An increment that does not converge is halved.
+    The continuation ends if the smallest increment does not converge; the last solution is then not
+    converged.
     """
     best, reached, step = smooth, 0.0, _FIRST_RISE
     while best.status == "converged" and reached < 1.0:
@@ -147,7 +149,11 @@ def _solve_grid(
     *,
     spike: bool,
 ) -> GridSolution:
-    """Solve on the first of ``levels``, with the tolerance of the problem or of a coarser grid."""
+    """Solve the film equations on the first of ``levels`` from the initial guess ``state``.
+
+    The tolerance is that of the problem on its own grid, and larger on coarser grids. ``spike`` tells whether
+    to solve the nodes of the pressure spike separately.
+    """
     finest = levels[0].nodes == problem.nodes
     return newton(
         problem.fluid,
@@ -156,7 +162,7 @@ def _solve_grid(
         tolerance=problem.tolerance if finest else max(problem.tolerance, NESTED_TOLERANCE),
         max_iterations=problem.max_iterations,
         progress=progress,
-        # The spike of a point contact is a ridge; no single line of it can be solved separately.
+        # The spike of a point contact is a ridge, of which no single line can be solved separately.
         eliminate_spike=spike and problem.width is None,
     )
 
@@ -164,9 +170,9 @@ def _solve_grid(
 def _from_coarser(
     problem: FilmProblem, levels: list[Level], coarse: GridSolution, progress: Progress | None
 ) -> GridSolution:
-    """Solve from the solution on the next coarser grid.
+    """Solve the film equations with the solution on the next coarser grid as initial guess.
 
-    It is interpolated by a monotone cubic, which is smooth and does not overshoot.
+    The coarse solution is interpolated by a monotone cubic, which is smooth and does not overshoot.
     """
     level, of = levels[0], coarse.level.mesh
     pressure = PchipInterpolator(of.x, coarse.state.pressure, axis=0)(level.mesh.x)
@@ -180,9 +186,10 @@ def _from_coarser(
 def _from_hertz(
     problem: FilmProblem, levels: list[Level], progress: Progress | None
 ) -> Iterator[GridSolution]:
-    """Solutions from the Hertz pressure: with the first-order wedge term, then with that of the problem.
+    """Solutions with the Hertz pressure as initial guess.
 
-    The first-order scheme is monotone and converges from a worse initial guess.
+    The first solution has the wedge term of first order, which is monotone and converges from a worse initial
+    guess. It is the initial guess of the second solution, which has the wedge term of the problem.
     """
     level = levels[0]
     hertz = problem.geometry.dry_pressure(level.mesh.x, level.mesh.y)

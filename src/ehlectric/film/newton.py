@@ -22,19 +22,22 @@ from ehlectric.film.reynolds import poiseuille_weight, residual
 from ehlectric.film.spike import relax_spike, step_length
 from ehlectric.film.state import GridSolution, NewtonStep, Progress, Residual, State, Status
 
-# Limits of one Newton step: largest change of P, and part of every gap that is left. Larger steps leave the
-# basin of convergence at the spike of light contacts, smaller ones only cost steps.
+# Limits of one Newton step: largest change of P, and smallest fraction of every gap that remains. Larger
+# steps leave the basin of convergence at the spike of light contacts; smaller steps only take more of them.
 PRESSURE_STEP = 0.3
 GAP_STEP = 0.3
 
-# Rounding of H, times dX: some tens of the spacing of numbers near one.
+# Residual times dX that is caused by rounding of H: about 40 times the machine epsilon.
 ROUNDING = 40.0 * np.finfo(float).eps
 
-# H below which an iterate is given up: thousands of times thinner than at the corners of the Moes map.
+# Smallest H of an iterate; thinner iterates count as diverged. It is thousands of times thinner than the
+# films at the corners of the Moes map.
 _SMALLEST_GAP = 1e-8
 
-# Relative tolerance of the linear solves: Newton's method gains about three digits a step.
+# Relative tolerance of the linear solutions: Newton's method gains about three digits per step.
 LINEAR_TOLERANCE = 1e-3
+
+# Largest number of GMRES iterations per Newton step.
 KRYLOV_LIMIT = 60
 
 # Weight of the relative load imbalance in the residual: the load is balanced ten times as closely as the
@@ -68,16 +71,16 @@ def newton(
         nodes, and of ten times the relative load imbalance. On very fine grids it is raised to what rounding
         allows.
     max_iterations : int
-        Newton steps after which to stop.
+        Largest number of Newton steps.
     min_iterations : int
-        Newton steps to take whatever the residual is. The residual of a row is scaled by the pressure of its
-        own node. Where it is smooth over n nodes, the error in pressure is n^2 times larger: a small residual
-        of an initial guess does not make it a solution.
+        Smallest number of Newton steps, whatever the residual is. The residual of each row is scaled with the
+        derivative by the pressure at its own node. Where the residual is smooth over n nodes, the error in
+        pressure is n^2 times larger. An initial guess with a small residual may therefore not be a solution.
     progress : callable, optional
-        Called with (nodes, Newton step, residual) before every step.
+        Function that is called with (nodes, Newton step, residual) before every step.
     eliminate_spike : bool
-        Solve the strongly nonlinear nodes separately before each step; for initial guesses that come from a
-        coarser grid.
+        Whether to solve the strongly nonlinear nodes separately before each step. This helps with initial
+        guesses from a coarser grid.
 
     Returns
     -------
@@ -85,7 +88,7 @@ def newton(
         Last iterate, with its status.
     """
     level = levels[0]
-    # A row takes the difference of films over dX: rounding of H leaves a residual of this size.
+    # The residual contains differences of H over dX, so that rounding of H causes a residual of this size.
     tolerance = max(tolerance, ROUNDING * level.rate)
     steps: list[NewtonStep] = []
     now = assess(fluid, level, state)
@@ -108,9 +111,9 @@ def newton(
 
 
 def assess(fluid: Fluid, level: Level, state: State) -> Residual:
-    """Residual of the film equations at a state, with the nodes where the film is full.
+    """Residual of the film equations at a state, with the nodes that have a full film there.
 
-    Rows of the Reynolds equation are scaled by their diagonal, so that the residual is a pressure.
+    The norm takes the rows of the Reynolds equation over their diagonal, so that each is a pressure over p_h.
 
     Parameters
     ----------
@@ -144,7 +147,10 @@ def assess(fluid: Fluid, level: Level, state: State) -> Residual:
 
 
 def _without_spike(fluid: Fluid, level: Level, state: State, now: Residual) -> tuple[State, Residual]:
-    """State with the nodes of the pressure spike solved separately, where their residual stands out."""
+    """State after a separate solution of the nodes of the pressure spike, with its residual.
+
+    If no residual stands out, or the separate solution fails, the state is returned unchanged.
+    """
     pressure = relax_spike(
         fluid,
         Gap(level, state.thickness),
@@ -163,10 +169,10 @@ def _without_spike(fluid: Fluid, level: Level, state: State, now: Residual) -> t
 
 
 def _direction(fluid: Fluid, levels: list[Level], state: State, now: Residual) -> tuple[Array, float, int]:
-    """(dP, dH00) of a Newton step, and the GMRES iterations it took.
+    """Changes dP (nx, ny) and dH00 of a Newton step, and the number of GMRES iterations.
 
-    Cavitated nodes go to the ambient pressure. The change of the others follows from the linear system,
-    preconditioned from the right so that GMRES minimises the residual itself.
+    The pressure of cavitated nodes changes to ambient. The change at the other nodes solves the linear
+    system. The preconditioner is on the right, so that GMRES minimises the residual itself.
     """
     jacobians = linearise_levels(
         levels, fluid, now.flow, pressure=state.pressure, thickness=state.thickness, full_film=now.full_film
@@ -182,7 +188,8 @@ def _direction(fluid: Fluid, levels: list[Level], state: State, now: Residual) -
         cycles += 1
         return cycled(jacobians, image)
 
-    # Flexible GMRES, as no two cycles are the same operator: coarser grids adapt theirs to the right side.
+    # Flexible GMRES is needed, as the preconditioner varies: its cycles on coarser grids adapt to the right
+    # side.
     solution, _ = gcrotmk(
         LinearOperator((right.size, right.size), matvec=finest.image, dtype=right.dtype),
         right,

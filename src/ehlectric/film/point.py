@@ -1,4 +1,4 @@
-"""The lubricant film of a loaded point contact in SI units: maps over (x, y)."""
+"""Solver for the stationary lubricant film of a point contact, with maps over (x, y) in SI units."""
 
 from __future__ import annotations
 
@@ -14,28 +14,30 @@ from ehlectric.film.problem import FilmProblem
 from ehlectric.film.solution import COLLAPSED, FilmSolution, quiet_solution, stationary_film
 from ehlectric.film.state import Progress
 
-# Points of the quadrature over the Hertz ellipse, along its radius and around it.
+# Points of the quadrature over the Hertz ellipse, along its radius and around its circumference.
 _RADII, _ANGLES = 64, 256
 
-# What of the missing pressure is missing in the film: 0.3 to 0.5 over four contacts, M 20 to 300, ellipse
-# ratio 1 to 8, solved on domains of up to four times the length and twice the width.
+# Relative loss of film thickness over the missing share of the reduced pressure. It was 0.3 to 0.5 in four
+# contacts, with M from 20 to 300 and ellipse ratios from 1 to 8. Their films were compared with films on
+# domains of up to four times the length and twice the width.
 _LOST = 0.4
 
 
 @dataclass(frozen=True, kw_only=True)
 class PointFilm(FilmSolution):
-    """Film of a point contact in SI units, with how it was obtained.
+    """Lubricant film of a point contact in SI units, with its status and residuals.
 
-    It has the attributes of ``FilmSolution``, whose nodal values have the shape (nx, ny), and its own:
+    The class adds the attributes below to those of ``FilmSolution``. Nodal values have the shape (nx, ny).
 
     Attributes
     ----------
     y : ndarray, shape (ny,)
-        Position across entrainment [m].
+        Positions of the nodes across entrainment [m].
     semi_axis_y : float
-        Semi-axis of the dry contact across entrainment [m]; that along it is ``scales.length``.
+        Semi-axis of the dry contact across entrainment [m]. The semi-axis along entrainment is
+        ``scales.length``.
     side_deficit : float or None
-        Share of the reduced pressure that there would be at the sides, where the domain holds it at ambient.
+        Share of the reduced pressure that is missing because the sides of the domain are at ambient pressure.
         None for an instant of a transient film.
     """
 
@@ -47,17 +49,17 @@ class PointFilm(FilmSolution):
     def of(
         cls, film: FilmSolution, *, y: Array, semi_axis_y: float, side_deficit: float | None = None
     ) -> PointFilm:
-        """Film of a point contact whose nodal values (nx, ny) are known."""
+        """Film of a point contact from a ``FilmSolution`` with nodal values (nx, ny)."""
         return cls(**vars(film), y=y, semi_axis_y=semi_axis_y, side_deficit=side_deficit)
 
     @property
     def axes(self) -> tuple[Array, ...]:
-        """Nodes along and across entrainment [m]."""
+        """Positions of the nodes along and across entrainment [m]."""
         return self.x, self.y
 
     @property
     def domain_loss(self) -> float | None:
-        """About the part by which the film is too thin because the domain ends where it does.
+        """Estimated relative loss of film thickness because the domain is too small, dimensionless.
 
         None for an instant of a transient film.
         """
@@ -67,18 +69,18 @@ class PointFilm(FilmSolution):
 
     @property
     def minimum_position(self) -> tuple[float, float]:
-        """Position (x, y) of the lowest node [m]."""
+        """Position (x, y) of the node with the smallest film thickness [m]."""
         i, j = np.unravel_index(np.argmin(self.thickness), self.thickness.shape)
         return float(self.x[i]), float(self.y[j])
 
     def _at(self, x: Array, y: Array) -> Array:
-        """Film thickness between the nodes, by linear interpolation [m]."""
+        """Film thickness at positions x and y of one shape [m], by linear interpolation."""
         thickness: Array = RegularGridInterpolator((self.x, self.y), self.thickness)((x, y))
         return thickness
 
     @property
     def central_thickness(self) -> float:
-        """Film thickness at x = y = 0, interpolated [m]."""
+        """Film thickness at x = y = 0 [m], interpolated between nodes."""
         return float(self._at(np.zeros(1), np.zeros(1))[0])
 
     @property
@@ -93,7 +95,10 @@ class PointFilm(FilmSolution):
 
     @property
     def collapsed_positions(self) -> Array:
-        """Positions (n, 2) where a collapsed film is thinner than a hundredth of its centre [m]."""
+        """Positions [m], shape (n, 2), where a collapsed film is thinner than 1 % of its central thickness.
+
+        Empty unless the status is "film collapsed".
+        """
         if self.status != "film collapsed":
             return np.empty((0, 2))
         i, j = np.nonzero(self.thickness < COLLAPSED * self.central_thickness)
@@ -101,7 +106,7 @@ class PointFilm(FilmSolution):
 
     @property
     def cavitates(self) -> bool:
-        """Whether the film cavitates on the line y = 0 before the domain ends, behind the pressure."""
+        """Whether the film cavitates inside the domain on the line y = 0, behind the largest pressure."""
         middle = int(np.argmin(np.abs(self.y)))
         behind = int(np.argmax(self.pressure[:, middle]))
         return bool(np.any(self.cavitated[behind:-1, middle]))
@@ -113,19 +118,20 @@ def solve_point_film(problem: FilmProblem, *, progress: Progress | None = None) 
     Parameters
     ----------
     problem : FilmProblem
-        The contact, dimensionless, with its ``width``.
+        Dimensionless problem of the contact, with its ``width``.
     progress : callable, optional
-        Called with (nodes along x, Newton step, residual) before every Newton step.
+        Function that is called with (nodes along x, Newton step, residual) before every Newton step.
 
     Returns
     -------
     PointFilm
-        Whatever was reached, with its status: nothing is raised where it is not a solution.
+        Last iterate, with its status. No error is raised if it did not converge.
 
     Notes
     -----
-    As ``solve_film``, with the flow across entrainment and the deflection of a half-space under a load that
-    is bounded across it too (Love 1929, doi:10.1098/rsta.1929.0009).
+    The equations are (1) to (13) of Morris et al. (2022), doi:10.3390/lubricants10050087, with two
+    extensions: the flow across entrainment, and the deflection of a half-space under a pressure over (x, y)
+    (Love 1929, doi:10.1098/rsta.1929.0009). A complementarity condition for cavitation is added.
 
     Examples
     --------
@@ -159,5 +165,5 @@ def solve_point_film(problem: FilmProblem, *, progress: Progress | None = None) 
 
 
 def semi_axis_across(problem: FilmProblem) -> float:
-    """Semi-axis of the dry contact across entrainment [m], of the load that its ellipse carries."""
+    """Semi-axis of the dry contact across entrainment [m], which follows from the dimensionless load."""
     return problem.scales.length * 1.5 * problem.geometry.load / np.pi

@@ -1,4 +1,4 @@
-"""Dimensionless problem of the film of one contact, with the scales of its result."""
+"""Dimensionless film problem of a contact, with the scales that convert its result to SI units."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ class Scales:
     Attributes
     ----------
     length : float
-        Half-width b, or semi-axis along entrainment [m].
+        Half-width b of a line contact, or semi-axis b along entrainment of a point contact [m].
     pressure : float
         Hertz pressure p_h [Pa].
     thickness : float
-        b^2/R [m].
+        Film thickness of H = 1, b^2/R [m].
     ambient_pressure : float
-        Ambient pressure [Pa], exact: the dimensionless one times ``pressure`` would differ by rounding.
+        Ambient pressure [Pa]. It is kept beside the dimensionless ambient pressure to avoid rounding errors.
     """
 
     length: float = 1.0
@@ -42,18 +42,18 @@ class FilmProblem:
     Parameters
     ----------
     fluid : Fluid
-        Lubricant over P, with the velocity parameter lambda = 6 eta0 u_s R^2/(b^3 p_h), u_s = u1 + u2, and
-        the ambient pressure over p_h.
+        Lubricant over dimensionless pressure P, with the ambient pressure over p_h and the velocity parameter
+        lambda = 6 eta0 u_s R^2/(b^3 p_h), u_s = u1 + u2.
     nodes : int
-        Nodes along x, at least 65.
+        Number of nodes along x, at least 65.
     inlet, outlet : float
-        Ends of the domain in half-widths, inlet < -1 and outlet > 1.
+        Ends of the domain along x, in half-widths; inlet < -1 and outlet > 1.
     thickness_guess : float
-        Central H of the initial guess; a film-thickness formula is accurate enough.
+        Central film thickness H of the initial guess; a film-thickness formula is accurate enough.
     second_order : bool
-        Whether the upstream wedge term is of second order, else of first.
+        Whether the upstream wedge term is of second order; otherwise it is of first order.
     tolerance : float
-        Largest scaled residual of a solution, a pressure over p_h.
+        Largest scaled residual of a converged solution, a pressure over p_h.
     max_iterations : int
         Largest number of Newton steps on each grid.
     scales : Scales
@@ -63,10 +63,10 @@ class FilmProblem:
     width : Width, optional
         Domain across entrainment, for a point contact.
     added_gap : callable, optional
-        Gap that roughness adds, X (nx,), Y (ny,) -> H (nx, ny); a peak adds a negative one.
+        Gap that roughness adds: function of X (nx,) and Y (ny,) -> H (nx, ny). A peak adds a negative gap.
     source : callable, optional
-        Right side of the Reynolds equation, zero by default: X (nx,), Y (ny,) -> (nx, ny). For manufactured
-        solutions, or a surface that absorbs or releases oil.
+        Right side of the Reynolds equation: function of X (nx,) and Y (ny,) -> (nx, ny); zero by default. It
+        serves manufactured solutions, and surfaces that absorb or release oil.
     """
 
     fluid: Fluid
@@ -85,7 +85,7 @@ class FilmProblem:
 
     @property
     def order(self) -> int:
-        """Order of the discretisation."""
+        """Order of the discretisation, 1 or 2."""
         return 2 if self.second_order else 1
 
 
@@ -97,25 +97,25 @@ def velocity_parameter(
     Parameters
     ----------
     viscosity : float
-        eta0, of the oil at ambient pressure [Pa s].
+        Viscosity eta0 of the lubricant at ambient pressure [Pa s].
     entrainment_speed : float
-        (u1 + u2)/2 [m/s].
+        Mean surface speed (u1 + u2)/2 [m/s].
     radius : float
         Reduced radius R along entrainment [m].
     half_width : float
-        b, of a point contact the semi-axis along entrainment [m].
+        Half-width b of a line contact, or semi-axis b along entrainment of a point contact [m].
     max_pressure : float
         Hertz pressure p_h [Pa].
 
     Returns
     -------
     float
-        lambda, dimensionless.
+        Velocity parameter lambda, dimensionless.
 
     Notes
     -----
-    The definition of Morris et al. (2022), doi:10.3390/lubricants10050087, has the sum of the surface speeds,
-    u_s = u1 + u2, which is twice the entrainment speed: 6 u_s = 12 (u1 + u2)/2.
+    The definition of Morris et al. (2022), doi:10.3390/lubricants10050087, uses the sum of the surface
+    speeds, u_s = u1 + u2, which is twice the entrainment speed.
 
     Examples
     --------

@@ -1,8 +1,8 @@
 """Line relaxation of the film: the smoother of the multigrid cycle.
 
-All nodes of a line along x are changed at once, by the band of the Jacobian around its diagonal. Where the
-deflection decides, an unknown is not the pressure of one node but a dipole or a second difference of
-pressures, whose deflection decays faster with distance (``ehlectric.film.levels.Distribution``).
+All nodes of a line along x are changed at once, with the band of the Jacobian around its diagonal. Where the
+deflection dominates the Jacobian, an unknown is not the pressure of one node but a dipole or a second
+difference of pressures. Its deflection decays faster with distance (``ehlectric.film.levels.Distribution``).
 """
 
 from __future__ import annotations
@@ -17,31 +17,34 @@ from ehlectric.film.gap import Gap
 from ehlectric.film.levels import Distribution, Level
 from ehlectric.film.reynolds import ALONG, OFFSETS, Stencil
 
-# Half-bandwidth of the line relaxation. The part of the kernel dropped beyond it decays as 1/distance^2: at 6
-# a V-cycle reduces the error three- to twelvefold, and 10 gains little.
+# Half-bandwidth of the line relaxation. The part of the kernel beyond the band is neglected; it decays as
+# 1/distance^2. With 6 a V-cycle reduces the error by a factor of 3 to 12, and 10 gains little.
 _HALF_BAND = 6
 
-# Half-bandwidth for a point contact: from 6 to 14 it halves the iterations that the ridge of a heavy contact
-# takes, and 20 costs what it gains.
+# Half-bandwidth for a point contact. Compared with 6, 14 halves the number of iterations that the ridge of a
+# heavy contact needs; 20 costs as much as it gains.
 _HALF_BAND_POINT = 14
 
 
 @dataclass(frozen=True)
 class LineRelaxation:
-    """One relaxation of all lines along x, first every second line, then the others.
+    """One relaxation of all lines along x: first every second line, then the lines between them.
 
     Attributes
     ----------
     by_p : Stencil
         Derivative of the Reynolds residual by P at fixed H.
-    full_film, distributed : ndarray of bool, shape (nx, ny)
-        Nodes that are changed, and those of them whose unknown is distributed.
+    full_film : ndarray of bool, shape (nx, ny)
+        Nodes whose pressure changes.
+    distributed : ndarray of bool, shape (nx, ny)
+        Nodes whose unknown is distributed over several nodes.
     beside : tuple of (int, float)
-        Nodes besides its own over which an unknown is distributed, and the part that each takes.
+        Offsets of the other nodes over which an unknown is distributed, each with its part.
     half_band : int
-        Nodes on each side whose influence is kept.
+        Number of nodes on each side whose influence is kept.
     factors : tuple
-        Lines of each of the two sets, with the banded LU factors and the pivots of all of them as one matrix.
+        For each of the two sets of lines: the lines, and the LU factors and pivots of their common band
+        matrix.
     """
 
     by_p: Stencil
@@ -55,7 +58,10 @@ class LineRelaxation:
     def of(
         cls, gap: Gap, stencils: tuple[Stencil, Stencil], full_film: Mask, distributed: Mask
     ) -> LineRelaxation:
-        """Relaxation of the Jacobian with these derivatives by P and by H."""
+        """Line relaxation with a Jacobian, from the derivatives of the residual by P and by H.
+
+        ``full_film`` and ``distributed`` are masks of nodes (nx, ny).
+        """
         level = gap.level
         beside = _beside(level)
         band = half_band(level)
@@ -69,9 +75,9 @@ class LineRelaxation:
         return cls(stencils[0], full_film, distributed, beside, band, tuple(factors))
 
     def __call__(self, r: Array) -> Array:
-        """Change dP (nx, ny) with (band of the Jacobian) dP = r at the full-film nodes.
+        """Change dP (nx, ny) that solves (band of the Jacobian) dP = r at the full-film nodes.
 
-        The second half of the lines takes into account what flows to it from the first.
+        The second set of lines includes the flow across entrainment that the change of the first set causes.
         """
         dp = np.zeros_like(r)
         for lines, lu, pivots in self.factors:
@@ -90,18 +96,18 @@ class LineRelaxation:
 
 
 def half_band(level: Level) -> int:
-    """Half-bandwidth of the relaxation on a grid.
+    """Half-bandwidth of the line relaxation on a grid, in nodes.
 
-    No wider than the grid: a contact may have many times more nodes across than along.
+    It is limited by the number of nodes along x, which may be small on coarse grids of wide contacts.
     """
     return min(_HALF_BAND if level.mesh.dy is None else _HALF_BAND_POINT, level.nodes - 3)
 
 
 def distributed_nodes(level: Level, poiseuille: Array, full_film: Mask) -> Mask:
-    """Nodes whose unknown is distributed: where eps/dX^2 is small and the deflection decides.
+    """Mask of the nodes whose unknown is distributed, where eps/dX^2 is small and the deflection dominates.
 
-    ``poiseuille`` (nx, ny) is the diagonal of the Poiseuille term. The nodes over which an unknown is
-    distributed have a full film themselves.
+    ``poiseuille`` (nx, ny) is the diagonal of the Poiseuille term. An unknown is only distributed over nodes
+    with a full film.
     """
     distributed = full_film & (poiseuille < level.rate)
     for offset, _ in _beside(level):
@@ -111,12 +117,12 @@ def distributed_nodes(level: Level, poiseuille: Array, full_film: Mask) -> Mask:
 
 
 def _beside(level: Level) -> Distribution:
-    """Nodes besides its own over which an unknown is distributed, and the part that each takes."""
+    """Offsets of the other nodes over which an unknown is distributed, each with its part."""
     return tuple(part for part in level.distribution if part[0])
 
 
 def _shifted(offset: int) -> tuple[slice, slice]:
-    """Nodes that have a neighbour at this offset along x, and that neighbour of each."""
+    """Slices along x of the nodes that have a neighbour at this offset, and of these neighbours."""
     if offset < 0:
         return slice(-offset, None), slice(None, offset)
     return slice(None, -offset), slice(offset, None)
@@ -134,7 +140,7 @@ def _diagonal(gap: Gap, stencils: tuple[Stencil, Stencil], offset: int) -> Array
 
 
 def _banded(gap: Gap, stencils: tuple[Stencil, Stencil], distributed: Mask, band: int) -> Array:
-    """Band of the Jacobian in the distributed unknowns as LAPACK stores it, (3 band + 1, ny, nx)."""
+    """Band of the Jacobian for the distributed unknowns as LAPACK stores it, shape (3 band + 1, ny, nx)."""
     nx, ny = distributed.shape
     matrix = np.zeros((3 * band + 1, ny, nx))
     diagonals = {offset: _diagonal(gap, stencils, offset) for offset in range(-band - 1, band + 2)}

@@ -1,12 +1,13 @@
-"""Reynolds equation on a uniform grid: residual and local derivatives.
+"""Reynolds equation on a uniform grid: residual and derivatives by pressure and film thickness.
 
 Dimensionless, with X = x/b, Y = y/b, P = p/p_h and H = h R/b^2:
 
     r = d(rho H)/dX - d/dX(eps dP/dX) - d/dY(eps dP/dY) = 0,   eps = rho H^3/(eta lambda)
 
-A line contact has no Y. Arrays are (nx, ny), x along entrainment. The Poiseuille term is central and of
-second order; its flux comes from ``ehlectric.film.flow``. The wedge term is upstream, of first order (eq. 7
-of the paper, doi:10.3390/lubricants10050087) or of second order.
+A line contact has no term in Y. Arrays have the shape (nx, ny), with x along entrainment. The Poiseuille term
+is a central difference of second order; its flux is computed in ``ehlectric.film.flow``. The wedge term is an
+upstream difference of first order (eq. 7 of Morris et al. (2022), doi:10.3390/lubricants10050087) or of
+second order.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.film.flow import Flow
 from ehlectric.film.mesh import Mesh
 
-# Neighbours that a row of a stencil couples, as steps along x and y: four along x and, in a point contact,
+# Nodes that a row of a stencil couples, as steps along x and y: four nodes along x and, in a point contact,
 # two across it.
 OFFSETS = ((-2, 0), (-1, 0), (0, 0), (1, 0), (0, -1), (0, 1))
 ALONG, ACROSS = 4, 6
@@ -47,7 +48,7 @@ class Stencil:
         return self.add_across(values, product)
 
     def add_across(self, values: Array, product: Array) -> Array:
-        """Add the terms of the neighbours across entrainment to ``product``, in place."""
+        """Add the terms of the neighbours across entrainment to ``product`` in place, and return it."""
         c = self.coefficients
         if len(c) == ACROSS:
             product[:, 1:] += c[4, :, 1:] * values[:, :-1]
@@ -55,11 +56,11 @@ class Stencil:
         return product
 
     def on_rows(self, rows: Mask) -> Stencil:
-        """Return the operator with all rows but ``rows`` (nx, ny) set to zero."""
+        """Operator with zero coefficients in all rows where the mask ``rows`` (nx, ny) is False."""
         return Stencil(np.where(rows, self.coefficients, 0.0))
 
     def matrix(self) -> Array:
-        """Return the operator as a dense matrix on the nodes in order, shape (nx ny, nx ny)."""
+        """Operator as a dense matrix over the nodes, y fastest, shape (nx ny, nx ny)."""
         c = self.coefficients
         _, nx, ny = c.shape
         dense = np.zeros((nx, ny, nx, ny))
@@ -76,11 +77,11 @@ def wedge_stencil(shape: tuple[int, int], dx: float, *, second_order: bool) -> S
     Parameters
     ----------
     shape : tuple of int
-        Nodes (nx, ny).
+        Numbers of nodes (nx, ny).
     dx : float
         Grid spacing dX, dimensionless.
     second_order : bool
-        Whether the difference is of second order, else of first.
+        Whether the difference is of second order; otherwise it is of first order.
 
     Returns
     -------
@@ -90,7 +91,7 @@ def wedge_stencil(shape: tuple[int, int], dx: float, *, second_order: bool) -> S
     Notes
     -----
     In flux form the second-order scheme takes (3 f_i - f_(i-1))/2 at the face i+1/2. The first face has no
-    second upstream node and takes the mean of its two nodes: row 1 is then the first-order difference, and
+    second upstream node and takes the mean of its two nodes. Row 1 is then the first-order difference, but
     the flux is of second order everywhere.
     """
     c = np.zeros((ALONG, *shape))
@@ -104,19 +105,19 @@ def wedge_stencil(shape: tuple[int, int], dx: float, *, second_order: bool) -> S
 
 
 def _inner_lines(mesh: Mesh) -> slice:
-    """Lines along x that have neighbours on both sides."""
+    """Lines along x that have neighbours on both sides, mirror images included."""
     return slice(0 if mesh.symmetric else 1, -1)
 
 
 def poiseuille_weight(flow: Flow, mesh: Mesh) -> Array:
-    """Sum of the conductances of the faces of a node: the diagonal of the Poiseuille term at fixed eps.
+    """Diagonal of the Poiseuille term at fixed eps: the sum of the conductances of the faces of a node.
 
     Parameters
     ----------
     flow : Flow
-        Flow at a state.
+        Flow at a state of the film.
     mesh : Mesh
-        Its grid.
+        Grid.
 
     Returns
     -------
@@ -140,14 +141,14 @@ def residual(flow: Flow, wedge: Stencil, thickness: Array, mesh: Mesh) -> Array:
     wedge : Stencil
         Operator of the wedge term on the mass rho H.
     thickness : ndarray, shape (nx, ny)
-        H, dimensionless.
+        Film thickness H, dimensionless.
     mesh : Mesh
         Grid.
 
     Returns
     -------
     ndarray, shape (nx, ny)
-        r, dimensionless; positive where more oil leaves a node than enters it.
+        Residual r, dimensionless; positive where more oil leaves a node than enters it.
     """
     r = wedge(flow.coefficients.density * thickness)
     r[1:-1] -= flow.along.divergence()
@@ -158,10 +159,10 @@ def residual(flow: Flow, wedge: Stencil, thickness: Array, mesh: Mesh) -> Array:
 
 
 def linearise(flow: Flow, wedge: Stencil, thickness: Array, mesh: Mesh) -> tuple[Stencil, Stencil]:
-    """Local derivatives of r: one stencil in P at fixed H, one in H at fixed P.
+    """Derivatives of the residual r: one stencil by P at fixed H, and one by H at fixed P.
 
-    The Jacobian is dr = (stencil in P) dP + (stencil in H) dH, where dH is the change of the gap
-    (``ehlectric.film.gap``). It is never formed.
+    The Jacobian is dr = (stencil by P) dP + (stencil by H) dH, where dH is the change of the gap
+    (``ehlectric.film.gap``). Its matrix is formed on the coarsest grid only.
 
     Parameters
     ----------
@@ -170,7 +171,7 @@ def linearise(flow: Flow, wedge: Stencil, thickness: Array, mesh: Mesh) -> tuple
     wedge : Stencil
         Operator of the wedge term on the mass rho H.
     thickness : ndarray, shape (nx, ny)
-        H, dimensionless.
+        Film thickness H, dimensionless.
     mesh : Mesh
         Grid.
 
@@ -200,12 +201,12 @@ def linearise(flow: Flow, wedge: Stencil, thickness: Array, mesh: Mesh) -> tuple
 
 
 def _add_across(by: Array, parts: tuple[Array, Array, Array], mesh: Mesh) -> None:
-    """Add the derivatives of the flow across entrainment, (lines, nx) each, to a stencil's coefficients."""
+    """Add the derivatives of the flow across entrainment, each (lines, nx), to the coefficients ``by``."""
     lines = _inner_lines(mesh)
     for row, part in zip((4, 2, 5), parts, strict=True):
         by[row, 1:-1, lines] += part.T[1:-1]
     if mesh.symmetric:
-        # The neighbour beyond the line of symmetry is the mirror image of that before it.
+        # The neighbour beyond the line of symmetry is the mirror image of the neighbour on this side.
         by[5, :, 0] += by[4, :, 0]
         by[4, :, 0] = 0.0
     by[:, ~mesh.inner] = 0.0

@@ -1,4 +1,4 @@
-"""Film of any contact in SI units: its nodal values, its status, and how it was obtained."""
+"""Film solution in SI units, shared by line and point contacts: nodal values, status and residuals."""
 
 from __future__ import annotations
 
@@ -17,48 +17,55 @@ from ehlectric.film.problem import FilmProblem, Scales
 from ehlectric.film.state import GridSolution, NewtonStep, State, Status
 from ehlectric.runtime.threads import one_blas_thread
 
-# Gaps below this part of the central film thickness, in a film that did not converge, count as collapsed.
+# A film that did not converge counts as collapsed where it is thinner than this fraction of its central
+# thickness.
 COLLAPSED = 1e-2
 
 
 @dataclass(frozen=True)
 class FilmSolution:
-    """Film in SI units with how it was obtained: the part that line and point contacts share.
+    """Lubricant film of a line or a point contact in SI units, with its status and residuals.
 
     Nodal values have the shape (nx,) in a line contact and (nx, ny) in a point contact.
 
     Attributes
     ----------
     x : ndarray, shape (nx,)
-        Position along entrainment [m].
-    pressure, thickness, deflection : ndarray
-        Pressure [Pa], film thickness [m], and the gap opened by the pressure [m] up to a rigid displacement.
+        Positions of the nodes along entrainment [m].
+    pressure, thickness : ndarray
+        Pressure [Pa] and film thickness [m].
+    deflection : ndarray
+        Elastic deflection [m], by which the pressure opens the gap. In a line contact it is known up to a
+        constant.
     density : ndarray
-        Density over that at zero pressure, dimensionless.
+        Density over the density at zero pressure, dimensionless.
     cavitated : ndarray of bool
-        Where the pressure is held at ambient; includes the nodes at the edges of the domain.
+        Nodes at ambient pressure: those where the film is cavitated, and those on the edges of the domain.
     scales : Scales
         Length b [m], pressure p_h [Pa] and thickness b^2/R [m] that made the problem dimensionless.
     status : str
-        "converged"; "stalled" (residual above the tolerance at the last step allowed); "diverged"; or
-        "film collapsed": not converged, with gaps below a hundredth of the central film.
+        Outcome of the iteration. "converged": the residual is below the tolerance. "stalled": it is still
+        above the tolerance after the largest number of steps. "diverged": the iteration ended at an invalid
+        iterate. "film collapsed": the film did not converge and is thinner somewhere than 1 % of its central
+        thickness.
     load_residual : float
         abs(load carried/load applied - 1), dimensionless.
     reynolds_residual : ndarray or None
-        d(rho H)/dX - d/dX(eps dP/dX) in units of P: zero in the full film, not negative where it cavitates.
-        None for an instant of a transient film.
+        Residual of the Reynolds equation, scaled to a pressure over p_h. It is zero in the full film and not
+        negative where the film is cavitated. None for an instant of a transient film.
     residual : float or None
-        Largest scaled residual. None for an instant of a transient film.
+        Largest scaled residual of all equations, a pressure over p_h. None for an instant of a transient
+        film.
     newton_iterations : int or None
-        On the finest grid; ``steps`` has those of all grids. None for an instant of a transient film.
+        Number of Newton steps on the finest grid. None for an instant of a transient film.
     steps : tuple of NewtonStep
-        History of the iteration on all grids.
+        Newton steps on all grids, in their order.
     discretisation_error : float or None
-        Richardson's estimate, relative: the larger of that of the minimum and the central thickness.
-        None where there is no estimate.
+        Richardson estimate of the relative error of the minimum or the central film thickness, whichever is
+        larger. None if there is no estimate.
     inlet_deficit : float or None
-        Share of the reduced pressure that would be built up before the domain begins. None for an instant of
-        a transient film.
+        Share of the reduced pressure that is missing because it would build up upstream of the domain. None
+        for an instant of a transient film.
     """
 
     x: Array
@@ -84,42 +91,45 @@ class FilmSolution:
 
     @property
     def minimum_thickness(self) -> float:
-        """Film thickness of the lowest node [m]."""
+        """Smallest film thickness at the nodes [m]."""
         return float(np.min(self.thickness))
 
     @property
     def max_pressure(self) -> float:
-        """Largest pressure of a node [Pa]."""
+        """Largest pressure at the nodes [Pa]."""
         return float(np.max(self.pressure))
 
 
 @contextmanager
 def quiet_solution() -> Iterator[None]:
-    """Context of a solution: one BLAS thread, and no floating-point warnings, as iterates may overflow."""
+    """Context manager for a solution: one BLAS thread, and no floating-point warnings.
+
+    The warnings are off because intermediate iterates may overflow.
+    """
     with one_blas_thread(), np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         yield
 
 
-# Nodal values (nx, ny) in the shape that they have in a film.
+# Function that brings nodal values (nx, ny) into their shape in the film: (nx,), or a whole map.
 Shaped = Callable[[NDArray[Any]], NDArray[Any]]
 
 
 def stationary_film(problem: FilmProblem, solutions: list[GridSolution], shaped: Shaped) -> FilmSolution:
-    """Stationary film of the finest grid in SI units.
+    """Stationary film in SI units from the dimensionless solutions on all grids.
 
     Parameters
     ----------
     problem : FilmProblem
-        The contact, dimensionless.
+        Dimensionless problem of the contact.
     solutions : list of GridSolution
-        From the coarsest grid to the finest, as ``nested_iteration`` gives them.
+        Solutions that ``nested_iteration`` returns; the last is that on the finest grid.
     shaped : callable
-        Nodal values (nx, ny) in the shape that they have in the film.
+        Function that brings nodal values (nx, ny) into their shape in the film.
 
     Returns
     -------
     FilmSolution
-        With its residuals, its history and its error estimates.
+        Film on the finest grid, with residuals, Newton steps and error estimates.
     """
     finest, scales = solutions[-1], problem.scales
     state, final, level = finest.state, finest.final, finest.level
@@ -145,24 +155,28 @@ def stationary_film(problem: FilmProblem, solutions: list[GridSolution], shaped:
 
 
 def _comparable(problem: FilmProblem, solutions: list[GridSolution]) -> GridSolution | None:
-    """Solution on the next coarser grid, where it is of the same surfaces and so gives an error estimate."""
+    """Solution on the next coarser grid for the same surfaces, for the error estimate; None if missing."""
     if any(g.status == "converged" and g.level.nodes == problem.nodes for g in solutions[:-1]):
-        # The roughness was raised in steps on the finest grid; the coarser film belongs to other surfaces.
+        # The roughness was raised in steps on the finest grid, so the coarser grid's film belongs to other
+        # surfaces.
         return None
     return next((g for g in reversed(solutions) if g.level.nodes < problem.nodes), None)
 
 
-def pressure_of(scales: Scales, state: State, free: Mask) -> Array:
-    """Pressure of a state [Pa], shape (nx, ny): ambient where it is held, and nowhere below."""
+def pressure_of(scales: Scales, state: State, full_film: Mask) -> Array:
+    """Pressure of a state [Pa], shape (nx, ny), nowhere below ambient.
+
+    ``full_film`` marks the nodes with a full film; the pressure at all other nodes is ambient.
+    """
     pressure = np.maximum(scales.pressure * state.pressure, scales.ambient_pressure)
-    return np.where(free, pressure, scales.ambient_pressure)
+    return np.where(full_film, pressure, scales.ambient_pressure)
 
 
 def film_status(status: Status, mesh: Mesh, thickness: Array) -> Status:
-    """Status of a film of thickness (nx, ny) [any unit].
+    """Status of a film from the status of its iteration and its thickness (nx, ny) in any unit.
 
-    "film collapsed" where an unconverged film is somewhere thinner than a hundredth of its central thickness,
-    otherwise the status of its iteration.
+    It is "film collapsed" if the film did not converge and is thinner somewhere than 1 % of its central
+    thickness. Otherwise it is the status of the iteration.
     """
     if status != "converged" and float(np.min(thickness)) < COLLAPSED * at_centre(mesh, thickness):
         return "film collapsed"

@@ -1,10 +1,11 @@
-"""Nonlinear elimination at the pressure spike: the film equations solved on a few nodes, all others fixed.
+"""Nonlinear elimination of the pressure spike: solution on the few nodes around it, with all others fixed.
 
-The pressure spike is a jump over two or three nodes on every grid, and between these nodes the viscosity
-changes by orders of magnitude. A solution interpolated from a coarser grid is accurate everywhere else. The
-jump makes global Newton steps small and many. Solving its nodes separately first removes it.
+The pressure spike is a jump over two or three nodes on every grid. Between these nodes the viscosity changes
+by orders of magnitude. An initial guess that is interpolated from a coarser grid is accurate everywhere else.
+At the jump it is not, and Newton's method for the whole film then takes many small steps. A separate solution
+at the nodes of the jump before each Newton step prevents this.
 
-The method is nonlinear elimination as in X.-C. Cai and X. Li, SIAM J. Sci. Comput. 33 (2011) 746,
+The method is the nonlinear elimination of X.-C. Cai and X. Li, SIAM J. Sci. Comput. 33 (2011) 746,
 doi:10.1137/080736272, with one window around the largest residual.
 """
 
@@ -24,20 +25,39 @@ from ehlectric.film.reynolds import Stencil, linearise, residual
 # Scaled residual above which a node counts as strongly nonlinear.
 _THRESHOLD = 0.02
 
-# Nodes on each side of the largest residual: ten times the width of the jump.
+# Nodes of the window on each side of the largest residual: ten times the width of the jump.
 _HALF_WINDOW = 20
 
-# Neighbours outside the window that its equations read: two upstream, one downstream.
+# Width of the margin beside the window, in nodes: its equations contain two nodes upstream and one
+# downstream.
 _MARGIN = 2
+
+# Largest number of Newton steps for the nodes of the window.
 _MAX_ITERATIONS = 30
 
 
 @dataclass(frozen=True)
 class _Window:
-    """Nodes that are solved for, and the strip of fixed neighbours around them.
+    """Window of nodes along one line, whose pressures are solved separately, with a margin of fixed nodes.
 
-    ``strip`` and ``column`` are places on the grid, ``inner`` the window within the strip. ``influence`` is
-    the derivative of H on the strip by P in the window; ``source`` and the stencil are those of the strip.
+    Window and margin together are the strip.
+
+    Attributes
+    ----------
+    strip : slice
+        Nodes of the strip along x on the grid.
+    inner : slice
+        Nodes of the window within the strip.
+    column : int
+        Index of the line across entrainment.
+    influence : ndarray, shape (n, m)
+        Derivative of H at the n nodes of the strip by P at the m nodes of the window.
+    wedge : Stencil
+        Operator of the wedge term on the strip.
+    source : ndarray, shape (n, 1)
+        Right side of the Reynolds equation on the strip.
+    mesh : Mesh
+        Mesh of the strip.
     """
 
     strip: slice
@@ -62,16 +82,16 @@ class _Window:
         return cls(strip, inner, column, gap.block(strip, inner), wedge, source, mesh)
 
     def cut(self, values: Array) -> Array:
-        """Values of a whole grid (nx, ny) on the strip, shape (n, 1)."""
+        """Values on the strip, shape (n, 1), from values on the whole grid (nx, ny)."""
         return values[self.strip, self.column : self.column + 1]
 
     def residual(self, at_faces: Flow, thickness: Array) -> Array:
-        """Reynolds residual at the nodes of the window."""
+        """Reynolds residual at the nodes of the window, shape (m,)."""
         r = residual(at_faces, self.wedge, thickness, self.mesh) - self.source
         return r[self.inner, 0]
 
     def jacobian(self, at_faces: Flow, thickness: Array) -> Array:
-        """Derivative of the residual by P among the nodes of the window."""
+        """Derivative of the residual at the nodes of the window by P at these nodes, shape (m, m)."""
         by_p, by_h = linearise(at_faces, self.wedge, thickness, self.mesh)
         whole = by_p.matrix()[:, self.inner] + by_h.matrix() @ self.influence
         return whole[self.inner]
@@ -87,24 +107,23 @@ def relax_spike(
     pressure_step: float,
     gap_step: float,
 ) -> Array | None:
-    """Pressure after solving the nodes around the largest residual of a line contact separately.
+    """Pressure of a line contact after a separate solution at the nodes around the largest residual.
 
     Parameters
     ----------
     fluid : Fluid
         Lubricant over dimensionless pressure.
     gap : Gap
-        Gap of the state.
+        Gap at the state of the film.
     pressure, full_film, scaled_residual : ndarray, shape (nx, ny)
-        State: P, the nodes with a full film, and the residual as a pressure over p_h.
+        State of the film: P, the mask of nodes with a full film, and the residual as a pressure over p_h.
     pressure_step, gap_step : float
-        Limits of one Newton step, as for the whole film (``step_length``).
+        Limits of one Newton step (``step_length``).
 
     Returns
     -------
     ndarray, shape (nx, ny), or None
-        None where no node is strongly nonlinear or the small problem was not solved: the caller continues
-        with the state it has.
+        Pressure P. None if no node is strongly nonlinear, or if the separate solution did not converge.
     """
     magnitude = np.abs(scaled_residual)
     node, column = np.unravel_index(int(np.argmax(magnitude)), magnitude.shape)
@@ -117,7 +136,7 @@ def relax_spike(
         at_faces = flow(fluid, p, h, window.mesh)
         r = window.residual(at_faces, h)[unknown]
         jacobian = window.jacobian(at_faces, h)[np.ix_(unknown, unknown)]
-        # Rows scaled by their largest entry: their coefficients span many orders of magnitude.
+        # Rows are scaled by their largest entry, as their coefficients span many orders of magnitude.
         rows = 1.0 / np.max(np.abs(jacobian), axis=1)
         norm = float(np.max(np.abs(rows * r)))
         if not np.isfinite(norm):
@@ -139,21 +158,21 @@ def relax_spike(
 
 
 def step_length(thickness: Array, dp: Array, dh: Array, *, pressure_step: float, gap_step: float) -> float:
-    """Largest step in (0, 1] along (dP, dH) that keeps within the limits of one Newton step.
+    """Fraction of a full Newton step that keeps the changes of P and H within their limits.
 
     Parameters
     ----------
     thickness, dp, dh : ndarray, shape (nx, ny)
-        H and the changes of P and H of a full step, dimensionless.
+        Film thickness H, and the changes of P and H in a full step, dimensionless.
     pressure_step : float
         Largest change of P at any node.
     gap_step : float
-        Part of every gap that is left at least.
+        Smallest fraction of every gap that must remain.
 
     Returns
     -------
     float
-        Length of the step.
+        Fraction of the step, in (0, 1].
     """
     length = min(1.0, pressure_step / max(float(np.max(np.abs(dp))), 1e-300))
     closing = dh < 0.0

@@ -1,4 +1,4 @@
-"""State of the film on one grid, its residual, and the course of Newton's method to it."""
+"""State of the film on one grid, its residual, and the Newton steps that led to it."""
 
 from __future__ import annotations
 
@@ -14,21 +14,23 @@ from ehlectric.film.gap import Gap
 from ehlectric.film.levels import Level
 
 Status: TypeAlias = Literal["converged", "stalled", "diverged", "film collapsed"]
-Progress: TypeAlias = Callable[[int, int, float], None]  # nodes, Newton step, residual
+
+# Function that reports progress: (nodes along x, Newton step, residual) -> None.
+Progress: TypeAlias = Callable[[int, int, float], None]
 
 
 @dataclass(frozen=True)
 class NewtonStep:
-    """One Newton step.
+    """Record of one Newton step.
 
     Attributes
     ----------
     nodes : int
-        Nodes of the grid along x.
+        Number of nodes of the grid along x.
     residual : float
         Residual before the step, a pressure over p_h.
     krylov_iterations : int
-        GMRES iterations of its linear system.
+        Number of GMRES iterations for the linear system of the step.
     """
 
     nodes: int
@@ -43,11 +45,11 @@ class State:
     Attributes
     ----------
     pressure : ndarray, shape (nx, ny)
-        P.
+        Pressure P.
     h00 : float
         Rigid displacement H00.
     thickness : ndarray, shape (nx, ny)
-        H, which follows from the other two.
+        Film thickness H, which follows from P and H00.
     """
 
     pressure: Array
@@ -56,11 +58,11 @@ class State:
 
     @classmethod
     def of(cls, level: Level, pressure: Array, h00: float) -> State:
-        """State of a pressure (nx, ny) and an H00 on a grid."""
+        """State with a pressure P (nx, ny) and a rigid displacement H00 on a grid."""
         return cls(pressure, h00, Gap.of(level, pressure, h00).thickness)
 
     def lifted(self, smallest: float) -> State:
-        """Return the state with H00 raised until no gap is below ``smallest``."""
+        """State with H00 raised, if necessary, so that H is at least ``smallest`` everywhere."""
         lift = max(0.0, smallest - float(self.thickness.min()))
         return State(self.pressure, self.h00 + lift, self.thickness + lift)
 
@@ -72,15 +74,15 @@ class Residual:
     Attributes
     ----------
     flow : Flow
-        Flow through the faces at the state.
+        Flow of the lubricant through the faces at the state.
     reynolds : ndarray, shape (nx, ny)
         Residual r of the Reynolds equation.
     diagonal : ndarray, shape (nx, ny)
-        Its derivative by the node's own pressure, about; zero or more.
+        Approximate derivative of r by the pressure of its own node, not negative.
     full_film : ndarray of bool, shape (nx, ny)
         Nodes with a full film; the others are cavitated or on an edge, at ambient pressure.
     load : float
-        Load of the contact less the load that the pressure carries.
+        Dimensionless load of the contact minus the load that the pressure carries.
     norm : float
         Largest scaled residual of all equations, a pressure over p_h.
     """
@@ -99,7 +101,10 @@ class Residual:
 
     @property
     def scaled(self) -> Array:
-        """Residual of the Reynolds equation over its diagonal, a pressure over p_h; zero in the end rows."""
+        """Residual of the Reynolds equation over its diagonal, a pressure over p_h, shape (nx, ny).
+
+        It is zero where the diagonal is zero.
+        """
         zeros = np.zeros_like(self.diagonal)
         return np.divide(self.reynolds, self.diagonal, out=zeros, where=self.diagonal > 0.0)
 
@@ -117,7 +122,7 @@ class GridSolution:
     final : Residual
         Residual of ``state``.
     steps : tuple of NewtonStep
-        Newton steps that led to it.
+        Newton steps that led to the last iterate.
     status : str
         "converged", "stalled" or "diverged".
     """

@@ -1,14 +1,15 @@
-"""Transient film of a contact whose roughness moves, one time step after the other.
+"""Transient film of a contact with moving roughness, computed in time steps.
 
 Dimensionless, with T = t u/b for the mean speed u of the surfaces:
 
     d(rho H)/dT + d(rho H)/dX - d/dX(eps dP/dX) - d/dY(eps dP/dY) = 0
 
 The first two terms are one derivative along the lines X - T = const, on which oil travels
-(``ehlectric.film.characteristics``). Differenced there, backwards over two steps, a film that is carried
-through the flat zone keeps its shape. With steps as long as the grid spacing these lines begin at nodes and
-nothing is interpolated; a film without motion is then that of the stationary scheme of second order to the
-last digit. Where the film cavitates, its mass is the oil that flows in, not what the gap would hold.
+(``ehlectric.film.characteristics``). It is discretised along these lines by a backward difference over two
+steps. A film that is carried through the flat zone therefore keeps its shape. With time steps as long as the
+grid spacing the lines begin at nodes, and nothing is interpolated. Without motion the film is then equal to
+that of the stationary scheme of second order, to the last digit. Where the film is cavitated, its mass is the
+oil that flows in, which does not fill the gap.
 """
 
 from __future__ import annotations
@@ -27,41 +28,44 @@ from ehlectric.film.newton import assess, newton
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.state import GridSolution, State
 
-# Residual of a time step, a pressure over p_h, far below the error of the step itself.
+# Tolerance of the residual in a time step, a pressure over p_h, far below the discretisation error of the
+# step.
 STEP_TOLERANCE = 1e-6
 
-# Newton steps from the better of two initial guesses, the extrapolated and the last film, and from the other,
-# before a time step is halved; and how often it may be halved.
+# Largest numbers of Newton steps before a time step is halved: from the better of two initial guesses, the
+# extrapolated and the last film, and from the other one.
 _FEW_ITERATIONS, _MANY_ITERATIONS = 8, 30
+
+# Largest number of times that a time step is halved.
 _MOST_HALVINGS = 6
 
-# Part of the last smallest gap below which an extrapolated film is no initial guess.
+# Smallest gap of an extrapolated film that may be an initial guess, as a fraction of the last smallest gap.
 _LEAST_START = 0.3
 
-# Change of P in a step above which a spike passes a node, so that the pressure there is not extrapolated.
+# Change of P in a time step above which the pressure of a node is not extrapolated: a spike passes the node.
 _MOST_CHANGE = 0.1
 
-# Grid spacings that oil may travel in a time step.
+# Largest distance that oil travels in a time step, in grid spacings.
 MOST_COURANT = 8.0
 
-# Gap that moving roughness adds: T, X (nx,), Y (ny,) -> (nx, ny).
+# Gap that moving roughness adds: function of T, X (nx,) and Y (ny,) -> (nx, ny).
 MovingGap: TypeAlias = Callable[[float, Array, Array], Array]
 
 
 @dataclass(frozen=True)
 class Instant:
-    """Film at one instant of time, dimensionless.
+    """Transient film at one instant of time, dimensionless.
 
     Attributes
     ----------
     time : float
-        T.
+        Time T.
     state : State
-        P, H00 and H.
+        Pressure P, rigid displacement H00 and film thickness H.
     mass : ndarray, shape (nx, ny)
-        Oil mass rho H; where the film cavitates, the mass of the oil that is left.
+        Oil mass rho H; where the film is cavitated, the mass of the oil that is left.
     density : ndarray, shape (nx, ny)
-        rho/rho_0.
+        Density ratio rho/rho_0.
     full_film : ndarray of bool, shape (nx, ny)
         Nodes with a full film.
     """
@@ -75,16 +79,16 @@ class Instant:
 
 @dataclass(frozen=True)
 class Effort:
-    """Work of a time step.
+    """Computational work of a time step.
 
     Attributes
     ----------
     newton : int
-        Newton steps.
+        Number of Newton steps.
     krylov : int
-        GMRES iterations of all of them.
+        Number of GMRES iterations in all Newton steps.
     halvings : int
-        How often the step was halved.
+        Number of times that a step was halved.
     """
 
     newton: int = 0
@@ -102,7 +106,7 @@ class History:
     Attributes
     ----------
     now, before : Instant
-        Last instant and the one before.
+        Last instant and the instant before it.
     effort : Effort
         Work of the last step.
     """
@@ -113,14 +117,16 @@ class History:
 
 
 class UnsteadyFilm:
-    """Transient film of a contact whose gap moves, stepped in time.
+    """Solver for the transient film of a contact with moving roughness.
 
     Parameters
     ----------
     problem : FilmProblem
-        Contact with the wedge term of second order; its ``added_gap`` is the roughness that does not move.
+        Dimensionless problem of the contact, with the wedge term of second order. Its ``added_gap`` is the
+        roughness that does not move.
     moving_gap : callable
-        Gap that moving roughness adds, T, X (nx,), Y (ny,) -> (nx, ny); a peak adds a negative one.
+        Gap that moving roughness adds: function of T, X (nx,) and Y (ny,) -> (nx, ny). A peak adds a negative
+        gap.
     """
 
     def __init__(self, problem: FilmProblem, moving_gap: MovingGap) -> None:
@@ -141,47 +147,47 @@ class UnsteadyFilm:
 
     @property
     def level(self) -> Level:
-        """Finest grid, of the stationary contact."""
+        """Finest grid, with the operators of the stationary film."""
         return self._levels[0]
 
     def start(self, steady: GridSolution, step: float) -> History:
-        """History of a film that has been stationary.
+        """History that starts from a stationary film.
 
         Parameters
         ----------
         steady : GridSolution
             Stationary film on the same grid.
         step : float
-            T since the instant before, > 0.
+            Time T between the two instants, > 0.
 
         Returns
         -------
         History
-            At T = 0 and T = -step.
+            The stationary film at T = 0 and at T = -step.
         """
         density = steady.final.coefficients.density
         now = Instant(0.0, steady.state, stationary_mass(steady), density, steady.final.full_film)
         return History(now, replace(now, time=-step))
 
     def advance(self, history: History, step: float) -> History:
-        """Advance the film by one time step, halved as often as its solution needs.
+        """Advance the film by one time step, which is halved until the film equations converge.
 
         Parameters
         ----------
         history : History
             Last two instants.
         step : float
-            Change of T, at most ``MOST_COURANT`` grid spacings.
+            Length of the step in T, at most ``MOST_COURANT`` grid spacings.
 
         Returns
         -------
         History
-            One time step later, with the work of the step.
+            Last two instants after the step, with the work of the step.
 
         Raises
         ------
         ConvergenceError
-            Where the step is not solved after six halvings.
+            If the film equations do not converge after six halvings.
         """
         return self._advance(replace(history, effort=Effort()), step, _MOST_HALVINGS)
 
@@ -200,7 +206,7 @@ class UnsteadyFilm:
         return halved
 
     def _stepped(self, history: History, step: float) -> tuple[Instant | None, Effort]:
-        """Instant one step later, None where Newton's method does not converge."""
+        """Instant one step later, or None if Newton's method does not converge, with the work."""
         time = history.now.time + step
         levels = self._levels_at(history, step)
         effort = Effort()
@@ -225,9 +231,10 @@ class UnsteadyFilm:
         return None, effort
 
     def _starts(self, levels: list[Level], history: History, step: float) -> list[tuple[State, bool]]:
-        """Initial guesses, each with whether to eliminate a spike: the last film and the extrapolated one.
+        """Initial guesses of a time step: the last film and, unless it is too thin, the extrapolated film.
 
-        The one of the smaller residual comes first: where short waves pass, the last film is often better.
+        Each comes with a flag whether to solve the pressure spike separately. The guess with the smaller
+        residual comes first. Where short waves pass, this is often the last film.
         """
         now, before = history.now.state, history.before.state
         ratio = step / (history.now.time - history.before.time)
@@ -245,7 +252,7 @@ class UnsteadyFilm:
         return sorted(starts, key=lambda start: assess(self.problem.fluid, levels[0], start[0]).norm)
 
     def _levels_at(self, history: History, step: float) -> list[Level]:
-        """All grids with the equation of the next time step."""
+        """All grids with the Reynolds equation of the next time step."""
         now, before = history.now, history.before
         mesh = self.level.mesh
         added = self._moving_gap(now.time + step, mesh.x, mesh.y)

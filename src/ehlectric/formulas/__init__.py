@@ -1,1 +1,1 @@
-"""Closed formulas that need no grid: Hertzian contact, film thickness and lubrication regimes."""
+"""Closed formulas that need no grid: Hertz contact, film thickness and lubrication regimes."""

@@ -1,7 +1,7 @@
-"""Moes groups, published film-thickness formulas of line contacts, and lubrication regimes.
+"""Film-thickness formulas, Moes groups and lubrication regimes of line contacts.
 
-The formulas are fits to solutions of their time; they differ from each other and from the solved film by
-up to 40 %. They stand beside a result, never in its place.
+The published formulas are fits to numerical solutions of their time. They differ from each other, and from
+the film that ehlectric computes, by up to 40 %. Results show them for comparison only.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import numpy as np
 
 @dataclass(frozen=True, kw_only=True)
 class Thickness:
-    """Film thicknesses of a formula [m]; None for a film that the formula does not give."""
+    """Film thicknesses from a formula [m]; None for a thickness that the formula does not give."""
 
     minimum_thickness: float | None = None
     central_thickness: float | None = None
@@ -23,14 +23,14 @@ class Thickness:
 
 @dataclass(frozen=True, kw_only=True)
 class CentralThickness(Thickness):
-    """Film thicknesses of a formula that gives the central film [m]."""
+    """Film thicknesses from a formula that gives the central thickness [m]."""
 
     central_thickness: float
 
 
 @dataclass(frozen=True, kw_only=True)
 class BothThicknesses(CentralThickness):
-    """Film thicknesses of a formula that gives the minimum and the central film [m]."""
+    """Film thicknesses from a formula that gives the minimum and the central thickness [m]."""
 
     minimum_thickness: float
 
@@ -49,18 +49,20 @@ _Contact = TypeVar("_Contact", bound=Piezoviscous)
 
 @dataclass(frozen=True)
 class Formula(Generic[_Contact]):
-    """Film-thickness formula as the table ``FORMULAS`` of its module holds it.
+    """Film-thickness formula, an entry of the table ``FORMULAS`` of its module.
 
-    To add a formula, write its function and enter it there; results, summaries and tables then have it.
+    To add a formula, write its function and add an entry to ``FORMULAS``. Results, summaries and tables then
+    contain it.
 
     Attributes
     ----------
     name : str
-        As it is printed.
+        Name of the formula in printed tables.
     function : callable
-        Thickness of a contact.
+        Function of a contact that returns its ``Thickness``.
     piezoviscous : bool
-        Whether the formula has no film for an isoviscous lubricant.
+        Whether the formula holds for piezoviscous lubricants only. It then gives no film thickness for an
+        isoviscous lubricant.
 
     Examples
     --------
@@ -74,7 +76,7 @@ class Formula(Generic[_Contact]):
     piezoviscous: bool = False
 
     def __call__(self, contact: _Contact) -> Thickness:
-        """Thickness of a contact; without any film where the formula does not hold."""
+        """Film thicknesses of a contact [m]; all None where the formula does not hold."""
         if self.piezoviscous and contact.pressure_viscosity_coefficient == 0.0:
             return Thickness()
         return self.function(contact)
@@ -82,20 +84,22 @@ class Formula(Generic[_Contact]):
 
 @dataclass(frozen=True)
 class LineContact:
-    """What the formulas ask of a line contact, SI units.
+    """Line contact with the inputs of the film-thickness formulas, in SI units.
 
     Parameters
     ----------
-    reduced_radius, reduced_modulus : float
-        R [m] and E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
+    reduced_radius : float
+        Reduced radius R [m], with 1/R = 1/R1 + 1/R2.
+    reduced_modulus : float
+        Reduced modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
     load_per_length : float
-        w [N/m].
+        Load per length w [N/m].
     entrainment_speed : float
         Mean surface speed (u1 + u2)/2 [m/s].
     viscosity : float
-        eta0 at zero pressure [Pa s].
+        Viscosity eta0 at zero pressure [Pa s].
     pressure_viscosity_coefficient : float
-        alpha [1/Pa]; zero for an isoviscous lubricant.
+        Slope alpha of ln(eta) at zero pressure [1/Pa]; zero for an isoviscous lubricant.
     """
 
     reduced_radius: float
@@ -107,17 +111,17 @@ class LineContact:
 
     @property
     def _u(self) -> float:
-        """Speed parameter of the mean speed, eta0 u/(E' R)."""
+        """Speed parameter U = eta0 u/(E' R), with the mean speed u = (u1 + u2)/2."""
         return self.viscosity * self.entrainment_speed / (self.reduced_modulus * self.reduced_radius)
 
     @property
     def _g(self) -> float:
-        """Materials parameter, alpha E'."""
+        """Materials parameter G = alpha E'."""
         return self.pressure_viscosity_coefficient * self.reduced_modulus
 
     @property
     def _w(self) -> float:
-        """Load parameter, w/(E' R)."""
+        """Load parameter W = w/(E' R)."""
         return self.load_per_length / (self.reduced_modulus * self.reduced_radius)
 
     @property
@@ -138,18 +142,20 @@ class LineContact:
 
 
 def dowson_higginson(contact: LineContact) -> Thickness:
-    """Minimum film of Dowson and Higginson, h/R = 2.65 U^0.70 G^0.54 W^-0.13.
+    """Minimum film thickness after Dowson and Higginson, h/R = 2.65 U^0.70 G^0.54 W^-0.13.
+
+    U = eta0 u/(E' R) with the mean speed u = (u1 + u2)/2, G = alpha E' and W = w/(E' R). The formula is for
+    piezoviscous lubricants: for alpha = 0 it gives zero.
 
     Parameters
     ----------
     contact : LineContact
-        With U of the mean speed.
-        For piezoviscous lubricants: zero without a pressure-viscosity coefficient.
+        Radius, modulus, load, speed and lubricant of the contact.
 
     Returns
     -------
     Thickness
-        Minimum film [m].
+        Minimum film thickness [m].
 
     Notes
     -----
@@ -166,18 +172,20 @@ def dowson_higginson(contact: LineContact) -> Thickness:
 
 
 def dowson_toyoda(contact: LineContact) -> CentralThickness:
-    """Central film of Dowson and Toyoda, h/R = 3.06 U^0.69 G^0.56 W^-0.10.
+    """Central film thickness after Dowson and Toyoda, h/R = 3.06 U^0.69 G^0.56 W^-0.10.
+
+    U = eta0 u/(E' R) with the mean speed u = (u1 + u2)/2, G = alpha E' and W = w/(E' R). The formula is for
+    piezoviscous lubricants: for alpha = 0 it gives zero.
 
     Parameters
     ----------
     contact : LineContact
-        With U of the mean speed.
-        For piezoviscous lubricants: zero without a pressure-viscosity coefficient.
+        Radius, modulus, load, speed and lubricant of the contact.
 
     Returns
     -------
-    Thickness
-        Central film [m].
+    CentralThickness
+        Central film thickness [m].
 
     Notes
     -----
@@ -195,20 +203,22 @@ def dowson_toyoda(contact: LineContact) -> CentralThickness:
 
 
 def pan_hamrock(contact: LineContact) -> BothThicknesses:
-    """Films of Pan and Hamrock.
+    """Minimum and central film thickness after Pan and Hamrock.
 
     Minimum h/R = 1.714 U^0.694 G^0.568 W^-0.128, central h/R = 2.922 U^0.692 G^0.470 W^-0.166.
+
+    U = eta0 u/(E' R) with the mean speed u = (u1 + u2)/2, G = alpha E' and W = w/(E' R). The formulas are for
+    piezoviscous lubricants: for alpha = 0 they give zero.
 
     Parameters
     ----------
     contact : LineContact
-        With U of the mean speed.
-        For piezoviscous lubricants: zero without a pressure-viscosity coefficient.
+        Radius, modulus, load, speed and lubricant of the contact.
 
     Returns
     -------
-    Thickness
-        Minimum and central film [m].
+    BothThicknesses
+        Minimum and central film thickness [m].
 
     Notes
     -----
@@ -228,7 +238,7 @@ def pan_hamrock(contact: LineContact) -> BothThicknesses:
 
 
 def _moes_asymptotes(contact: LineContact) -> dict[str, float]:
-    """Central H = (h/R) (eta0 u_s/(E' R))^(-1/2) of the four limits, by regime."""
+    """Central film thickness H = (h/R) (eta0 u_s/(E' R))^(-1/2) in the four limiting regimes, by name."""
     moes_m, moes_l = contact.moes_m, contact.moes_l
     return {
         "isoviscous-rigid": 3.0 / moes_m,
@@ -239,25 +249,30 @@ def _moes_asymptotes(contact: LineContact) -> dict[str, float]:
 
 
 def moes(contact: LineContact) -> CentralThickness:
-    """Central film of Moes, over all four regimes.
+    """Central film thickness after Moes, for all four lubrication regimes.
 
     H = ((H_RI^(7/3) + H_EI^(7/3))^(3s/7) + (H_RP^(-7/2) + H_EP^(-7/2))^(-2s/7))^(1/s),
     s = (7 + 8 exp(-2 H_EI/H_RI))/5, with H_RI = 3/M, H_EI = 2.621 M^(-1/5), H_RP = 1.287 L^(2/3) and
     H_EP = 1.311 M^(-1/8) L^(3/4).
 
+    H = (h/R) (eta0 u_s/(E' R))^(-1/2), and M and L are the Moes groups of the contact, all with the sum of
+    the surface speeds u_s = u1 + u2.
+
     Parameters
     ----------
     contact : LineContact
-        With M and L of the sum of the surface speeds.
+        Radius, modulus, load, speed and lubricant of the contact.
 
     Returns
     -------
-    Thickness
-        Central film [m]: 3/M is the film where the pressure gradient vanishes of Martin's rigid isoviscous
-        contact, whose minimum is 2.447/M.
+    CentralThickness
+        Central film thickness [m].
 
     Notes
     -----
+    In the isoviscous-rigid limit (Martin's contact) 3/M is the film thickness where the pressure gradient
+    vanishes; the minimum there is 2.447/M.
+
     H. Moes, Optimum similarity analysis with applications to elastohydrodynamic lubrication, Wear 159
     (1992) 57-66, doi:10.1016/0043-1648(92)90286-H.
 
@@ -285,15 +300,16 @@ FORMULAS = {
 
 
 def regime(contact: LineContact) -> str:
-    """Lubrication regime: the limit of the Moes formula that dominates it.
+    """Lubrication regime of a line contact: the limiting regime that dominates the Moes formula.
 
-    Rigid or elastic is decided within the isoviscous and the piezoviscous pair as the formula does, by the
-    thicker and the thinner film; the thicker of the two then names the regime.
+    Of the two isoviscous regimes, rigid and elastic, the one with the thicker film counts; of the two
+    piezoviscous regimes, the one with the thinner film. The thicker film of these two names the regime. The
+    Moes formula combines the four films in the same way.
 
     Parameters
     ----------
     contact : LineContact
-        The contact.
+        Radius, modulus, load, speed and lubricant of the contact.
 
     Returns
     -------
@@ -311,7 +327,20 @@ def regime(contact: LineContact) -> str:
 
 
 def dominant(films: Mapping[str, float]) -> str:
-    """Regime of the four limits of a film, by name: of its own pair the one that rules, then the thicker.
+    """Lubrication regime that dominates, from the film thicknesses in the four limiting regimes.
+
+    The thicker film of the isoviscous pair and the thinner film of the piezoviscous pair are compared, and
+    the thicker of the two names the regime.
+
+    Parameters
+    ----------
+    films : mapping of str to float
+        Film thickness by name of the regime, in any unit.
+
+    Returns
+    -------
+    str
+        Name of the regime.
 
     Examples
     --------

@@ -1,7 +1,8 @@
-"""Moes groups, published film-thickness formulas of point contacts, and lubrication regimes.
+"""Film-thickness formulas, Moes groups and lubrication regimes of point contacts.
 
-The formulas are fits to solutions of their time; they differ from each other and from the solved film by
-up to 40 %. They stand beside a result, never in its place. x is the direction of entrainment, y across it.
+The published formulas are fits to numerical solutions of their time. They differ from each other, and from
+the film that ehlectric computes, by up to 40 %. Results show them for comparison only. The x axis runs along
+entrainment, the y axis across it.
 """
 
 from __future__ import annotations
@@ -16,22 +17,22 @@ from ehlectric.formulas.hertz_point import axis_ratio
 
 @dataclass(frozen=True)
 class PointContact:
-    """What the formulas ask of a point contact, SI units.
+    """Point contact with the inputs of the film-thickness formulas, in SI units.
 
     Parameters
     ----------
     radius_x, radius_y : float
-        Reduced radii along and across entrainment [m].
+        Reduced radii Rx along and Ry across entrainment [m].
     reduced_modulus : float
-        E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
+        Reduced modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
     load : float
-        F [N].
+        Load F [N].
     entrainment_speed : float
         Mean surface speed (u1 + u2)/2 [m/s].
     viscosity : float
-        eta0 at zero pressure [Pa s].
+        Viscosity eta0 at zero pressure [Pa s].
     pressure_viscosity_coefficient : float
-        alpha [1/Pa]; zero for an isoviscous lubricant.
+        Slope alpha of ln(eta) at zero pressure [1/Pa]; zero for an isoviscous lubricant.
     """
 
     radius_x: float
@@ -44,17 +45,17 @@ class PointContact:
 
     @property
     def _u(self) -> float:
-        """Speed parameter of the mean speed, eta0 u/(E' Rx)."""
+        """Speed parameter U = eta0 u/(E' Rx), with the mean speed u = (u1 + u2)/2."""
         return self.viscosity * self.entrainment_speed / (self.reduced_modulus * self.radius_x)
 
     @property
     def _g(self) -> float:
-        """Materials parameter, alpha E'."""
+        """Materials parameter G = alpha E'."""
         return self.pressure_viscosity_coefficient * self.reduced_modulus
 
     @property
     def _w(self) -> float:
-        """Load parameter, F/(E' Rx^2)."""
+        """Load parameter W = F/(E' Rx^2)."""
         return self.load / (self.reduced_modulus * self.radius_x**2)
 
     @property
@@ -69,28 +70,31 @@ class PointContact:
 
 
 def hamrock_dowson(contact: PointContact) -> BothThicknesses:
-    """Films of Hamrock and Dowson.
+    """Minimum and central film thickness after Hamrock and Dowson.
 
     Minimum h/Rx = 3.63 U^0.68 G^0.49 W^-0.073 (1 - exp(-0.68 k)), central h/Rx = 2.69 U^0.67 G^0.53 W^-0.067
-    (1 - 0.61 exp(-0.73 k)), with the ratio k of the semi-axes, across entrainment over along it.
+    (1 - 0.61 exp(-0.73 k)).
+
+    U = eta0 u/(E' Rx) with the mean speed u = (u1 + u2)/2, G = alpha E' and W = F/(E' Rx^2). k is the
+    semi-axis of the dry contact across entrainment over the semi-axis along it. The formulas are for
+    piezoviscous lubricants: for alpha = 0 they give zero.
 
     Parameters
     ----------
     contact : PointContact
-        With U of the mean speed.
-        For piezoviscous lubricants: zero without a pressure-viscosity coefficient.
+        Radii, modulus, load, speed and lubricant of the contact.
 
     Returns
     -------
-    Thickness
-        Minimum and central film [m].
+    BothThicknesses
+        Minimum and central film thickness [m].
 
     Notes
     -----
-    B. J. Hamrock and D. Dowson, J. Lubr. Technol. 99 (1977) 264-275, doi:10.1115/1.3453074. From solutions of
-    k from 1 to 8, entrainment along the minor axis, and U, W and G of hard contacts: steel and oil. Beyond
-    its range where Ry is below Rx. The exact k stands in place of their fit 1.03 (Ry/Rx)^0.64, 3 % off for a
-    circle.
+    B. J. Hamrock and D. Dowson, J. Lubr. Technol. 99 (1977) 264-275, doi:10.1115/1.3453074. The formulas are
+    fits to solutions for hard contacts (steel and oil) with k from 1 to 8 and entrainment along the minor
+    axis. Contacts with Ry below Rx are outside their range. The exact k replaces the fit of the paper,
+    k = 1.03 (Ry/Rx)^0.64, which is 3 % too high for a circle.
 
     Examples
     --------
@@ -110,27 +114,30 @@ def hamrock_dowson(contact: PointContact) -> BothThicknesses:
 
 
 def chittenden(contact: PointContact) -> BothThicknesses:
-    """Films of Chittenden, Dowson, Dunn and Taylor, for entrainment along either axis of the ellipse.
+    """Minimum and central film thickness after Chittenden, Dowson, Dunn and Taylor.
 
     Minimum h/Rx = 3.68 U^0.68 G^0.49 W^-0.073 (1 - exp(-0.67 (Ry/Rx)^(2/3))), central
     h/Rx = 4.31 U^0.68 G^0.49 W^-0.073 (1 - exp(-1.23 (Ry/Rx)^(2/3))).
 
+    U = eta0 u/(E' Rx) with the mean speed u = (u1 + u2)/2, G = alpha E' and W = F/(E' Rx^2). The formulas are
+    for piezoviscous lubricants: for alpha = 0 they give zero.
+
     Parameters
     ----------
     contact : PointContact
-        With U of the mean speed; their Re is Rx and their Rs is Ry.
-        For piezoviscous lubricants: zero without a pressure-viscosity coefficient.
+        Radii, modulus, load, speed and lubricant of the contact.
 
     Returns
     -------
-    Thickness
-        Minimum and central film [m].
+    BothThicknesses
+        Minimum and central film thickness [m].
 
     Notes
     -----
     R. J. Chittenden, D. Dowson, J. F. Dunn and C. M. Taylor, Proc. R. Soc. Lond. A 397 (1985) 245-294,
-    doi:10.1098/rspa.1985.0014 and the paper that follows it there. From solutions of hard contacts,
-    entrainment along either axis.
+    doi:10.1098/rspa.1985.0014, and the paper that follows it in the same volume. Their radii Re and Rs are Rx
+    and Ry here. The formulas are fits to solutions for hard contacts, with entrainment along either axis of
+    the ellipse.
 
     Examples
     --------
@@ -147,7 +154,7 @@ def chittenden(contact: PointContact) -> BothThicknesses:
 
 
 def _asymptotes(contact: PointContact) -> dict[str, float]:
-    """Central H = (h/Rx) (eta0 u_s/(E' Rx))^(-1/2) of the four limits, by regime."""
+    """Central film thickness H = (h/Rx) (eta0 u_s/(E' Rx))^(-1/2) in the four limiting regimes, by name."""
     moes_m, moes_l = contact.moes_m, contact.moes_l
     d = contact.radius_x / contact.radius_y
     ellipse = 1.0 + 0.006 * float(np.log(d)) + 0.63 * d ** (4 / 7)
@@ -162,30 +169,35 @@ def _asymptotes(contact: PointContact) -> dict[str, float]:
 
 
 def nijenbanning_venner_moes(contact: PointContact) -> CentralThickness:
-    """Central film of Nijenbanning, Venner and Moes, over all four regimes.
+    """Central film thickness after Nijenbanning, Venner and Moes, for all four lubrication regimes.
 
     H = ((H_RI^(3/2) + (H_EI^-4 + H_00^-4)^(-3/8))^(2s/3) + (H_RP^-8 + H_EP^-8)^(-s/8))^(1/s) with
     s = (3/2) (1 + exp(-1.2 H_EI/H_EP)), H_00 = 1.8/D, D = Rx/Ry, B = 1 + 0.006 ln(D) + 0.63 D^(4/7),
     H_RI = 145 (1 + 0.796 D^(14/15))^(-15/7) D^-1 M^-2, H_EI = 3.18 B^(-14/25) D^(-1/15) M^(-2/15),
     H_RP = 1.29 (1 + 0.691 D)^(-2/3) L^(2/3) and H_EP = 1.48 B^(-7/20) D^(-1/24) M^(-1/12) L^(3/4).
 
+    H = (h/Rx) (eta0 u_s/(E' Rx))^(-1/2), and M and L are the Moes groups of the contact, all with the sum of
+    the surface speeds u_s = u1 + u2.
+
     Parameters
     ----------
     contact : PointContact
-        With M and L of the sum of the surface speeds.
+        Radii, modulus, load, speed and lubricant of the contact.
 
     Returns
     -------
-    Thickness
-        Central film [m].
+    CentralThickness
+        Central film thickness [m].
 
     Notes
     -----
-    G. Nijenbanning, C. H. Venner and H. Moes, Wear 176 (1994) 217-229, doi:10.1016/0043-1648(94)90150-3. For
-    D up to 1, entrainment along the minor axis, and all M and L. For D towards 0 each limit is that of
-    ``film_line.moes`` at the middle of the long ellipse, where the load per length is 3 F/4 over its
-    semi-axis. As there, the film of a rigid isoviscous contact is the one where the pressure gradient
-    vanishes, 1.226 of that at the centre. H_00 bounds the film of bodies that hardly touch.
+    G. Nijenbanning, C. H. Venner and H. Moes, Wear 176 (1994) 217-229, doi:10.1016/0043-1648(94)90150-3. The
+    formula holds for D up to 1, that is, entrainment along the minor axis, and for all M and L.
+
+    For D towards 0 each limit becomes the limit of the line contact, ``film_line.moes``, at the middle of the
+    long ellipse. The load per length there is 3 F/4 over the long semi-axis. In the isoviscous-rigid limit
+    H_RI is the film thickness where the pressure gradient vanishes, 1.226 times that at the centre. H_00
+    bounds the film thickness of bodies that hardly touch.
 
     Examples
     --------
@@ -213,15 +225,16 @@ FORMULAS = {
 
 
 def regime(contact: PointContact) -> str:
-    """Lubrication regime: the limit of the formula of all regimes that dominates it.
+    """Lubrication regime of a point contact: the limit that dominates the formula of Nijenbanning et al.
 
-    Rigid or elastic is decided within the isoviscous and the piezoviscous pair as the formula does, by the
-    thicker and the thinner film; the thicker of the two then names the regime.
+    Of the two isoviscous regimes, rigid and elastic, the one with the thicker film counts; of the two
+    piezoviscous regimes, the one with the thinner film. The thicker film of these two names the regime. The
+    formula combines the four films in the same way.
 
     Parameters
     ----------
     contact : PointContact
-        The contact.
+        Radii, modulus, load, speed and lubricant of the contact.
 
     Returns
     -------

@@ -1,6 +1,6 @@
-"""The dry contact of two cylinders: reduced radius and modulus, half-width, pressure and gap.
+"""Hertz contact of two parallel cylinders: reduced radius and modulus, half-width, pressure and gap.
 
-All functions use the convention 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2, with the factor two.
+The reduced modulus E' has the factor two throughout: 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
 """
 
 from __future__ import annotations
@@ -17,12 +17,12 @@ def reduced_radius(radius_1: float, radius_2: float) -> float:
     Parameters
     ----------
     radius_1, radius_2 : float
-        Radii [m], negative for a concave body; infinite for a plane.
+        Radii R1 and R2 [m]; negative for a concave body, infinite for a plane.
 
     Returns
     -------
     float
-        R [m]; not positive where the concave body is the tighter one.
+        R [m]. It is not positive if the radius of a concave body is smaller than that of the other body.
 
     Notes
     -----
@@ -42,9 +42,9 @@ def body_compliance(youngs_modulus: float, poissons_ratio: float) -> float:
     Parameters
     ----------
     youngs_modulus : float
-        E [Pa].
+        Young's modulus E [Pa].
     poissons_ratio : float
-        nu, dimensionless.
+        Poisson's ratio nu, dimensionless.
 
     Returns
     -------
@@ -65,7 +65,7 @@ def reduced_modulus(compliance_1: float, compliance_2: float) -> float:
     Parameters
     ----------
     compliance_1, compliance_2 : float
-        (1 - nu^2)/E of the bodies [1/Pa].
+        Plane-strain compliances (1 - nu^2)/E of the two bodies [1/Pa].
 
     Returns
     -------
@@ -88,14 +88,16 @@ def reduced_modulus(compliance_1: float, compliance_2: float) -> float:
 
 
 def line_half_width(load_per_length: float, radius: float, modulus: float) -> float:
-    """Half-width of a line contact, b = sqrt(8 w R/(pi E')).
+    """Half-width of a dry line contact, b = sqrt(8 w R/(pi E')).
 
     Parameters
     ----------
     load_per_length : float
-        w [N/m].
-    radius, modulus : float
-        Reduced radius R [m] and reduced modulus E' [Pa], with the factor two.
+        Load per length w [N/m].
+    radius : float
+        Reduced radius R [m].
+    modulus : float
+        Reduced modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
 
     Returns
     -------
@@ -120,9 +122,11 @@ def line_max_pressure(load_per_length: float, radius: float, modulus: float) -> 
     Parameters
     ----------
     load_per_length : float
-        w [N/m].
-    radius, modulus : float
-        Reduced radius R [m] and reduced modulus E' [Pa], with the factor two.
+        Load per length w [N/m].
+    radius : float
+        Reduced radius R [m].
+    modulus : float
+        Reduced modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
 
     Returns
     -------
@@ -139,14 +143,16 @@ def line_max_pressure(load_per_length: float, radius: float, modulus: float) -> 
 
 
 def line_load(max_pressure: float, radius: float, modulus: float) -> float:
-    """Load per length that gives a Hertz pressure, w = 2 pi R p_h^2/E'.
+    """Load per length of a line contact from its largest Hertz pressure, w = 2 pi R p_h^2/E'.
 
     Parameters
     ----------
     max_pressure : float
-        p_h [Pa].
-    radius, modulus : float
-        Reduced radius R [m] and reduced modulus E' [Pa], with the factor two.
+        Largest Hertz pressure p_h [Pa].
+    radius : float
+        Reduced radius R [m].
+    modulus : float
+        Reduced modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
 
     Returns
     -------
@@ -162,12 +168,12 @@ def line_load(max_pressure: float, radius: float, modulus: float) -> float:
 
 
 def line_pressure(x: ArrayLike) -> Array:
-    """Hertz pressure of a line contact, P = sqrt(1 - X^2) and zero outside.
+    """Hertz pressure of a line contact, P = sqrt(1 - X^2) inside the contact and zero outside.
 
     Parameters
     ----------
     x : array_like, shape (...)
-        X = x/b, dimensionless.
+        Position X = x/b with the half-width b, dimensionless.
 
     Returns
     -------
@@ -183,14 +189,14 @@ def line_pressure(x: ArrayLike) -> Array:
 
 
 def line_gap(x: ArrayLike) -> Array:
-    """Gap of the dry line contact, zero inside.
+    """Gap of a dry line contact, zero inside the contact.
 
     H = (abs(X) sqrt(X^2 - 1) - ln(abs(X) + sqrt(X^2 - 1)))/2 for abs(X) > 1
 
     Parameters
     ----------
     x : array_like, shape (...)
-        X = x/b, dimensionless.
+        Position X = x/b with the half-width b, dimensionless.
 
     Returns
     -------

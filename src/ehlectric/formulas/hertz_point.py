@@ -1,16 +1,16 @@
-"""The dry contact of two bodies over an ellipse: semi-axes, pressure and approach, exactly.
+"""Hertz contact of two bodies over an ellipse: semi-axes, pressure and approach.
 
-All functions use the convention 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2, with the factor two. x runs
-along entrainment and y across; either may be the longer axis of the ellipse.
+The reduced modulus E' has the factor two throughout: 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2. The x axis runs
+along entrainment and the y axis across it. Either may be the longer axis of the ellipse.
 
-The pressure p_h sqrt(1 - (x/b)^2 - (y/a)^2) over the ellipse of semi-axes b along x and a along y lifts both
-surfaces together by (2/(pi E')) times the integral of p/r, which is (Johnson, section 3.5)
+The ellipse has the semi-axes b along x and a along y. Its pressure p_h sqrt(1 - (x/b)^2 - (y/a)^2) opens the
+gap between the surfaces by (2/(pi E')) times the integral of p/r. This deflection is (Johnson, section 3.5)
 
     (p_h a b/E') I,    I = int_0^inf (1 - x^2/(b^2 + w) - y^2/(a^2 + w)) dw/sqrt(w (a^2 + w) (b^2 + w)).
 
-Its three integrals are complete elliptic ones in Carlson's symmetric form, 2 R_F(0, a^2, b^2) and
-(2/3) R_D(0, a^2, b^2) with a and b in either order: no case for either long axis, and no
-cancellation at the circle.
+The three integrals in I are complete elliptic integrals in Carlson's symmetric form: 2 R_F(0, a^2, b^2), and
+(2/3) R_D(0, a^2, b^2) with a and b in both orders. This form needs no distinction of the longer axis, and
+loses no accuracy for a circle.
 """
 
 from __future__ import annotations
@@ -24,23 +24,23 @@ from scipy.special import elliprd, elliprf
 
 from ehlectric.arrays import Array
 
-# Logarithm of the ratio of the radii below which the semi-axes are in its power 2/3, to the last digit: the
-# next term is of third order.
+# Absolute ln(Ry/Rx) below which the ratio of the semi-axes is (Ry/Rx)^(2/3) to the last digit: the next term
+# is of third order.
 _CIRCLE = 1e-6
 
 
 @dataclass(frozen=True)
 class DryContact:
-    """The dry contact of two bodies.
+    """Semi-axes, largest pressure and approach of the dry (Hertz) contact of two bodies.
 
     Attributes
     ----------
     semi_axis_x, semi_axis_y : float
-        Of the ellipse, along and across entrainment [m].
+        Semi-axes of the contact ellipse, b along and a across entrainment [m].
     max_pressure : float
-        p_h [Pa].
+        Largest Hertz pressure p_h [Pa].
     approach : float
-        By how much far points of the two bodies come closer [m].
+        Distance by which points of the two bodies far from the contact approach each other [m].
     """
 
     semi_axis_x: float
@@ -50,19 +50,19 @@ class DryContact:
 
 
 def axis_ratio(radius_x: float, radius_y: float) -> float:
-    """Ratio k of the semi-axes of the dry contact, the one across entrainment over the one along it.
+    """Ratio k of the semi-axes of the dry contact: across entrainment over along entrainment.
 
-    Ry/Rx = R_D(0, k^2, 1)/R_D(0, 1, k^2), solved for k.
+    The equation Ry/Rx = R_D(0, k^2, 1)/R_D(0, 1, k^2) is solved for k, with Carlson's elliptic integral R_D.
 
     Parameters
     ----------
     radius_x, radius_y : float
-        Reduced radii along and across entrainment [m].
+        Reduced radii Rx along and Ry across entrainment [m].
 
     Returns
     -------
     float
-        k, dimensionless; above 1 where ``radius_y`` is the larger one.
+        k, dimensionless; above 1 if ``radius_y`` is larger than ``radius_x``.
 
     Notes
     -----
@@ -83,29 +83,31 @@ def axis_ratio(radius_x: float, radius_y: float) -> float:
         k2 = np.exp(2.0 * log_ratio)
         return float(np.log(elliprd(0.0, k2, 1.0) / elliprd(0.0, 1.0, k2))) - target
 
-    # The ratio lies between that of the circle and that of the radii.
+    # k lies between 1, the value of a circle, and Ry/Rx.
     root = brentq(excess, 0.0, target, xtol=1e-15, rtol=1e-14)
     return float(np.exp(root))
 
 
 def dry_contact(load: float, radius_x: float, radius_y: float, modulus: float) -> DryContact:
-    """Ellipse, largest pressure and approach of two loaded bodies.
+    """Contact ellipse, largest pressure and approach of two loaded bodies.
 
-    b^3 = 2 F Rx R_D(0, k^2, 1)/(pi E') along entrainment, k b across it, p_h = 3 F/(2 pi k b^2).
+    b^3 = 2 F Rx R_D(0, k^2, 1)/(pi E') for the semi-axis b along entrainment, with Carlson's elliptic
+    integral R_D. The semi-axis across entrainment is k b, and p_h = 3 F/(2 pi k b^2).
 
     Parameters
     ----------
     load : float
-        F [N].
+        Load F [N].
     radius_x, radius_y : float
-        Reduced radii along and across entrainment [m].
+        Reduced radii Rx along and Ry across entrainment [m].
     modulus : float
-        Reduced modulus E' [Pa], with the factor two: 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
+        Reduced modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
 
     Returns
     -------
     DryContact
-        For equal radii R the circle of b^3 = 3 F R/(2 E') and approach b^2/R.
+        Semi-axes [m], largest pressure [Pa] and approach [m]. For equal radii R they are those of a circle
+        with b^3 = 3 F R/(2 E') and the approach b^2/R.
 
     Notes
     -----
@@ -127,21 +129,23 @@ def dry_contact(load: float, radius_x: float, radius_y: float, modulus: float) -
 
 
 def point_load(max_pressure: float, radius_x: float, radius_y: float, modulus: float) -> float:
-    """Load that gives a Hertz pressure, F = (2 pi k/3) p_h b^2 with b = 4 p_h Rx k R_D(0, k^2, 1)/(3 E').
+    """Load of a point contact from its largest Hertz pressure.
+
+    F = (2 pi k/3) p_h b^2 with b = 4 p_h Rx k R_D(0, k^2, 1)/(3 E'), with Carlson's elliptic integral R_D.
 
     Parameters
     ----------
     max_pressure : float
-        p_h [Pa].
+        Largest Hertz pressure p_h [Pa].
     radius_x, radius_y : float
-        Reduced radii along and across entrainment [m].
+        Reduced radii Rx along and Ry across entrainment [m].
     modulus : float
-        Reduced modulus E' [Pa], with the factor two: 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
+        Reduced modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
 
     Returns
     -------
     float
-        F [N], in proportion to the cube of the pressure.
+        Load F [N], proportional to the cube of the pressure.
 
     Examples
     --------
@@ -154,19 +158,19 @@ def point_load(max_pressure: float, radius_x: float, radius_y: float, modulus: f
 
 
 def point_pressure(x: ArrayLike, y: ArrayLike, ratio: float) -> Array:
-    """Hertz pressure of a point contact, P = sqrt(1 - X^2 - (Y/k)^2) and zero outside.
+    """Hertz pressure of a point contact, P = sqrt(1 - X^2 - (Y/k)^2) inside the contact and zero outside.
 
     Parameters
     ----------
-    x, y : array_like, shapes that broadcast
-        X = x/b and Y = y/b with the semi-axis b along entrainment, dimensionless.
+    x, y : array_like, shapes that broadcast to (...)
+        Positions X = x/b and Y = y/b with the semi-axis b along entrainment, dimensionless.
     ratio : float
-        k, the semi-axis across over that along.
+        k, the semi-axis across entrainment over the semi-axis along it, dimensionless.
 
     Returns
     -------
-    ndarray
-        P = p/p_h, dimensionless; of the broadcast shape.
+    ndarray, shape (...)
+        P = p/p_h, dimensionless.
 
     Examples
     --------
@@ -178,32 +182,34 @@ def point_pressure(x: ArrayLike, y: ArrayLike, ratio: float) -> Array:
 
 
 def point_deflection(x: ArrayLike, y: ArrayLike, contact: DryContact, modulus: float) -> Array:
-    """How far the Hertz pressure opens the gap of two bodies, over the contact and around it.
+    """Elastic deflection under a Hertz pressure: the distance by which it opens the gap of two bodies.
 
-    (p_h a b/E') I of the head of this page; outside the ellipse the integral begins at the positive root w
-    of x^2/(b^2 + w) + y^2/(a^2 + w) = 1.
+    The deflection is computed both inside and outside the contact ellipse.
 
     Parameters
     ----------
     x, y : array_like, shapes that broadcast to (...)
-        Along entrainment and across it [m].
+        Positions along and across entrainment [m].
     contact : DryContact
-        The dry contact.
+        Semi-axes b along and a across entrainment, and largest pressure p_h.
     modulus : float
-        Reduced modulus E' [Pa], with the factor two: 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
+        Reduced modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
 
     Returns
     -------
     ndarray, shape (...)
-        [m]; in the middle the approach, far away 2 F/(pi E' r).
+        Deflection [m]. In the middle of the contact it is the approach, far away 2 F/(pi E' r).
 
     Notes
     -----
-    K. L. Johnson, Contact Mechanics, 1985, section 3.5, doi:10.1017/CBO9781139171731.
+    The deflection is (p_h a b/E') I with the integral
+    I = int_w0^inf (1 - x^2/(b^2 + w) - y^2/(a^2 + w)) dw/sqrt(w (a^2 + w) (b^2 + w)). Inside the ellipse w0
+    is zero; outside it is the positive root w of x^2/(b^2 + w) + y^2/(a^2 + w) = 1. See K. L. Johnson,
+    Contact Mechanics, 1985, section 3.5, doi:10.1017/CBO9781139171731.
 
     Examples
     --------
-    Ten semi-axes away the load is nearly a point:
+    Ten semi-axes away the load acts nearly as a point load:
 
     >>> contact = dry_contact(20.0, 0.01, 0.01, 226e9)
     >>> far = 10.0 * contact.semi_axis_x
@@ -212,7 +218,7 @@ def point_deflection(x: ArrayLike, y: ArrayLike, contact: DryContact, modulus: f
     """
     x2, y2 = np.square(np.asarray(x, dtype=float)), np.square(np.asarray(y, dtype=float))
     b2, a2 = contact.semi_axis_x**2, contact.semi_axis_y**2
-    # w^2 - p w - c = 0, its larger root without a difference of like numbers.
+    # Larger root of w^2 - p w - c = 0, without a difference of nearly equal numbers.
     p, c = x2 + y2 - a2 - b2, x2 * a2 + y2 * b2 - a2 * b2
     root = np.sqrt(np.maximum(0.0, p**2 + 4.0 * c))
     with np.errstate(divide="ignore", invalid="ignore"):

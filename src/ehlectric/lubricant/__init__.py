@@ -1,1 +1,1 @@
-"""Material laws of the lubricant as pure functions of pressure, density and temperature."""
+"""Material laws of the lubricant: viscosity and density over pressure, and permittivity over density."""

@@ -1,4 +1,4 @@
-"""Density of the lubricant over pressure and temperature: pure functions."""
+"""Density laws of the lubricant: density ratio over pressure and temperature."""
 
 from __future__ import annotations
 
@@ -12,25 +12,25 @@ from ehlectric.lubricant.law import Law, Parameter
 def dowson_higginson(
     pressure: ArrayLike, temperature: ArrayLike | None = None, *, density_c1: float, density_c2: float
 ) -> tuple[Array, Array]:
-    """Density ratio after Dowson and Higginson, and its derivative.
+    """Density ratio after Dowson and Higginson, and its derivative by pressure.
 
-    rho/rho0 = (C1 + C2 p)/(C1 + p)
+    rho/rho0 = (C1 + C2 p)/(C1 + p), with the density rho0 at zero pressure.
 
     Parameters
     ----------
     pressure : array_like, shape (...)
         Pressure p [Pa], >= 0.
     temperature : array_like, optional
-        Temperature [K]; the law is isothermal and takes no notice of it.
+        Temperature [K]. The law is isothermal and ignores it.
     density_c1 : float
-        C1 [Pa].
+        Constant C1 [Pa].
     density_c2 : float
-        C2, the ratio at unlimited pressure, dimensionless.
+        Constant C2, the density ratio at infinite pressure, dimensionless.
 
     Returns
     -------
     ratio, slope : ndarray, shape (...)
-        rho/rho0, dimensionless, and its derivative [1/Pa].
+        Density ratio rho/rho0, dimensionless, and its derivative by pressure [1/Pa].
 
     Notes
     -----
@@ -47,14 +47,14 @@ def dowson_higginson(
 
 
 def incompressible(pressure: ArrayLike, temperature: ArrayLike | None = None) -> tuple[Array, Array]:
-    """Density ratio of an incompressible lubricant, and its derivative: ones and zeros.
+    """Density ratio of an incompressible lubricant, which is one, and its derivative, which is zero.
 
     Parameters
     ----------
     pressure : array_like, shape (...)
         Pressure [Pa].
     temperature : array_like, optional
-        Temperature [K]; the law is isothermal and takes no notice of it.
+        Temperature [K]. The law is isothermal and ignores it.
 
     Returns
     -------

@@ -1,14 +1,15 @@
-"""Law of the lubricant: a function chosen by its name, and the parameters it takes as data.
+"""Description of a lubricant law: its function, its parameters, and warnings about its range.
 
-A law of pressure is ``law(pressure, temperature, *, parameters...) -> (value, derivative by pressure)``; a
-law of the permittivity is ``law(density_ratio, temperature, *, parameters...) -> value``. The temperature [K]
-broadcasts with the first argument. Without one, a law gives its value at the temperature for which the case
-states its parameters; an isothermal law always does so, in the shape of the first argument.
+A law of viscosity or density is ``law(pressure, temperature, *, parameters...) -> (value, derivative by
+pressure)``. A law of permittivity is ``law(density_ratio, temperature, *, parameters...) -> value``. The
+temperature [K] broadcasts with the first argument. Without a temperature, a law returns its value at the
+temperature for which the case gives the parameters. An isothermal law always does so, in the shape of the
+first argument.
 
-To add a law, write its function and enter it in the table of its module: ``VISCOSITY_LAWS``,
-``DENSITY_LAWS`` or ``PERMITTIVITY_LAWS``. A parameter that is new is a ``Parameter`` in that entry. The keys
-of ``[lubricant]``, with their bounds and messages, are read from these tables whenever a case is read, and so
-are the labels of figures and the table of keys in the documentation; nothing else is to be edited.
+To add a law, write its function and add a ``Law`` to the table of its module: ``VISCOSITY_LAWS``,
+``DENSITY_LAWS`` or ``PERMITTIVITY_LAWS``. Add a ``Parameter`` to that entry for each new parameter. Nothing
+else needs an edit: the keys of ``[lubricant]``, their bounds and messages, the labels of figures and the
+table of keys in the documentation are all read from these tables.
 """
 
 from __future__ import annotations
@@ -25,31 +26,31 @@ from ehlectric.errors import ResultWarning
 
 
 class PressureLaw(Protocol):
-    """A law of pressure with the values of its parameters."""
+    """Law of viscosity or density with fixed parameters, as a function of pressure and temperature."""
 
     def __call__(self, pressure: ArrayLike, temperature: ArrayLike | None = None, /) -> tuple[Array, Array]:
-        """Value, dimensionless, and derivative by pressure [1/Pa], at pressure [Pa] and temperature [K]."""
+        """Value, dimensionless, and derivative by pressure [1/Pa] at pressure [Pa] and temperature [K]."""
         ...
 
 
 class DensityRatioLaw(Protocol):
-    """A law of the density ratio with the values of its parameters."""
+    """Law of permittivity with fixed parameters, as a function of density ratio and temperature."""
 
     def __call__(self, density_ratio: ArrayLike, temperature: ArrayLike | None = None, /) -> Array:
-        """Value, dimensionless, at a density ratio, dimensionless, and a temperature [K]."""
+        """Relative permittivity, dimensionless, at a density ratio, dimensionless, and a temperature [K]."""
         ...
 
 
 @dataclass(frozen=True)
 class Derivation:
-    """How a parameter follows from the viscosity eta0 [Pa s] and other parameters.
+    """Relation that gives a parameter of a law from the viscosity eta0 [Pa s] and other parameters.
 
     Attributes
     ----------
     function : callable
-        ``function(viscosity, *values)``, the value of the parameter, SI.
+        ``function(viscosity, *values)`` returns the value of the parameter in SI units.
     parameters : tuple of str
-        Names of the other parameters.
+        Names of the other parameters, in the order of ``values``.
     """
 
     function: Callable[..., float]
@@ -58,25 +59,27 @@ class Derivation:
 
 @dataclass(frozen=True)
 class Parameter:
-    """Parameter of a law: a key of ``[lubricant]`` with its unit, its bounds and its texts.
+    """Parameter of a lubricant law: a key of ``[lubricant]`` with its unit, bounds and labels.
 
     Attributes
     ----------
     name : str
-        Key of the case file, and keyword of the law's function.
+        Key of the case file, and keyword argument of the law's function.
     unit : str
-        SI unit as pint writes it; empty where there is none.
+        SI unit in the notation of pint; empty for a dimensionless parameter.
     meaning : str
-        One sentence for the table of keys, in Markdown.
+        One sentence for the table of keys in the documentation, in Markdown.
     title, symbol : str
-        Name and symbol on the axis of a figure; the dotted key stands there without a title.
-    least, most, above, below : float
-        Bounds in ``unit``; ``above`` and ``below`` are not allowed themselves.
+        Name and symbol on the axis of a figure. Without a title the axis shows the dotted key.
+    least, most : float
+        Smallest and largest allowed values in ``unit``.
+    above, below : float
+        Bounds in ``unit`` that are not allowed themselves.
     reason : str
-        Why the bounds are there.
+        Reason for the bounds.
     derivation : Derivation, optional
-        For a parameter that changes with temperature: how a bearing's lubricant computes it at the
-        bearing's temperature where the file does not give it.
+        For a parameter that changes with temperature: the relation that gives its value at the temperature of
+        a bearing, if the bearing file does not contain it.
 
     Examples
     --------
@@ -100,20 +103,20 @@ class Parameter:
 
 @dataclass(frozen=True)
 class Law:
-    """A law of the lubricant as its module's table holds it.
+    """Law of the lubricant, an entry of the table of its module.
 
     Attributes
     ----------
     function : callable
-        The law; its keywords are the names of the parameters.
+        Function of the law; its keyword arguments are the names of the parameters.
     parameters : tuple of Parameter
-        What the case gives for it.
+        Parameters that the case must give.
     warnings : callable, optional
         ``warnings(max_pressure, viscosity, **parameters)`` yields a ``ResultWarning`` for each reason not to
-        trust the law in a contact of that Hertz pressure [Pa] and that viscosity eta0 [Pa s].
+        trust the law in a contact with this Hertz pressure [Pa] and viscosity eta0 [Pa s].
     hint : callable, optional
-        ``hint(viscosity, given)`` returns what the message on a missing parameter adds at its end; ``given``
-        holds the values of the law's parameters by name, without those that are missing.
+        ``hint(viscosity, given)`` returns a text for the end of the error message about missing parameters.
+        ``given`` has the values of the parameters in the case, by name.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Permittivity of the lubricant over density and temperature: pure functions."""
+"""Permittivity laws of the lubricant: relative permittivity over density ratio and temperature."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ from ehlectric.lubricant.law import Law, Parameter
 def clausius_mossotti(
     density_ratio: ArrayLike, temperature: ArrayLike | None = None, *, relative_permittivity: float
 ) -> Array:
-    """Relative permittivity of a compressed dielectric liquid.
+    """Relative permittivity of a compressed dielectric liquid after Clausius and Mossotti.
 
-    eps = (eps_r + 2 + 2 (eps_r - 1) rho)/(eps_r + 2 - (eps_r - 1) rho)
+    eps = (eps_r + 2 + 2 (eps_r - 1) rho/rho0)/(eps_r + 2 - (eps_r - 1) rho/rho0)
 
     Parameters
     ----------
     density_ratio : array_like, shape (...)
-        rho/rho0, dimensionless, > 0.
+        Density over the density at zero pressure, rho/rho0, dimensionless, > 0.
     temperature : array_like, optional
-        Temperature [K]; the law takes no notice of it, as the density carries its effect.
+        Temperature [K]. The law ignores it: temperature acts through the density.
     relative_permittivity : float
-        eps_r at the reference density, dimensionless, >= 1.
+        Relative permittivity eps_r at the density rho0, dimensionless, >= 1.
 
     Returns
     -------
@@ -34,12 +34,12 @@ def clausius_mossotti(
     Raises
     ------
     InputError
-        Where the density reaches the pole of the law, (eps_r + 2)/(eps_r - 1).
+        If the density ratio reaches the pole of the law, (eps_r + 2)/(eps_r - 1).
 
     Notes
     -----
-    Eq. (14) of Morris et al. (2022), doi:10.3390/lubricants10050087. The law is for molecules without a
-    dipole moment; polar liquids need a constant.
+    Eq. (14) of Morris et al. (2022), doi:10.3390/lubricants10050087. The law holds for molecules without a
+    dipole moment. For polar liquids use ``constant_permittivity``.
 
     Examples
     --------
@@ -67,11 +67,11 @@ def constant_permittivity(
     Parameters
     ----------
     density_ratio : array_like, shape (...)
-        rho/rho0, dimensionless.
+        Density over the density at zero pressure, rho/rho0, dimensionless. The law uses only its shape.
     temperature : array_like, optional
-        Temperature [K]; the law takes no notice of it.
+        Temperature [K]. The law is isothermal and ignores it.
     relative_permittivity : float
-        eps_r, dimensionless.
+        Relative permittivity eps_r, dimensionless.
 
     Returns
     -------

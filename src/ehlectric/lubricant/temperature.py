@@ -1,4 +1,4 @@
-"""An oil over temperature: viscosity, density, heat of the inlet. SI."""
+"""Temperature dependence of an oil: viscosity, density and the effect of inlet shear heating, in SI units."""
 
 from __future__ import annotations
 
@@ -7,24 +7,26 @@ from dataclasses import dataclass
 
 from ehlectric.errors import InputError
 
-# Absolute temperatures of 15, 40 and 100 degC [K].
+# 15, 40 and 100 degC as absolute temperatures [K].
 REFERENCE = 288.15
 COLD, HOT = 313.15, 373.15
 
-# What ASTM D341 adds to a kinematic viscosity in mm^2/s, and below what viscosity that no longer does.
+# Constant that ASTM D341 adds to the kinematic viscosity, and the smallest viscosity for which a constant is
+# accurate enough [mm^2/s].
 _ADDED, _LEAST = 0.7, 2.0
 
 
 @dataclass(frozen=True)
 class Walther:
-    """Kinematic viscosity over temperature, log10 log10(nu + 0.7) = A - B log10 T, nu in mm^2/s and T in K.
+    """Kinematic viscosity of an oil over temperature, after ASTM D341 (Walther's equation).
 
-    ASTM D341, its form for 2 mm^2/s and more.
+    log10 log10(nu + 0.7) = A - B log10 T, with nu in mm^2/s and T in K. This is the short form of ASTM D341,
+    for nu of at least 2 mm^2/s.
 
     Attributes
     ----------
     a, b : float
-        Constants, dimensionless.
+        Constants A and B, dimensionless.
 
     Examples
     --------
@@ -38,12 +40,12 @@ class Walther:
 
     @classmethod
     def of(cls, at_40: float, at_100: float) -> Walther:
-        """Through the kinematic viscosities at 40 and 100 degC [m^2/s].
+        """Walther equation of an oil from its kinematic viscosities at 40 and 100 degC [m^2/s].
 
         Raises
         ------
         InputError
-            Where the oil does not thin, or is too thin for the equation.
+            If the viscosity does not fall with temperature, or is too low for the equation.
         """
         if not at_40 > at_100:
             raise InputError(
@@ -62,12 +64,12 @@ class Walther:
         return cls(cold + b * math.log10(COLD), b)
 
     def viscosity(self, temperature: float) -> float:
-        """Kinematic viscosity at an absolute temperature [K], [m^2/s].
+        """Kinematic viscosity [m^2/s] at an absolute temperature [K].
 
         Raises
         ------
         InputError
-            Where it is below what the equation holds for.
+            If the viscosity is too low for the equation, or the oil is solid at this temperature.
         """
         double = math.pow(10.0, self.a - self.b * math.log10(temperature))
         if double > 300.0:
@@ -83,27 +85,27 @@ class Walther:
         return 1e-6 * nu
 
     def slope(self, temperature: float) -> float:
-        """-d ln(nu)/dT at an absolute temperature [K], [1/K]."""
+        """Temperature coefficient of viscosity -d ln(nu)/dT [1/K] at an absolute temperature [K]."""
         total = 1e6 * self.viscosity(temperature) + _ADDED
         return math.log(total) * self.b * total / ((total - _ADDED) * temperature)
 
 
 def density(at_15: float, expansion: float, temperature: float) -> float:
-    """Density of an oil at a temperature, rho_15 (1 - a (T - 288.15 K)).
+    """Density of an oil at a temperature, rho = rho_15 (1 - a (T - 288.15 K)).
 
     Parameters
     ----------
     at_15 : float
-        Density at 15 degC [kg/m^3].
+        Density rho_15 at 15 degC [kg/m^3].
     expansion : float
         Coefficient a of thermal expansion [1/K].
     temperature : float
-        Absolute temperature [K].
+        Absolute temperature T [K].
 
     Returns
     -------
     float
-        [kg/m^3].
+        Density rho [kg/m^3].
 
     Examples
     --------
@@ -114,31 +116,31 @@ def density(at_15: float, expansion: float, temperature: float) -> float:
 
 
 def inlet_shear_factor(viscosity: float, slope: float, speed: float, conductivity: float) -> float:
-    """Part of the isothermal film that the heat of shearing in the inlet leaves, in pure rolling.
+    """Reduction factor of the central film thickness due to shear heating in the inlet, in pure rolling.
 
-    C = 1/(1 + 0.241 L^0.64) with L = eta0 beta u^2/k
+    C = 1/(1 + 0.241 L^0.64) with the thermal loading parameter L = eta0 beta u^2/k
 
     Parameters
     ----------
     viscosity : float
-        eta0 at the temperature of the inlet [Pa s].
+        Viscosity eta0 at the inlet temperature [Pa s].
     slope : float
-        beta = -d ln(eta0)/dT [1/K].
+        Temperature coefficient of viscosity beta = -d ln(eta0)/dT [1/K].
     speed : float
-        u, mean of both surfaces' [m/s].
+        Mean speed u of both surfaces [m/s].
     conductivity : float
-        k, thermal conductivity of the oil [W/(m K)].
+        Thermal conductivity k of the oil [W/(m K)].
 
     Returns
     -------
     float
-        C, from 0 to 1, of the central film.
+        Central film thickness over the isothermal one, C, from 0 to 1.
 
     Notes
     -----
     W. R. D. Wilson and S. Sheu, Effect of inlet shear heating due to sliding on elastohydrodynamic film
-    thickness, ASME J. Lubr. Technol. 105 (1983) 187, at no sliding: a line contact's inlet, used for
-    ellipses too.
+    thickness, ASME J. Lubr. Technol. 105 (1983) 187, without sliding. The formula was derived for the inlet
+    of a line contact; it is used for elliptical contacts too.
 
     Examples
     --------

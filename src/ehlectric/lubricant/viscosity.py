@@ -1,4 +1,4 @@
-"""Viscosity of the lubricant over pressure and temperature: pure functions."""
+"""Viscosity laws of the lubricant: relative viscosity over pressure and temperature."""
 
 from __future__ import annotations
 
@@ -12,26 +12,30 @@ from ehlectric.arrays import Array
 from ehlectric.errors import ResultWarning
 from ehlectric.lubricant.law import Derivation, Law, Parameter
 
-# Roelands' reduced form of the viscosity at zero pressure, ln(eta0) + 9.67, with eta0 in Pa s.
+# Constant of Roelands' law in ln(eta0) + 9.67, with the viscosity eta0 at zero pressure in Pa s.
 ROELANDS_CONSTANT = 9.67
 
 
 def roelands_exponent(
     viscosity: float, pressure_viscosity_coefficient: float, roelands_pressure: float
 ) -> float:
-    """Exponent z that belongs to a viscosity and its slope, z = alpha p0/(ln eta0 + 9.67).
+    """Exponent z of Roelands' law from viscosity and pressure-viscosity coefficient.
+
+    z = alpha p0/(ln eta0 + 9.67), with eta0 in Pa s.
 
     Parameters
     ----------
     viscosity : float
-        eta0 at zero pressure [Pa s].
-    pressure_viscosity_coefficient, roelands_pressure : float
-        alpha [1/Pa] and p0 [Pa].
+        Viscosity eta0 at zero pressure [Pa s].
+    pressure_viscosity_coefficient : float
+        Slope alpha of ln eta at zero pressure [1/Pa].
+    roelands_pressure : float
+        Constant p0 [Pa].
 
     Returns
     -------
     float
-        Dimensionless; infinite where the viscosity is below that of Roelands' pole, 6.3e-5 Pa s.
+        Exponent z, dimensionless; infinite for a viscosity below the pole of the relation at 6.3e-5 Pa s.
 
     Notes
     -----
@@ -48,21 +52,23 @@ def roelands_exponent(
 
 
 def roelands_alpha(viscosity: float, roelands_z: float, roelands_pressure: float) -> float:
-    """Pressure-viscosity coefficient of Roelands' law, alpha = z (ln eta0 + 9.67)/p0.
+    """Pressure-viscosity coefficient of Roelands' law from the viscosity at a temperature.
+
+    alpha = z (ln eta0 + 9.67)/p0, with eta0 in Pa s.
 
     Parameters
     ----------
     viscosity : float
-        eta0 at the temperature [Pa s].
+        Viscosity eta0 at zero pressure and at this temperature [Pa s].
     roelands_z : float
-        Exponent z, which hardly changes with temperature.
+        Exponent z, dimensionless; it hardly changes with temperature.
     roelands_pressure : float
-        p0 [Pa].
+        Constant p0 [Pa].
 
     Returns
     -------
     float
-        [1/Pa].
+        Pressure-viscosity coefficient alpha [1/Pa].
 
     Notes
     -----
@@ -85,18 +91,18 @@ def roelands(
     roelands_z: float,
     roelands_pressure: float,
 ) -> tuple[Array, Array]:
-    """Logarithm of the relative viscosity after Roelands, and its derivative.
+    """Logarithm of the relative viscosity after Roelands, and its derivative by pressure.
 
-    ln(eta/eta0) = (alpha p0/z) ((1 + p/p0)^z - 1)
+    ln(eta/eta0) = (alpha p0/z) ((1 + p/p0)^z - 1), with the viscosity eta0 at zero pressure.
 
     Parameters
     ----------
     pressure : array_like, shape (...)
         Pressure p [Pa], >= 0.
     temperature : array_like, optional
-        Temperature [K]; the law is isothermal and takes no notice of it.
+        Temperature [K]. The law is isothermal and ignores it.
     pressure_viscosity_coefficient : float
-        alpha, the slope of ln eta at p = 0 [1/Pa].
+        Slope alpha of ln eta at zero pressure [1/Pa].
     roelands_z : float
         Exponent z, dimensionless.
     roelands_pressure : float
@@ -105,7 +111,7 @@ def roelands(
     Returns
     -------
     exponent, slope : ndarray, shape (...)
-        ln(eta/eta0), dimensionless, and its derivative [1/Pa].
+        ln(eta/eta0), dimensionless, and its derivative by pressure [1/Pa].
 
     Notes
     -----
@@ -128,28 +134,28 @@ def roelands(
 def barus(
     pressure: ArrayLike, temperature: ArrayLike | None = None, *, pressure_viscosity_coefficient: float
 ) -> tuple[Array, Array]:
-    """Logarithm of the relative viscosity after Barus, and its derivative.
+    """Logarithm of the relative viscosity after Barus, and its derivative by pressure.
 
-    ln(eta/eta0) = alpha p
+    ln(eta/eta0) = alpha p, with the viscosity eta0 at zero pressure.
 
     Parameters
     ----------
     pressure : array_like, shape (...)
         Pressure p [Pa], >= 0.
     temperature : array_like, optional
-        Temperature [K]; the law is isothermal and takes no notice of it.
+        Temperature [K]. The law is isothermal and ignores it.
     pressure_viscosity_coefficient : float
-        alpha [1/Pa].
+        Slope alpha of ln eta [1/Pa].
 
     Returns
     -------
     exponent, slope : ndarray, shape (...)
-        ln(eta/eta0), dimensionless, and its derivative [1/Pa].
+        ln(eta/eta0), dimensionless, and its derivative by pressure [1/Pa].
 
     Notes
     -----
-    C. Barus, Am. J. Sci. 45 (1893) 87, doi:10.2475/ajs.s3-45.266.87. Above some 0.5 GPa it overstates the
-    viscosity by orders of magnitude.
+    C. Barus, Am. J. Sci. 45 (1893) 87, doi:10.2475/ajs.s3-45.266.87. Above about 0.5 GPa the law
+    overestimates the viscosity by orders of magnitude.
 
     Examples
     --------
@@ -161,19 +167,19 @@ def barus(
 
 
 def constant_viscosity(pressure: ArrayLike, temperature: ArrayLike | None = None) -> tuple[Array, Array]:
-    """Logarithm of the relative viscosity of an isoviscous lubricant, and its derivative: zeros.
+    """Logarithm of the relative viscosity of an isoviscous lubricant, and its derivative; both are zero.
 
     Parameters
     ----------
     pressure : array_like, shape (...)
         Pressure [Pa].
     temperature : array_like, optional
-        Temperature [K]; the law is isothermal and takes no notice of it.
+        Temperature [K]. The law is isothermal and ignores it.
 
     Returns
     -------
     exponent, slope : ndarray, shape (...)
-        Zeros, dimensionless and [1/Pa].
+        ln(eta/eta0), dimensionless, and its derivative [1/Pa]; zeros.
 
     Examples
     --------
@@ -187,7 +193,7 @@ def constant_viscosity(pressure: ArrayLike, temperature: ArrayLike | None = None
 def _barus_warnings(
     max_pressure: float, viscosity: float, *, pressure_viscosity_coefficient: float
 ) -> Iterator[ResultWarning]:
-    """Warning of Barus' law at a high Hertz pressure [Pa]."""
+    """Warning about Barus' law at a high Hertz pressure ``max_pressure`` [Pa]."""
     if max_pressure > 0.5e9:
         yield ResultWarning(
             "law-range", "Barus' law overstates the viscosity above some 0.5 GPa by orders of magnitude"
@@ -202,7 +208,7 @@ def _roelands_warnings(
     roelands_z: float,
     roelands_pressure: float,
 ) -> Iterator[ResultWarning]:
-    """Warning of an exponent that is far from the one of Roelands' own relation."""
+    """Warning about an exponent that differs by more than 10 % from Roelands' relation."""
     z = roelands_exponent(viscosity, pressure_viscosity_coefficient, roelands_pressure)
     if abs(z / roelands_z - 1.0) > 0.1:
         yield ResultWarning(
@@ -213,7 +219,7 @@ def _roelands_warnings(
 
 
 def _roelands_hint(viscosity: float, given: Mapping[str, float]) -> str:
-    """Exponent of Roelands' own relation, where the exponent alone is missing."""
+    """Text with the exponent of Roelands' relation, if the exponent is the only missing parameter."""
     if given.keys() != {"pressure_viscosity_coefficient", "roelands_pressure"}:
         return ""
     z = roelands_exponent(viscosity, **given)

@@ -1,1 +1,1 @@
-"""Transient contacts: moving roughness, solved step by step and stored while it is solved."""
+"""Transient contacts with moving roughness: time steps, files of runs, and summaries."""

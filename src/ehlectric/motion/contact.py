@@ -1,4 +1,4 @@
-"""Transient contact: a case with moving roughness, resolved, and the film equations that it poses."""
+"""Transient contact: conditions, schedule, rough surfaces and film equations of a case with motion."""
 
 from __future__ import annotations
 
@@ -15,26 +15,26 @@ from ehlectric.motion.kinds import KINDS, AnyKind
 from ehlectric.motion.roughness import MovingRoughness
 from ehlectric.motion.schedule import Schedule, schedule_of
 
-# Part of a grid interval by which a lengthened domain may miss a whole number of intervals.
+# Tolerance for a whole number of grid intervals in the extended domain [grid intervals].
 _ROUNDING = 1e-9
 
 
 @dataclass(frozen=True)
 class TransientContact:
-    """A contact with moving roughness, ready to be solved in time.
+    """Contact with moving roughness, ready to be solved in time steps.
 
     Attributes
     ----------
     case : Case
-        The case, of a line or a point contact.
+        Case of a line or a point contact.
     conditions : Conditions or PointConditions
         Conditions of the case.
     schedule : Schedule
         Time steps and speeds of the surfaces.
     travelled : Case
-        The case with a domain as long as its surfaces travel.
+        Case whose domain is extended to the length of the surfaces that pass through the contact.
     roughness : MovingRoughness
-        Rough surfaces, made or read for that domain.
+        Rough surfaces, generated or read for the extended domain.
     """
 
     case: Case
@@ -45,7 +45,7 @@ class TransientContact:
 
     @classmethod
     def of(cls, case: Case) -> TransientContact:
-        """Resolve a case, and make or read its surfaces.
+        """Contact of a case, with its surfaces generated or read.
 
         Parameters
         ----------
@@ -55,7 +55,7 @@ class TransientContact:
         Raises
         ------
         InputError
-            Where the schedule is refused (see ``schedule_of``), or a surface cannot be made or read.
+            Where the schedule is refused (see ``schedule_of``), or a surface cannot be generated or read.
         """
         kind = KINDS[case.contact.geometry]
         conditions = kind.contact.resolve(case)
@@ -67,21 +67,21 @@ class TransientContact:
 
     @property
     def kind(self) -> AnyKind:
-        """Functions of its kind of contact, line or point."""
+        """Functions for this kind of contact, line or point."""
         return KINDS[self.case.contact.geometry]
 
     @property
     def half_width(self) -> float:
-        """Half-width b; the semi-axis along entrainment of a point contact [m]."""
+        """Half-width b, in a point contact the semi-axis along entrainment [m]."""
         return self.conditions.half_width
 
     @cached_property
     def problem(self) -> FilmProblem:
-        """Film equations with the roughness of surfaces at rest alone."""
+        """Film equations without moving roughness: rough surfaces at rest are part of the gap."""
         return self.kind.film_problem(self.case, self.travelled, self.conditions, self.roughness)
 
     def moving_gap(self, time: float, x: Array, y: Array) -> Array:
-        """Part of the dimensionless gap that moving roughness adds; a peak adds a negative one.
+        """Contribution of moving roughness to the dimensionless gap; peaks reduce the gap.
 
         Parameters
         ----------
@@ -95,6 +95,7 @@ class TransientContact:
         Returns
         -------
         ndarray, shape (nx, ny)
+            Change of the gap over the scale of the film thickness, dimensionless.
         """
         heights = self.roughness.moving_height(time, *(x, y)[: len(self.kind.axes)])
         gap: Array = -heights.reshape(x.size, y.size) / self.conditions.thickness_scale
@@ -102,19 +103,20 @@ class TransientContact:
 
 
 def travelled_case(case: Case, schedule: Schedule) -> Case:
-    """The case with a domain as long as its surfaces travel.
+    """Case whose domain is extended to the length of the surfaces that pass through the contact.
 
     Parameters
     ----------
     case : Case
         A case with roughness.
     schedule : Schedule
-        Its schedule.
+        Time steps and speeds of the surfaces of this case.
 
     Returns
     -------
     Case
-        Domain and nodes along entrainment are extended at the same grid spacing; the nodes across are kept.
+        Case with the same grid spacing. The domain is extended along entrainment only, so the number of nodes
+        across is the same.
     """
     grid, length = case.grid, schedule.length
     inlet, outlet = schedule.domain

@@ -9,7 +9,7 @@ import numpy as np
 
 from ehlectric.arrays import Array, Mask
 
-# Part of the maximum over time above which the field counts as near its maximum.
+# The field counts as near its maximum above this part of its largest value over time.
 NEAR_MAXIMUM = 0.9
 
 
@@ -48,15 +48,18 @@ class FieldHistory:
 
     @property
     def share_near_maximum(self) -> float:
-        """Part of the time that counts in which the field is near its maximum.
+        """Share of the settled time in which the field is near its maximum, dimensionless.
 
-        All time steps are used, as an asperity may have passed between two recorded instants.
+        It is computed from all time steps, because an asperity may pass between two recorded instants.
         """
         return time_above(self.time[self._settled], self.strength[self._settled], self.near_maximum)
 
 
 def strength_between(time: Array, estimate: Array, frame_time: Array, strength: Array) -> Array:
-    """Largest field strength at every time step, from that at the recorded instants.
+    """Largest field strength at every time step, interpolated between the recorded instants.
+
+    The largest field strength is the voltage over the smallest film thickness, times a ratio that changes
+    little with time. The ratio is interpolated between the recorded instants.
 
     Parameters
     ----------
@@ -67,13 +70,12 @@ def strength_between(time: Array, estimate: Array, frame_time: Array, strength: 
     frame_time : ndarray, shape (frames,)
         Times of the recorded instants [s].
     strength : ndarray, shape (frames,)
-        Largest field strength there [V/m].
+        Largest field strength at the recorded instants [V/m].
 
     Returns
     -------
     ndarray, shape (steps,)
-        The estimate times its ratio to the largest field strength, which changes little and is interpolated
-        between the recorded instants [V/m].
+        Largest field strength [V/m].
 
     Examples
     --------
@@ -120,7 +122,7 @@ def intervals_above(time: Array, values: Array, level: float) -> Array:
 
 
 def time_above(time: Array, values: Array, level: float) -> float:
-    """Part of the time in which values are above a level.
+    """Share of the time in which values are above a level.
 
     Parameters
     ----------
@@ -134,7 +136,7 @@ def time_above(time: Array, values: Array, level: float) -> float:
     Returns
     -------
     float
-        Between 0 and 1; of a single instant 0 or 1.
+        Share between 0 and 1; for a single instant 0 or 1.
 
     Examples
     --------

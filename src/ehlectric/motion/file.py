@@ -1,9 +1,9 @@
-"""File of a transient run: written while the run is solved, and read again to resume it.
+"""File of a transient run, written while the run is solved and read again to resume it.
 
-The file is closed between two recorded instants, so it is whole whenever the run stops there. An instant that
-is half written when the run stops does not count: the number of recorded instants is written last, and the
-films that a run is resumed from are kept twice (see ``ehlectric.motion.resume``). Maps are kept in single
-precision, the films to resume from in double precision.
+The file is closed between two recorded instants, so it is intact when the run stops there. If the run stops
+while an instant is written, that instant does not count, because the number of recorded instants is written
+last. The films from which a run is resumed are stored twice (see ``ehlectric.motion.resume``). Maps are
+stored in single precision, the films to resume from in double precision.
 """
 
 from __future__ import annotations
@@ -27,7 +27,8 @@ from ehlectric.runtime.files import plain
 from ehlectric.runtime.netcdf import check_space, opened, resize
 from ehlectric.version import __version__
 
-# Name: (long name, unit) of the variables over all time steps, over the recorded instants, and of the maps.
+# Variables by name, each with its long name and unit: over all time steps, over the recorded instants, and
+# maps at the recorded instants.
 _STEPS = {
     "time": ("time since the roughness began to enter", "s"),
     "minimum_thickness": ("smallest film thickness", "m"),
@@ -61,20 +62,20 @@ _OF_POINTS = ("minimum_y", "max_strength_y")
 # Steps or instants in a chunk of the file.
 _CHUNK = 1024
 
-# Upper bounds of what a recorded instant takes on the disk [bytes]: by node, for its maps and the films to
-# resume from; and besides, for the time steps since the instant before.
+# Upper bounds of the disk space of a recorded instant [bytes]: per node, for its maps and the films to resume
+# from, and in addition for the time steps since the recorded instant before.
 _NODE_BYTES, _CHUNK_BYTES = 256, 10_000_000
 
 
 @dataclass(frozen=True)
 class Row:
-    """Values of a time step by the names of their variables, SI units."""
+    """Values of a time step by the names of the variables in the file, SI units."""
 
     values: Mapping[str, float]
 
     @classmethod
     def of(cls, solver: TransientSolver, history: History) -> Row:
-        """Values of the last step of a history."""
+        """Values of the last time step of a history."""
         contact, instant = solver.contact, history.now
         extremes = solver.extremes(instant)
         values: dict[str, float] = {
@@ -98,13 +99,13 @@ class Record:
     step : int
         Number of the time step.
     rows : sequence of Row
-        Values of the time steps since the recorded instant before, this step last.
+        Values of the time steps since the last recorded instant, in order, up to this step.
     snapshot : Snapshot
         Film, roughness and field.
     history : History
-        Last two instants, from which the run can be resumed.
+        Films of the last two time steps, from which the run can be resumed.
     seconds : float
-        Computing time since the recorded instant before [s].
+        Computing time since the last recorded instant [s].
     """
 
     step: int
@@ -115,19 +116,19 @@ class Record:
 
 
 def _place(name: str, place: float | tuple[float, ...]) -> dict[str, float]:
-    """Position along each axis, by the name of its variable."""
+    """Position along each axis, by the name of its variable in the file."""
     return {f"{name}_{axis}": at for axis, at in zip("xy", np.atleast_1d(place).tolist(), strict=False)}
 
 
 class MotionFile:
-    """File of a run, created or opened to resume the run.
+    """File of a transient run, to be created or resumed.
 
     Parameters
     ----------
     path : Path
-        The file.
+        Path of the file.
     contact : TransientContact
-        The contact that is solved.
+        Contact of the run.
     """
 
     def __init__(self, path: Path, contact: TransientContact) -> None:
@@ -135,16 +136,16 @@ class MotionFile:
         self._left: tuple[Any, int] | None = None
 
     def create(self, first: Snapshot, attributes: Mapping[str, Any], stationary: Mapping[str, Array]) -> None:
-        """Create the file without recorded instants.
+        """Create the file with its variables, but without recorded instants.
 
         Parameters
         ----------
         first : Snapshot
-            Any instant, for the positions of the nodes.
+            An instant of the run, for the positions of the nodes.
         attributes : mapping of str to str or float
             Attributes of the file.
         stationary : mapping of str to ndarray
-            Maps of the film and the field with stationary roughness, by names as ``pressure``.
+            Maps of film and field with stationary roughness, by names such as ``pressure``.
         """
         kind = self._contact.kind
         positions = dict(zip(kind.axes, first.film.axes, strict=True))
@@ -171,9 +172,9 @@ class MotionFile:
                 raise InputError(
                     self._path, "is being written to by another run", takes="a folder of its own"
                 )
-            # By the number of the step: a half-written instant may stand behind those that count.
-            before = file.variables["frame_step"][: int(file.attrs["frames"])]
-            frame = int(np.searchsorted(before, step))
+            # A half-written instant may follow the complete ones, so the step determines the place to write.
+            recorded = file.variables["frame_step"][: int(file.attrs["frames"])]
+            frame = int(np.searchsorted(recorded, step))
             resize(file, {"step": step + 1, "frame": frame + 1})
             for name in file.variables:
                 if name in _STEPS:
@@ -198,15 +199,18 @@ class MotionFile:
         }
 
     def whole(self) -> bool:
-        """Whether the file has a complete run of the same case."""
+        """Whether the file exists and has a complete run of the same case."""
         try:
             with opened(self._path, "r") as file:
                 return bool(file.attrs["complete"]) and self._same(file.attrs)
         except (OSError, KeyError, ValueError, RuntimeError):
-            return False  # there is no file, or it is no run, or damaged
+            return False  # there is no file, or it is damaged or has no run
 
     def resumed(self) -> tuple[int, History] | None:
-        """Last recorded step of an unfinished run of the same case, and its film; None without such a run."""
+        """Last recorded step of an unfinished run of the same case, and the films to resume it from.
+
+        None where the file does not exist, or does not have such a run.
+        """
         if not self._path.is_file():
             return None
         try:
@@ -217,17 +221,17 @@ class MotionFile:
                 history = kept(file, frames)
                 return None if history is None else (int(file.variables["frame_step"][frames - 1]), history)
         except (OSError, KeyError, ValueError, RuntimeError):
-            return None  # no run, or damaged: solved from the start
+            return None  # the file is damaged or has no run: the run is solved from the start
 
     def _same(self, attributes: Mapping[str, Any]) -> bool:
-        """Whether a file is of the same case, the same surfaces and this version."""
+        """Whether the attributes of a file state the same case, the same surfaces and this version."""
         contact = self._contact
-        known = {"case": contact.case.to_toml(), "version": __version__, "rough": described(contact)}
-        return all(attributes[name] == value for name, value in known.items())
+        expected = {"case": contact.case.to_toml(), "version": __version__, "rough": described(contact)}
+        return all(attributes[name] == value for name, value in expected.items())
 
 
 def _numbers(record: Record) -> dict[str, float]:
-    """Values of a recorded instant that are not maps."""
+    """Values of a recorded instant other than maps, by the names of their variables."""
     field = record.snapshot.field
     return {
         "frame_time": record.snapshot.time,
@@ -240,12 +244,12 @@ def _numbers(record: Record) -> dict[str, float]:
 def _lay_out(
     file: Any, positions: Mapping[str, Array], stationary: Mapping[str, Array], kind: AnyKind
 ) -> None:
-    """Create dimensions and variables, and write what does not change with time."""
+    """Create dimensions and variables; write the nodes and the maps of stationary roughness."""
     axes = tuple(positions)
     file.dimensions = {"step": None, "frame": None} | {name: positions[name].size for name in axes}
     for name, values in positions.items():
-        way = "along" if name == "x" else "across"
-        _add(file, name, (name,), (f"position {way} entrainment", "m"), values)
+        direction = "along" if name == "x" else "across"
+        _add(file, name, (name,), (f"position {direction} entrainment", "m"), values)
     for table, dimension in ((_STEPS, "step"), (_FRAMES, "frame")):
         for name, (long_name, unit) in table.items():
             if len(axes) > 1 or name not in _OF_POINTS:
@@ -265,24 +269,24 @@ def _add(
     about: tuple[str, str],
     values: Array | None = None,
 ) -> None:
-    """Create a variable, ``about`` being its long name and its unit."""
-    how: dict[str, Any] = {}
+    """Create a variable; ``about`` has its long name and its unit."""
+    storage: dict[str, Any] = {}
     kind = "f8"
     if dimensions[0] == "frame" and len(dimensions) > 1:
         kind = "i1" if name == "cavitated" else "f4"
         shape = tuple(file.dimensions[d].size for d in dimensions[1:])
-        how = {"chunks": (1, *shape), "compression": "gzip", "compression_opts": 1, "shuffle": True}
+        storage = {"chunks": (1, *shape), "compression": "gzip", "compression_opts": 1, "shuffle": True}
     elif dimensions[0] in ("step", "frame"):
-        how = {"chunks": (_CHUNK,)}
-    variable = file.create_variable(name, tuple(dimensions), kind, data=values, **how)
+        storage = {"chunks": (_CHUNK,)}
+    variable = file.create_variable(name, tuple(dimensions), kind, data=values, **storage)
     variable.attrs["long_name"], variable.attrs["units"] = about
 
 
 def _state(file: Any) -> tuple[Any, int]:
-    """Date and number of recorded instants, which change where another run writes into the file."""
+    """Date and number of recorded instants of a file; they change where another run writes to it."""
     return file.attrs["date"], int(file.attrs["frames"])
 
 
 def described(contact: TransientContact) -> str:
-    """Rough surfaces of a contact as JSON."""
+    """Descriptions of the rough surfaces of a contact, as JSON."""
     return json.dumps(plain([surface.describe() for surface in contact.roughness.surfaces]))

@@ -1,4 +1,7 @@
-"""Keys of the summary.json of a contact whose roughness moves; capacitances of a line are per length."""
+"""Keys of the summary.json of a transient contact.
+
+Capacitances of line contacts are per length.
+"""
 
 from __future__ import annotations
 
@@ -107,7 +110,7 @@ _BESIDE: Keys = {
 
 
 def _keys(capacitance: str, surface: Keys) -> Keys:
-    """Keys of a contact whose capacitances have this unit, and whose rough surfaces have these keys."""
+    """Keys of a kind of contact, from the unit of its capacitances and the keys of its rough surfaces."""
     return {
         **_ABOUT,
         **under("motion", _COURSE),
@@ -153,5 +156,5 @@ def _stationary(capacitance: str) -> Keys:
 LINE_KEYS: Keys = _keys("F/m", LINE_SURFACE)
 POINT_KEYS: Keys = _keys("F", POINT_SURFACE)
 
-# Keys by the geometry of a case.
+# Keys by the geometry of the case.
 MOTION_KEYS: dict[str, Keys] = {"line": LINE_KEYS, "point": POINT_KEYS}

@@ -1,4 +1,4 @@
-"""Steps of a transient solution that line and point contacts take differently, in one table."""
+"""Functions of transient solutions that differ between line and point contacts, in one table."""
 
 from __future__ import annotations
 
@@ -47,16 +47,16 @@ class Kind(Generic[C, R, F, E]):
     capacitance_unit : str
         Unit of the capacitance in the field range.
     contact : Kind
-        The same kind of contact at rest.
+        Functions of the stationary contact of the same kind.
     nodes_across : callable
-        Changes to a grid that keep its nodes across entrainment when nodes along it are added.
+        Changes to a grid that keep its nodes across entrainment when nodes along entrainment are added.
     film_problem : callable
-        Film equations of a case with the roughness at rest, from the case, the case with the domain as long
-        as its surfaces travel, the conditions and the moving roughness.
+        Film equations with the rough surfaces at rest only. Its arguments are the case, the case with the
+        extended domain (see ``TransientContact``), the conditions and the moving roughness.
     shaped : callable
-        Values of the solver's mesh, shape (nx, ny), as a film keeps them.
+        Values on the solver's mesh, shape (nx, ny), in the shape of the arrays of a film.
     film : callable
-        Film from what all films have, the problem and the mesh.
+        Film from its solution, the film equations and the mesh.
     column_strength : callable
         Largest field strength across the film at its nodes [V/m]; not a number outside the field range.
     in_hertz_zone : callable
@@ -88,7 +88,7 @@ def _point_film_problem(
     case: Case, travelled: Case, conditions: PointConditions, roughness: MovingRoughness
 ) -> FilmProblem:
     problem = point_film_problem(case, conditions, cast("list[RoughMap]", roughness.resting))
-    # One half of the contact suffices only where all roughness that comes is its own mirror image.
+    # Half of the contact suffices only where all roughness that passes is symmetric about y = 0.
     whole = point_film_problem(travelled, conditions, cast("list[RoughMap]", roughness.surfaces))
     return replace(problem, width=whole.width)
 

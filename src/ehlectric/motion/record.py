@@ -1,4 +1,4 @@
-"""Stored run of a transient contact: its case, and its values at time steps, recorded instants and nodes."""
+"""Stored run of a transient contact: its case, and values over time steps, recorded instants and nodes."""
 
 from __future__ import annotations
 
@@ -37,22 +37,22 @@ _NEEDED = (
 
 
 def read_motion(path: str | Path) -> xr.Dataset:
-    """Read a run of moving roughness, complete or not.
+    """Read the file of a transient run, complete or not.
 
     Parameters
     ----------
     path : str or Path
-        A file motion.nc, or the folder that it is in.
+        File motion.nc, or the folder with this file.
 
     Returns
     -------
     xarray.Dataset
-        Values in SI units, over ``step`` at all time steps and over ``frame`` at the recorded instants.
+        Values in SI units. The dimension ``step`` counts time steps, ``frame`` counts recorded instants.
 
     Raises
     ------
     InputError
-        Where the file cannot be read, is damaged or is not such a run.
+        Where the file cannot be read, is damaged, or has no transient run.
     """
     path = Path(path)
     path = path / MOTION if path.is_dir() else path
@@ -68,7 +68,7 @@ def read_motion(path: str | Path) -> xr.Dataset:
 
 
 def saved_steps(path: Path) -> int:
-    """Number of the last recorded time step in a file; 0 where there is none or the file cannot be read."""
+    """Number of the last recorded time step in a file; 0 where it has none or cannot be read."""
     try:
         with opened(path, "r") as file:
             return int(file.variables["frame_step"][: int(file.attrs["frames"])][-1])
@@ -83,9 +83,9 @@ class MotionRun:
     Attributes
     ----------
     dataset : xarray.Dataset
-        Values at the time steps and recorded instants that are solved.
+        Values at the solved time steps and recorded instants.
     case : Case
-        Case that was solved.
+        Case of the run.
     conditions : Conditions or PointConditions
         Conditions of the case.
     """
@@ -96,36 +96,38 @@ class MotionRun:
 
     @classmethod
     def of(cls, dataset: xr.Dataset) -> MotionRun:
-        """Run of a dataset, without steps and instants that have no time yet. No surface is read.
+        """Run from a dataset, without steps and instants that are not solved yet.
+
+        Files of surfaces are not read.
 
         Parameters
         ----------
         dataset : xarray.Dataset
-            A dataset as ``read_motion`` gives it.
+            Dataset from ``read_motion``.
 
         Raises
         ------
         InputError
-            Where the dataset is not a run of moving roughness, or has no recorded instant.
+            Where the dataset is not a transient run, or has no recorded instant.
         """
         missing = [name for name in _NEEDED if name not in dataset]
         if missing or "case" not in dataset.attrs:
-            lacks = missing[0] if missing else "case"
-            raise InputError("dataset", got=f"one without {lacks!r}", takes="that of roughness that moves")
+            name = missing[0] if missing else "case"
+            raise InputError("dataset", got=f"one without {name!r}", takes="that of roughness that moves")
         case = Case.from_dict(tomllib.loads(dataset.attrs["case"]))
-        there = {
+        solved = {
             "step": np.isfinite(dataset["time"].values),
             "frame": np.isfinite(dataset["frame_time"].values),
         }
-        left = {name: np.flatnonzero(mask) for name, mask in there.items() if not np.all(mask)}
-        kept = dataset.isel(left) if left else dataset
-        if not kept.sizes["frame"]:
+        selection = {name: np.flatnonzero(mask) for name, mask in solved.items() if not np.all(mask)}
+        selected = dataset.isel(selection) if selection else dataset
+        if not selected.sizes["frame"]:
             raise InputError("dataset", got="no recorded instant", takes="one at least")
-        return cls(kept, case, KINDS[case.contact.geometry].contact.resolve(case))
+        return cls(selected, case, KINDS[case.contact.geometry].contact.resolve(case))
 
     @property
     def kind(self) -> AnyKind:
-        """Functions of its kind of contact, line or point."""
+        """Functions for this kind of contact, line or point."""
         return KINDS[self.case.contact.geometry]
 
     @cached_property
@@ -135,18 +137,18 @@ class MotionRun:
 
     @property
     def complete(self) -> bool:
-        """Whether the run went to its end."""
+        """Whether all time steps of the run are solved."""
         return bool(self.dataset.attrs.get("complete", 1))
 
     @cached_property
     def speeds(self) -> dict[int, float]:
-        """Speeds of the rough surfaces by their numbers [m/s]."""
+        """Speed of each rough surface by its number, 1 or 2 [m/s]."""
         mean, ratios = self.conditions.entrainment_speed, surface_ratios(self.conditions.slide_to_roll_ratio)
         return {k: mean * ratios[k - 1] for k in sorted({table.surface for table in self.case.roughness})}
 
     @cached_property
     def x(self) -> Array:
-        """Positions of the film's nodes along entrainment, shape (nx,) [half-widths]."""
+        """Positions of the nodes of the film along entrainment, shape (nx,) [half-widths]."""
         return np.asarray(self.dataset["x"].values / self.conditions.half_width)
 
     @cached_property
@@ -160,26 +162,27 @@ class MotionRun:
         return int(self.dataset.sizes["frame"])
 
     def values(self, name: str) -> Array:
-        """Values of a variable as floats."""
+        """Values of a variable of the dataset as floats."""
         return np.asarray(self.dataset[name].values, dtype=float)
 
     def moment(self, name: str) -> float:
-        """Time ``covered_from`` or ``coincident`` [s]; not a number where the run does not reach it."""
+        """Time ``covered_from`` or ``coincident`` [s]; NaN where the run does not reach it."""
         return float(self.dataset.attrs.get(name, np.nan))
 
     def along(self, name: str, frame: int | None = None) -> Array:
-        """Values of a map along entrainment, in a point contact on the line of nodes nearest to y = 0.
+        """Values of a map along entrainment; in a point contact, on the line of nodes nearest to y = 0.
 
         Parameters
         ----------
         name : str
-            Name of a variable with values at the nodes of the film.
+            Name of a variable that has values at the nodes of the film.
         frame : int, optional
             Number of a recorded instant; by default all recorded instants.
 
         Returns
         -------
         ndarray, shape (frames, nx) or (nx,)
+            Values in SI units.
         """
         values = self.dataset[name]
         if "y" in values.dims:
@@ -197,18 +200,18 @@ class MotionRun:
 
 
 def settled_from(run: MotionRun) -> float:
-    """Time from which statistics count [s]: when the roughness has filled the contact, or 0.
+    """Time from which statistics over a run count [s]: the time at which the roughness fills the contact.
 
-    It is 0 where the roughness never fills the contact, or fewer than two instants are recorded since then.
+    It is 0 where the roughness never fills the contact, or fewer than two instants are recorded afterwards.
     """
     covered = run.moment("covered_from")
     return covered if np.count_nonzero(run.frame_time >= covered) > 1 else 0.0
 
 
 def coincident_frame(run: MotionRun) -> int | None:
-    """Number of the recorded instant nearest to that at which the surfaces lie where the case puts them.
+    """Number of the recorded instant nearest to the time at which the surfaces lie where the case puts them.
 
-    None where the run does not reach that instant, or has no stationary film to compare with.
+    None where the run does not reach this time, or has no stationary film to compare with.
     """
     time, at = run.frame_time, run.moment("coincident")
     if "stationary_thickness" not in run.dataset or not time[0] <= at <= time[-1]:

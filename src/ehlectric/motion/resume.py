@@ -1,8 +1,8 @@
-"""Last two films of a transient run, as its file keeps them so that a stopped run can be resumed.
+"""Last two films of a transient run in its file, from which a stopped run is resumed.
 
-The time steps go backwards over two steps, so a run is resumed from two instants. They are kept in double
-precision in the group "resume" of the file, in two places in turn: an instant that is half written when a run
-is stopped spoils one place only. A checksum of each place tells whether it was written whole.
+The time integration uses the films of the last two instants, so a run is resumed from both. The group
+"resume" of the file stores them in double precision, alternately in two places. If the run stops while an
+instant is written, the other place is still intact. A checksum of each place tells whether it is complete.
 """
 
 from __future__ import annotations
@@ -17,11 +17,11 @@ from ehlectric.arrays import Array
 from ehlectric.film.state import State
 from ehlectric.film.unsteady import History, Instant
 
-# Variables of an instant over the mesh, and its numbers: time T and rigid separation H00.
+# Variables of an instant over the mesh, and its scalars: time T and rigid separation H00.
 _OVER_MESH = ("pressure", "thickness", "mass", "density", "free")
 _NUMBERS = ("t", "h00")
 
-# Places that are written in turn.
+# Number of places that are written alternately.
 _PLACES = 2
 
 
@@ -31,11 +31,11 @@ def keep(file: Any, history: History, frame: int) -> None:
     Parameters
     ----------
     file : h5netcdf.File
-        The file of the run, open for writing.
+        File of the run, open for writing.
     history : History
-        The last two instants.
+        Last two instants.
     frame : int
-        Number of the recorded instant, from which the place follows.
+        Number of the recorded instant, which determines the place.
     """
     values = _values_of(history)
     if "resume" not in file.groups:
@@ -52,19 +52,19 @@ def kept(file: Any, frames: int) -> History | None:
     Parameters
     ----------
     file : h5netcdf.File
-        The file of the run, open for reading.
+        File of the run, open for reading.
     frames : int
         Number of recorded instants.
 
     Returns
     -------
     History or None
-        None where nothing is recorded, or its place was not written whole.
+        Last two instants; None where no instant is recorded, or its place is not complete.
 
     Raises
     ------
     KeyError
-        Where the file has no such group or variables.
+        Where the file has no group "resume", or not all its variables.
     """
     group, place = file.groups["resume"], (frames - 1) % _PLACES
     values = {name: np.asarray(group.variables[name][place]) for name in (*_OVER_MESH, *_NUMBERS)}
@@ -87,7 +87,7 @@ def _type_of(name: str) -> str:
 
 
 def _checksum(values: Mapping[str, Array]) -> int:
-    """CRC-32 of the values, in the order and types in which they are kept."""
+    """CRC-32 of the values, in the order and with the types of the file."""
     total = 0
     for name in (*_OVER_MESH, *_NUMBERS):
         total = zlib.crc32(np.ascontiguousarray(values[name], dtype=_type_of(name)).tobytes(), total)
@@ -95,7 +95,7 @@ def _checksum(values: Mapping[str, Array]) -> int:
 
 
 def _values_of(history: History) -> dict[str, Array]:
-    """Arrays of both instants by name, the last instant first."""
+    """Values of both instants by the names of their variables, the last instant first."""
     instants = history.now, history.before
     return {
         "pressure": np.stack([instant.state.pressure for instant in instants]),

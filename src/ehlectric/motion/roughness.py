@@ -1,8 +1,9 @@
 """Moving roughness: heights of the surfaces of a transient contact over position and time.
 
-A point that the case puts at x is at x - D + u_k t, with the length D of the domain and the speed u_k of its
-surface. Roughness that the case puts beyond the far end of the domain is left out: moving roughness begins
-with a front, behind which its height rises from zero over one half-width.
+The case describes each surface at rest. A point at x in the case is at x - D + u_k t at the time t, with the
+length D of the domain and the speed u_k of its surface; where u_k is negative, it is at x + D + u_k t.
+Roughness that lies beyond the far end of the domain in the case is left out. Moving roughness therefore
+begins with a front, behind which its height rises from zero over one half-width.
 """
 
 from __future__ import annotations
@@ -25,11 +26,11 @@ class MovingRoughness:
     Attributes
     ----------
     surfaces : sequence of RoughSurface or RoughMap
-        The rough surfaces, as long as they travel through the domain.
+        Rough surfaces, long enough for the whole run.
     schedule : Schedule
-        Speeds of the surfaces.
+        Time steps and speeds of the surfaces.
     half_width : float
-        b; the semi-axis along entrainment of a point contact [m].
+        Half-width b, in a point contact the semi-axis along entrainment [m].
     """
 
     surfaces: Sequence[RoughSurface] | Sequence[RoughMap]
@@ -38,7 +39,7 @@ class MovingRoughness:
 
     @property
     def moving(self) -> list[RoughSurface | RoughMap]:
-        """Rough surfaces that are not at rest."""
+        """Rough surfaces that move."""
         return [surface for surface in self.surfaces if self.schedule.speed_of(surface.surface)]
 
     @property

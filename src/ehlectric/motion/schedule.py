@@ -1,10 +1,10 @@
-"""Schedule of a transient contact: time steps, speeds of the surfaces, and when the contact is covered.
+"""Schedule of a transient contact: time steps, speeds of the surfaces, and when roughness fills the contact.
 
-The schedule follows from the case and its conditions alone: no surface is read or made for it.
+The schedule follows from the case and its conditions alone; it does not need the heights of the surfaces.
 
 Time is dimensionless, T = t u/b with the mean speed u and the half-width b, and positions are in half-widths,
-X = x/b. At T = 0 all moving roughness lies outside the domain. A point that the case puts at x is at
-x - D + u_k t, with the length D of the domain and the speed u_k of its surface: at the time D/u_k it lies
+X = x/b. At T = 0 all moving roughness lies outside the domain. A point at x in the case is at x - D + u_k t
+at the time t, with the length D of the domain and the speed u_k of its surface. At the time D/u_k it lies
 where the case puts it.
 """
 
@@ -23,7 +23,8 @@ from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.errors import InputError
 from ehlectric.film.unsteady import MOST_COURANT
 
-# A surface counts as at rest below this speed over the mean speed; times and speeds are compared to it, too.
+# A surface is at rest below this speed over the mean speed. It is also the relative tolerance of comparisons
+# of times and speeds.
 _AT_REST = 1e-9
 
 
@@ -44,7 +45,7 @@ class Schedule:
     time : float
         Time b/u of T = 1 [s].
     domain : tuple of float
-        Ends of the film's domain, inlet and outlet [half-widths].
+        Inlet and outlet of the film's domain [half-widths].
     speeds : tuple of float
         Speeds of surface 1 and surface 2 over the mean speed; exactly 0 where a surface is at rest.
     rough : tuple of int
@@ -91,16 +92,17 @@ class Schedule:
 
     @property
     def moving_speeds(self) -> tuple[float, ...]:
-        """Speeds over the mean speed of those rough surfaces that are not at rest."""
+        """Speeds of the moving rough surfaces over the mean speed."""
         return tuple(self.speed_of(surface) for surface in self.rough if self.speed_of(surface))
 
     @property
     def covered(self) -> float:
         """Time T from which moving roughness fills the Hertz zone; infinite where the run ends before."""
         inlet, outlet = self.domain
-        # From the end where it enters to the far side of the zone, and one half-width for the front to rise.
-        ways = [2.0 - inlet if speed > 0.0 else outlet + 2.0 for speed in self.moving_speeds]
-        times = [way / abs(speed) for way, speed in zip(ways, self.moving_speeds, strict=True)]
+        # Distance from the end where the roughness enters to the far side of the zone, plus the half-width
+        # over which the height rises behind the front.
+        distances = [2.0 - inlet if speed > 0.0 else outlet + 2.0 for speed in self.moving_speeds]
+        times = [way / abs(speed) for way, speed in zip(distances, self.moving_speeds, strict=True)]
         latest = max(times, default=np.inf)
         return latest if latest <= self.end else np.inf
 
@@ -117,12 +119,12 @@ class Schedule:
         return time if time <= self.end * (1.0 + _AT_REST) else np.inf
 
     def moments(self) -> dict[str, float]:
-        """Times ``covered_from`` and ``coincident`` [s], without those that the run does not reach."""
+        """Times ``covered_from`` and ``coincident``, as far as the run reaches them [s]."""
         times = {"covered_from": self.covered, "coincident": self.coincident}
         return {name: time * self.time for name, time in times.items() if math.isfinite(time)}
 
     def described(self) -> dict[str, Any]:
-        """Duration, steps and speeds as in summary.json, SI units; None for a time that is not reached."""
+        """Duration, steps and speeds as in summary.json, SI units; None for times that are not reached."""
         moments = self.moments()
         return {
             "duration": self.end * self.time,
@@ -144,13 +146,13 @@ def schedule_of(case: Case, conditions: Conditions | PointConditions) -> Schedul
     case : Case
         A case with ``motion`` and roughness.
     conditions : Conditions or PointConditions
-        Conditions of the case, as ``resolve`` or ``resolve_point`` gives them.
+        Conditions of the case, from ``resolve`` or ``resolve_point``.
 
     Returns
     -------
     Schedule
-        The instant at which all moving roughness lies where the case puts it is recorded, too, where the run
-        reaches it.
+        Time steps and speeds. The recorded instants include the one at which all moving roughness lies where
+        the case puts it, if the run reaches it.
 
     Raises
     ------
@@ -190,8 +192,8 @@ def _time_grid(case: Case, conditions: Conditions | PointConditions) -> Schedule
             takes=f"at least {spacing * time:.3g} s",
         )
     if motion.steps is None:
-        # In a step as long as the grid spacing, oil travels from node to node. A surface that is several
-        # times faster shall travel about a spacing too, so each step is divided by a whole number.
+        # In each step the oil travels from one node to the next. A surface that is several times faster
+        # should also travel about one grid spacing a step, so each step is divided by a whole number.
         end = steps * spacing
         fastest = max(abs(ratios[surface - 1]) for surface in rough)
         steps *= max(1, math.ceil(fastest - 0.5))
@@ -216,5 +218,5 @@ def _time_grid(case: Case, conditions: Conditions | PointConditions) -> Schedule
 
 
 def _moving(speed: float) -> float:
-    """Speed over the mean speed; exactly 0 where it is 0 to rounding."""
+    """Speed over the mean speed, with 0 in place of rounding errors."""
     return speed if abs(speed) > _AT_REST else 0.0

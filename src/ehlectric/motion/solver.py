@@ -1,4 +1,4 @@
-"""Solution of a transient contact: its film step after step, and its field at single instants."""
+"""Solver of a transient contact: films at all time steps, and electric fields at single instants."""
 
 from __future__ import annotations
 
@@ -32,11 +32,11 @@ class Snapshot:
     time : float
         Time since the roughness began to enter [s].
     film : Film or PointFilm
-        Film at this instant; it has no error estimate.
+        Film at this instant, without an error estimate.
     roughness : ndarray, shape (2, nx) or (2, nx, ny)
         Heights of both surfaces at the film's nodes, positive out of the body [m].
     field : Field or PointField
-        Electric field, which follows the gap without delay.
+        Electric field, computed for the gap at this instant as in a stationary contact.
     """
 
     time: float
@@ -47,14 +47,14 @@ class Snapshot:
 
 @dataclass(frozen=True)
 class Extremes:
-    """Smallest film thickness with its place, and largest pressure, at one instant.
+    """Smallest film thickness with its position, and largest pressure, at one instant.
 
     Attributes
     ----------
     minimum_thickness : float
         Smallest film thickness [m].
     minimum_position : tuple of float
-        Position of the node where the film is thinnest, along each axis [m].
+        Position along each axis of the node where the film is thinnest [m].
     max_pressure : float
         Largest pressure [Pa].
     """
@@ -70,7 +70,7 @@ class TransientSolver:
     Parameters
     ----------
     contact : TransientContact
-        The contact.
+        Contact to solve.
     """
 
     def __init__(self, contact: TransientContact) -> None:
@@ -78,7 +78,7 @@ class TransientSolver:
         self._film = UnsteadyFilm(contact.problem, contact.moving_gap)
 
     def start(self, progress: Progress | None = None) -> History:
-        """Stationary film before any moving roughness has entered, from which the run begins.
+        """Stationary film before any moving roughness has entered: the initial condition of the run.
 
         Raises
         ------
@@ -92,24 +92,24 @@ class TransientSolver:
         return self._film.start(steady, self.contact.schedule.step)
 
     def run(self, history: History, done: int = 0) -> Iterator[tuple[int, History]]:
-        """Time steps, from the one after ``done`` to the last.
+        """Solve the time steps from the one after ``done`` to the last.
 
         Parameters
         ----------
         history : History
-            Film after step ``done``.
+            Films of the last two instants, the later one after step ``done``.
         done : int
-            Number of the last step that is solved.
+            Number of the last solved step.
 
         Yields
         ------
         int, History
-            Number of a step, and the film after it.
+            Number of a step, and the films of the last two instants after it.
 
         Raises
         ------
         ConvergenceError
-            Where a step is not solved although it was halved several times.
+            Where a step does not converge, even after it was halved several times.
         """
         schedule = self.contact.schedule
         for step in range(done + 1, schedule.steps + 1):
@@ -121,7 +121,7 @@ class TransientSolver:
             yield step, history
 
     def snapshot(self, instant: Instant) -> Snapshot:
-        """Film, roughness and field at an instant."""
+        """Film, roughness and field at an instant, SI units."""
         contact, kind = self.contact, self.contact.kind.contact
         film = self.film(instant)
         axes = [position / contact.half_width for position in film.axes]
@@ -130,7 +130,7 @@ class TransientSolver:
         return Snapshot(instant.time * contact.schedule.time, film, roughness, field)
 
     def extremes(self, instant: Instant) -> Extremes:
-        """Smallest film thickness and largest pressure, without the deflection that a film needs."""
+        """Smallest film thickness and largest pressure; unlike ``film``, no deflection is computed."""
         mesh, scales = self._film.level.mesh, self.contact.problem.scales
         thickness = self.contact.kind.shaped(mesh, scales.thickness * instant.state.thickness)
         place = np.unravel_index(int(np.argmin(thickness)), thickness.shape)
@@ -147,7 +147,7 @@ class TransientSolver:
 
 
 def film_of(contact: TransientContact, level: Level, instant: Instant) -> Film | PointFilm:
-    """Film of a contact at an instant on its finest grid, SI units."""
+    """Film of a transient contact at an instant, on the finest grid, SI units."""
     scales, state, mesh = contact.problem.scales, instant.state, level.mesh
 
     def shaped(values: NDArray[Any]) -> NDArray[Any]:

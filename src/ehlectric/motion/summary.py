@@ -1,4 +1,4 @@
-"""Summary of a transient run: film and field over time, and compared with stationary roughness."""
+"""Summary of a transient run: film and field over time, and a comparison with stationary roughness."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 SCHEMA = "ehlectric.motion/1"
 QUANTILES = 0.05, 0.5, 0.95
 
-# Largest distance, in time steps, of the recorded instant that is compared with stationary roughness from the
-# time at which all roughness lies where the case puts it.
+# The recorded instant that is compared with stationary roughness may be at most this far from the time at
+# which all roughness lies where the case puts it [time steps].
 _NEAR = 0.6
 
 
@@ -34,29 +34,29 @@ def counted(run: MotionRun) -> Mask:
 
 
 def summary_of(dataset: xr.Dataset) -> dict[str, Any]:
-    """Results of a run, nested as in summary.json, SI units.
+    """Results of a transient run, nested as in summary.json, SI units.
 
-    The case is read from the dataset. No file of a surface has to be there.
+    The case is part of the dataset. Files of surfaces are not needed.
 
     Parameters
     ----------
     dataset : xarray.Dataset
-        A run, complete or not, as ``read_motion`` gives it.
+        Dataset of a run, complete or not, from ``read_motion``.
 
     Returns
     -------
     dict
-        Results. Statistics over time count from when the roughness has filled the Hertz zone, or from the
-        start where it never does.
+        Results. Statistics over time begin when the roughness has filled the Hertz zone, or at the start of
+        the run where it never does.
 
     Raises
     ------
     InputError
-        Where the dataset is not a run of moving roughness.
+        Where the dataset is not a transient run.
     """
     run, attributes = MotionRun.of(dataset), dataset.attrs
     complete = bool(attributes["complete"])
-    found = {
+    results = {
         "schema": SCHEMA,
         "version": str(attributes["version"]),
         "title": run.case.title,
@@ -72,7 +72,7 @@ def summary_of(dataset: xr.Dataset) -> dict[str, Any]:
         "rough": json.loads(attributes["rough"]),
         "seconds": float(attributes["seconds"]),
     }
-    summary: dict[str, Any] = plain(found)
+    summary: dict[str, Any] = plain(results)
     return summary
 
 
@@ -138,7 +138,7 @@ def _field(run: MotionRun) -> dict[str, Any]:
 
 
 def _position(run: MotionRun, name: str, index: int) -> float | list[float]:
-    """Position at an index of the variables ``name_x`` and ``name_y``; a pair in a point contact [m]."""
+    """Position at an index of the variables ``name_x`` and ``name_y`` [m]; a list in a point contact."""
     place = [float(run.dataset[f"{name}_{axis}"].values[index]) for axis in run.kind.axes]
     return place if len(place) > 1 else place[0]
 
@@ -151,12 +151,13 @@ def local_maxima(run: MotionRun, within: Mask) -> Array:
     run : MotionRun
         A run.
     within : ndarray of bool, shape (frames,)
-        Recorded instants that count.
+        Recorded instants to use.
 
     Returns
     -------
     ndarray, shape (n,)
-        Field strengths [V/m] that are larger than at all neighbouring nodes, of all those instants together.
+        Field strengths at nodes where the field is larger than at all neighbouring nodes, from all these
+        instants together [V/m].
     """
     strength = np.nan_to_num(run.dataset["strength"].values[within], nan=-np.inf)
     inside = run.kind.in_hertz_zone(run.conditions, *(run.dataset[axis].values for axis in run.kind.axes))
@@ -169,7 +170,7 @@ def local_maxima(run: MotionRun, within: Mask) -> Array:
 
 
 def _discharge(run: MotionRun) -> dict[str, Any] | None:
-    """Breakdown voltage over time; None without a dielectric strength that is the same everywhere."""
+    """Breakdown voltage over time; None without a constant dielectric strength."""
     discharge = run.case.discharge
     if discharge is None or discharge.dielectric_strength is None:
         return None
@@ -190,7 +191,7 @@ def _discharge(run: MotionRun) -> dict[str, Any] | None:
 def instant_beside(run: MotionRun) -> int | None:
     """Number of the recorded instant at which all roughness lies where the case puts it.
 
-    None where no instant is recorded near that time, or the run has no stationary film to compare with.
+    None where no instant is recorded close to this time, or the run has no stationary film to compare with.
     """
     schedule, dataset = run.schedule, run.dataset
     if "stationary_thickness" not in dataset or not np.isfinite(schedule.coincident):
@@ -201,28 +202,30 @@ def instant_beside(run: MotionRun) -> int | None:
 
 
 def _beside(run: MotionRun) -> dict[str, Any] | None:
-    """Differences between moving and stationary roughness where both lie alike, within the Hertz zone."""
+    """Differences between moving and stationary roughness when both are in the same position.
+
+    They are over the nodes with abs(x) < b. None without such an instant.
+    """
     frame, dataset = instant_beside(run), run.dataset
     if frame is None:
         return None
     inside = np.abs(dataset["x"].values) < run.conditions.half_width
-    found: dict[str, Any] = {"time": dataset["frame_time"].values[frame]}
+    comparison: dict[str, Any] = {"time": dataset["frame_time"].values[frame]}
     for name, which in (("thickness", "minimum"), ("pressure", "maximum"), ("strength", "maximum")):
         moving = dataset[name].values[frame][inside].astype(float)
-        still = dataset[f"stationary_{name}"].values[inside]
-        known = np.isfinite(moving) & np.isfinite(still)  # no strength outside the field range
-        found |= _compared(name, which, moving[known], still[known])
-    return found
+        stationary = dataset[f"stationary_{name}"].values[inside]
+        known = np.isfinite(moving) & np.isfinite(stationary)  # the strength is NaN outside the field range
+        comparison |= _compared(name, which, moving[known], stationary[known])
+    return comparison
 
 
-def _compared(name: str, which: str, moving: Array, still: Array) -> dict[str, Any]:
-    """Extremes and differences of values at the same nodes; None where there are no nodes."""
+def _compared(name: str, which: str, moving: Array, stationary: Array) -> dict[str, Any]:
+    """Extremes and differences of a quantity at the same nodes, by key; None where there are no nodes."""
     extreme = f"{which}_{name}"
     keys = extreme, f"{extreme}_stationary", f"{name}_rms_difference", f"{name}_largest_difference"
     if not moving.size:
         return dict.fromkeys(keys)
     reduce = np.min if which == "minimum" else np.max
-    away = np.abs(moving - still)
-    return dict(
-        zip(keys, (reduce(moving), reduce(still), np.sqrt(np.mean(away**2)), away.max()), strict=True)
-    )
+    difference = np.abs(moving - stationary)
+    rms = np.sqrt(np.mean(difference**2))
+    return dict(zip(keys, (reduce(moving), reduce(stationary), rms, difference.max()), strict=True))

@@ -1,4 +1,4 @@
-"""The paper's eight contacts as cases, its measured surface replaced, and its printed table."""
+"""The paper's eight contacts as cases, a packaged profile in place of its measured one, and its Table 3."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from pathlib import Path
 
 from ehlectric.cases.case import Case
 
-# Nodes for smooth contacts as in the paper, and for rough ones: the correlation length of the profile is
-# 1.5 µm, and 3201 nodes over six half-widths are 0.5 to 0.9 µm apart.
+# Smooth contacts have as many nodes as in the paper. Rough ones need more: over six half-widths, 3201 nodes
+# are 0.5 to 0.9 µm apart, while the correlation length of the profile is 1.5 µm.
 SMOOTH_NODES = 3201
 ROUGH_NODES = 12_801
 _CONTACT = {"reduced_radius": 14.1e-3, "reduced_modulus": 226e9}
@@ -20,20 +20,20 @@ _CONTACT = {"reduced_radius": 14.1e-3, "reduced_modulus": 226e9}
 
 @dataclass(frozen=True)
 class PaperContact:
-    """One of the eight contacts.
+    """One of the eight line contacts of the paper.
 
     Attributes
     ----------
     gigapascal : int
-        Largest Hertz pressure [GPa], 1 or 2.
+        Maximum Hertz pressure [GPa], 1 or 2.
     u_s : float
-        u1 + u2 [m/s].
+        Sum of the surface speeds u1 + u2 [m/s].
     load : float
         Load per length [N/m].
     label : str
-        Letter of its sub-figure.
+        Letter of its sub-figure in the paper.
     printed : str
-        Its name in the paper, of rounded M and L.
+        Name in the paper, from the rounded Moes numbers M and L, such as "M12L15".
     """
 
     gigapascal: int
@@ -44,20 +44,25 @@ class PaperContact:
 
     @property
     def name(self) -> str:
-        """What it is called in a table."""
+        """Name of the contact in tables: Hertz pressure and u1 + u2."""
         return f"{self.gigapascal} GPa, {self.u_s:g} m/s"
 
     def case(self, *, nodes: int = SMOOTH_NODES, wedge: str = "second-order", **tables: object) -> Case:
-        """The case of Tables 1 and 2, with Table 1's misprinted viscosity put right.
+        """Case of a smooth contact from Tables 1 and 2, with the misprinted viscosity of Table 1 corrected.
 
         Parameters
         ----------
         nodes : int
-            Nodes of the film.
+            Number of nodes of the film.
         wedge : str
-            "second-order", or "first-order", the paper's.
+            Order of the wedge term: "second-order", or "first-order" as in the paper.
         **tables
             Further tables of the case.
+
+        Returns
+        -------
+        Case
+            The case.
 
         Examples
         --------
@@ -73,9 +78,24 @@ class PaperContact:
         return Case.from_dict(table | tables)
 
     def rough_case(self, profile: Path, *, nodes: int = ROUGH_NODES, shift: float = 0.0) -> Case:
-        """The case with a profile on the lower surface, held still and cut at 50 nm as the paper's.
+        """Case of a rough contact, with a stationary profile on the lower surface.
 
-        A parabola and waves longer than 80 µm are taken out first; ``shift`` moves the profile along x [m].
+        A parabola and wavelengths above 80 µm are removed from the profile, which is then cut at ±50 nm, as
+        in the paper.
+
+        Parameters
+        ----------
+        profile : Path
+            File of the profile.
+        nodes : int
+            Number of nodes of the film.
+        shift : float
+            Distance that the profile is moved along x [m].
+
+        Returns
+        -------
+        Case
+            The case.
         """
         rough = {
             "surface": 1,
@@ -88,12 +108,12 @@ class PaperContact:
         return self.case(nodes=nodes, roughness=[rough])
 
     def constant_case(self) -> Case:
-        """The case with a permittivity that does not change with the density."""
+        """Case of a smooth contact whose permittivity does not depend on the density."""
         lubricant = {"base": "paper", "permittivity_law": "constant"}
         return self.case(lubricant=lubricant)
 
 
-# Table 2 gives the load of 2 GPa; that of 1 GPa follows from w = 2 pi R p_h^2/E'.
+# Load per length [N/m] by Hertz pressure [GPa]. Table 2 gives that of 2 GPa; at 1 GPa, w = 2 pi R p_h^2/E'.
 LOADS = {1: 3.925e5, 2: 1.57e6}
 _PRINTED = {
     1: ("M12L15", "M17L13", "M24L11", "M34L9"),
@@ -108,9 +128,10 @@ CONTACTS = tuple(
 
 @contextmanager
 def measured_profile() -> Iterator[Path]:
-    """Path of the packaged profile, which stands in for the paper's disc: that is not public.
+    """Context manager that yields the path of the packaged profile.
 
-    One scan of a Dektak stylus profiler, from ContactEngineering/SurfaceTopography under the MIT licence.
+    The profile replaces the measured disc of the paper, which is not public. It is one scan of a Dektak
+    stylus profiler, from ContactEngineering/SurfaceTopography under the MIT licence.
     """
     with resources.as_file(resources.files("ehlectric.paper") / "data" / "dektak-1.csv") as path:
         yield path

@@ -1,4 +1,4 @@
-"""Slips of the print, each with a check that is computed where it is asked for."""
+"""Misprints and slips in the paper, each with a computed check that shows it."""
 
 from __future__ import annotations
 
@@ -22,7 +22,17 @@ from ehlectric.paper.study import Study, readings_differ_by
 
 @dataclass(frozen=True)
 class Slip:
-    """What is printed, what it should be, and what shows it."""
+    """Slip in the paper.
+
+    Attributes
+    ----------
+    printed : str
+        Statement as printed.
+    should_be : str
+        Corrected statement.
+    check : callable
+        Returns, for a study, a text with computed numbers that show the slip.
+    """
 
     printed: str
     should_be: str
@@ -30,6 +40,7 @@ class Slip:
 
 
 def _viscosity(_: Study) -> str:
+    """Check of the viscosity of Table 1 by M, L and the Roelands exponent."""
     case = CONTACTS[4].case()
     oil, contact = case.lubricant, resolve(case).contact
     misprinted = replace(contact, viscosity=4e-4)
@@ -43,12 +54,13 @@ def _viscosity(_: Study) -> str:
 
 
 def _load(_: Study) -> str:
+    """Check of the load of Table 2 by the Hertz pressures that it gives."""
     pressures = [resolve(CONTACTS[k].case()).max_pressure / 1e9 for k in (4, 0)]
     return f"w = 1.57e6 N/m gives p_h = {pressures[0]:.3f} GPa, a quarter of it {pressures[1]:.3f} GPa"
 
 
 def _solved(nodes: int) -> tuple[FilmProblem, FilmEquations, Iterate]:
-    """The first 1 GPa contact: its film equations on a grid of so many nodes, and their solution."""
+    """First contact at 1 GPa: its problem, the paper's equations on ``nodes`` nodes, and their solution."""
     case = CONTACTS[0].case(nodes=nodes, wedge="first-order")
     problem = film_problem(case, resolve(case))
     film, equations = fas.solve_film(problem), fas.equations_of(problem, nodes)
@@ -58,6 +70,7 @@ def _solved(nodes: int) -> tuple[FilmProblem, FilmEquations, Iterate]:
 
 
 def _cavitation(_: Study) -> str:
+    """Check of the cavitation condition by the lowest pressure of a film without it."""
     problem, equations, at = _solved(401)
     lowest = float(np.min(_unconstrained(equations, at).pressure))
     return (
@@ -67,7 +80,7 @@ def _cavitation(_: Study) -> str:
 
 
 def _unconstrained(equations: FilmEquations, at: Iterate) -> Iterate:
-    """Newton's method on pressure and H00 with every inner node free to have any pressure."""
+    """Film without cavitation: pressure and H00 by Newton's method, with pressures below ambient allowed."""
     n = equations.x.size
     weights = np.full(n, equations.dx)
     weights[[0, -1]] *= 0.5
@@ -89,6 +102,7 @@ def _unconstrained(equations: FilmEquations, at: Iterate) -> Iterate:
 
 
 def _sign_of_c(_: Study) -> str:
+    """Check of the sign of c in eq. (19) by the load that a raised H00 carries."""
     equations, at = _solved(201)[1:]
     loads = []
     for lift in (0.0, 0.01):
@@ -103,6 +117,7 @@ def _sign_of_c(_: Study) -> str:
 
 
 def _wall_charge(_: Study) -> str:
+    """Check of the wall condition Q = V eps0 by the potential that it gives."""
     eps = 2.4
     return (
         "eq. (16) at a wall node among nodes of the same potential V = 1 V, with Q = V eps0: V = "
@@ -111,15 +126,16 @@ def _wall_charge(_: Study) -> str:
 
 
 def _square_cells(study: Study) -> str:
+    """Check of eqs. (A1) to (A5) on cells that are not square by the field that they give."""
     contact = CONTACTS[4]
     result = study.rough[contact]
     film = result.film
     problem = field_problem(result.case, result.conditions, film, result.roughness)
-    # Cells as on the paper's grid, with its film nodes and eight rows in the least gap.
+    # Cells of the size of the paper's grid: columns at its film nodes, and eight rows in the least gap.
     dx = float(np.ptp(film.x)) / (SMOOTH_NODES - 1)
     dy = film.minimum_thickness / ROWS
     squeezed = solve_field(replace(problem, x=problem.x * dy / dx))
-    # The field of that potential is still taken over the true dx.
+    # The field strength follows from this potential with the true dx.
     strength = np.hypot(squeezed.field_x * dy / dx, squeezed.field_y)
     return (
         f"{contact.name}, rough, cells of {dx * 1e9:.0f} by {dy * 1e9:.0f} nm: as printed, the coefficients "
@@ -129,11 +145,13 @@ def _square_cells(study: Study) -> str:
 
 
 def _m68(study: Study) -> str:
+    """Check of the name M68 by the computed M."""
     groups = study.smooth[CONTACTS[5]].conditions.contact
     return f"M = {groups.moes_m:.1f}; Table 3 prints 69.6"
 
 
 def _inverse(study: Study) -> str:
+    """Check that the largest field is inversely proportional to the minimum film thickness."""
     results = list(study.smooth.values())
     products = [result.max_dimensionless for result in results]
     films = [r.film.minimum_thickness * 1e6 for r in results]
@@ -144,6 +162,7 @@ def _inverse(study: Study) -> str:
 
 
 def _current_density(study: Study) -> str:
+    """Check of the unit of the current density by the currents that it gives."""
     area = 2.0 * study.smooth[CONTACTS[4]].conditions.half_width * 10e-3
     return (
         f"over the Hertz area of a 2 GPa contact 10 mm long, {area * 1e6:.0f} mm^2, 0.8 A/m^2 is "
@@ -153,6 +172,7 @@ def _current_density(study: Study) -> str:
 
 
 def _readings(study: Study) -> str:
+    """Check of the two readings of mid-film by their largest difference."""
     rough = max(readings_differ_by(result) for result in study.rough.values())
     return (
         "half of the average film above the average lower surface is a straight line: between smooth equal "
@@ -162,6 +182,7 @@ def _readings(study: Study) -> str:
 
 
 def _stated(text: str) -> Callable[[Study], str]:
+    """Check that computes nothing: a text that gives the reason."""
     return lambda _: text
 
 

@@ -1,8 +1,8 @@
-"""Full-approximation-scheme multigrid for the film: the paper's own method.
+"""Film of a line contact by the paper's own method: multigrid with the full approximation scheme (FAS).
 
-After C. H. Venner and A. A. Lubrecht, Multilevel Methods in Lubrication (Elsevier, 2000): changes of single
-pressures (Gauss-Seidel) where eps/dX^2 is large, of dipoles where it is small, relaxed together along the
-line; H00 by eq. (19) on the coarsest grid.
+After C. H. Venner and A. A. Lubrecht, Multilevel Methods in Lubrication (Elsevier, 2000). The relaxation
+changes single pressures (Gauss-Seidel) where eps/dX^2 is large, and dipoles of pressures where it is small,
+all along the line together. The integration constant H00 is computed by eq. (19) on the coarsest grid.
 """
 
 from __future__ import annotations
@@ -26,26 +26,29 @@ from ehlectric.paper.film_equations import FilmEquations, Iterate
 from ehlectric.paper.relaxation import relax, solve_coarsest
 from ehlectric.runtime.threads import one_blas_thread
 
-# Relaxations of a grid before and after its coarse-grid correction.
+# Relaxations of a grid before and after its coarse-grid correction, as in the paper's V(3,2) cycles.
 BEFORE, AFTER = 3, 2
 
-# No coarser grid than this: a thin film is nothing on fewer nodes.
+# Halving stops at this many nodes or fewer, as a coarser grid cannot resolve a thin film; and the largest
+# number of nodes that the coarsest grid may have.
 COARSEST = 101
 LARGEST_COARSEST = 201
 
-# Change of ln eps between neighbours above which their residual means nothing to a coarser grid.
+# Change of ln eps between neighbouring nodes above which their residuals are left out on the coarser grid: it
+# cannot resolve such a change.
 UNRESOLVED = 1.5
 
-# Cycles on a grid on the way to the finest.
+# V-cycles on each grid that is coarser than the finest, in nested iteration.
 FIRST_CYCLES = 5
 
-# Cycles of the finest grid for every Newton step that a case allows: one gains a digit, not three.
+# V-cycles allowed on the finest grid for each Newton step that a case allows: a cycle gains about one digit,
+# a Newton step three.
 CYCLES_A_STEP = 2
 
 
 @dataclass(frozen=True)
 class _Cycled:
-    """Where the cycles of one grid ended: residual before every cycle, and whether it diverged."""
+    """Result of the V-cycles on one grid: iterate, residual before every cycle, and whether they diverged."""
 
     at: Iterate
     norms: tuple[float, ...]
@@ -58,28 +61,29 @@ def solve_film(problem: FilmProblem, *, progress: Progress | None = None) -> Fil
     Parameters
     ----------
     problem : FilmProblem
-        The contact, dimensionless; only deflecting line contacts. Halving its intervals must lead to a grid
-        of at most 201 nodes.
+        Dimensionless problem of a line contact of elastic bodies. Repeated halving of the number of intervals
+        must lead to a grid of at most 201 nodes.
     progress : callable, optional
-        Called with (nodes, cycle, residual) before every V-cycle of the finest grid.
+        Called with (nodes, cycle, residual) before every V-cycle on the finest grid.
 
     Returns
     -------
     Film
-        As ``ehlectric.film.line.solve_film`` gives it; its ``newton_iterations`` are V-cycles.
+        Film in SI units, as from ``ehlectric.film.line.solve_film``; its ``newton_iterations`` are V-cycles.
 
     Raises
     ------
     InputError
         Where the grid cannot be halved to at most 201 nodes.
     ValueError
-        Where the contact is not a deflecting line contact.
+        Where the problem is not a line contact of elastic bodies.
 
     Notes
     -----
-    Eqs. (1) to (13), (19) of Morris et al. (2022), doi:10.3390/lubricants10050087. The coarse grids solve
-    for the injected iterate and its correction, with the right sides L_H(I P) + R(f - L_h(P)) of the full
-    approximation scheme; the film equation carries a right side too, the load equation its defect.
+    Eqs. (1) to (13) and (19) of Morris et al. (2022), doi:10.3390/lubricants10050087. On a coarse grid H the
+    unknown is the injected iterate plus its correction. The right side of its Reynolds equation is
+    L_H(I P) + R(f - L_h(P)), with the injection I, the restriction R and the equation L_h(P) = f of the finer
+    grid h. The film equation has a right side as well, and the load equation the defect of the finer grid.
     """
     if problem.geometry is not LINE:
         raise ValueError("the paper's multigrid takes deflecting line contacts")
@@ -104,16 +108,17 @@ def solve_film(problem: FilmProblem, *, progress: Progress | None = None) -> Fil
 
 
 def _tolerance(problem: FilmProblem, finest: FilmEquations) -> float:
+    """Residual below which the film is converged: at least the rounding error of the finest grid."""
     return max(problem.tolerance, ROUNDING / finest.dx)
 
 
 def grid_sizes(nodes: int) -> list[int]:
-    """Nodes of the grids from the finest to the coarsest, each with every other node of the one before.
+    """Numbers of nodes of the grids, from the finest to the coarsest; each has every other node of the last.
 
     Raises
     ------
     InputError
-        Where halving ends above 201 nodes.
+        Where the halving ends at more than 201 nodes.
 
     Examples
     --------
@@ -134,12 +139,12 @@ def grid_sizes(nodes: int) -> list[int]:
 
 
 def equations_of(problem: FilmProblem, nodes: int) -> FilmEquations:
-    """The film equations of a problem on a grid of so many nodes, without right sides."""
+    """Film equations of a problem on a grid with a number of nodes."""
     x = np.linspace(problem.inlet, problem.outlet, nodes)
     added = 0.0 if problem.added_gap is None else problem.added_gap(x, np.zeros(1))[:, 0]
     source = np.zeros(nodes)
     if problem.source is not None:
-        # Eq. (7) has the opposite sign of the residual that the problem gives the source of.
+        # The source of the problem belongs to its residual, which has the opposite sign of eq. (7).
         source[1:-1] = -problem.source(x, np.zeros(1))[1:-1, 0]
     return FilmEquations(
         fluid=problem.fluid,
@@ -152,9 +157,10 @@ def equations_of(problem: FilmProblem, nodes: int) -> FilmEquations:
 
 
 def _first_grid(problem: FilmProblem, grids: list[FilmEquations]) -> _Cycled:
-    """Film on the first grid from the Hertz pressure, with the first-order wedge, which is monotone.
+    """Film on the first grid of the nested iteration, from the Hertz pressure as initial guess.
 
-    H00 is such that the central film is that of a formula.
+    The first-order wedge is used, as it is monotone. The initial H00 gives the central film thickness of a
+    film formula.
     """
     first = grids[0]
     pressure = np.maximum(line_pressure(first.x), problem.fluid.ambient_pressure)
@@ -167,7 +173,7 @@ def _first_grid(problem: FilmProblem, grids: list[FilmEquations]) -> _Cycled:
 def _cycles(
     grids: list[FilmEquations], at: Iterate, tolerance: float, limit: int, progress: Progress | None
 ) -> _Cycled:
-    """V-cycles on the first of ``grids`` until its residual is below the tolerance."""
+    """Run at most ``limit`` V-cycles on the first of ``grids``, until its residual is below the tolerance."""
     norms: list[float] = []
     norm = residual_norm(grids[0], at)
     while norm > tolerance and len(norms) < limit:
@@ -182,7 +188,11 @@ def _cycles(
 
 
 def residual_norm(equations: FilmEquations, at: Iterate) -> float:
-    """Largest scaled residual of the Reynolds equation, and ten times the relative one of the load."""
+    """Residual of an iterate: the largest scaled residual of the Reynolds equation, or that of the load.
+
+    The larger one counts; the residual of the load is ten times its relative error. The result is nan where
+    the film thickness is not positive at every node.
+    """
     c = equations.coefficients(at)
     rows = np.abs(equations.scaled(at, c))
     load = 10.0 * abs(equations.carried(at.pressure) - equations.load) / LINE.load
@@ -195,14 +205,14 @@ def v_cycle(grids: list[FilmEquations], at: Iterate) -> Iterate:
     Parameters
     ----------
     grids : list of FilmEquations
-        From the grid of ``at`` to the coarsest; of the coarser ones only the nodes are used.
+        Equations from the grid of ``at`` to the coarsest grid; of the coarser ones only the nodes are used.
     at : Iterate
-        What to improve.
+        Iterate to improve.
 
     Returns
     -------
     Iterate
-        With a smaller residual, where the cycle converges.
+        New iterate, with a smaller residual where the cycles converge.
     """
     fine, *coarser = grids
     if not coarser:
@@ -213,7 +223,8 @@ def v_cycle(grids: list[FilmEquations], at: Iterate) -> Iterate:
     corrected = v_cycle([coarse, *coarser[1:]], injected)
     change = np.interp(fine.x, coarse.x, corrected.pressure - injected.pressure)
     ambient = fine.fluid.ambient_pressure
-    # The coarse grid does not know where the film cavitates to the node: it moves no pressure there.
+    # The coarse grid does not resolve the cavitation boundary to a fine node: cavitated nodes keep their
+    # pressure.
     pressure = np.where(at.pressure > ambient, np.maximum(at.pressure + change, ambient), at.pressure)
     at = Iterate(pressure, corrected.h00)
     for _ in range(AFTER):
@@ -224,7 +235,7 @@ def v_cycle(grids: list[FilmEquations], at: Iterate) -> Iterate:
 def _coarse_equations(
     fine: FilmEquations, coarse: FilmEquations, at: Iterate
 ) -> tuple[FilmEquations, Iterate]:
-    """Right sides of the full approximation scheme on every other node, and the injected iterate."""
+    """Equations of the coarser grid, with the right sides of the FAS, and the injected iterate."""
     c = fine.coefficients(at)
     residual = fine.residual(at, c)
     steep = np.abs(np.diff(np.log(c.eps))) > UNRESOLVED
@@ -256,7 +267,7 @@ def _film(
     cycled: _Cycled,
     coarser: tuple[FilmEquations, Iterate] | None,
 ) -> Film:
-    """The result on the finest grid, in SI units, whatever was reached."""
+    """Film on the finest grid in SI units, also where the cycles diverged before they reached this grid."""
     at, scales, fluid = cycled.at, problem.scales, problem.fluid
     if at.pressure.size != finest.x.size:
         reached = np.linspace(finest.x[0], finest.x[-1], at.pressure.size)
@@ -299,4 +310,5 @@ def _film(
 
 
 def _mesh(equations: FilmEquations) -> Mesh:
+    """Mesh of the nodes of one grid."""
     return Mesh(equations.x, np.zeros(1))

@@ -1,4 +1,4 @@
-"""Figures 4 to 11 of the paper in its layout, drawn of our solutions."""
+"""Figures 2 to 11 of the paper in its layout, drawn from the solutions of ehlectric."""
 
 from __future__ import annotations
 
@@ -18,17 +18,28 @@ from ehlectric.paper import schematics
 from ehlectric.paper.contacts import CONTACTS, PaperContact
 from ehlectric.paper.study import Study, readings_differ_by, straight_line
 
-# Curves of one panel by speed, apart for colour-blind readers, and none too dark for a black line on it.
+# Colours of the curves of one panel, by speed: distinct for colour-blind readers, and none so dark that a
+# black line on it would be lost.
 _COLOURS = ("#0072b2", "#009e73", "#cc79a7", "#e69f00")
 _MICRO = 1e6
 
-# The straight line of mid-film over the curves of s = 1/2.
+# Look of the straight-line reading of mid-film, drawn over the curves of s = 1/2.
 _STRAIGHT: dict[str, Any] = {"color": "black", "lw": 0.6, "ls": (0, (2, 4))}
 
 
 @dataclass(frozen=True)
 class PaperFigure:
-    """A figure: what it shows, the parts of the study it takes, and how it is drawn."""
+    """Figure of the paper.
+
+    Attributes
+    ----------
+    caption : str
+        Caption of the figure.
+    parts : tuple of str
+        Parts of the study that it needs, attributes of ``Study``.
+    draw : callable
+        Function that draws the figure from a study.
+    """
 
     caption: str
     parts: tuple[str, ...]
@@ -36,11 +47,12 @@ class PaperFigure:
 
 
 def _of(gigapascal: int) -> list[PaperContact]:
+    """Contacts of a Hertz pressure [GPa]."""
     return [contact for contact in CONTACTS if contact.gigapascal == gigapascal]
 
 
 def _panel_name(contact: PaperContact, letter: str, result: Result) -> str:
-    """Label and name of a sub-figure as printed; with its M where that is not the one printed."""
+    """Letter and name of a sub-figure as printed, with the computed M where it differs from the print."""
     groups = result.conditions.contact
     name = f"({letter}) {contact.printed}"
     printed = float(contact.printed[1:].split("L")[0])
@@ -52,7 +64,7 @@ def _title(ax: Axes, text: str) -> None:
 
 
 def potentials(study: Study) -> Figure:
-    """Figure 4: potential in two smooth films."""
+    """Draw Figure 4: electric potential in two smooth films."""
     panels = new_panels(1, 2, (10.0, 3.6))
     for ax, letter, contact in zip(panels, "ab", (CONTACTS[0], CONTACTS[3]), strict=True):
         result = study.smooth[contact]
@@ -61,7 +73,7 @@ def potentials(study: Study) -> Figure:
 
 
 def _strengths(solved: dict[PaperContact, Result], gigapascal: int) -> Figure:
-    """Four panels with one range of colours."""
+    """Draw the dimensionless field strength of the four contacts of a Hertz pressure, in the same colours."""
     panels = new_panels(2, 2, (10.0, 6.8))
     results = {contact: solved[contact] for contact in _of(gigapascal)}
     largest = max(float(np.max(r.field.strength)) * r.strength_scale for r in results.values())
@@ -72,12 +84,12 @@ def _strengths(solved: dict[PaperContact, Result], gigapascal: int) -> Figure:
 
 
 def smooth_strengths(gigapascal: int) -> Callable[[Study], Figure]:
-    """Figures 5 and 6: dimensionless field strength in the smooth films."""
+    """Function that draws Figure 5 or 6: dimensionless field strength in the smooth films."""
     return lambda study: _strengths(study.smooth, gigapascal)
 
 
 def rough_strengths(gigapascal: int) -> Callable[[Study], Figure]:
-    """Figures 9 and 10: dimensionless field strength in the rough films."""
+    """Function that draws Figure 9 or 10: dimensionless field strength in the rough films."""
     return lambda study: _strengths(study.rough, gigapascal)
 
 
@@ -87,7 +99,11 @@ def _middle(
     label: str,
     exits: dict[int, tuple[float, float]],
 ) -> Figure:
-    """Field strength at mid-film over X by both readings, one panel a pressure, exits in insets."""
+    """Draw the field strength at mid-film over x/b, by both readings of mid-film, a panel for each pressure.
+
+    ``scale`` gives the factor from V/m to the drawn unit; ``exits`` has the ranges of x/b at the exit that
+    insets show, by Hertz pressure [GPa].
+    """
     panels = new_panels(1, 2, (10.0, 4.6))
     for ax, letter, gigapascal in zip(panels, "ab", (1, 2), strict=True):
         contacts = _of(gigapascal)
@@ -115,6 +131,7 @@ def _middle(
 
 
 def _exit_inset(ax: Axes, zone: tuple[float, float]) -> Axes:
+    """Axes of an inset that shows a range of x/b at the exit."""
     inset = ax.inset_axes((0.27, 0.07, 0.42, 0.36))
     inset.set(xlim=zone, ylim=(0.3, 1.05))
     inset.set_title("exit", fontsize=7.0, pad=2.0)
@@ -123,19 +140,19 @@ def _exit_inset(ax: Axes, zone: tuple[float, float]) -> Axes:
 
 
 def smooth_middle(study: Study) -> Figure:
-    """Figure 7: field strength at mid-film of the smooth contacts."""
+    """Draw Figure 7: field strength at mid-film of the smooth contacts."""
     return _middle(study.smooth, lambda _: 1.0 / _MICRO, r"mid-film $|E|$ [V/µm]", {})
 
 
 def rough_middle(study: Study) -> Figure:
-    """Figure 11: dimensionless field strength at mid-film of the rough contacts."""
+    """Draw Figure 11: dimensionless field strength at mid-film of the rough contacts."""
     label = r"mid-film $|E|\,h_\mathrm{min}/V_{12}$"
     exits = {1: (0.8, 1.1), 2: (0.92, 1.05)}
     return _middle(study.rough, lambda result: result.strength_scale, label, exits)
 
 
 def profile_and_pressure(study: Study) -> Figure:
-    """Figure 8: the profile as the contact has it, and the pressure of one contact with and without it."""
+    """Draw Figure 8: the profile in the contact, and the pressure of a contact with and without it."""
     left, right = new_panels(1, 2, (10.0, 3.8))
     result, smooth = study.rough[CONTACTS[3]], study.smooth[CONTACTS[3]]
     x = result.film.x / result.conditions.half_width
@@ -155,6 +172,7 @@ def profile_and_pressure(study: Study) -> Figure:
 
 
 def _pressures(ax: Axes, rough: Result, smooth: Result) -> None:
+    """Draw the pressure of the rough and the smooth contact over x/b."""
     for result, colour, width, label in (
         (rough, _COLOURS[0], 0.7, "rough"),
         (smooth, "black", 1.0, "smooth"),

@@ -1,14 +1,15 @@
-"""The film equations as the paper discretises them, on one grid, with the right sides of a coarse grid.
+"""Film equations of a line contact on one grid, discretised as in the paper.
 
-Written without the package's own film solver, so that the two can check each other. Dimensionless, X = x/b,
-P = p/p_h and H = h R/b^2, with the numbers of the paper's equations::
+They do not use the film solver of ehlectric, so that the two solvers can check each other. The variables are
+dimensionless, X = x/b, P = p/p_h and H = h R/b^2. With the equation numbers of the paper::
 
     (7)       L(P, H) = [eps_(i-1/2) P_(i-1) - (eps_(i-1/2) + eps_(i+1/2)) P_i + eps_(i+1/2) P_(i+1)]/dX^2
                         - (wedge of rho H)/dX = source
     (1), (5)  H = H00 + gap - (1/pi) sum K P
     (11)      sum of the trapezoidal rule over P = load
 
-On the grid one solves for, ``source`` is zero, ``gap`` the dry gap and ``load`` pi/2.
+On the finest grid ``source`` is zero, ``gap`` is the dry gap and ``load`` is pi/2. On coarser grids they are
+the right sides of the full approximation scheme.
 """
 
 from __future__ import annotations
@@ -22,16 +23,17 @@ from scipy.linalg import matmul_toeplitz, toeplitz
 from ehlectric.arrays import Array, Mask
 from ehlectric.film.flow import Fluid
 
-# Nodes that a row of eq. (7) couples, relative to its own.
+# Nodes coupled by eq. (7) at node i, as offsets from i.
 NEIGHBOURS = (-2, -1, 0, 1)
 
-# Upstream differences of the wedge term, times dX: weights of nodes i, i-1 and i-2.
+# Upstream differences of the wedge term, times dX: weights of nodes i, i-1 and i-2, by whether they are of
+# second order.
 _UPSTREAM = {False: (1.0, -1.0, 0.0), True: (1.5, -2.0, 0.5)}
 
 
 @dataclass(frozen=True)
 class Iterate:
-    """Pressure P, shape (n,), and integration constant H00."""
+    """Iterate of the solution: pressure P, shape (n,), and integration constant H00."""
 
     pressure: Array
     h00: float
@@ -39,7 +41,19 @@ class Iterate:
 
 @dataclass(frozen=True)
 class Coefficients:
-    """Film, density, eps, and the derivatives of ln rho and ln eta by P at the nodes, each (n,)."""
+    """Local quantities of an iterate at the nodes, each of shape (n,).
+
+    Attributes
+    ----------
+    thickness : ndarray
+        Film thickness H.
+    density : ndarray
+        Density over ambient density.
+    eps : ndarray
+        Poiseuille coefficient of eq. (7).
+    log_density_p, log_viscosity_p : ndarray
+        Derivatives of the logarithms of density and viscosity with respect to P.
+    """
 
     thickness: Array
     density: Array
@@ -50,20 +64,22 @@ class Coefficients:
 
 @dataclass(frozen=True)
 class FilmEquations:
-    """Equations (1), (7) and (11) on one grid.
+    """Equations (1), (7) and (11) of the paper on one grid.
 
     Parameters
     ----------
     fluid : Fluid
-        Laws over P, velocity parameter and ambient pressure.
+        Density and viscosity over P, velocity parameter and ambient pressure.
     x : ndarray, shape (n,)
-        Equidistant nodes.
-    gap, source : ndarray, shape (n,)
-        Right sides of the film and of the Reynolds equation.
+        Equidistant nodes X.
+    gap : ndarray, shape (n,)
+        Right side of the film equation; the dry gap on the finest grid.
+    source : ndarray, shape (n,)
+        Right side of the Reynolds equation (7).
     load : float
-        Right side of the load equation.
+        Right side of the load equation (11).
     second_order : bool
-        Upstream wedge of second order; the paper's is of first.
+        Whether the upstream differences of the wedge term are of second order; the paper has first order.
     """
 
     fluid: Fluid
@@ -80,7 +96,7 @@ class FilmEquations:
 
     @cached_property
     def kernel(self) -> Array:
-        """-K/pi of eq. (5) over the distance in nodes, shape (n,)."""
+        """Deflection kernel -K/pi of eq. (5) at distances of 0 to n - 1 nodes, shape (n,)."""
         right = (np.arange(self.x.size) + 0.5) * self.dx
         left = right - self.dx
         k = right * (np.log(right) - 1.0) - left * (np.log(np.abs(left)) - 1.0)
@@ -89,20 +105,20 @@ class FilmEquations:
 
     @cached_property
     def kernel_matrix(self) -> Array:
-        """The dense deflection operator, for a coarsest grid."""
+        """Dense matrix of the deflection, shape (n, n), used on a coarsest grid."""
         matrix: Array = toeplitz(self.kernel)
         return matrix
 
     def deflection(self, pressure: Array) -> Array:
-        """Gap opened by a pressure, (n,)."""
+        """Elastic deflection by a pressure P, shape (n,); positive where the gap widens."""
         return np.asarray(matmul_toeplitz(self.kernel, pressure, check_finite=False), dtype=float)
 
     def carried(self, pressure: Array) -> float:
-        """Left side of eq. (11)."""
+        """Load that a pressure P carries, the left side of eq. (11)."""
         return float(np.trapezoid(pressure, dx=self.dx))
 
     def coefficients(self, at: Iterate) -> Coefficients:
-        """Everything local that the equations are made of."""
+        """Film thickness, density and further local quantities of an iterate."""
         h = at.h00 + self.gap + self.deflection(at.pressure)
         pressure = np.maximum(at.pressure, self.fluid.ambient_pressure)
         rho, rho_p = self.fluid.density(pressure)
@@ -111,7 +127,7 @@ class FilmEquations:
         return Coefficients(h, rho, eps, rho_p / rho, log_eta_p)
 
     def operator(self, at: Iterate, c: Coefficients) -> Array:
-        """L of eq. (7) at the inner nodes, zero at the two ends; shape (n,)."""
+        """Left side L of eq. (7) at the inner nodes, and zero at the two end nodes, shape (n,)."""
         half = 0.5 * (c.eps[1:] + c.eps[:-1])
         flow = half * np.diff(at.pressure) / self.dx
         here, before, twice = self._wedge_weights
@@ -125,41 +141,47 @@ class FilmEquations:
 
     @cached_property
     def _wedge_weights(self) -> tuple[Array, Array, Array]:
-        """Weights of nodes i, i-1 and i-2 in the wedge term, each (n,); of first order beside the inlet."""
+        """Weights of nodes i, i-1 and i-2 in the wedge term, each (n,).
+
+        At node 1, which has a single node upstream, they are of first order.
+        """
         n = self.x.size
         here, before, twice = (np.full(n, weight) for weight in _UPSTREAM[self.second_order])
         here[1], before[1], twice[1] = _UPSTREAM[False]
         return here, before, twice
 
     def residual(self, at: Iterate, c: Coefficients) -> Array:
-        """Source - L, shape (n,)."""
+        """Residual of eq. (7), ``source`` minus L, shape (n,)."""
         return self.source - self.operator(at, c)
 
     def poiseuille(self, c: Coefficients) -> Array:
-        """(eps_(i-1/2) + eps_(i+1/2))/dX^2, zero at the two ends; shape (n,)."""
+        """Coefficient (eps_(i-1/2) + eps_(i+1/2))/dX^2 of -P_i in eq. (7), shape (n,); zero at both ends."""
         half = 0.5 * (c.eps[1:] + c.eps[:-1]) / self.dx**2
         weight = np.zeros_like(c.eps)
         weight[1:-1] = half[1:] + half[:-1]
         return weight
 
     def free(self, at: Iterate, residual: Array) -> Mask:
-        """Inner nodes above ambient pressure, and those that the residual takes there."""
+        """Mask of the full-film inner nodes: above ambient pressure, or raised above it by their residual."""
         above: Mask = (at.pressure > self.fluid.ambient_pressure) | (residual < 0.0)
         above[0] = above[-1] = False
         return above
 
     def scaled(self, at: Iterate, c: Coefficients) -> Array:
-        """Residual over its local coefficient, a pressure; zero where the film cavitates rightly, (n,)."""
+        """Residual over its local coefficient, a change of P, shape (n,); zero at cavitated nodes."""
         local = c.density * (self.kernel[0] - self.kernel[1]) / self.dx
         residual = self.residual(at, c)
         return np.where(self.free(at, residual), residual / (self.poiseuille(c) + local), 0.0)
 
     def derivatives(self, at: Iterate, c: Coefficients) -> tuple[Array, Array]:
-        """dL/dP at fixed H and dL/dH at fixed P by the nodes of NEIGHBOURS, each (4, n); end rows zero."""
+        """Derivatives dL/dP at fixed H and dL/dH at fixed P by the nodes of NEIGHBOURS, each (4, n).
+
+        They are zero at the two end nodes.
+        """
         dx = self.dx
         half = 0.5 * (c.eps[1:] + c.eps[:-1]) / dx**2
         slope = np.diff(at.pressure) / dx**2
-        # What a change of ln eps does to the flow through both faces, (n - 1,) by the node it is at.
+        # Derivatives of the flow through each face by ln eps at its left and its right node, each (n - 1,).
         of_left, of_right = 0.5 * slope * c.eps[:-1], 0.5 * slope * c.eps[1:]
         weights = self._wedge_weights
         mass = c.density * c.thickness / dx

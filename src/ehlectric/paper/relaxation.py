@@ -1,7 +1,7 @@
-"""Relaxation of the film equations on one grid: lines, and the coarsest grid with its load.
+"""Relaxation of the paper's film equations on one grid, and their solution on the coarsest grid.
 
-Changes of single pressures (Gauss-Seidel) where eps/dX^2 is large against 1/dX, of dipoles where it is small,
-solved for together along the line; H00 by eq. (19) on the coarsest grid.
+The relaxation changes single pressures (Gauss-Seidel) where eps/dX^2 is large against 1/dX, and dipoles of
+pressures where it is small, all along the line together. On the coarsest grid H00 is computed by eq. (19).
 """
 
 from __future__ import annotations
@@ -14,26 +14,38 @@ from scipy.linalg import solve_banded
 from ehlectric.arrays import Array, Mask
 from ehlectric.paper.film_equations import NEIGHBOURS, Coefficients, FilmEquations, Iterate
 
-# Nodes on each side whose pressures a relaxation changes together with a node's own.
+# Number of neighbours on each side of a node whose unknowns a relaxation couples to that of the node.
 HALF_BAND = 6
 
-# Largest change of a pressure in one relaxation.
+# Largest change of a pressure P in one relaxation.
 CHANGE = 0.1
 
-# Damping factor c of eq. (19), negative: too little load must lower H00. The load of a Hertz contact falls by
-# 4.5 when its H00 is raised by 1.
+# Damping factor c of eq. (19). It is negative, as H00 must be lowered where the pressure carries too little
+# load. The dimensionless load of a Hertz contact falls by 4.5 when its H00 is raised by 1.
 LOAD_DAMPING = -0.2
 
-# Newton steps for P at a fixed H00, and changes of H00, on the coarsest grid of a cycle.
+# On the coarsest grid of a cycle: Newton steps for P at a fixed H00, and changes of H00.
 COARSE_STEPS, LOAD_STEPS = 2, 3
 
 
 def relax(equations: FilmEquations, at: Iterate) -> Iterate:
-    """One relaxation of the line at a fixed H00.
+    """Relax the pressure of all nodes together, once, at a fixed H00.
 
-    Where eps/dX^2 is large against 1/dX the unknowns are changes of single pressures, elsewhere of dipoles,
-    +1 at a node and -1 at the one before. The changes of a line are solved for together, coupled to six
-    neighbours on each side: point by point, the sweeps stall at the pressure spike.
+    Where eps/dX^2 is large against 1/dX, the unknowns are changes of single pressures. Elsewhere they are
+    dipoles, +1 at a node and -1 at the node before. All unknowns are solved for together, each coupled to six
+    neighbours on each side, because relaxation node by node stalls at the pressure spike.
+
+    Parameters
+    ----------
+    equations : FilmEquations
+        Equations on the grid.
+    at : Iterate
+        Iterate to improve.
+
+    Returns
+    -------
+    Iterate
+        New iterate, with no pressure below ambient.
     """
     c = equations.coefficients(at)
     residual = equations.residual(at, c)
@@ -48,12 +60,15 @@ def relax(equations: FilmEquations, at: Iterate) -> Iterate:
 
 
 def _band(equations: FilmEquations, derivatives: tuple[Array, Array], free: Mask, dipole: Mask) -> Array:
-    """Band of dL over the unknowns of a relaxation, as LAPACK stores it; ones where a node is held."""
+    """Band matrix of the derivatives of L by the unknowns of a relaxation, in LAPACK's storage.
+
+    Cavitated nodes have a 1 on the diagonal, so that they do not change.
+    """
     n = equations.x.size
     by_p, by_h = derivatives
 
     def diagonal(offset: int) -> Array:
-        """dL_i/dP_(i + offset)."""
+        """Derivative dL_i/dP_(i + offset) with the deflection included, shape (n,)."""
         whole = np.zeros(n)
         for row, node in enumerate(NEIGHBOURS):
             whole += by_h[row] * equations.kernel[abs(offset - node)]
@@ -75,7 +90,7 @@ def _band(equations: FilmEquations, derivatives: tuple[Array, Array], free: Mask
 
 
 def _solve_band(band: Array, right: Array) -> Array:
-    """Solution of a banded system; not a number where it has none."""
+    """Solution of a banded linear system; nan where the matrix is singular or not finite."""
     if not np.all(np.isfinite(band)):
         return np.full_like(right, np.nan)
     try:
@@ -86,13 +101,13 @@ def _solve_band(band: Array, right: Array) -> Array:
 
 
 def _moved(equations: FilmEquations, at: Iterate, change: Array) -> Iterate:
-    """Pressures changed, none below ambient, the two ends held."""
+    """Add a change to the pressures, with none below ambient and the two ends fixed."""
     change[0] = change[-1] = 0.0
     return replace(at, pressure=np.maximum(at.pressure + change, equations.fluid.ambient_pressure))
 
 
 def solve_coarsest(equations: FilmEquations, at: Iterate) -> Iterate:
-    """Pressure by Newton's method at a fixed H00, and H00 by eq. (19), in turn."""
+    """Solve on the coarsest grid, in turn for the pressure by Newton's method and for H00 by eq. (19)."""
     for _ in range(LOAD_STEPS):
         for _ in range(COARSE_STEPS):
             at = newton_step(equations, at)
@@ -102,7 +117,7 @@ def solve_coarsest(equations: FilmEquations, at: Iterate) -> Iterate:
 
 
 def newton_step(equations: FilmEquations, at: Iterate) -> Iterate:
-    """One step of Newton's method for the pressure at a fixed H00, dense."""
+    """Make one step of Newton's method for the pressure at a fixed H00, with the dense Jacobian."""
     c = equations.coefficients(at)
     residual = equations.residual(at, c)
     free = equations.free(at, residual)
@@ -114,13 +129,13 @@ def newton_step(equations: FilmEquations, at: Iterate) -> Iterate:
 
 
 def whole_jacobian(equations: FilmEquations, derivatives: tuple[Array, Array]) -> Array:
-    """dL/dP with the film following the pressure, dense, (n, n); end rows zero."""
+    """Dense derivative dL/dP with the deflection included, shape (n, n); the first and last rows are zero."""
     by_p, by_h = derivatives
     return _dense(by_p) + _dense(by_h) @ equations.kernel_matrix
 
 
 def _dense(rows: Array) -> Array:
-    """Rows over the nodes of NEIGHBOURS as a matrix (n, n)."""
+    """Dense matrix (n, n) of derivatives by the nodes of NEIGHBOURS, shape (4, n)."""
     n = rows.shape[1]
     matrix = np.zeros((n, n))
     for row, node in zip(rows, NEIGHBOURS, strict=True):
@@ -129,7 +144,7 @@ def _dense(rows: Array) -> Array:
 
 
 def _limited(equations: FilmEquations, c: Coefficients, change: Array) -> Array:
-    """A step no longer than 0.3 in pressure, and of no gap to less than 0.3 of itself."""
+    """Shorten a Newton step: no P changes by more than 0.3, and no H falls below 0.3 of its value."""
     gap = equations.deflection(change)
     closing = np.max(np.maximum(-gap, 0.0) / (0.7 * c.thickness))
     longest = max(1.0, float(np.max(np.abs(change))) / 0.3, float(closing))

@@ -1,4 +1,4 @@
-"""report.html: figures, tables, the three conclusions and the slips of the print, in one file."""
+"""Report of the study as one HTML file: figures, tables, the three conclusions and the slips of the paper."""
 
 from __future__ import annotations
 
@@ -21,30 +21,31 @@ from ehlectric.paper.study import Study
 from ehlectric.paper.tables import AMPLITUDE, BY_SMOOTH, OWN, WITHIN, PaperTable
 from ehlectric.version import __version__
 
-# When the conclusions count as holding: E_max above V12/h_min by at most so many per cent in every placement;
-# width over b falling with M at both pressures, and the largest so many times the least; E_max changed by at
-# most so many per cent.
+# Criteria by which the three conclusions hold. Conclusion 1: in every placement of the profile, E_max differs
+# from V12/h_min by at most so many per cent. Conclusion 2: the width over b falls with rising M at both
+# pressures, and the largest is at least so many times the least. Conclusion 3: E_max changes by at most so
+# many per cent.
 LARGEST_EXCESS = 5.0
 LEAST_WIDTHS = 2.0
 LARGEST_CHANGE = 1.0
 
 
 def html(study: Study, tables: Mapping[str, PaperTable], figures: Mapping[int, Path]) -> str:
-    """The report of a whole study as text.
+    """Report of a complete study as an HTML page.
 
     Parameters
     ----------
     study : Study
-        With all its parts.
+        Study with all its parts.
     tables : mapping
-        Of all names in ``TABLES``.
+        Tables by name, all of ``ehlectric.paper.tables.TABLES``.
     figures : mapping
-        PNG files by number, to be embedded.
+        Paths of the PNG files by figure number; they are embedded in the page.
 
     Returns
     -------
     str
-        One HTML page that refers to nothing outside itself.
+        HTML page that needs no other files.
     """
     environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True)
     template = (resources.files("ehlectric.paper") / "report.html.jinja").read_text(encoding="utf-8")
@@ -72,17 +73,18 @@ def html(study: Study, tables: Mapping[str, PaperTable], figures: Mapping[int, P
 
 
 def verdicts(tables: Mapping[str, PaperTable]) -> dict[str, str]:
-    """Table 3 and the three conclusions, each held against its criterion.
+    """Verdicts on Table 3 and on the three conclusions of the paper, by their criteria.
 
     Parameters
     ----------
     tables : mapping
-        Of all names in ``TABLES``.
+        Tables by name, all of ``ehlectric.paper.tables.TABLES``.
 
     Returns
     -------
     dict
-        "table_3": rows that agree; "conclusion_1" to "conclusion_3": "holds" or "does not hold".
+        "table_3" has a text with the number of rows that agree; "conclusion_1" to "conclusion_3" are "holds"
+        or "does not hold".
     """
     printed, rough, width, constant = (
         tables[name] for name in ("table_3", "conclusion_1", "conclusion_2", "conclusion_3")
@@ -101,11 +103,12 @@ def verdicts(tables: Mapping[str, PaperTable]) -> dict[str, str]:
 
 
 def _word(holds: bool) -> str:  # noqa: FBT001
+    """Verdict as text."""
     return "holds" if holds else "does not hold"
 
 
 def numbers(study: Study, tables: Mapping[str, PaperTable]) -> dict[str, str]:
-    """Numbers that the text of the report quotes, as text."""
+    """Numbers quoted in the text of the report, formatted, by their names in the template."""
     rough, width, constant = (tables[f"conclusion_{k}"] for k in (1, 2, 3))
     fields = {contact: result.summary()["field"] for contact, result in study.smooth.items()}
     centre = {
@@ -158,21 +161,24 @@ def numbers(study: Study, tables: Mapping[str, PaperTable]) -> dict[str, str]:
 
 
 def _column(table: PaperTable, head: str) -> list[float]:
+    """Numbers of a column of a table."""
     place = table.heads.index(head)
     return [float(row[place]) for row in table.rows]
 
 
 def _percent(table: PaperTable, head: str) -> list[float]:
+    """Relative excess over 1 of the numbers of a column [%]."""
     return [100.0 * (value - 1.0) for value in _column(table, head)]
 
 
 def _range(values: list[float], digits: str) -> str:
+    """Text of the range of values, a single number where both ends are the same in these digits."""
     low, high = format(min(values), digits), format(max(values), digits)
     return low if low == high else f"{low} to {high}"
 
 
 def _width_law(study: Study) -> tuple[tuple[float, float], float]:
-    """Powers of M and L that the width over b goes with, and the largest relative distance from that law."""
+    """Exponents of M and L in a power law fitted to the width over b, and the largest relative deviation."""
     results = list(study.smooth.values())
     groups = [result.conditions.contact for result in results]
     logs = np.column_stack([np.ones(len(groups)), np.log([[g.moes_m, g.moes_l] for g in groups])])
@@ -182,10 +188,10 @@ def _width_law(study: Study) -> tuple[tuple[float, float], float]:
 
 
 def _warnings(study: Study) -> list[str]:
-    """What the results warn of, each text once with the contacts it is of."""
-    said: dict[ResultWarning, list[str]] = {}
+    """Warnings of the results, each text once, after the names of the contacts that have it."""
+    contacts: dict[ResultWarning, list[str]] = {}
     for part, kind in ((study.smooth, "smooth"), (study.rough, "rough")):
         for contact, result in part.items():
             for warning in result.warnings:
-                said.setdefault(warning, []).append(f"{contact.name} {kind}")
-    return [f"{'; '.join(names)}: {warning}" for warning, names in said.items()]
+                contacts.setdefault(warning, []).append(f"{contact.name} {kind}")
+    return [f"{'; '.join(names)}: {warning}" for warning, names in contacts.items()]

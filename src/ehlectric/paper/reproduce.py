@@ -1,4 +1,4 @@
-"""The paper's study written to a folder: tables, figures and a report."""
+"""Reproduction of the paper: its contacts solved, with tables, figures and a report written to a folder."""
 
 from __future__ import annotations
 
@@ -19,18 +19,18 @@ REPORT = "report.html"
 
 @dataclass(frozen=True)
 class Reproduced:
-    """What was written, and what it says.
+    """Files and results of a reproduction of the paper.
 
     Attributes
     ----------
     files : list of Path
-        The report first, where there is one.
+        Files written; the report is first, if there is one.
     tables : dict
-        Those written, by name.
+        Tables written, by name.
     verdicts : dict
-        Of ``report.verdicts``; empty where only a part was asked for.
+        Verdicts from ``ehlectric.paper.report.verdicts``; empty where only one figure or table was made.
     converged : bool
-        Whether every film is a solution.
+        Whether every film is converged.
     """
 
     files: list[Path]
@@ -40,7 +40,7 @@ class Reproduced:
 
 
 def figure_file(number: int) -> str:
-    """Name of a figure's file."""
+    """File name of a figure."""
     return f"figure_{number}.png"
 
 
@@ -51,21 +51,24 @@ def reproduce(
     table: int | None = None,
     progress: Callable[[int, int, str], None] | None = None,
 ) -> Reproduced:
-    """Solve the paper's contacts and write what it shows.
+    """Solve the contacts of the paper, and write its figures and tables.
 
     Parameters
     ----------
     folder : str or Path
-        Where to; made if it is not there.
-    figure, table : int, optional
-        Only this figure, 2 to 11, or this table, 3; else everything and report.html.
+        Output folder; created where it does not exist.
+    figure : int, optional
+        Number of the only figure to write, 2 to 11.
+    table : int, optional
+        Number of the only table to write, 3. Without ``figure`` and ``table``, all figures, tables and
+        report.html are written.
     progress : callable, optional
-        Called with (done, of, what was done).
+        Called with (number done, number in all, name of what was done) after every contact and figure.
 
     Returns
     -------
     Reproduced
-        The files, and what they say.
+        Files written, tables and verdicts.
 
     Raises
     ------
@@ -76,7 +79,7 @@ def reproduce(
     -----
     H. Morris, M. Leighton and N. Morris, Lubricants 2022, 10(5), 87, doi:10.3390/lubricants10050087.
     """
-    figures, tables = _asked_for(figure, table)
+    figures, tables = _requested(figure, table)
     whole_report = figure is None and table is None
     names = [figure_file(number) for number in figures] + [f"{name}.csv" for name in tables]
     names += [REPORT] if whole_report else []
@@ -103,8 +106,8 @@ def reproduce(
     return Reproduced([folder / name for name in reversed(names)], made, verdicts, study.converged)
 
 
-def _asked_for(figure: int | None, table: int | None) -> tuple[list[int], list[str]]:
-    """Numbers of figures and names of tables."""
+def _requested(figure: int | None, table: int | None) -> tuple[list[int], list[str]]:
+    """Numbers of the figures and names of the tables to write."""
     if figure is not None and figure not in FIGURES:
         why = ": Figure 1 is a photograph under copyright" if figure == 1 else ""
         raise InputError("--figure", got=figure, takes=f"{min(FIGURES)} to {max(FIGURES)}{why}")

@@ -1,4 +1,4 @@
-"""Figures 2 and 3: what the two models are made of, drawn by us."""
+"""Figures 2 and 3 of the paper, drawn anew: schematics of the film model and of the field model."""
 
 from __future__ import annotations
 
@@ -13,12 +13,14 @@ _INK = "black"
 
 
 def _canvas(size: tuple[float, float]) -> Axes:
+    """Axes without frame of a new figure of size (width, height) [inches]."""
     (ax,) = new_panels(1, 1, size)
     ax.set_axis_off()
     return ax
 
 
 def _arrow(ax: Axes, start: tuple[float, float], stop: tuple[float, float], style: str = "-|>") -> None:
+    """Draw an arrow between two points."""
     ax.annotate(
         "",
         xy=stop,
@@ -28,18 +30,19 @@ def _arrow(ax: Axes, start: tuple[float, float], stop: tuple[float, float], styl
 
 
 def _text(ax: Axes, x: float, y: float, text: str, **options: object) -> None:
+    """Write a text centred at a point."""
     ax.text(x, y, text, ha="center", va="center", **options)  # type: ignore[arg-type]
 
 
 def _gap(x: Array) -> Array:
-    """Half of a film thickness: flat between -1 and 1, constricted at the exit, parabolic outside."""
+    """Half of a schematic film thickness: flat from x = -1 to 1 with an exit constriction, wider outside."""
     outside = np.maximum(np.abs(x) - 1.0, 0.0)
     gap: Array = 0.16 + 0.35 * outside**1.5 - 0.05 * np.exp(-(((x - 0.95) / 0.12) ** 2))
     return gap
 
 
 def film_model() -> Figure:
-    """Figure 2: two loaded cylinders, the film between them and what holds at its ends."""
+    """Draw Figure 2: two loaded cylinders, the film between them, and the boundary conditions at its ends."""
     ax = _canvas((8.0, 4.4))
     x = np.linspace(-4.0, 2.0, 601)
     half = _gap(x)
@@ -75,7 +78,7 @@ def film_model() -> Figure:
 
 
 def field_model() -> Figure:
-    """Figure 3: the film as a dielectric between two conductors."""
+    """Draw Figure 3: the film as a dielectric between two conductors, and the boundary conditions."""
     ax = _canvas((8.0, 3.6))
     x = np.linspace(-1.25, 1.25, 501)
     half = _gap(x)

@@ -1,4 +1,4 @@
-"""The solvers by the name a command takes."""
+"""Solvers of contacts by name, as the command line takes it: those of ehlectric, and those of the paper."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from ehlectric.paper import fas, sor
 
 
 def _check(case: Case) -> None:
-    """Refuse what the paper's methods are not made for."""
+    """Refuse cases that the paper's methods cannot solve: other than line contacts, or unsuitable grids."""
     if case.contact.geometry != "line":
         raise InputError.worded(
             "contact.geometry",

@@ -1,12 +1,14 @@
-"""Point successive over-relaxation for the field on a Cartesian grid: the paper's own method.
+"""Electric field of a line contact by the paper's own method: point successive over-relaxation (SOR).
 
-Eqs. (16), (17) and (A1) to (A5) of Morris et al. (2022), doi:10.3390/lubricants10050087, for cells of any
-shape: with unequal arms h_W, h_E, h_S, h_N from node (l, k) to its neighbours, a_1 of the east one is::
+The grid is Cartesian. The equations are (16), (17) and (A1) to (A5) of Morris et al. (2022),
+doi:10.3390/lubricants10050087, extended to cells of any shape. With unequal distances ("arms") h_W, h_E, h_S
+and h_N from node (l, k) to its neighbours, the coefficient a_1 of the eastern neighbour is::
 
     a_1 = (eps_(l,k) + eps_(l,k-1))/2 dy^2 2/(h_E (h_E + h_W))
 
-with a_0 = a_1 + a_2 + a_3 + a_4 and Q = rho_q dy^2, which is the paper's where all arms are dx = dy. An arm
-ends where it meets a surface, at that surface's potential (Shortley and Weller 1938, doi:10.1063/1.1710426).
+with a_0 = a_1 + a_2 + a_3 + a_4 and Q = rho_q dy^2. Where all arms are dx = dy, these are the equations of
+the paper. An arm that meets a surface ends there, at the potential of the surface (Shortley and Weller 1938,
+doi:10.1063/1.1710426).
 """
 
 from __future__ import annotations
@@ -23,37 +25,40 @@ from ehlectric.errors import ConvergenceError
 from ehlectric.field.line import Field, field_from_potential
 from ehlectric.field.poisson import FieldProblem, lobatto_nodes
 
-# Rows in the least gap: across a film the potential is nearly linear, and the error is that of the columns.
+# Rows in the least gap. Eight are enough: across a film the potential is nearly linear, and the error comes
+# from the spacing of the columns.
 ROWS = 8
 
-# Residual of eq. (16), over the voltage, at which the sweeps stop.
+# Residual of eq. (16) over the voltage at which the sweeps stop, and largest number of sweeps.
 TOLERANCE = 1e-10
 MOST_SWEEPS = 100_000
 
-# Nodes of the Cartesian grid, those in the bodies with them.
+# Largest number of nodes of the Cartesian grid, including those inside the bodies.
 MOST_NODES = 3e7
 
-# A node this near to a surface, in rows, is on it.
+# A node nearer to a surface than this part of the row spacing counts as on the surface.
 _ON_SURFACE = 1e-9
 EAST, NORTH, WEST, SOUTH = range(4)
 
 
 @dataclass(frozen=True)
 class CartesianGrid:
-    """Rows and columns over the gap; the unknowns are the nodes between the surfaces.
+    """Cartesian grid over the gap, whose unknowns are the potentials of the nodes between the surfaces.
 
     Attributes
     ----------
-    x, lower, upper : ndarray, shape (nx,)
-        Columns and the two surfaces there [m].
+    x : ndarray, shape (nx,)
+        Positions of the columns [m].
+    lower, upper : ndarray, shape (nx,)
+        Heights of the two surfaces at the columns [m].
     y : ndarray, shape (ny,)
-        Equidistant rows [m].
+        Heights of the equidistant rows [m].
     column, row : ndarray of int, shape (n,)
-        Of every unknown, the nodes of even column + row first.
+        Column and row of every unknown. Unknowns with even column + row come first.
     number : ndarray of int, shape (nx, ny)
-        Of the unknown of a node; -1 where there is none.
+        Number of the unknown at a node; -1 where the node is none.
     even : int
-        Unknowns of even column + row.
+        Number of unknowns with even column + row.
     """
 
     x: Array
@@ -67,12 +72,12 @@ class CartesianGrid:
 
     @classmethod
     def over(cls, x: Array, lower: Array, upper: Array, *, rows: int) -> CartesianGrid:
-        """Grid with so many rows in the least gap.
+        """Create a grid with ``rows`` rows in the least gap.
 
         Raises
         ------
         ConvergenceError
-            Where that would be too many nodes.
+            Where the grid would have more than 3e7 nodes.
         """
         dy = float(np.min(upper - lower)) / rows
         nodes = x.size * float(np.max(upper) - np.min(lower)) / dy
@@ -93,16 +98,30 @@ class CartesianGrid:
 
     @property
     def dy(self) -> float:
-        """Distance of the rows [m]."""
+        """Distance between rows [m]."""
         return float(self.y[1] - self.y[0])
 
 
 @dataclass(frozen=True)
 class Stencil:
-    """Eq. (16) at every unknown: V = sum of share times V of neighbour, plus source.
+    """Equation (16) at every unknown: V = sum over the neighbours of share times their V, plus source.
 
-    ``neighbour`` and ``share`` are (4, n) in the order of a_1 to a_4: east, north, west, south; the numbers
-    n and n + 1 stand for the two surfaces. ``arm`` holds the distances [m], ``permittivity`` that of each.
+    Arrays of shape (4, n) are in the order of a_1 to a_4: east, north, west, south.
+
+    Attributes
+    ----------
+    grid : CartesianGrid
+        Nodes and surfaces.
+    neighbour : ndarray of int, shape (4, n)
+        Numbers of the neighbours of every unknown; n is the lower surface and n + 1 the upper one.
+    share : ndarray, shape (4, n)
+        Coefficients a_1 to a_4 over a_0.
+    source : ndarray or float
+        Contribution of free charge [V], shape (n,) where there is any.
+    arm : ndarray, shape (4, n)
+        Distances to the neighbours [m].
+    permittivity : ndarray, shape (4, n)
+        Relative permittivity on the arms.
     """
 
     grid: CartesianGrid
@@ -114,21 +133,22 @@ class Stencil:
 
 
 def stencil(grid: CartesianGrid, cells: Array, charge_density: Array | None = None) -> Stencil:
-    """Coefficients (A1) to (A5) over (A1).
+    """Coefficients of eq. (16) at every unknown, (A1) to (A5) divided by a_0.
 
     Parameters
     ----------
     grid : CartesianGrid
         Nodes and surfaces.
     cells : ndarray, shape (nx - 1, ny - 1)
-        Relative permittivity in the cells, staggered from the potential.
+        Relative permittivity in the cells between the nodes.
     charge_density : ndarray, shape (n,), optional
-        At the unknowns [C/m^3].
+        Density of free charge at the unknowns [C/m^3].
 
     Returns
     -------
     Stencil
-        No flux leaves at the first and the last column: the neighbour beyond mirrors the one within.
+        The coefficients. No flux leaves through the first and the last column: the neighbour beyond them is
+        the mirror image of the one inside.
     """
     neighbour, arm = _arms(grid)
     east = np.minimum(grid.column, grid.x.size - 2)
@@ -156,7 +176,7 @@ def stencil(grid: CartesianGrid, cells: Array, charge_density: Array | None = No
 
 
 def _arms(grid: CartesianGrid) -> tuple[IntArray, Array]:
-    """Neighbour and distance of every unknown in four directions, each (4, n)."""
+    """Neighbours of every unknown in the four directions, and the distances to them [m], each (4, n)."""
     n, dy = grid.column.size, grid.dy
     lower_wall, upper_wall = n, n + 1
     column, row = grid.column, grid.row
@@ -191,7 +211,17 @@ def _arms(grid: CartesianGrid) -> tuple[IntArray, Array]:
 
 @dataclass(frozen=True)
 class Relaxed:
-    """Potential of the unknowns, the two surfaces' last (n + 2,), and the sweeps and factor it took."""
+    """Result of the over-relaxation.
+
+    Attributes
+    ----------
+    potential : ndarray, shape (n + 2,)
+        Potential of the unknowns, then of the lower and the upper surface [V].
+    sweeps : int
+        Number of sweeps.
+    factor : float
+        Damping factor zeta of eq. (17).
+    """
 
     potential: Array
     sweeps: int
@@ -199,28 +229,30 @@ class Relaxed:
 
 
 def over_relax(equations: Stencil, start: Array, *, factor: float, tolerance: float = TOLERANCE) -> Relaxed:
-    """Sweeps of eqs. (16) and (17), nodes of even column + row before the odd ones.
+    """Solve eq. (16) by over-relaxation, eq. (17).
+
+    A sweep updates the nodes with even column + row first, and then the others.
 
     Parameters
     ----------
     equations : Stencil
-        What to solve.
+        Equations of the unknowns.
     start : ndarray, shape (n + 2,)
-        Potential to start from, the lower and the upper surface's last [V].
+        Initial guess of the potential, then the potential of the lower and the upper surface [V].
     factor : float
         Damping factor zeta, from 0 to 2.
     tolerance : float
-        Largest residual over the voltage at which to stop.
+        Largest residual over the voltage at which the sweeps stop.
 
     Returns
     -------
     Relaxed
-        With the sweeps it took.
+        Potential, and number of sweeps.
 
     Raises
     ------
     ConvergenceError
-        After a hundred thousand sweeps.
+        Where 100 000 sweeps do not reach the tolerance.
     """
     v = start.copy()
     voltage = abs(v[-1] - v[-2])
@@ -245,9 +277,10 @@ def over_relax(equations: Stencil, start: Array, *, factor: float, tolerance: fl
 
 
 def young_factor(grid: CartesianGrid) -> float:
-    """Best damping factor of a plate capacitor as wide as the widest gap.
+    """Optimal damping factor of a plate capacitor whose gap h is the largest gap of the grid.
 
-    Young's 2/(1 + sqrt(1 - mu^2)) with the Jacobi radius mu = 1 - (1 - cos(pi dy/h)) dx^2/(dx^2 + dy^2).
+    Young's factor 2/(1 + sqrt(1 - mu^2)), with the spectral radius of Jacobi's iteration
+    mu = 1 - (1 - cos(pi dy/h)) dx^2/(dx^2 + dy^2).
 
     Examples
     --------
@@ -262,13 +295,27 @@ def young_factor(grid: CartesianGrid) -> float:
 
 
 def cartesian(problem: FieldProblem, rows: int) -> tuple[Stencil, Array]:
-    """Equations of a problem on a Cartesian grid, and the linear potential to start from (n + 2,).
+    """Equations of a field problem on a Cartesian grid, and an initial guess of the potential.
+
+    Parameters
+    ----------
+    problem : FieldProblem
+        Geometry, permittivity by column and potentials, SI units.
+    rows : int
+        Number of rows in the least gap.
+
+    Returns
+    -------
+    equations : Stencil
+        Equation (16) at every unknown.
+    start : ndarray, shape (n + 2,)
+        Potential that is linear across the gap, then that of the lower and the upper surface [V].
 
     Raises
     ------
     ValueError
-        Where the problem has what the paper's has not: free charge, given potentials on the end faces, or a
-        permittivity that changes across the gap.
+        Where the problem has something that the paper's method lacks: free charge, potentials on the end
+        faces, or a permittivity that varies across the gap.
     """
     if problem.charge_density is not None or problem.end_potentials is not None:
         raise ValueError("the paper's field has no free charge and no given end potentials")
@@ -294,21 +341,21 @@ def solve_field(problem: FieldProblem, *, rows: int = ROWS) -> Field:
     problem : FieldProblem
         Geometry, permittivity by column and potentials, SI units; its ``x`` are the columns of the grid.
     rows : int
-        Rows of the grid in the least gap, at least 4.
+        Number of rows of the grid in the least gap, at least 4.
 
     Returns
     -------
     Field
-        As ``ehlectric.field.line.solve_field`` gives it, at the same places: the potential between the
-        rows by cubic splines along the columns. ``capacitance`` is that of the energy of all arms,
-        ``capacitance_by_charge`` that of the field on wall 1; they agree to the error of the grid.
+        Field at the same nodes as from ``ehlectric.field.line.solve_field``. Between the rows, the potential
+        is interpolated by cubic splines along the columns. ``capacitance`` follows from the energy of the
+        field, ``capacitance_by_charge`` from the field on wall 1; they agree within the error of the grid.
 
     Raises
     ------
     ValueError
-        Where the problem has free charge, given end potentials or a permittivity that changes across the gap.
+        Where the problem has free charge, end potentials or a permittivity that varies across the gap.
     ConvergenceError
-        After a hundred thousand sweeps.
+        Where the grid would have too many nodes, or 100 000 sweeps do not reach the tolerance.
 
     Examples
     --------
@@ -324,16 +371,17 @@ def solve_field(problem: FieldProblem, *, rows: int = ROWS) -> Field:
 
 
 def field_from(problem: FieldProblem, equations: Stencil, potential: Array) -> Field:
-    """Field of a potential of the unknowns and the two surfaces, (n + 2,).
+    """Field from the potential of the unknowns and the two surfaces, shape (n + 2,) [V].
 
-    Along y by the splines of the columns, along x by differences between columns at the same height.
+    The derivative along y is that of cubic splines along the columns. The derivative along x is a difference
+    between columns at the same height.
     """
     grid, voltage = equations.grid, problem.potential_2 - problem.potential_1
     s = np.append(lobatto_nodes(problem.degree), 0.5)
     gap = (problem.upper - problem.lower)[:, np.newaxis]
     y = problem.lower[:, np.newaxis] + gap * s
     v, by_y = _along_columns(grid, potential, y)
-    # dV/dx at fixed y is that at fixed s less what the height changes.
+    # dV/dx at fixed y is dV/dx at fixed s minus dV/dy times the slope of the line of fixed s.
     slope = np.gradient(y, problem.x, axis=0, edge_order=2)
     by_x = np.gradient(v, problem.x, axis=0, edge_order=2) - slope * by_y
     strength = np.hypot(by_x, by_y)
@@ -354,7 +402,7 @@ def field_from(problem: FieldProblem, equations: Stencil, potential: Array) -> F
 
 
 def _along_columns(grid: CartesianGrid, potential: Array, y: Array) -> tuple[Array, Array]:
-    """Potential and its derivative by y at heights (nx, m), from cubic splines along the columns."""
+    """Potential [V] and its derivative by y [V/m] at heights y (nx, m), from cubic splines along columns."""
     values, slopes = np.empty_like(y), np.empty_like(y)
     order = np.lexsort((grid.row, grid.column))
     starts = np.searchsorted(grid.column[order], np.arange(grid.x.size + 1))
@@ -367,7 +415,7 @@ def _along_columns(grid: CartesianGrid, potential: Array, y: Array) -> tuple[Arr
 
 
 def _energy(equations: Stencil, potential: Array) -> float:
-    """Integral of eps abs(grad V)^2 as the sum over all arms, each counted once [V^2]."""
+    """Integral of eps abs(grad V)^2 over the gap [V^2], a sum over all arms, each counted once."""
     grid = equations.grid
     widths = np.empty_like(grid.x)
     widths[1:-1] = 0.5 * (grid.x[2:] - grid.x[:-2])

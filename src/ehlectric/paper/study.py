@@ -1,6 +1,6 @@
-"""The paper's contacts solved, in parallel.
+"""Study of the paper's eight contacts, solved in parallel.
 
-Smooth, rough, with a permittivity that stays constant, and by the paper's own methods.
+The contacts are solved smooth and rough, with a constant permittivity, and by the paper's own methods.
 """
 
 from __future__ import annotations
@@ -25,23 +25,30 @@ from ehlectric.paper import fas, sor
 from ehlectric.paper.contacts import CONTACTS, ROUGH_NODES, SMOOTH_NODES, PaperContact, measured_profile
 from ehlectric.runtime.workers import run_all
 
-# Residual to which the paper's multigrid is counted.
+# Residual down to which the V-cycles of the paper's multigrid are counted.
 COUNTED = 1e-6
 
-# Damping factors tried for the fewest sweeps, from Young's for a plate as wide as the widest gap: that is the
-# slowest mode alone, and the linear start has little of it.
+# Differences from Young's damping factor that are tried, to find the fewest sweeps. Young's factor suits the
+# slowest mode in the largest gap, of which the linear initial guess contains little.
 _FACTORS = np.arange(-0.24, 0.021, 0.02)
 
-# Nodes of the rough contacts of other placements, and how far the profile is moved [m].
+# Number of nodes of the rough contacts with a moved profile, and distances that it is moved by [m].
 PLACED_NODES = (ROUGH_NODES - 1) // 2 + 1
 PLACEMENTS = (0.0, 50e-6, 100e-6, 150e-6)
 
 
 @dataclass(frozen=True)
 class Placed:
-    """A rough contact with its profile in another place, or on another grid.
+    """Result of a rough contact with its profile moved, or on another grid.
 
-    ``minimum_thickness`` [m] and ``largest``, the largest field times h_min over the voltage.
+    Attributes
+    ----------
+    minimum_thickness : float
+        Minimum film thickness h_min [m].
+    largest : float
+        Largest dimensionless field strength, E_max h_min/V12.
+    converged : bool
+        Whether the film is converged.
     """
 
     minimum_thickness: float
@@ -51,20 +58,26 @@ class Placed:
 
 @dataclass(frozen=True)
 class Methods:
-    """How the paper's own methods did on one contact, with the first-order wedge.
+    """Convergence of the paper's own methods on one contact, and their differences from ehlectric's solvers.
+
+    Both films have the first-order wedge.
 
     Attributes
     ----------
     cycles : int
-        V-cycles to a residual of 1e-6 on the finest grid.
+        Number of V-cycles to a residual of 1e-6 on the finest grid.
     factor : float
-        Mean reduction of the residual by a cycle, from the third on.
+        Mean reduction of the residual by a cycle, from the third cycle on.
     film_difference : float
-        Largest relative difference of the film from ours.
-    unknowns, sweeps, damping : int, int, float
-        Nodes of the Cartesian grid, fewest sweeps of the over-relaxation, and the damping factor of those.
+        Largest relative difference between the two films.
+    unknowns : int
+        Number of unknowns of the Cartesian grid.
+    sweeps : int
+        Fewest sweeps of the over-relaxation.
+    damping : float
+        Damping factor of the fewest sweeps.
     capacitance_difference, strength_difference : float
-        Relative difference from ours of the capacitance and of the largest field.
+        Relative differences of the capacitance and of the largest field from those of ehlectric's solver.
     """
 
     cycles: int
@@ -79,7 +92,25 @@ class Methods:
 
 @dataclass(frozen=True)
 class Study:
-    """What was solved, by contact; empty where it was not asked for."""
+    """Results of the study by contact; a part that was not requested is empty.
+
+    Attributes
+    ----------
+    smooth : dict
+        Smooth contacts with the second-order wedge.
+    first_order : dict
+        Smooth contacts with the first-order wedge of the paper.
+    fine : dict
+        Smooth contacts with twice the number of intervals.
+    rough : dict
+        Rough contacts.
+    placed : dict
+        Rough contacts on half the number of intervals, with the profile as it is and moved.
+    constant : dict
+        Smooth contacts with a constant permittivity.
+    methods : dict
+        Comparison of the paper's own methods with the solvers of ehlectric.
+    """
 
     smooth: dict[PaperContact, Result] = field(default_factory=dict)
     first_order: dict[PaperContact, Result] = field(default_factory=dict)
@@ -91,41 +122,41 @@ class Study:
 
     @property
     def converged(self) -> bool:
-        """Whether every film is a solution."""
+        """Whether every film is converged."""
         parts = (self.smooth, self.first_order, self.fine, self.rough, self.constant)
         results = all(result.converged for part in parts for result in part.values())
         return results and all(each.converged for places in self.placed.values() for each in places)
 
 
 def run_study(parts: Iterable[str], *, progress: Callable[[int, int, str], None] | None = None) -> Study:
-    """Solve parts of the study, one process a core.
+    """Solve parts of the study in parallel, with one process for each core.
 
     Parameters
     ----------
     parts : iterable of str
-        Attributes of ``Study``.
+        Names of the parts, attributes of ``Study``.
     progress : callable, optional
-        Called with (done, of, what was done) after every contact.
+        Called with (number done, number in all, name of what was done) after every contact.
 
     Returns
     -------
     Study
-        With the parts asked for.
+        Results of the requested parts.
 
     Raises
     ------
     RuntimeError
         Where a process was killed, or a script calls this without ``if __name__ == "__main__":``.
     """
-    asked = dict.fromkeys(parts)
+    requested = dict.fromkeys(parts)
     with measured_profile() as profile:
         tasks: dict[str, Callable[[PaperContact], object]] = {
             "rough": partial(_rough, profile),
             "placed": partial(_placed, profile),
             **_TASKS,
         }
-        work = [(part, contact, tasks[part]) for part in asked for contact in CONTACTS]
-        # Long ones first, so that no core waits for one at the end.
+        work = [(part, contact, tasks[part]) for part in requested for contact in CONTACTS]
+        # Long tasks go first, so that no core idles while the last one is solved.
         work.sort(key=lambda item: item[0] not in ("rough", "placed", "methods"))
         solved: dict[tuple[str, PaperContact], Any] = {}
 
@@ -137,27 +168,29 @@ def run_study(parts: Iterable[str], *, progress: Callable[[int, int, str], None]
 
         if work:
             run_all([partial(task, contact) for _, contact, task in work], done)
-    # In the order of the contacts, whatever order they were done in.
-    return Study(**{part: {contact: solved[part, contact] for contact in CONTACTS} for part in asked})
+    # The results are in the order of the contacts, not in that of their completion.
+    return Study(**{part: {contact: solved[part, contact] for contact in CONTACTS} for part in requested})
 
 
 def straight_line(result: Result) -> Array:
-    """Field strength on the paper's other reading of mid-film: a straight line.
+    """Field strength on a straight line at mid-film, the second reading of the paper's definition.
+
+    The line lies half of the average film thickness above the average lower surface, both averaged over the
+    Hertz zone.
 
     Parameters
     ----------
     result : Result
-        A solved contact.
+        Result of a line contact.
 
     Returns
     -------
-    ndarray
-        abs(E) at the columns of its field [V/m], half of the average film above the average lower surface of
-        the Hertz zone; not a number where that is outside the film.
+    ndarray, shape (nx,)
+        abs(E) at the columns of the field [V/m]; nan where the line is outside the film.
 
     Notes
     -----
-    Between smooth equal bodies, at -h/2 and h/2, this is the line s = 1/2.
+    Between smooth equal bodies, with surfaces at -h/2 and h/2, this is the line s = 1/2.
     """
     field, b = result.field, result.conditions.half_width
     zone = np.abs(field.x) <= b
@@ -166,50 +199,61 @@ def straight_line(result: Result) -> Array:
 
 
 def readings_differ_by(result: Result) -> float:
-    """Largest relative difference of the two readings of mid-film, where the straight line is in the film."""
+    """Largest relative difference between the field strengths of the two readings of mid-film.
+
+    The readings are the line s = 1/2 and a straight line. Columns where the straight line is outside the film
+    are left out.
+    """
     field, straight = result.field, straight_line(result)
     inside = field.inner & np.isfinite(straight)
     return float(np.max(np.abs(straight[inside] / field.middle_strength[inside] - 1.0)))
 
 
 def _line(case: Case, *, beside_smooth: bool = True) -> Result:
-    """Result of a line contact."""
+    """Solve a line contact; with ``beside_smooth``, a rough contact is solved between smooth surfaces too."""
     result = solve(case, beside_smooth=beside_smooth)
     assert isinstance(result, Result)
     return result
 
 
 def _smooth(contact: PaperContact) -> Result:
+    """Result of a smooth contact."""
     return _line(contact.case())
 
 
 def _rough(profile: Path, contact: PaperContact) -> Result:
+    """Result of a rough contact."""
     return _line(contact.rough_case(profile))
 
 
 def _placed(profile: Path, contact: PaperContact) -> tuple[Placed, ...]:
-    """The rough contact on half of the nodes, with the profile where it is and moved."""
+    """Results of a rough contact on half the number of intervals, with the profile as it is and moved."""
     return tuple(_moved(contact.rough_case(profile, nodes=PLACED_NODES, shift=shift)) for shift in PLACEMENTS)
 
 
 def _moved(case: Case) -> Placed:
+    """Result of a rough case, without the smooth contact beside it."""
     result = _line(case, beside_smooth=False)
     return Placed(result.film.minimum_thickness, result.max_dimensionless, result.converged)
 
 
 def _first_order(contact: PaperContact) -> Result:
+    """Result of a smooth contact with the first-order wedge."""
     return _line(contact.case(wedge="first-order"))
 
 
 def _fine(contact: PaperContact) -> Result:
+    """Result of a smooth contact with twice the number of intervals."""
     return _line(contact.case(nodes=2 * SMOOTH_NODES - 1))
 
 
 def _constant(contact: PaperContact) -> Result:
+    """Result of a smooth contact with a constant permittivity."""
     return _line(contact.constant_case())
 
 
 def _methods(contact: PaperContact) -> Methods:
+    """Comparison of the paper's own methods with the solvers of ehlectric on a smooth contact."""
     case = contact.case(wedge="first-order")
     conditions = resolve(case)
     equations = film_problem(case, conditions)

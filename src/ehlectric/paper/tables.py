@@ -1,4 +1,4 @@
-"""The tables of the study: Table 3 beside its print, and those that answer the paper's conclusions."""
+"""Tables of the study: Table 3 beside the printed one, and tables that test the paper's conclusions."""
 
 from __future__ import annotations
 
@@ -17,20 +17,32 @@ from ehlectric.runtime.files import whole
 
 MICRO = 1e6
 
-# Lateral sizes of discharge pits that the paper quotes, mean and largest (its reference 46) [m].
+# Mean and largest lateral size of discharge pits that the paper quotes from its reference 46 [m].
 PITS = (1.7e-6, 4e-6)
 
-# What agrees: deviation from the print, beside half of its last digit.
+# A film agrees with the print within this relative deviation and half of the last printed digit [m].
 TOLERANCE, HALF_PRINT = 0.04, 0.005e-6
 WITHIN = f"within {100 * TOLERANCE:.0f} %"
 
-# Part of the half-width over which the deformed roughness is set beside the one of the surface.
+# Part of the half-width over which the deformed roughness is compared with the original one.
 INNER = 0.9
 
 
 @dataclass(frozen=True)
 class PaperTable:
-    """Numbers under heads with their units, and how many digits of them to show."""
+    """Table of the study.
+
+    Attributes
+    ----------
+    title : str
+        Title of the table.
+    heads : tuple of str
+        Heads of the columns, with units.
+    formats : tuple of str
+        Format of the numbers of each column as shown; the saved table has all digits.
+    rows : tuple of tuple
+        Numbers and texts, row by row.
+    """
 
     title: str
     heads: tuple[str, ...]
@@ -39,13 +51,13 @@ class PaperTable:
 
     @property
     def shown(self) -> list[list[str]]:
-        """The rows as text that does not break within a cell."""
+        """Rows as formatted text without line breaks inside a cell."""
         return [
             [_shown(value, form) for value, form in zip(row, self.formats, strict=True)] for row in self.rows
         ]
 
     def save(self, path: Path) -> None:
-        """Write the table as CSV, all digits."""
+        """Write the table as a CSV file with all digits."""
         with whole(path) as beside, beside.open("w", newline="", encoding="utf-8") as file:
             writer = csv.writer(file)
             writer.writerow(self.heads)
@@ -53,8 +65,9 @@ class PaperTable:
 
 
 def _shown(value: str | float, form: str) -> str:
+    """Formatted text of one cell."""
     text = format(value, form)
-    # A rounded zero has no sign.
+    # A value that rounds to zero is shown without a minus sign.
     if not isinstance(value, str) and float(text) == 0.0:
         text = text.removeprefix("-")
     return text.replace(" ", "\N{NO-BREAK SPACE}")
@@ -63,12 +76,15 @@ def _shown(value: str | float, form: str) -> str:
 def _table(
     title: str, columns: Sequence[tuple[str, str]], rows: Sequence[tuple[str | float, ...]]
 ) -> PaperTable:
+    """Table from its columns, each a head and a format, and its rows."""
     heads, formats = zip(*columns, strict=True)
     return PaperTable(title, heads, formats, tuple(rows))
 
 
 def agrees(computed: float, printed: float) -> bool:
-    """Whether a film agrees with its print: within 4 % and the rounding of the print; both in metres.
+    """Whether a computed film thickness [m] agrees with the printed one [m].
+
+    They agree where they differ by at most 4 % and half of the last printed digit.
 
     Examples
     --------
@@ -79,7 +95,7 @@ def agrees(computed: float, printed: float) -> bool:
 
 
 def printed_table(study: Study) -> PaperTable:
-    """Table 3: the 2 GPa contacts, as printed and as computed with both wedges."""
+    """Table 3 of the paper: films of the 2 GPa contacts, as printed and as computed with both wedges."""
     rows: list[tuple[str | float, ...]] = []
     contacts = {contact.u_s: contact for contact in study.smooth if contact.gigapascal == 2}
     for printed in table_3():
@@ -126,6 +142,7 @@ def printed_table(study: Study) -> PaperTable:
 
 
 def _row_head(contact: PaperContact, result: Result) -> tuple[str | float, ...]:
+    """First cells of a row: name of the contact, M and L."""
     groups = result.conditions.contact
     return (contact.name, groups.moes_m, groups.moes_l)
 
@@ -134,7 +151,7 @@ _HEAD = [("contact", ""), ("M", ".1f"), ("L", ".2f")]
 
 
 def rough_table(study: Study) -> PaperTable:
-    """Largest field of the rough contacts over V12/h_min of the rough and of the smooth film."""
+    """Table of the largest field of the rough contacts over V12/h_min of the rough and of the smooth film."""
     rows = []
     for contact, rough in study.rough.items():
         smooth, (same, *moved) = study.smooth[contact], study.placed[contact]
@@ -178,9 +195,10 @@ AMPLITUDE = "film over roughness, rms"
 
 
 def amplitude(rough: Result) -> float:
-    """Deviation of a rough film from the smooth one over the roughness, both rms over abs(x) < 0.9 b.
+    """Amplitude ratio of the roughness in the contact: deformed roughness over original roughness.
 
-    Less than 1 where the contact flattens its roughness: amplitude reduction.
+    The deformed roughness is the rough film minus the smooth film. Both are rms values about their means over
+    abs(x) < 0.9 b. The ratio is below 1 where the contact flattens the roughness (amplitude reduction).
     """
     assert rough.smooth is not None
     inner = np.abs(rough.film.x) < INNER * rough.conditions.half_width
@@ -189,7 +207,7 @@ def amplitude(rough: Result) -> float:
 
 
 def width_table(study: Study) -> PaperTable:
-    """Width of the zone above 95 % of the largest mid-film field, beside the half-width and the pits."""
+    """Table of the width of the zone above 95 % of the largest mid-film field, over b and pit sizes."""
     rows = []
     for contact, result in study.smooth.items():
         width, fine = result.field.high_field_width, study.fine[contact].field.high_field_width
@@ -198,7 +216,7 @@ def width_table(study: Study) -> PaperTable:
             (
                 *_row_head(contact, result),
                 width * MICRO,
-                # Richardson's estimate of a quantity of second order.
+                # Richardson's estimate of the error of the coarser grid, at second order.
                 abs(width - fine) * 4.0 / 3.0 * MICRO,
                 b * MICRO,
                 width / b,
@@ -218,7 +236,7 @@ def width_table(study: Study) -> PaperTable:
 
 
 def permittivity_table(study: Study) -> PaperTable:
-    """What changes where the permittivity does not follow the density."""
+    """Table of the changes in field and capacitance where the permittivity is constant."""
     rows = []
     for contact, constant in study.constant.items():
         result = study.smooth[contact]
@@ -249,7 +267,7 @@ def permittivity_table(study: Study) -> PaperTable:
 
 
 def methods_table(study: Study) -> PaperTable:
-    """How the paper's own methods did, and how far they are from ours."""
+    """Table of the convergence of the paper's own methods, and of their differences from ehlectric's."""
     rows = [
         (
             contact.name,

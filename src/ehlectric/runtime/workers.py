@@ -85,7 +85,7 @@ def without_interrupts() -> Iterator[None]:
 
 
 def end_with_parent() -> None:
-    """Start a thread that ends this process when its parent ends for any reason; processes of a pool call it."""
+    """Start a thread that ends this process as soon as its parent has ended. Processes of a pool call it."""
 
     def watch() -> None:
         parent = multiprocessing.parent_process()

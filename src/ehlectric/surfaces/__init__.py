@@ -1,1 +1,1 @@
-"""Surface roughness: read from files, generated, filtered, and continued over the contact."""
+"""Surface roughness: reading, generation, filtering, and continuation over the whole contact."""

@@ -1,4 +1,4 @@
-"""Heights of a profile or a map between its points and beyond its ends."""
+"""Interpolation of a profile or a map between its points, and its continuation beyond its ends."""
 
 from __future__ import annotations
 
@@ -12,26 +12,28 @@ from ehlectric.arrays import Array
 from ehlectric.surfaces.maps import Map
 from ehlectric.surfaces.profiles import TAPER, Profile
 
-# Positions x and y that fit each other [m] -> height [m].
+# Height of a map [m] as a function of positions x and y [m] whose shapes broadcast, and height of a profile
+# [m] as a function of position x [m].
 MapHeight: TypeAlias = Callable[[Array, Array], Array]
 Height = Callable[[Array], Array]
 
 
 def continued_map(surface: Map, extend: str) -> MapHeight:
-    """Height of a map at any position: within it a bicubic spline, beyond it continued without a step.
+    """Height of a map at any position: a bicubic spline inside the map, and its continuation outside.
 
     Parameters
     ----------
     surface : Map
-        Its middle at (0, 0).
+        Map, with its middle at (0, 0).
     extend : str
-        "mirror" reflects it at its sides; "repeat" joins opposite sides, blended over 5 % of the length;
-        "flat" fades it to zero over 5 % of the length at each side.
+        Continuation beyond the sides. "mirror" reflects the map at its sides. "repeat" repeats the map; near
+        opposite sides, over 5 % of the length, the heights are blended so that they join. "flat" continues
+        with zero; the map fades to zero over 5 % of the length at each side.
 
     Returns
     -------
     callable
-        Positions x and y that fit each other [m] -> height [m].
+        Height [m] as a function of positions x and y [m] whose shapes broadcast.
 
     Examples
     --------
@@ -40,7 +42,7 @@ def continued_map(surface: Map, extend: str) -> MapHeight:
     >>> np.round(continued_map(ramp, "mirror")(np.array([10.0, 15.0, 30.0]), np.zeros(3)), 2)
     array([ 1. ,  0.5, -1. ])
     """
-    from scipy import ndimage  # not needed by smooth contacts
+    from scipy import ndimage  # imported here, as smooth contacts do not need it
 
     z = surface.heights
     mode: Literal["mirror", "grid-wrap"] = "mirror"
@@ -64,34 +66,35 @@ def continued_map(surface: Map, extend: str) -> MapHeight:
 
 
 def _fade(n: int) -> Array:
-    """From zero at both ends to one within the taper, over n points."""
+    """Factors over n points, shape (n,): zero at both ends, one inside, with a smooth taper between."""
     ends = np.clip((0.5 - np.abs(np.linspace(-0.5, 0.5, n))) / TAPER, 0.0, 1.0)
     fade: Array = 0.5 - 0.5 * np.cos(np.pi * ends)
     return fade
 
 
 def _joined(z: Array, fade: Array) -> Array:
-    """Heights whose first and last rows go over to the mean of the two, with neither step nor kink."""
+    """Heights (n, m) blended near the first and the last row into the mean of both, without step or kink."""
     joint = 0.5 * (z[0] + z[-1])
     joined: Array = joint + (z - joint) * fade[:, np.newaxis]
     return joined
 
 
 def continued(profile: Profile, extend: str) -> Height:
-    """Height of a profile at any position: within it a cubic spline, beyond it continued without a step.
+    """Height of a profile at any position: a cubic spline inside the profile, and its continuation outside.
 
     Parameters
     ----------
     profile : Profile
-        Its midpoint at x = 0.
+        Profile, with its midpoint at x = 0.
     extend : str
-        "mirror" reflects it at its ends; "repeat" joins its ends, blended over 5 % of its length; "flat"
-        fades it to zero over 5 % of its length at each end.
+        Continuation beyond the ends. "mirror" reflects the profile at its ends. "repeat" repeats the profile;
+        near the ends, over 5 % of the length, the heights are blended so that they join. "flat" continues
+        with zero; the profile fades to zero over 5 % of the length at each end.
 
     Returns
     -------
     callable
-        Position [m] (n,) -> height [m] (n,).
+        Height [m], shape (n,), as a function of positions [m], shape (n,).
 
     Examples
     --------
@@ -110,7 +113,7 @@ def continued(profile: Profile, extend: str) -> Height:
     if extend == "flat":
         spline = CubicSpline(x, z * fade)
         return lambda at: np.where(np.abs(at) < half, spline(np.clip(at, -half, half)), 0.0)
-    # Each end goes over to the mean of the two, so that the joint has neither step nor kink.
+    # Both ends are blended into the mean of the two, so that the joint has neither step nor kink.
     joint = 0.5 * (z[0] + z[-1])
     spline = CubicSpline(x, joint + (z - joint) * fade)
     return lambda at: spline((at + half) % length - half)

@@ -1,4 +1,4 @@
-"""The part of a contact where surfaces are needed, and positions in axes that are turned."""
+"""Domain of a contact over which its rough surfaces are needed, and rotation of coordinates."""
 
 from __future__ import annotations
 
@@ -13,9 +13,14 @@ from ehlectric.cases.roughness import Roughness
 
 @dataclass(frozen=True)
 class Domain:
-    """Where a surface is needed [m]: from inlet to outlet along x, ``side`` to either side along y.
+    """Domain of the film, over which the heights of rough surfaces are needed.
 
-    A line contact is infinitely wide.
+    Attributes
+    ----------
+    inlet, outlet : float
+        Ends along x [m].
+    side : float
+        Distance from y = 0 to either side [m]; infinite for a line contact.
     """
 
     inlet: float
@@ -29,11 +34,14 @@ class Domain:
 
     @property
     def shorter(self) -> float:
-        """The shorter of its two lengths [m]."""
+        """Length of the shorter side of the domain [m]."""
         return min(self.length, 2.0 * self.side)
 
     def reach(self, table: Roughness) -> tuple[float, float]:
-        """Distances from the middle of a shifted surface to which it is needed, along its own axes [m]."""
+        """Half-lengths [m] that a surface needs along its own x and y axes to cover the domain.
+
+        ``table`` has the shift and the orientation of the surface.
+        """
         x = np.array([self.inlet, self.outlet]) - table.shift
         y = np.array([-self.side, self.side]) - table.shift_y
         along, across = turned(x[:, np.newaxis], y, table.orientation or 0.0)
@@ -41,7 +49,19 @@ class Domain:
 
 
 def turned(x: ArrayLike, y: ArrayLike, orientation: float) -> tuple[Array, Array]:
-    """Positions in axes that are turned counter-clockwise by an angle in degrees.
+    """Coordinates of positions (x, y) along axes that are rotated counter-clockwise.
+
+    Parameters
+    ----------
+    x, y : array_like, shapes that broadcast to (...)
+        Positions [m].
+    orientation : float
+        Angle of rotation of the axes [degrees].
+
+    Returns
+    -------
+    tuple of ndarray, shape (...)
+        Positions along the two rotated axes [m].
 
     Examples
     --------

@@ -1,7 +1,8 @@
-"""Measured surfaces from the files instruments write: text profiles, ISO 25178-72 X3P and Alicona AL3D.
+"""Reader of measured surfaces from instrument files: text profiles, ISO 25178-72 X3P and Alicona AL3D.
 
-What is doubtful is refused by name: spacings that are not uniform, slopes absurd for the spacing, lines
-without data. Other formats are read by SurfaceTopography where it is installed.
+The reader refuses doubtful data with an error that names the fault, such as spacings that are not uniform,
+slopes that are too large for the spacing, and lines without data. Other formats are read by the package
+SurfaceTopography if it is installed.
 """
 
 from __future__ import annotations
@@ -20,32 +21,42 @@ from ehlectric.surfaces.profiles import LEAST_POINTS, Profile
 from ehlectric.surfaces.text_files import is_text, read_text
 from ehlectric.surfaces.voids import filled, without_void_borders
 
-# Largest believable slope between neighbours: beyond 5 (79 degrees) no instrument sees a flank.
+# Largest credible slope between neighbours: no instrument measures a flank steeper than 5 (79 degrees).
 STEEPEST = 5.0
 
-# Part of a line or map that may be void and is then filled.
+# Largest fraction of a line or map that may be void; the voids are then filled.
 MOST_VOID = 0.2
 
-# Points of a map beyond which it is not processed: each step of many keeps a copy of it.
+# Largest number of points of a map that is processed: every processing step keeps a copy of the map.
 MOST_MAP_POINTS = 20_000_000
 
-# Part of the slopes of a map that may be steeper than any: a few pixels of dust or noise.
+# Fraction of the slopes of a map that may exceed STEEPEST, for a few pixels of dust or noise.
 _MOST_STEEP = 0.01
 
-# Spacings and heights between which something is a measured surface [m].
+# Smallest and largest spacing of the points of a measured surface, and its largest height [m].
 FINEST, COARSEST = 1e-12, 1e-3
 _HIGHEST = 10.0
 
 
 @dataclass(frozen=True)
 class Surface:
-    """Heights as read [m], rows along the first axis, NaN where the instrument saw nothing.
+    """Measured surface as read from a file. A profile is a surface with one row.
 
-    A profile is a map of one row. ``spacing_x`` is the distance of neighbours in a row, ``spacing_y`` that
-    of rows, None where there is but one. ``warnings`` say what is unreliable.
+    Attributes
+    ----------
+    heights : ndarray, shape (rows, columns)
+        Heights [m], NaN at points without data.
+    spacing_x : float
+        Distance between neighbouring points of a row [m].
+    spacing_y : float or None
+        Distance between neighbouring rows [m]; None for a profile.
+    source : str
+        Path of the file.
+    warnings : tuple of ResultWarning
+        Warnings about the data in the file.
     """
 
-    heights: Array  # (rows, columns)
+    heights: Array
     spacing_x: float
     spacing_y: float | None
     source: str
@@ -53,41 +64,44 @@ class Surface:
 
     @property
     def voids(self) -> float:
-        """Part of the points without data."""
+        """Fraction of the points without data."""
         return float(np.mean(np.isnan(self.heights)))
 
     def line_voids(self, index: int = 0, *, along: str = "row") -> float:
-        """Part of the points of one line without data."""
+        """Fraction of the points without data in one line: row or column number ``index``, from 0."""
         lines = self.heights if along == "row" else self.heights.T
         return float(np.mean(np.isnan(lines[index])))
 
     @property
     def height_step(self) -> float | None:
-        """Step in which the heights are stored [m], None where they are not coarse enough to show one."""
+        """Step in which the heights are stored [m].
+
+        It is None if no step is visible, as the number of distinct heights exceeds half the number of points.
+        """
         levels = np.unique(self.heights[np.isfinite(self.heights)])
         if levels.size < 2 or levels.size > 0.5 * self.heights.size:
             return None
         return float(np.median(np.diff(levels)))
 
     def line(self, index: int = 0, *, along: str = "row") -> Profile:
-        """One line of the surface as a profile, its voids filled by straight lines.
+        """One line of the surface as a profile, with voids filled by linear interpolation.
 
         Parameters
         ----------
         index : int
             Number of the row or column, from 0.
         along : str
-            "row" or "column".
+            Kind of line, "row" or "column".
 
         Returns
         -------
         Profile
-            Ready to be processed.
+            Profile of the line. Voids at its ends are cut off.
 
         Raises
         ------
         InputError
-            Where there is no such line, or too much of it is void.
+            If the surface has no such line, or too much of the line is void.
         """
         lines, spacing = self.heights, self.spacing_x
         if along == "column":
@@ -105,29 +119,30 @@ class Surface:
                 takes=f"a line with at least {LEAST_POINTS} and {100 * (1 - MOST_VOID):.0f} %",
             )
         x = np.arange(z.size)
-        # Voids at the ends hold nothing to go on: they are left out.
+        # Voids at the ends cannot be interpolated; they are left out.
         first, last = x[there][[0, -1]]
         whole = np.interp(x, x[there], z[there])[first : last + 1]
         return _checked(Profile(spacing, whole), self.source)
 
     def map(self, *, along: str = "row") -> Map:
-        """The whole surface as a map, its voids filled by a harmonic function.
+        """Whole surface as a map, with voids filled by a harmonic function.
 
         Parameters
         ----------
         along : str
-            What lies along x: "row", and then y runs with the number of the row; or "column", and then y runs
-            against that of the column: the surface is turned, not mirrored.
+            Lines of the file that lie along x. For "row", y increases with the number of the row. For
+            "column", y decreases with the number of the column, so that the surface is rotated and not
+            mirrored.
 
         Returns
         -------
         Map
-            Less the borders that are void throughout, ready to be processed.
+            Map without the outer rows and columns that have no data at all.
 
         Raises
         ------
         InputError
-            Where it is a single line, has too many points, or too much of it is void.
+            If the surface is a profile, has too many points, or too much of it is void.
         """
         if self.spacing_y is None:
             raise InputError(self.source, "is a profile", takes="a map of several rows")
@@ -154,7 +169,7 @@ class Surface:
 
 
 def _checked(profile: Profile, source: str) -> Profile:
-    """The profile, unless its heights cannot be those of a surface."""
+    """Return the profile; raise an error if its heights are not credible for a surface."""
     slope = float(np.max(np.abs(np.diff(profile.heights)))) / profile.spacing
     if slope > STEEPEST:
         raise InputError(
@@ -173,7 +188,7 @@ def _checked(profile: Profile, source: str) -> Profile:
 
 
 def _checked_map(surface: Map, source: str) -> Map:
-    """The map, unless its heights cannot be those of a surface."""
+    """Return the map; raise an error if its heights are not credible for a surface."""
     z = surface.heights
     slopes = [np.abs(np.diff(z, axis=0)) / surface.spacing_x, np.abs(np.diff(z, axis=1)) / surface.spacing_y]
     steep = max(float(np.mean(slope > STEEPEST)) for slope in slopes)
@@ -194,24 +209,26 @@ def _checked_map(surface: Map, source: str) -> Map:
 
 
 def read_surface(path: str | Path, *, x_unit: str | None = None, z_unit: str | None = None) -> Surface:
-    """Read a measured surface.
+    """Read a measured surface from a file.
 
     Parameters
     ----------
     path : str or Path
-        A text profile (.csv, .txt, .asc, .dat, .hfm), .x3p or .al3d; other formats go to SurfaceTopography.
+        Text profile (.csv, .txt, .asc, .dat, .hfm), .x3p or .al3d file. SurfaceTopography reads other
+        formats.
     x_unit, z_unit : str, optional
-        Units of a text file that does not state them; they may not contradict it.
+        Units of positions and heights in a text file that does not state them. They must not contradict the
+        file.
 
     Returns
     -------
     Surface
-        Heights in m.
+        Heights [m], spacings [m] and warnings.
 
     Raises
     ------
     InputError
-        Where the file cannot be read, or what it holds cannot be a surface.
+        If the file cannot be read, or its data are not credible for a surface.
     """
     path = Path(path)
     content = _content(path)
@@ -241,9 +258,9 @@ def _content(path: Path) -> bytes:
 
 
 def _of_map(path: Path, heights: HeightMap, x_unit: str | None, z_unit: str | None) -> Surface:
-    for name, given in (("x_unit", x_unit), ("z_unit", z_unit)):
-        if given is not None:
-            raise InputError(name, got=f"{given!r}, but {path} is in a format that has its own unit")
+    for name, unit in (("x_unit", x_unit), ("z_unit", z_unit)):
+        if unit is not None:
+            raise InputError(name, got=f"{unit!r}, but {path} is in a format that has its own unit")
     return Surface(*heights, str(path))
 
 
@@ -265,7 +282,7 @@ def _check_scale(surface: Surface) -> None:
 
 
 def _read_other(path: Path) -> HeightMap:
-    """Whatever SurfaceTopography knows."""
+    """Heights and spacings of a file in a format that the package SurfaceTopography reads."""
     try:
         from SurfaceTopography import open_topography  # type: ignore[import-not-found]
     except ImportError:
@@ -276,7 +293,7 @@ def _read_other(path: Path) -> HeightMap:
         topography = open_topography(str(path)).topography().to_unit("m")
         heights: Array = np.ma.filled(np.ma.asarray(topography.heights(), dtype=float), np.nan)
         spacing = np.atleast_1d(topography.pixel_size)
-    except Exception as error:  # readers of forty formats raise whatever they like
+    except Exception as error:  # the readers of forty formats raise exceptions of any kind
         raise InputError(path, f"cannot be read by SurfaceTopography, {str(error)[:80]}") from None
     if heights.ndim == 1:
         return heights[np.newaxis], float(spacing[0]), None

@@ -1,6 +1,6 @@
-"""Binary height maps of instruments: ISO 25178-72 X3P and Alicona AL3D.
+"""Reader of binary height maps from instruments: ISO 25178-72 X3P and Alicona AL3D.
 
-Nothing in a file is trusted: sizes are checked before anything of that size is read.
+The content of a file is not trusted: every size is checked before a block of this size is read.
 """
 
 from __future__ import annotations
@@ -19,14 +19,15 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.errors import InputError, shown
 
-# Points of a map, and bytes of the description of one, beyond which a file is not read.
+# Largest number of points of a map, and largest size of its XML description [bytes].
 MOST_POINTS = 100_000_000
 _MOST_XML = 10_000_000
 
-# Heights (rows, columns) [m], NaN where void; spacing of neighbours in a row, and of rows if there are some.
+# Heights (rows, columns) [m] with NaN at points without data, distance between neighbours in a row [m], and
+# distance between rows [m], None for a single row.
 HeightMap: TypeAlias = tuple[Array, float, float | None]
 
-# What Python's readers of archives and XML raise at bytes that are no such thing.
+# Exceptions of Python's ZIP and XML readers for invalid content.
 _BROKEN = (
     zipfile.BadZipFile,
     zlib.error,
@@ -34,7 +35,7 @@ _BROKEN = (
     struct.error,
     ElementTree.ParseError,
     RuntimeError,  # encrypted
-    NotImplementedError,  # packed in a way Python does not know
+    NotImplementedError,  # compression that Python does not know
     LookupError,
     ValueError,
     OSError,
@@ -45,28 +46,30 @@ _KINDS = {"D": "<f8", "F": "<f4", "L": "<i4", "I": "<i2"}
 
 
 def read_x3p(path: Path, content: bytes) -> HeightMap:
-    """ISO 25178-72: a zip of main.xml, a binary block of heights, and perhaps one of valid points.
+    """Read the height map in an X3P file (ISO 25178-72).
 
-    Heights are Offset + Increment times what is stored, as the schema of openGPS has it. It asks for the
-    increment of integers only; floats have 1 where it is absent, and it is applied where it is there, as
-    SurfaceTopography does. Valid points are one bit each, the lowest of a byte first, in the heights' order.
+    The file is a ZIP archive with main.xml, a binary block of heights and, optionally, a block that marks the
+    valid points. A height is Offset + Increment times the stored number, after the schema of openGPS. The
+    schema requires the increment for integers only. For floats the increment is 1 by default, and is applied
+    if the file has one, as SurfaceTopography does. Each valid point is one bit, in the order of the heights
+    and with the lowest bit of a byte first.
 
     Parameters
     ----------
     path : Path
-        For messages.
+        Path of the file, for error messages.
     content : bytes
-        Of the file.
+        Content of the file.
 
     Returns
     -------
     HeightMap
-        As read.
+        Heights and spacings [m].
 
     Raises
     ------
     InputError
-        Where the file is broken, or holds something else than heights over a regular grid.
+        If the file is broken, or has other data than heights over a regular grid.
     """
     try:
         archive = zipfile.ZipFile(io.BytesIO(content))
@@ -87,7 +90,7 @@ def read_x3p(path: Path, content: bytes) -> HeightMap:
     increment = _number(path, root, "CZ/Increment", None if kind.kind == "i" else 1.0)
     if increment <= 0.0:
         raise InputError(path, f"the increment of its heights is {increment:g}", takes="a positive one")
-    # Numbers that are none become voids.
+    # NaN and infinite numbers become voids.
     with np.errstate(all="ignore"):
         heights = np.frombuffer(data, kind).astype(float) * increment + _number(path, root, "CZ/Offset", 0.0)
     heights[~np.isfinite(heights)] = np.nan
@@ -96,7 +99,7 @@ def read_x3p(path: Path, content: bytes) -> HeightMap:
         bits = np.unpackbits(np.frombuffer(mask, np.uint8), count=points, bitorder="little")
         heights[bits == 0] = np.nan
     dx = _number(path, root, "CX/Increment", None)
-    # A single row has no neighbour, whatever is said of its distance.
+    # A single row has no neighbour, even if the file states a distance between rows.
     dy = None if rows == 1 else _number(path, root, "CY/Increment", None)
     return heights.reshape(rows, columns), dx, dy
 
@@ -112,18 +115,18 @@ def _text(root: ElementTree.Element, place: str) -> str:
 
 
 def _check_axes(path: Path, root: ElementTree.Element) -> None:
-    """Positions are counted, heights are stored: nothing else is a map of heights."""
+    """Raise an error unless the file has stored heights over equally spaced positions."""
     kind = _text(root, "FeatureType")
     if kind not in ("", "SUR", "PRF"):
         raise InputError(path, f"is of the type {shown(kind)}", takes="a surface, SUR, or a profile, PRF")
     for axis, wanted in (("CX", "I"), ("CY", "I"), ("CZ", "A")):
-        found = _text(root, f"{axis}/AxisType")
-        if found != wanted and not (axis == "CY" and not found):
+        actual = _text(root, f"{axis}/AxisType")
+        if actual != wanted and not (axis == "CY" and not actual):
             what = "equally spaced positions" if wanted == "I" else "heights as stored"
-            raise InputError(path, f"its axis {axis} is of type {shown(found)}", takes=f"{wanted!r}, {what}")
+            raise InputError(path, f"its axis {axis} is of type {shown(actual)}", takes=f"{wanted!r}, {what}")
     if _text(root, "CZ/DataType") not in _KINDS:
-        given = shown(_text(root, "CZ/DataType"))
-        raise InputError(path, f"its heights are of type {given}", takes=f"one of {', '.join(_KINDS)}")
+        data_type = shown(_text(root, "CZ/DataType"))
+        raise InputError(path, f"its heights are of type {data_type}", takes=f"one of {', '.join(_KINDS)}")
 
 
 def _whole(path: Path, root: ElementTree.Element, place: str) -> int:
@@ -141,7 +144,7 @@ def _whole(path: Path, root: ElementTree.Element, place: str) -> int:
 
 
 def _number(path: Path, root: ElementTree.Element, place: str, default: float | None) -> float:
-    """A finite number, or the default where the file says nothing."""
+    """Finite number at a place of the description, or ``default`` where the description has none."""
     text = _text(root, place)
     if not text and default is not None:
         return default
@@ -157,7 +160,7 @@ def _number(path: Path, root: ElementTree.Element, place: str, default: float | 
 def _block(
     path: Path, archive: zipfile.ZipFile, root: ElementTree.Element, link: str, size: int
 ) -> bytes | None:
-    """A binary block of the archive; None where the mask of valid points is not named."""
+    """Binary block of the archive of ``size`` bytes; None if the file has no mask of valid points."""
     name = _text(root, link)
     if not name and link == "ValidPointsLink":
         return None
@@ -172,24 +175,27 @@ def _block(
 
 
 def read_al3d(path: Path, content: bytes) -> HeightMap:
-    """Alicona's format: tags of 52 bytes, 20 for the name, 30 for the value, then a block of float32.
+    """Read the height map in an AL3D file of Alicona.
+
+    The header consists of tags of 52 bytes, with 20 bytes for the name and 30 for the value. A block of
+    float32 heights follows.
 
     Parameters
     ----------
     path : Path
-        For messages.
+        Path of the file, for error messages.
     content : bytes
-        Of the file.
+        Content of the file.
 
     Returns
     -------
     HeightMap
-        As read.
+        Heights and spacings [m].
 
     Raises
     ------
     InputError
-        Where the header lacks something, or the heights are cut off.
+        If the header is incomplete, or the file is shorter than its header states.
     """
     if not content.startswith(b"AliconaImaging"):
         raise InputError(path, "is no AL3D file")
@@ -211,7 +217,7 @@ def read_al3d(path: Path, content: bytes) -> HeightMap:
             path, f"is {len(content)} bytes long", takes=f"{offset + stride * rows} for its header"
         )
     block = np.frombuffer(content, "<f4", stride // 4 * rows, offset).reshape(rows, stride // 4)
-    # Numbers that are none become voids.
+    # NaN and infinite numbers become voids.
     with np.errstate(all="ignore"):
         heights = block[:, :columns].astype(float)
         heights[np.isclose(heights, void, rtol=1e-6, atol=0.0) | ~np.isfinite(heights)] = np.nan

@@ -1,4 +1,4 @@
-"""Keys of rough surfaces in summary.json: the statistics of profiles and maps, and what was done to them."""
+"""Keys of rough surfaces in summary.json: source, processing steps, and statistics of profiles and maps."""
 
 from __future__ import annotations
 
@@ -48,6 +48,7 @@ _MAP_STEP: Keys = {
     **MAP_STATISTICS,
 }
 
-# One surface of a line contact, and of a point contact, where a measured profile may be extended to a map.
+# Keys of one surface, of a line contact and of a point contact. A point contact may have a profile too, which
+# is constant across its direction.
 LINE_SURFACE: Keys = {**_SURFACE, **under("steps", _PROFILE_STEP)}
 POINT_SURFACE: Keys = {**_SURFACE, **under("steps", _PROFILE_STEP), **under("steps", _MAP_STEP)}

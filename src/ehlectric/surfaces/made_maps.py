@@ -1,8 +1,9 @@
-"""Made surfaces of point contacts: exact shapes as functions of (x, y), and seeded random maps.
+"""Generated maps for point contacts: exact shapes over (x, y), and random maps from a seed.
 
-Heights are positive out of the body, x along entrainment. A random map is white noise on a lattice counted
-from (0, 0), folded with a kernel of fixed size. The noise comes in square tiles, each from a stream of its
-own that its place and the seed choose: a larger map only has more of them.
+Heights are positive out of the body, and x runs along entrainment. A random map is the convolution of white
+noise with a kernel of fixed size, on a lattice that is counted from (0, 0). The noise consists of square
+tiles. The random stream of a tile depends on its position and on the seed, so that a larger map only adds
+tiles.
 """
 
 from __future__ import annotations
@@ -20,21 +21,25 @@ from ehlectric.surfaces.domain import turned
 from ehlectric.surfaces.maps import Map
 from ehlectric.surfaces.profiles import convolved
 
-# Points of a made map in a correlation length, and in the shortest wave of a self-affine one. A cubic spline
-# between the former is right to some 1e-5 of Rq.
+# Points per correlation length of a Gaussian map, and per shortest wavelength of a self-affine map. With 8
+# points the error of a cubic spline between the points is about 1e-5 of Rq.
 POINTS_IN_CORRELATION, POINTS_IN_SHORTEST = 8, 4
 
-# Points of noise beyond which a map is refused: some 1.5 GB are then in use.
+# Largest number of points of the noise of a map; they take about 1.5 GB of memory.
 MOST_POINTS = 20_000_000
 
-# Correlation lengths after which the kernel of a Gaussian map is cut: it is 1e-14 there.
+# Length of the kernel of a Gaussian map on each side, in correlation lengths; its value there is 1e-14.
 _GAUSSIAN_REACH = 4
 
-# Roll-off wavelengths after which the kernel of a self-affine map is cut: some hundredth of Rq is beyond.
+# Length of the kernel of a self-affine map on each side, in roll-off wavelengths. The part that is cut off is
+# about a hundredth of Rq.
 _REACH = 4.0
 
-# The shortest wavelength of a self-affine map, in parts of the roll-off, where it is not given.
+# Roll-off wavelength over the shortest wavelength of a self-affine map, where the case does not give the
+# latter.
 SHORTEST_PART = 20.0
+
+# Points along each side of a tile of noise.
 _TILE = 128
 
 
@@ -47,23 +52,25 @@ def sinusoid(
     phase: float = 0.0,
     orientation: float = 0.0,
 ) -> Array:
-    """Plane sinusoidal wave, amplitude sin(2 pi s/wavelength + phase), s along its orientation.
+    """Sinusoidal waviness of a surface, z = amplitude sin(2 pi s/wavelength + phase).
+
+    s is the position along the direction ``orientation``.
 
     Parameters
     ----------
-    x, y : array_like, shapes that fit each other
+    x, y : array_like, shapes that broadcast to (...)
         Position [m], zero at the centre of the contact.
     amplitude, wavelength : float
         Amplitude and wavelength [m].
     phase : float
         Phase at (0, 0) [rad].
     orientation : float
-        Direction in which the wavelength is measured, from the x axis, counter-clockwise [degrees]; the
-        ridges lie across it.
+        Direction in which the wavelength is measured, from the x axis, counter-clockwise [degrees]. The
+        ridges are perpendicular to it.
 
     Returns
     -------
-    ndarray
+    ndarray, shape (...)
         Height [m].
 
     Examples
@@ -78,20 +85,20 @@ def sinusoid(
 def asperity(
     x: ArrayLike, y: ArrayLike, *, height: float, width: float, position: float = 0.0, position_y: float = 0.0
 ) -> Array:
-    """A single round Gaussian asperity, height exp(-4 ln 2 (r/width)^2), r from its middle.
+    """Single round Gaussian asperity, z = height exp(-4 ln 2 (r/width)^2), at the distance r from its middle.
 
     Parameters
     ----------
-    x, y : array_like, shapes that fit each other
+    x, y : array_like, shapes that broadcast to (...)
         Position [m].
     height, width : float
-        Height, and diameter at half of it [m].
+        Height of the asperity, and its diameter at half height [m].
     position, position_y : float
-        Where its top is [m].
+        Position of its top along x and y [m].
 
     Returns
     -------
-    ndarray
+    ndarray, shape (...)
         Height [m].
 
     Examples
@@ -113,21 +120,23 @@ def pit(
     position: float = 0.0,
     position_y: float = 0.0,
 ) -> Array:
-    """A single round pit with a rim around it, as a discharge leaves it: the pit of a profile, turned round.
+    """Single round pit with a rim around it, as an electric discharge leaves it.
+
+    The pit is a Gaussian bowl, ``depth`` deep and ``width`` wide at half depth. The rim is a Gaussian ring of
+    height ``rim`` and of half the width of the pit. Its top is one ``width`` from the middle.
 
     Parameters
     ----------
-    x, y : array_like, shapes that fit each other
+    x, y : array_like, shapes that broadcast to (...)
         Position [m].
     depth, width, rim : float
-        Depth, diameter at half depth and height of the rim [m]; the top of the rim is one width from the
-        middle.
+        Depth, diameter at half depth and height of the rim [m].
     position, position_y : float
-        Where its middle is [m].
+        Position of the middle of the pit along x and y [m].
 
     Returns
     -------
-    ndarray
+    ndarray, shape (...)
         Height [m].
 
     Examples
@@ -139,7 +148,7 @@ def pit(
     return generators.pit(distance, depth=depth, width=width, rim=rim)
 
 
-# Shapes by the name of their generator in a case; their keywords are its keys.
+# Shapes by the name of the generator in a case; the keyword arguments are the keys of the generator.
 SHAPES: dict[str, Callable[..., Array]] = {"sinusoid": sinusoid, "pit": pit, "asperity": asperity}
 
 
@@ -152,30 +161,32 @@ def gaussian(
     seed: int,
     correlation_length_y: float | None = None,
 ) -> Map:
-    """A random map of Gaussian heights, its autocorrelation exp(-(x/correlation_length)^2 - (y/its own)^2).
+    """Random map of Gaussian heights with a Gaussian autocorrelation.
+
+    The autocorrelation at the distances x and y is
+    exp(-(x/correlation_length)^2 - (y/correlation_length_y)^2).
 
     Parameters
     ----------
     rq : float
-        Root mean square height of all such maps together [m]; a small one has another of its own.
+        Root mean square height of the random process [m]. The Sq of a single small map deviates from it.
     correlation_length, correlation_length_y : float
-        Distances along x and along y at which the autocorrelation is 1/e [m]; one for both where the second
-        is not given.
+        Distances along x and along y at which the autocorrelation is 1/e [m]. By default they are equal.
     reach_x, reach_y : float
-        Distances from the middle to which the map reaches [m], at the least.
+        Smallest distances along x and y from the middle to the sides of the map [m].
     seed : int
-        The same seed, rq and correlation lengths give the same height at the same position, whatever the
-        size.
+        Seed of the random numbers. For the same seed, ``rq`` and correlation lengths, the height at a
+        position does not depend on the size of the map.
 
     Returns
     -------
     Map
-        With eight points a correlation length, one of them at (0, 0).
+        Map with eight points per correlation length, one of them at (0, 0).
 
     Raises
     ------
     InputError
-        Where that would be too many points.
+        If the map needs noise at more than ``MOST_POINTS`` points.
 
     Examples
     --------
@@ -186,7 +197,7 @@ def gaussian(
     """
     lengths = correlation_length, correlation_length_y or correlation_length
     spacing = lengths[0] / POINTS_IN_CORRELATION, lengths[1] / POINTS_IN_CORRELATION
-    # Two of these Gaussians folded give the autocorrelation.
+    # This Gaussian convolved with itself is the autocorrelation.
     far = _GAUSSIAN_REACH * POINTS_IN_CORRELATION
     side = np.exp(-2.0 * (np.arange(-far, far + 1) / POINTS_IN_CORRELATION) ** 2)
     return _folded(np.outer(side, side), spacing, (reach_x, reach_y), rq, seed, "correlation_length")
@@ -202,32 +213,35 @@ def self_affine(
     seed: int,
     shortest: float,
 ) -> Map:
-    """A random isotropic self-affine map: power spectrum constant below the roll-off, then q^(-2 - 2 hurst).
+    """Random isotropic self-affine map with a power spectrum of q^(-2 - 2 hurst) beyond the roll-off.
+
+    q is the wavenumber. Below the roll-off wavenumber the spectrum is constant.
 
     Parameters
     ----------
     rq : float
-        Root mean square height of all such maps together [m]; a small one has another of its own.
+        Root mean square height of the random process [m]. The Sq of a single small map deviates from it.
     hurst : float
         Hurst exponent, from 0 (rough) to 1 (smooth).
     rolloff_wavelength : float
-        Wavelength above which the spectrum is flat [m].
+        Roll-off wavelength, above which the spectrum is constant [m].
     reach_x, reach_y : float
-        Distances from the middle to which the map reaches [m], at the least.
+        Smallest distances along x and y from the middle to the sides of the map [m].
     seed : int
-        With the same seed and wavelengths the height at a position is the same, whatever the size.
+        Seed of the random numbers. For the same seed and wavelengths, the height at a position does not
+        depend on the size of the map.
     shortest : float
-        Shortest wavelength [m]; shorter ones are weaker by some orders of magnitude.
+        Shortest wavelength [m]. Shorter waves are weaker by orders of magnitude.
 
     Returns
     -------
     Map
-        With four points in the shortest wavelength, one of them at (0, 0).
+        Map with four points per shortest wavelength, one of them at (0, 0).
 
     Raises
     ------
     InputError
-        Where that would be too many points.
+        If the map needs noise at more than ``MOST_POINTS`` points.
 
     Examples
     --------
@@ -240,12 +254,13 @@ def self_affine(
     spacing = shortest / POINTS_IN_SHORTEST
     far = int(np.ceil(_REACH * rolloff_wavelength / spacing))
     _check_points((2 * far, 2 * far), (spacing, spacing), "shortest_wavelength")
-    # The kernel is the inverse transform of the spectrum's root, over twice what is kept of it.
+    # The kernel is the inverse transform of the square root of the spectrum. It is computed over twice the
+    # size that is kept, as the transform is periodic.
     n = fft.next_fast_len(4 * far, real=True)
     q = np.hypot(fft.fftfreq(n, spacing)[:, np.newaxis], fft.rfftfreq(n, spacing))
     root = np.maximum(q, 1.0 / rolloff_wavelength) ** (-1.0 - hurst) * (q <= 1.0 / shortest)
     quarter = fft.irfft2(root, (n, n))[: far + 1, : far + 1]
-    # Faded over its outer half, so that it has no step at its end, which is a circle.
+    # The outer half of the kernel is faded out, so that it has no step at its edge, which is a circle.
     distance = np.hypot(*np.ogrid[: far + 1, : far + 1]) / far
     quarter *= 0.5 - 0.5 * np.cos(np.pi * np.clip(2.0 - 2.0 * distance, 0.0, 1.0))
     kernel = np.pad(quarter, ((far, 0), (far, 0)), mode="reflect")
@@ -260,9 +275,10 @@ def _folded(
     seed: int,
     key: str,
 ) -> Map:
-    """White noise folded with a kernel that is symmetric about its middle, on points counted from (0, 0).
+    """Convolution of white noise with a kernel that is symmetric about its middle, on points from (0, 0) on.
 
-    The variance is that of theory, the sum of the kernel's squares.
+    The heights are scaled with their theoretical variance, the sum of the squares of the kernel. ``key`` is
+    the key of the case that an error names.
     """
     half = [int(np.ceil(length / d)) for length, d in zip(reach, spacing, strict=True)]
     outer = [k + n // 2 for k, n in zip(half, kernel.shape, strict=True)]
@@ -282,7 +298,7 @@ def _noise(far_x: int, far_y: int, seed: int) -> Array:
 
 
 def _tile(i: int, j: int, seed: int) -> Array:
-    """The tile of noise in column i and row j, either of which may be negative."""
+    """Tile of white noise at the position (i, j) along x and y, in tiles; both may be negative."""
     place = tuple(2 * k if k >= 0 else -2 * k - 1 for k in (i, j))
     stream = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=place))
     return stream.standard_normal((_TILE, _TILE))

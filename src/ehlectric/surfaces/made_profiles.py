@@ -1,4 +1,4 @@
-"""Made surfaces: exact shapes as functions of position, and seeded random profiles.
+"""Generated profiles for line contacts: exact shapes, and random profiles from a seed.
 
 Heights are positive out of the body.
 """
@@ -17,19 +17,19 @@ from ehlectric.surfaces.profiles import Profile, convolved
 
 _FOUR_LN_2 = 4.0 * np.log(2.0)
 
-# Points of a made profile in a correlation length, and in the shortest wave of a self-affine one.
+# Points per correlation length of a Gaussian profile, and per shortest wavelength of a self-affine profile.
 POINTS_IN_CORRELATION, POINTS_IN_SHORTEST = 16, 4
 
-# Points of a made profile beyond which it is refused: some 1 GB is then in use.
+# Largest number of points of a generated profile; it takes about 1 GB of memory.
 MOST_POINTS = 10_000_000
 
-# Roll-off wavelengths after which the kernel of a self-affine profile is cut: less than a thousandth of Rq is
-# beyond.
+# Length of the kernel of a self-affine profile on each side, in roll-off wavelengths. The part that is cut
+# off is less than a thousandth of Rq.
 _REACH = 8.0
 
 
 def sinusoid(x: ArrayLike, *, amplitude: float, wavelength: float, phase: float = 0.0) -> Array:
-    """Sinusoidal waviness, amplitude sin(2 pi x/wavelength + phase).
+    """Sinusoidal waviness of a surface, z = amplitude sin(2 pi x/wavelength + phase).
 
     Parameters
     ----------
@@ -55,16 +55,16 @@ def sinusoid(x: ArrayLike, *, amplitude: float, wavelength: float, phase: float 
 
 
 def asperity(x: ArrayLike, *, height: float, width: float, position: float = 0.0) -> Array:
-    """A single Gaussian asperity, height exp(-4 ln 2 ((x - position)/width)^2).
+    """Single Gaussian asperity, z = height exp(-4 ln 2 ((x - position)/width)^2).
 
     Parameters
     ----------
     x : array_like, shape (...)
         Position [m].
     height, width : float
-        Height, and width at half of it [m].
+        Height of the asperity, and its width at half height [m].
     position : float
-        Where its top is [m].
+        Position of its top [m].
 
     Returns
     -------
@@ -82,10 +82,11 @@ def asperity(x: ArrayLike, *, height: float, width: float, position: float = 0.0
 
 
 def pit(x: ArrayLike, *, depth: float, width: float, rim: float = 0.0, position: float = 0.0) -> Array:
-    """A single pit with a rim, as a discharge leaves it.
+    """Single pit with a rim, as an electric discharge leaves it.
 
-    A Gaussian bowl of ``depth`` below the surface and ``width`` at half of it, and on each side a Gaussian
-    rim of height ``rim`` and half that width, one width from the middle.
+    The pit is a Gaussian bowl, ``depth`` deep and ``width`` wide at half depth. The rim is a Gaussian
+    asperity on each side, of height ``rim`` and of half the width of the pit. Its top is one ``width`` from
+    the middle.
 
     Parameters
     ----------
@@ -94,7 +95,7 @@ def pit(x: ArrayLike, *, depth: float, width: float, rim: float = 0.0, position:
     depth, width, rim : float
         Depth, width at half depth and height of the rim [m].
     position : float
-        Where its middle is [m].
+        Position of the middle of the pit [m].
 
     Returns
     -------
@@ -111,34 +112,34 @@ def pit(x: ArrayLike, *, depth: float, width: float, rim: float = 0.0, position:
     return left + right - asperity(x, height=depth, width=width, position=position)
 
 
-# Shapes by the name of their generator in a case; their keywords are its keys.
+# Shapes by the name of the generator in a case; the keyword arguments are the keys of the generator.
 SHAPES: dict[str, Callable[..., Array]] = {"sinusoid": sinusoid, "pit": pit, "asperity": asperity}
 
 
 def gaussian(*, rq: float, correlation_length: float, length: float, seed: int) -> Profile:
-    """A random profile of Gaussian heights with the autocorrelation exp(-(distance/correlation_length)^2).
+    """Random profile of Gaussian heights with the autocorrelation exp(-(distance/correlation_length)^2).
 
     Parameters
     ----------
     rq : float
-        Root mean square height of all such profiles together [m]; a short one has another of its own.
+        Root mean square height of the random process [m]. The Rq of a single short profile deviates from it.
     correlation_length : float
         Distance at which the autocorrelation is 1/e [m].
     length : float
-        Length of the profile [m], at the least.
+        Smallest length of the profile [m].
     seed : int
-        The same seed, rq and correlation length give the same height at the same position, whatever the
-        length.
+        Seed of the random numbers. For the same seed, ``rq`` and ``correlation_length``, the height at a
+        position does not depend on ``length``.
 
     Returns
     -------
     Profile
-        With sixteen points a correlation length, one of them at x = 0.
+        Profile with sixteen points per correlation length, one of them at x = 0.
 
     Raises
     ------
     InputError
-        Where that would be too many points.
+        If the profile has more than ``MOST_POINTS`` points.
 
     Examples
     --------
@@ -148,7 +149,7 @@ def gaussian(*, rq: float, correlation_length: float, length: float, seed: int) 
     10.0
     """
     spacing = correlation_length / POINTS_IN_CORRELATION
-    # Two of these Gaussians folded give the autocorrelation; at four lengths they are 1e-14.
+    # This Gaussian convolved with itself is the autocorrelation; at four correlation lengths it is 1e-14.
     kernel = np.exp(-2.0 * (np.arange(-64, 65) / POINTS_IN_CORRELATION) ** 2)
     return _folded(kernel, spacing, length, rq, seed, "correlation_length")
 
@@ -156,32 +157,35 @@ def gaussian(*, rq: float, correlation_length: float, length: float, seed: int) 
 def self_affine(
     *, rq: float, hurst: float, rolloff_wavelength: float, length: float, seed: int, shortest: float
 ) -> Profile:
-    """A random self-affine profile: power spectrum constant below the roll-off, then q^(-1 - 2 hurst).
+    """Random self-affine profile with a power spectrum of q^(-1 - 2 hurst) beyond the roll-off.
+
+    q is the wavenumber. Below the roll-off wavenumber the spectrum is constant.
 
     Parameters
     ----------
     rq : float
-        Root mean square height of all such profiles together [m]; a short one has another of its own.
+        Root mean square height of the random process [m]. The Rq of a single short profile deviates from it.
     hurst : float
         Hurst exponent, from 0 (rough) to 1 (smooth).
     rolloff_wavelength : float
-        Wavelength above which the spectrum is flat [m].
+        Roll-off wavelength, above which the spectrum is constant [m].
     length : float
-        Length of the profile [m], at the least.
+        Smallest length of the profile [m].
     seed : int
-        With the same seed and wavelengths the height at a position is the same, whatever the length.
+        Seed of the random numbers. For the same seed and wavelengths, the height at a position does not
+        depend on ``length``.
     shortest : float
-        Shortest wavelength [m]; shorter ones are weaker by some orders of magnitude.
+        Shortest wavelength [m]. Shorter waves are weaker by orders of magnitude.
 
     Returns
     -------
     Profile
-        With four points in the shortest wavelength, one of them at x = 0.
+        Profile with four points per shortest wavelength, one of them at x = 0.
 
     Raises
     ------
     InputError
-        Where that would be too many points.
+        If the profile has more than ``MOST_POINTS`` points.
 
     Examples
     --------
@@ -193,21 +197,23 @@ def self_affine(
     spacing = shortest / POINTS_IN_SHORTEST
     reach = int(np.ceil(_REACH * rolloff_wavelength / spacing))
     _check_points(2 * reach, spacing, 2.0 * reach * spacing, "shortest_wavelength")
-    # The kernel is the inverse cosine transform of the spectrum's root, over four times what is kept of it.
+    # The kernel is the inverse cosine transform of the square root of the spectrum. It is computed over four
+    # times the length that is kept, as the transform is periodic.
     n = fft.next_fast_len(8 * reach, real=True)
     q = fft.rfftfreq(n, spacing)
     root = np.maximum(q, 1.0 / rolloff_wavelength) ** (-0.5 - hurst) * (q <= 1.0 / shortest)
-    # Faded over its outer half, so that it has no step at its ends.
+    # The outer half of the kernel is faded out, so that it has no step at its ends.
     fade = np.clip(2.0 - 2.0 * np.arange(reach + 1) / reach, 0.0, 1.0)
     half = fft.irfft(root, n)[: reach + 1] * (0.5 - 0.5 * np.cos(np.pi * fade))
     return _folded(np.concatenate([half[:0:-1], half]), spacing, length, rq, seed, "shortest_wavelength")
 
 
 def _folded(kernel: Array, spacing: float, length: float, rq: float, seed: int, key: str) -> Profile:
-    """White noise folded with a symmetric kernel, on points counted from x = 0.
+    """Convolution of white noise with a symmetric kernel, on points that are counted from x = 0.
 
-    The noise to the right and to the left are two streams, so that a longer profile only adds to its ends.
-    The variance is that of theory, the sum of the kernel's squares.
+    The noise on the right and on the left comes from two streams, so that a longer profile only adds points
+    at its ends. The heights are scaled with their theoretical variance, the sum of the squares of the kernel.
+    ``key`` is the key of the case that an error names.
     """
     reach = kernel.size // 2
     half = int(np.ceil(0.5 * length / spacing))

@@ -1,8 +1,8 @@
-"""Roughness maps: form removal, areal Gaussian filter, cutting, filling of voids, and statistics.
+"""Roughness maps of point contacts: form removal, areal Gaussian filter, trimming and statistics.
 
-The counterpart of ``ehlectric.surfaces.profiles`` for heights over (x, y), x along entrainment. Heights
-are positive out of the body. Points are equally spaced along x and along y, and the middle of a map lies
-at (0, 0).
+A map has heights over (x, y), with x along entrainment. Heights are positive out of the body. The points are
+equally spaced along x and along y, and the middle of a map lies at (0, 0). Profiles are treated in
+``ehlectric.surfaces.profiles``.
 """
 
 from __future__ import annotations
@@ -25,40 +25,48 @@ from ehlectric.surfaces.profiles import (
     in_order,
 )
 
-# Directions in which the autocorrelation is followed to where it falls fastest: one in two degrees.
+# Directions in which the decay of the autocorrelation is examined: one every two degrees.
 _DIRECTIONS = 90
 
 
 @dataclass(frozen=True)
 class Map:
-    """Heights [m] over equally spaced points, positive out of the body."""
+    """Roughness map: heights over equally spaced points.
+
+    Attributes
+    ----------
+    spacing_x, spacing_y : float
+        Distances between neighbouring points along and across entrainment [m].
+    heights : ndarray, shape (nx, ny)
+        Heights [m], positive out of the body.
+    """
 
     spacing_x: float
     spacing_y: float
-    heights: Array  # (nx, ny)
+    heights: Array
 
     @property
     def x(self) -> Array:
-        """Positions along entrainment, the middle at zero [m], shape (nx,)."""
+        """Positions along entrainment [m], zero in the middle, shape (nx,)."""
         return np.linspace(-0.5, 0.5, self.heights.shape[0]) * self.length_x
 
     @property
     def y(self) -> Array:
-        """Positions across entrainment, the middle at zero [m], shape (ny,)."""
+        """Positions across entrainment [m], zero in the middle, shape (ny,)."""
         return np.linspace(-0.5, 0.5, self.heights.shape[1]) * self.length_y
 
     @property
     def length_x(self) -> float:
-        """Distance of the last point from the first along x [m]."""
+        """Distance between the first and the last point along x [m]."""
         return float((self.heights.shape[0] - 1) * self.spacing_x)
 
     @property
     def length_y(self) -> float:
-        """Distance of the last point from the first along y [m]."""
+        """Distance between the first and the last point along y [m]."""
         return float((self.heights.shape[1] - 1) * self.spacing_y)
 
     def with_heights(self, heights: Array) -> Self:
-        """The map with other heights at its points [m]."""
+        """Map with the same points and other heights [m]."""
         return replace(self, heights=heights)
 
 
@@ -71,14 +79,16 @@ class MapStatistics:
     sq, sa : float
         Root mean square and mean absolute height about the mean [m].
     ssk, sku : float
-        Skewness and kurtosis, 0 and 3 for Gaussian heights; 0 for a flat map.
+        Skewness and kurtosis. They are 0 and 3 for Gaussian heights; both are 0 for a flat map.
     correlation_length_x, correlation_length_y : float
-        Distance along x, and along y, at which the autocorrelation falls to 1/e [m]; the length of the map
-        where it does not.
+        Distances along x and along y at which the autocorrelation falls to 1/e [m]; the length of the map if
+        it does not fall so far.
     correlation_length : float
-        The same in the direction in which it falls fastest [m]. The standard's Sal falls to 0.2.
+        Distance at which the autocorrelation falls to 1/e in the direction in which it falls fastest [m]. The
+        autocorrelation length Sal of ISO 25178-2 is defined at 0.2 instead.
     rms_slope, largest_slope : float
-        Of the gradient, by the differences between neighbours; the standard's Sdq takes more of them.
+        Root mean square and largest magnitude of the gradient, from differences between neighbours. The
+        gradient Sdq of ISO 25178-2 takes more points.
     """
 
     sq: float
@@ -93,17 +103,17 @@ class MapStatistics:
 
 
 def statistics(surface: Map) -> MapStatistics:
-    """Statistics of a map about its mean.
+    """Amplitude, spatial and slope parameters of a map, with heights about its mean.
 
     Parameters
     ----------
     surface : Map
-        Two points at least along x and along y.
+        Map with at least two points along x and along y.
 
     Returns
     -------
     MapStatistics
-        Sq, Sa, Ssk and Sku as defined in ISO 25178-2, over the whole map.
+        Sq, Sa, Ssk and Sku as defined in ISO 25178-2 over the whole map, correlation lengths and slopes.
 
     Examples
     --------
@@ -111,12 +121,12 @@ def statistics(surface: Map) -> MapStatistics:
 
     >>> import numpy as np
     >>> sine = np.sin(2 * np.pi * np.arange(400) / 100)
-    >>> found = statistics(Map(1e-7, 1e-7, 1e-8 * np.outer(sine, sine)))
-    >>> round(found.sq / 1e-8, 6), round(found.sku, 6)
+    >>> result = statistics(Map(1e-7, 1e-7, 1e-8 * np.outer(sine, sine)))
+    >>> round(result.sq / 1e-8, 6), round(result.sku, 6)
     (0.5, 2.25)
     """
     z = surface.heights - np.mean(surface.heights)
-    # Of both differences at the same corner of each cell.
+    # Both differences are taken at the same corner of each cell.
     squared = np.diff(z, axis=0)[:, :-1] ** 2 / surface.spacing_x**2
     squared += np.diff(z, axis=1)[:-1] ** 2 / surface.spacing_y**2
     sq = float(np.sqrt(np.mean(z**2)))
@@ -136,24 +146,24 @@ def statistics(surface: Map) -> MapStatistics:
 
 
 def _correlation_lengths(centred: Map, *, flat: bool) -> tuple[float, float, float]:
-    """Along x, along y, and in the direction in which the autocorrelation falls fastest [m]."""
+    """Correlation lengths along x, along y, and in the direction in which they are shortest [m]."""
     if flat:
         return centred.length_x, centred.length_y, min(centred.length_x, centred.length_y)
     z, dx, dy = centred.heights, centred.spacing_x, centred.spacing_y
     along_x, along_y = first_below(_lags(z), dx), first_below(_lags(z.T), dy)
-    # It falls fastest no later than along the quicker axis: no lag beyond that is needed.
+    # The shortest correlation length is at most the shorter of these two: no lags beyond it are needed.
     reach = min(along_x, along_y)
     return along_x, along_y, min(reach, _fastest(z, dx, dy, reach))
 
 
 def _lags(z: Array) -> Array:
-    """Autocovariance along the first axis, over the lags 0 to n - 1."""
-    from scipy import fft  # not needed by smooth contacts
+    """Autocovariance along the first axis for the lags 0 to n - 1, shape (n,)."""
+    from scipy import fft  # imported here, as smooth contacts do not need it
 
     n = z.shape[0]
     size = fft.next_fast_len(2 * n - 1, real=True)
     power = np.zeros(size // 2 + 1)
-    # In strips, as a map of many points would need its own size some times over.
+    # The map is transformed in strips: at once, a large map would need several times its memory.
     for start in range(0, z.shape[1], 256):
         power += np.sum(np.abs(fft.rfft(z[:, start : start + 256], size, axis=0)) ** 2, axis=1)
     covariance: Array = fft.irfft(power, size)[:n] / np.arange(n, 0, -1)
@@ -161,7 +171,7 @@ def _lags(z: Array) -> Array:
 
 
 def _fastest(z: Array, dx: float, dy: float, reach: float) -> float:
-    """Shortest distance at which the autocovariance falls to 1/e, over all directions, up to a reach."""
+    """Shortest distance in any direction at which the autocovariance falls to 1/e, up to ``reach`` [m]."""
     from scipy import fft, ndimage
 
     # One lag beyond the reach on each side, so that the spline has neighbours there.
@@ -180,24 +190,25 @@ def _fastest(z: Array, dx: float, dy: float, reach: float) -> float:
 
 
 def without_form(surface: Map, form: Form) -> Map:
-    """The map less its form, by least squares.
+    """Map without its form, which is fitted by least squares and subtracted.
 
     Parameters
     ----------
     surface : Map
-        As measured.
+        Map with its form.
     form : str
-        "none", "mean", "line" (a plane) or "parabola" (a quadric, with the product of x and y).
+        Form to remove: "none", "mean", "line" (a plane) or "parabola" (a quadric, with the product of x and
+        y).
 
     Returns
     -------
     Map
-        Of the same size.
+        Map of the same size.
 
     Notes
     -----
-    Products of polynomials that are orthogonal over the points of each axis are so over those of the map:
-    no system of equations over all points is needed.
+    Products of polynomials that are orthogonal over the points of each axis are orthogonal over the points of
+    the map. The fit therefore needs no system of equations over all points.
 
     Examples
     --------
@@ -224,27 +235,27 @@ def _orthogonal(n: int, degree: int) -> Array:
 
 
 def waviness(surface: Map, cutoff: float) -> Map:
-    """Areal Gaussian filter: the waves longer than a cutoff, whatever their direction.
+    """Waviness of a map: areal Gaussian filter that passes wavelengths above a cutoff in all directions.
 
-    The weight is exp(-pi (r/(alpha cutoff))^2)/(alpha cutoff)^2 with alpha = sqrt(ln 2/pi), that of the
-    profile filter along x times that along y.
+    The weight is exp(-pi (r/(alpha cutoff))^2)/(alpha cutoff)^2 with alpha = sqrt(ln 2/pi). It is the product
+    of the weights of the profile filter along x and along y.
 
     Parameters
     ----------
     surface : Map
-        What to filter; near its ends the weights are those of the part that is there.
+        Map to filter. Near its sides the weights are normalised over the part of them inside the map.
     cutoff : float
-        Cutoff wavelength [m], at most the length of the shorter side.
+        Cutoff wavelength [m], from four spacings to the length of the shorter side.
 
     Returns
     -------
     Map
-        Of the same size.
+        Waviness, of the same size.
 
     Raises
     ------
     InputError
-        Where the cutoff is longer than a side, or shorter than four spacings.
+        If the cutoff is longer than a side, or shorter than four spacings.
 
     Notes
     -----
@@ -259,7 +270,7 @@ def waviness(surface: Map, cutoff: float) -> Map:
     0.5
     """
     coarser, shorter = max(surface.spacing_x, surface.spacing_y), min(surface.length_x, surface.length_y)
-    gaussian_weights(coarser, cutoff, shorter)  # refuses what fits one axis only, before anything is done
+    gaussian_weights(coarser, cutoff, shorter)  # raises before the filter if the cutoff fits only one axis
     heights = surface.heights
     for axis, spacing in enumerate((surface.spacing_x, surface.spacing_y)):
         heights = _smoothed(heights, gaussian_weights(spacing, cutoff, shorter), axis)
@@ -267,7 +278,7 @@ def waviness(surface: Map, cutoff: float) -> Map:
 
 
 def _smoothed(heights: Array, weights: Array, axis: int) -> Array:
-    from scipy.signal import oaconvolve  # half a second to import, and smooth contacts need none
+    from scipy.signal import oaconvolve  # takes half a second to import, and smooth contacts do not need it
 
     reach, n = weights.size // 2, heights.shape[axis]
     kept = slice(reach, reach + n)
@@ -279,12 +290,12 @@ def _smoothed(heights: Array, weights: Array, axis: int) -> Array:
 
 
 def trimmed(surface: Map, length: float) -> Map:
-    """The map less a length at each of its four sides [m].
+    """Map without a margin of ``length`` [m] at each of its four sides.
 
     Raises
     ------
     InputError
-        Where too little would be left.
+        If fewer than 16 points are left along x or y.
     """
     cut = [round(length / spacing) for spacing in (surface.spacing_x, surface.spacing_y)]
     left = [n - 2 * k for n, k in zip(surface.heights.shape, cut, strict=True)]
@@ -301,24 +312,24 @@ def trimmed(surface: Map, length: float) -> Map:
 
 
 def processed_map(surface: Map, steps: Processing) -> list[tuple[str, Map]]:
-    """A map after every step, with what the step was; the first is the map as it came.
+    """Process a map, and return it after every step with a description of the step.
 
     Parameters
     ----------
     surface : Map
-        As read or generated.
+        Map as read or generated.
     steps : Processing
-        What to do, as for a profile; ``rescale_rq`` is then an Sq.
+        Steps of the processing. For a map ``rescale_rq`` is an Sq.
 
     Returns
     -------
     list of (str, Map)
-        Descriptions and maps, in order.
+        Description and map after each step, in order. The first entry is the unprocessed map.
 
     Raises
     ------
     InputError
-        Where a step cannot be done.
+        If a step is not possible with this map.
 
     Examples
     --------

@@ -1,7 +1,8 @@
-"""Roughness profiles: form removal, Gaussian filter, cutting, and statistics.
+"""Roughness profiles: form removal, Gaussian filter, trimming and statistics.
 
-Heights are positive out of the body, so that a peak narrows the gap. A profile is equally spaced, and its
-midpoint lies at x = 0. Maps, in ``ehlectric.surfaces.maps``, go through the same steps.
+Heights are positive out of the body, so that a peak narrows the gap. The points of a profile are equally
+spaced, and its midpoint lies at x = 0. Maps are treated in ``ehlectric.surfaces.maps``, with the same
+processing steps.
 """
 
 from __future__ import annotations
@@ -21,22 +22,23 @@ FORM_DEGREES: dict[str, int] = {"mean": 0, "line": 1, "parabola": 2}
 # Constant of the Gaussian profile filter, for a transmission of one half at the cutoff (ISO 16610-21).
 ALPHA = float(np.sqrt(np.log(2.0) / np.pi))
 
-# Spacings in the shortest cutoff: in two of them the sampled weights pass 0.89 at the cutoff instead of 0.5.
+# Smallest cutoff wavelength in spacings of the points. With two spacings the transmission of the sampled
+# weights at the cutoff is 0.89 instead of 0.5.
 LEAST_CUTOFF = 4.0
 
-# Rq below which a profile is flat [m]: a hundredth of an atom, and more than rounding leaves of a constant.
+# Rq below which a profile counts as flat [m]: a hundredth of an atom, but above the rounding of a constant.
 FLAT = 1e-12
 
-# Part of a profile over which its ends are blended or faded where it is continued.
+# Fraction of a profile's length over which each end is blended or faded for its continuation.
 TAPER = 0.05
 
-# Points below which a profile has no statistics worth the name.
+# Fewest points of a profile, and of a map along each axis: statistics of fewer points mean nothing.
 LEAST_POINTS = 16
 
 
 def convolved(values: Array, kernel: Array) -> Array:
-    """Full convolution of two arrays of n and m points along each axis by FFT, n + m - 1 points long."""
-    from scipy.signal import fftconvolve  # half a second to import, and smooth contacts need none
+    """Full convolution of two arrays by FFT: n and m points along an axis give n + m - 1 points."""
+    from scipy.signal import fftconvolve  # takes half a second to import, and smooth contacts do not need it
 
     convolution: Array = fftconvolve(values, kernel)
     return convolution
@@ -44,24 +46,24 @@ def convolved(values: Array, kernel: Array) -> Array:
 
 @dataclass(frozen=True)
 class Profile:
-    """Equally spaced heights [m], positive out of the body."""
+    """Roughness profile: heights (n,) at points of equal spacing, both [m]; positive out of the body."""
 
     spacing: float
-    heights: Array  # (n,)
+    heights: Array
 
     @property
     def x(self) -> Array:
-        """Positions, the midpoint at zero [m], shape (n,)."""
+        """Positions of the points [m], zero at the midpoint, shape (n,)."""
         n = self.heights.size
         return np.linspace(-0.5, 0.5, n) * ((n - 1) * self.spacing)
 
     @property
     def length(self) -> float:
-        """Distance of the last point from the first [m]."""
+        """Distance between the first and the last point [m]."""
         return (self.heights.size - 1) * self.spacing
 
     def with_heights(self, heights: Array) -> Self:
-        """The profile with other heights at its points [m]."""
+        """Profile with the same points and other heights [m]."""
         return replace(self, heights=heights)
 
 
@@ -74,12 +76,13 @@ class Statistics:
     rq, ra : float
         Root mean square and mean absolute height about the mean [m].
     rsk, rku : float
-        Skewness and kurtosis, 0 and 3 for a Gaussian profile; 0 for a flat one.
+        Skewness and kurtosis. They are 0 and 3 for Gaussian heights; both are 0 for a flat profile.
     correlation_length : float
-        Distance at which the autocorrelation falls to 1/e [m]; the length where it does not. The standard's
-        autocorrelation length falls to 0.2.
+        Distance at which the autocorrelation falls to 1/e [m]; the length of the profile if it does not fall
+        so far. The autocorrelation length of ISO 21920-2 is defined at 0.2 instead.
     rms_slope, largest_slope : float
-        Of the differences between neighbours; the standard takes its slopes over seven points.
+        Root mean square and largest magnitude of the slope, from differences between neighbours. ISO 21920-2
+        takes slopes over seven points.
     """
 
     rq: float
@@ -92,17 +95,18 @@ class Statistics:
 
 
 def statistics(profile: Profile) -> Statistics:
-    """Statistics of a profile about its mean.
+    """Amplitude and slope parameters of a profile, with heights about its mean.
 
     Parameters
     ----------
     profile : Profile
-        Two points at least.
+        Profile with at least two points.
 
     Returns
     -------
     Statistics
-        Rq, Ra, Rsk and Rku as defined in ISO 21920-2, but over the whole profile as one section.
+        Rq, Ra, Rsk and Rku as defined in ISO 21920-2, but over the whole profile as one section; correlation
+        length and slopes.
 
     Examples
     --------
@@ -134,7 +138,11 @@ def _correlation_length(z: Array, spacing: float) -> float:
 
 
 def first_below(covariance: Array, spacing: float) -> float:
-    """Where an autocovariance falls to 1/e of its first value [m]; its whole length where it does not."""
+    """Distance at which an autocovariance (n,) falls to 1/e of its first value [m].
+
+    ``spacing`` is the distance between lags [m]. If the autocovariance does not fall so far, the distance is
+    the largest lag.
+    """
     below = np.flatnonzero(covariance < covariance[0] / np.e)
     if below.size == 0:
         return float((covariance.size - 1) * spacing)
@@ -144,19 +152,19 @@ def first_below(covariance: Array, spacing: float) -> float:
 
 
 def without_form(profile: Profile, form: Form) -> Profile:
-    """The profile less its form, by least squares.
+    """Profile without its form, which is fitted by least squares and subtracted.
 
     Parameters
     ----------
     profile : Profile
-        As measured.
+        Profile with its form.
     form : str
-        "none", "mean", "line" or "parabola".
+        Form to remove: "none", "mean", "line" or "parabola".
 
     Returns
     -------
     Profile
-        Of the same length.
+        Profile of the same length.
 
     Examples
     --------
@@ -173,24 +181,25 @@ def without_form(profile: Profile, form: Form) -> Profile:
 
 
 def gaussian_weights(spacing: float, cutoff: float, length: float) -> Array:
-    """Weights of the Gaussian filter at the distances -reach to reach, their sum one.
+    """Weights of the Gaussian filter along one axis, normalised to the sum one.
 
     Parameters
     ----------
     spacing, cutoff : float
-        Of the points, and the cutoff wavelength [m].
+        Distance between neighbouring points, and cutoff wavelength [m].
     length : float
-        Of what is filtered [m].
+        Length of the profile, or of the shorter side of the map, that is filtered [m].
 
     Returns
     -------
     ndarray, shape (2 reach + 1,)
-        Beyond a distance of one cutoff the weight is a millionth of that in the middle.
+        Weights at the distances -reach to reach, in points. They end at a distance of one cutoff, where the
+        weight is a millionth of that in the middle.
 
     Raises
     ------
     InputError
-        As ``waviness`` does.
+        If the cutoff is longer than ``length``, or shorter than four spacings.
 
     Examples
     --------
@@ -213,28 +222,27 @@ def gaussian_weights(spacing: float, cutoff: float, length: float) -> Array:
 
 
 def waviness(profile: Profile, cutoff: float) -> Profile:
-    """Gaussian profile filter: the waves longer than a cutoff.
+    """Waviness of a profile: Gaussian filter that passes wavelengths above a cutoff.
 
-    The weight is exp(-pi (x/(alpha cutoff))^2)/(alpha cutoff) with alpha = sqrt(ln 2/pi): half of the
-    amplitude passes at the cutoff, exp(-pi (alpha cutoff/wavelength)^2) at a wavelength.
+    The weight is exp(-pi (x/(alpha cutoff))^2)/(alpha cutoff) with alpha = sqrt(ln 2/pi). The transmission at
+    a wavelength is exp(-pi (alpha cutoff/wavelength)^2), one half at the cutoff.
 
     Parameters
     ----------
     profile : Profile
-        What to filter; near its ends the weights are those of the part that is there.
+        Profile to filter. Near its ends the weights are normalised over the part of them inside the profile.
     cutoff : float
-        Cutoff wavelength [m], at most the length of the profile.
+        Cutoff wavelength [m], from four spacings to the length of the profile.
 
     Returns
     -------
     Profile
-        Of the same length.
+        Waviness, of the same length.
 
     Raises
     ------
     InputError
-        Where the cutoff is longer than the profile, or shorter than the four spacings below which the
-        sampled weights are no Gaussian any more.
+        If the cutoff is longer than the profile, or shorter than four spacings.
 
     Notes
     -----
@@ -255,12 +263,9 @@ def waviness(profile: Profile, cutoff: float) -> Profile:
 
 
 def trimmed(profile: Profile, length: float) -> Profile:
-    """The profile less a length at each end [m].
+    """Profile without a piece of ``length`` [m] at each end.
 
-    Raises
-    ------
-    InputError
-        Where too little would be left.
+    Raises ``InputError`` if fewer than 16 points are left.
     """
     n = round(length / profile.spacing)
     left = profile.heights.size - 2 * n
@@ -275,11 +280,21 @@ def trimmed(profile: Profile, length: float) -> Profile:
 
 @dataclass(frozen=True)
 class Processing:
-    """What is done to a profile, in this order; None leaves a step out. Lengths in m.
+    """Processing steps of a profile or a map, in their order; a step whose value is None is left out.
 
-    A form takes the mean out, again after the trim: a constant means nothing to a film, but it would to a
-    cut. ``cutoff_long`` removes the waves longer than it, ``cutoff_short`` the shorter ones; ``trim`` is half
-    of the longer of the two where it is not given.
+    Attributes
+    ----------
+    form : str
+        Form to remove: "none", "mean", "line" or "parabola". The mean is removed again after the trim: it has
+        no effect on the film, but it would shift the limits of ``truncate``.
+    cutoff_long, cutoff_short : float or None
+        Cutoff wavelengths [m]; longer waves than ``cutoff_long``, shorter than ``cutoff_short`` are removed.
+    trim : float or None
+        Length cut off at each end [m]; by default half of the longer cutoff.
+    rescale_rq : float or None
+        Rq, or Sq for a map, to which the heights are scaled [m].
+    truncate : float or None
+        Height at which peaks and depth at which valleys are cut off [m].
     """
 
     form: Form = "none"
@@ -291,14 +306,14 @@ class Processing:
 
 
 class Points(Protocol):
-    """Heights over equally spaced points: a profile or a map."""
+    """Protocol of a profile or a map: heights at equally spaced points."""
 
     @property
     def heights(self) -> Array:
         """Heights [m]."""
 
     def with_heights(self, heights: Array) -> Self:
-        """The same points with other heights [m]."""
+        """Profile or map with the same points and other heights [m]."""
 
 
 S = TypeVar("S", bound=Points)
@@ -306,7 +321,7 @@ S = TypeVar("S", bound=Points)
 
 @dataclass(frozen=True)
 class Operations(Generic[S]):
-    """What the steps do to profiles or to maps: form removal, Gaussian filter, trim."""
+    """Functions of the processing steps for profiles or for maps: form removal, Gaussian filter, trim."""
 
     without_form: Callable[[S, Form], S]
     waviness: Callable[[S, float], S]
@@ -319,7 +334,10 @@ def rms(heights: Array) -> float:
 
 
 def in_order(first: S, steps: Processing, do: Operations[S]) -> list[tuple[str, S]]:
-    """A profile or map after every step of ``processed``, by the operations that fit it."""
+    """Process a profile or a map, and return it after every step with a description of the step.
+
+    ``do`` has the operations for the kind of surface; ``first`` is the unprocessed surface.
+    """
     done = [("as read", first)]
 
     def add(name: str, after: S) -> None:
@@ -352,24 +370,24 @@ def in_order(first: S, steps: Processing, do: Operations[S]) -> list[tuple[str, 
 
 
 def processed(profile: Profile, steps: Processing) -> list[tuple[str, Profile]]:
-    """A profile after every step, with what the step was; the first is the profile as it came.
+    """Process a profile, and return it after every step with a description of the step.
 
     Parameters
     ----------
     profile : Profile
-        As read or generated.
+        Profile as read or generated.
     steps : Processing
-        What to do.
+        Steps of the processing.
 
     Returns
     -------
     list of (str, Profile)
-        Descriptions and profiles, in order.
+        Description and profile after each step, in order. The first entry is the unprocessed profile.
 
     Raises
     ------
     InputError
-        Where a step cannot be done.
+        If a step is not possible with this profile.
 
     Examples
     --------

@@ -1,8 +1,7 @@
-"""The roughness of a point contact: each rough surface's height as a function of position.
+"""Roughness of a point contact: the height of each rough surface as a function of position (x, y).
 
-What ``ehlectric.surfaces.rough_profiles`` is for a line contact, on a map. A measured map is used whole;
-a measured profile, or one line of a map, is extended along the lay. Lengths are plain metres, x along
-entrainment.
+A measured map is used whole. A measured profile, or one line of a map, is extended along the lay, across its
+own direction. Lengths are in metres, and x runs along entrainment.
 """
 
 from __future__ import annotations
@@ -28,33 +27,35 @@ from ehlectric.surfaces.profiles import statistics as of_profile
 from ehlectric.surfaces.rough_profiles import measured
 from ehlectric.surfaces.steps import MOST_OF_DOMAIN, processing_of, step_warnings
 
-# Points of a made map beyond the domain: the ends of a spline are felt no further, to 1e-18 of its heights.
+# Points of a generated map beyond each side of the domain. The effect of the end conditions of a spline there
+# is 1e-18 of the heights.
 _MARGIN = 32
 
 
 @dataclass(frozen=True)
 class RoughMap:
-    """One rough surface of a point contact.
+    """Rough surface of a point contact.
 
     Attributes
     ----------
     surface : int
-        1 (lower) or 2 (upper).
+        Number of the surface, 1 (lower) or 2 (upper).
     at : callable
-        Height over positions x and y that fit each other [m], positive out of the body.
+        Height [m] as a function of positions x and y [m] whose shapes broadcast, positive out of the body.
     surface_read : Surface or None
-        What the file held.
+        Content of the file; None for a generated surface.
     steps : list of (str, Map) or list of (str, Profile)
-        The surface after every step, a profile where one is extended; empty for an exact shape.
+        Description of each processing step and the surface after it: a map, or the profile that is extended.
+        Empty for an exact shape.
     extent : tuple of float
-        Lengths along x and y before it is continued [m], along its own axes where it is turned; infinite for
-        an exact shape and along the lay of a profile.
+        Lengths along the surface's own x and y axes before its continuation [m]. Infinite for an exact shape,
+        and along the lay of a profile.
     orientation : float
-        Angle of the map's own x axis, counter-clockwise [degrees].
+        Angle of the surface's own x axis, counter-clockwise [degrees].
     voids : float or None
-        Part of the points used where the file has no data.
+        Fraction of the points used that have no data in the file; None for a generated surface.
     warnings : tuple of ResultWarning
-        What is unreliable about the file and the steps.
+        Warnings about the file and the processing steps.
     """
 
     surface: int
@@ -67,7 +68,7 @@ class RoughMap:
     warnings: tuple[ResultWarning, ...] = ()
 
     def height(self, x: Array, y: Array) -> Array:
-        """Heights at the nodes of a grid [m].
+        """Heights of the surface at the nodes of a grid.
 
         Parameters
         ----------
@@ -79,12 +80,12 @@ class RoughMap:
         Returns
         -------
         ndarray, shape (nx, ny)
-            Positive out of the body.
+            Heights [m], positive out of the body.
         """
         return self.at(*np.meshgrid(x, y, indexing="ij"))
 
     def describe(self) -> dict[str, Any]:
-        """What it is and what was done to it, SI units, for the files of a result."""
+        """Source, processing steps and statistics of the surface in SI units, for the files of a result."""
         read = self.surface_read
         return {
             "surface": self.surface,
@@ -105,24 +106,24 @@ def _described(step: Map | Profile) -> dict[str, Any]:
 
 
 def rough_maps(tables: Sequence[Roughness], domain: Domain) -> list[RoughMap]:
-    """Read or make the roughness of a point contact.
+    """Read or generate the roughness of a point contact.
 
     Parameters
     ----------
     tables : sequence of Roughness
-        Of the case.
+        Tables ``[[roughness]]`` of the case.
     domain : Domain
-        Where the film is solved [m].
+        Domain of the film [m].
 
     Returns
     -------
     list of RoughMap
-        As many as there are tables.
+        One surface per table, in their order.
 
     Raises
     ------
     InputError
-        Where a file cannot be used, or a shape does not fit the domain.
+        If a file cannot be used, or a shape does not fit the domain.
 
     Examples
     --------
@@ -144,14 +145,14 @@ def _rough_map(table: Roughness, domain: Domain) -> RoughMap:
 
 
 def measured_map(table: Roughness) -> RoughMap:
-    """The rough surface of a file, which needs no contact to be looked at.
+    """Rough surface from a measured file, processed without reference to a contact.
 
-    Its mean is taken out in any case: where the instrument's zero lies means nothing.
+    The mean height is always removed, as the zero of an instrument is arbitrary.
 
     Raises
     ------
     InputError
-        Where the file cannot be used.
+        If the file cannot be used.
     """
     assert table.file is not None
     read = read_surface(table.file, x_unit=table.x_unit, z_unit=table.z_unit)
@@ -161,12 +162,14 @@ def measured_map(table: Roughness) -> RoughMap:
 
 
 def whole_map(table: Roughness, read: Surface | None = None) -> RoughMap:
-    """The rough surface of all that a file holds, whatever has been read of it already.
+    """Rough surface from a whole measured map.
+
+    The file is read unless ``read`` has its content.
 
     Raises
     ------
     InputError
-        Where the file is no map, or the table asks for a line of it.
+        If the file has no map, or the table asks for one line of it.
     """
     assert table.file is not None
     if table.line is not None:
@@ -183,9 +186,9 @@ def whole_map(table: Roughness, read: Surface | None = None) -> RoughMap:
 
 
 def _extended(table: Roughness, read: Surface) -> RoughMap:
-    """A profile that is the same all along the lay, which lies across the direction it was measured in."""
+    """Rough surface from one measured line, constant along the lay, which is perpendicular to the line."""
     across = table.direction == "y"
-    # The profile's own position is x or y, and so is its shift.
+    # Along y the position of the profile is y, and its shift is the shift along y.
     line = measured(table.model_copy(update={"shift": table.shift_y if across else table.shift}), read)
 
     def at(x: Array, y: Array) -> Array:
@@ -206,7 +209,7 @@ def _of_map(table: Roughness, made: Map, read: Surface | None) -> RoughMap:
 
     def at(x: Array, y: Array) -> Array:
         heights = height(*turned(x - table.shift, y - table.shift_y, turn))
-        # Between the points too, where a spline overshoots them.
+        # The limit is applied between the points too, as the spline overshoots there.
         return heights if table.truncate is None else np.clip(heights, -table.truncate, table.truncate)
 
     voids = None if read is None else read.voids
@@ -231,7 +234,7 @@ def _shape(table: Roughness, domain: Domain) -> MapHeight:
 
 
 def _random(table: Roughness, domain: Domain) -> Map:
-    """A made map that reaches so far from its middle, whatever is trimmed."""
+    """Random map that covers the domain after its ends have been trimmed."""
     assert table.rq is not None and table.seed is not None
     trim = table.trim if table.trim is not None else max(table.cutoff_long or 0.0, table.cutoff_short or 0.0)
     reach = [length + trim for length in domain.reach(table)]

@@ -1,7 +1,7 @@
-"""The roughness of a case on the contact: each rough surface's height as a function of position.
+"""Roughness of a line contact: the height of each rough surface as a function of position.
 
-A profile shorter than the domain is continued as the case says, without a step; its midpoint lies at x = 0.
-``surfaces.warnings`` tells what is unreliable about it before any film is solved.
+The midpoint of a profile lies at x = 0. A profile that is shorter than the domain is continued by the key
+``extend`` of the case. The warnings about a profile are in ``ehlectric.surfaces.warnings``.
 """
 
 from __future__ import annotations
@@ -23,30 +23,31 @@ from ehlectric.surfaces.files import Surface, read_surface
 from ehlectric.surfaces.profiles import Profile, processed, statistics
 from ehlectric.surfaces.steps import MOST_OF_DOMAIN, processing_of, step_warnings
 
-# Points of a made profile beyond the domain: the ends of a spline are felt no further.
+# Points of a generated profile beyond each end of the domain. The end conditions of a spline have no effect
+# farther inside.
 _MARGIN = 64
 
 
 @dataclass(frozen=True)
 class RoughSurface:
-    """One rough surface of a case.
+    """Rough surface of a line contact.
 
     Attributes
     ----------
     surface : int
-        1 (lower) or 2 (upper).
+        Number of the surface, 1 (lower) or 2 (upper).
     height : callable
-        Height over position [m], positive out of the body.
+        Height [m] as a function of position [m], positive out of the body.
     surface_read : Surface or None
-        What the file held.
+        Content of the file; None for a generated surface.
     steps : list of (str, Profile)
-        The profile after every step; empty for an exact shape.
+        Description of each processing step and the profile after it; empty for an exact shape.
     extent : float
-        Length of the profile before it is continued [m]; infinite for an exact shape.
+        Length of the profile before its continuation [m]; infinite for an exact shape.
     voids : float or None
-        Part of the line's points where the file has no data.
+        Fraction of the points of the line without data in the file; None for a generated surface.
     warnings : tuple of ResultWarning
-        What is unreliable about the file and the steps.
+        Warnings about the file and the processing steps.
     """
 
     surface: int
@@ -58,7 +59,7 @@ class RoughSurface:
     warnings: tuple[ResultWarning, ...] = ()
 
     def describe(self) -> dict[str, Any]:
-        """What it is and what was done to it, SI units, for the files of a result."""
+        """Source, processing steps and statistics of the surface in SI units, for the files of a result."""
         read = self.surface_read
         return {
             "surface": self.surface,
@@ -75,24 +76,24 @@ class RoughSurface:
 
 
 def rough_surfaces(tables: Sequence[Roughness], domain: Domain) -> list[RoughSurface]:
-    """Read or make the roughness of a line contact.
+    """Read or generate the roughness of a line contact.
 
     Parameters
     ----------
     tables : sequence of Roughness
-        Of the case.
+        Tables ``[[roughness]]`` of the case.
     domain : Domain
-        Where the film is solved [m].
+        Domain of the film [m].
 
     Returns
     -------
     list of RoughSurface
-        As many as there are tables.
+        One surface per table, in their order.
 
     Raises
     ------
     InputError
-        Where a file cannot be used, or a shape does not fit the domain.
+        If a file cannot be used, or a shape does not fit the domain.
     """
     return [_rough_surface(table, domain) for table in tables]
 
@@ -107,14 +108,15 @@ def _rough_surface(table: Roughness, domain: Domain) -> RoughSurface:
 
 
 def measured(table: Roughness, surface: Surface | None = None) -> RoughSurface:
-    """The rough surface of a file, read unless it is given, which needs no contact to be looked at.
+    """Rough surface from one line of a measured file, processed without reference to a contact.
 
-    Its mean is taken out in any case: where the instrument's zero lies means nothing.
+    The file is read unless ``surface`` has its content. The mean height is always removed, as the zero of an
+    instrument is arbitrary.
 
     Raises
     ------
     InputError
-        Where the file cannot be used.
+        If the file cannot be used.
     """
     assert table.file is not None
     if surface is None:
@@ -132,7 +134,7 @@ def _of_profile(table: Roughness, profile: Profile, read: Surface | None) -> Rou
 
 
 def _cut(height: Height, limit: float | None) -> Height:
-    """Height within a limit between the points too, where a spline overshoots them."""
+    """Height limited to ``limit`` [m] between the points too, as a spline overshoots there."""
     return height if limit is None else lambda x: np.clip(height(x), -limit, limit)
 
 
@@ -153,7 +155,7 @@ def _shifted(height: Height, shift: float) -> Height:
 
 
 def _random(table: Roughness, domain: float, reach: float) -> Profile:
-    """A made profile that reaches so far from its middle, whatever is trimmed."""
+    """Random profile that extends ``reach`` [m] to both sides after the trim, for a domain length [m]."""
     assert table.rq is not None and table.seed is not None
     key = "correlation_length" if table.generator == "gaussian" else "rolloff_wavelength"
     longest = getattr(table, key)

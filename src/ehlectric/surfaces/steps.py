@@ -1,4 +1,4 @@
-"""Processing steps of a surface that was read or made, and warnings about them."""
+"""Processing steps that a case asks for on a measured or generated surface, and warnings about them."""
 
 from __future__ import annotations
 
@@ -12,16 +12,19 @@ from ehlectric.errors import ResultWarning
 from ehlectric.surfaces.maps import Map
 from ehlectric.surfaces.profiles import Points, Processing, rms
 
-# Part of the domain that one correlation length or roll-off wavelength may take: with fewer than ten of them
-# its statistics are those of chance.
+# Largest correlation length or roll-off wavelength, as a fraction of the domain. With fewer than ten of them
+# in the domain, the statistics of the heights there are random.
 MOST_OF_DOMAIN = 0.1
 
-# Part of a profile's points that may be cut off without a word.
+# Fraction of the points that ``truncate`` may cut off without a warning.
 _MOST_CUT = 0.05
 
 
 def processing_of(table: Roughness) -> Processing:
-    """The steps a case asks for; those of a file begin with its mean where it has no form taken out."""
+    """Processing steps of a table ``[[roughness]]``.
+
+    For a file without form removal the mean is removed.
+    """
     steps = Processing(**{step.name: getattr(table, step.name) for step in fields(Processing)})
     return replace(steps, form="mean") if table.file is not None and steps.form == "none" else steps
 
@@ -29,7 +32,10 @@ def processing_of(table: Roughness) -> Processing:
 def step_warnings(
     table: Roughness, steps: Sequence[tuple[str, Points]], voids: float | None
 ) -> Iterator[ResultWarning]:
-    """Warnings about the processing steps of a profile or map."""
+    """Warnings about voids that were filled and peaks that were cut off in a profile or a map.
+
+    ``steps`` has the surface after every processing step, ``voids`` the fraction of points without data.
+    """
     if voids:
         whose, how = "line", "by straight lines"
         if isinstance(steps[0][1], Map):

@@ -1,7 +1,7 @@
-"""Text profiles: position and height in two columns, under any header.
+"""Reader of text profiles: position and height in two columns, below a header of any form.
 
-One separator a file: a semicolon, a tab, a comma, or white space. A comma is the decimal mark where it is
-not the separator. What can be read in two ways is refused.
+The separator of the columns is a semicolon, a tab, a comma or white space, the same in the whole file. A
+comma that is not the separator is a decimal comma. A file that can be read in two ways is refused.
 """
 
 from __future__ import annotations
@@ -36,15 +36,25 @@ _UNIT_WORDS = {
 _BRACKETED = re.compile(r"[\[(]([^\[\]()]*)[\])]")
 _VALIDITY = re.compile(r"valid(ity)?", re.IGNORECASE)
 
-# Positions and heights beyond which nothing is a surface [m].
+# Largest position and height that are credible for a surface [m].
 _FARTHEST = 10.0
 
 
 @dataclass(frozen=True)
 class TextProfile:
-    """Heights [m], NaN where void, their spacing [m], and the warnings about them."""
+    """Profile as read from a text file.
 
-    heights: Array  # (n,)
+    Attributes
+    ----------
+    heights : ndarray, shape (n,)
+        Heights [m], NaN at points without data.
+    spacing : float
+        Distance between neighbouring points [m].
+    warnings : tuple of ResultWarning
+        Warnings about the data in the file.
+    """
+
+    heights: Array
     spacing: float
     warnings: tuple[ResultWarning, ...]
 
@@ -75,7 +85,7 @@ class _Block:
     layout: _Layout
     header: list[str]
     rows: list[list[str]]  # all of the same width
-    numbers: list[int]  # of their lines
+    numbers: list[int]  # line numbers of the rows in the file, from 1
 
 
 def is_text(content: bytes) -> bool:
@@ -84,27 +94,28 @@ def is_text(content: bytes) -> bool:
 
 
 def read_text(path: Path, content: bytes, x_unit: str | None, z_unit: str | None) -> TextProfile:
-    """Profile of a text file.
+    """Read the profile in a text file.
 
     Parameters
     ----------
     path : Path
-        For messages.
+        Path of the file, for error messages.
     content : bytes
-        Two columns, position and height; a third one of 0 and 1, headed "valid", tells what is valid. An
-        empty height is void.
+        Content of the file: two columns, position and height. A third column with the head "valid" has 1 for
+        points with data and 0 for others. An empty height means no data.
     x_unit, z_unit : str or None
-        Units of the columns where the header does not state them.
+        Units of the columns, for a header that does not state them.
 
     Returns
     -------
     TextProfile
-        As read, in m.
+        Heights and spacing in metres.
 
     Raises
     ------
     InputError
-        Where it cannot be read, can be read in two ways, or its units are not known or contradict.
+        If the file cannot be read or can be read in two ways, or if its units are unknown or contradict the
+        arguments.
     """
     block = _block(path, _decoded(path, content))
     if len(block.rows) < LEAST_POINTS:
@@ -117,8 +128,8 @@ def read_text(path: Path, content: bytes, x_unit: str | None, z_unit: str | None
     stated = _stated_units(block, width)
     values = _values(path, block)
     factors = [
-        to_si(f"1 {_unit_of(path, name, given, found)}", "m")
-        for name, given, found in zip(("x_unit", "z_unit"), (x_unit, z_unit), stated, strict=True)
+        to_si(f"1 {_unit_of(path, name, unit, from_header)}", "m")
+        for name, unit, from_header in zip(("x_unit", "z_unit"), (x_unit, z_unit), stated, strict=True)
     ]
     x, z = values[:, 0], values[:, 1] * factors[1]
     if max(np.max(np.abs(x)) * factors[0], np.max(np.abs(z), initial=0.0, where=~np.isnan(z))) > _FARTHEST:
@@ -131,7 +142,7 @@ def read_text(path: Path, content: bytes, x_unit: str | None, z_unit: str | None
 
 
 def _decoded(path: Path, content: bytes) -> str:
-    """Text in UTF-8, or in what instruments on Windows write."""
+    """Text of a file in UTF-8, UTF-16 or Windows-1252."""
     codes = ("utf-16",) if content[:2] in _UTF_16 else ("utf-8-sig", "cp1252")
     for code in codes:
         try:
@@ -142,7 +153,7 @@ def _decoded(path: Path, content: bytes) -> str:
 
 
 def _block(path: Path, text: str) -> _Block:
-    """The block of numbers at the end of a file, with the lines before it."""
+    """Block of numbers at the end of a file, with the header above it."""
     lines = text.splitlines()
     separator = _separator(next((line for line in reversed(lines) if line.strip()), ""))
     layouts = [_Layout(separator, decimal) for decimal in ("." if separator == "," else ".,")]
@@ -167,7 +178,7 @@ def _block(path: Path, text: str) -> _Block:
 
 
 def _separator(line: str) -> str | None:
-    """What separates the columns, from the last line of a file."""
+    """Separator of the columns, from the last line of a file; None for white space."""
     for separator in (";", "\t"):
         if separator in line.strip():
             return separator
@@ -185,7 +196,10 @@ def _bad_line(path: Path, below: list[tuple[int, str]], layouts: list[_Layout]) 
 
 
 def _rectangle(path: Path, fields: list[list[str]], numbers: list[int]) -> list[list[str]]:
-    """Rows of one width; only empty fields at their ends may be too many."""
+    """Rows with equal numbers of fields, without surplus empty fields at their ends.
+
+    Raises an error for a row with too few fields.
+    """
     width = max(2, *(max(k for k, field in enumerate(row, 1) if field) for row in fields))
     for row, number in zip(fields, numbers, strict=True):
         if len(row) < width:
@@ -196,7 +210,7 @@ def _rectangle(path: Path, fields: list[list[str]], numbers: list[int]) -> list[
 
 
 def _values(path: Path, block: _Block) -> Array:
-    """Positions and heights as written, NaN where a height is empty."""
+    """Positions and heights in the units of the file, shape (n, 2), with NaN for an empty height."""
     values = np.array([[block.layout.value(field) for field in row[:2]] for row in block.rows])
     infinite = np.any(np.isinf(values), axis=1)
     if np.any(infinite):
@@ -207,13 +221,13 @@ def _values(path: Path, block: _Block) -> Array:
 
 
 def _heads(block: _Block) -> list[list[str]]:
-    """Fields of the last two lines above the block, without the mark of a comment."""
+    """Fields of the last two header lines, without comment marks."""
     lines = [line.strip().lstrip("#%/ ") for line in block.header if line.strip()]
     return [block.layout.fields(line) for line in lines[-2:]]
 
 
 def _has_validity(block: _Block) -> bool:
-    """Whether the third column is headed as one of validity."""
+    """Whether the header of the third column is "valid" or "validity"."""
     return any(len(head) > 2 and _VALIDITY.fullmatch(head[2].strip("\"' ")) for head in _heads(block))
 
 
@@ -226,9 +240,10 @@ def _valid(path: Path, block: _Block) -> NDArray[np.bool_]:
 
 
 def _stated_units(block: _Block, width: int) -> tuple[str | None, str | None]:
-    """Units of the two columns, where the line above them states one for each column and nothing else.
+    """Units of the two columns from the line above them; None for a unit that the line does not state.
 
-    Such as "Lateral um,Raw Micrometer", "[mm];[mm]" or, between white space, "x [um] z [nm]".
+    The line must have one field per column. Examples are "Lateral um,Raw Micrometer", "[mm];[mm]" and, with
+    white space as separator, "x [um] z [nm]".
     """
     lines = [line.strip().lstrip("#%/ ") for line in block.header if line.strip()]
     if not lines:
@@ -244,7 +259,10 @@ def _stated_units(block: _Block, width: int) -> tuple[str | None, str | None]:
 
 
 def _unit_in(field: str) -> str | None:
-    """The one unit of length in the head of a column; none beside a number, as a value has one."""
+    """Unit of length in the head of a column, None if there is not exactly one.
+
+    A unit after a number does not count, as it belongs to a value.
+    """
     brackets = _BRACKETED.findall(field)
     if brackets:
         candidates = [inner.strip() for inner in brackets]
@@ -274,9 +292,10 @@ def _unit_of(path: Path, name: str, given: str | None, stated: str | None) -> st
 
 
 def _spacing(path: Path, x: Array, step: float) -> tuple[float, tuple[ResultWarning, ...]]:
-    """Spacing of positions that are equal up to rounding: from the whole length, not from neighbours.
+    """Spacing of positions (n,) that are equally spaced up to rounding, and warnings about it.
 
-    ``step`` is the decimal step in which they are written.
+    The spacing follows from the whole length, as distances of neighbours have larger rounding errors.
+    ``step`` is the last decimal place of the positions in the file, in the unit of ``x``.
     """
     steps = np.diff(x)
     if not np.all(steps > 0.0):
@@ -284,14 +303,14 @@ def _spacing(path: Path, x: Array, step: float) -> tuple[float, tuple[ResultWarn
         raise InputError(path, f"positions {bad} and {bad + 1} do not increase")
     spacing = float((x[-1] - x[0]) / (x.size - 1))
     largest = float(np.max(np.abs(x - (x[0] + spacing * np.arange(x.size)))))
-    # Positions that are rounded lie within a step of the line, and neighbours are one of two distances apart.
+    # Rounded positions lie within one step of equal spacing, and neighbours have one of two distances.
     if largest > 1.01 * max(step, 1e-3 * spacing) or np.ptp(steps) > 1.01 * max(step, 4e-3 * spacing):
         raise InputError(
             path,
             f"the spacing is not uniform, positions deviate by up to {largest / spacing:.2g} of "
             f"it and neighbours are {np.min(steps):.4g} to {np.max(steps):.4g} apart",
         )
-    # Only where the longer of the two is twice the shorter may it be a sample that is missing.
+    # Samples may be missing only if the longer of the two distances is twice the shorter.
     long = steps > 1.5 * np.min(steps)
     if 0 < np.count_nonzero(long) <= 0.05 * steps.size:
         where = int(np.argmax(long))

@@ -1,4 +1,4 @@
-"""Points of a map where the instrument saw nothing, and what is put there."""
+"""Voids of a measured map, the points without data, and their filling by a harmonic function."""
 
 from __future__ import annotations
 
@@ -12,23 +12,23 @@ if TYPE_CHECKING:
     from scipy import sparse
 
 
-# Residual at which the filling of voids ends, relative to that of its first guess.
+# Residual at which the solution for the filling stops, relative to the residual of the initial guess.
 _TOLERANCE = 1e-8
 _MOST_STEPS = 5000
 
 
 def without_void_borders(heights: Array) -> Array:
-    """A map less the outer rows and columns that are void throughout.
+    """Map without the outer rows and columns that have no data at all.
 
     Parameters
     ----------
     heights : ndarray, shape (nx, ny)
-        NaN where void.
+        Heights in any unit, NaN at voids.
 
     Returns
     -------
     ndarray
-        The smallest rectangle that holds all points with data; empty where there are none.
+        Heights over the smallest rectangle that contains all points with data; empty if there are none.
 
     Examples
     --------
@@ -43,32 +43,33 @@ def without_void_borders(heights: Array) -> Array:
         return heights[:0, :0]
     kept = []
     for other in (1, 0):
-        found = np.flatnonzero(there.any(axis=other))
-        kept.append(slice(found[0], found[-1] + 1))
+        lines = np.flatnonzero(there.any(axis=other))
+        kept.append(slice(lines[0], lines[-1] + 1))
     return heights[kept[0], kept[1]]
 
 
 def filled(heights: Array, spacing_x: float, spacing_y: float) -> Array:
-    """A map with its voids filled as a soap film hangs in them.
+    """Map with its voids filled by a harmonic function, the shape of a soap film.
 
-    Within each void the filling is harmonic, the discrete Laplacian zero, and at its rim it meets the heights
-    that are there; nothing is above or below them. At the end of the map it has no slope.
+    Inside a void the discrete Laplacian of the heights is zero, and the filling joins the measured heights at
+    the rim of the void. It stays between the lowest and the highest height at the rim. At a side of the map
+    its slope is zero.
 
     Parameters
     ----------
     heights : ndarray, shape (nx, ny)
-        Heights [m], NaN where void, some of them finite.
+        Heights [m], NaN at voids; at least one must be finite.
     spacing_x, spacing_y : float
-        Of the points [m].
+        Distances between neighbouring points along x and y [m].
 
     Returns
     -------
     ndarray, shape (nx, ny)
-        Without NaN.
+        Heights without NaN [m].
 
     Examples
     --------
-    A plane has no Laplacian:
+    The Laplacian of a plane is zero, so that a hole in a plane is filled exactly:
 
     >>> import numpy as np
     >>> plane = np.add.outer(np.arange(8.0), 2.0 * np.arange(9.0))
@@ -83,7 +84,8 @@ def filled(heights: Array, spacing_x: float, spacing_y: float) -> Array:
     from scipy import ndimage
     from scipy.sparse.linalg import cg
 
-    # From the nearest point that has one: where the instrument has its zero is far from the heights.
+    # The initial guess is the height of the nearest point with data: the zero of an instrument may be far
+    # away.
     nearest = ndimage.distance_transform_edt(
         void, sampling=(spacing_x, spacing_y), return_distances=False, return_indices=True
     )
@@ -95,7 +97,10 @@ def filled(heights: Array, spacing_x: float, spacing_y: float) -> Array:
 
 
 def _laplacian(whole: Array, void: Mask, dx: float, dy: float) -> tuple[sparse.csr_array, Array]:
-    """The Laplacian over the void points, its sign turned, and that of a first guess at them."""
+    """Negative Laplacian over the n void points as a matrix, and Laplacian of the initial guess there (n,).
+
+    ``whole`` (nx, ny) has the initial guess at the ``void`` points and the measured heights elsewhere.
+    """
     from scipy import sparse
 
     n = int(void.sum())

@@ -1,4 +1,4 @@
-"""Warnings about rough surfaces that are known before any film is solved."""
+"""Warnings about rough surfaces, which need no film."""
 
 from __future__ import annotations
 
@@ -16,31 +16,34 @@ from ehlectric.surfaces.profiles import statistics as profiles_statistics
 from ehlectric.surfaces.rough_maps import RoughMap
 from ehlectric.surfaces.rough_profiles import RoughSurface
 
-# Grid spacings in a correlation length, and in a wavelength or the width of a feature, below which they are
-# not resolved, and the part of a profile's variance that a grid may miss.
+# Fewest grid spacings that resolve a correlation length, and a wavelength or the width of a feature.
 LEAST_IN_CORRELATION = 2.0
 LEAST_IN_SHAPE = 8.0
+
+# Fraction of the variance of the heights that a grid may miss without a warning.
 MOST_MISSED = 0.01
 
 
 def map_surface_warnings(
     tables: Sequence[Roughness], rough: Sequence[RoughMap], domain: Domain, dx: float, dy: float
 ) -> Iterator[ResultWarning]:
-    """Warnings about the roughness of a point contact that are known before it is solved.
+    """Warnings about the roughness of a point contact, before its film is computed.
 
     Parameters
     ----------
-    tables, rough : sequences
-        Of the case, and what ``rough_maps`` made of them.
+    tables : sequence of Roughness
+        Tables ``[[roughness]]`` of the case.
+    rough : sequence of RoughMap
+        Rough surfaces that ``rough_maps`` returned for the tables.
     domain : Domain
-        Where the film is solved [m].
+        Domain of the film [m].
     dx, dy : float
-        Spacings of the film's nodes [m].
+        Spacings of the nodes of the film [m].
 
     Yields
     ------
     ResultWarning
-        About files and steps, continuation, and what is finer than the grid.
+        Warnings about files and processing steps, continuation, and roughness that is finer than the grid.
     """
     for table, surface in zip(tables, rough, strict=True):
         yield from surface.warnings
@@ -75,7 +78,7 @@ def _continued(table: Roughness, surface: RoughMap, domain: Domain) -> Iterator[
 
 
 def _map_shape_warnings(table: Roughness, domain: Domain, dx: float, dy: float) -> Iterator[ResultWarning]:
-    """Warnings of exact shapes finer than the grid, where they lie within the domain."""
+    """Warnings about exact shapes inside the domain that are finer than the grid of a point contact."""
     whose = f"the {table.generator} of surface {table.surface}"
     if table.wavelength is not None:
         turn = np.deg2rad(table.orientation or 0.0)
@@ -99,9 +102,9 @@ def _map_shape_warnings(table: Roughness, domain: Domain, dx: float, dy: float) 
 def _map_warnings(
     table: Roughness, surface: RoughMap, last: Map, domain: Domain, spacing: tuple[float, float]
 ) -> Iterator[ResultWarning]:
-    """Warnings of maps finer than the grid, along its axes."""
-    found = statistics(last)
-    inverse = 1.0 / found.correlation_length_x**2, 1.0 / found.correlation_length_y**2
+    """Warnings about a map that is finer than the grid along one of the axes of the grid."""
+    parameters = statistics(last)
+    inverse = 1.0 / parameters.correlation_length_x**2, 1.0 / parameters.correlation_length_y**2
     turn = np.deg2rad(surface.orientation)
     squares = np.cos(turn) ** 2, np.sin(turn) ** 2
     lengths = [float((squares[k] * inverse[0] + squares[1 - k] * inverse[1]) ** -0.5) for k in (0, 1)]
@@ -122,7 +125,10 @@ def _map_warnings(
 
 
 def _inside(table: Roughness, last: Map, domain: Domain) -> Map:
-    """The part of a map within the domain; all of it where it is turned, or too little is within."""
+    """Part of a map inside the domain.
+
+    A map that is rotated, or has fewer than 16 points inside along an axis, is returned whole.
+    """
     x, y = last.x + table.shift, last.y + table.shift_y
     rows = np.flatnonzero((x >= domain.inlet) & (x <= domain.outlet))
     columns = np.flatnonzero(np.abs(y) <= domain.side)
@@ -134,21 +140,21 @@ def _inside(table: Roughness, last: Map, domain: Domain) -> Map:
 def map_variance_beyond(
     surface: Map, frequency_x: float, frequency_y: float, orientation: float = 0.0
 ) -> float:
-    """Part of a map's variance in waves that one axis of a grid has no place for, from its periodogram.
+    """Fraction of the variance of a map in waves that are too short for a grid, from the periodogram.
 
     Parameters
     ----------
     surface : Map
-        Heights.
+        Map of heights.
     frequency_x, frequency_y : float
-        Waves per length along the grid's axes, beyond either of which a wave counts [1/m].
+        Largest spatial frequencies along the axes of the grid [1/m]. A wave that exceeds either is too short.
     orientation : float
-        Angle of the map's own x axis to that of the grid, counter-clockwise [degrees].
+        Angle from the x axis of the grid to the x axis of the map, counter-clockwise [degrees].
 
     Returns
     -------
     float
-        From 0 to 1.
+        Fraction of the variance, from 0 to 1.
 
     Examples
     --------
@@ -159,9 +165,9 @@ def map_variance_beyond(
     [0.1, 0.0]
     """
     z = surface.heights - np.mean(surface.heights)
-    # Hann's window, so that a step from one side to the other counts for nothing.
+    # A Hann window removes the effect of the step between opposite sides.
     power = np.abs(np.fft.rfft2(z * np.outer(*(np.hanning(n) for n in z.shape)))) ** 2
-    # All waves but those along x stand for their negative too.
+    # rfft2 leaves out negative frequencies along y: waves with a component along y count twice.
     power[:, 1 : (z.shape[1] + 1) // 2] *= 2.0
     own_x = np.fft.fftfreq(z.shape[0], surface.spacing_x)[:, np.newaxis]
     own_y = np.fft.rfftfreq(z.shape[1], surface.spacing_y)
@@ -176,7 +182,24 @@ def map_variance_beyond(
 def profile_surface_warnings(
     tables: Sequence[Roughness], rough: Sequence[RoughSurface], domain: Domain, dx: float
 ) -> Iterator[ResultWarning]:
-    """Warnings about the roughness of a line contact that are known before it is solved."""
+    """Warnings about the roughness of a line contact, before its film is computed.
+
+    Parameters
+    ----------
+    tables : sequence of Roughness
+        Tables ``[[roughness]]`` of the case.
+    rough : sequence of RoughSurface
+        Rough surfaces that ``rough_surfaces`` returned for the tables.
+    domain : Domain
+        Domain of the film [m].
+    dx : float
+        Spacing of the nodes of the film [m].
+
+    Yields
+    ------
+    ResultWarning
+        Warnings about files and processing steps, continuation, and roughness that is finer than the grid.
+    """
     for table, surface in zip(tables, rough, strict=True):
         yield from surface.warnings
         ends = domain.inlet - table.shift, domain.outlet - table.shift
@@ -195,7 +218,7 @@ def profile_surface_warnings(
 
 
 def same_seeds(tables: Iterable[Roughness]) -> Iterator[ResultWarning]:
-    """Warnings of generated surfaces that are not independent of each other."""
+    """Warnings about generated surfaces that share a seed and so are not independent of each other."""
     for seed, times in Counter(table.seed for table in tables if table.seed is not None).items():
         if times > 1:
             yield ResultWarning(
@@ -206,7 +229,17 @@ def same_seeds(tables: Iterable[Roughness]) -> Iterator[ResultWarning]:
 
 
 def unresolved(dx: float, what: str, length: float) -> ResultWarning:
-    """Warning of a grid too coarse for something; the text before its length is ``what``."""
+    """Warning about roughness that the grid does not resolve.
+
+    Parameters
+    ----------
+    dx : float
+        Spacing of the nodes [m].
+    what : str
+        Text that names the surface and the kind of the length.
+    length : float
+        Length that is not resolved [m].
+    """
     return ResultWarning(
         "roughness-unresolved",
         f"the grid, {dx * 1e6:.3g} µm, does not resolve {what} is {length * 1e6:.3g} µm: its error estimate "
@@ -217,7 +250,7 @@ def unresolved(dx: float, what: str, length: float) -> ResultWarning:
 def _profile_shape_warnings(
     table: Roughness, dx: float, ends: tuple[float, float]
 ) -> Iterator[ResultWarning]:
-    """Warnings of exact shapes finer than the grid, where they lie within the domain."""
+    """Warnings about exact shapes inside the domain that are finer than the grid of a line contact."""
     name, length = ("wavelength", table.wavelength) if table.wavelength else ("width", table.width)
     assert length is not None
     position = table.position or 0.0
@@ -233,7 +266,11 @@ def _profile_shape_warnings(
 def profile_warnings(
     surface: int, last: Profile, dx: float, ends: tuple[float, float]
 ) -> Iterator[ResultWarning]:
-    """Warnings of a profile that is finer than the grid after its last step."""
+    """Warnings about a profile that is finer than the grid after its last processing step.
+
+    ``surface`` is the number of the surface, ``dx`` the spacing of the nodes [m], and ``ends`` the range of x
+    that the domain covers [m].
+    """
     length = profiles_statistics(last).correlation_length
     if dx > length / LEAST_IN_CORRELATION:
         whose = f"the profile of surface {surface}, whose correlation length"
@@ -249,21 +286,22 @@ def profile_warnings(
 
 
 def profile_variance_beyond(profile: Profile, frequency: float, ends: tuple[float, float]) -> float:
-    """Part of a profile's variance in waves of more than a spatial frequency [1/m], from its periodogram.
+    """Fraction of the variance of a profile in waves above a spatial frequency, from the periodogram.
 
     Parameters
     ----------
     profile : Profile
-        Heights.
+        Profile of heights.
     frequency : float
-        Waves per length [1/m].
+        Spatial frequency [1/m].
     ends : tuple of float
-        Between which it counts [m]; all of it where it has no sixteen points there.
+        Ends of the part of the profile that counts [m]. If it has fewer than 16 points, the whole profile
+        counts.
 
     Returns
     -------
     float
-        From 0 to 1.
+        Fraction of the variance, from 0 to 1.
 
     Examples
     --------
@@ -275,7 +313,7 @@ def profile_variance_beyond(profile: Profile, frequency: float, ends: tuple[floa
     """
     inside = (profile.x >= ends[0]) & (profile.x <= ends[1])
     z = profile.heights[inside] if np.count_nonzero(inside) >= LEAST_POINTS else profile.heights
-    # Hann's window, so that a step from the last to the first point counts for nothing.
+    # A Hann window removes the effect of the step between the last and the first point.
     power = np.abs(np.fft.rfft((z - np.mean(z)) * np.hanning(z.size))) ** 2
     total = float(np.sum(power))
     waves = np.fft.rfftfreq(z.size, profile.spacing)

@@ -1,4 +1,4 @@
-"""Which keys of a summary are a breakdown voltage, its margin, and the voltage that is applied."""
+"""Keys of a summary that hold breakdown voltage, applied voltage and margin, of contacts and bearings."""
 
 from __future__ import annotations
 
@@ -14,14 +14,22 @@ from ehlectric.sweep.results import SweepResults
 
 @dataclass(frozen=True)
 class Breakdown:
-    """A breakdown voltage with what it is set beside.
+    """Keys and names of a breakdown voltage, the applied voltage and the margin between them.
 
     Attributes
     ----------
-    value, margin, voltage : str
-        Dotted keys of the summary: breakdown voltage, that over the applied one, and the applied one.
-    name, voltage_name, whose : str
-        What figures call the first and the last of them, and the short of the latter.
+    value : str
+        Dotted key of the breakdown voltage in the summary.
+    margin : str
+        Dotted key of the margin, breakdown voltage over applied voltage.
+    voltage : str
+        Dotted key of the applied voltage.
+    name : str
+        Name of the breakdown voltage in figures.
+    voltage_name : str
+        Name of the applied voltage in figures.
+    whose : str
+        Short form of ``voltage_name``, as in "below the applied 30 V".
     """
 
     value: str
@@ -33,16 +41,22 @@ class Breakdown:
 
     @property
     def keys(self) -> tuple[str, str]:
-        """Breakdown voltage and margin."""
+        """Dotted keys of the breakdown voltage and of the margin."""
         return self.value, self.margin
 
     def margins(self, results: SweepResults) -> Array:
-        """Breakdown voltage over applied voltage of every point, not a number where there is none.
+        """Breakdown voltage over applied voltage of every point of a sweep.
+
+        Parameters
+        ----------
+        results : SweepResults
+            Results of a sweep.
 
         Returns
         -------
         ndarray, shape (points,)
-            The margin of the summaries; where they have none, from the two voltages.
+            Margin of each point, from its summary or, where that has none, from the two voltages; nan where a
+            point has no breakdown voltage.
         """
         margin = results.values(self.margin)
         ratio = results.values(self.value) / results.values(self.voltage)
@@ -69,19 +83,20 @@ THROUGH = Breakdown(
 
 
 def breakdown_of(case: AnyCase, value: str | None = None) -> Breakdown:
-    """The breakdown voltage that a value of a summary is about.
+    """Breakdown voltage that a value of a summary belongs to.
 
     Parameters
     ----------
     case : Case or BearingCase
-        The base case of a sweep.
+        Base case of the sweep.
     value : str, optional
-        Its dotted key.
+        Dotted key of the value.
 
     Returns
     -------
     Breakdown
-        Of a bearing the first break, but for the keys of its through breakdown.
+        Breakdown of a contact. For a bearing, the first break of one of its contacts, except where ``value``
+        is a key of the through breakdown.
     """
     if not isinstance(case, BearingCase):
         return CONTACT

@@ -1,4 +1,4 @@
-"""A Dask cluster that solves the points of a sweep: connected to by the address of its scheduler."""
+"""Solution of the points of a sweep on a Dask cluster, given the address of its scheduler."""
 
 from __future__ import annotations
 
@@ -15,34 +15,41 @@ from typing import Any
 from ehlectric.errors import InputError, LostError, shown
 from ehlectric.sweep.engine import Crew
 
-# What an address has to answer, and the client to come back to a scheduler that is lost [s].
+# Time that an address has to answer in, and the client to reconnect to a lost scheduler [s].
 ANSWER = 8.0
 
-# Points in flight at least: a cluster that grows with its work sees that there is some.
+# Least number of points in flight. A cluster that adapts its workers to the queued work needs some to start.
 _LEAST = 64
 
-# How often it is asked for its workers [s].
+# Interval between two requests for the number of workers [s].
 _REFRESH = 2.0
 _LOGGERS = ("distributed", "tornado", "asyncio")
 
 
 @contextmanager
 def cluster(address: str) -> Iterator[Crew]:
-    """A crew of the workers of a Dask scheduler, also of those that come later.
+    """Context manager that connects to a Dask scheduler and yields a crew of its workers.
+
+    Workers that join the cluster later are used too.
 
     Parameters
     ----------
     address : str
-        Of the scheduler, as "tcp://10.0.0.1:8786".
+        Address of the scheduler, such as "tcp://10.0.0.1:8786".
+
+    Yields
+    ------
+    Crew
+        The workers of the cluster.
 
     Raises
     ------
     InputError
-        Where nobody answers there, or dask.distributed is not installed.
+        Where no scheduler answers at the address, or dask.distributed is not installed.
 
     Notes
     -----
-    What Dask logs in this process is silenced: a lost scheduler is told in one line.
+    Log messages of Dask in this process are switched off: an error of one line reports a lost scheduler.
     """
     try:
         from distributed import Client
@@ -52,12 +59,12 @@ def cluster(address: str) -> Iterator[Crew]:
         ) from None
     _silence()
     with warnings.catch_warnings():
-        # Of differing versions: what they break is told where it breaks.
+        # Dask warns where versions differ. Where the difference breaks something, an error says so.
         warnings.simplefilter("ignore")
         try:
             asyncio.run(asyncio.wait_for(_ask(address), ANSWER))
             client = Client(address, timeout=ANSWER, set_as_default=False)
-        except Exception as error:  # of addresses, sockets, TLS and what else may answer there
+        except Exception as error:  # of the address, the socket, TLS or another kind of server
             reason = " ".join(str(error).split())[:200] or f"none in {ANSWER:g} s"
             raise InputError("scheduler", got=f"no answer from {shown(address)}, {reason}") from None
     try:
@@ -69,7 +76,7 @@ def cluster(address: str) -> Iterator[Crew]:
 
 
 async def _ask(address: str) -> None:
-    """See whether a scheduler answers: a client would wait for what only listens."""
+    """Check that a scheduler answers: a client would wait for a server that listens but never answers."""
     from distributed import Security
     from distributed.core import rpc
 
@@ -80,17 +87,21 @@ async def _ask(address: str) -> None:
 
 
 def _crew(client: Any, executor: Executor) -> Crew:
-    threads, asked = 0, -math.inf
+    """Crew of the workers of a connected client."""
+    threads, asked_at = 0, -math.inf
 
     def width() -> int:
-        """How many points the workers of now may have in flight; to ask takes the scheduler a moment."""
-        nonlocal threads, asked
+        """Number of points that the present workers may have in flight.
+
+        The number of workers is requested only now and then, as the request takes the scheduler some time.
+        """
+        nonlocal threads, asked_at
         if client.status != "running":
             raise LostError("the connection is lost")
-        if time.monotonic() - asked > _REFRESH:
+        if time.monotonic() - asked_at > _REFRESH:
             try:
-                threads, asked = sum(client.nthreads().values()), time.monotonic()
-            except Exception as error:  # of sockets and their wrappers
+                threads, asked_at = sum(client.nthreads().values()), time.monotonic()
+            except Exception as error:  # of the connection
                 raise LostError(" ".join(str(error).split())) from None
         return max(_LEAST, 3 * threads)
 
@@ -98,7 +109,7 @@ def _crew(client: Any, executor: Executor) -> Crew:
 
 
 def _silence() -> None:
-    """Loggers of Dask that are there and that come later say nothing."""
+    """Switch off the loggers of Dask, those that exist and, through their parents, those created later."""
     for name in (*_LOGGERS, *logging.root.manager.loggerDict):
         if name.partition(".")[0] in _LOGGERS:
             logging.getLogger(name).setLevel(logging.CRITICAL + 1)

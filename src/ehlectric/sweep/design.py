@@ -1,4 +1,4 @@
-"""Designs of a sweep: which values the varied inputs take together, point by point."""
+"""Designs of a sweep: the values of the varied inputs at each point of a grid, paired or Sobol design."""
 
 from __future__ import annotations
 
@@ -14,7 +14,17 @@ from ehlectric.sweep.results import Range
 
 
 def grid(axes: Mapping[str, Sequence[Any]]) -> Iterator[dict[str, Any]]:
-    """Every value of each key with every value of the others, the last key fastest.
+    """Points of a grid design: every combination of the values of all keys.
+
+    Parameters
+    ----------
+    axes : mapping
+        Values of each key.
+
+    Yields
+    ------
+    dict
+        Inputs of a point by key; the last key varies fastest.
 
     Examples
     --------
@@ -26,7 +36,22 @@ def grid(axes: Mapping[str, Sequence[Any]]) -> Iterator[dict[str, Any]]:
 
 
 def paired(axes: Mapping[str, Sequence[Any]]) -> Iterator[dict[str, Any]]:
-    """The first values of all keys together, then the second ones, and so on.
+    """Points of a paired design: the first values of all keys, then the second values, and so on.
+
+    Parameters
+    ----------
+    axes : mapping
+        Values of each key, equally many.
+
+    Yields
+    ------
+    dict
+        Inputs of a point by key.
+
+    Raises
+    ------
+    ValueError
+        Where the keys have different numbers of values.
 
     Examples
     --------
@@ -40,30 +65,31 @@ def paired(axes: Mapping[str, Sequence[Any]]) -> Iterator[dict[str, Any]]:
 def sobol(
     ranges: Mapping[str, Range], samples: int, seed: int, whole: Collection[str] = ()
 ) -> Iterator[dict[str, Any]]:
-    """The points from which first-order and total sensitivity indices are estimated.
+    """Points of a Sobol design, from which first-order and total sensitivity indices are estimated.
 
     Parameters
     ----------
     ranges : mapping
-        Range of each key.
+        Range of each key, SI.
     samples : int
-        Rows n of the matrices A and B, a power of two.
+        Number n of rows of the matrices A and B, a power of two.
     seed : int
-        Of the scrambling of Sobol's sequence: the same seed makes the same points.
+        Seed of the scrambling of Sobol's sequence: the same seed gives the same points.
     whole : collection of str
-        Keys that take whole numbers, each of their range with the same share.
+        Keys whose values are whole numbers. Every whole number of the range is equally likely with linear
+        spacing.
 
     Yields
     ------
     dict
-        Inputs of a point: n(d + 2) of them for d keys, the rows of A, those of B, then, for each key, those
-        of A with the column of that key from B.
+        Inputs of a point by key, SI. For d keys there are n(d + 2) points: the rows of A, the rows of B, and
+        then for each key the rows of A with the column of that key taken from B.
 
     Notes
     -----
     A and B are the halves of a scrambled Sobol sequence in 2d dimensions. Saltelli et al., Comput. Phys.
-    Commun. 181 (2010) 259, doi:10.1016/j.cpc.2009.09.018, table 2; ``scipy.stats.sobol_indices`` takes what
-    is computed there as its f_A, f_B and f_AB.
+    Commun. 181 (2010) 259, doi:10.1016/j.cpc.2009.09.018, table 2. The values computed at
+    these points are f_A, f_B and f_AB of ``scipy.stats.sobol_indices``.
 
     Examples
     --------
@@ -75,7 +101,7 @@ def sobol(
 
     count = len(ranges)
     engine = qmc.Sobol(2 * count, scramble=True, seed=np.random.default_rng(seed))
-    # A power of two keeps the balance of the sequence.
+    # The sequence is balanced only for a power of two of samples.
     unit = engine.random_base2(samples.bit_length() - 1)
     first, second = unit[:, :count], unit[:, count:]
     yield from _rows(ranges, first, whole)
@@ -87,7 +113,7 @@ def sobol(
 
 
 def _rows(ranges: Mapping[str, Range], unit: Array, whole: Collection[str]) -> Iterator[dict[str, Any]]:
-    """Points of rows of the unit cube."""
+    """Points of a design from rows of the unit cube, shape (n, keys)."""
     columns = [
         (shares if key in whole else between)(over, unit[:, k]).tolist()
         for k, (key, over) in enumerate(ranges.items())
@@ -97,19 +123,19 @@ def _rows(ranges: Mapping[str, Range], unit: Array, whole: Collection[str]) -> I
 
 
 def between(over: Range, unit: ArrayLike) -> Array:
-    """Values of a range.
+    """Values at given fractions of a range.
 
     Parameters
     ----------
     over : Range
-        Its ends and its spacing.
-    unit : array_like
-        Where in the range, from 0 at its start to 1 at its end.
+        Ends and spacing of the range.
+    unit : array_like, shape (...)
+        Fraction of the range, from 0 at its start to 1 at its end.
 
     Returns
     -------
-    ndarray
-        In the unit of the range, its ends exact.
+    ndarray, shape (...)
+        Values in the unit of the range; at 0 and 1 its exact ends.
 
     Examples
     --------
@@ -125,19 +151,20 @@ def between(over: Range, unit: ArrayLike) -> Array:
 
 
 def shares(over: Range, unit: ArrayLike) -> Array:
-    """Whole numbers of a range, each with its share of the unit interval.
+    """Whole numbers at given fractions of a range.
 
     Parameters
     ----------
     over : Range
-        Its ends, whole numbers, and its spacing.
-    unit : array_like
-        From 0 to 1.
+        Ends of the range, whole numbers, and its spacing.
+    unit : array_like, shape (...)
+        Fraction of the range, from 0 to 1.
 
     Returns
     -------
-    ndarray of int
-        Rounding alone would give the ends half a share.
+    ndarray of int, shape (...)
+        Whole numbers of the range. With linear spacing each covers an equal part of the unit interval;
+        rounding alone would leave half a part to the two ends.
 
     Examples
     --------

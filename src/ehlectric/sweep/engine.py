@@ -1,4 +1,4 @@
-"""Points of a sweep solved by any executor: a few in flight, each with an outcome, whatever becomes of it."""
+"""Solution of the points of a sweep by an executor; every point gets an outcome, also where it fails."""
 
 from __future__ import annotations
 
@@ -35,23 +35,31 @@ from ehlectric.version import __version__
 
 T = TypeVar("T")
 
-# Points in flight for each that is being solved: the next ones wait beside it.
+# Points in flight per process: one that is being solved, and one that waits, so that no process idles.
 _AHEAD = 2
 
-# How often those who wait are told so [s].
+# Interval at which the caller is called back while no point finishes [s].
 _PULSE = 1.0
 
-# What BLAS libraries read as they are loaded.
+# Environment variables in which BLAS libraries look up the number of threads when they are loaded.
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 Task = tuple[str, Mapping[str, Any]]
 
 
 @dataclass(frozen=True)
 class Crew:
-    """Those who solve points.
+    """Processes or machines that solve points.
 
-    ``submit`` hands over a call, ``width`` is how many points may be in flight, ``renew`` makes good for
-    processes that died, and ``waiting`` says what holds them up.
+    Attributes
+    ----------
+    submit : callable
+        Hands over a call with its arguments, and returns its future.
+    width : callable
+        Returns the number of points that may be in flight.
+    renew : callable
+        Replaces processes that died.
+    waiting : callable
+        Returns a text that says what the crew is waiting for; empty where it is working.
     """
 
     submit: Callable[..., Future[Any]]
@@ -61,26 +69,27 @@ class Crew:
 
 
 def solve_point(table: Mapping[str, Any]) -> Outcome:
-    """Solve a case that came as plain data, wherever that may be.
+    """Solve a case given as plain data, in any process.
 
     Parameters
     ----------
     table : mapping
-        As ``Case.to_dict`` gives it.
+        The case, from ``Case.to_dict``.
 
     Returns
     -------
     Outcome
-        Of every case: what goes wrong in solving is the reason of a point that failed.
+        Outcome of the point. No exception is raised: an error becomes the reason of a failed point.
     """
     started = time.perf_counter()
     status, reason, again, summary = _attempt(table)
-    # One line, whatever a library wrote.
+    # Messages of libraries may have several lines; the reason is a single one.
     reason = " ".join(reason.split())[:1000]
     return Outcome(status, reason, again, summary, time.perf_counter() - started, __version__, now())
 
 
 def _attempt(table: Mapping[str, Any]) -> tuple[Status, str, bool, dict[str, Any] | None]:
+    """Status and reason of a case, whether another try may succeed, and its summary."""
     try:
         solved, summary, reason = _solved(table)
     except MemoryLimitError as error:
@@ -97,15 +106,15 @@ def _attempt(table: Mapping[str, Any]) -> tuple[Status, str, bool, dict[str, Any
 
 
 def _solved(table: Mapping[str, Any]) -> tuple[bool, dict[str, Any], str]:
-    """Whether a case is solved, its summary, and what is to be said where it is not."""
+    """Whether a case converged, its summary, and the reason where it did not."""
     case = case_of_dict(table)
     if isinstance(case, BearingCase):
         bearing = solve_bearing(case, workers=1)
         summary = bearing.summary()
-        del summary["contacts"]  # a row for each would be more columns than a table has
+        del summary["contacts"]  # with columns for every contact, the table would be too wide
         return bearing.converged, summary, "a contact of the bearing is not converged"
     result = solve(case)
-    # The warning that says how far it came and what to try.
+    # This warning says what residual was reached and what to try.
     reasons = (warning.text for warning in result.warnings if warning.code == "not-converged")
     return result.converged, result.summary(), next(reasons, result.film.status)
 
@@ -113,27 +122,27 @@ def _solved(table: Mapping[str, Any]) -> tuple[bool, dict[str, Any], str]:
 def run_points(
     tasks: Iterable[Task], crew: Crew, done: Callable[[Sequence[tuple[str, Outcome]]], None]
 ) -> None:
-    """Solve points, as many at a time as the crew takes.
+    """Solve points with a crew, as many at a time as it can take.
 
     Parameters
     ----------
     tasks : iterable of (str, mapping)
-        Key of each point and its case as plain data, taken as they are needed.
+        Key of each point and its case as plain data. The iterable is read only as points are handed over.
     crew : Crew
-        Who solves them.
+        Processes or machines that solve the points.
     done : callable
-        Called with the keys and outcomes of what has finished, in this thread; about every second with none
-        while nothing does.
+        Called in this thread with a sequence of the keys and outcomes of finished points. While no point
+        finishes, it is called about every second with an empty sequence.
 
     Raises
     ------
     LostError
-        Where the crew is gone; what had finished has been handed to ``done``.
+        Where the crew cannot be reached any more. All finished points have been passed to ``done`` before.
 
     Notes
     -----
-    Where a process dies, the points in flight are tried again one at a time, and one whose process dies
-    again fails. Where not even an empty call comes back, nobody is left.
+    Where a process dies, the points in flight are tried again one at a time. A point whose process dies again
+    is failed. Where not even an empty call returns, the crew is lost.
     """
     remaining, flying = iter(tasks), dict[Future[Outcome], Task]()
     try:
@@ -154,13 +163,13 @@ def run_points(
 
 
 def _fill(flying: dict[Future[Outcome], Task], remaining: Iterator[Task], crew: Crew) -> list[Task]:
-    """Hand over the next points; those that nobody took."""
+    """Hand the next points to the crew; returns the point that was refused because a process had died."""
     for task in islice(remaining, max(0, crew.width() - len(flying))):
         try:
             flying[crew.submit(solve_point, task[1])] = task
         except BrokenExecutor:
             return [task]
-        except Exception as error:  # of the executor
+        except Exception as error:  # raised by the executor
             raise LostError(f"no more points are taken: {error}") from None
     return []
 
@@ -170,36 +179,36 @@ def _take(
     finished: Iterable[Future[Outcome]],
     done: Callable[[Sequence[tuple[str, Outcome]]], None],
 ) -> list[Task]:
-    """Hand on what has finished; the points that got lost with their process."""
-    found: list[tuple[str, Outcome]] = []
+    """Pass the outcomes of finished points to ``done``; returns the points whose process died."""
+    outcomes: list[tuple[str, Outcome]] = []
     suspects: list[Task] = []
     gone = False
     for future in finished:
         task = flying.pop(future)
         try:
-            found.append((task[0], future.result()))
+            outcomes.append((task[0], future.result()))
         except CancelledError:
             gone = True
-        except Exception:  # of the executor: solve_point has none
+        except Exception:  # raised by the executor, as solve_point raises none
             suspects.append(task)
-    done(found)
+    done(outcomes)
     if gone:
         raise LostError("points in flight were cancelled")
     return suspects
 
 
 def _alone(task: Task, crew: Crew) -> Outcome:
-    """A point with nothing else in flight, to see whether it is the one that kills its process."""
+    """Outcome of a point solved with nothing else in flight, to find out whether it kills its process."""
     _ask(crew)
     try:
         outcome: Outcome = crew.submit(solve_point, task[1]).result()
     except CancelledError:
         raise LostError("points in flight were cancelled") from None
-    except Exception as error:  # of the executor
+    except Exception as error:  # raised by the executor
         crew.renew()
         _ask(crew)
         kind = type(error).__name__
-        killed = isinstance(error, BrokenExecutor) or kind == "KilledWorker"  # the latter is Dask's
+        killed = isinstance(error, BrokenExecutor) or kind == "KilledWorker"  # an error class of Dask
         reason = (
             f"its process was killed twice, as by a system out of memory ({kind})"
             if killed
@@ -210,7 +219,7 @@ def _alone(task: Task, crew: Crew) -> Outcome:
 
 
 def _ask(crew: Crew) -> None:
-    """See whether anybody is there."""
+    """Check with an empty call that the crew still answers, and raise a LostError where it does not."""
     try:
         crew.submit(_here).result()
     except (CancelledError, Exception) as error:
@@ -223,12 +232,17 @@ def _here() -> str:
 
 
 def crew_of(executor: Executor) -> Crew:
-    """A crew of any executor of the kind of concurrent.futures, which its owner ends.
+    """Crew of an executor with the interface of ``concurrent.futures``.
 
     Parameters
     ----------
     executor : Executor
-        Its workers import ehlectric.
+        Executor whose workers can import ehlectric. It is not shut down here; that is left to its owner.
+
+    Returns
+    -------
+    Crew
+        The workers of the executor.
     """
     workers = getattr(executor, "_max_workers", None) or 32
     return Crew(executor.submit, lambda: _AHEAD * workers + 1)
@@ -236,17 +250,24 @@ def crew_of(executor: Executor) -> Crew:
 
 @contextmanager
 def processes(number: int) -> Iterator[Crew]:
-    """A crew of processes on this machine, which end with the context, or with this process.
+    """Context manager that yields a crew of processes on this machine.
+
+    The processes end when the context or the calling process ends.
 
     Parameters
     ----------
     number : int
-        How many; each has one BLAS thread.
+        Number of processes; each uses one BLAS thread.
+
+    Yields
+    ------
+    Crew
+        The processes.
     """
     pool = _pool(number)
 
     def submit(call: Callable[..., T], *values: Any) -> Future[T]:
-        # Processes begin with the first calls, and inherit that interrupts are not for them.
+        # The first calls start the processes, which inherit that they ignore interrupts (Ctrl-C).
         with without_interrupts():
             return pool.submit(call, *values)
 
@@ -260,7 +281,7 @@ def processes(number: int) -> Iterator[Crew]:
     except BaseException:
         end_now(pool)
         raise
-    # Nothing is in flight: they are on their way out, and need nobody who waits.
+    # Nothing is in flight, so the processes end by themselves and need not be waited for.
     pool.shutdown(wait=False)
 
 
@@ -271,10 +292,10 @@ def _pool(number: int) -> ProcessPoolExecutor:
 
 
 def _prepare_process() -> None:
-    """What a process does before its first point."""
+    """Prepare a new process: it ends with its parent, and uses one BLAS thread."""
     from threadpoolctl import threadpool_limits
 
     end_with_parent()
-    # For libraries that are not loaded yet, and for those that are.
+    # The environment limits libraries that are loaded later, threadpool_limits those already loaded.
     os.environ |= dict.fromkeys(_THREADS, "1")
     threadpool_limits(1)

@@ -1,4 +1,4 @@
-"""What a sweep file asks for: a base case, what varies in it and over what, and the design of its points."""
+"""Input of a sweep: base case, varied keys with their values or ranges, and design of the points."""
 
 from __future__ import annotations
 
@@ -21,17 +21,18 @@ from ehlectric.errors import InputError, shown
 from ehlectric.sweep import design as sweep_design
 from ehlectric.sweep.results import Range
 
-# With their summaries and tables so many take some 4 GB, 20 kB each.
+# Summaries and tables take about 20 kB of memory a point, thus 4 GB for so many points.
 MOST_POINTS = 200_000
 _RANGE_KEYS = ("from", "to", "count", "spacing")
 _SPACINGS = ("linear", "log")
 
 
 class Sweep(Table):
-    """Many cases: a base case, and what varies in it.
+    """Sweep over many cases: a base case, and the keys of it that vary.
 
-    ``vary`` holds, by dotted key of the case, the values in SI, or the ``Range`` of a "sobol" design; rough
-    surfaces count from 1, as in "roughness.1.rescale_rq". A varied key displaces its alternative.
+    ``vary`` maps dotted keys of the case to their values in SI units or, in a "sobol" design, to a ``Range``.
+    Rough surfaces are numbered from 1, as in "roughness.1.rescale_rq". Of alternative keys, such as load or
+    Hertz pressure, a varied one replaces the one in the base case.
 
     Examples
     --------
@@ -53,12 +54,12 @@ class Sweep(Table):
 
     @field_validator("vary", mode="before")
     @classmethod
-    def _parsed(cls, given: Any, info: ValidationInfo) -> Any:
-        """Values in SI; left as they are where the case or the design are wrong already."""
+    def _parsed(cls, tables: Any, info: ValidationInfo) -> Any:
+        """Varied values in SI units; unchanged where the case or the design is already invalid."""
         case, design = info.data.get("case"), info.data.get("design")
-        if not isinstance(given, Mapping) or case is None or design is None:
-            return given
-        flat = _flattened(given)
+        if not isinstance(tables, Mapping) or case is None or design is None:
+            return tables
+        flat = _flattened(tables)
         if not flat:
             raise InputError(got="no key", takes="at least one key of the case with its values or its range")
         return {key: _axis(key, value, design) for key, value in flat.items()}
@@ -87,12 +88,12 @@ class Sweep(Table):
 
     @classmethod
     def from_toml(cls, path: str | Path) -> Self:
-        """Sweep of a TOML file; files that it names lie relative to it.
+        """Read a sweep from a TOML file; file names in it are relative to its folder.
 
         Raises
         ------
         InputError
-            Where it or its case cannot be read, is not TOML, or is not a sweep.
+            Where the file or that of its case cannot be read, is not TOML, or is not a sweep.
         """
         table, folder = read_toml(path), Path(path).parent
         match table.get("case"):
@@ -106,12 +107,17 @@ class Sweep(Table):
 
     @classmethod
     def from_dict(cls, table: Mapping[str, Any]) -> Self:
-        """Sweep of nested tables, whose ``case`` is a Case, its tables, or the path of its file.
+        """Create a sweep from nested tables.
+
+        Parameters
+        ----------
+        table : mapping
+            Tables of the sweep. Its ``case`` is a Case, the tables of a case, or the path of a case file.
 
         Raises
         ------
         InputError
-            One line with the key, what it got and what it takes.
+            Where a key or value is invalid. The message is one line: the key, what it got, what it takes.
         """
         case = table.get("case")
         try:
@@ -131,24 +137,24 @@ class Sweep(Table):
 
     @property
     def axes(self) -> dict[str, tuple[Any, ...]]:
-        """Values of each varied key, SI; of a "sobol" design empty."""
+        """Values of each varied key, SI; empty for a "sobol" design."""
         return {} if self.design == "sobol" else dict(self.vary)
 
     @property
     def ranges(self) -> dict[str, Range]:
-        """Of a "sobol" design, the range of each varied key."""
+        """Range of each varied key of a "sobol" design, SI; empty for other designs."""
         return dict(self.vary) if self.design == "sobol" else {}
 
     @property
     def size(self) -> int:
-        """Number of points."""
+        """Number of points of the design."""
         if self.design == "sobol":
             return (self.samples or 0) * (len(self.vary) + 2)
         lengths = [len(axis) for axis in self.axes.values()]
         return math.prod(lengths) if self.design == "grid" else lengths[0]
 
     def points(self) -> Iterator[dict[str, Any]]:
-        """Inputs of every point by dotted key, SI, in the order of the design."""
+        """Inputs of every point by dotted key of the case, SI, in the order of the design."""
         if self.design == "sobol":
             whole = [key for key in self.vary if isinstance(number_of(input_field(key)), Count)]
             return sweep_design.sobol(self.ranges, self.samples or 0, self.seed, whole)
@@ -156,7 +162,7 @@ class Sweep(Table):
 
 
 def _flattened(tables: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
-    """Values and ranges by dotted key, from keys that are dotted and tables that are nested."""
+    """Values and ranges by dotted key, from dotted keys and nested tables in any mixture."""
     flat: dict[str, Any] = {}
     for key, value in tables.items():
         inner = (
@@ -171,7 +177,7 @@ def _flattened(tables: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
 
 
 def _locate(tables: dict[str, Any], folder: Path, prefix: str = "") -> None:
-    """Files among the values lie relative to the sweep, wherever it is written to."""
+    """Make file names among the varied values absolute; in the sweep file they are relative to its folder."""
     for name, value in tables.items():
         key = prefix + name
         if isinstance(value, dict):
@@ -180,21 +186,21 @@ def _locate(tables: dict[str, Any], folder: Path, prefix: str = "") -> None:
             tables[name] = [str((folder / v).absolute()) if isinstance(v, str) else v for v in value]
 
 
-def _axis(key: str, given: Any, design: str) -> tuple[Any, ...] | Range:
-    """Values of a varied key, or its range in a sobol design."""
+def _axis(key: str, value: Any, design: str) -> tuple[Any, ...] | Range:
+    """Values of a varied key, SI, or its range in a sobol design."""
     if key.partition(".")[0] == "motion":
         raise InputError(key, got="it in a sweep, whose films are at rest;", takes="other keys of the case")
     field = input_field(key)
-    if isinstance(given, Mapping):
-        return _range(key, given, number_of(field), design)
-    if isinstance(given, Range):
-        given = {"from": given.start, "to": given.stop, "spacing": given.spacing}
-        return _range(key, given, number_of(field), design)
+    if isinstance(value, Mapping):
+        return _range(key, value, number_of(field), design)
+    if isinstance(value, Range):
+        value = {"from": value.start, "to": value.stop, "spacing": value.spacing}
+        return _range(key, value, number_of(field), design)
     if design == "sobol":
-        raise InputError(key, got=shown(given), takes="a table with from and to in a sobol design")
-    if isinstance(given, str) or not isinstance(given, Sequence) or len(given) == 0:
-        raise InputError(key, got=shown(given), takes="a list of values or a table with from and to")
-    values = tuple(_values(key, field, given))
+        raise InputError(key, got=shown(value), takes="a table with from and to in a sobol design")
+    if isinstance(value, str) or not isinstance(value, Sequence) or len(value) == 0:
+        raise InputError(key, got=shown(value), takes="a list of values or a table with from and to")
+    values = tuple(_values(key, field, value))
     texts = [json.dumps(value) for value in values]
     for k, text in enumerate(texts) if design == "grid" else ():
         if text in texts[:k]:
@@ -204,13 +210,13 @@ def _axis(key: str, given: Any, design: str) -> tuple[Any, ...] | Range:
     return values
 
 
-def _values(key: str, field: FieldInfo, given: Sequence[Any]) -> Iterator[Any]:
-    """The values as the case holds them."""
+def _values(key: str, field: FieldInfo, values: Sequence[Any]) -> Iterator[Any]:
+    """Values of a varied key as a case stores them, thus numbers in SI units."""
     table, _, leaf = key.rpartition(".")
     annotation = Annotated[field.annotation, *field.metadata] if field.metadata else field.annotation
     keys: Any = {leaf: (annotation, ...)}
     value_of: type[Table] = create_model("Value", __base__=Table, **keys)
-    for value in given:
+    for value in values:
         try:
             parsed = value_of.from_dict({leaf: value}).model_dump(mode="json")[leaf]
         except InputError as error:
@@ -219,22 +225,23 @@ def _values(key: str, field: FieldInfo, given: Sequence[Any]) -> Iterator[Any]:
 
 
 def _range(
-    key: str, given: Mapping[str, Any], number: Quantity | Count | None, design: str
+    key: str, table: Mapping[str, Any], number: Quantity | Count | None, design: str
 ) -> tuple[Any, ...] | Range:
+    """Values of a varied key between two ends, SI, or its range in a sobol design."""
     if number is None:
         raise InputError(key, got="a range", takes="a list of values: it is no number")
-    for name in given:
+    for name in table:
         if name not in _RANGE_KEYS:
             near = nearest(str(name), _RANGE_KEYS)
             raise InputError.unknown(f"{key}.{name}", f"{key}.{near}")
-    over = _over(key, given, number)
+    over = _over(key, table, number)
     if design == "sobol":
-        if "count" in given:
+        if "count" in table:
             raise InputError.worded(
                 f"{key}.count", "got it in a sobol design, which takes samples for all of its keys"
             )
         return over
-    count = given.get("count")
+    count = table.get("count")
     if isinstance(count, bool) or not isinstance(count, int) or not 2 <= count <= MOST_POINTS:
         got = None if count is None else shown(count)
         raise InputError(
@@ -251,28 +258,29 @@ def _range(
     return rounded
 
 
-def _over(key: str, given: Mapping[str, Any], number: Quantity | Count) -> Range:
-    """The ends of a range by the unit of its key, and its spacing."""
+def _over(key: str, table: Mapping[str, Any], number: Quantity | Count) -> Range:
+    """Range of a varied key: its ends in SI units, and its spacing."""
     ends = []
     for name in ("from", "to"):
-        if name not in given:
+        if name not in table:
             raise InputError.missing(f"{key}.{name}", _takes(number))
         try:
-            ends.append(number.parse(given[name]))
+            ends.append(number.parse(table[name]))
         except InputError as error:
             raise error.under(f"{key}.{name}") from None
     start, stop = ends
-    spacing = given.get("spacing", "linear")
+    spacing = table.get("spacing", "linear")
     if spacing not in _SPACINGS:
         raise InputError(f"{key}.spacing", got=shown(spacing), takes="'linear' or 'log'")
     if not start < stop:
-        raise InputError(f"{key}.to", got=shown(given["to"]), takes=f"more than from, {shown(given['from'])}")
+        raise InputError(f"{key}.to", got=shown(table["to"]), takes=f"more than from, {shown(table['from'])}")
     if spacing == "log" and start <= 0.0:
-        raise InputError(f"{key}.from", got=shown(given["from"]), takes="more than 0 with spacing 'log'")
+        raise InputError(f"{key}.from", got=shown(table["from"]), takes="more than 0 with spacing 'log'")
     return Range(start, stop, spacing)
 
 
 def _takes(number: Quantity | Count) -> str:
+    """Allowed values of a key, as text of an error."""
     if isinstance(number, Quantity):
         return number.takes
     return f"a whole number from {number.least} to {number.most}"

@@ -1,4 +1,4 @@
-"""Between the points of a sweep: linear in the axes a figure has, with holes where points have no value."""
+"""Interpolation between the points of a sweep, linear in the axes of a figure, for maps and lines."""
 
 from __future__ import annotations
 
@@ -14,29 +14,32 @@ from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.slices import Slice
 
-# Nodes along either axis of a grid, about, and parts of the edge of a triangle: enough for lines of equal
-# value to look as curved as they are on logarithmic axes.
+# Nodes along either axis of a grid, about, and parts that the edge of a triangle is divided into: enough for
+# contour lines to look smooth on logarithmic axes, where they are curved.
 _NODES, _PARTS = 160, 6
 _POTENTIALS = ("electric.potential_1", "electric.potential_2")
 
-# A case takes no less between its surfaces [V].
+# Least voltage between its surfaces that a case allows [V].
 _LEAST_VOLTAGE = 1e-6
 
 
 @dataclass(frozen=True)
 class Surface:
-    """Nodes between the points of a slice, and triangles of them.
+    """Triangle mesh between the points of a slice, and the weights that interpolate to its nodes.
+
+    The points are the corners of cells: rectangles of a full grid, or triangles. Each cell is divided into
+    triangles of the mesh.
 
     Attributes
     ----------
     x, y : ndarray, shape (nodes,)
-        Position of the nodes, SI.
+        Positions of the nodes, SI.
     triangles : ndarray, shape (triangles, 3)
-        Numbers of their nodes.
+        Numbers of the nodes of each triangle.
     weights : sparse array, shape (nodes, points)
-        What each point of the slice counts at a node; the weights of a node add up to one.
+        Weight of each point of the slice at each node; the weights of a node add up to one.
     corners : ndarray, shape (triangles, 3 or 4)
-        Numbers of the points around the cell that a triangle is a part of.
+        Numbers of the points at the corners of the cell that a triangle is part of.
     """
 
     x: Array
@@ -46,66 +49,73 @@ class Surface:
     corners: IntArray
 
     def at_nodes(self, values: Array, *, log: bool = False) -> tuple[Array, Mask]:
-        """A value of the points between them.
+        """Interpolate values from the points to the nodes.
 
         Parameters
         ----------
         values : ndarray, shape (points,)
-            Not a number where there is none; above 0 where ``log``.
+            Values at the points, nan where a point has none; positive where ``log``.
         log : bool
-            Whether the logarithm is linear between the points.
+            Whether the logarithm of the values is linear between the points, instead of the values.
 
         Returns
         -------
         values : ndarray, shape (nodes,)
-            Finite, but of no meaning where no cell around is whole.
-        whole : ndarray, shape (triangles,)
-            Which triangles are part of a cell that has the value at all of its corners.
+            Values at the nodes, finite everywhere, but meaningless outside the triangles of ``whole``.
+        whole : ndarray of bool, shape (triangles,)
+            Mask of the triangles whose cell has a value at all of its corners.
         """
         known = np.isfinite(values)
         there = np.where(known, values, values[known][0] if np.any(known) else 1.0)
         nodes = np.asarray(self.weights @ (np.log(there) if log else there))
-        # No further than the points themselves: rounding would take a probability of 1 out of its colours.
+        # Rounding could exceed the values at the points, and so put a probability of 1 outside the colours.
         ends = (float(np.min(there)), float(np.max(there)))
         return np.clip(np.exp(nodes) if log else nodes, *ends), self._whole(known)
 
     def alone(self, values: Array) -> Mask:
-        """Which points have a value, but no cell around them has it at all of its corners.
+        """Mask of the points that have a value, but belong to no cell with a value at all of its corners.
 
         Parameters
         ----------
         values : ndarray, shape (points,)
-            Not a number where there is none.
+            Values at the points, nan where a point has none.
+
+        Returns
+        -------
+        ndarray of bool, shape (points,)
+            The mask.
         """
         left = np.isfinite(values)
         left[self.corners[self._whole(left)]] = False
         return left
 
     def _whole(self, known: Mask) -> Mask:
+        """Mask of the triangles whose cell has a known value at all of its corners."""
         return np.asarray(np.all(known[self.corners], axis=1))
 
 
-def surface_of(taken: Slice, *, log_x: bool, log_y: bool) -> Surface | None:
-    """Nodes between the points of a slice over two varied keys.
+def surface_of(selection: Slice, *, log_x: bool, log_y: bool) -> Surface | None:
+    """Mesh that interpolates between the points of a slice over two varied keys.
 
     Parameters
     ----------
-    taken : Slice
-        Of numbers over ``x`` and ``y``.
+    selection : Slice
+        Slice over ``x`` and ``y``, both of numbers.
     log_x, log_y : bool
-        Whether that axis is logarithmic.
+        Whether the horizontal and the vertical axis are logarithmic.
 
     Returns
     -------
     Surface or None
-        Bilinear on a full grid, however it is spaced; linear on Delaunay's triangles otherwise. None where
-        the points lie on a line, or depend on varied keys that are not held.
+        Bilinear interpolation where the points are a full grid of any spacing, else linear interpolation in a
+        Delaunay triangulation of the points. None where the points lie on a line, or differ in further varied
+        keys.
     """
-    if taken.free:
+    if selection.free:
         return None
-    grid = taken.grid()
+    grid = selection.grid()
     if grid is None:
-        return _between_points(taken, log_x=log_x, log_y=log_y)
+        return _between_points(selection, log_x=log_x, log_y=log_y)
     xs, ys, numbers = grid
     if xs.size < 2 or ys.size < 2:
         return None
@@ -121,13 +131,17 @@ def surface_of(taken: Slice, *, log_x: bool, log_y: bool) -> Surface | None:
         x=x[i],
         y=y[j],
         triangles=np.concatenate([np.column_stack([a, b, d]), np.column_stack([a, d, c])]),
-        weights=_weights(np.column_stack(shares), corners, len(taken.points)),
+        weights=_weights(np.column_stack(shares), corners, len(selection.points)),
         corners=np.concatenate([corners[a], corners[a]]),
     )
 
 
 def _weights(shares: Array, corners: IntArray, points: int) -> csr_array:
-    """What each point counts at each node: shares of the corners of its cell, shape (nodes, corners) both."""
+    """Weights of the points at the nodes, shape (nodes, points).
+
+    ``shares`` are the weights of the corners of each node's cell, ``corners`` the numbers of their points;
+    both have shape (nodes, corners).
+    """
     rows = np.repeat(np.arange(len(corners)), corners.shape[1])
     weights = csr_array((shares.ravel(), (rows, corners.ravel())), shape=(len(corners), points))
     weights.eliminate_zeros()
@@ -135,19 +149,23 @@ def _weights(shares: Array, corners: IntArray, points: int) -> csr_array:
 
 
 def curve_of(x: Array, values: Array, *, log_x: bool, log: bool) -> tuple[Array, Array]:
-    """Values over increasing places, at these and between them.
+    """Interpolate values over increasing x, at the points and at nodes between them.
 
     Parameters
     ----------
-    x, values : ndarray, shape (points,)
-        Two points at least; a value is not a number where there is none, and above 0 where ``log``.
-    log_x, log : bool
-        Whether the nodes are even in the logarithm of x, and the values linear in theirs.
+    x : ndarray, shape (points,)
+        Increasing positions of at least two points; positive where ``log_x``.
+    values : ndarray, shape (points,)
+        Values at the points, nan where a point has none; positive where ``log``.
+    log_x : bool
+        Whether the nodes are evenly spaced in the logarithm of x.
+    log : bool
+        Whether the logarithm of the values is linear between the points.
 
     Returns
     -------
     x, values : ndarray, shape (nodes,)
-        Linear between the points in these terms; not a number between points that do not both have a value.
+        Nodes and the values there; nan between two points of which at least one has no value.
 
     Examples
     --------
@@ -159,40 +177,44 @@ def curve_of(x: Array, values: Array, *, log_x: bool, log: bool) -> tuple[Array,
     """
     nodes, cell, part = _between(x, log=log_x)
     ends = _onto(values, log=log)
-    found = (1.0 - part) * ends[cell] + part * ends[cell + 1]
-    # A point is drawn though its neighbour has no value.
-    found = np.where(part == 0.0, ends[cell], np.where(part == 1.0, ends[cell + 1], found))
-    return nodes, _back(found, log=log)
+    between = (1.0 - part) * ends[cell] + part * ends[cell + 1]
+    # A node at a point has its value even where that of the neighbouring point is nan.
+    at_nodes = np.where(part == 0.0, ends[cell], np.where(part == 1.0, ends[cell + 1], between))
+    return nodes, _back(at_nodes, log=log)
 
 
-def applied_at(results: SweepResults, taken: Slice, along: Array, across: Any) -> Array | None:
-    """The applied voltage [V] anywhere between the points of a slice that is drawn over a potential.
+def applied_at(results: SweepResults, selection: Slice, along: Array, across: Any) -> Array | None:
+    """Exact applied voltage between the points of a slice over a surface potential.
+
+    The applied voltage is an absolute difference of two potentials. Linear interpolation of it is wrong where
+    the potentials cross.
 
     Parameters
     ----------
     results : SweepResults
-        Of whose case the other potential is.
-    taken : Slice
-        Which holds what it is not drawn over.
+        The sweep; its base case has the potentials that do not vary.
+    selection : Slice
+        Slice of the sweep, with its fixed values.
     along, across : ndarray or float
-        Values of ``taken.x`` and ``taken.y``, SI.
+        Values of ``selection.x`` and ``selection.y``, SI.
 
     Returns
     -------
     ndarray or None
-        Exact, but never 0; None where neither key is a potential: that of the points counts there.
+        Applied voltage [V], at least the 1e-6 V that a case allows. None where neither key is a potential, or
+        the sweep is of a bearing; the voltage is then interpolated between the points.
     """
-    if isinstance(results.case, BearingCase) or not {taken.x, taken.y} & set(_POTENTIALS):
+    if isinstance(results.case, BearingCase) or not {selection.x, selection.y} & set(_POTENTIALS):
         return None
-    there: dict[Any, Any] = {**taken.at, taken.x: along, taken.y: across}
-    given = results.case.electric
-    first = there.get(_POTENTIALS[0], given.potential_1)
-    second = there.get(_POTENTIALS[1], given.potential_2)
+    there: dict[Any, Any] = {**selection.at, selection.x: along, selection.y: across}
+    electric = results.case.electric
+    first = there.get(_POTENTIALS[0], electric.potential_1)
+    second = there.get(_POTENTIALS[1], electric.potential_2)
     return np.asarray(np.maximum(np.abs(second - first), _LEAST_VOLTAGE))
 
 
 def _between(values: Array, *, log: bool) -> tuple[Array, IntArray, Array]:
-    """Nodes at and between increasing values, with the cell of each and its part of it from 0 to 1."""
+    """Nodes at and between increasing values, the number of the cell of each, and its place there, 0 to 1."""
     parts = max(1, _NODES // values.size)
     cell, step = np.divmod(np.arange((values.size - 1) * parts + 1), parts)
     last = cell == values.size - 1
@@ -202,10 +224,10 @@ def _between(values: Array, *, log: bool) -> tuple[Array, IntArray, Array]:
     return nodes, cell, part
 
 
-def _between_points(taken: Slice, *, log_x: bool, log_y: bool) -> Surface | None:
-    """Nodes in Delaunay's triangles of the points, to the scale of the figure."""
+def _between_points(selection: Slice, *, log_x: bool, log_y: bool) -> Surface | None:
+    """Mesh in the Delaunay triangles of the points, with both axes scaled to the same length."""
     places = np.column_stack(
-        [_onto(taken.along, log=log_x), _onto(np.array(taken.across, dtype=float), log=log_y)]
+        [_onto(selection.along, log=log_x), _onto(np.array(selection.across, dtype=float), log=log_y)]
     )
     extent = np.ptp(places, axis=0)
     if np.any(extent == 0.0):
@@ -223,7 +245,7 @@ def _between_points(taken: Slice, *, log_x: bool, log_y: bool) -> Surface | None
     ]
     first = len(steps) * np.arange(len(corners))
     weights = _weights(
-        np.tile(share, (len(corners), 1)), np.repeat(corners, len(steps), axis=0), len(taken.points)
+        np.tile(share, (len(corners), 1)), np.repeat(corners, len(steps), axis=0), len(selection.points)
     )
     nodes = np.asarray(weights @ places)
     return Surface(
@@ -236,16 +258,22 @@ def _between_points(taken: Slice, *, log_x: bool, log_y: bool) -> Surface | None
 
 
 def spaced_log(results: SweepResults, key: str, values: Array) -> bool:
-    """Whether a varied key is drawn on a logarithmic axis: where its values are spaced more evenly so.
+    """Whether a varied key is drawn on a logarithmic axis.
 
     Parameters
     ----------
     results : SweepResults
-        Whose ranges, of a "sobol" design, say it.
+        The sweep.
     key : str
         Varied key.
     values : ndarray
-        SI.
+        Values of the key at the points, SI.
+
+    Returns
+    -------
+    bool
+        In a "sobol" design, True where the range of the key has logarithmic spacing. In other designs, True
+        where the logarithms of the values are more evenly spaced than the values.
     """
     if key in results.ranges:
         return results.ranges[key].spacing == "log"
@@ -257,8 +285,10 @@ def spaced_log(results: SweepResults, key: str, values: Array) -> bool:
 
 
 def _onto(values: Array, *, log: bool) -> Array:
+    """Values, or their logarithms, in which the interpolation is linear."""
     return np.log(values) if log else values
 
 
 def _back(places: Array, *, log: bool) -> Array:
+    """Values from the result of ``_onto``."""
     return np.exp(places) if log else places

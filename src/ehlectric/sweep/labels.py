@@ -1,4 +1,4 @@
-"""Labels of inputs and results: name, symbol and unit of a dotted key, and how values are shown."""
+"""Labels of inputs and results: name, symbol and unit of a dotted key, and prefixed units for its values."""
 
 from __future__ import annotations
 
@@ -17,20 +17,22 @@ from ehlectric.cases.result_key import Keys, key_of
 from ehlectric.contact.keys import CONTACT_KEYS
 from ehlectric.motion.keys import MOTION_KEYS
 
-# Units that are never prefixed: of none, of angles, and of absolute temperatures.
+# Units without prefixes: none, angles and absolute temperatures.
 _PLAIN = ("", "deg", "K", "rad")
 
 
 @dataclass(frozen=True)
 class Label:
-    """A key as it is shown.
+    """Name, symbol and unit of a key for tables and figures.
 
     Attributes
     ----------
-    name, symbol : str
-        As "load per length" and "$w$"; the dotted key and none where it has no name of its own.
+    name : str
+        Name, such as "load per length"; the dotted key itself where it has no name.
+    symbol : str
+        Symbol, such as "$w$"; may be empty.
     unit : str
-        SI unit as pint writes it; empty where there is none, or it is not known.
+        SI unit in the notation of pint; empty for dimensionless values, or where the unit is not known.
     """
 
     name: str
@@ -38,30 +40,30 @@ class Label:
     unit: str
 
     def scaled(self, values: Array) -> Scale:
-        """The unit in which values, SI, are numbers that can be read; those not finite do not count."""
+        """Prefixed unit that suits the largest of some SI values; those that are not finite are ignored."""
         finite = np.abs(values[np.isfinite(values)])
         return scale_for(float(np.max(finite, initial=0.0)) or 1.0, self.unit)
 
     def axis(self, scale: Scale) -> str:
-        """Label of an axis in that unit."""
+        """Label of an axis: name, symbol and the unit of ``scale``."""
         return " ".join(filter(None, [self.name, self.symbol, f"[{scale.unit}]" if scale.unit else ""]))
 
 
 @dataclass(frozen=True)
 class Scale:
-    """A unit to show values in, and what SI values are multiplied with."""
+    """Unit in which values are shown, and the factor from SI values to it."""
 
     factor: float
     unit: str
 
     def text(self, value: Any) -> str:
-        """A value, SI, with its unit; a text as it is."""
+        """Text of an SI value in this unit, with four digits; a text is returned unchanged."""
         if not isinstance(value, int | float):
             return str(value)
         return f"{value * self.factor:.4g} {self.unit}".rstrip()
 
 
-# Not prefixed either: limits of a current density are published in A/mm^2, and speeds are told in rpm.
+# Other units without prefixes: limits of current density are published in A/mm^2, and shaft speeds in rpm.
 _OWN = {"A/m**2": Scale(1e-6, "A/mm²"), "rad/s": Scale(30.0 / np.pi, "rpm")}
 
 
@@ -71,14 +73,16 @@ def label_of(key: str, case: AnyCase) -> Label:
     Parameters
     ----------
     key : str
-        Dotted key of the case or of the summary; "inputs." before one of the case makes no difference.
+        Dotted key of the case or of the summary. A key of the case may have the prefix "inputs.", as in the
+        summary.
     case : Case or BearingCase
-        Case of a line or a point contact, with or without motion, or of a bearing.
+        Case of a line or point contact, with or without motion, or of a bearing.
 
     Returns
     -------
     Label
-        A key that is neither an input nor in the tables of result keys has itself as name, and no unit.
+        Label of the key. A key that is neither an input nor a documented result has itself as name, and no
+        unit.
     """
     own = key.removeprefix("inputs.")
     if kind_of(own) is not None or own in INPUT_NAMES:
@@ -88,12 +92,12 @@ def label_of(key: str, case: AnyCase) -> Label:
         return Label(*INPUT_NAMES.get(own, (own, "")), unit_of(own))
     if own != key:
         return Label(key, "", unit_of(own))
-    found = key_of(result_keys(case), key)
-    return Label(key, "", "") if found is None else Label(found.name or key, found.symbol, found.unit)
+    result = key_of(result_keys(case), key)
+    return Label(key, "", "") if result is None else Label(result.name or key, result.symbol, result.unit)
 
 
 def result_keys(case: AnyCase) -> Keys:
-    """Keys of the summary that a case leads to.
+    """Documented keys of the summary of a case.
 
     Parameters
     ----------
@@ -103,7 +107,7 @@ def result_keys(case: AnyCase) -> Keys:
     Returns
     -------
     mapping of str to ResultKey
-        Keys of a line or a point contact, stationary or moving, or of a bearing.
+        Keys of a line or point contact, stationary or transient, or of a bearing.
     """
     if isinstance(case, BearingCase):
         return BEARING_KEYS
@@ -111,19 +115,19 @@ def result_keys(case: AnyCase) -> Keys:
 
 
 def scale_for(largest: float, unit: str) -> Scale:
-    """Prefix of a unit by the largest of the values.
+    """Prefixed unit that suits values up to ``largest``.
 
     Parameters
     ----------
     largest : float
-        Above 0, SI.
+        Largest of the values, SI, > 0.
     unit : str
-        SI unit as pint writes it.
+        SI unit in the notation of pint.
 
     Returns
     -------
     Scale
-        With the unit as it is printed.
+        Prefixed unit as printed, and the factor from SI values to it.
 
     Examples
     --------
@@ -138,11 +142,11 @@ def scale_for(largest: float, unit: str) -> Scale:
         return Scale(1.0, unit)
     if unit in _OWN:
         return _OWN[unit]
-    # With it comes matplotlib, which names and units alone do not take.
+    # Imported here because it imports matplotlib, which tables of names and units do not need.
     from ehlectric.cases.quantity import unit_for
 
     if unit.startswith("1/"):
-        # One over a value in the prefixed unit: the prefix of what is below the line.
+        # The prefix belongs to the unit in the denominator.
         factor, prefixed = unit_for(1.0 / largest, unit[2:], least=0.001)
         return Scale(round_factor(1.0 / factor), f"1/{prefixed}")
     base, power = (unit[:-3], int(unit[-1])) if unit in ("m**2", "m**3") else (unit, 1)
@@ -153,7 +157,7 @@ def scale_for(largest: float, unit: str) -> Scale:
 
 
 def round_factor(factor: float) -> float:
-    """The power of ten that a factor is, without the rounding of one over a negative power.
+    """Round a power of ten to nine digits, which removes the rounding error of a division.
 
     Examples
     --------
@@ -164,5 +168,5 @@ def round_factor(factor: float) -> float:
 
 
 def _printed(unit: str) -> str:
-    """A unit of pint's as it is printed."""
+    """Unit in the notation of pint as printed text."""
     return unit.replace("**3", "³").replace("**2", "²").replace("*", " ").replace("ohm", "Ω")

@@ -1,4 +1,4 @@
-"""What a sweep has found: its points with what was varied, and the summary or the reason of each."""
+"""Results of a sweep: the points with their inputs, status, and summary or reason of failure."""
 
 from __future__ import annotations
 
@@ -14,14 +14,15 @@ from ehlectric.cases.any_case import AnyCase
 from ehlectric.errors import ResultWarning
 from ehlectric.runtime.stored_warnings import warnings_of
 
-# "solved"; "not converged", whose summary is for looking at; "failed", which has none; "open", not tried yet.
+# "solved": converged; "not converged": the summary must not be used; "failed": no summary; "open": not tried
+# yet.
 Status = Literal["solved", "not converged", "failed", "open"]
 Spacing = Literal["linear", "log"]
 
 
 @dataclass(frozen=True)
 class Range:
-    """An input that varies between two SI values, evenly in itself or in its logarithm."""
+    """Range of an input between two SI values, spaced evenly in the value or in its logarithm."""
 
     start: float
     stop: float
@@ -35,19 +36,19 @@ class Point:
     Attributes
     ----------
     number : int
-        From 0, in the order of the design.
+        Number of the point in the order of the design, from 0.
     inputs : mapping
-        What was varied, by dotted key of the case, SI.
+        Values of the varied keys, by dotted key of the case, SI.
     status : str
         "solved", "not converged", "failed" or "open".
     reason : str
-        Why it is not solved; empty where it is, or where nothing was tried.
+        Reason why the point is not solved; empty where it is solved or open.
     summary : mapping or None
-        As summary.json, nested; None where nothing was solved.
+        Nested tables, as in summary.json; None where the point failed or is open.
     seconds : float
-        Time it took [s].
+        Time that the solution took [s].
     version : str
-        Of the program that solved it.
+        Version of ehlectric that solved the point.
     """
 
     number: int
@@ -60,17 +61,17 @@ class Point:
 
     @property
     def solved(self) -> bool:
-        """Whether it has numbers; whether they may be used, ``doubtful`` says."""
+        """Whether the point converged. Its numbers must still not be used where it is ``doubtful``."""
         return self.status == "solved"
 
     @property
     def warnings(self) -> tuple[ResultWarning, ...]:
-        """Warnings of its summary; none where it has no summary."""
+        """Warnings of the summary; empty where the point has no summary."""
         return warnings_of(self.summary or {})
 
     @property
     def doubtful(self) -> bool:
-        """Whether it is solved, but a warning is severe: its film must not be used.
+        """Whether the point is solved, but has a severe warning: its film must not be used.
 
         Examples
         --------
@@ -83,27 +84,27 @@ class Point:
 
 @dataclass(frozen=True)
 class SweepResults:
-    """A sweep as it stands.
+    """Results of a sweep, complete or still in progress.
 
     Attributes
     ----------
     case : Case or BearingCase
-        The base case.
+        Base case of the sweep.
     design : str
         "grid", "paired" or "sobol".
     axes : mapping
-        Values of each varied key in the order given, SI; of a "sobol" design empty.
+        Values of each varied key in the order of the input, SI; empty for a "sobol" design.
     ranges : mapping
-        Of a "sobol" design, the range of each varied key in the order given.
+        Range of each varied key of a "sobol" design, in the order of the input; empty for other designs.
     samples : int
-        Of a "sobol" design, the base samples n: its points are the rows A, then B, then A with column k of
-        B for each varied key k, n each. 0 otherwise.
+        Base samples n of a "sobol" design: its points are the n rows of A, the n rows of B, and then for each
+        varied key k the n rows of A with column k of B. 0 for other designs.
     points : tuple of Point
-        All points of the design, in its order; of a "grid" the last varied key runs fastest.
+        All points in the order of the design; in a "grid" the last varied key varies fastest.
     seed : int
-        Of a "sobol" design's random numbers.
+        Seed of the random numbers of a "sobol" design.
     title : str
-        Of the sweep, for figures.
+        Title of the sweep, for figures.
     """
 
     case: AnyCase
@@ -117,51 +118,51 @@ class SweepResults:
 
     @property
     def varied(self) -> tuple[str, ...]:
-        """Keys of the case that vary, in the order given."""
+        """Dotted keys of the case that vary, in the order of the input."""
         return tuple(self.ranges if self.design == "sobol" else self.axes)
 
     @property
     def doubtful(self) -> Mask:
-        """Which points are solved, but have a warning not to use their film, shape (points,)."""
+        """Mask of the points that are solved, but have a severe warning, shape (points,)."""
         return np.array([point.doubtful for point in self.points], dtype=bool)
 
     def values(self, key: str) -> Array:
-        """One number of every point.
+        """Value of a key of the summary at every point.
 
         Parameters
         ----------
         key : str
-            Dotted key of the summary, as "discharge.breakdown_voltage".
+            Dotted key of the summary, such as "discharge.breakdown_voltage".
 
         Returns
         -------
         ndarray, shape (points,)
-            SI; not a number where a point is not solved or its summary has none. Those of doubtful points
-            are among them.
+            Values in SI units, doubtful points included; nan where a point is not solved, or its summary has
+            no number at this key.
         """
-        found = [flat(point.summary or {}).get(key) if point.solved else None for point in self.points]
-        return np.array([as_number(value) for value in found])
+        column = [flat(point.summary or {}).get(key) if point.solved else None for point in self.points]
+        return np.array([as_number(value) for value in column])
 
 
 def flat(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
-    """Nested tables by dotted key, in their order; items of lists by their number from 0.
+    """Values of nested tables by dotted key, in their order; items of lists are numbered from 0.
 
     Examples
     --------
     >>> flat({"film": {"minimum_thickness": 1e-7, "minimum_position": [0.0, 2e-4]}})
     {'film.minimum_thickness': 1e-07, 'film.minimum_position.0': 0.0, 'film.minimum_position.1': 0.0002}
     """
-    found: dict[str, Any] = {}
+    values: dict[str, Any] = {}
     for name, value in table.items():
         if isinstance(value, Mapping):
-            found |= flat(value, f"{prefix}{name}.")
+            values |= flat(value, f"{prefix}{name}.")
         elif isinstance(value, list | tuple) and value:
-            found |= flat({str(k): item for k, item in enumerate(value)}, f"{prefix}{name}.")
+            values |= flat({str(k): item for k, item in enumerate(value)}, f"{prefix}{name}.")
         else:
-            found[prefix + name] = value
-    return found
+            values[prefix + name] = value
+    return values
 
 
 def as_number(value: Any) -> float:
-    """A value as a float; not a number where it is none."""
+    """Value as a float; nan where it is not a number."""
     return float(value) if isinstance(value, int | float) else math.nan

@@ -1,4 +1,4 @@
-"""Uncertainty: how far a value spreads over stated ranges of the inputs, and which input it comes from."""
+"""Sensitivity analysis of a sweep: spread of a value over the ranges of its inputs, and share of each."""
 
 from __future__ import annotations
 
@@ -18,25 +18,25 @@ SCHEMA = "ehlectric.sensitivity/1"
 QUANTILES = (0.025, 0.05, 0.25, 0.5, 0.75, 0.95, 0.975)
 LEVEL = 0.95
 
-# Fewer complete rows say nothing about a variance, let alone about its parts.
+# With fewer complete rows the variance and its parts cannot be estimated.
 _LEAST_ROWS = 16
 
-# A value that varies by less, relatively, is constant but for rounding and the tolerance of the film.
+# A smaller relative variation of a value is rounding and the tolerance of the film solver.
 _CONSTANT = 1e-9
 
 
 @dataclass(frozen=True)
 class Spread:
-    """How a value is distributed where every input is drawn from its range.
+    """Distribution of a value where every input is drawn from its range.
 
     Attributes
     ----------
     samples : int
-        Solved points of A and B that it is taken over.
+        Number of samples, the solved points of A and B.
     mean, standard_deviation, minimum, maximum : float
-        SI.
+        Moments and extremes of the samples, SI.
     quantiles : mapping
-        By probability, SI; interpolated linearly between the samples.
+        Quantiles by probability, SI, interpolated linearly between the samples.
     """
 
     samples: int
@@ -49,17 +49,20 @@ class Spread:
 
 @dataclass(frozen=True)
 class Index:
-    """Parts of the variance that are due to one input.
+    """Sensitivity indices of one input.
+
+    Estimates may lie slightly outside the range from 0 to 1.
 
     Attributes
     ----------
     key : str
-        Of the case.
-    first_order, total : float
-        Part that would go if this input were known, and part that would be left if it alone were not. An
-        estimate may lie a little outside of 0 to 1.
+        Dotted key of the input.
+    first_order : float
+        Part of the variance that would disappear if this input were known exactly.
+    total : float
+        Part of the variance that would remain if all other inputs were known exactly.
     first_order_interval, total_interval : (float, float)
-        Their bootstrap confidence intervals.
+        Bootstrap confidence intervals of the two indices.
     """
 
     key: str
@@ -71,26 +74,27 @@ class Index:
 
 @dataclass(frozen=True)
 class Sensitivity:
-    """Spread of a value and the indices of all varied inputs.
+    """Spread of a value, and the sensitivity indices of all varied inputs.
 
     Attributes
     ----------
     value : str
         Dotted key of the summary.
     points, solved : int
-        Of the design, and how many of them are solved.
+        Number of points of the design, and number of those that are solved.
     rows, used : int
-        Rows of the design, and how many are complete: the indices are of these.
+        Number of rows of the design, and number of complete rows, from which the indices are computed.
     doubtful : int
-        How many of the complete ones have a point with a warning not to use its film.
+        Number of complete rows with at least one point whose film must not be used, by a severe warning.
     spread : Spread
-        Of the value.
+        Distribution of the value.
     indices : tuple of Index
-        In the order of the varied keys.
+        Indices of the inputs, in the order of the varied keys.
     share_below_voltage : float or None
-        Part of the samples whose breakdown voltage is below the applied one; None of other values.
+        Part of the samples whose breakdown voltage is below the applied voltage; None where the value is not
+        a breakdown voltage or a margin.
     resamples, seed : int
-        Of the bootstrap.
+        Number of bootstrap samples, and seed of their random numbers.
     """
 
     value: str
@@ -107,11 +111,11 @@ class Sensitivity:
 
     @property
     def dropped(self) -> int:
-        """Rows of which some point is not solved or has no such value."""
+        """Number of incomplete rows: a point of them is not solved, or does not have the value."""
         return self.rows - self.used
 
     def to_dict(self) -> dict[str, Any]:
-        """Everything as sensitivity.json has it, SI."""
+        """Contents of sensitivity.json as nested tables, SI."""
         spread = self.spread
         return {
             "schema": SCHEMA,
@@ -149,31 +153,36 @@ def sensitivity(results: SweepResults, value: str, *, resamples: int = 1000, see
     Parameters
     ----------
     results : SweepResults
-        Of the design "sobol".
+        Results of a sweep of the design "sobol".
     value : str
         Dotted key of the summary.
-    resamples, seed : int
-        Of the bootstrap.
+    resamples : int
+        Number of bootstrap samples.
+    seed : int
+        Seed of the random numbers of the bootstrap.
 
     Returns
     -------
     Sensitivity
-        A row of the design (a point of A, of B, and of A with each column of B) of which some point is not
-        solved is left out of the indices as a whole; the spread is that of all solved points of A and B.
+        Spread and indices. A row of the design consists of a point of A, the point of B, and that of A with
+        each column of B. The indices are computed from complete rows, of which all points are solved; the
+        spread is computed from all solved points of A and B.
 
     Raises
     ------
     InputError
-        Where the design is another, the value is nowhere or constant, or fewer than 16 rows are complete.
+        Where the design is not "sobol", the value is in no summary or constant, or fewer than 16 rows are
+        complete.
 
     Notes
     -----
-    With V the variance of the value y over A and B, centred by their mean m: first order
-    mean((y_B - m)(y_ABi - y_A))/V (Saltelli et al. 2010, doi:10.1016/j.cpc.2009.09.018, Table 2 (b)), total
-    mean((y_A - y_ABi)^2)/(2 V) (Jansen 1999, doi:10.1016/S0010-4655(98)00154-4). Intervals are those between
-    the 2.5 and 97.5 % quantiles of rows drawn with replacement (Archer, Saltelli and Sobol 1997,
-    doi:10.1080/00949659708811825): for rows that are independent, thus too wide for smooth values at those of
-    a Sobol sequence.
+    With m and V the mean and variance of the value y over A and B, the first-order index of input i is
+    mean((y_B - m)(y_ABi - y_A))/V (Saltelli et al. 2010, doi:10.1016/j.cpc.2009.09.018, Table 2 (b)), and the
+    total index is mean((y_A - y_ABi)^2)/(2 V) (Jansen 1999, doi:10.1016/S0010-4655(98)00154-4).
+
+    The intervals lie between the 2.5 % and 97.5 % quantiles of the indices of rows drawn with replacement
+    (Archer, Saltelli and Sobol 1997, doi:10.1080/00949659708811825). They assume independent rows. The rows
+    of a Sobol sequence are not independent, so for smooth values the intervals are too wide.
     """
     if results.design != "sobol":
         raise InputError.worded(
@@ -206,7 +215,7 @@ def sensitivity(results: SweepResults, value: str, *, resamples: int = 1000, see
     low, high = intervals(a, b, mixed, resamples=resamples, seed=seed)
     breakdown = breakdown_of(results.case, value)
     margins = breakdown.margins(results)[: 2 * rows][drawn]
-    told = value in breakdown.keys and bool(np.all(np.isfinite(margins)))
+    has_margins = value in breakdown.keys and bool(np.all(np.isfinite(margins)))
     return Sensitivity(
         value=value,
         points=len(results.points),
@@ -225,7 +234,7 @@ def sensitivity(results: SweepResults, value: str, *, resamples: int = 1000, see
             )
             for k, key in enumerate(results.varied)
         ),
-        share_below_voltage=float(np.mean(margins < 1.0)) if told else None,
+        share_below_voltage=float(np.mean(margins < 1.0)) if has_margins else None,
         resamples=resamples,
         seed=seed,
     )
@@ -250,23 +259,23 @@ def spread_of(samples: Array) -> Spread:
 
 
 def indices(a: Array, b: Array, mixed: Array) -> tuple[Array, Array]:
-    """First-order and total indices.
+    """First-order and total sensitivity indices of all inputs.
 
     Parameters
     ----------
     a, b : ndarray, shape (n,)
         Values at the rows of A and of B.
     mixed : ndarray, shape (inputs, n)
-        Values at A with one column of B, for each input.
+        Values at the rows of A with one column replaced by that of B, for each input.
 
     Returns
     -------
     first, total : ndarray, shape (inputs,)
-        Not a number where the value does not vary.
+        Indices of the inputs; nan where the value does not vary.
 
     Examples
     --------
-    Of y = x1 + x2, each at 0 and 1, at all sixteen rows of A and B:
+    The sum y = x1 + x2 of two inputs that are 0 or 1, at all sixteen combinations of rows of A and B:
 
     >>> rows = np.array(np.meshgrid(*[[0.0, 1.0]] * 4)).reshape(4, 16)
     >>> a, b = rows[:2], rows[2:]
@@ -279,23 +288,23 @@ def indices(a: Array, b: Array, mixed: Array) -> tuple[Array, Array]:
 
 
 def intervals(a: Array, b: Array, mixed: Array, *, resamples: int, seed: int) -> tuple[Array, Array]:
-    """Bootstrap confidence intervals of the indices at the level of 95 %.
+    """Bootstrap confidence intervals of the sensitivity indices, at the level of 95 %.
 
     Parameters
     ----------
     a, b : ndarray, shape (n,)
         Values at the rows of A and of B.
     mixed : ndarray, shape (inputs, n)
-        Values at A with one column of B, for each input.
+        Values at the rows of A with one column replaced by that of B, for each input.
     resamples : int
-        How often the rows are drawn again.
+        Number of bootstrap samples, each of n rows drawn with replacement.
     seed : int
-        Of the draws.
+        Seed of the random numbers.
 
     Returns
     -------
     low, high : ndarray, shape (2, inputs)
-        Ends of the intervals of the first-order and of the total indices.
+        Lower and upper ends of the intervals: row 0 of the first-order indices, row 1 of the total indices.
     """
     columns = _columns(a, b, mixed)
     generator = np.random.default_rng(seed)
@@ -303,15 +312,16 @@ def intervals(a: Array, b: Array, mixed: Array, *, resamples: int, seed: int) ->
     for k in range(resamples):
         weights = np.bincount(generator.integers(a.size, size=a.size), minlength=a.size)
         means[k] = columns @ weights / a.size
-    found = np.stack(_of_means(means))  # (2, resamples, inputs)
-    ends = np.nanquantile(found, [0.5 * (1.0 - LEVEL), 0.5 * (1.0 + LEVEL)], axis=1)
+    resampled = np.stack(_of_means(means))  # (2, resamples, inputs)
+    ends = np.nanquantile(resampled, [0.5 * (1.0 - LEVEL), 0.5 * (1.0 + LEVEL)], axis=1)
     return ends[0], ends[1]
 
 
 def _columns(a: Array, b: Array, mixed: Array) -> Array:
-    """What the indices take the means of, shape (4 + 3 inputs, n).
+    """Quantities whose means over the rows give the indices, shape (4 + 3 inputs, n).
 
-    Centred before anything is squared: a value that varies little would lose its digits.
+    The values are centred before they are squared, as rounding would spoil the variance of a value that
+    varies little.
     """
     middle = 0.5 * (np.mean(a) + np.mean(b))
     a, b, mixed = a - middle, b - middle, mixed - middle
@@ -320,10 +330,13 @@ def _columns(a: Array, b: Array, mixed: Array) -> Array:
 
 
 def _of_means(means: Array) -> tuple[Array, Array]:
-    """Indices, shape (resamples, inputs), of means of the columns, shape (resamples, 4 + 3 inputs)."""
+    """First-order and total indices from the means of ``_columns``, shape (resamples, 4 + 3 inputs).
+
+    Both have shape (resamples, inputs).
+    """
     mean = 0.5 * (means[:, 0] + means[:, 1])
     variance = 0.5 * (means[:, 2] + means[:, 3]) - mean**2
     product, change, square = np.split(means[:, 4:], 3, axis=1)
-    # Rows drawn again may all be alike; their indices have no meaning.
+    # A bootstrap sample may repeat a single row; its variance is 0, and its indices are undefined.
     scale = np.where(variance > 0.0, variance, np.nan)[:, np.newaxis]
     return (product - mean[:, np.newaxis] * change) / scale, 0.5 * square / scale

@@ -1,4 +1,4 @@
-"""What of a sweep a figure shows: one value over one or two varied keys, the others held."""
+"""Slices of a sweep for figures: one value of the summaries over one or two varied keys, the others fixed."""
 
 from __future__ import annotations
 
@@ -16,40 +16,40 @@ from ehlectric.errors import InputError, shown
 from ehlectric.sweep.breakdown import Breakdown, breakdown_of
 from ehlectric.sweep.results import Point, Status, SweepResults, as_number, flat
 
-# Names and values that a message lists at most.
+# Largest number of names or values that a message lists.
 _MOST_LISTED = 8
 
 
 @dataclass(frozen=True)
 class Slice:
-    """Points of a sweep, by what they are drawn over.
+    """Slice of a sweep: the points with fixed values of all but one or two varied keys.
 
     Attributes
     ----------
     x : str
         Varied key along the horizontal axis.
     y : str or None
-        Second varied key.
+        Second varied key, if any.
     value : str
-        Key of the summary that is drawn.
+        Dotted key of the summary whose values are drawn.
     breakdown : Breakdown
-        What it is set beside.
+        Keys of the breakdown voltage and the applied voltage that belong to ``value``.
     at : mapping
-        What is held, SI, by varied key.
+        Fixed values of further varied keys, SI.
     free : tuple of str
-        Varied keys that are neither drawn over nor held: those of a design that holds none.
+        Further varied keys that are not fixed; none in a "grid" design, where all must be fixed.
     points : tuple of Point
-        In the order of the design.
+        Points of the slice, in the order of the design.
     along : ndarray, shape (points,)
-        Value of ``x``, SI.
+        Values of ``x``, SI.
     across : tuple
-        Value of ``y`` of each point, SI numbers or texts; empty without one.
+        Value of ``y`` at each point, SI numbers or texts; empty where ``y`` is None.
     values : ndarray, shape (points,)
-        What is drawn, SI; not a number where a point is not solved, or doubtful.
+        Drawn values, SI; nan where a point is not solved, or doubtful.
     voltage : ndarray, shape (points,)
-        Applied [V]; not a number where a point is not solved, or doubtful.
+        Applied voltage [V]; nan where a point is not solved, or doubtful.
     margin : ndarray, shape (points,)
-        Breakdown voltage over applied voltage; not a number where there is none.
+        Breakdown voltage over applied voltage; nan where a point has none.
     """
 
     x: str
@@ -66,31 +66,31 @@ class Slice:
     margin: Array
 
     def of(self, status: Status) -> Mask:
-        """Which points have a status, shape (points,)."""
+        """Mask of the points that have a status, shape (points,)."""
         return np.array([point.status == status for point in self.points])
 
     @property
     def doubtful(self) -> Mask:
-        """Which points are solved, but have a warning not to use their film, shape (points,)."""
+        """Mask of the points that are solved, but have a severe warning, shape (points,)."""
         return np.array([point.doubtful for point in self.points])
 
     @property
     def of_discharge(self) -> bool:
-        """Whether its value tells of breakdown or of what goes with it."""
+        """Whether the drawn value is a breakdown voltage, a margin or another result of [discharge]."""
         return self.value.startswith("discharge.") or self.value in self.breakdown.keys
 
     @property
     def numeric(self) -> bool:
-        """Whether ``y`` is a number in all points."""
+        """Whether ``y`` is a number at all points."""
         return self.y is not None and all(map(_is_number, self.across))
 
     def check_numeric(self) -> None:
-        """Refuse a second key whose values are no numbers, as a map takes them.
+        """Check that the values of the second key are numbers, as a map needs.
 
         Raises
         ------
         InputError
-            In one line.
+            Where they are texts or lists.
         """
         if not self.numeric:
             raise InputError.worded(
@@ -101,13 +101,13 @@ class Slice:
             )
 
     def grid(self) -> tuple[Array, Array, IntArray] | None:
-        """The points as a full grid.
+        """Arrange the points as a full grid of ``x`` and ``y``.
 
         Returns
         -------
         tuple or None
-            Increasing values of ``x``, shape (nx,), and of ``y``, shape (ny,), and the number of the point of
-            each pair among ``points``, shape (nx, ny); None where some pair has no point or two.
+            Increasing values of ``x``, shape (nx,), and of ``y``, shape (ny,), and the index in ``points`` of
+            the point of each pair, shape (nx, ny). None where a pair has no point, or two points.
         """
         xs, i = np.unique(self.along, return_inverse=True)
         ys, j = np.unique(np.array(self.across, dtype=float), return_inverse=True)
@@ -118,50 +118,54 @@ class Slice:
         return xs, ys, numbers
 
     def series(self) -> list[tuple[Any, IntArray]]:
-        """Points by their value of ``y``, each by increasing ``x``.
+        """Group the points by their value of ``y``.
 
         Returns
         -------
         list of (value, numbers)
-            By increasing value where those are numbers, else in the order given. One of value None without
-            ``y``.
+            Each value of ``y``, with the indices in ``points`` of its points by increasing ``x``. Numbers are
+            sorted; texts are in the order of the design. Where ``y`` is None, there is a single group, of
+            value None.
         """
         values: list[Any] = list(dict.fromkeys(self.across)) if self.across else [None]
         values = sorted(values) if self.numeric else values
-        groups = [[k for k, other in enumerate(self.across) if other == value] for value in values]
-        found = [
-            np.array(group if self.across else range(len(self.points)), dtype=np.intp) for group in groups
-        ]
-        return [(v, n[np.argsort(self.along[n], kind="stable")]) for v, n in zip(values, found, strict=True)]
+        series = []
+        for value in values:
+            group = [k for k, other in enumerate(self.across) if other == value]
+            numbers = np.array(group if self.across else range(len(self.points)), dtype=np.intp)
+            series.append((value, numbers[np.argsort(self.along[numbers], kind="stable")]))
+        return series
 
 
 def take(
     results: SweepResults, x: str, y: str | None, value: str, at: Mapping[str, str] | None = None
 ) -> Slice:
-    """The points of a sweep that are drawn over one or two varied keys.
+    """Take a slice of a sweep over one or two varied keys.
 
     Parameters
     ----------
     results : SweepResults
-        What a sweep has found.
-    x, y : str
-        Varied keys; ``y`` may be None.
+        Results of a sweep.
+    x : str
+        Varied key along the horizontal axis, of numbers.
+    y : str or None
+        Second varied key, if any.
     value : str
-        Dotted key of the summary.
+        Dotted key of the summary whose values are drawn.
     at : mapping, optional
-        What is held, by varied key: a number in SI, a text with its unit, or the text the sweep has; the
-        nearest value of the sweep is taken.
+        Fixed values of further varied keys, as text: a number in SI units, a number with a unit, or a text of
+        the sweep. For numbers the nearest value of the sweep is chosen.
 
     Returns
     -------
     Slice
-        In the order of the design.
+        Points of the slice, in the order of the design. Varied keys with a single value are fixed too.
 
     Raises
     ------
     InputError
-        Where a key is not varied or no number, a value is in no summary or in none of the points that are
-        drawn, or a grid has further varied keys that are not held.
+        Where a key does not vary, the values of ``x`` are not numbers, no usable point of the slice has the
+        value, or a grid design has further varied keys without a fixed value.
     """
     for name, key in (("x", x), ("y", y)):
         if key is not None and key not in results.varied:
@@ -174,14 +178,14 @@ def take(
     if not all(_is_number(point.inputs.get(x)) for point in results.points):
         raise InputError("x", got=f"{shown(x)}, whose values are texts or lists", takes="a key of numbers")
     values = numbers_of(results, value)
-    held = {key: _held(results, key, text) for key, text in (at or {}).items()}
-    for key in held:
+    fixed = {key: _fixed(results, key, text) for key, text in (at or {}).items()}
+    for key in fixed:
         if key in (x, y):
             raise InputError(
                 "at", got=f"{key}, which is {'x' if key == x else 'y'}", takes="another varied key"
             )
-    held |= _alone(results, {x, y, *held})
-    free = tuple(key for key in results.varied if key not in (x, y, *held))
+    fixed |= _alone(results, {x, y, *fixed})
+    free = tuple(key for key in results.varied if key not in (x, y, *fixed))
     if free and results.design == "grid":
         first = free[0]
         raise InputError(
@@ -192,14 +196,14 @@ def take(
     chosen = [
         k
         for k, p in enumerate(results.points)
-        if all(_hashable(p.inputs.get(key)) == v for key, v in held.items())
+        if all(_hashable(p.inputs.get(key)) == v for key, v in fixed.items())
     ]
     if not chosen:
         raise InputError(
-            "at", f"no point of the sweep has {', '.join(f'{k} = {v}' for k, v in held.items())}"
+            "at", f"no point of the sweep has {', '.join(f'{k} = {v}' for k, v in fixed.items())}"
         )
     points = tuple(results.points[k] for k in chosen)
-    # A number that is not to be used is no number of a figure.
+    # Values of points with a severe warning are left out of figures.
     usable = np.where([point.doubtful for point in points], np.nan, 1.0)
     values = usable * values[chosen]
     if not np.any(np.isfinite(values)):
@@ -211,7 +215,7 @@ def take(
         y=y,
         value=value,
         breakdown=breakdown,
-        at=held,
+        at=fixed,
         free=free,
         points=points,
         along=np.array([as_number(point.inputs[x]) for point in points]),
@@ -223,41 +227,41 @@ def take(
 
 
 def _drawn(points: Sequence[Point]) -> str:
-    """How many points there are, and how many of them are not to be used."""
+    """Text of the number of points in a slice, and of those with a severe warning."""
     doubtful = sum(point.doubtful for point in points)
     text = f"{len(points)} points that are drawn"
     return text + (f', of which {doubtful} are solved but say "do not use"' if doubtful else "")
 
 
 def known_values(results: SweepResults) -> list[str]:
-    """Keys of the summaries that are numbers in some solved point, in their order."""
-    found: dict[str, None] = {}
+    """Dotted keys of the summaries that have a number at some solved point, in their order."""
+    keys: dict[str, None] = {}
     for point in results.points:
         if point.solved:
             table = flat(point.summary or {})
-            found |= dict.fromkeys(key for key, value in table.items() if _is_number(value))
-    return list(found)
+            keys |= dict.fromkeys(key for key, value in table.items() if _is_number(value))
+    return list(keys)
 
 
 def numbers_of(results: SweepResults, value: str) -> Array:
-    """One number of every point, not a number where there is none.
+    """Value of a key of the summary at every point of a sweep.
 
     Parameters
     ----------
     results : SweepResults
-        What a sweep has found.
+        Results of a sweep.
     value : str
         Dotted key of the summary.
 
     Returns
     -------
     ndarray, shape (points,)
-        SI.
+        Values in SI units; nan where a point has none.
 
     Raises
     ------
     InputError
-        Where no point is solved, or none has such a number.
+        Where no point is solved, or no solved point has a number at this key.
     """
     if not any(point.solved for point in results.points):
         raise InputError(f"no point of {len(results.points)} is solved, there is nothing to show")
@@ -277,23 +281,23 @@ def _is_number(value: Any) -> bool:
 
 
 def _hashable(value: Any) -> Any:
-    """A number as a float, anything else as a text."""
+    """Value as a float where it is a number, else as text."""
     return float(value) if _is_number(value) else str(value)
 
 
 def _axis(results: SweepResults, key: str) -> list[Any]:
-    """Values of a varied key, each once, in their order."""
+    """Distinct values of a varied key, in the order of the points."""
     return list(dict.fromkeys(_hashable(point.inputs.get(key)) for point in results.points))
 
 
-def _alone(results: SweepResults, taken: set[str | None]) -> dict[str, Any]:
-    """Varied keys that have but one value, with it."""
-    axes = {key: _axis(results, key) for key in results.varied if key not in taken}
+def _alone(results: SweepResults, excluded: set[str | None]) -> dict[str, Any]:
+    """Varied keys that have a single value in the whole sweep, with this value."""
+    axes = {key: _axis(results, key) for key in results.varied if key not in excluded}
     return {key: values[0] for key, values in axes.items() if len(values) == 1}
 
 
-def _held(results: SweepResults, key: str, text: str) -> Any:
-    """The value of the sweep that is nearest to what is asked for."""
+def _fixed(results: SweepResults, key: str, text: str) -> Any:
+    """Value of a varied key in the sweep that is nearest to a requested one."""
     if key not in results.varied:
         near = nearest(key, results.varied) if results.varied else "none"
         raise InputError("at", got=shown(key), takes=f"a key that varies; nearest is {near}")
@@ -304,16 +308,16 @@ def _held(results: SweepResults, key: str, text: str) -> Any:
         if text not in axis:
             raise InputError("at", got=f"{key}={text}", takes=f"one of {_listed(axis)}")
         return text
-    asked = _asked(key, text)
+    requested = _requested(key, text)
     low, high = min(axis), max(axis)
     slack = 1e-6 * max(abs(low), abs(high))
-    if not low - slack <= asked <= high + slack:
+    if not low - slack <= requested <= high + slack:
         raise InputError("at", got=f"{key}={text}", takes=f"a value from {low:g} to {high:g}{_si(key)}")
-    return min(axis, key=lambda other: abs(other - asked))
+    return min(axis, key=lambda other: abs(other - requested))
 
 
-def _asked(key: str, text: str) -> float:
-    """SI value of a number or a text with its unit."""
+def _requested(key: str, text: str) -> float:
+    """SI value of a text with a number, with or without a unit."""
     try:
         number: float | None = float(text)
     except ValueError:
@@ -330,13 +334,13 @@ def _asked(key: str, text: str) -> float:
 
 
 def _si(key: str) -> str:
-    """Unit of a key of the case with a space before it."""
+    """SI unit of a key of the case with a space before it; empty where it has none."""
     kind = kind_of(key)
     unit = kind.unit if isinstance(kind, Quantity) else ""
     return f" {unit}" if unit else ""
 
 
 def _listed(values: Any) -> str:
-    """The first of some names or values."""
+    """Text that lists the first of some names or values."""
     texts = [f"{value:g}" if _is_number(value) else str(value) for value in values]
     return ", ".join(texts[:_MOST_LISTED]) + (" ..." if len(texts) > _MOST_LISTED else "")

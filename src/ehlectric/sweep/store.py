@@ -1,4 +1,4 @@
-"""A sweep on disk: one SQLite file with what was asked, every point, and what was found, row by row."""
+"""Storage of a sweep in one SQLite file: its input, its points, and the outcome of each point."""
 
 from __future__ import annotations
 
@@ -23,11 +23,12 @@ from ehlectric.version import __version__
 NAME = "sweep.sqlite"
 LOCK = ".sweep.lock"
 
-# Marks the file as ours, as SQLite provides for; the letters "ehle". And the version of the tables in it.
+# SQLite's application id marks the file as a sweep of ehlectric: its bytes are the letters "ehle". The
+# version is that of the tables in the file.
 _APPLICATION = 0x65686C65
 _VERSION = 1
 
-# What a reader or the writer waits for the other [s].
+# Longest time that a reader and the writer wait for each other [s].
 _PATIENCE = 60.0
 _TABLES = """
 CREATE TABLE IF NOT EXISTS sweep (name TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
@@ -40,16 +41,25 @@ CREATE TABLE IF NOT EXISTS results (
 );
 """
 
-# Points whose row is there and need not be tried again. A failed one is, where its process was killed or its
-# memory did not do, and where another version of the program failed.
+# SQL condition for an outcome that is final. A failed point is tried again where its process was killed or
+# ran out of memory, or where another version of ehlectric failed.
 _DONE = f"(results.status <> 'failed' OR (NOT results.again AND results.version = '{__version__}'))"
 
 
 @dataclass(frozen=True)
 class Planned:
-    """A point before it is solved.
+    """Point of a sweep before it is solved.
 
-    ``inputs`` as of a ``Point``; ``key`` of its case, None where that is refused, with the reason.
+    Attributes
+    ----------
+    number : int
+        Number of the point in the order of the design, from 0.
+    inputs : mapping
+        Values of the varied keys, by dotted key of the case, SI.
+    key : str or None
+        Key of its case, from ``case_key``; None where these inputs make no valid case.
+    refused : str
+        Reason why the inputs make no valid case; empty where they do.
     """
 
     number: int
@@ -60,9 +70,24 @@ class Planned:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of a point that was tried; ``again`` where another try may do better.
+    """Outcome of a point that was tried.
 
-    The others as of a ``Point``; ``date`` in ISO 8601.
+    Attributes
+    ----------
+    status : str
+        "solved", "not converged" or "failed".
+    reason : str
+        Reason why the point is not solved; empty where it is.
+    again : bool
+        Whether another try may succeed, as after a killed process.
+    summary : mapping or None
+        Nested tables, as in summary.json; None where the point failed.
+    seconds : float
+        Time that the solution took [s].
+    version : str
+        Version of ehlectric that tried the point.
+    date : str
+        Date and time of the outcome, ISO 8601.
     """
 
     status: Status
@@ -75,17 +100,25 @@ class Outcome:
 
 
 def case_key(case: AnyCase) -> str:
-    """What a solution depends on, as a hash: all inputs, defaults filled in, and the contents of files.
+    """Hash of everything that the solution of a case depends on.
+
+    It covers all inputs, with their defaults, and the contents of files. The title and the paths of files are
+    left out.
 
     Parameters
     ----------
     case : Case or BearingCase
-        A valid case. Its title, and where its files lie, are left out.
+        A valid case.
+
+    Returns
+    -------
+    str
+        SHA-256 hash, hexadecimal.
 
     Raises
     ------
     InputError
-        Where a file cannot be read.
+        Where a file of the case cannot be read.
 
     Examples
     --------
@@ -109,13 +142,13 @@ def case_key(case: AnyCase) -> str:
 
 @cache
 def _contents(path: Path, _changed: int, _size: int) -> str:
-    """Hash of a file, read once while it stays as it is."""
+    """SHA-256 hash of a file; it is read again only when its time of change or size differs."""
     with path.open("rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 def plan(sweep: Sweep) -> Iterator[Planned]:
-    """The points of a sweep with the keys of their cases, or why they are none."""
+    """Points of a sweep, each with the key of its case, or with the reason why it is no valid case."""
     for number, inputs in enumerate(sweep.points()):
         try:
             yield Planned(number, inputs, case_key(sweep.case.replace(inputs)))
@@ -124,16 +157,21 @@ def plan(sweep: Sweep) -> Iterator[Planned]:
 
 
 class Store:
-    """The file of a sweep, for the one process that writes it.
+    """File of a sweep, opened by the single process that writes it; a context manager.
 
-    Every ``write`` is a transaction of its own in SQLite's rollback journal, synchronous: what it has written
-    is there after a crash of the machine, and a reader needs the one file alone. (A write-ahead log is
-    quicker, but not for network file systems.)
+    Every ``write`` is a synchronous transaction in SQLite's rollback journal. What it has written survives a
+    crash of the machine, and a reader needs no second file. (A write-ahead log would be faster, but does not
+    work on network file systems.)
+
+    Parameters
+    ----------
+    folder : Path
+        Folder of the sweep.
 
     Raises
     ------
     InputError
-        From every method: where the file cannot be used, is none of a sweep, or another sweep writes it.
+        From every method, where the file cannot be used, is not a sweep, or is written by another process.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -142,7 +180,7 @@ class Store:
             refuse_special(folder / name)
         self._lock = _locked(folder / LOCK)
         try:
-            with _told(self._path):
+            with _one_line_errors(self._path):
                 self._file = _opened(self._path, "rwc")
                 self._file.execute("PRAGMA journal_mode = TRUNCATE")
                 self._file.execute("PRAGMA synchronous = FULL")
@@ -155,14 +193,14 @@ class Store:
 
     def __exit__(self, *_: object) -> None:
         with suppress(sqlite3.Error):
-            # Leaves no empty journal behind.
+            # Deletes the empty journal file.
             self._file.execute("PRAGMA journal_mode = DELETE")
         self._file.close()
         self._lock.close()
 
     def begin(self, sweep: Sweep, planned: Iterable[Planned]) -> None:
-        """Write what is asked in place of what was asked before; what was found stays."""
-        asked = {
+        """Write the input and points of a sweep in place of earlier ones; stored outcomes are kept."""
+        settings = {
             "case": sweep.case.to_toml(),
             "design": sweep.design,
             "axes": sweep.axes,
@@ -183,13 +221,13 @@ class Store:
             self._file.execute("DELETE FROM points")
             self._file.executemany(
                 "INSERT INTO sweep VALUES (?, ?)",
-                [(name, json.dumps(value)) for name, value in asked.items()],
+                [(name, json.dumps(value)) for name, value in settings.items()],
             )
             self._file.executemany("INSERT INTO points VALUES (?, ?, ?, ?)", rows)
 
     def open_points(self) -> list[tuple[str, dict[str, Any]]]:
-        """Keys and inputs of what is to be solved, each case once."""
-        with _told(self._path):
+        """Keys and inputs of the points that are still to be solved, each case once."""
+        with _one_line_errors(self._path):
             rows = self._file.execute(
                 "SELECT points.key, inputs, min(number) FROM points LEFT JOIN results USING (key) "
                 f"WHERE points.key IS NOT NULL AND (results.key IS NULL OR NOT {_DONE}) "
@@ -198,8 +236,8 @@ class Store:
         return [(key, json.loads(inputs)) for key, inputs, _ in rows]
 
     def counts(self) -> dict[str, int]:
-        """Points by their status; those that are to be tried again count as "open"."""
-        with _told(self._path):
+        """Number of points by status; points that are to be tried again count as "open"."""
+        with _one_line_errors(self._path):
             rows = self._file.execute(
                 "SELECT CASE WHEN points.key IS NULL THEN 'failed' "
                 f"WHEN results.key IS NULL OR NOT {_DONE} THEN 'open' ELSE results.status END AS status, "
@@ -208,21 +246,22 @@ class Store:
         return dict(rows)
 
     def write(self, rows: Iterable[tuple[str, Outcome]]) -> None:
-        """Commit what was found at points, by their keys."""
+        """Commit the outcomes of points, given with their keys."""
         values = [
             (
-                key, found.status, found.reason, found.again,
-                None if found.summary is None else json.dumps(found.summary, allow_nan=False),
-                found.seconds, found.version, found.date,
+                key, outcome.status, outcome.reason, outcome.again,
+                None if outcome.summary is None else json.dumps(outcome.summary, allow_nan=False),
+                outcome.seconds, outcome.version, outcome.date,
             )
-            for key, found in rows
+            for key, outcome in rows
         ]  # fmt: skip
         with self._transaction():
             self._file.executemany("INSERT OR REPLACE INTO results VALUES (?, ?, ?, ?, ?, ?, ?, ?)", values)
 
     @contextmanager
     def _transaction(self) -> Iterator[None]:
-        with _told(self._path):
+        """Commit what is written in the context, or roll it back where an exception is raised."""
+        with _one_line_errors(self._path):
             self._file.execute("BEGIN IMMEDIATE")
             try:
                 yield
@@ -234,30 +273,30 @@ class Store:
 
 
 def read_sweep(folder: str | Path) -> SweepResults:
-    """A sweep as it stands in its folder, finished, killed or still running.
+    """Read a sweep from its folder, whether it is finished, interrupted or still running.
 
     Parameters
     ----------
     folder : str or Path
-        Where ``sweep`` writes; sweep.sqlite alone is read.
+        Folder of the sweep. Only its file sweep.sqlite is read.
 
     Returns
     -------
     SweepResults
-        All points of the design; those not solved yet are "open".
+        All points of the design; points that are not solved yet are "open".
 
     Raises
     ------
     InputError
-        Where there is no sweep, or its file is damaged.
+        Where the folder has no sweep, or its file is damaged.
     """
     path = Path(folder) / NAME
     refuse_unreadable(path)
-    with _told(path):
+    with _one_line_errors(path):
         file = _opened(path, "rw")
         try:
             file.execute("BEGIN")
-            asked = file.execute("SELECT name, value FROM sweep").fetchall()
+            settings = file.execute("SELECT name, value FROM sweep").fetchall()
             rows = file.execute(
                 "SELECT number, inputs, refused, status, reason, seconds, version, summary "
                 "FROM points LEFT JOIN results USING (key) ORDER BY number"
@@ -265,21 +304,26 @@ def read_sweep(folder: str | Path) -> SweepResults:
         finally:
             file.close()
     try:
-        return _results({name: json.loads(value) for name, value in asked}, rows)
+        return _results({name: json.loads(value) for name, value in settings}, rows)
     except (InputError, LookupError, TypeError, ValueError):
         raise InputError(path, "is not a sweep of ehlectric, or damaged") from None
 
 
 def saved_points(folder: str | Path) -> tuple[int, int]:
-    """How many points of a sweep have been tried and saved, and how many it has.
+    """Number of points of a sweep that have been tried and saved, and number of all its points.
+
+    Parameters
+    ----------
+    folder : str or Path
+        Folder of the sweep. Only its file sweep.sqlite is read.
 
     Raises
     ------
     InputError
-        As ``read_sweep``.
+        Where the file cannot be used, or is not a sweep.
     """
     path = Path(folder) / NAME
-    with _told(path):
+    with _one_line_errors(path):
         file = _opened(path, "rw")
         try:
             saved, points = file.execute(
@@ -291,22 +335,26 @@ def saved_points(folder: str | Path) -> tuple[int, int]:
     return saved, points
 
 
-def _results(asked: Mapping[str, Any], rows: Sequence[tuple[Any, ...]]) -> SweepResults:
-    case = case_of_dict(tomllib.loads(asked["case"]))
+def _results(settings: Mapping[str, Any], rows: Sequence[tuple[Any, ...]]) -> SweepResults:
+    """Results of a sweep from the rows of its tables."""
+    case = case_of_dict(tomllib.loads(settings["case"]))
     return SweepResults(
         case=case,
-        design=asked["design"],
-        axes={key: tuple(values) for key, values in asked["axes"].items()},
-        ranges={key: Range(**over) for key, over in asked["ranges"].items()},
-        samples=asked["samples"],
+        design=settings["design"],
+        axes={key: tuple(values) for key, values in settings["axes"].items()},
+        ranges={key: Range(**over) for key, over in settings["ranges"].items()},
+        samples=settings["samples"],
         points=tuple(_point(case, *row) for row in _parsed(rows)),
-        seed=asked["seed"],
-        title=asked["title"],
+        seed=settings["seed"],
+        title=settings["title"],
     )
 
 
 def _parsed(rows: Sequence[tuple[Any, ...]]) -> Iterator[tuple[Any, ...]]:
-    """Rows with their JSON read, many at a time: so they share their keys, which else fill the memory."""
+    """Rows with their JSON parsed, a thousand at a time.
+
+    Summaries parsed together share the strings of their keys, which would fill the memory otherwise.
+    """
     for start in range(0, len(rows), 1000):
         some = rows[start : start + 1000]
         texts = ",".join(f"[{inputs},{summary or 'null'}]" for _, inputs, *_, summary in some)
@@ -321,19 +369,20 @@ def _point(
     summary: dict[str, Any] | None,
     refused: str,
     status: Status | None,
-    *found: Any,
+    *outcome: Any,
 ) -> Point:
+    """Point from a row of the tables; ``outcome`` is its reason, seconds and version."""
     if refused or status is None:
         return Point(number, inputs, "failed" if refused else "open", refused)
-    reason, seconds, version = found
+    reason, seconds, version = outcome
     if summary is not None:
-        # A title is no part of the key: rows of another sweep may have come with theirs.
+        # The key does not cover the title, so the summary may be that of a case with another title.
         summary["title"] = inputs.get("title", case.title)
     return Point(number, inputs, status, reason, summary, seconds, version)
 
 
 def _opened(path: Path, mode: str) -> sqlite3.Connection:
-    """A connection to a file that is empty or a sweep's."""
+    """Connection to a file, which must be empty or that of a sweep."""
     file = sqlite3.connect(
         f"{path.absolute().as_uri()}?mode={mode}", uri=True, timeout=_PATIENCE, isolation_level=None
     )
@@ -351,7 +400,10 @@ def _opened(path: Path, mode: str) -> sqlite3.Connection:
 
 
 def _locked(path: Path) -> sqlite3.Connection:
-    """A lock that ends with this process, however that ends, and holds on network file systems too."""
+    """Lock of a folder against other writers; it also works on network file systems.
+
+    The operating system releases it when this process ends, also after a crash.
+    """
     lock = sqlite3.connect(path, timeout=0.0, isolation_level=None)
     try:
         lock.execute("BEGIN EXCLUSIVE")
@@ -366,8 +418,8 @@ def _locked(path: Path) -> sqlite3.Connection:
 
 
 @contextmanager
-def _told(path: Path) -> Iterator[None]:
-    """Errors of SQLite as one line."""
+def _one_line_errors(path: Path) -> Iterator[None]:
+    """Context manager in which errors of SQLite become an InputError of one line."""
     try:
         yield
     except sqlite3.OperationalError as error:

@@ -1,4 +1,4 @@
-"""A sweep as tables: CSV, Parquet where pyarrow is there, and NetCDF, gridded where its points are a grid."""
+"""Tables of a sweep: CSV, NetCDF (gridded for a grid design) and, where pyarrow is installed, Parquet."""
 
 from __future__ import annotations
 
@@ -26,10 +26,10 @@ PARQUET = "sweep.parquet"
 NETCDF = "sweep.nc"
 FILES = (CSV, PARQUET, NETCDF)
 
-# Texts of a summary that change from point to point.
+# Keys of the summary whose values are texts that may differ between points.
 _TEXTS = ("bearing.lubrication", "bearing.first_break_at")
 
-# What is said of a point beside its inputs and numbers, with attributes as CF has them.
+# Variables of a point besides its inputs and results, with their attributes in the CF conventions.
 _OWN = {
     "number": {"long_name": "number of the point in the order of the design", "units": "1"},
     "status": {"long_name": "what became of the point"},
@@ -41,19 +41,19 @@ _OWN = {
 
 
 def write_tables(results: SweepResults, folder: str | Path) -> list[Path]:
-    """Write sweep.csv, sweep.nc and, where pyarrow is there, sweep.parquet.
+    """Write sweep.csv, sweep.nc and, where pyarrow is installed, sweep.parquet.
 
     Parameters
     ----------
     results : SweepResults
-        As ``read_sweep`` gives it, finished or not.
+        A sweep, finished or not.
     folder : str or Path
-        Where to; made if it is not there.
+        Output folder; created where it does not exist.
 
     Returns
     -------
     list of Path
-        The files written.
+        Files written.
 
     Raises
     ------
@@ -81,7 +81,7 @@ def write_tables(results: SweepResults, folder: str | Path) -> list[Path]:
 
 
 def columns_of(results: SweepResults) -> dict[str, list[Any]]:
-    """One row a point: its number, what became of it, what was varied, and what the summary has.
+    """Columns of the table of a sweep, with one row for each point.
 
     Parameters
     ----------
@@ -91,11 +91,12 @@ def columns_of(results: SweepResults) -> dict[str, list[Any]]:
     Returns
     -------
     dict
-        Columns by name, those of inputs and results by their dotted key, SI; before them number, status,
-        reason, warnings and their codes, each joined by "; ", and seconds. Results are None where a point is
-        not solved, or has no such value; of the inputs that the summary resolves, those that vary. A value
-        of the summary that has the key of one that was varied, as a film factor, has no column: the input
-        has it.
+        Columns by name. First are number, status, reason, warnings, warning_codes and seconds; several
+        warnings of a point are joined by "; ". The varied inputs and the results follow by dotted key, SI.
+
+        A result is None where the point is not solved, or its summary has no such value. Of the inputs that
+        the summary repeats, only those that differ between points have a column. A value of the summary with
+        the key of a varied input, such as a film factor, has no column of its own.
     """
     points = results.points
     columns: dict[str, list[Any]] = {
@@ -107,31 +108,35 @@ def columns_of(results: SweepResults) -> dict[str, list[Any]]:
         "seconds": [point.seconds for point in points],
     }
     columns |= {key: [point.inputs[key] for point in points] for key in results.varied}
-    found = texts_of(results) | numbers_of(results)
-    return columns | {key: values for key, values in found.items() if key not in columns}
+    summaries = texts_of(results) | numbers_of(results)
+    return columns | {key: values for key, values in summaries.items() if key not in columns}
 
 
 def texts_of(results: SweepResults) -> dict[str, list[str | None]]:
-    """Texts of the summaries by dotted key, a list over the points each, those of bearings that change."""
+    """Texts of the summaries by dotted key, each a list over the points; only bearings have such texts."""
     rows = [flat(point.summary) if point.solved and point.summary else {} for point in results.points]
     return {key: [row.get(key) for row in rows] for key in _TEXTS if any(key in row for row in rows)}
 
 
 def numbers_of(results: SweepResults) -> dict[str, list[float | None]]:
-    """The numbers of all summaries by dotted key, a list over the points each."""
+    """Numbers of the summaries by dotted key, each a list over the points, None where a point has none.
+
+    Of the inputs that the summaries repeat, only those are kept that differ between points and are not varied
+    keys themselves, such as a viscosity that follows from a varied temperature.
+    """
     rows = [_numbers(point.summary) if point.solved and point.summary else {} for point in results.points]
     keys = dict.fromkeys(key for row in rows for key in row)
-    found = {key: [row.get(key) for row in rows] for key in keys}
-    # Of what the summary repeats of its case, that which was not given and yet varies.
-    given = {f"inputs.{key}" for key in results.varied}
+    columns = {key: [row.get(key) for row in rows] for key in keys}
+    varied = {f"inputs.{key}" for key in results.varied}
     return {
         key: values
-        for key, values in found.items()
-        if not key.startswith("inputs.") or (key not in given and len({*values} - {None}) > 1)
+        for key, values in columns.items()
+        if not key.startswith("inputs.") or (key not in varied and len({*values} - {None}) > 1)
     }
 
 
 def _numbers(summary: Mapping[str, Any]) -> dict[str, float]:
+    """Numbers of a summary by dotted key."""
     return {
         key: value
         for key, value in flat(summary).items()
@@ -140,7 +145,7 @@ def _numbers(summary: Mapping[str, Any]) -> dict[str, float]:
 
 
 def to_xarray(results: SweepResults) -> xr.Dataset:
-    """A sweep as a dataset, SI.
+    """Convert a sweep to a dataset in SI units.
 
     Parameters
     ----------
@@ -150,9 +155,10 @@ def to_xarray(results: SweepResults) -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        Of a "grid" over the varied keys, else over ``point``, with the numbers of the summary by dotted key,
-        not a number where a point is not solved; ``status``, ``reason``, ``warnings`` and ``warning_codes``
-        as texts, and those of a bearing's lubrication and first contact to break.
+        Dataset over the varied keys for a "grid" design, else over ``point``. Numbers of the summaries have
+        their dotted key as name, and are nan where a point is not solved. ``status``, ``reason``,
+        ``warnings`` and ``warning_codes`` are texts; so are the lubrication and the first contact to break
+        of a bearing.
     """
     import xarray as xr
 
@@ -160,11 +166,11 @@ def to_xarray(results: SweepResults) -> xr.Dataset:
     dimensions = results.varied if gridded else ("point",)
     shape = tuple(len(axis) for axis in results.axes.values()) if gridded else (len(results.points),)
 
-    def laid(values: list[Any]) -> tuple[tuple[str, ...], Any]:
+    def laid_out(values: list[Any]) -> tuple[tuple[str, ...], Any]:
         return dimensions, _array(values).reshape(shape)
 
     columns = columns_of(results)
-    own = {name: (*laid(columns.pop(name)), attributes) for name, attributes in _OWN.items()}
+    own = {name: (*laid_out(columns.pop(name)), attributes) for name, attributes in _OWN.items()}
     inputs = {key: columns.pop(key) for key in results.varied}
     coordinates = {
         key: (
@@ -174,12 +180,12 @@ def to_xarray(results: SweepResults) -> xr.Dataset:
         )
         for key, values in inputs.items()
     }
-    found = {
-        key: (*laid(values if key in _TEXTS else list(map(as_number, values))), _attributes(key, results))
+    summaries = {
+        key: (*laid_out(values if key in _TEXTS else list(map(as_number, values))), _attributes(key, results))
         for key, values in columns.items()
     }
     return xr.Dataset(
-        own | found,
+        own | summaries,
         coords=coordinates,
         attrs={
             "Conventions": "CF-1.11",
@@ -196,7 +202,7 @@ def to_xarray(results: SweepResults) -> xr.Dataset:
 
 
 def _array(values: list[Any]) -> Any:
-    """Whole numbers and floats as such, texts and lists as texts."""
+    """Values as an array of numbers, or of texts where some are not numbers; lists become JSON texts."""
     numeric = [isinstance(value, int | float) and not isinstance(value, bool) for value in values]
     if all(numeric):
         return np.array(values)
@@ -204,7 +210,7 @@ def _array(values: list[Any]) -> Any:
 
 
 def _plain(column: list[Any]) -> list[Any]:
-    """A column of one type, for Parquet."""
+    """Column with values of a single type, as Parquet needs."""
     texts = any(isinstance(value, str | list | bool) for value in column)
     if texts:
         return [None if value is None else _cell(value) for value in column]
@@ -214,16 +220,16 @@ def _plain(column: list[Any]) -> list[Any]:
 
 
 def _cell(value: Any) -> Any:
-    """A value as text is written where it is no number: lists as JSON, nothing as nothing."""
+    """Text of a value in a CSV file: None as an empty text, a float with all digits, lists as JSON."""
     if value is None or isinstance(value, str):
         return value or ""
     return repr(value) if isinstance(value, float) else json.dumps(value)
 
 
 def _attributes(key: str, results: SweepResults) -> dict[str, str]:
-    """Name and unit of an input or of a number of the summary; no unit where it is no number."""
+    """CF attributes of an input or result: its name and, where it is a number, its unit."""
     label = label_of(key, results.case)
-    found = {"long_name": label.name}
+    attributes = {"long_name": label.name}
     if key in _TEXTS or (key in results.varied and kind_of(key) is None):
-        return found
-    return found | {"units": label.unit.replace("**", "^").replace("*", " ") or "1"}
+        return attributes
+    return attributes | {"units": label.unit.replace("**", "^").replace("*", " ") or "1"}

@@ -9,7 +9,7 @@ import pytest
 from ehlectric.bearing.loads.geometry import BallBearing
 from ehlectric.bearing.preparation import equilibria_of, resolve_bearing
 from ehlectric.lubricant.temperature import inlet_shear_factor
-from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, changed
+from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, changed, contact_of, ring_of
 
 D, PITCH = 11.906e-3, 60e-3
 SPEED = 3000.0 * 2.0 * math.pi / 60.0
@@ -87,9 +87,14 @@ def test_the_oil_is_that_of_the_bearings_temperature(celsius):
 
 @pytest.mark.parametrize(("tables", "exponent"), [(BALLS, 0.67), (ROLLERS, 0.69)])
 def test_film_factor_of_balls_and_of_rollers(tables, exponent):
-    """Half of the film takes 0.5^(1/0.67) of the speed, or 0.5^(1/0.69)."""
-    conditions = resolve_bearing(bearing_case(tables, bearing__film_factor=0.5))
-    assert conditions.entrainment_factor == pytest.approx(0.5 ** (1.0 / exponent), rel=1e-12, abs=0.0)
+    """Half of the film is that at 0.5^(1/0.67) of the speed, or 0.5^(1/0.69); the speed itself stays."""
+    ring = ring_of(bearing_case(tables, bearing__film_factor=0.5), speed=4.5)
+    conditions = contact_of(ring, 800.0).conditions
+    assert ring.conditions.film_factor == conditions.film_factor == 0.5
+    assert ring.speed == conditions.entrainment_speed == 4.5
+    assert conditions.contact.entrainment_speed == pytest.approx(
+        4.5 * 0.5 ** (1.0 / exponent), rel=1e-12, abs=0.0
+    )
 
 
 def test_heat_of_the_inlet_of_an_angular_contact_bearing():

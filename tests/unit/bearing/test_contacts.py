@@ -10,8 +10,10 @@ from ehlectric import Case, solve
 from ehlectric.bearing.contacts import ContactCurve, without_regime
 from ehlectric.bearing.gaps.groove import groove_capacitance, match_film, outside_capacitance
 from ehlectric.bearing.gaps.roller import RollerRaceway, roller_capacitance, roller_tails
+from ehlectric.bearing.kinds import kind_of
 from ehlectric.bearing.ring_contacts import raceway_of
 from ehlectric.bearing.solution import ring_state
+from ehlectric.bearing.solver import check_bearing
 from ehlectric.contact.resolve import resolve_point
 from ehlectric.errors import ResultWarning
 from ehlectric.formulas.hertz_point import dry_contact
@@ -20,7 +22,9 @@ from tests.helpers.bearings import (
     ROLLERS,
     bearing_case,
     contact_case,
+    contact_of,
     contact_solution,
+    formula_contact,
     ring_of,
     solve_contact,
     with_values,
@@ -155,6 +159,41 @@ def test_a_solution_tells_what_its_case_does():
         assert found.error is None or 0.0 < found.error < 0.03
         assert set(found.warnings) <= set(result.warnings)
         assert bool(found.warnings) != converged
+
+
+@pytest.mark.parametrize(("tables", "load", "exponent"), [(BALLS, 60.0, 0.67), (ROLLERS, 1200.0, 0.69)])
+def test_a_film_factor_acts_once(tables, load, exponent):
+    """The film of a factor is that of a case at the speed u factor^(1/exponent); the ring's speed stays u."""
+    factor = 0.7
+    ring, solver = of(tables, bearing__film_factor=factor)
+    conditions = contact_of(ring, load).conditions
+    assert (ring.speed, conditions.entrainment_speed, conditions.film_factor) == (SPEED, SPEED, factor)
+    slower, _ = of(tables, speed=SPEED * factor ** (1.0 / exponent))
+    # Domain and first grid follow the thinner film, too.
+    assert kind_of(ring).grid(contact_of(ring, load)) == kind_of(ring).grid(contact_of(slower, load))
+    case = contact_case(slower, load, solver)
+    found, result = solve_contact(ring, load, solver), solve(case)
+    for name in ("minimum_thickness", "central_thickness"):
+        assert getattr(found.values, name) == pytest.approx(getattr(result.film, name), rel=1e-9, abs=0.0)
+    assert found.values.breakdown_voltage == pytest.approx(
+        result.discharge.breakdown_voltage, rel=1e-9, abs=0.0
+    )
+    formula, thin = formula_contact(ring, load), formula_contact(slower, load)
+    assert formula.values.columns() == pytest.approx(thin.values.columns(), rel=1e-9, abs=0.0)
+
+
+@pytest.mark.parametrize("tables", [BALLS, ROLLERS], ids=["balls", "rollers"])
+def test_a_contact_of_a_bearing_makes_no_case(monkeypatch, tables):
+    ring, solver = of(tables)
+
+    def refuse(*_arguments, **_keywords):
+        raise AssertionError("a contact of a bearing has no case")
+
+    for name in ("from_dict", "model_validate", "__init__"):
+        monkeypatch.setattr(Case, name, refuse)
+    check_bearing(bearing_case(tables))
+    assert solve_contact(ring, 60.0, solver).converged
+    assert formula_contact(ring, 60.0).converged
 
 
 @pytest.mark.parametrize("load", [5.0, 60.0, 1200.0])

@@ -5,8 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from ehlectric.bearing.domain import line_domain, point_domain
+from ehlectric.bearing.domain import ball_grid, roller_grid
 from ehlectric.bearing.preparation import least_load
+from ehlectric.cases.grid import Grid
 from ehlectric.contact.resolve import resolve, resolve_point
 from ehlectric.formulas.film_line import LineContact, moes
 from ehlectric.formulas.film_point import PointContact, nijenbanning_venner_moes
@@ -47,31 +48,30 @@ def ball(load, *, inner):
 @pytest.mark.parametrize("inner", [True, False])
 def test_heavy_contacts_have_the_domain_of_others(inner):
     """4 and 2 half-widths of a roller; 4.5 and 1.5 semi-axes of a ball, across 1.6 + 1.4/k of them."""
-    assert line_domain(contact_of(of(ROLLERS, inner=inner), 20e3)) == {
-        "inlet": -4.0, "outlet": 2.0, "nodes": 3201, "field_range": [-1.25, 1.25],
-    }  # fmt: skip
-    found = point_domain(contact_of(of(UNLIKE, inner=inner), 5000.0))
+    found = roller_grid(contact_of(of(ROLLERS, inner=inner), 20e3))
+    assert found == Grid(inlet=-4.0, outlet=2.0, nodes=3201, field_range=(-1.25, 1.25), refine=0.03)
+    found = ball_grid(contact_of(of(UNLIKE, inner=inner), 5000.0))
     b, a, _, _ = ball(5000.0, inner=inner)
-    assert (found["inlet"], found["outlet"], found["nodes"]) == (-4.5, 1.5, 257)
-    assert found["side"] == pytest.approx(1.6 + 1.4 * b / a, rel=1e-9, abs=0.0)
+    assert (found.inlet, found.outlet, found.nodes, found.field_side) == (-4.5, 1.5, 257, 1.25)
+    assert found.side == pytest.approx(1.6 + 1.4 * b / a, rel=1e-9, abs=0.0)
 
 
 @pytest.mark.parametrize("inner", [True, False])
 def test_a_light_rollers_domain(inner):
     """Ten lengths before it and two behind, with sixteen nodes over its contact."""
     load = 60.0
-    found = line_domain(contact_of(of(ROLLERS, inner=inner), load))
+    found = roller_grid(contact_of(of(ROLLERS, inner=inner), load))
     b, length = roller(load, inner=inner)
     assert length > b
-    assert -found["inlet"] * b == pytest.approx(10.0 * length, rel=1e-4, abs=0.0)
-    assert found["outlet"] * b == pytest.approx(2.0 * length, rel=1e-4, abs=0.0)
-    assert 2.0 * (found["nodes"] - 1) / (found["outlet"] - found["inlet"]) >= 16.0
-    np.testing.assert_allclose(np.array(found["field_range"]) * b, [-length, length], rtol=1e-4)
+    assert -found.inlet * b == pytest.approx(10.0 * length, rel=1e-4, abs=0.0)
+    assert found.outlet * b == pytest.approx(2.0 * length, rel=1e-4, abs=0.0)
+    assert 2.0 * (found.nodes - 1) / (found.outlet - found.inlet) >= 16.0
+    np.testing.assert_allclose(np.array(found.field_range) * b, [-length, length], rtol=1e-4)
     # A hardly loaded one has eight lengths beyond a hundred half-widths, and three hundred at the most.
     for hardly in (5.0, 1.6):
         b, length = roller(hardly, inner=inner)
         expected = min(10.0 * length, max(100.0 * b, 8.0 * length), 300.0 * b)
-        inlet = -line_domain(contact_of(of(ROLLERS, inner=inner), hardly))["inlet"] * b
+        inlet = -roller_grid(contact_of(of(ROLLERS, inner=inner), hardly)).inlet * b
         assert inlet == pytest.approx(expected, rel=1e-4, abs=0.0)
         # Where the roller falls away from its parabola, at half of its radius, the domain would end too.
         assert inlet < 0.25 * ROLLER
@@ -81,17 +81,17 @@ def test_a_light_rollers_domain(inner):
 def test_a_light_balls_domain(inner):
     """Ten lengths before it and one behind; beside it four of those across, from the ellipse's end."""
     load = 10.0
-    found = point_domain(contact_of(of(UNLIKE, inner=inner), load))
+    found = ball_grid(contact_of(of(UNLIKE, inner=inner), load))
     b, a, along, across = ball(load, inner=inner)
-    assert -found["inlet"] * b == pytest.approx(10.0 * along, rel=1e-4, abs=0.0)
-    assert found["outlet"] * b == pytest.approx(max(1.5 * b, along), rel=1e-4, abs=0.0)
-    assert found["side"] * a == pytest.approx(a + 4.0 * across, rel=1e-4, abs=0.0)
+    assert -found.inlet * b == pytest.approx(10.0 * along, rel=1e-4, abs=0.0)
+    assert found.outlet * b == pytest.approx(max(1.5 * b, along), rel=1e-4, abs=0.0)
+    assert found.side * a == pytest.approx(a + 4.0 * across, rel=1e-4, abs=0.0)
     # Eight cells over each semi-axis, or 256 in all.
-    assert found["nodes"] - 1 >= 8.0 * (found["outlet"] - found["inlet"])
-    assert found["nodes"] - 1 >= 16.0 * found["side"]
+    assert found.nodes - 1 >= 8.0 * (found.outlet - found.inlet)
+    assert found.nodes - 1 >= 16.0 * found.side
     # What a grid holds: 48 semi-axes before and 24 beside.
-    hardly = point_domain(contact_of(of(UNLIKE, inner=inner), 1e-3))
-    ends = [hardly["inlet"], hardly["outlet"], hardly["side"]]
+    hardly = ball_grid(contact_of(of(UNLIKE, inner=inner), 1e-3))
+    ends = [hardly.inlet, hardly.outlet, hardly.side]
     assert ends == pytest.approx([-48.0, 4.8, 24.0], rel=1e-12, abs=0.0)
 
 

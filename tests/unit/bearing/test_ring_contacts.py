@@ -45,7 +45,7 @@ def radii(groove, sign, angle):
 def test_balls_contacts_by_hand(inner, groove, sign):
     """Radii, modulus of steel, and oil of 70 degC; the raceway's arc ends arccos(1 - 0.2/f) up the groove."""
     ring = of(UNLIKE, inner=inner, angle=0.3)
-    contact, raceway = BallContact(ring, 600.0).point, raceway_of(ring)
+    contact, raceway = BallContact(ring, 600.0).conditions.contact, raceway_of(ring)
     rx, ry = radii(groove, sign, 0.3)
     found = [contact.radius_x, contact.radius_y, contact.reduced_modulus, contact.load]
     assert found == pytest.approx([rx, ry, MODULUS, 600.0], rel=1e-12, abs=0.0)
@@ -60,7 +60,7 @@ def test_balls_contacts_by_hand(inner, groove, sign):
 @pytest.mark.parametrize(("inner", "race_radius"), [(True, 24.5e-3), (False, -35.5e-3)])
 def test_rollers_contacts_by_hand(inner, race_radius):
     """1/R of 5.5 mm and (60 -+ 11)/2 mm; 1200 N on 10 mm."""
-    contact = RollerContact(of(ROLLERS, inner=inner), 1200.0).line
+    contact = RollerContact(of(ROLLERS, inner=inner), 1200.0).conditions.contact
     reduced = 1.0 / (1.0 / 5.5e-3 + 1.0 / race_radius)
     found = [contact.reduced_radius, contact.reduced_modulus, contact.load_per_length]
     assert found == pytest.approx([reduced, MODULUS, 120e3], rel=1e-12, abs=0.0)

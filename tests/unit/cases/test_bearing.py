@@ -15,9 +15,9 @@ from ehlectric.bearing.solution import lambda_ratio
 from ehlectric.bearing.solver import check_bearing, solve_bearing
 from ehlectric.cases import library
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.formulas.film_point import PointContact, hamrock_dowson
+from ehlectric.formulas.film_point import hamrock_dowson
 from ehlectric.lubricant.temperature import inlet_shear_factor
-from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, changed
+from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, changed, contact_of, ring_of
 
 AS_ROLLERS = {
     "bearing__kind": "cylindrical roller",
@@ -256,14 +256,10 @@ def test_an_oil_without_constants_of_roelands_needs_its_alpha():
 
 def test_film_factor_goes_through_the_entrainment_product():
     """Films of Hamrock and Dowson go with (eta0 u)^0.67 but for eta0's part in alpha, which stays."""
-    assert resolve_bearing(bearing_case(BALLS)).entrainment_factor == 1.0
-    duty = resolve_bearing(bearing_case(BALLS, bearing__film_factor=0.7))
-    assert duty.film_factor == 0.7
-    contact = [
-        PointContact(5e-3, 50e-3, duty.modulus, 500.0, 4.0 * factor, 0.0125, 18e-9)
-        for factor in (1.0, duty.entrainment_factor)
-    ]
-    full, less = (hamrock_dowson(c).central_thickness for c in contact)
+    rings = [ring_of(bearing_case(BALLS, bearing__film_factor=f), speed=4.0) for f in ("none", 0.7)]
+    assert [ring.conditions.film_factor for ring in rings] == [1.0, 0.7]
+    contacts = [contact_of(ring, 500.0).conditions.contact for ring in rings]
+    full, less = (hamrock_dowson(contact).central_thickness for contact in contacts)
     assert less / full == pytest.approx(0.7, rel=1e-9, abs=0.0)
 
 

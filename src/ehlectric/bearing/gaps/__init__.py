@@ -1,1 +1,1 @@
-"""Capacitance of the gaps outside the loaded contacts, from their geometry."""
+"""Capacitance of the gaps around the loaded contacts, from the geometry of element and raceway."""

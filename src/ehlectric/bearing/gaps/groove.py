@@ -1,22 +1,22 @@
-"""Capacitance between a ball and the groove it runs in, outside the loaded film. SI units.
+"""Capacitance between a ball and the groove of its raceway, outside the loaded film. SI units.
 
-The raceway is a torus: a groove of radius r_g about a circle around the axis of the bearing, convex along
-rolling at the inner ring and concave at the outer one. A point Q of it is told by its azimuth phi from the
-ball and by its angle psi across the groove, from the bottom, positive towards the contact. With the ball's
-centre O at the distance R_o from the axis, a gap h0 at the contact angle alpha, e = r_g - r - h0, u = psi -
-alpha and the radius of the race at Q, R = R_o + s (r_g cos psi - e cos alpha), s = 1 at the outer ring and
--1 at the inner one,
+The raceway is a torus: a groove of radius r_g about a circle around the bearing axis. Along rolling it is
+convex at the inner ring and concave at the outer ring. A point Q on it has the azimuth phi from the ball, and
+the angle psi across the groove, from its bottom and positive towards the contact. The ball's centre O is at
+the distance R_o from the axis, and the gap at the contact angle alpha is h0. With e = r_g - r - h0,
+u = psi - alpha and the radius of the raceway at Q, R = R_o + s (r_g cos psi - e cos alpha), where s is 1 at
+the outer ring and -1 at the inner ring,
 
-    abs(Q - O)^2 = (r + h0)^2 + 4 r_g e sin^2(u/2) + 4 R R_o sin^2(phi/2),
+    abs(Q - O)^2 = (r + h0)^2 + 4 r_g e sin^2(u/2) + 4 R R_o sin^2(phi/2).
 
-without a difference of large numbers. The gap is measured from Q along the radius of the ball,
-abs(Q - O) - r, and the charge on the raceway is that of ``thin_gap.charge_density``. It is summed across the
-groove out to the shoulders, and along rolling as far as half of the ball faces the race: to where the race's
-own normal only grazes the ball, and the tangent planes part by 90 degrees.
+This form avoids differences of large numbers. The gap at Q is measured along the radius of the ball,
+abs(Q - O) - r. ``ehlectric.bearing.gaps.thin.charge_density`` gives the charge on the raceway. It is
+integrated across the groove from shoulder to shoulder. Along rolling, it is integrated over the part that
+half of the ball faces: to where the normal of the raceway is tangent to the ball.
 
-What is beyond is not in it: field lines from the lands beside the groove, from the race before and behind
-the ball, which it shares with the next one, and those to cage and shields. Over an endless plane that would
-be 30 % of the whole at h0/r = 1e-3; a groove closes around the ball, and leaves less.
+The model neglects the field lines from the lands beside the groove, from the raceway between two balls, and
+from the ball to cage and shields. For a ball over an infinite plane, the neglected part would be 30 % of the
+total at h0/r = 1e-3. It is less in a groove, which partly encloses the ball.
 """
 
 from __future__ import annotations
@@ -32,33 +32,34 @@ from ehlectric.bearing.gaps.thin import charge_density, stretched
 from ehlectric.errors import InputError, shown
 from ehlectric.formulas.hertz_point import DryContact, point_deflection
 
-# Nodes along rolling and across the groove; tests hold the integral they give to 1e-8.
+# Quadrature nodes along rolling and across the groove; tests check that the integral is accurate to 1e-8.
 _ALONG, _ACROSS = 40, 64
 
-# In each of the parts around a film, where the gap is less steep and the deflection takes most of the time.
+# Quadrature nodes of each part around a film. There the gap changes less, so fewer nodes suffice, and the
+# deflection at the nodes takes most of the computing time.
 _ALONG_PART, _ACROSS_PART = 24, 32
 
-# A half of the ball faces the race.
+# Angle between the normals of ball and raceway where the half of the ball that faces the raceway ends [rad].
 _HALF = 0.5 * np.pi
 
-# How far the elastic deflection opens the gap of rigid bodies: (x, y) [m] -> [m].
+# Elastic deflection that widens the gap between rigid bodies [m], as a function of the position (x, y) [m].
 Opening = Callable[[Array, Array], Array]
 
 
 @dataclass(frozen=True)
 class Raceway:
-    """The groove of one ring and the ball in it.
+    """Groove of one ring, and the ball in it.
 
     Attributes
     ----------
     ball_radius, groove_radius : float
-        r and r_g [m].
+        Radius r of the ball and r_g of the groove [m].
     pitch_radius : float
-        R_o, from the axis of the bearing to the centre of the ball [m].
+        Distance R_o from the axis of the bearing to the centre of the ball [m].
     shoulder_angle : float
-        psi at which the groove ends, on both sides of its bottom [rad].
+        Angle psi at which the groove ends, on both sides of its bottom [rad].
     contact_angle : float
-        alpha, psi of the contact [rad].
+        Angle psi of the contact, alpha [rad].
     outer : bool
         Whether the ring is the outer one.
     """
@@ -81,29 +82,30 @@ class Raceway:
         outer: bool,
         contact_angle: float = 0.0,
     ) -> Raceway:
-        """The raceway of a bearing as catalogues describe it.
+        """Raceway of a bearing from the dimensions that catalogues state.
 
         Parameters
         ----------
         element_diameter, pitch_diameter : float
-            D and that of the circle of the balls' centres [m].
+            Diameter D of the balls, and diameter of the circle of their centres [m].
         groove : float
-            Groove radius over ball diameter, above 0.5.
+            Radius of the groove over the diameter of the ball, above 0.5.
         shoulder_height : float
-            Depth of the groove at its shoulders, from its bottom, over the ball diameter.
+            Height of the shoulders above the bottom of the groove over the diameter of the ball.
         outer : bool
             Whether the ring is the outer one.
         contact_angle : float
-            [rad], from the radial direction.
+            Contact angle from the radial direction [rad].
 
         Raises
         ------
         InputError
-            If the groove does not go round the ball, has no such depth, or ends before the contact.
+            Where the groove radius is too small, the shoulder height is out of range, or the groove ends
+            before the contact.
 
         Examples
         --------
-        A groove of 0.52 D that is 0.2 D deep goes 52 degrees up on either side:
+        A groove with a radius of 0.52 D and a depth of 0.2 D reaches 52 degrees up on either side:
 
         >>> race = Raceway.of(11.906e-3, 60e-3, 0.52, 0.2, outer=True)
         >>> round(float(np.degrees(race.shoulder_angle)), 1)
@@ -132,19 +134,19 @@ class Raceway:
 
 @dataclass(frozen=True)
 class LoadedContact:
-    """The bodies around a solved film: rigid but for the deflection under the Hertz pressure.
+    """Bodies around a solved film, deflected by the Hertz pressure and otherwise rigid.
 
     Attributes
     ----------
     dry : DryContact
-        The dry contact of the load.
+        Dry contact under the same load.
     modulus : float
-        E' [Pa], 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
+        Reduced modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
     offset : float
-        The gap that the rigid bodies would have at the contact, about the film less the approach, mostly
-        negative [m].
+        Gap that the undeflected bodies would have at the contact [m]. It is about the film thickness less the
+        elastic approach, and mostly negative.
     mismatch : float
-        Largest difference from the solved film over its edge, relative.
+        Largest relative difference from the solved film thickness along the edge of the film's domain.
     """
 
     dry: DryContact
@@ -153,29 +155,31 @@ class LoadedContact:
     mismatch: float
 
     def opening(self, x: Array, y: Array) -> Array:
-        """How far the deflection opens the gap [m]."""
+        """Deflection that widens the gap at positions x and y from the contact [m]."""
         return point_deflection(x, y, self.dry, self.modulus)
 
 
 def groove_gap(race: Raceway, gap: float, x: Array, y: Array) -> Array:
-    """Distance of the rigid ball from points of its raceway, along the radius of the ball.
+    """Gap between a rigid ball and points on its raceway, along the radius of the ball.
 
     Parameters
     ----------
     race : Raceway
-        The groove and the ball.
+        Groove and ball.
     gap : float
-        h0, of the rigid bodies at the contact [m]; the least where it is below r_g - r.
+        Gap h0 of the rigid bodies at the contact [m]. It is the smallest gap if it is below r_g - r.
     x, y : ndarray, shapes that broadcast to (...)
-        From the contact, along the race's arcs: with rolling and across the groove [m].
+        Distance from the contact along the arcs of the raceway: along rolling and across the groove [m].
 
     Returns
     -------
     ndarray, shape (...)
-        [m]; near the contact h0 + x^2/(2 Rx) + y^2/(2 Ry).
+        Gap [m]; close to the contact it is h0 + x^2/(2 Rx) + y^2/(2 Ry).
 
     Examples
     --------
+    Gap at the contact and 0.1 mm along rolling, in micrometres:
+
     >>> race = Raceway.of(12e-3, 60e-3, 0.52, 0.2, outer=False)
     >>> x = np.array([0.0, 1e-4])
     >>> print(np.round(groove_gap(race, 1e-6, x, np.zeros(2)) * 1e6, 3))
@@ -193,23 +197,23 @@ def groove_capacitance(
     Parameters
     ----------
     race : Raceway
-        The groove and the ball.
+        Groove and ball.
     gap : float
-        h0, at the contact angle [m], positive.
+        Gap h0 at the contact angle [m], positive.
     relative_permittivity : float
-        Of what fills the gap.
+        Relative permittivity of the medium in the gap, dimensionless.
     obliquity : float
-        How far along rolling: to where the race's normal meets the surface of the ball at this angle from
-        its normal [rad]; 90 degrees where it grazes it.
+        End of the integral along rolling: where the normal of the raceway meets the ball at this angle from
+        the normal of the ball [rad]. At 90 degrees it is tangent to the ball.
 
     Returns
     -------
     float
-        [F].
+        Capacitance [F].
 
     Examples
     --------
-    A 6208, 5 um, in oil, by how much the part beyond 45 degrees adds to it:
+    Capacitance of a 6208 with a gap of 5 um in oil, in pF, and the share of the part beyond 45 degrees:
 
     >>> race = Raceway.of(11.906e-3, 60e-3, 0.52, 0.2, outer=False)
     >>> whole = groove_capacitance(race, 5e-6, 2.4)
@@ -218,7 +222,7 @@ def groove_capacitance(
     (15.3, 0.02)
     """
     steepness = abs(_offset_centre(race, gap)) * race.groove_radius / race.ball_radius
-    # Where the gap is twice that at the contact.
+    # Angle from the contact at which the gap is twice as large.
     scale = np.sqrt(2.0 * gap / max(steepness, 2.0 * gap))
     angles, weights = _across(race, -np.inf, np.inf, scale, _ACROSS)
     along = _along(race, gap, angles, np.zeros(_ACROSS), obliquity, _closed, _ALONG)
@@ -235,30 +239,30 @@ def outside_capacitance(
 ) -> float:
     """Capacitance between a loaded ball and its raceway outside the domain of the solved film.
 
-    The gap is that of rigid bodies ``contact.offset`` apart, opened by the deflection under the Hertz
-    pressure, exact for half-spaces. The film's pressure differs from Hertz's by a load that adds up to
-    nothing, of which little is felt around the ellipse, and ``match_film`` takes what is left at the edge of
-    the domain. The whole contact of ``examples/ball_bearing.toml``, inside and outside, changes by 0.1 %
-    when the domain is cut from 1.75 to 1.4 semi-axes across, which moves 5 pF of 76 from one to the other.
+    The gap is that of rigid bodies with the gap ``contact.offset``, widened by the deflection under the Hertz
+    pressure. This deflection is exact for half-spaces. Film pressure and Hertz pressure carry the same load,
+    so their difference deflects the bodies little around the ellipse; ``match_film`` compensates for it at
+    the edge of the domain. In ``examples/ball_bearing.toml`` the capacitance of the whole contact changes by
+    0.1 % when the domain is cut from 1.75 to 1.4 semi-axes across. This moves 5 pF of 76 pF to the outside.
 
     Parameters
     ----------
     race : Raceway
-        The groove and the ball.
+        Groove and ball.
     contact : LoadedContact
-        As ``match_film`` gives it.
+        Bodies around the film, from ``match_film``.
     domain : tuple of float
-        Inlet, outlet and side of the film's domain [m], inlet <= x <= outlet and abs(y) <= side; the inlet
-        is negative, and the Hertz ellipse within.
+        Inlet, outlet and side of the film's domain, inlet <= x <= outlet and abs(y) <= side [m]. The inlet
+        is negative, and the domain contains the Hertz ellipse.
     relative_permittivity : float
-        Of what fills the gap.
+        Relative permittivity of the medium in the gap, dimensionless.
     obliquity : float
-        As in ``groove_capacitance`` [rad].
+        End of the integral along rolling, as in ``groove_capacitance`` [rad].
 
     Returns
     -------
     float
-        [F].
+        Capacitance [F].
     """
     inlet, outlet, side = domain
     edge = side / race.groove_radius
@@ -277,32 +281,33 @@ def outside_capacitance(
 def match_film(
     race: Raceway, dry: DryContact, modulus: float, *, x: Array, y: Array, thickness: Array
 ) -> LoadedContact:
-    """The bodies outside a film, so that their gap continues it.
+    """Bodies around a film, with the offset at which their gap continues the film.
 
-    The offset is that which takes the error of 1/h out of the sum over the edge. Where the film's parabolas
-    and the true circles part, or its pressure and that of Hertz, not every point can be met: ``mismatch``
-    says by how much.
+    With this offset the error of 1/h adds up to zero over the edge of the film's domain. The gap does not fit
+    at every point, because the film has parabolas instead of circles, and another pressure than Hertz's. The
+    largest difference is ``mismatch``.
 
     Parameters
     ----------
     race : Raceway
-        The groove and the ball.
+        Groove and ball.
     dry : DryContact
-        The dry contact of the load.
+        Dry contact under the same load.
     modulus : float
-        E' [Pa], 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
+        Reduced modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
     x, y, thickness : ndarray, shape (n,)
-        Points of the edge of the film's domain, with x along entrainment, and the film there [m].
+        Points on the edge of the film's domain, with x along entrainment, and the film thickness there [m].
 
     Returns
     -------
     LoadedContact
-        With the offset and the mismatch.
+        Bodies around the film, with offset and mismatch.
     """
     opened = point_deflection(x, y, dry, modulus)
     weights = thickness**-2.0 / np.sum(thickness**-2.0)
     offset = 0.0
-    # The gap rises with the offset as the cosine of an angle that is small over the film's domain.
+    # Fixed-point iteration. The gap changes with the offset by the cosine of an angle that is small over the
+    # film's domain, so a few rounds suffice.
     for _ in range(12):
         missing = thickness - opened - groove_gap(race, offset, x, y)
         offset += float(weights @ missing)
@@ -315,26 +320,26 @@ def _closed(x: Array, y: Array) -> Array:
 
 
 def _offset_centre(race: Raceway, gap: float) -> float:
-    # e, from the centre of the ball to that of the groove.
+    """Distance e from the centre of the ball to the centre of the groove [m]."""
     return race.groove_radius - race.ball_radius - gap
 
 
 def _race_radius(race: Raceway, gap: float, psi: Array) -> Array:
-    # R, from the axis of the bearing to the race.
+    """Radius R of the raceway about the axis of the bearing, at the angle psi [m]."""
     inwards = race.groove_radius * np.cos(psi) - _offset_centre(race, gap) * np.cos(race.contact_angle)
     radius: Array = race.pitch_radius + (inwards if race.outer else -inwards)
     return radius
 
 
 def _distances(race: Raceway, gap: float, psi: Array, phi: Array) -> tuple[Array, Array]:
-    """The gap along the radius of the ball [m], and the angle of that radius to the normal of the race."""
+    """Gap along the radius of the ball [m], and angle from this radius to the normal of the raceway [rad]."""
     e, pitch, s = _offset_centre(race, gap), race.pitch_radius, 1.0 if race.outer else -1.0
     u, q = psi - race.contact_angle, np.sin(0.5 * phi) ** 2
     near = race.ball_radius + gap
     across = 4.0 * race.groove_radius * e * np.sin(0.5 * u) ** 2
     further = across + 4.0 * _race_radius(race, gap, psi) * pitch * q
     beyond = further / (np.sqrt(near**2 + further) + near)
-    # Of Q - O the part along the normal and that across it.
+    # Components of Q - O along the normal of the raceway and perpendicular to it.
     along = race.groove_radius - e * np.cos(u) + 2.0 * s * np.cos(psi) * pitch * q
     flat, linear, square = _sideways(race, gap, psi)
     sideways = np.sqrt(np.maximum(0.0, flat + (linear - square * q) * q))
@@ -342,15 +347,17 @@ def _distances(race: Raceway, gap: float, psi: Array, phi: Array) -> tuple[Array
 
 
 def _sideways(race: Raceway, gap: float, psi: Array) -> tuple[Array, Array, Array]:
-    # The square of the distance of O from the normal of the race at Q is flat + linear q - square q^2,
-    # q = sin^2(phi/2).
+    """Coefficients of the squared distance of O from the normal of the raceway at Q.
+
+    It is flat + linear q - square q^2, with q = sin^2(phi/2) [m^2].
+    """
     e, pitch, s = _offset_centre(race, gap), race.pitch_radius, 1.0 if race.outer else -1.0
     aside = e * np.sin(psi - race.contact_angle)
     return aside**2, 4.0 * pitch * (pitch - s * np.sin(psi) * aside), (2.0 * pitch * np.cos(psi)) ** 2
 
 
 def _reach(race: Raceway, gap: float, psi: Array, obliquity: float) -> Array:
-    """Azimuth at which the normal of the race meets the ball at this angle from its normal [rad]."""
+    """Azimuth at which the raceway's normal meets the ball at an angle to the ball's normal [rad]."""
     flat, linear, square = _sideways(race, gap, psi)
     left = np.maximum(0.0, (race.ball_radius * np.sin(obliquity)) ** 2 - flat)
     q = 2.0 * left / (linear + np.sqrt(linear**2 - 4.0 * square * left))
@@ -359,7 +366,7 @@ def _reach(race: Raceway, gap: float, psi: Array, obliquity: float) -> Array:
 
 
 def _across(race: Raceway, first: float, last: float, scale: float, nodes: int) -> tuple[Array, Array]:
-    """Angles psi and weights between two angles from the contact, as far as the groove goes."""
+    """Nodes psi [rad] and weights between two angles from the contact, as far as both are in the groove."""
     ends = np.clip([first, last], *(np.array([-1.0, 1.0]) * race.shoulder_angle - race.contact_angle))
     u, weights = stretched(ends[0], ends[1], scale, nodes)
     return race.contact_angle + u, weights
@@ -374,10 +381,10 @@ def _along(
     opening: Opening,
     nodes: int,
 ) -> Array:
-    """Integral of the charge density over one side of the race, from an azimuth on, by angle psi [m]."""
+    """Integral of the charge density along one side of the raceway, from an azimuth on, for each psi [m]."""
     radius, y = _race_radius(race, gap, psi), race.groove_radius * (psi - race.contact_angle)
     middle = _distances(race, gap, psi, np.zeros_like(psi))[0] + opening(np.zeros_like(y), y)
-    # Where the gap is twice that at the middle, or of a tail where it starts.
+    # Azimuth at which the gap is twice that in the middle; for a tail, the azimuth at which it starts.
     scale = np.sqrt(2.0 * race.ball_radius * np.abs(middle) / (radius * race.pitch_radius))
     scale = np.where(start > 0.0, start, scale)
     end = _reach(race, gap, psi, obliquity)

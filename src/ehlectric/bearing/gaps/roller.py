@@ -1,14 +1,16 @@
-"""Capacitance between a roller and its race, outside the loaded film. SI units, per length of the roller.
+"""Capacitance between a roller and its raceway outside the loaded film, per length of the roller. SI units.
 
-Both are circles: the race convex at the inner ring and concave at the outer one. With the radii R of the race
-and r of the roller, and its centre O at R_o = R +- (r + h0) from the axis, a point Q of the race at the
-azimuth phi has
+Roller and raceway are circles. The raceway is convex at the inner ring and concave at the outer ring. R is
+the radius of the raceway, r that of the roller, and h0 the smallest gap. The roller's centre O is at
+R_o = R + r + h0 from the bearing axis at the inner ring, and at R_o = R - r - h0 at the outer ring. For a
+point Q on the raceway at the azimuth phi
 
     abs(Q - O)^2 = (r + h0)^2 + 4 R R_o sin^2(phi/2).
 
-The gap is measured from Q along the radius of the roller, abs(Q - O) - r, and the charge on the race is that
-of ``thin_gap.charge_density``. It is summed as far as half of the roller faces the race: to where the race's
-own normal only grazes the roller. The field around the ends of the roller is not in it.
+The gap at Q is measured along the radius of the roller, abs(Q - O) - r.
+``ehlectric.bearing.gaps.thin.charge_density`` gives the charge on the raceway. It is integrated over the part
+that half of the roller faces: to where the normal of the raceway is tangent to the roller. The field around
+the ends of the roller is neglected.
 """
 
 from __future__ import annotations
@@ -22,21 +24,21 @@ from ehlectric.arrays import Array
 from ehlectric.bearing.gaps.thin import charge_density, stretched
 from ehlectric.formulas.hertz_line import line_gap, reduced_radius
 
-# Nodes to a side; tests hold the integral they give to 1e-8.
+# Quadrature nodes on each side of the contact; tests check that the integral is accurate to 1e-8.
 _NODES = 48
 
-# A half of the roller faces the race.
+# Angle between the normals of roller and raceway where the half that faces the raceway ends [rad].
 _HALF = 0.5 * np.pi
 
 
 @dataclass(frozen=True)
 class RollerRaceway:
-    """The race of one ring and the roller on it.
+    """Raceway of one ring, and the roller on it.
 
     Attributes
     ----------
     roller_radius, race_radius : float
-        r and R [m].
+        Radius r of the roller and R of the raceway [m].
     outer : bool
         Whether the ring is the outer one.
     """
@@ -47,39 +49,39 @@ class RollerRaceway:
 
     @property
     def curvature(self) -> float:
-        """Of the race [1/m], positive where it is concave."""
+        """Curvature of the raceway, positive where it is concave [1/m]."""
         return (1.0 if self.outer else -1.0) / self.race_radius
 
     def pitch_radius(self, gap: float) -> float:
-        """R_o, from the axis of the bearing to the centre of the roller, at a gap [m]."""
+        """Distance R_o from the axis of the bearing to the centre of the roller, for a gap [m]."""
         return self.race_radius - (1.0 if self.outer else -1.0) * (self.roller_radius + gap)
 
 
 def roller_capacitance(
     race: RollerRaceway, gap: float, relative_permittivity: float = 1.0, *, obliquity: float = _HALF
 ) -> float:
-    """Capacitance per length between an unloaded, rigid roller and its race.
+    """Capacitance per length between an unloaded, rigid roller and its raceway.
 
     Parameters
     ----------
     race : RollerRaceway
-        The race and the roller.
+        Raceway and roller.
     gap : float
-        h0, the least [m], positive.
+        Smallest gap h0 [m], positive.
     relative_permittivity : float
-        Of what fills the gap.
+        Relative permittivity of the medium in the gap, dimensionless.
     obliquity : float
-        How far: to where the race's normal meets the surface of the roller at this angle from its normal
-        [rad]; 90 degrees where it grazes it.
+        End of the integral: where the normal of the raceway meets the roller at this angle from the normal of
+        the roller [rad]. At 90 degrees it is tangent to the roller.
 
     Returns
     -------
     float
-        [F/m].
+        Capacitance per length [F/m].
 
     Examples
     --------
-    Of parabolas, h0 + x^2/(2 R), without an end it would be eps0 pi sqrt(2 R/h0):
+    Ratio to eps0 pi sqrt(2 R/h0), the capacitance of a parabolic gap h0 + x^2/(2 R) without an end:
 
     >>> race = RollerRaceway(5.5e-3, 27.25e-3, outer=False)
     >>> reduced = 1.0 / (1.0 / 5.5e-3 + 1.0 / 27.25e-3)
@@ -88,7 +90,7 @@ def roller_capacitance(
     0.987
     """
     pitch = race.pitch_radius(gap)
-    # Where the gap is twice the least.
+    # Azimuth at which the gap is twice the smallest one.
     scale = np.sqrt(2.0 * race.roller_radius * gap / (race.race_radius * pitch))
     phi, weights = stretched(0.0, _reach(race, gap, obliquity), scale, _NODES)
     distance, tilt = _distances(race, gap, phi)
@@ -106,33 +108,35 @@ def roller_tails(
 ) -> tuple[float, float]:
     """Capacitance per length outside the domain of a solved line contact, at its inlet and at its outlet.
 
-    The gap is that of the touching circles, opened by the deflection under the Hertz pressure and moved by
-    what makes it continue the film at each end.
+    The gap is that of touching circles, widened by the deflection under the Hertz pressure. At each end a
+    constant is added, with which the gap continues the film.
 
     Parameters
     ----------
     race : RollerRaceway
-        The race and the roller.
+        Raceway and roller.
     half_width : float
-        b of the dry contact [m].
+        Half-width b of the dry contact [m].
     domain : tuple of float
-        Inlet and outlet of the film's domain [m], along the arc of the race from the contact; the inlet is
-        negative, and both are beyond the half-width.
+        Inlet and outlet of the film's domain, along the arc of the raceway from the contact [m]. The inlet is
+        negative, and both lie outside the half-width.
     thickness : tuple of float
-        Film thickness there [m].
+        Film thickness at inlet and outlet [m].
     relative_permittivity : float
-        Of what fills the gap.
+        Relative permittivity of the medium in the gap, dimensionless.
     obliquity : float
-        As in ``roller_capacitance`` [rad].
+        End of the integral, as in ``roller_capacitance`` [rad].
 
     Returns
     -------
     inlet, outlet : float
-        [F/m], each about 2 eps0 eps R/abs(x) with the reduced radius R; zero where the domain reaches
-        further.
+        Capacitance per length [F/m], each about 2 eps0 eps R/abs(x) with the reduced radius R. It is zero
+        where the domain reaches beyond the end of the integral.
 
     Examples
     --------
+    Ratio to 2 eps0 R/abs(x) for a domain of four half-widths on either side:
+
     >>> race = RollerRaceway(5.5e-3, 27.25e-3, outer=False)
     >>> reduced = 1.0 / (1.0 / 5.5e-3 + 1.0 / 27.25e-3)
     >>> film = 5e-7 + 4e-4**2 / (2.0 * reduced)
@@ -155,19 +159,19 @@ def roller_tails(
 
 
 def _opening(race: RollerRaceway, half_width: float, x: Array) -> Array:
-    # What the dry contact's gap has beyond that of the parabolas; of a line its zero is free.
+    """Gap of the dry contact less that of undeflected parabolas, up to a constant [m]."""
     radius = reduced_radius(race.roller_radius, -1.0 / race.curvature)
     return half_width**2 / radius * line_gap(x / half_width) - 0.5 * x**2 / radius
 
 
 def _charge(race: RollerRaceway, gap: Array, tilt: Array, weights: Array) -> float:
-    """Integral of the charge density over the arc of the race, dimensionless."""
+    """Integral of the charge density over the arc of the raceway, dimensionless."""
     density = charge_density(gap, tilt, 1.0 / race.roller_radius, race.curvature)
     return race.race_radius * float(np.vdot(weights, density))
 
 
 def _distances(race: RollerRaceway, gap: float, phi: Array) -> tuple[Array, Array]:
-    """The gap along the radius of the roller [m], and the angle of that radius to the normal of the race."""
+    """Gap along the radius of the roller [m], and angle from it to the normal of the raceway [rad]."""
     pitch, near, q = race.pitch_radius(gap), race.roller_radius + gap, np.sin(0.5 * phi) ** 2
     further = 4.0 * race.race_radius * pitch * q
     beyond = further / (np.sqrt(near**2 + further) + near)
@@ -176,5 +180,5 @@ def _distances(race: RollerRaceway, gap: float, phi: Array) -> tuple[Array, Arra
 
 
 def _reach(race: RollerRaceway, gap: float, obliquity: float) -> float:
-    """Azimuth at which the normal of the race meets the roller at this angle from its normal [rad]."""
+    """Azimuth at which the raceway's normal meets the roller at an angle to the roller's normal [rad]."""
     return float(np.arcsin(race.roller_radius * np.sin(obliquity) / race.pitch_radius(gap)))

@@ -1,1 +1,1 @@
-"""Mechanics of a bearing: geometry, kinematics and the load that every rolling element carries."""
+"""Mechanics of a bearing: geometry, kinematics, and the load of every rolling element."""

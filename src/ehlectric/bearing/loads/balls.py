@@ -1,9 +1,9 @@
-"""Equilibrium of a ball bearing: what each ball carries, at what angles, and where the rings stand. SI units.
+"""Equilibrium of a ball bearing: loads and contact angles of the balls, displacement of the ring. SI units.
 
-Harris' model for speed. The inner ring is displaced, not tilted; each ball sits between both grooves under
-the forces of its contacts and its centrifugal force, so that its contact angles differ. Rings keep their
-shape apart from the contacts. The gyroscopic moment is reported and its effect left out, as is friction; the
-grooves have no shoulder here, so that contact angles are to be compared with where it begins.
+Harris' model of a bearing at speed. The inner ring is displaced, but not tilted. Contact forces and
+centrifugal force balance on each ball, so its inner and outer contact angles differ. The rings are rigid
+except in the contacts. The effects of the gyroscopic moment and of friction are neglected. The grooves have
+no shoulders in this model, so compare the contact angles with the angle at which the shoulder begins.
 
 A. B. Jones, J. Basic Eng. 82 (1960) 309-320, doi:10.1115/1.3662587; T. A. Harris and M. N. Kotzalas, Advanced
 Concepts of Bearing Technology, 5th ed., 2006, chapters 1 and 3, doi:10.1201/9781420006582.
@@ -26,53 +26,53 @@ from ehlectric.bearing.loads.seating import Grooves, Seats, lean_outward, seat
 from ehlectric.errors import ConvergenceError, InputError, shown
 from ehlectric.formulas.hertz_point import dry_contact
 
-# K changes by a few percent over all angles and smoothly: this degree leaves less than 1e-11 of it, unless
-# a handful of balls fill their pitch circle.
+# Degree of the polynomial of log K. K changes smoothly, by a few percent over all angles: the relative error
+# is below 1e-11, except where a handful of balls fill their pitch circle.
 _DEGREE = 24
 
-# Cosines of the contact angles have settled; each round takes two or three digits off their change.
+# Change of the cosines of the contact angles at convergence; each round reduces it by two or three digits.
 _SETTLED = 1e-12
 _MOST_ROUNDS = 30
 
-# First step of the ring over the distance of the groove centres.
+# Longest first step of the ring over the distance of the groove centres.
 _REACH = 0.1
 
 
 @dataclass(frozen=True)
 class BallEquilibrium:
-    """Ball bearing in equilibrium; arrays hold one number a ball.
+    """Ball bearing in equilibrium. Arrays have one value per ball, shape (n,).
 
     Attributes
     ----------
-    position : ndarray, shape (n,)
-        Angle from the direction of the radial load [rad].
+    position : ndarray
+        Angle of the ball from the direction of the radial load [rad].
     inner_load, outer_load : ndarray
-        Q of both contacts [N].
+        Load Q of both contacts [N].
     inner_angle, outer_angle : ndarray
-        Contact angle of both [rad]; where a ball does not touch, that of the narrowest place.
+        Angle of both contacts [rad]; where a ball does not touch, angle of the smallest gap.
     inner_approach, outer_approach : ndarray
-        By how much ball and ring come closer in the contact [m].
+        Elastic approach of ball and ring in the contact [m]; 0 where they do not touch.
     inner_gap, outer_gap : ndarray
-        Least distance of ball and groove where they do not touch [m], else 0.
+        Smallest distance between ball and groove [m]; 0 where they touch.
     speeds : Speeds
-        That each ball would roll at with the mean of its contact angles.
+        Speeds of each ball in pure rolling at the mean of its two contact angles.
     gyroscopic_moment : ndarray
-        [N m]; its effect is left out.
+        Gyroscopic moment of each ball [N m]; its effect is neglected.
     cage_speed : float
-        Mean of that of the balls, weighted with their load on the inner ring [rad/s].
+        Mean orbital speed of the balls, weighted with their load on the inner ring [rad/s].
     centrifugal_force : float
-        On each ball, at ``cage_speed`` [N].
+        Centrifugal force on each ball at ``cage_speed`` [N].
     axial_displacement : float
-        Of the inner ring from where its groove faces the outer one [m]; A sin a_0 of that is free.
+        Displacement of the inner ring from where both grooves face each other [m]; A sin a_0 is play.
     radial_displacement, lateral_displacement : float
-        Of the inner ring along the radial load, and at right angles to it, towards the angle of 90 deg [m].
+        Displacement of the inner ring along the radial load, and towards the angle of 90 deg [m].
     moment, lateral_moment : float
-        That hold the ring from tilting, sum of R_i Q_i sin a_i times cos psi and sin psi [N m], about the
-        centre of the circle of inner groove centres, in whose plane the radial load acts; R_i is its radius.
+        Moments that keep the ring from tilting, sums of R_i Q_i sin a_i times cos psi and sin psi [N m].
+        They are about the centre of the circle of inner groove centres; R_i is its radius.
     residual : float
-        Largest force that ring or ball miss to balance, over the load and the centrifugal force together.
+        Largest unbalanced force on ring or ball over the sum of load and centrifugal force, dimensionless.
     iterations : int
-        Newton steps of the ring.
+        Number of Newton steps for the ring.
     """
 
     position: Array
@@ -97,7 +97,7 @@ class BallEquilibrium:
     iterations: int
 
     def ring(self, *, inner: bool) -> RingLoads:
-        """Contacts of all balls with the inner or the outer ring."""
+        """Contacts of all balls with the inner or the outer ring in equilibrium."""
         if inner:
             speed = np.asarray(self.speeds.inner_entrainment)
             return RingLoads(self.inner_load, self.inner_angle, self.inner_approach, self.inner_gap, speed)
@@ -106,26 +106,28 @@ class BallEquilibrium:
 
 
 def contact_stiffness(bearing: BallBearing, modulus: float, angle: float, *, inner: bool) -> float:
-    """K of Q = K delta^(3/2) at one contact, from the exact ellipse.
+    """Stiffness K of Q = K delta^(3/2), from the exact Hertz ellipse of a ball and a ring.
 
     Parameters
     ----------
     bearing : BallBearing
-        The bearing.
+        Geometry of the bearing.
     modulus : float
         Reduced modulus E' of ball and ring [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
     angle : float
         Contact angle [rad].
     inner : bool
-        Which contact.
+        Whether the contact is with the inner ring.
 
     Returns
     -------
     float
-        [N/m^(3/2)].
+        Stiffness K [N/m^(3/2)].
 
     Examples
     --------
+    Approach in micrometres under a load of 870 N:
+
     >>> bearing = BallBearing(9, 11.906e-3, 60e-3, 0.52, 0.52, radial_clearance=10e-6)
     >>> k = contact_stiffness(bearing, 226e9, 0.0, inner=True)
     >>> round(1e6 * (870.0 / k) ** (2 / 3), 2)
@@ -137,7 +139,7 @@ def contact_stiffness(bearing: BallBearing, modulus: float, angle: float, *, inn
 
 @lru_cache(maxsize=32)
 def _stiffness_laws(bearing: BallBearing, modulus: float) -> tuple[Chebyshev, Chebyshev]:
-    """Logarithm of K at the inner and outer contacts over the cosine of the contact angle."""
+    """Polynomials of log K in the cosine of the contact angle, for the inner and the outer contact."""
 
     def law(*, inner: bool) -> Chebyshev:
         def logarithm(cosines: Array) -> Array:
@@ -158,7 +160,7 @@ class _Angles:
 
     @classmethod
     def of(cls, seats: Seats) -> _Angles:
-        """Angles of both contacts, or of the narrowest places where there are none."""
+        """Angles of both contacts; where a ball does not touch, angles of the smallest gap."""
         inner, outer = seats.inner.normal, seats.outer.normal
         return cls(np.arctan2(inner[:, 0], inner[:, 1]), np.arctan2(outer[:, 0], outer[:, 1]))
 
@@ -167,14 +169,14 @@ class _Angles:
         return 0.5 * (self.inner + self.outer)
 
     def change(self, other: _Angles) -> float:
-        """Largest change of a cosine."""
+        """Largest change of the cosine of a contact angle."""
         pairs = ((self.inner, other.inner), (self.outer, other.outer))
         return max(float(np.max(np.abs(np.cos(a) - np.cos(b)))) for a, b in pairs)
 
 
 @dataclass(frozen=True)
 class _Model:
-    """A bearing and its operation, as the rounds of the solution need them."""
+    """Bearing and operation, with the functions that each round of the solution needs."""
 
     bearing: BallBearing
     operation: Operation
@@ -187,12 +189,12 @@ class _Model:
 
     @property
     def load(self) -> Array:
-        """On the ring, axial, along the radial load, and lateral [N]."""
+        """Load on the ring: axial, along the radial load, and lateral, shape (3,) [N]."""
         return np.array([self.operation.axial_load, self.operation.radial_load, 0.0])
 
     @property
     def basis(self) -> Array:
-        """Derivative of each ball's groove centre by the displacement of the ring, shape (n, 2, 3)."""
+        """Derivative of the inner groove centres by the displacement of the ring, shape (n, 2, 3)."""
         basis = np.zeros((self.bearing.elements, 2, 3))
         basis[:, 0, 0] = 1.0
         basis[:, 1, 1], basis[:, 1, 2] = np.cos(self.position), np.sin(self.position)
@@ -203,7 +205,7 @@ class _Model:
         return np.asarray(self.basis @ ring + np.array([0.0, self.bearing.radial_distance]))
 
     def cage_speed(self, angles: _Angles, loads: Array) -> float:
-        """Mean speed of the balls about the axis, weighted with what they carry, if anything [rad/s]."""
+        """Mean orbital speed of the balls, weighted with their loads unless all are 0 [rad/s]."""
         weights = loads if loads.any() else None
         return float(np.average(np.asarray(self.speeds(angles).cage), weights=weights))
 
@@ -218,7 +220,7 @@ class _Model:
         )
 
     def grooves(self, angles: _Angles, outward: float) -> Grooves:
-        """Both grooves, with K of these contact angles."""
+        """Both grooves, with the contact stiffnesses K at these contact angles."""
         inner, outer = _stiffness_laws(self.bearing, self.modulus)
         return Grooves(
             *self.bearing.offsets,
@@ -228,7 +230,7 @@ class _Model:
         )
 
     def reaction(self, grooves: Grooves) -> Reaction:
-        """Force of the balls on the ring over its displacement; each seating starts from the last one."""
+        """Force of the balls over the ring's displacement; each call starts from the last seats."""
         basis = self.basis
         across = basis.transpose(0, 2, 1)
         last: Seats | None = None
@@ -250,7 +252,7 @@ class _Model:
 
 @dataclass(frozen=True)
 class _State:
-    """The ring's displacement and its balls, at contact stiffnesses of given angles."""
+    """Displacement of the ring and seats of the balls, for contact stiffnesses that are constant."""
 
     ring: Array
     grooves: Grooves
@@ -260,24 +262,24 @@ class _State:
 
     @classmethod
     def solved(cls, model: _Model, grooves: Grooves, ring: Array) -> tuple[_State, int]:
-        """The balance from a displacement to start from, and the steps it took."""
-        # Balls that fly press harder than a light load does, and so does what rounding leaves.
+        """State in equilibrium, from an initial displacement, and the number of Newton steps."""
+        # Rounding errors scale with contact forces, and the centrifugal force may exceed a light load.
         scale = float(np.linalg.norm(model.load)) + grooves.outward
         reach = _REACH * model.bearing.groove_distance
         ring, residual, steps = balance(model.reaction(grooves), model.load, ring, reach, scale)
         seats = seat(grooves, model.centres(ring))
         imbalance = seats.inner.force - seats.outer.force
         imbalance[:, 1] += grooves.outward
-        # A ball at rest that nothing holds needs no force either.
+        # An unloaded ball of a bearing at rest has no forces: its imbalance is 0.
         residual = max(residual, float(np.max(np.abs(imbalance))) / scale)
         return cls(ring, grooves, seats, _Angles.of(seats), residual), steps
 
 
 def _solve(model: _Model) -> tuple[_State, int]:
-    """Rounds of a balance with the contact stiffnesses and the cage speed of the last one's angles."""
+    """State in equilibrium: each round takes stiffnesses and cage speed from the last round's angles."""
     bearing = model.bearing
     ring, angles = model.start()
-    # Without centrifugal force first: quick, and close to where the ring comes to stand.
+    # The equilibrium without centrifugal force is quick to compute, and a good initial guess.
     state, iterations = _State.solved(model, model.grooves(angles, 0.0), ring)
     mass = bearing.element_mass(model.density)
     for rounds in count():
@@ -298,7 +300,7 @@ def _solve(model: _Model) -> tuple[_State, int]:
 
 
 def _refuse(bearing: BallBearing, operation: Operation, unloaded: str) -> None:
-    """Raise InputError for what the bearing cannot do."""
+    """Raise InputError for loads that the bearing cannot carry, and for unknown options."""
     if unloaded not in UNLOADED:
         raise InputError("unloaded", got=shown(unloaded), takes=f"one of {', '.join(UNLOADED)}")
     if bearing.contact_angle is not None and operation.axial_load <= 0.0:
@@ -311,7 +313,7 @@ def _refuse(bearing: BallBearing, operation: Operation, unloaded: str) -> None:
 
 
 def _placed(state: _State, g: Array, unloaded: str) -> Seats:
-    """Seats with the unloaded balls of a bearing at rest where they are wanted."""
+    """Seats in which the unloaded balls of a bearing at rest lie where ``unloaded`` says."""
     seats, grooves = state.seats, state.grooves
     if unloaded == "centred" or grooves.outward > 0.0:
         return seats
@@ -322,42 +324,44 @@ def _placed(state: _State, g: Array, unloaded: str) -> Seats:
 def ball_equilibrium(
     bearing: BallBearing, operation: Operation, modulus: float, density: float, *, unloaded: str = "centred"
 ) -> BallEquilibrium:
-    """Equilibrium of the inner ring over all balls.
+    """Equilibrium of the inner ring and of all balls.
 
-    The sum over the balls of Q_i sin a_i is the axial load, that of Q_i cos a_i cos psi the radial one, that
-    of Q_i cos a_i sin psi vanishes; at each ball Q_o sin a_o = Q_i sin a_i and
-    Q_o cos a_o = Q_i cos a_i + F_c. K of each contact is that of its own contact angle. At speed a ball
-    without load from the inner ring stays at the outer one with the centrifugal force alone, and its
-    clearance is at the inner ring.
+    The sum of Q_i sin a_i over the balls is the axial load, and the sum of Q_i cos a_i cos psi is the radial
+    load. The sum of Q_i cos a_i sin psi is zero. At each ball Q_o sin a_o = Q_i sin a_i and
+    Q_o cos a_o = Q_i cos a_i + F_c. The stiffness K of each contact belongs to its own contact angle. At
+    speed, a ball without load from the inner ring lies in the outer groove under its centrifugal force, and
+    its clearance is at the inner ring.
 
     Parameters
     ----------
     bearing : BallBearing
-        Its geometry.
+        Geometry of the bearing.
     operation : Operation
-        Loads, speeds and position.
+        Loads, speeds of the rings, and position of the cage.
     modulus : float
         Reduced modulus E' of ball and ring [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
     density : float
-        Of the balls [kg/m^3].
+        Density of the balls [kg/m^3].
     unloaded : str
-        Where balls without load are in a bearing at rest, gravity left out: "centred", between equal gaps, or
+        Position of unloaded balls in a bearing at rest, without gravity: "centred", between equal gaps, or
         "outer", at the outer ring, as in slow rotation.
 
     Returns
     -------
     BallEquilibrium
-        Forces in balance to 1e-9 of the load and the centrifugal force.
+        Forces that balance to 1e-9 of the load plus the centrifugal force.
 
     Raises
     ------
     InputError
-        Where the bearing cannot bear the load.
+        Where the bearing cannot carry the load, or ``unloaded`` has another value.
     ConvergenceError
-        Where no balance was found.
+        Where the iteration does not converge.
 
     Examples
     --------
+    An axial load of 900 N on nine balls:
+
     >>> bearing = BallBearing(9, 11.906e-3, 60e-3, 0.52, 0.52, radial_clearance=10e-6)
     >>> state = ball_equilibrium(bearing, Operation(0.0, 900.0), 226e9, 7800.0)
     >>> angle = state.inner_angle[0]
@@ -370,7 +374,7 @@ def ball_equilibrium(
     seats = _placed(state, model.centres(state.ring), unloaded)
     angles = _Angles.of(seats)
     mass, speeds = bearing.element_mass(density), model.speeds(angles)
-    # About the centre of the ring's own groove circle: a contact's force passes through the groove's centre.
+    # The moments are about the centre of the circle of groove centres, which the contact forces pass through.
     levers = bearing.inner_centre_radius * seats.inner.force[:, 0]
     return BallEquilibrium(
         position=model.position,

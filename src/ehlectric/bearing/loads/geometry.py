@@ -1,9 +1,9 @@
-"""Internal geometry of ball and roller bearings, and of the contacts in them. SI units.
+"""Internal geometry of ball and roller bearings, and radii of their contacts. SI units.
 
-A groove is a circular arc somewhat wider than the ball. Its centre lies beyond the ball's: that of the inner
-groove further out, that of the outer groove further in. Both centres and the ball tell all about their
-contacts. Angles are from the radial plane, positive where the inner ring is pushed towards positive axial
-positions. Raceways of roller bearings are cylinders.
+A groove is a circular arc with a radius somewhat larger than that of the ball. The centre of the inner groove
+lies radially outside the ball's centre, and that of the outer groove radially inside. The contacts follow
+from the positions of these three centres. Angles are measured from the radial plane, and are positive where
+the inner ring is pushed towards positive axial positions. Raceways of roller bearings are cylinders.
 """
 
 from __future__ import annotations
@@ -21,20 +21,20 @@ from ehlectric.formulas.hertz_line import reduced_radius
 
 PROFILES = ("none", "logarithmic")
 
-# Rollers up to this length over their diameter take the first profile of the standard.
+# Largest ratio of length to diameter of rollers with the first profile of ISO/TS 16281.
 _SHORT = 2.5
 
 
 @dataclass(frozen=True)
 class ContactRadii:
-    """Radii of element and ring at their contact, positive where convex, infinite where straight.
+    """Radii of a rolling element and a ring at their contact, positive if convex, infinite if straight.
 
     Attributes
     ----------
     element_x, element_y : float
-        Of the rolling element, in the rolling direction and across it [m].
+        Radii of the rolling element, in the rolling direction and across it [m].
     ring_x, ring_y : float
-        Of the ring [m].
+        Radii of the ring, in the rolling direction and across it [m].
     """
 
     element_x: float
@@ -49,14 +49,14 @@ class ContactRadii:
 
     @property
     def radius_y(self) -> float:
-        """Reduced radius across [m]; infinite in a line contact."""
+        """Reduced radius across the rolling direction [m]; infinite in a line contact."""
         if math.isinf(self.element_y) and math.isinf(self.ring_y):
             return math.inf
         return reduced_radius(self.element_y, self.ring_y)
 
 
 def _rolling_radius(element_diameter: float, pitch_diameter: float, angle: float, *, inner: bool) -> float:
-    """Radius of a raceway in the rolling direction, that of the cone that touches it there [m]."""
+    """Radius of a raceway in the rolling direction [m], from the cone that is tangent to it at the angle."""
     cosine = math.cos(angle)
     sign = 1.0 if inner else -1.0
     curvature = sign * 2.0 * cosine / (pitch_diameter - sign * element_diameter * cosine)
@@ -64,7 +64,7 @@ def _rolling_radius(element_diameter: float, pitch_diameter: float, angle: float
 
 
 def _refuse_overlap(elements: int, diameter: float, pitch_diameter: float) -> None:
-    """Raise InputError where the elements do not fit on their pitch circle, or are too few for a shaft."""
+    """Raise InputError where the elements do not fit on their pitch circle, or are fewer than three."""
     most = int(math.pi / math.asin(diameter / pitch_diameter)) if diameter < pitch_diameter else 0
     if most < 3:
         raise InputError(
@@ -81,7 +81,7 @@ def _refuse_overlap(elements: int, diameter: float, pitch_diameter: float) -> No
 
 @dataclass(frozen=True)
 class BallBearing:
-    """Deep-groove or angular-contact ball bearing, one row.
+    """Deep-groove or angular-contact ball bearing with one row of balls.
 
     Either the radial clearance or the free contact angle is given; the other follows.
 
@@ -90,18 +90,20 @@ class BallBearing:
     elements : int
         Number of balls.
     ball_diameter, pitch_diameter : float
-        D and d_m, the mean of both raceways' diameters at the bottom of the groove [m].
+        Ball diameter D and pitch diameter d_m [m]. d_m is the mean of both raceway diameters at the bottom
+        of the grooves.
     inner_groove, outer_groove : float
-        f_i and f_o, radius of the groove's arc over the ball's diameter, above 0.5.
+        Radius of the groove over the diameter of the ball, f_i and f_o, above 0.5.
     radial_clearance : float or None
-        P_d, full diametral play of the inner ring without load [m]; negative with a radial preload.
+        Diametral clearance P_d between inner ring, balls and outer ring [m]; negative with a radial preload.
     contact_angle : float or None
-        a_0 at which ball and grooves just touch, without load [rad].
+        Free contact angle a_0, at which ball and grooves just touch without load [rad].
 
     Raises
     ------
     InputError
-        Where this is no bearing.
+        Where the balls do not fit on their pitch circle, a value is out of range, or not exactly one of
+        clearance and contact angle is given.
 
     Notes
     -----
@@ -110,7 +112,7 @@ class BallBearing:
 
     Examples
     --------
-    A 6208 of 10 um clearance:
+    A 6208 with a clearance of 10 um:
 
     >>> bearing = BallBearing(9, 11.906e-3, 60e-3, 0.52, 0.52, radial_clearance=10e-6)
     >>> round(bearing.groove_distance * 1e3, 5), round(math.degrees(bearing.free_angle), 2)
@@ -147,12 +149,12 @@ class BallBearing:
 
     @property
     def groove_distance(self) -> float:
-        """Distance of both groove centres where ball and grooves just touch, A = (f_i + f_o - 1) D [m]."""
+        """Distance of the groove centres at which the ball just touches both, A = (f_i + f_o - 1) D [m]."""
         return (self.inner_groove + self.outer_groove - 1.0) * self.ball_diameter
 
     @property
     def clearance(self) -> float:
-        """Full diametral play P_d = 2 A (1 - cos a_0), as given or of the free contact angle [m]."""
+        """Diametral clearance P_d = 2 A (1 - cos a_0), given or from the free contact angle [m]."""
         if self.radial_clearance is not None:
             return self.radial_clearance
         assert self.contact_angle is not None
@@ -160,7 +162,7 @@ class BallBearing:
 
     @property
     def radial_distance(self) -> float:
-        """Radial distance of the groove centres, rings concentric: A - P_d/2 = A cos a_0 [m]."""
+        """Radial distance of the groove centres in concentric rings, A - P_d/2 = A cos a_0 [m]."""
         return self.groove_distance - self.clearance / 2.0
 
     @property
@@ -172,12 +174,12 @@ class BallBearing:
 
     @property
     def endplay(self) -> float:
-        """Free axial play from one end to the other, 2 A sin a_0 [m]."""
+        """Axial clearance from one end to the other, 2 A sin a_0 [m]."""
         return 2.0 * self.groove_distance * math.sin(self.free_angle)
 
     @property
     def offsets(self) -> tuple[float, float]:
-        """Distance from the ball's centre to either groove's where they touch, (f - 1/2) D [m]."""
+        """Distances (f - 1/2) D from the ball's centre to both groove centres at first touch [m]."""
         inner, outer = self.inner_groove - 0.5, self.outer_groove - 0.5
         return inner * self.ball_diameter, outer * self.ball_diameter
 
@@ -188,14 +190,16 @@ class BallBearing:
         return 0.5 * self.pitch_diameter + self.offsets[0] * cosine
 
     def gamma(self, angle: float) -> float:
-        """D cos a/d_m at a contact angle [rad]."""
+        """Ratio D cos a/d_m at a contact angle a [rad], dimensionless."""
         return self.ball_diameter * math.cos(angle) / self.pitch_diameter
 
     def radii(self, angle: float, *, inner: bool) -> ContactRadii:
-        """Radii of ball and groove at the inner or outer contact, at a contact angle [rad].
+        """Radii of ball and groove at the inner or outer contact, for a contact angle [rad].
 
         Examples
         --------
+        Reduced radii of the inner contact, in mm:
+
         >>> bearing = BallBearing(9, 11.906e-3, 60e-3, 0.52, 0.52, radial_clearance=10e-6)
         >>> radii = bearing.radii(0.0, inner=True)
         >>> round(radii.radius_x * 1e3, 4), round(radii.radius_y * 1e3, 3)
@@ -207,34 +211,36 @@ class BallBearing:
         return ContactRadii(ball / 2.0, ball / 2.0, rolling, -groove * ball)
 
     def element_mass(self, density: float) -> float:
-        """Mass of a ball of a density [kg/m^3], rho pi D^3/6 [kg]."""
+        """Mass of a ball, rho pi D^3/6 [kg], from its density rho [kg/m^3]."""
         return density * math.pi * self.ball_diameter**3 / 6.0
 
 
 @dataclass(frozen=True)
 class RollerBearing:
-    """Cylindrical roller bearing, one row.
+    """Cylindrical roller bearing with one row of rollers.
 
     Attributes
     ----------
     elements : int
         Number of rollers.
     roller_diameter, pitch_diameter : float
-        D and d_m, the mean of both raceways' diameters [m].
+        Roller diameter D and pitch diameter d_m [m]. d_m is the mean of both raceway diameters.
     roller_length : float
         Effective length L of the rollers [m].
     radial_clearance : float
-        P_d, full diametral play [m]; negative with a radial preload.
+        Diametral clearance P_d [m]; negative with a radial preload.
     profile : str
-        "none", or "logarithmic" for the rollers of ISO 16281.
+        "none" for straight rollers, or "logarithmic" for the profile of ISO/TS 16281.
 
     Raises
     ------
     InputError
-        Where this is no bearing.
+        Where the rollers do not fit on their pitch circle, or the profile is unknown.
 
     Examples
     --------
+    Reduced radii of the inner and the outer contact, in mm:
+
     >>> bearing = RollerBearing(14, 11e-3, 60e-3, 11e-3, 20e-6)
     >>> [round(bearing.radii(inner=inner).radius_x * 1e3, 4) for inner in (True, False)]
     [4.4917, 6.5083]
@@ -253,20 +259,20 @@ class RollerBearing:
             raise InputError("profile", got=shown(self.profile), takes=f"one of {', '.join(PROFILES)}")
 
     def relief(self, position: ArrayLike) -> Array:
-        """By how much the roller's radius is smaller than in its middle.
+        """Relief of a roller's profile: its radius in the middle less its radius at a position.
 
-        P(x) = 0.00035 D ln(1/(1 - (2 x/L)^2)) for L up to 2.5 D. Longer rollers are straight but for an end
-        of 1.25 D on either side, P = 0.0005 D ln(1/(1 - ((2 abs(x) - L)/(2.5 D) + 1)^2)) there.
+        For L up to 2.5 D it is P(x) = 0.00035 D ln(1/(1 - (2 x/L)^2)). Longer rollers are straight except for
+        1.25 D at either end, where P(x) = 0.0005 D ln(1/(1 - ((2 abs(x) - L)/(2.5 D) + 1)^2)).
 
         Parameters
         ----------
         position : array_like, shape (n,)
-            x along the roller from its middle, within L/2 [m].
+            Position x along the roller, from its middle, within L/2 [m].
 
         Returns
         -------
         ndarray, shape (n,)
-            [m]; it grows without bound towards the ends.
+            Relief P [m]; it grows without bound towards the ends.
 
         Notes
         -----
@@ -274,6 +280,8 @@ class RollerBearing:
 
         Examples
         --------
+        Relief in micrometres:
+
         >>> bearing = RollerBearing(14, 11e-3, 60e-3, 11e-3, 20e-6)
         >>> [round(float(p) * 1e6, 3) for p in bearing.relief([0.0, 2.75e-3, 5e-3])]
         [0.0, 1.108, 6.742]
@@ -290,21 +298,21 @@ class RollerBearing:
 
     @property
     def clearance(self) -> float:
-        """Full diametral play P_d [m]."""
+        """Diametral clearance P_d [m]."""
         return self.radial_clearance
 
     @property
     def free_angle(self) -> float:
-        """Free contact angle [rad]: zero, rollers press radially."""
+        """Free contact angle [rad]: zero, as rollers carry radial loads only."""
         return 0.0
 
     def radii(self, _angle: float = 0.0, *, inner: bool) -> ContactRadii:
-        """Radii of roller and ring at the inner or outer contact: a line contact at the angle zero."""
+        """Radii of roller and ring at the inner or outer contact, a line contact at zero contact angle."""
         rolling = _rolling_radius(self.roller_diameter, self.pitch_diameter, 0.0, inner=inner)
         return ContactRadii(self.roller_diameter / 2.0, math.inf, rolling, math.inf)
 
     def element_mass(self, density: float) -> float:
-        """Mass of a roller of a density [kg/m^3], rho pi D^2 L/4 [kg]."""
+        """Mass of a roller, rho pi D^2 L/4 [kg], from its density rho [kg/m^3]."""
         return density * math.pi * self.roller_diameter**2 * self.roller_length / 4.0
 
 

@@ -1,7 +1,8 @@
-"""Speeds in a rolling bearing, and the inertia forces of its elements. SI units.
+"""Speeds in a rolling bearing, and the inertial forces on its elements. SI units.
 
-Pure rolling at both contacts, no sliding of element or cage. Both rings may turn; speeds are positive in one
-sense of rotation. One contact angle serves for both contacts: between those of a ball at speed, their mean.
+The elements roll without sliding on both rings, and the cage turns with them. Both rings may turn; all speeds
+are positive in the same sense of rotation. The formulas have one contact angle for both contacts of an
+element. For a ball at speed, whose contact angles differ, it is their mean.
 """
 
 from __future__ import annotations
@@ -16,16 +17,16 @@ from ehlectric.arrays import Array
 
 @dataclass(frozen=True)
 class Speeds:
-    """Speeds of cage, elements and contacts.
+    """Speeds of cage, elements and contacts in pure rolling.
 
     Attributes
     ----------
     cage : Array or float
-        Angular speed of the element's centre about the bearing's axis [rad/s].
+        Angular speed of the element's centre about the axis of the bearing [rad/s].
     spin : Array or float
-        Angular speed of the element about its own axis, seen from the cage [rad/s].
+        Angular speed of the element about its own axis, relative to the cage [rad/s].
     inner_entrainment, outer_entrainment : Array or float
-        Mean of both surfaces' speeds relative to the contact, (u1 + u2)/2 [m/s].
+        Entrainment speed (u1 + u2)/2, with the speeds of both surfaces relative to the contact [m/s].
     """
 
     cage: Array | float
@@ -41,35 +42,35 @@ def rolling_speeds(
     outer_speed: float = 0.0,
     contact_angle: ArrayLike = 0.0,
 ) -> Speeds:
-    """Speeds of pure rolling.
+    """Speeds of cage, elements and contacts in pure rolling.
 
-    With g = D cos a/d_m the cage turns at (w_i (1 - g) + w_o (1 + g))/2, and the element against it at
-    (w_i - w_o) (1 - g^2) d_m/(2 D). A ring passes the cage with w_i - w_c at the radius d_m (1 - g)/2, or
-    w_c - w_o at d_m (1 + g)/2; in pure rolling that is the entrainment speed, (w_i - w_o) (1 - g^2) d_m/4 at
-    both.
+    Let g = D cos a/d_m. The cage turns at w_c = (w_i (1 - g) + w_o (1 + g))/2. Relative to the cage, the
+    element turns at (w_i - w_o) (1 - g^2) d_m/(2 D). The inner raceway, with the radius d_m (1 - g)/2, turns
+    at w_i - w_c relative to the cage. The outer raceway, with the radius d_m (1 + g)/2, turns at w_c - w_o in
+    the other sense. The surface speed of both is the entrainment speed, (w_i - w_o) (1 - g^2) d_m/4.
 
     Parameters
     ----------
     element_diameter, pitch_diameter : float
-        D and d_m [m].
+        Diameter D of the element and pitch diameter d_m [m].
     inner_speed, outer_speed : float
-        w_i and w_o of the rings [rad/s].
-    contact_angle : array_like
-        a [rad].
+        Angular speeds w_i and w_o of the rings [rad/s].
+    contact_angle : array_like, shape (...)
+        Contact angle a [rad].
 
     Returns
     -------
     Speeds
-        Of the shape of ``contact_angle``.
+        Speeds, shape (...).
 
     Notes
     -----
     T. A. Harris and M. N. Kotzalas, Essential Concepts of Bearing Technology, 5th ed., 2006, chapter 10,
-    doi:10.1201/9781420006599. The spin is taken at right angles to the line of contact.
+    doi:10.1201/9781420006599. The spin axis is perpendicular to the line of contact.
 
     Examples
     --------
-    A 6208 at 3000 rpm:
+    Speed of the cage in rpm and entrainment speed in m/s of a 6208 at 3000 rpm:
 
     >>> speeds = rolling_speeds(11.906e-3, 60e-3, 3000 * 2 * np.pi / 60)
     >>> round(speeds.cage * 60 / (2 * np.pi)), round(float(speeds.inner_entrainment), 3)
@@ -89,16 +90,16 @@ def centrifugal_force(mass: float, pitch_diameter: float, cage_speed: float) -> 
     Parameters
     ----------
     mass : float
-        m of the element [kg].
+        Mass m of the element [kg].
     pitch_diameter : float
-        d_m [m].
+        Pitch diameter d_m [m].
     cage_speed : float
-        w_c [rad/s].
+        Angular speed w_c of the cage [rad/s].
 
     Returns
     -------
     float
-        [N].
+        Centrifugal force [N].
 
     Examples
     --------
@@ -111,22 +112,22 @@ def centrifugal_force(mass: float, pitch_diameter: float, cage_speed: float) -> 
 def gyroscopic_moment(mass: float, diameter: float, speeds: Speeds, contact_angle: ArrayLike) -> Array:
     """Gyroscopic moment of a ball, J w_s w_c sin a with J = m D^2/10.
 
-    That of a ball whose axis of spin is at right angles to the line of contact; an axis closer to the
-    bearing's, as with outer raceway control, makes it smaller.
+    The spin axis of the ball is perpendicular to the line of contact. A spin axis closer to the axis of the
+    bearing, as with outer raceway control, makes the moment smaller.
 
     Parameters
     ----------
     mass, diameter : float
-        m [kg] and D [m] of the ball.
+        Mass m [kg] and diameter D [m] of the ball.
     speeds : Speeds
-        Of the ball.
-    contact_angle : array_like
-        a [rad].
+        Spin w_s and cage speed w_c of the ball.
+    contact_angle : array_like, shape (...)
+        Contact angle a [rad].
 
     Returns
     -------
-    ndarray
-        [N m], of the shape of ``contact_angle``.
+    ndarray, shape (...)
+        Gyroscopic moment [N m].
 
     Notes
     -----

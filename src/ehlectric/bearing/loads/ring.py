@@ -1,9 +1,10 @@
-"""Where a ring comes to rest on its rolling elements: Newton's method for a convex energy.
+"""Equilibrium of a ring on its rolling elements, by Newton's method on a convex energy.
 
-The elements' energy is a convex function of the ring's displacement, with a continuous gradient, the force
-that they oppose to it. It is flat where the ring floats in its clearance, and flat across the load where one
-element carries all of it, so that a step is limited, and only the force along it judges it: near the end the
-energy itself no longer changes in its last digit.
+The elastic energy of the elements is a convex function of the ring's displacement. Its gradient is the force
+of the elements against the displacement, and is continuous. The energy is constant where the ring moves in
+its clearance. It is also flat across the load where a single element carries the load. Each Newton step is
+therefore limited in length. A step is judged by the force along it, not by the energy: near convergence the
+energy does not change even in its last digit.
 """
 
 from __future__ import annotations
@@ -17,40 +18,41 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.errors import InputError
 
-# What is done with elements at rest that no load holds.
+# Positions of unloaded elements in a bearing at rest.
 UNLOADED = ("centred", "outer")
 
-# Force that the elements oppose to a displacement of the ring, and its derivative.
+# Force of the elements against a displacement of the ring, and its derivative by the displacement.
 Reaction: TypeAlias = Callable[[Array], tuple[Array, Array]]
 
-# Aimed at; good enough where rounding does not let it get there. Both relative to the load.
+# Relative residual at which the iteration ends, and the one accepted where rounding prevents the first.
 _AIM, GOOD = 1e-12, 1e-9
 _MOST_STEPS = 200
 _MOST_TRIALS = 60
 
-# A step that overshoots is taken back until the force along it is at most this part of the one at its start.
+# A step that overshoots is shortened until the force against it is at most this part of the force along it
+# at its start.
 _OVERSHOOT = 0.5
 
-# Stiffness below this part of the largest one is none: its direction is travelled by the longest step.
+# Stiffness below this part of the largest one counts as zero: only the reach limits the step there.
 _FLAT = 1e-13
 
 
 @dataclass(frozen=True)
 class RingLoads:
-    """Contacts of all elements with one ring, as the equilibrium leaves them.
+    """Contacts of all elements with one ring in equilibrium.
 
     Attributes
     ----------
     load : ndarray, shape (n,)
         Load of each contact [N].
-    angle : ndarray
-        Contact angle of each element [rad]; zero of rollers.
-    approach : ndarray
-        By how much element and ring come closer in the contact [m].
-    gap : ndarray
-        Distance of element and ring where they do not touch [m], else 0.
-    entrainment_speed : ndarray
-        Entrainment speed of pure rolling [m/s].
+    angle : ndarray, shape (n,)
+        Contact angle of each element [rad]; zero for rollers.
+    approach : ndarray, shape (n,)
+        Elastic approach of element and ring in the contact [m]; 0 where they do not touch.
+    gap : ndarray, shape (n,)
+        Distance between element and ring [m]; 0 where they touch.
+    entrainment_speed : ndarray, shape (n,)
+        Entrainment speed in pure rolling [m/s].
     """
 
     load: Array
@@ -67,18 +69,18 @@ class Operation:
     Attributes
     ----------
     radial_load : float
-        On the inner ring, towards the angle 0 [N].
+        Radial load on the inner ring, towards the angle 0 [N].
     axial_load : float
-        On the inner ring, towards positive axial positions [N].
+        Axial load on the inner ring, towards positive axial positions [N].
     inner_speed, outer_speed : float
-        Of the rings [rad/s].
+        Angular speeds of the rings [rad/s].
     cage_angle : float
         Angle of the first element from the direction of the radial load [rad].
 
     Raises
     ------
     InputError
-        Where there is no load: the ring then has no place of its own.
+        Where the radial load is negative, or there is no load: then the position of the ring is arbitrary.
     """
 
     radial_load: float
@@ -96,16 +98,16 @@ class Operation:
             )
 
     def positions(self, elements: int) -> Array:
-        """Angle of each element from the direction of the radial load [rad]."""
+        """Angle of each element from the direction of the radial load, shape (elements,) [rad]."""
         return self.cage_angle + 2.0 * np.pi * np.arange(elements) / elements
 
 
 def _direction(missing: Array, tangent: Array, reach: float) -> Array:
-    """Newton's step with each of its principal parts limited to ``reach``."""
+    """Newton step whose components along the eigenvectors of the tangent are limited to ``reach``."""
     values, vectors = np.linalg.eigh(tangent)
     part = vectors.T @ missing
     stiffness = np.maximum(values, _FLAT * max(float(values[-1]), 0.0))
-    # No longer than the reach, also where there is no stiffness at all.
+    # This stiffness limits the step to the reach, also in directions without stiffness.
     softest = np.maximum(np.abs(part) / reach, np.finfo(float).tiny)
     return np.asarray(vectors @ (part / np.maximum(stiffness, softest)))
 
@@ -113,7 +115,7 @@ def _direction(missing: Array, tangent: Array, reach: float) -> Array:
 def _shortened(
     reaction: Reaction, load: Array, position: Array, step: Array, slope: float
 ) -> tuple[Array, Array, Array, bool]:
-    """Position at the end of the step or before, force and tangent there, and whether it could go further."""
+    """Position after a shortened step, force and tangent there, and whether a longer one may be tried."""
     part = 1.0
     for trial in range(_MOST_TRIALS):
         there = position + part * step
@@ -121,7 +123,7 @@ def _shortened(
         now = float((load - force) @ step)
         if now >= -_OVERSHOOT * slope:
             return there, force, tangent, trial == 0 and now > _OVERSHOOT * slope
-        # Where a straight line between both forces vanishes, but never a mere nudge.
+        # Linear interpolation to zero force along the step; 0.02 keeps the step from becoming too small.
         part *= max(slope / (slope - now), 0.02)
     return there, force, tangent, False
 
@@ -129,34 +131,34 @@ def _shortened(
 def balance(
     reaction: Reaction, load: Array, start: Array, reach: float, scale: float
 ) -> tuple[Array, float, int]:
-    """Displacement of the ring at which its elements oppose the load.
+    """Displacement of a ring at which the forces of its elements balance the load.
 
     Parameters
     ----------
     reaction : callable
-        Force of the elements, in components [N], over the displacement [m], and its derivative [N/m],
-        symmetric and positive semidefinite.
+        Function of the displacement, shape (n,) [m]. It returns the force of the elements, shape (n,) [N],
+        and its derivative, shape (n, n) [N/m], which is symmetric and positive semidefinite.
     load : ndarray, shape (n,)
         Load on the ring [N].
     start : ndarray, shape (n,)
-        Displacement to start from [m].
+        Initial guess of the displacement [m].
     reach : float
-        Longest part of a first step [m]; it grows where the ring travels freely.
+        Largest component of the first step [m]; it grows where the ring moves freely.
     scale : float
-        Force that the imbalance is compared with [N].
+        Force that the residual is relative to [N].
 
     Returns
     -------
     position : ndarray, shape (n,)
         Displacement [m].
     residual : float
-        Largest component of the imbalance over the scale; above ``GOOD`` no balance was found.
+        Largest component of the imbalance over ``scale``; above ``GOOD`` the iteration did not converge.
     iterations : int
-        Newton steps.
+        Number of Newton steps.
 
     Examples
     --------
-    A spring that the ring meets after 1 mm, F = k (x - 1 mm)^(3/2):
+    A ring touches a spring after 1 mm, F = k (x - 1 mm)^(3/2):
 
     >>> def spring(x):
     ...     depth = max(0.0, x[0] - 1e-3)
@@ -171,7 +173,7 @@ def balance(
     while True:
         missing = load - force
         residual = float(np.max(np.abs(missing))) / scale
-        # Rounding ends the descent: below the good residual two steps without gain are the last.
+        # Rounding limits the residual: below GOOD, two steps without improvement end the iteration.
         idle = idle + 1 if residual > 0.5 * least else 0
         if residual < least:
             best, least = position, residual

@@ -1,9 +1,9 @@
-"""Equilibrium of a cylindrical roller bearing, its rollers cut into slices as in ISO 16281. SI units.
+"""Equilibrium of a cylindrical roller bearing, its rollers divided into slices as in ISO 16281. SI units.
 
-The inner ring is displaced along and across the radial load, not tilted; rollers stay parallel to it. Each
-slice of a roller resists being pressed in between both raceways with a load of its own, so that the profile
-of the roller decides how the load spreads along it. Axial loads, which ribs would carry, friction and the
-bending of the rings are left out.
+The inner ring is displaced along and across the radial load, but not tilted, and the rollers stay parallel to
+it. Each slice of a roller is compressed between both raceways and carries a load of its own. The profile of
+the roller thus determines the distribution of the load along it. Axial loads, which the ribs would carry,
+friction and the bending of the rings are neglected.
 
 ISO/TS 16281:2008, Rolling bearings - Methods for calculating the modified reference rating life for
 universally loaded bearings.
@@ -25,14 +25,14 @@ from ehlectric.bearing.loads.ring import GOOD, UNLOADED, Operation, Reaction, Ri
 from ehlectric.errors import ConvergenceError, InputError, shown
 from ehlectric.formulas.hertz_line import body_compliance, reduced_modulus
 
-# q = c delta^(10/9); c_L = 35 948 L^(8/9) N/mm^(10/9) with L in mm, both contacts of a steel roller together.
+# q = c delta^(10/9). For both contacts of a steel roller together, c_L = 35 948 L^(8/9) N/mm^(10/9), L in mm.
 _POWER = 10.0 / 9.0
 _STANDARD = 35948.0 * 1e6
 
-# The standard is for steel; its elastic constants are an assumption here.
+# The standard is for steel; the elastic constants of this steel are an assumption.
 _STEEL = reduced_modulus(body_compliance(206e9, 0.3), body_compliance(206e9, 0.3))
 
-# The standard asks for 30 at least; an odd number has a slice in the middle.
+# The standard requires at least 30 slices; with an odd number, one slice is in the middle.
 SLICES = 41
 _LEAST_SLICES = 31
 _MOST_STEPS = 100
@@ -40,32 +40,32 @@ _MOST_STEPS = 100
 
 @dataclass(frozen=True)
 class RollerEquilibrium:
-    """Roller bearing in equilibrium; arrays hold one number a roller.
+    """Roller bearing in equilibrium. Arrays have one value per roller, shape (n,), unless stated.
 
     Attributes
     ----------
-    position : ndarray, shape (n,)
-        Angle from the direction of the radial load [rad].
+    position : ndarray
+        Angle of the roller from the direction of the radial load [rad].
     inner_load, outer_load : ndarray
         Load of both contacts [N].
     slice_position : ndarray, shape (m,)
-        Middle of each slice, from the roller's [m].
+        Position of the middle of each slice, from the middle of the roller [m].
     inner_line_load, outer_line_load : ndarray, shape (n, m)
-        Load per length of each slice [N/m].
+        Load of each slice per length [N/m].
     inner_approach, outer_approach : ndarray
-        By how much the middle of the roller and the ring come closer in the contact [m].
+        Elastic approach of ring and roller at the middle of the roller [m]; 0 where they do not touch.
     inner_gap, outer_gap : ndarray
-        Distance of the middle of the roller and the raceway where they do not touch [m], else 0.
+        Distance between the raceway and the middle of the roller [m]; 0 where they touch.
     speeds : Speeds
-        Of cage, rollers and contacts.
+        Speeds of cage, rollers and contacts in pure rolling.
     centrifugal_force : float
-        On each roller [N].
+        Centrifugal force on each roller [N].
     radial_displacement, lateral_displacement : float
-        Of the inner ring along the radial load, and at right angles to it, towards the angle of 90 deg [m].
+        Displacement of the inner ring along the radial load, and towards the angle of 90 deg [m].
     residual : float
-        Largest force that ring or roller miss to balance, over the load and the centrifugal force together.
+        Largest unbalanced force on ring or roller over the sum of load and centrifugal force, dimensionless.
     iterations : int
-        Newton steps of the ring.
+        Number of Newton steps for the ring.
     """
 
     position: Array
@@ -85,18 +85,18 @@ class RollerEquilibrium:
     residual: float
     iterations: int
 
-    # Cylindrical rollers are not pushed along the axis, nor do they tilt the ring or precess.
+    # Cylindrical rollers carry no axial load, do not tilt the ring, and have no gyroscopic moment.
     axial_displacement: ClassVar[None] = None
     moment: ClassVar[None] = None
     gyroscopic_moment: ClassVar[None] = None
 
     @property
     def cage_speed(self) -> float:
-        """Angular speed of the cage about the bearing's axis [rad/s]."""
+        """Angular speed of the cage about the axis of the bearing [rad/s]."""
         return float(self.speeds.cage)
 
     def ring(self, *, inner: bool) -> RingLoads:
-        """Contacts of all rollers with the inner or the outer ring, at a contact angle of zero."""
+        """Contacts of all rollers with the inner or the outer ring in equilibrium; contact angles are 0."""
         angle = np.zeros_like(self.inner_load)
         if inner:
             speed = np.broadcast_to(self.speeds.inner_entrainment, angle.shape)
@@ -106,11 +106,11 @@ class RollerEquilibrium:
 
 
 def line_stiffness(length: float, modulus: float) -> float:
-    """c_L of Q = c_L delta^(10/9) for a straight roller between two raceways, both contacts together.
+    """Stiffness c_L of Q = c_L delta^(10/9) for a straight roller and both its contacts together.
 
-    c_L = 35 948 L^(8/9) N/mm^(10/9) for steel, L in mm. The approach of Palmgren's formula, from which it is,
-    goes with (Q/E')^(9/10), so that c_L is in proportion to E'. The steel of the standard is assumed to have
-    206 GPa and 0.3.
+    For steel c_L = 35 948 L^(8/9) N/mm^(10/9), with L in mm. This value comes from Palmgren's formula, in
+    which the approach is proportional to (Q/E')^(9/10); c_L is therefore proportional to E'. The steel of the
+    standard is assumed to have an elastic modulus of 206 GPa and Poisson's ratio 0.3.
 
     Parameters
     ----------
@@ -122,11 +122,11 @@ def line_stiffness(length: float, modulus: float) -> float:
     Returns
     -------
     float
-        [N/m^(10/9)].
+        Stiffness c_L [N/m^(10/9)].
 
     Examples
     --------
-    Of a roller 10 mm long, in the standard's units:
+    Steel roller 10 mm long, in N/mm^(10/9):
 
     >>> steel = reduced_modulus(body_compliance(206e9, 0.3), body_compliance(206e9, 0.3))
     >>> round(line_stiffness(10e-3, steel) / 1e3 ** (10 / 9))
@@ -142,11 +142,11 @@ class _Rollers:
     Attributes
     ----------
     stiffness : float
-        Of one slice of one contact [N/m^(10/9)].
+        Stiffness of one slice in one contact [N/m^(10/9)].
     relief : ndarray, shape (m,)
-        Of each slice [m].
+        Relief of each slice [m].
     outward : float
-        Centrifugal force [N].
+        Centrifugal force on each roller [N].
     """
 
     stiffness: float
@@ -155,16 +155,16 @@ class _Rollers:
 
     @cached_property
     def least_relief(self) -> float:
-        """Of the slice that touches first [m]."""
+        """Relief of the slice that touches first [m]."""
         return float(np.min(self.relief))
 
     def slices(self, depth: Array) -> Array:
-        """Load of each slice [N] of contacts pressed in by a depth [m], shape (n, m)."""
+        """Load of each slice of contacts with a depth [m], shape (n, m) [N]."""
         pressed = np.maximum(0.0, np.asarray(depth)[..., None] - self.relief)
         return np.asarray(self.stiffness * pressed**_POWER)
 
     def load(self, depth: Array) -> tuple[Array, Array]:
-        """Load of contacts pressed in by a depth, and its derivative."""
+        """Load of contacts with a depth [m], shape (n,) [N], and its derivative [N/m]."""
         pressed = np.maximum(0.0, np.asarray(depth)[..., None] - self.relief)
         root = self.stiffness * pressed ** (_POWER - 1.0)
         return np.sum(root * pressed, axis=-1), _POWER * np.sum(root, axis=-1)
@@ -174,63 +174,65 @@ class _Rollers:
         """Depth at which the outer contact carries the centrifugal force alone [m]."""
         if self.outward == 0.0:
             return 0.0
-        # Deep enough even if no more than the middle slice carried it.
+        # Upper bound: at this depth the slice that touches first carries the force alone.
         deepest = (self.outward / self.stiffness) ** (1.0 / _POWER) + self.least_relief
         return float(
             brentq(lambda d: float(self.load(np.array(d))[0]) - self.outward, 0.0, deepest, xtol=1e-18)
         )
 
-    def seat(self, play: Array) -> tuple[Array, Mask]:
-        """Depth of the outer contacts and which rollers are held, of what presses in both contacts together.
+    def seat(self, interference: Array) -> tuple[Array, Mask]:
+        """Depth of the outer contacts [m], and which rollers are loaded by both rings, shape (n,).
 
-        Without centrifugal force both contacts share ``play`` alike, also where it is a clearance.
+        ``interference`` is the sum of the depths of both contacts [m]; it is negative for a clearance.
+        Without centrifugal force each contact has half of it.
         """
         if self.outward == 0.0:
-            return 0.5 * play, play > 0.0
-        held = play > self.bottom + self.least_relief
-        outer = np.full_like(play, self.bottom)
-        if held.any():
-            outer[held] = self._shared(play[held])
-        return outer, held
+            return 0.5 * interference, interference > 0.0
+        loaded = interference > self.bottom + self.least_relief
+        outer = np.full_like(interference, self.bottom)
+        if loaded.any():
+            outer[loaded] = self._shared(interference[loaded])
+        return outer, loaded
 
-    def _shared(self, play: Array) -> Array:
-        """Depth of the outer contacts of held rollers, where they carry the centrifugal force more.
+    def _shared(self, interference: Array) -> Array:
+        """Depth of the outer contacts of loaded rollers, which also carry the centrifugal force [m].
 
-        Newton's method between bounds: an outer contact carries at least the centrifugal force and at least
-        as much as the inner one, and is pressed in less than by each of them apart, since loads grow faster
-        than depths.
+        Newton's method between bounds. An outer contact carries at least the centrifugal force, and at least
+        the load of the inner contact. Its depth is at most the sum of half the interference and the depth
+        under the centrifugal force alone, because loads grow faster than depths.
         """
-        low, high = np.maximum(0.5 * play, self.bottom), np.minimum(0.5 * play + self.bottom, play)
+        half = 0.5 * interference
+        low, high = np.maximum(half, self.bottom), np.minimum(half + self.bottom, interference)
         outer = low
         for _ in range(_MOST_STEPS):
-            (load, stiff), (inner, soft) = self.load(outer), self.load(play - outer)
+            (load, stiff), (inner, soft) = self.load(outer), self.load(interference - outer)
             excess = load - inner - self.outward
             if np.all(np.abs(excess) <= 1e-15 * (load + self.outward)):
                 break
             low, high = np.where(excess < 0.0, outer, low), np.where(excess < 0.0, high, outer)
             newton = outer - excess / (stiff + soft)
             outer = np.where((newton >= low) & (newton <= high), newton, 0.5 * (low + high))
-            if np.all(high - low <= 1e-16 * play):
+            if np.all(high - low <= 1e-16 * interference):
                 break
         return outer
 
     def reaction(self, basis: Array, clearance: float) -> Reaction:
-        """Force of the rollers on the ring over its displacement."""
+        """Force of the rollers as a function of the ring's displacement."""
 
         def reaction(ring: Array) -> tuple[Array, Array]:
-            play = basis @ ring - 0.5 * clearance
-            outer, held = self.seat(play)
-            (load, inner), (_, stiff) = self.load(play - outer), self.load(outer)
-            inner, stiff, load = inner[held], stiff[held], np.where(held, load, 0.0)
-            # Two springs in series.
+            interference = basis @ ring - 0.5 * clearance
+            outer, loaded = self.seat(interference)
+            (load, inner), (_, stiff) = self.load(interference - outer), self.load(outer)
+            inner, stiff, load = inner[loaded], stiff[loaded], np.where(loaded, load, 0.0)
+            # Both contacts of a roller are springs in series.
             series = inner * stiff / (inner + stiff)
-            return basis.T @ load, (basis[held].T * series) @ basis[held]
+            return basis.T @ load, (basis[loaded].T * series) @ basis[loaded]
 
         return reaction
 
 
 def _refuse(operation: Operation, unloaded: str, slices: int) -> None:
-    """Raise InputError for what the bearing, or its model, cannot do."""
+    """Raise InputError for loads that the bearing cannot carry, and for options out of range."""
     if unloaded not in UNLOADED:
         raise InputError("unloaded", got=shown(unloaded), takes=f"one of {', '.join(UNLOADED)}")
     if operation.axial_load != 0.0:
@@ -252,43 +254,46 @@ def roller_equilibrium(
     unloaded: str = "centred",
     slices: int = SLICES,
 ) -> RollerEquilibrium:
-    """Equilibrium of the inner ring over all rollers.
+    """Equilibrium of the inner ring and of all rollers.
 
-    A roller at the angle psi is pressed in by x cos psi + y sin psi - P_d/2 at both contacts together. Each
-    slice k of either contact carries q_k = c (d - P_k)^(10/9) of the contact's own share d, with the relief
-    P_k; two equal contacts in series make up the stiffness of the standard, so c is 2^(10/9) c_L over the
-    number of slices. The outer contact carries the centrifugal force as well.
+    At a displacement (x, y) of the ring, a roller at the angle psi is compressed by
+    x cos psi + y sin psi - P_d/2, the sum over both contacts. Slice k of a contact with the depth d carries
+    q_k = c (d - P_k)^(10/9), with the relief P_k. The stiffness of the standard is that of two equal contacts
+    in series, so c is 2^(10/9) c_L over the number of slices. The outer contact also carries the centrifugal
+    force.
 
     Parameters
     ----------
     bearing : RollerBearing
-        Its geometry.
+        Geometry of the bearing.
     operation : Operation
-        Load, speeds and position.
+        Loads, speeds of the rings, and position of the cage.
     modulus : float
         Reduced modulus E' of roller and ring [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
     density : float
-        Of the rollers [kg/m^3].
+        Density of the rollers [kg/m^3].
     unloaded : str
-        Where rollers without load are in a bearing at rest, gravity left out: "centred", between equal gaps,
-        or "outer", at the outer ring. At speed they are at the outer ring.
+        Position of unloaded rollers in a bearing at rest, without gravity: "centred", between equal gaps, or
+        "outer", at the outer ring. At speed they lie at the outer ring.
     slices : int
-        Of a roller, odd.
+        Number of slices of a roller, odd and at least 31.
 
     Returns
     -------
     RollerEquilibrium
-        Forces in balance to 1e-9 of the load and the centrifugal force.
+        Forces that balance to 1e-9 of the load plus the centrifugal force.
 
     Raises
     ------
     InputError
-        Where the bearing cannot bear the load.
+        Where the bearing cannot carry the load, or an option is out of range.
     ConvergenceError
-        Where no balance was found.
+        Where the iteration does not converge.
 
     Examples
     --------
+    Load of the most loaded of 14 straight rollers, over their mean load:
+
     >>> bearing = RollerBearing(14, 11e-3, 60e-3, 11e-3, 0.0, "none")
     >>> state = roller_equilibrium(bearing, Operation(5000.0), 226e9, 7800.0)
     >>> round(float(state.inner_load[0]) * 14 / 5000.0, 2)
@@ -312,15 +317,15 @@ def roller_equilibrium(
     scale = operation.radial_load + outward
     ring, residual, iterations = balance(reaction, load, np.zeros(2), reach, scale)
 
-    play = basis @ ring - 0.5 * bearing.radial_clearance
-    outer, held = rollers.seat(play)
+    interference = basis @ ring - 0.5 * bearing.radial_clearance
+    outer, loaded = rollers.seat(interference)
     if unloaded == "outer" and outward == 0.0:
-        outer = np.where(held, outer, 0.0)
-    inner = play - outer
+        outer = np.where(loaded, outer, 0.0)
+    inner = interference - outer
     inner_slices, outer_slices = rollers.slices(inner), rollers.slices(outer)
     inner_load, outer_load = inner_slices.sum(axis=1), outer_slices.sum(axis=1)
-    missing = outer_load - inner_load - outward
-    residual = max(residual, float(np.max(np.abs(missing))) / scale)
+    imbalance = outer_load - inner_load - outward
+    residual = max(residual, float(np.max(np.abs(imbalance))) / scale)
     if residual > GOOD:
         raise ConvergenceError(f"forces on ring and rollers balance to {residual:.1e} of the load only")
     return RollerEquilibrium(

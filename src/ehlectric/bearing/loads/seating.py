@@ -1,15 +1,17 @@
-"""Balls between two grooves: where each sits, what it carries, how stiff it is. SI units.
+"""Balls between two grooves: position, contact forces and stiffness of each ball. SI units.
 
-Seen in the plane through the bearing's axis and the ball's centre, a groove is a circle about its centre,
-and the ball, which is smaller, lies inside both. Vectors in that plane are (axial, radial), from the centre
-of the outer groove: the ball's centre is at p and the inner groove's at g. The contacts are pressed in by
+In the plane through the bearing axis and the ball's centre, a groove is a circle about the groove's centre.
+The ball is smaller than both circles and lies inside them. Vectors in this plane are (axial, radial) from the
+centre of the outer groove: the ball's centre is at p, and the centre of the inner groove at g. The elastic
+approach in the contacts is
 
     delta_o = abs(p) - (f_o - 1/2) D,    delta_i = abs(g - p) - (f_i - 1/2) D
 
-and resist with Q = K delta^(3/2) where that is positive. A groove does not reach round the ball: beyond
-90 deg it goes on as a plane wall, so that for a vector that points inward only its axial part counts. Both
-lengths are convex functions, and so is the energy (2/5) K delta^(5/2) of both contacts less the work of the
-centrifugal force, in p and g together: each ball has one place, and Newton's method finds it.
+and their load is Q = K delta^(3/2) where delta is positive. A groove does not enclose the ball. Beyond 90 deg
+it continues as a plane wall: of a vector that points inward only the axial component counts. Both lengths
+are convex functions of p and g. The energy, (2/5) K delta^(5/2) of both contacts less the work of the
+centrifugal force, is then convex as well. Each ball therefore has a single position of equilibrium, which
+Newton's method computes.
 """
 
 from __future__ import annotations
@@ -23,34 +25,36 @@ from ehlectric.arrays import Array, Mask
 _RADIAL = np.array([0.0, 1.0])
 _UNITY = np.eye(2)
 
-# What counts of a vector: all of its axial part, of its radial one what points outward.
+# Lower bounds of the components of a vector: its axial component counts in full, an inward radial one as 0.
 _INWARD = np.array([-np.inf, 0.0])
 _TINY = np.finfo(float).tiny
 _MOST_STEPS = 60
 _MOST_TRIALS = 40
 
-# A step that overshoots is taken back until the force along it is at most this part of the one at its start.
+# A step that overshoots is shortened until the force against it is at most this part of the force along it
+# at its start.
 _OVERSHOOT = 0.5
 
-# What rounding leaves: of the forces of a ball, and of its place over the distance of the groove centres.
+# Relative rounding errors: of the forces on a ball, and of its position over the distance of groove centres.
 _ROUNDING = 1e-15
 _NUDGE = 4e-16
 
 
 @dataclass(frozen=True)
 class Contacts:
-    """One contact of each ball.
+    """Contacts of n balls with one groove.
 
     Attributes
     ----------
     normal : ndarray, shape (n, 2)
-        Unit vector, from the outer groove's centre or towards the inner one's.
+        Unit vector n along the contact: from the centre of the outer groove to the ball, or from the ball to
+        the centre of the inner groove.
     depth : ndarray, shape (n,)
-        By how much it is pressed in [m]; its negative is the gap where the ball does not touch.
+        Elastic approach [m]; where the ball does not touch, it is negative, the gap with a minus sign.
     load : ndarray, shape (n,)
-        Q [N].
+        Load Q [N].
     tangent : ndarray, shape (n, 2, 2)
-        Derivative of the force Q n [N/m].
+        Derivative of the force Q n by the vector between the centres of ball and groove [N/m].
     """
 
     normal: Array
@@ -60,10 +64,10 @@ class Contacts:
 
     @classmethod
     def of(cls, span: Array, offset: float, stiffness: Array) -> Contacts:
-        """Contacts of a vector between both centres, with the length at which they touch and K."""
+        """Contacts from the vectors between centres of ball and groove, their length at touch, and K."""
         counted = np.maximum(span, _INWARD)
         length = np.hypot(counted[:, 0], counted[:, 1])
-        # Two centres on each other have no direction, and no force either.
+        # Coinciding centres define no direction, but have no force either.
         normal = counted / np.maximum(length, _TINY)[:, None]
         depth = length - offset
         root = np.sqrt(np.maximum(0.0, depth))
@@ -75,20 +79,20 @@ class Contacts:
 
     @property
     def force(self) -> Array:
-        """Q n [N], shape (n, 2)."""
+        """Contact force Q n, shape (n, 2) [N]."""
         return self.load[:, None] * self.normal
 
 
 @dataclass(frozen=True)
 class Grooves:
-    """What the balls sit in.
+    """Grooves of both rings, and contact stiffnesses of n balls.
 
     Attributes
     ----------
     inner_offset, outer_offset : float
-        (f - 1/2) D of both grooves [m].
+        Distance (f - 1/2) D between the centres of ball and groove at first touch [m].
     inner_stiffness, outer_stiffness : ndarray, shape (n,)
-        K of the contacts of each ball [N/m^(3/2)].
+        Stiffness K of the contacts of each ball [N/m^(3/2)].
     outward : float
         Centrifugal force on each ball [N]; zero at rest.
     """
@@ -100,23 +104,23 @@ class Grooves:
     outward: float
 
     def contacts(self, p: Array, g: Array, chosen: Mask | slice = slice(None)) -> tuple[Contacts, Contacts]:
-        """Inner and outer contacts of balls at p between groove centres at 0 and g, shape (n, 2)."""
+        """Inner and outer contacts of balls at p, with the groove centres at 0 and g, shape (n, 2)."""
         inner = Contacts.of(g - p, self.inner_offset, self.inner_stiffness[chosen])
         return inner, Contacts.of(p, self.outer_offset, self.outer_stiffness[chosen])
 
 
 @dataclass(frozen=True)
 class Seats:
-    """Where the balls sit.
+    """Positions and contacts of n balls between two grooves.
 
     Attributes
     ----------
     place : ndarray, shape (n, 2)
-        p [m].
+        Position p of the ball's centre [m].
     held : ndarray of bool, shape (n,)
-        Whether a ball is held between both grooves.
+        Whether the ball is loaded by both grooves.
     inner, outer : Contacts
-        Its contacts.
+        Contacts with the inner and the outer groove.
     """
 
     place: Array
@@ -126,38 +130,42 @@ class Seats:
 
     @property
     def tangent(self) -> Array:
-        """Derivative of the forces on the inner ring by g, the balls following: two springs in series."""
+        """Derivative of the forces on the inner ring by g, shape (n, 2, 2) [N/m].
+
+        The balls follow the ring to their new equilibrium, so both contacts are springs in series.
+        """
         stiffness = np.zeros_like(self.inner.tangent)
         inner, outer = self.inner.tangent[self.held], self.outer.tangent[self.held]
         both = inner + outer
-        # A ball just touched is stiff one way only, or not at all.
+        # Where a ball only just touches, the matrix would be singular without this small stiffness.
         little = 1e-15 * np.trace(both, axis1=1, axis2=2) + _TINY
         both += little[:, None, None] * _UNITY
         stiffness[self.held] = inner @ np.linalg.solve(both, outer)
-        # The product of the two is symmetric but for rounding.
+        # The exact product is symmetric; rounding errors are not.
         return 0.5 * (stiffness + stiffness.transpose(0, 2, 1))
 
 
 def _corner(g: Array, inner: Array, outer: Array) -> Array:
-    """The outward one of the two points at the lengths ``outer`` from 0 and ``inner`` from g."""
+    """Point at the distances ``outer`` from 0 and ``inner`` from g: of two such points the outward one."""
     length = np.maximum(np.hypot(g[:, 0], g[:, 1]), _TINY)
     along = (length**2 + outer**2 - inner**2) / (2.0 * length)
     across = np.sqrt(np.maximum(0.0, outer**2 - along**2))
     unit = g / length[:, None]
     normal = np.stack([-unit[:, 1], unit[:, 0]], axis=1)
-    # Of the two unit vectors across, the outward one.
+    # Of the two unit vectors perpendicular to g, this is the outward one.
     normal[normal[:, 1] < 0.0] *= -1.0
     corner = along[:, None] * unit + across[:, None] * normal
-    # Further out than g the ball leans on the plane wall.
+    # Radially beyond g the inner groove is a plane wall.
     axial = g[:, 0] - np.copysign(inner, g[:, 0])
     wall = np.stack([axial, np.sqrt(np.maximum(0.0, outer**2 - axial**2))], axis=1)
     return np.where((wall[:, 1] > g[:, 1])[:, None], wall, corner)
 
 
 def _at_rest(grooves: Grooves, g: Array) -> tuple[Array, Mask]:
-    """Places without centrifugal force: on the line of the centres, pressed in as far as both K say.
+    """Positions of the balls without centrifugal force, and which of them are loaded.
 
-    Balls that nothing holds are in the middle of their clearance.
+    Each ball lies on the line through both groove centres. The approach of a loaded ball is divided between
+    its contacts according to their stiffnesses. An unloaded ball lies in the middle of its clearance.
     """
     g = np.maximum(g, _INWARD)
     length = np.hypot(g[:, 0], g[:, 1])
@@ -165,15 +173,15 @@ def _at_rest(grooves: Grooves, g: Array) -> tuple[Array, Mask]:
     held = play > 0.0
     softness = grooves.outer_stiffness ** (-2.0 / 3.0)
     share = np.where(held, softness / (softness + grooves.inner_stiffness ** (-2.0 / 3.0)), 0.5)
-    # A groove far smaller than the other one is left from its own centre, not beyond.
+    # With very unequal grooves, the middle of a clearance may lie beyond one of the groove centres.
     out = np.clip(grooves.outer_offset + share * play, 0.0, length)
     return (out / np.maximum(length, _TINY))[:, None] * g, held
 
 
 def _first_guess(grooves: Grooves, g: Array) -> Array:
-    """Places where both contacts are pressed in: further out than at rest."""
-    still, _ = _at_rest(grooves, g)
-    inner, outer = grooves.contacts(still, g)
+    """Positions where both contacts are loaded; they lie further out than without centrifugal force."""
+    place, _ = _at_rest(grooves, g)
+    inner, outer = grooves.contacts(place, g)
     more = (grooves.outward / grooves.outer_stiffness) ** (2.0 / 3.0)
     return _corner(
         g,
@@ -183,7 +191,7 @@ def _first_guess(grooves: Grooves, g: Array) -> Array:
 
 
 def _start(grooves: Grooves, g: Array, held: Mask, guess: Seats | None) -> Array:
-    """Places to start from: those nearby where both contacts are pressed in there, else the first guess."""
+    """Initial guess: positions of ``guess`` where both contacts are loaded, else those of the first guess."""
     if guess is None:
         return _first_guess(grooves, g)
     inner, outer = grooves.contacts(guess.place, g)
@@ -194,7 +202,7 @@ def _start(grooves: Grooves, g: Array, held: Mask, guess: Seats | None) -> Array
 
 
 def _settled(grooves: Grooves, g: Array, held: Mask, p: Array) -> Array:
-    """Places of the balls held between both grooves, by Newton's method on each; p to start from."""
+    """Positions of the balls loaded by both grooves, by Newton's method from the initial guess p."""
     offset = grooves.inner_offset + grooves.outer_offset
 
     def imbalance(p: Array) -> tuple[Array, Array, Mask]:
@@ -203,7 +211,7 @@ def _settled(grooves: Grooves, g: Array, held: Mask, p: Array) -> Array:
         tangent = inner.tangent + outer.tangent
         size = inner.load + outer.load + grooves.outward
         noise = _ROUNDING * size + _NUDGE * offset * (tangent[:, 0, 0] + tangent[:, 1, 1])
-        # A touch of stiffness where a contact is just being made and has none.
+        # A contact that only just touches has no stiffness: this small one keeps the matrix regular.
         tangent += (1e-13 * size / offset)[:, None, None] * _UNITY
         return force, tangent, np.max(np.abs(force), axis=1) > noise
 
@@ -229,28 +237,28 @@ def _settled(grooves: Grooves, g: Array, held: Mask, p: Array) -> Array:
 
 
 def seat(grooves: Grooves, g: Array, guess: Seats | None = None) -> Seats:
-    """Where balls sit between groove centres at 0 and g.
+    """Positions and contacts of balls between grooves with their centres at 0 and g.
 
-    A ball that centrifugal force alone would seat clear of the inner groove stays at the bottom of the outer
-    one. At rest a ball that nothing holds is shown in the middle of its clearance.
+    At speed, a ball that does not touch the inner groove lies at the bottom of the outer groove, where
+    centrifugal force presses it. At rest, an unloaded ball lies in the middle of its clearance.
 
     Parameters
     ----------
     grooves : Grooves
-        The grooves and contacts of n balls.
+        Grooves and contact stiffnesses of n balls.
     g : ndarray, shape (n, 2)
-        Centres of the inner groove, axial and radial [m].
+        Centre of the inner groove at each ball, axial and radial [m].
     guess : Seats or None
-        Seats nearby.
+        Seats at groove centres close to ``g``, as an initial guess.
 
     Returns
     -------
     Seats
-        Of the n balls.
+        Positions and contacts of the n balls.
 
     Examples
     --------
-    Equal grooves pulled 2 um apart beyond touching share that equally:
+    Two equal contacts share an approach of 2 um equally:
 
     >>> both = np.full(1, 1e10)
     >>> seats = seat(Grooves(0.2e-3, 0.2e-3, both, both, 0.0), np.array([[0.0, 0.402e-3]]))
@@ -270,22 +278,22 @@ def seat(grooves: Grooves, g: Array, guess: Seats | None = None) -> Seats:
 
 
 def lean_outward(grooves: Grooves, g: Array) -> Array:
-    """Places of balls at rest that nothing holds, at the outer groove: the limit of slow rotation.
+    """Positions of unloaded balls at rest that lie in the outer groove: the limit of slow rotation.
 
-    At the bottom of the outer groove, or, where the inner one does not let it get there, in the corner that
-    both leave.
+    A ball lies at the bottom of the outer groove. Where the inner groove is in the way, the ball lies in the
+    corner where it touches both grooves.
 
     Parameters
     ----------
     grooves : Grooves
-        The grooves.
+        Grooves and contact stiffnesses of n balls.
     g : ndarray, shape (n, 2)
-        Centres of the inner groove [m].
+        Centre of the inner groove at each ball, axial and radial [m].
 
     Returns
     -------
     ndarray, shape (n, 2)
-        p [m].
+        Position p of each ball [m].
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Totals of a bearing in equilibrium: displacements, moments, inertia and speeds. SI units."""
+"""Totals of a bearing in equilibrium: displacements, moments, inertial forces and speeds. SI units."""
 
 from __future__ import annotations
 
@@ -13,30 +13,32 @@ Equilibrium: TypeAlias = BallEquilibrium | RollerEquilibrium
 
 
 def mechanics_of(at: Equilibrium) -> dict[str, Any]:
-    """Loads, displacements and speeds of a bearing, nested as summary.json.
+    """Loads, displacements and speeds of a bearing, by the keys of ``mechanics`` in summary.json.
 
     Parameters
     ----------
     at : BallEquilibrium or RollerEquilibrium
-        One position of the cage.
+        Equilibrium at one position of the cage.
 
     Returns
     -------
     dict
-        None where rollers have no such number. Speeds are those of pure rolling; of balls, whose contact
-        angles differ, the largest, and the cage's mean.
+        Values in SI units; None for the values that roller bearings do not have. Speeds are those of pure
+        rolling. The contact angles of balls differ, and with them their speeds: the dict has the largest
+        speed of elements and contacts, and the mean speed of the cage.
 
     Examples
     --------
-    Rollers of 11 mm on 60 mm, g = 11/60, at 100 rad/s of the inner ring: the cage at 50 (1 - g), the rollers
-    against it at 50 (1 - g^2)/g.
+    Rollers of 11 mm on a pitch diameter of 60 mm, g = 11/60, with the inner ring at 100 rad/s. The cage turns
+    at 50 (1 - g), and the rollers turn at 50 (1 - g^2)/g relative to it.
 
     >>> from ehlectric.bearing.loads.geometry import RollerBearing
     >>> from ehlectric.bearing.loads.ring import Operation
     >>> from ehlectric.bearing.loads.rollers import roller_equilibrium
     >>> bearing = RollerBearing(14, 11e-3, 60e-3, 11e-3, 0.0, "none")
-    >>> found = mechanics_of(roller_equilibrium(bearing, Operation(5000.0, inner_speed=100.0), 226e9, 7800.0))
-    >>> round(found["cage_speed"], 3), round(found["element_speed"], 3)
+    >>> state = roller_equilibrium(bearing, Operation(5000.0, inner_speed=100.0), 226e9, 7800.0)
+    >>> mechanics = mechanics_of(state)
+    >>> round(mechanics["cage_speed"], 3), round(mechanics["element_speed"], 3)
     (40.833, 263.561)
     """
     inner, outer = (float(np.max(at.ring(inner=inner).entrainment_speed)) for inner in (True, False))

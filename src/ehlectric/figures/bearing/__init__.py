@@ -1,1 +1,1 @@
-"""Figures of a bearing."""
+"""Figures of bearings: loads and films around the shaft, circuit, impedance, and speed."""

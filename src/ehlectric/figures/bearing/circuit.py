@@ -1,4 +1,4 @@
-"""Figures of a bearing's circuit: capacitance, shares, breakdown and impedance, over a pitch of the cage."""
+"""Figures of a bearing's circuit: capacitance, voltage shares, breakdown voltages and impedance."""
 
 from __future__ import annotations
 
@@ -16,29 +16,30 @@ from ehlectric.cases.quantity import unit_for
 from ehlectric.figures.axes import is_wide, round_numbers
 from ehlectric.figures.style import BLUE, GREEN, GREY, ORANGE, axes_or_new, legend_above
 
-# How voltages of the whole bearing look in all figures. They are often equal: the one below is the wider.
+# Lines of the voltages of the whole bearing in all figures. The voltages are often equal, so the line drawn
+# first is the wider one.
 FIRST: dict[str, Any] = {"color": "black", "lw": 1.1, "ls": "-"}
 THROUGH: dict[str, Any] = {"color": "#e69f00", "lw": 3.0, "ls": "-"}
 SHAFT: dict[str, Any] = {"color": GREEN, "lw": 1.4, "ls": "--"}
 
-# With more elements than this not all of them have their number on the axis.
+# Largest number of elements that have a tick on the axis.
 _NUMBERED = 16
 
 
 def contact_capacitances(result: BearingResult, ax: Axes | None = None) -> Axes:
-    """Capacitance of both contacts of every element, cage at its first position.
+    """Draw the capacitance of both contacts of every element, with the cage at its first position.
 
     Parameters
     ----------
     result : BearingResult
-        What to draw.
+        Result of the bearing to draw.
     ax : Axes, optional
-        Where to; new axes otherwise.
+        Axes to draw on; new axes by default.
 
     Returns
     -------
     Axes
-        With that of the bearing over them, its cage at that position.
+        Axes whose title states the capacitance of the bearing at this position of the cage.
     """
     ax = axes_or_new(ax)
     fill = result.solution.case.bearing.fill
@@ -48,7 +49,7 @@ def contact_capacitances(result: BearingResult, ax: Axes | None = None) -> Axes:
     ax.bar(at - 0.2, factor * circuit.inner, 0.4, color=BLUE, label="inner contact")
     ax.bar(at + 0.2, factor * circuit.outer, 0.4, color=ORANGE, label="outer contact")
     total, of = unit_for(circuit.capacitance, "F", least=1.0)
-    # That of the summary is the mean over a pitch.
+    # The capacitance in summary.json is another one, the mean over a pitch.
     ax.set_title(f"bearing, cage as here: {total * circuit.capacitance:.4g} {of}, {fill} fill", loc="right")
     ax.set_ylabel(f"capacitance\n[{unit}]")
     _elements(result, ax)
@@ -57,19 +58,19 @@ def contact_capacitances(result: BearingResult, ax: Axes | None = None) -> Axes:
 
 
 def voltage_shares(result: BearingResult, ax: Axes | None = None) -> Axes:
-    """Part of the bearing's voltage on both contacts of every element, cage at its first position.
+    """Draw the shares of the bearing voltage on both contacts of every element.
 
     Parameters
     ----------
     result : BearingResult
-        What to draw.
+        Result of the bearing to draw.
     ax : Axes, optional
-        Where to; new axes otherwise.
+        Axes to draw on; new axes by default.
 
     Returns
     -------
     Axes
-        In per cent.
+        Axes with the shares in per cent, with the cage at its first position.
     """
     ax = axes_or_new(ax)
     inner = 100.0 * result.solution.circuits()[0].inner_share
@@ -84,20 +85,20 @@ def voltage_shares(result: BearingResult, ax: Axes | None = None) -> Axes:
 
 
 def breakdown_voltages(result: BearingResult, ax: Axes | None = None) -> Axes:
-    """Bearing voltages at which each contact breaks down, its share of it reckoned with.
+    """Draw the bearing voltage at which each contact breaks down under its share of the voltage.
 
     Parameters
     ----------
     result : BearingResult
-        With breakdown voltages.
+        Result of a bearing that has breakdown voltages.
     ax : Axes, optional
-        Where to; new axes otherwise.
+        Axes to draw on; new axes by default.
 
     Returns
     -------
     Axes
-        Contacts with the cage at its first position; first break and through breakdown are the least over its
-        positions.
+        Axes with the contacts at the first position of the cage. First break and through breakdown are the
+        smallest voltages over all positions.
     """
     ax = axes_or_new(ax)
     circuit = result.solution.circuits()[0]
@@ -124,11 +125,11 @@ def breakdown_voltages(result: BearingResult, ax: Axes | None = None) -> Axes:
 
 
 def _levels(result: BearingResult, ax: Axes) -> None:
-    """Lines of the voltages of the whole bearing, those there are."""
-    found, shaft = result.breaks(), result.shaft_voltage
+    """Draw lines at the voltages of the whole bearing, as far as there are any."""
+    breaks, shaft = result.breaks(), result.shaft_voltage
     for name, value, look in (
-        ("through breakdown", found["through_breakdown"], THROUGH),
-        ("first break", found["first_break"], FIRST),
+        ("through breakdown", breaks["through_breakdown"], THROUGH),
+        ("first break", breaks["first_break"], FIRST),
         ("shaft voltage", shaft, SHAFT),
     ):
         if value is not None:
@@ -136,72 +137,72 @@ def _levels(result: BearingResult, ax: Axes) -> None:
 
 
 def _elements(result: BearingResult, ax: Axes) -> None:
-    """Axis of elements, each with its angle from the load."""
+    """Label the axis of the elements with their numbers and their angles from the radial load."""
     angles = np.degrees(result.solution.positions[0].equilibrium.position)
-    shown = np.arange(0, angles.size, math.ceil(angles.size / _NUMBERED))
-    ax.set_xticks(shown, [f"{k}\n{angles[k]:.0f}°" for k in shown])
+    ticks = np.arange(0, angles.size, math.ceil(angles.size / _NUMBERED))
+    ax.set_xticks(ticks, [f"{k}\n{angles[k]:.0f}°" for k in ticks])
     ax.set_xlim(-0.6, angles.size - 0.4)
     radial = result.solution.case.bearing.radial_load > 0.0
     ax.set_xlabel("element, and its angle" + (" from the radial load" if radial else ""))
 
 
 def impedance_magnitude(result: BearingResult, ax: Axes | None = None) -> Axes:
-    """Magnitude of the bearing's impedance over the frequency.
+    """Draw the magnitude of the bearing's impedance over the frequency.
 
     Parameters
     ----------
     result : BearingResult
-        Of an oil with a conductivity.
+        Result of a bearing whose oil has a conductivity.
     ax : Axes, optional
-        Where to; new axes otherwise.
+        Axes to draw on; new axes by default.
 
     Returns
     -------
     Axes
-        Both logarithmic; the corner of the oil alone, 1/(2 pi tau), is marked; with air
-        around the films that of the bearing is below it.
+        Axes with two logarithmic scales. The corner frequency of the oil alone, 1/(2 pi tau), is marked. With
+        air around the films, the corner frequency of the bearing is lower.
     """
     ax = axes_or_new(ax)
-    found = _found(result)
-    frequency = found.frequency
-    ax.loglog(frequency, found.magnitude, color=BLUE)
+    impedance = _impedance(result)
+    frequency = impedance.frequency
+    ax.loglog(frequency, impedance.magnitude, color=BLUE)
     ax.set(ylabel=r"magnitude $|Z|$ [Ω]", xlabel="frequency $f$ [Hz]", xlim=(frequency[0], frequency[-1]))
-    _corner(ax, found.corner)
+    _corner(ax, impedance.corner)
     ax.grid(color="0.9", lw=0.6)
     return ax
 
 
 def impedance_phase(result: BearingResult, ax: Axes | None = None) -> Axes:
-    """Phase of the bearing's impedance over the frequency.
+    """Draw the phase of the bearing's impedance over the frequency.
 
     Parameters
     ----------
     result : BearingResult
-        Of an oil with a conductivity.
+        Result of a bearing whose oil has a conductivity.
     ax : Axes, optional
-        Where to; new axes otherwise.
+        Axes to draw on; new axes by default.
 
     Returns
     -------
     Axes
-        From 0, a resistor, to -90 degrees, a capacitor.
+        Axes from -90 degrees (a capacitor) to 0 (a resistor).
     """
     ax = axes_or_new(ax)
-    found = _found(result)
-    frequency = found.frequency
-    ax.semilogx(frequency, found.phase, color=BLUE)
+    impedance = _impedance(result)
+    frequency = impedance.frequency
+    ax.semilogx(frequency, impedance.phase, color=BLUE)
     ax.set(ylabel="phase [°]", xlabel="frequency $f$ [Hz]", xlim=(frequency[0], frequency[-1]))
     ax.set_ylim(-95.0, 5.0)
     ax.set_yticks([-90, -60, -45, -30, 0])
-    _corner(ax, found.corner)
+    _corner(ax, impedance.corner)
     ax.grid(color="0.9", lw=0.6)
     return ax
 
 
-def _found(result: BearingResult) -> Impedance:
-    found = impedance_of(result.solution)
-    assert found is not None
-    return found
+def _impedance(result: BearingResult) -> Impedance:
+    impedance = impedance_of(result.solution)
+    assert impedance is not None
+    return impedance
 
 
 def _corner(ax: Axes, corner: float) -> None:
@@ -211,19 +212,19 @@ def _corner(ax: Axes, corner: float) -> None:
 
 
 def capacitance_over_pitch(result: BearingResult, ax: Axes | None = None) -> Axes:
-    """Capacitance of the bearing while the cage turns by a pitch of the elements.
+    """Draw the capacitance of the bearing while the cage turns by one pitch of the elements.
 
     Parameters
     ----------
     result : BearingResult
-        What to draw.
+        Result of the bearing to draw.
     ax : Axes, optional
-        Where to; new axes otherwise.
+        Axes to draw on; new axes by default.
 
     Returns
     -------
     Axes
-        With oil and with air around the films.
+        Axes with a line for oil and a line for air around the films.
     """
     ax = axes_or_new(ax)
     oil, air = (np.array([c.capacitance for c in result.solution.circuits(fill)]) for fill in ("oil", "air"))
@@ -239,19 +240,19 @@ def capacitance_over_pitch(result: BearingResult, ax: Axes | None = None) -> Axe
 
 
 def breakdown_over_pitch(result: BearingResult, ax: Axes | None = None) -> Axes:
-    """First break and through breakdown while the cage turns by a pitch of the elements.
+    """Draw first break and through breakdown while the cage turns by one pitch of the elements.
 
     Parameters
     ----------
     result : BearingResult
-        With breakdown voltages.
+        Result of a bearing that has breakdown voltages.
     ax : Axes, optional
-        Where to; new axes otherwise.
+        Axes to draw on; new axes by default.
 
     Returns
     -------
     Axes
-        With the shaft voltage, where there is a motor.
+        Axes that also show the shaft voltage where there is one.
     """
     ax = axes_or_new(ax)
     circuits = result.solution.circuits()
@@ -269,7 +270,7 @@ def breakdown_over_pitch(result: BearingResult, ax: Axes | None = None) -> Axes:
 
 
 def _over_pitch(result: BearingResult, ax: Axes, values: Array, label: str, look: dict[str, Any]) -> None:
-    """Values at the positions of the cage, the first again at the end of the pitch."""
+    """Draw values over the positions of the cage; the end of the pitch has the first value again."""
     pitch = 360.0 / result.solution.case.bearing.elements
     angle = np.linspace(0.0, pitch, values.size + 1)
     ax.plot(angle, np.append(values, values[0]), marker="o", ms=4.0, clip_on=False, label=label, **look)

@@ -21,41 +21,42 @@ from ehlectric.cases.quantity import unit_for
 from ehlectric.figures.axes import is_wide, round_numbers
 from ehlectric.figures.style import BLUE, GREY, ORANGE
 
-# Name, colour, width of line and size of marks: inner over outer, whose loads are nearly the same.
+# Name of each ring, with colour, line width and size of markers. The loads of both rings are nearly equal, so
+# the line of the inner ring is drawn last, over the wider line of the outer ring.
 _RINGS = (("inner", BLUE, 1.1, 4.0), ("outer", ORANGE, 2.2, 6.5))
 
-# Radius of the circle of no load, or of the least film, over that of the largest.
+# Radius of the inner circle, at which the scale begins, over the radius of the outer circle.
 _CORE = 0.3
 
-# Least film over that of a lambda whose circle is shown no more.
+# The circle of a lambda ratio is shown if the smallest film is below this many times its film thickness.
 _FAR = 4.0
 
-# More round numbers than these along a logarithmic radius leave powers of ten alone.
+# With more round numbers than this along a logarithmic radius, only powers of ten have ticks.
 _MOST_TICKS = 7
 
 
 def new_polar(columns: int, size: tuple[float, float]) -> list[Axes]:
-    """Polar axes of a new figure of a size in inches, beside each other."""
+    """Polar axes side by side in a new figure, whose size is in inches."""
     figure = Figure(figsize=size)
     FigureCanvasAgg(figure)
     return list(figure.subplots(1, columns, squeeze=False, subplot_kw={"projection": "polar"}).ravel())
 
 
 def load_around(result: BearingResult, ax: Axes | None = None) -> Axes:
-    """Load of both contacts of the elements over the angle.
+    """Draw the load of both contacts of the elements around the shaft.
 
     Parameters
     ----------
     result : BearingResult
-        What to draw.
+        Result of the bearing to draw.
     ax : Axes, optional
-        Polar ones; new axes otherwise.
+        Polar axes to draw on; new axes by default.
 
     Returns
     -------
     Axes
-        The radial load on the inner ring points down. Marks are the elements at the cage's first position,
-        lines go through all of its positions.
+        Polar axes on which the radial load on the inner ring points down. Markers show the elements at the
+        first position of the cage, and lines connect the elements at all positions.
     """
     ax = _polar_or_new(result, ax)
     states = [(position.inner, position.outer) for position in result.solution.positions]
@@ -71,31 +72,32 @@ def load_around(result: BearingResult, ax: Axes | None = None) -> Axes:
 
 
 def film_around(result: BearingResult, ax: Axes | None = None) -> Axes:
-    """Minimum film of both contacts of the elements over the angle, and the gaps of those without load.
+    """Draw the minimum film thickness of both contacts of the elements around the shaft.
 
     Parameters
     ----------
     result : BearingResult
-        What to draw.
+        Result of the bearing to draw.
     ax : Axes, optional
-        Polar ones; new axes otherwise.
+        Polar axes to draw on; new axes by default.
 
     Returns
     -------
     Axes
-        As those of ``load_around``; films that differ widely have a logarithmic radius. Circles show where
-        lambda is 1, below which the surfaces touch, and 3.
+        Polar axes on which the radial load points down. Dotted lines and hollow markers show the gaps of
+        unloaded contacts. Circles show the film thicknesses at lambda ratios of 1, below which surfaces
+        touch, and 3. The radius is logarithmic where films differ widely.
     """
     ax = _polar_or_new(result, ax)
     states = [(position.inner, position.outer) for position in result.solution.positions]
     rq = result.solution.case.bearing.composite_rq
     films = np.concatenate([race.values.minimum_thickness for pair in states for race in pair])
-    # Gaps without load may be next to nothing, or far above the films.
+    # The unit suits the films of loaded contacts: gaps of unloaded ones may be much smaller or much larger.
     thinnest = min(
         float(np.min(race.values.minimum_thickness[race.solved])) for pair in states for race in pair
     )
     factor, unit = unit_for(thinnest, "m")
-    # Circles far below the films would leave them little room.
+    # Circles far below the films are left out, as they would leave little room for the films.
     ratios = [ratio for ratio in (CONDUCTING, PARTIAL) if films.min() < _FAR * ratio * rq]
     everything = factor * np.concatenate([films, rq * np.array(ratios)])
     angles = np.linspace(0.0, 2.0 * np.pi, 181)
@@ -114,15 +116,15 @@ def film_around(result: BearingResult, ax: Axes | None = None) -> Axes:
 
 
 def _polar_or_new(result: BearingResult, ax: Axes | None) -> PolarAxes:
-    found = new_polar(1, (3.6, 4.2))[0] if ax is None else ax
-    assert isinstance(found, PolarAxes)
-    found.set_theta_zero_location("S")
+    polar = new_polar(1, (3.6, 4.2))[0] if ax is None else ax
+    assert isinstance(polar, PolarAxes)
+    # The radial load points down.
+    polar.set_theta_zero_location("S")
     angles = np.arange(0, 360, 45)
-    # Seen so that the load points down.
     load = "radial load, 0°" if result.solution.case.bearing.radial_load else "0°"
-    found.set_thetagrids(angles, [load, *(f"{angle}°" for angle in angles[1:])])
-    found.grid(color="0.85", lw=0.6)
-    return found
+    polar.set_thetagrids(angles, [load, *(f"{angle}°" for angle in angles[1:])])
+    polar.grid(color="0.85", lw=0.6)
+    return polar
 
 
 def _ring(
@@ -134,7 +136,7 @@ def _ring(
     *,
     at_rest: str,
 ) -> None:
-    """Contacts with one ring: lines through all positions of the cage, marks at the first."""
+    """Draw the contacts with one ring: lines over all positions of the cage, markers at the first one."""
     name, color, width, size = ring
     angles = [position.equilibrium.position for position in result.solution.positions]
     order = np.argsort(np.concatenate(angles))
@@ -153,14 +155,14 @@ def _ring(
 
 
 def _between(result: BearingResult) -> float:
-    """Angle near the top, halfway between two elements at the cage's first position: no mark is there."""
+    """Angle near the top, halfway between two elements at the first position of the cage [rad]."""
     at = np.sort(np.mod(result.solution.positions[0].equilibrium.position, 2.0 * np.pi))
     halfway = 0.5 * (at + np.append(at[1:], at[0] + 2.0 * np.pi))
     return float(halfway[np.argmin(np.abs(halfway - np.pi))])
 
 
 def _radius(ax: Axes, values: Array, at: float, *, log: bool) -> None:
-    """Radius from a circle of some size, so that elements there stand apart; few ticks, named at an angle."""
+    """Scale the radius from an inner circle outwards, and write a few numbers along an angle [rad]."""
     assert isinstance(ax, PolarAxes)
     low, high = float(np.min(values)), float(np.max(values))
     if log:
@@ -181,7 +183,7 @@ def _radius(ax: Axes, values: Array, at: float, *, log: bool) -> None:
     ax.yaxis.set_major_locator(FixedLocator(list(ticks)))
     ax.yaxis.set_minor_locator(NullLocator())
     ax.tick_params(axis="y", labelleft=False)
-    # Written over the lines, which own labels of an axis are not.
+    # Labels of an axis would lie below the lines: these texts lie above them.
     edge = [withStroke(linewidth=2.4, foreground="white")]
     for tick in ticks:
         where: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": 7.5, "zorder": 6.0}

@@ -1,4 +1,4 @@
-"""Figures of a bearing over the speed of its shaft, from the summaries at some speeds."""
+"""Figures of a bearing over the speed of its shaft, from its summaries at several speeds."""
 
 from __future__ import annotations
 
@@ -14,27 +14,27 @@ from ehlectric.figures.axes import is_wide, scale_axis
 from ehlectric.figures.bearing.circuit import FIRST, SHAFT, THROUGH
 from ehlectric.figures.style import BLUE, GREY, ORANGE, axes_or_new, legend_above
 
-# Speed of the inner ring [rad/s], and the summary at it.
+# Speed of the inner ring [rad/s] with the summary of the bearing at this speed.
 Speed = tuple[float, dict[str, Any]]
 Speeds = Sequence[Speed]
 
 
 def capacitance_over_speed(points: Speeds, ax: Axes | None = None, *, own: Speed | None = None) -> Axes:
-    """Capacitance of a bearing over its speed, between its bounds with air and oil around the films.
+    """Draw the capacitance of a bearing over its speed, with its range from air to oil around the films.
 
     Parameters
     ----------
     points : sequence of (float, dict)
-        Speed of the inner ring [rad/s], and the summary at it.
+        Speeds of the inner ring [rad/s] with their summaries.
     ax : Axes, optional
-        Where to; new axes otherwise.
+        Axes to draw on; new axes by default.
     own : (float, dict), optional
-        A bearing to mark beside them, as one whose contacts were solved.
+        Speed and summary of a bearing to mark with a star, for example one with solved contacts.
 
     Returns
     -------
     Axes
-        Ranges wider than a factor of 20 are logarithmic.
+        Axes whose scales are logarithmic where the values differ by more than a factor of 20.
     """
     ax = axes_or_new(ax)
     speed = _speed(points, ax)
@@ -45,8 +45,8 @@ def capacitance_over_speed(points: Speeds, ax: Axes | None = None, *, own: Speed
     ax.plot(speed, factor * oil, color=BLUE, lw=0.7)
     ax.plot(speed, factor * air, color=BLUE, lw=0.7)
     fills = {str(summary["inputs"]["bearing"]["fill"]) for _, summary in points}
-    given = f", {fills.pop()} around the films" if len(fills) == 1 else ""
-    label = f"capacitance of the bearing{given}"
+    fill = f", {fills.pop()} around the films" if len(fills) == 1 else ""
+    label = f"capacitance of the bearing{fill}"
     ax.plot(speed, factor * values, color="black", lw=1.4, marker="o", ms=4.0, label=label)
     marked = _mark(ax, own, ("capacitance",), factor)
     everything = np.append(factor * np.concatenate([oil, air, values]), marked)
@@ -60,21 +60,21 @@ def capacitance_over_speed(points: Speeds, ax: Axes | None = None, *, own: Speed
 
 
 def breakdown_over_speed(points: Speeds, ax: Axes | None = None, *, own: Speed | None = None) -> Axes:
-    """First break and through breakdown of a bearing over its speed, and the voltage of the shaft.
+    """Draw first break and through breakdown of a bearing over its speed, with the shaft voltage.
 
     Parameters
     ----------
     points : sequence of (float, dict)
-        Speed of the inner ring [rad/s], and the summary at it.
+        Speeds of the inner ring [rad/s] with their summaries.
     ax : Axes, optional
-        Where to; new axes otherwise.
+        Axes to draw on; new axes by default.
     own : (float, dict), optional
-        A bearing to mark beside them, as one whose contacts were solved.
+        Speed and summary of a bearing to mark with a star, for example one with solved contacts.
 
     Returns
     -------
     Axes
-        Where the shaft has more than the first break, the range in between is shaded.
+        Axes with a shaded area between first break and shaft voltage, where the shaft voltage is higher.
     """
     ax = axes_or_new(ax)
     speed = _speed(points, ax)
@@ -106,30 +106,30 @@ def breaks_anywhere(points: Speeds) -> bool:
 
 
 def _mark(ax: Axes, own: Speed | None, keys: Sequence[str], factor: float) -> Array:
-    """A star at each value of a bearing by itself; the values drawn."""
+    """Draw a star at each value of a single bearing, and return these values."""
     if own is None:
         return np.empty(0)
-    found = factor * np.concatenate([_of([own], key) for key in keys])
+    values = factor * np.concatenate([_of([own], key) for key in keys])
     look: dict[str, Any] = {"ls": "none", "marker": "*", "ms": 11.0, "color": "black", "mec": "white"}
     label = f"at its own speed, contacts {how_found([own])}"
-    ax.plot(np.full(found.size, own[0] * 30.0 / np.pi), found, zorder=6.0, label=label, **look)
-    return found
+    ax.plot(np.full(values.size, own[0] * 30.0 / np.pi), values, zorder=6.0, label=label, **look)
+    return values
 
 
 def how_found(points: Speeds) -> str:
-    """How films and fields were found, as "solved" or "by formula"."""
+    """Text: how films and fields were obtained, "solved" or "by formula"."""
     names = {"solved": "solved", "formula": "by formula"}
     return " or ".join(sorted({names[summary["bearing"]["contacts"]] for _, summary in points}))
 
 
 def _of(points: Speeds, key: str) -> Array:
-    """A value of the bearing by increasing speed, NaN where there is none."""
-    found = [summary["bearing"][key] for _, summary in sorted(points, key=lambda point: point[0])]
-    return np.array([np.nan if value is None else value for value in found], dtype=float)
+    """Values of a key of the bearing in the order of the speeds, NaN in place of None."""
+    values = [summary["bearing"][key] for _, summary in sorted(points, key=lambda point: point[0])]
+    return np.array([np.nan if value is None else value for value in values], dtype=float)
 
 
 def _speed(points: Speeds, ax: Axes) -> Array:
-    """Speeds in rpm, increasing, along the axis."""
+    """Speeds in ascending order [rpm], for which the axis is scaled."""
     speed = np.array(sorted(speed for speed, _ in points)) * 30.0 / np.pi
     log = is_wide(speed)
     scale_axis(ax.xaxis, "speed of the inner ring [rpm]", values=np.round(speed, 6), log=log)
@@ -137,14 +137,14 @@ def _speed(points: Speeds, ax: Axes) -> Array:
 
 
 def _lubrication(points: Speeds, ax: Axes, speed: Array) -> None:
-    """Marks along the lower edge where films are thin against the roughness."""
+    """Draw markers along the lower edge at speeds at which the lambda ratio is below 3."""
     states = [summary["bearing"]["lubrication"] for _, summary in sorted(points, key=lambda point: point[0])]
     kinds: tuple[tuple[tuple[str, ...], str, dict[str, Any]], ...] = (
         (("conducting", "touching"), r"$\lambda$ < 1: surfaces touch", {"color": ORANGE, "marker": "X"}),
         (("partial film",), r"$\lambda$ from 1 to 3: surfaces may touch", {"color": GREY, "marker": "^"}),
     )
     for names, label, look in kinds:
-        on = np.array([found in names for found in states])
+        on = np.array([state in names for state in states])
         if np.any(on):
             edge = ax.get_xaxis_transform()
             marks: dict[str, Any] = {"ls": "none", "ms": 6.0, "clip_on": False, "zorder": 5.0, "label": label}

@@ -1,4 +1,4 @@
-"""Figures of cuts through a point contact: pressure, film and field over x and y, sections of the film."""
+"""Figures of cuts through a point contact: pressure, film and field over x or y, and sections of the film."""
 
 from __future__ import annotations
 
@@ -28,15 +28,22 @@ from ehlectric.figures.style import (
     new_panels,
 )
 
-# Of the lines through the centre and through the least film or the largest field.
+# Colour and dashes of the cut through the centre, and of that through the minimum film or the largest field.
 _LOOKS = ((BLUE, "-"), (ORANGE, (0, (4.0, 1.2))))
 
 
 @dataclass(frozen=True)
 class Cut:
-    """A straight cut along the axis "x" or "y" of a map: its line is at the node nearest to a position.
+    """Straight cut through a map along one of its axes, on a line of nodes.
 
-    ``index`` is that of the node on the other axis, ``position`` [m] where it is there.
+    Attributes
+    ----------
+    along : str
+        Axis that the cut runs along, "x" or "y".
+    index : int
+        Number of the line's nodes on the other axis.
+    position : float
+        Position of the line on the other axis [m].
     """
 
     along: str
@@ -45,43 +52,48 @@ class Cut:
 
     @classmethod
     def near(cls, along: str, at: tuple[float, float], x: Array, y: Array) -> Cut:
-        """The cut along an axis of nodes x, y [m] that passes nearest to a point (x, y) [m]."""
+        """Cut along an axis of the nodes x, y [m] that passes nearest to the point ``at``, (x, y) [m]."""
         axis, position = (y, at[1]) if along == "x" else (x, at[0])
         index = int(np.argmin(np.abs(axis - position)))
         return cls(along, index, float(axis[index]))
 
     def of(self, values: NDArray[Any]) -> NDArray[Any]:
-        """Values (nx, ny, ...) on the line."""
+        """Values on the cut, (nx, ...) or (ny, ...), of an array of shape (nx, ny, ...)."""
         return values[:, self.index] if self.along == "x" else values[self.index]
 
     def away(self, field: PointField) -> Mask:
-        """Which of the columns on the line are away from the side faces; all, where the line is along one."""
-        on: Mask = self.of(field.inner)
-        return on if np.count_nonzero(on) > 2 else np.ones_like(on)
+        """Mask of the columns of the cut far enough from the side faces of the field domain.
+
+        Where the cut itself lies near a side face, so that at most two columns are left, the mask is True for
+        all of them.
+        """
+        inner: Mask = self.of(field.inner)
+        return inner if np.count_nonzero(inner) > 2 else np.ones_like(inner)
 
     def name(self, result: PointResult) -> str:
-        """Where it is."""
+        """Position of the cut as text for a label, such as "$y/b$ = 0.5"."""
         axis = "y" if self.along == "x" else "x"
-        at = round(self.position / result.conditions.semi_axis_x, 6) + 0.0  # no 1e-17 at the centre, no -0
+        # At the centre this gives 0, not 1e-17 or -0.
+        at = round(self.position / result.conditions.semi_axis_x, 6) + 0.0
         return f"${axis}/b$ = {at:.3g}".replace("-", "−")
 
 
 def pressure_cut(result: PointResult, ax: Axes | None = None, *, along: str = "x") -> Axes:
-    """Pressure on the line through the centre and on that through the least film, with the Hertz pressure.
+    """Draw the pressure on two cuts, through the centre and through the minimum film, and the Hertz pressure.
 
     Parameters
     ----------
     result : PointResult
-        What to draw.
+        Result of a point contact.
     ax : Axes, optional
-        Where to; new axes otherwise.
+        Axes to draw on; those of a new figure if omitted.
     along : str
-        "x", along entrainment, or "y", across it.
+        Direction of the cuts: "x", along entrainment, or "y", across it.
 
     Returns
     -------
     Axes
-        With a legend above them.
+        Axes with the pressure over x/b or y/b, and a legend above them.
     """
     ax = axes_or_new(ax)
     film, conditions = result.film, result.conditions
@@ -99,21 +111,22 @@ def pressure_cut(result: PointResult, ax: Axes | None = None, *, along: str = "x
 
 
 def film_cut(result: PointResult, ax: Axes | None = None, *, along: str = "x") -> Axes:
-    """Film thickness on the line through the centre and on that through the least film.
+    """Draw the film thickness on two cuts, through the centre and through the minimum film.
 
     Parameters
     ----------
     result : PointResult
-        What to draw.
+        Result of a point contact.
     ax : Axes, optional
-        Where to; new axes otherwise.
+        Axes to draw on; those of a new figure if omitted.
     along : str
-        "x", along entrainment, or "y", across it.
+        Direction of the cuts: "x", along entrainment, or "y", across it.
 
     Returns
     -------
     Axes
-        Up to twice the central or the mean film; smooth surfaces dotted beside rough ones.
+        Axes with the film up to twice the central or the mean film thickness, whichever is larger. The film
+        between smooth surfaces is dotted where it was solved beside that of the rough ones.
     """
     ax, film = axes_or_new(ax), result.film
     factor, unit = film_unit(result)
@@ -130,21 +143,22 @@ def film_cut(result: PointResult, ax: Axes | None = None, *, along: str = "x") -
 
 
 def field_cut(result: PointResult, ax: Axes | None = None, *, along: str = "x") -> Axes:
-    """Field strength at mid-film on the lines through the centre and the largest field, with V12/h behind it.
+    """Draw the field strength at mid-film on two cuts, through the centre and through the largest field.
 
     Parameters
     ----------
     result : PointResult
-        What to draw.
+        Result of a point contact.
     ax : Axes, optional
-        Where to; new axes otherwise.
+        Axes to draw on; those of a new figure if omitted.
     along : str
-        "x", along entrainment, or "y", across it.
+        Direction of the cuts: "x", along entrainment, or "y", across it.
 
     Returns
     -------
     Axes
-        Without the edges of the range of the field, whose faces disturb it.
+        Axes with the field strength as lines, and the thin-gap estimate V12/h as wide bands behind them. The
+        ends of the field domain are left out, as its side faces disturb the field there.
     """
     ax, field = axes_or_new(ax), result.field
     factor, unit = unit_for(field.max_strength, "V/m")
@@ -152,9 +166,9 @@ def field_cut(result: PointResult, ax: Axes | None = None, *, along: str = "x") 
     at = (field.x if along == "x" else field.y) / result.conditions.semi_axis_x
     for place, (color, line) in zip(places, _LOOKS, strict=True):
         cut = Cut.near(along, place, field.x, field.y)
-        on = cut.away(field)
-        ax.plot(at[on], factor * cut.of(field.thin_gap_strength)[on], color=color, lw=4.0, alpha=0.25)
-        (last,) = ax.plot(at[on], factor * cut.of(field.middle_strength)[on], color=color, ls=line)
+        away = cut.away(field)
+        ax.plot(at[away], factor * cut.of(field.thin_gap_strength)[away], color=color, lw=4.0, alpha=0.25)
+        (last,) = ax.plot(at[away], factor * cut.of(field.middle_strength)[away], color=color, ls=line)
     last.set_label(f"largest field, {cut.name(result)}")
     band = Line2D([], [], color=GREY, lw=4.0, alpha=0.4, label="$V_{12}/h$, behind the lines")
     legend_above(ax, [last, band], 1)
@@ -164,23 +178,25 @@ def field_cut(result: PointResult, ax: Axes | None = None, *, along: str = "x") 
 
 
 def _axis(result: PointResult, along: str) -> Array:
-    """Positions of the film's nodes along a cut, in semi-axes b."""
+    """Positions of the film's nodes along a cut, as x/b or y/b."""
     film = result.film
     at: Array = (film.x if along == "x" else film.y) / result.conditions.semi_axis_x
     return at
 
 
 def _semi_axis(result: PointResult, along: str) -> float:
-    """Half of the dry contact along a cut, in semi-axes b."""
+    """Semi-axis of the Hertz ellipse along a cut, over the semi-axis b along entrainment."""
     return 1.0 if along == "x" else result.conditions.ratio
 
 
 def _film_cuts(result: PointResult, along: str) -> list[Cut]:
+    """Cuts through the centre and through the minimum film."""
     film = result.film
     return [Cut.near(along, at, film.x, film.y) for at in ((0.0, 0.0), film.minimum_position)]
 
 
 def _film_lines(result: PointResult, ax: Axes, along: str, values: Array) -> list[Line2D]:
+    """Draw values (nx, ny) at the film's nodes on the cuts through the centre and the minimum film."""
     lines: list[Line2D] = []
     for cut, name, (color, line) in zip(
         _film_cuts(result, along), ("centre", "least film"), _LOOKS, strict=True
@@ -191,19 +207,21 @@ def _film_lines(result: PointResult, ax: Axes, along: str, values: Array) -> lis
 
 
 def cuts(result: PointResult, axes: Sequence[Axes] | None = None) -> Axes:
-    """Pressure, film and field on lines along and across entrainment, through the centre and the least film.
+    """Draw pressure, film and field on cuts along entrainment (left) and across it (right).
+
+    The cuts run through the centre and through the minimum film, or for the field through its maximum.
 
     Parameters
     ----------
     result : PointResult
-        What to draw.
+        Result of a point contact.
     axes : sequence of Axes, optional
-        Where to: six, in three rows of two; new axes otherwise.
+        Six axes to draw on, in three rows of two; those of a new figure if omitted.
 
     Returns
     -------
     Axes
-        The first of them.
+        The first axes, with the pressure along entrainment.
     """
     axes = new_panels(3, 2, (7.0, 6.6)) if axes is None else axes
     for number, draw in enumerate((pressure_cut, film_cut, field_cut)):
@@ -216,34 +234,35 @@ def cuts(result: PointResult, axes: Sequence[Axes] | None = None) -> Axes:
 
 
 def field_section(result: PointResult, ax: Axes | None = None, *, along: str = "x") -> Axes:
-    """Section of the film through the largest field, coloured by the field strength, with equipotentials.
+    """Draw a section of the film through the largest field: field strength as colours, and equipotentials.
 
     Parameters
     ----------
     result : PointResult
-        What to draw.
+        Result of a point contact.
     ax : Axes, optional
-        Where to; new axes otherwise.
+        Axes to draw on; those of a new figure if omitted.
     along : str
-        "x", along entrainment, or "y", across it.
+        Direction of the section: "x", along entrainment, or "y", across it.
 
     Returns
     -------
     Axes
-        Heights are those above the middle between the smooth surfaces: that of unequal bodies is bent.
+        Axes with the section and a colour bar. Heights are measured from the middle between the smooth
+        surfaces, because the middle surface itself is curved where the two bodies are unequal.
     """
     ax, field, electric = axes_or_new(ax), result.field, result.case.electric
     cut = Cut.near(along, field.max_strength_position, field.x, field.y)
-    on = cut.away(field)
-    at = (field.x if along == "x" else field.y)[on] / result.conditions.semi_axis_x
+    away = cut.away(field)
+    at = (field.x if along == "x" else field.y)[away] / result.conditions.semi_axis_x
     factor, unit = film_unit(result)
     strength_factor, strength_unit = unit_for(field.max_strength, "V/m")
-    heights = factor * _levelled(result, cut)[on]
+    heights = factor * _levelled(result, cut)[away]
     filled = draw_section(
         ax,
         at,
         heights,
-        strength_factor * cut.of(field.strength)[on],
+        strength_factor * cut.of(field.strength)[away],
         limits=(0.0, strength_factor * field.max_strength),
         potentials=(electric.potential_1, electric.potential_2),
     )
@@ -251,7 +270,7 @@ def field_section(result: PointResult, ax: Axes | None = None, *, along: str = "
     ax.contour(
         np.broadcast_to(at[:, np.newaxis], heights.shape),
         heights,
-        cut.of(field.potential)[on],
+        cut.of(field.potential)[away],
         np.linspace(low, high, 12)[1:-1],
         colors="black",
         linewidths=0.4,
@@ -268,7 +287,7 @@ def field_section(result: PointResult, ax: Axes | None = None, *, along: str = "
 
 
 def _levelled(result: PointResult, cut: Cut) -> Array:
-    """Heights on a cut above the middle between the smooth surfaces [m], shape (n, ns)."""
+    """Heights of the nodes on a cut above the middle between the smooth surfaces [m], shape (n, ns)."""
     field, film = result.field, result.film
     z = cut.of(field.z)
     middle = 0.5 * (z[:, :1] + z[:, -1:])
@@ -282,19 +301,21 @@ def _levelled(result: PointResult, cut: Cut) -> Array:
 
 
 def field_sections(result: PointResult, axes: Sequence[Axes] | None = None) -> Axes:
-    """Sections of the film along and across entrainment through the largest field, coloured by its strength.
+    """Draw two sections of the film through the largest field, along entrainment and across it.
+
+    The colours show the field strength.
 
     Parameters
     ----------
     result : PointResult
-        What to draw.
+        Result of a point contact.
     axes : sequence of Axes, optional
-        Where to, two of them; new axes otherwise.
+        Two axes to draw on; those of a new figure if omitted.
 
     Returns
     -------
     Axes
-        The first of them.
+        The first axes, with the section along entrainment.
     """
     axes = new_panels(2, 1, (6.3, 5.6)) if axes is None else axes
     for ax, along in zip(axes, "xy", strict=True):

@@ -1,4 +1,4 @@
-"""Figures of a result: each function draws on the axes it is given, and solves nothing."""
+"""Figures of a line contact: each function draws one result on axes; none of them solves anything."""
 
 from __future__ import annotations
 
@@ -27,19 +27,19 @@ from ehlectric.formulas.hertz_line import line_pressure
 
 
 def pressure_and_film(result: Result, ax: Axes | None = None) -> Axes:
-    """Pressure and film thickness over X around the contact, the Hertz pressure behind them.
+    """Draw pressure and film thickness over x/b around the contact, with the Hertz pressure behind them.
 
     Parameters
     ----------
     result : Result
-        What to draw.
+        Result of a line contact.
     ax : Axes, optional
-        Where to; new axes otherwise.
+        Axes to draw on; those of a new figure if omitted.
 
     Returns
     -------
     Axes
-        Those of the pressure; the film is on a twin.
+        Axes of the pressure; the film thickness is on a twin of them, with an axis on the right.
     """
     ax = axes_or_new(ax)
     film, conditions = result.film, result.conditions
@@ -65,26 +65,26 @@ def pressure_and_film(result: Result, ax: Axes | None = None) -> Axes:
     ax.set_title(rf"$h_\mathrm{{min}}$ = {minimum:.3g} {unit} at $x/b$ = {position:.3f}", loc="right")
     twin.set_ylabel(f"film thickness $h$ [{unit}]", color=ORANGE)
     twin.set_ylim(0.0, 5.0 * factor * film.central_thickness)
-    # Over the dome of the pressure and between the flanks of the film there is room in any contact.
+    # Every contact leaves room for the legend above the Hertz pressure, between the flanks of the film.
     centre = (0.0 - ax.get_xlim()[0]) / (ax.get_xlim()[1] - ax.get_xlim()[0])
     ax.legend(handles=lines, loc="center", bbox_to_anchor=(centre, 0.82), frameon=False)
     return ax
 
 
 def potential(result: Result, ax: Axes | None = None) -> Axes:
-    """Map of the electric potential in the film, with ten equipotential lines.
+    """Draw a map of the electric potential in the film, with ten equipotential lines.
 
     Parameters
     ----------
     result : Result
-        What to draw.
+        Result of a line contact.
     ax : Axes, optional
-        Where to; new axes otherwise.
+        Axes to draw on; those of a new figure if omitted.
 
     Returns
     -------
     Axes
-        With a colour bar beside them.
+        Axes with the map, and a colour bar beside them.
     """
     field, electric = result.field, result.case.electric
     low, high = sorted((electric.potential_1, electric.potential_2))
@@ -97,25 +97,25 @@ def potential(result: Result, ax: Axes | None = None) -> Axes:
 
 
 def field_strength(result: Result, ax: Axes | None = None, *, largest: float | None = None) -> Axes:
-    """Map of the dimensionless field strength in the film, abs(E) h_min/V12.
+    """Draw a map of the dimensionless field strength in the film, abs(E) h_min/V12.
 
     Parameters
     ----------
     result : Result
-        What to draw.
+        Result of a line contact.
     ax : Axes, optional
-        Where to; new axes otherwise.
+        Axes to draw on; those of a new figure if omitted.
     largest : float, optional
-        End of the colours; that of the largest field otherwise.
+        Value of abs(E) h_min/V12 at the end of the colours; its maximum in the film if omitted.
 
     Returns
     -------
     Axes
-        With a colour bar beside them.
+        Axes with the map, and a colour bar beside them.
 
     Notes
     -----
-    As Figures 5 and 6 of Morris et al. (2022), doi:10.3390/lubricants10050087.
+    Drawn as Figures 5 and 6 of Morris et al. (2022), doi:10.3390/lubricants10050087.
     """
     field = result.field
     scale = result.strength_scale
@@ -130,7 +130,7 @@ def field_strength(result: Result, ax: Axes | None = None, *, largest: float | N
 
 
 def _mesh(result: Result) -> tuple[Array, Array]:
-    """x/b and height at the nodes of the field, the height in the unit of the film's axis."""
+    """Position x/b and height of the field's nodes, both (nx, ns); the height in the unit of its axis."""
     field = result.field
     factor, _ = unit_for(result.film.central_thickness, "m")
     x = np.broadcast_to(in_half_widths(result, field.x)[:, np.newaxis], field.y.shape)
@@ -146,6 +146,7 @@ def _map(
     limits: tuple[float, float],
     ticks: Array,
 ) -> Axes:
+    """Draw a map of values (nx, ns) in the film, with its axis labels and colour bar."""
     ax = axes_or_new(ax)
     x, y = _mesh(result)
     _, unit = unit_for(result.film.central_thickness, "m")
@@ -160,19 +161,21 @@ def _map(
 
 
 def field_profiles(result: Result, ax: Axes | None = None) -> Axes:
-    """Field strength at mid-film and on both walls over X, the high-field zone of mid-film shaded.
+    """Draw the field strength at mid-film and on both walls over x/b, with the zone of high field shaded.
+
+    The zone of high field is where the field at mid-film is above 95 % of its maximum.
 
     Parameters
     ----------
     result : Result
-        What to draw.
+        Result of a line contact.
     ax : Axes, optional
-        Where to; new axes otherwise.
+        Axes to draw on; those of a new figure if omitted.
 
     Returns
     -------
     Axes
-        Dimensional on the left, dimensionless on the right.
+        Axes with the field strength in V/m, prefixed, on the left, and abs(E) h_min/V12 on the right.
     """
     ax = axes_or_new(ax)
     field = result.field
@@ -183,7 +186,7 @@ def field_profiles(result: Result, ax: Axes | None = None) -> Axes:
     label = f"mid-film above 95 % of its maximum: {width * field.high_field_width:.3g} {length} wide"
     ax.axvspan(zone[0], zone[1], color=GREEN, alpha=0.25, lw=0.0, label=label)
     thin = 0.4 if result.rough else 1.0
-    # The end faces disturb the field over some gaps.
+    # Within some gap heights of the end faces of the field domain, the faces disturb the field.
     on = field.inner
     ax.plot(x[on], factor * field.strength[on, 0], color=BLUE, lw=2.4 * thin, label="surface 1")
     ax.plot(x[on], factor * field.strength[on, -1], color=ORANGE, ls="--", lw=1.6 * thin, label="surface 2")
@@ -204,19 +207,20 @@ def field_profiles(result: Result, ax: Axes | None = None) -> Axes:
 
 
 def field_deviation(result: Result, ax: Axes | None = None) -> Axes:
-    """Deviation of the field strength from the thin-gap estimate V12/h over X.
+    """Draw the deviation of the field strength from the thin-gap estimate V12/h over x/b.
 
     Parameters
     ----------
     result : Result
-        What to draw.
+        Result of a line contact.
     ax : Axes, optional
-        Where to; new axes otherwise.
+        Axes to draw on; those of a new figure if omitted.
 
     Returns
     -------
     Axes
-        In per mille of V12/h, without the ends of the range: their faces disturb the field over some gaps.
+        Axes with the deviations in per mille of V12/h, on both walls and at mid-film. The ends of the field
+        domain are left out: within some gap heights, the end faces disturb the field.
     """
     ax = axes_or_new(ax)
     field = result.field
@@ -238,19 +242,21 @@ def field_deviation(result: Result, ax: Axes | None = None) -> Axes:
 
 
 def roughness(result: Result, ax: Axes | None = None) -> Axes:
-    """Roughness of both surfaces over X as the film sees it, peaks up for either.
+    """Draw the roughness of both surfaces over x/b, as the film solver uses it.
+
+    Peaks, which make the film thinner, point up for both surfaces.
 
     Parameters
     ----------
     result : Result
-        What to draw.
+        Result of a line contact.
     ax : Axes, optional
-        Where to; new axes otherwise.
+        Axes to draw on; those of a new figure if omitted.
 
     Returns
     -------
     Axes
-        Of the same range of X as the film's figure.
+        Axes over the range of x/b of the figure of pressure and film thickness.
     """
     ax = axes_or_new(ax)
     x = in_half_widths(result, result.film.x)
@@ -280,5 +286,5 @@ FIGURES: dict[str, Callable[..., Axes]] = {
 
 
 def figures_of(result: Result) -> dict[str, Callable[..., Axes]]:
-    """The figures of a result by the names of their files."""
+    """Functions that draw the figures of a line contact, by file name."""
     return FIGURES | ({ROUGHNESS_FIGURE: roughness} if np.any(result.roughness) else {})

@@ -1,4 +1,4 @@
-"""What the figures of point contacts share: how a contact lies on the page, maps, marks on them."""
+"""Maps of point contacts: their place and scale on the page, colours, colour bars and marks."""
 
 from __future__ import annotations
 
@@ -22,51 +22,53 @@ from ehlectric.contact.conditions import PointConditions
 from ehlectric.contact.results import PointResult
 from ehlectric.figures.style import figure_of, label_position, new_panels
 
-# An ellipse longer than this across entrainment lies along the page: entrainment then points down.
+# Ratio of semi-axes, across entrainment over along it, above which a contact is drawn turned: its long axis
+# lies along the page, and entrainment points down.
 _TURNED = 1.2
 
-# Maps are at least about so high by their width, one alone and several: where that takes more than one scale,
-# the axis says so.
+# Least height of a map over its width, about, for a single map and for several beside each other. Where this
+# takes different scales in x and y, the label of the axis says so.
 _LEAST_HEIGHT, _LEAST_OF_SEVERAL = 0.42, 0.25
 
-# Maps lower than this by their width take the page's: below each other, their colour bar below them.
+# Maps whose height over width is below this take the whole width of the page: they are drawn below each
+# other, with the colour bar below them.
 _LOW = 0.5
 
-# Widths of a figure of maps: of one, for every further one beside it, and of low ones [inches].
+# Widths of a figure: with one map, what each further map beside it adds, and with low maps [inches].
 _WIDTH, _FURTHER, _WIDE = 5.8, 1.6, 7.2
 
-# Beside the maps: labels and a colour bar; above and below them: title and labels, a row of a legend, such a
-# bar [inches].
+# Room around the maps: beside them for labels and a colour bar; above and below them for title and labels,
+# for each row of a legend, and for a colour bar [inches].
 _BESIDE, _ABOVE, _ROW, _BAR = 1.6, 0.85, 0.2, 0.45
 
-# Around the Hertz ellipse: before and behind it in semi-axes along entrainment, as in the line contact.
+# Range of x/b of the maps of the film, before and behind the Hertz ellipse, as for the line contact.
 _BEFORE, _BEHIND = -2.0, 1.5
 Range = tuple[float, float]
 
 
 class OfPointContact(Protocol):
-    """What lies on the page as a point contact does: its result, or a run of roughness that moves."""
+    """Object with the conditions of a point contact: a result, or a run with moving roughness."""
 
     @property
     def conditions(self) -> PointConditions:
-        """Those of the contact."""
+        """Conditions of the contact, of which the semi-axes are used."""
         ...
 
 
 def turned(result: OfPointContact) -> bool:
-    """Whether a contact is drawn with entrainment pointing down, y to the right."""
+    """Whether a contact is drawn turned, with entrainment pointing down and y to the right."""
     return result.conditions.ratio > _TURNED
 
 
 def film_window(result: PointResult) -> tuple[Range, Range]:
-    """Ranges of x/b and y/b around the contact, within the domain."""
+    """Ranges of x/b and y/b around the Hertz ellipse that maps of the film show, within the domain."""
     b, film, ratio = result.conditions.semi_axis_x, result.film, result.conditions.ratio
     side = min(ratio + 0.6 * float(np.sqrt(ratio)), float(film.y[-1]) / b)
     return (max(float(film.x[0]) / b, _BEFORE), min(float(film.x[-1]) / b, _BEHIND)), (-side, side)
 
 
 def field_window(result: PointResult) -> tuple[Range, Range]:
-    """Ranges of x/b and y/b in which the field was solved."""
+    """Ranges of x/b and y/b over which the field was solved."""
     b, field = result.conditions.semi_axis_x, result.field
     x, y = field.x / b, field.y / b
     return (float(x[0]), float(x[-1])), (float(y[0]), float(y[-1]))
@@ -75,9 +77,20 @@ def field_window(result: PointResult) -> tuple[Range, Range]:
 def map_panels(
     result: OfPointContact, number: int, window: tuple[Range, Range], *, rows: int = 0
 ) -> list[Axes]:
-    """Axes of a new figure for maps of one window, of a size that they fill: beside or below each other.
+    """Axes of a new figure for maps of the same window, beside or below each other.
 
-    ``rows`` are those of a legend above them.
+    The maps fill the figure.
+
+    Parameters
+    ----------
+    result : OfPointContact
+        Result of a point contact.
+    number : int
+        Number of maps.
+    window : tuple of tuple of float
+        Ranges of x/b and of y/b.
+    rows : int
+        Rows of a legend above the maps.
     """
     shape, _ = _shape(result, number, window)
     more = _ABOVE + _ROW * rows
@@ -87,20 +100,20 @@ def map_panels(
     else:
         wide = _WIDTH + _FURTHER * (number - 1)
         panels = new_panels(1, number, (wide, (wide - _BESIDE) / number * shape + more))
-    # Colour bars as high as their maps, whose axes shrink to keep their scale.
+    # Axes of equal scale shrink; this layout makes the colour bars as high as the shrunk axes.
     figure_of(panels[0]).set_layout_engine("compressed")
     return panels
 
 
 def on_low_page(result: OfPointContact, number: int, window: tuple[Range, Range]) -> bool:
-    """Whether maps of one window take the width of the page, with their colour bar below them."""
+    """Whether maps of a window are so low that each takes the whole width of the page."""
     return _shape(result, number, window)[0] < _LOW
 
 
 def _shape(result: OfPointContact, number: int, window: tuple[Range, Range]) -> tuple[float, float]:
-    """Height of each of several maps over its width, and the scale of its vertical axis.
+    """Height over width of each of several maps, and the factor by which their vertical axis is stretched.
 
-    The scale is that by which it is stretched: 1, or more in steps of a half.
+    The factor is 1 where both axes have the same scale, else a multiple of 0.5.
     """
     width, height = _on_page(result, *(high - low for low, high in window))
     shape = float(height / width)
@@ -110,7 +123,10 @@ def _shape(result: OfPointContact, number: int, window: tuple[Range, Range]) -> 
 
 
 def _on_page(result: OfPointContact, along: Any, across: Any) -> tuple[Any, Any]:
-    """What goes with the horizontal axis of a map and what with the vertical one."""
+    """Quantities of the horizontal and of the vertical axis of a map, in this order.
+
+    ``along`` belongs to x, along entrainment, and ``across`` to y; a turned contact has them swapped.
+    """
     return (across, along) if turned(result) else (along, across)
 
 
@@ -125,14 +141,34 @@ def draw_map(
     window: tuple[Range, Range],
     number: int = 1,
 ) -> QuadMesh:
-    """Values (nx, ny) at positions x, y [m] as colours, one of so many maps, its axes in semi-axes b.
+    """Draw values as colours over x/b and y/b.
 
-    Both are to one scale, but for long ellipses: their narrow axis is stretched, and its label says so.
+    Both axes have the same scale, except for long ellipses: their narrow axis is stretched, and its label
+    says so.
+
+    Parameters
+    ----------
+    result : OfPointContact
+        Result of a point contact.
+    ax : Axes
+        Axes to draw on.
+    position : tuple of ndarray
+        Positions x, shape (nx,), and y, shape (ny,), of the nodes [m].
+    values : ndarray, shape (nx, ny)
+        Values at the nodes.
+    colours : str
+        Name of the colour map.
+    limits : tuple of float
+        Values at the two ends of the colours.
+    window : tuple of tuple of float
+        Ranges of x/b and of y/b that are shown.
+    number : int
+        Number of maps in the figure.
 
     Returns
     -------
     QuadMesh
-        For a colour bar.
+        The coloured mesh, from which a colour bar can be made.
     """
     mesh = ax.pcolormesh(
         *on_page(result, *position),
@@ -152,19 +188,22 @@ def draw_map(
 
 
 def film_unit(result: PointResult) -> tuple[float, str]:
-    """Factor and unit of film thicknesses: those of interferograms are in nanometres."""
+    """Factor from metres, and unit, that suit the film thicknesses of a contact.
+
+    Film thicknesses below a micrometre are in nanometres, as in interferograms.
+    """
     return unit_for(max(result.film.central_thickness, result.film.mean_thickness), "m", least=1.0)
 
 
 def on_page(result: OfPointContact, x: Array, y: Array) -> tuple[Array, Array]:
-    """Positions x, y [m] of the nodes of a grid on the page, in semi-axes b, shape (nx, ny)."""
+    """Horizontal and vertical positions on the page of nodes x, y [m], over semi-axis b, each (nx, ny)."""
     b = result.conditions.semi_axis_x
     along, across = np.meshgrid(x / b, y / b, indexing="ij")
     return _on_page(result, along, across)
 
 
 def _label_map(result: OfPointContact, ax: Axes, stretch: float) -> None:
-    """Labels of the axes of a map."""
+    """Label both axes of a map, with the scale where the vertical one is stretched."""
     horizontal, vertical = _on_page(result, "x", "y")
     label_position(result, ax, horizontal)
     ax.set_ylabel(f"${vertical}/b$" + ("" if stretch == 1.0 else f", scale {stretch:g}:1"))
@@ -180,19 +219,38 @@ def colour_bar(
     ticks: Array,
     extend: str = "neither",
 ) -> Colorbar:
-    """Colour bar of the maps of one window on ``axes``: beside them, or below low ones."""
+    """Add one colour bar for the maps on ``axes``: beside them, or below them where they are low.
+
+    Parameters
+    ----------
+    result : OfPointContact
+        Result of a point contact.
+    mappable : ScalarMappable
+        One of the maps, whose colours the bar shows.
+    axes : sequence of Axes
+        Axes of all maps.
+    label : str
+        Label of the bar, with its unit.
+    window : tuple of tuple of float
+        Ranges of x/b and of y/b of the maps.
+    ticks : ndarray
+        Values with ticks; those beyond the ends of the colours are left out.
+    extend : str
+        Ends of the bar that point to values beyond it: "neither", "min", "max" or "both".
+    """
     place: dict[str, Any] = {"pad": 0.02}
     if on_low_page(result, len(axes), window):
         place = {"location": "bottom", "aspect": 60, "pad": 0.03}
-    # Given, not found: those found change with the height of the bar, after room was made for them.
+    # Ticks are set here: those that matplotlib chooses change with the height of the bar, after the layout
+    # has made room for their labels.
     first, last = mappable.get_clim()
-    shown = ticks[(ticks >= first) & (ticks <= last)]
+    inside = ticks[(ticks >= first) & (ticks <= last)]
     figure = figure_of(axes[0])
-    return figure.colorbar(mappable, ax=list(axes), label=label, ticks=shown, extend=extend, **place)
+    return figure.colorbar(mappable, ax=list(axes), label=label, ticks=inside, extend=extend, **place)
 
 
 def hertz_ellipse(result: OfPointContact, ax: Axes, ink: str = "black") -> Ellipse:
-    """The edge of the dry contact, dashed."""
+    """Draw the Hertz ellipse, the edge of the dry contact, as a dashed line."""
     edge = Ellipse(
         (0.0, 0.0),
         *_on_page(result, 2.0, 2.0 * result.conditions.ratio),
@@ -207,18 +265,21 @@ def hertz_ellipse(result: OfPointContact, ax: Axes, ink: str = "black") -> Ellip
 
 
 def legend_line(patch: Ellipse) -> Line2D:
-    """How a dashed edge is shown in a legend."""
+    """Legend entry of a dashed ellipse."""
     return Line2D([], [], color="black", ls=patch.get_linestyle(), lw=0.8, label=str(patch.get_label()))
 
 
 def _outlined(ink: str, width: float) -> list[patheffects.AbstractPathEffect]:
-    """An edge that keeps black or white ink apart from what is under it, of so many points."""
+    """Outline of a line or text, white for black ink and black for white, ``width`` wide [pt].
+
+    It keeps the line or text visible on any colour.
+    """
     edge = "white" if ink == "black" else "black"
     return [patheffects.withStroke(linewidth=width, foreground=edge)]
 
 
 def mark(result: OfPointContact, ax: Axes, at: Array, label: str) -> Line2D:
-    """Marker at positions x, y [m], shape (n, 2)."""
+    """Draw crosses at positions ``at``, the rows x, y [m] of shape (n, 2); returns their legend entry."""
     along, across = (at / result.conditions.semi_axis_x).T
     (line,) = ax.plot(
         *_on_page(result, along, across),
@@ -234,13 +295,16 @@ def mark(result: OfPointContact, ax: Axes, at: Array, label: str) -> Line2D:
 
 
 def extreme_positions(x: Array, y: Array, values: Array) -> Array:
-    """Positions of the largest of values (nx, ny): one, or the two of a map that is its own mirror image."""
+    """Positions x, y of the maximum of values (nx, ny), shape (1, 2) or (2, 2).
+
+    A map that is symmetric about y = 0 has its maximum at two positions.
+    """
     i, j = np.nonzero(values == np.max(values))
     return np.column_stack([x[i], y[j]])[[0, -1][: min(i.size, 2)]]
 
 
 def entrainment(result: OfPointContact, ax: Axes, ink: str = "black") -> None:
-    """Arrow along entrainment in a corner of the inlet."""
+    """Draw an arrow in the direction of entrainment, in a corner of the map at the inlet."""
     down = turned(result)
     corner = (0.0, 1.0) if down else (0.0, 0.0)
 
@@ -270,8 +334,9 @@ def entrainment(result: OfPointContact, ax: Axes, ink: str = "black") -> None:
 
 
 def round_levels(low: float, high: float, number: int) -> Array:
-    """About ``number`` values at steps of 1, 2 or 5 times a power of ten, from ``low`` or below to ``high``
-    or above.
+    """Round levels that enclose the range from ``low`` to ``high``, about ``number`` of them.
+
+    The step between them is 1, 2 or 5 times a power of ten.
 
     Examples
     --------
@@ -283,7 +348,7 @@ def round_levels(low: float, high: float, number: int) -> Array:
 
 
 def panel_name(ax: Axes, name: str) -> None:
-    """Name of one of several panels, in a corner of it."""
+    """Write the name of a panel in its upper right corner."""
     ax.text(
         0.98,
         0.97,

@@ -1,4 +1,4 @@
-"""Figures of a point contact's result: each function draws on the axes it is given, and solves nothing."""
+"""Figures of a point contact: each function draws one result on axes; none of them solves anything."""
 
 from __future__ import annotations
 
@@ -38,33 +38,33 @@ from ehlectric.figures.style import GREY, legend_above
 
 SECTIONS = ("surface 1", "mid-film", "surface 2")
 
-# Part of the Hertz ellipse, in per cent, whose film may be thicker than the colours reach: at the inlet.
+# Part of the Hertz ellipse [%], near the inlet, whose film is thicker than the end of the colours.
 _THICKER = 2.0
 
-# Part of the nodes, in per cent, whose deviations from the thin-gap estimate and whose heights may be beyond
-# either end of the colours.
+# Part of the nodes [%] whose values lie beyond either end of the colours, in maps of the deviation from the
+# thin-gap estimate and of heights of the roughness.
 _DEVIATIONS_BEYOND, _HEIGHTS_BEYOND = 0.5, 0.1
 
-# Part of the largest pressure above which there are no lines: across the ridge they would be a tangle.
+# Part of the largest pressure above which no lines are drawn: at the pressure ridge they would be too dense.
 _BELOW_RIDGE = 0.75
 _CAVITATED = "#e3e6ea"
 
 
 def film_map(result: PointResult, ax: Axes | None = None) -> Axes:
-    """Map of the film thickness with lines of equal thickness, as an interferogram has them.
+    """Draw a map of the film thickness with lines of equal thickness, as in an interferogram.
 
     Parameters
     ----------
     result : PointResult
-        What to draw.
+        Result of a point contact.
     ax : Axes, optional
-        Where to; new axes otherwise.
+        Axes to draw on; those of a new figure if omitted.
 
     Returns
     -------
     Axes
-        With a colour bar of the films in the Hertz ellipse: those around it are thicker than it reaches.
-        Rough films have no lines.
+        Axes with the map. The colour bar covers the films inside the Hertz ellipse; around it the film is
+        thicker than the end of the bar. Rough films have no lines of equal thickness.
     """
     film, window = result.film, film_window(result)
     ax = map_panels(result, 1, window, rows=1)[0] if ax is None else ax
@@ -81,7 +81,7 @@ def film_map(result: PointResult, ax: Axes | None = None) -> Axes:
     ellipse = hertz_ellipse(result, ax)
     if not result.rough:
         lines = ax.contour(*on_page(result, *at), thickness, levels, colors="black", linewidths=0.5)
-        # Around it the film is that of the dry gap, and the lines would be a black band.
+        # Around the ellipse the gap widens so fast that the lines would merge to a black band.
         lines.set_clip_path(ellipse)
         bar.add_lines(lines)
     minimum = f"minimum, {factor * film.minimum_thickness:.3g} {unit}"
@@ -92,19 +92,19 @@ def film_map(result: PointResult, ax: Axes | None = None) -> Axes:
 
 
 def pressure_map(result: PointResult, ax: Axes | None = None) -> Axes:
-    """Map of the pressure with lines of equal pressure, and where the film cavitates.
+    """Draw a map of the pressure with lines of equal pressure, and the cavitated region hatched.
 
     Parameters
     ----------
     result : PointResult
-        What to draw.
+        Result of a point contact.
     ax : Axes, optional
-        Where to; new axes otherwise.
+        Axes to draw on; those of a new figure if omitted.
 
     Returns
     -------
     Axes
-        With a colour bar beside them.
+        Axes with the map, and a colour bar beside them.
     """
     film, window = result.film, film_window(result)
     ax = map_panels(result, 1, window, rows=1)[0] if ax is None else ax
@@ -129,32 +129,36 @@ def pressure_map(result: PointResult, ax: Axes | None = None) -> Axes:
 
 
 def _cavitated(result: PointResult, ax: Axes) -> Patch:
-    """Hatch where the pressure is held at ambient; at the edges of the domain, where the nodes beside are."""
+    """Hatch the cavitated region, where the pressure is ambient, and return its legend entry.
+
+    The boundary nodes of the domain are at ambient pressure in any case. They are hatched where the node
+    beside them, one row inside, cavitates.
+    """
     film = result.film
-    held = np.pad(film.cavitated[1:-1, 1:-1], 1, mode="edge").astype(float)
-    if np.any(held):
+    cavitated = np.pad(film.cavitated[1:-1, 1:-1], 1, mode="edge").astype(float)
+    if np.any(cavitated):
         where = on_page(result, film.x, film.y)
-        area = ax.contourf(*where, held, [0.5, 1.5], colors=[_CAVITATED], hatches=["////"])
+        area = ax.contourf(*where, cavitated, [0.5, 1.5], colors=[_CAVITATED], hatches=["////"])
         area.set(edgecolor=GREY, linewidth=0.0)
     return Patch(label="cavitated", hatch="////", facecolor=_CAVITATED, edgecolor=GREY, linewidth=0.0)
 
 
 def field_map(result: PointResult, ax: Axes | None = None, *, section: str = "mid-film") -> Axes:
-    """Map of the field strength on a wall or at mid-film, with the zone of high field and the maximum.
+    """Draw a map of the field strength on a wall or at mid-film, with the zone of high field and the maximum.
 
     Parameters
     ----------
     result : PointResult
-        What to draw.
+        Result of a point contact.
     ax : Axes, optional
-        Where to; new axes otherwise.
+        Axes to draw on; those of a new figure if omitted.
     section : str
-        "mid-film", "surface 1" or "surface 2".
+        Section of the film that is drawn: "mid-film", "surface 1" or "surface 2".
 
     Returns
     -------
     Axes
-        With a colour bar beside them, to the largest field of all three.
+        Axes with the map and its colour bar, which ends at the largest field of all three sections.
     """
     field, window = result.field, field_window(result)
     columns = 3 if on_low_page(result, 1, window) else 2
@@ -182,33 +186,35 @@ def field_map(result: PointResult, ax: Axes | None = None, *, section: str = "mi
 
 
 def _strength(result: PointResult, section: str) -> Array:
-    """abs(E) on a wall or at mid-film [V/m]."""
+    """Field strength abs(E) on a wall or at mid-film [V/m], shape (nx, ny)."""
     field = result.field
     strengths = (field.surface_1_strength, field.middle_strength, field.surface_2_strength)
     return strengths[SECTIONS.index(section)]
 
 
 def _largest(result: PointResult) -> Array:
-    """Positions of the largest field of the walls and mid-film, (n, 2) [m]."""
+    """Positions x, y of the largest field on the walls and at mid-film [m], shape (n, 2)."""
     field = result.field
     return extreme_positions(field.x, field.y, _strength(result, field.max_strength_wall))
 
 
 def field_deviation(result: PointResult, axes: Sequence[Axes] | None = None) -> Axes:
-    """Deviation of the field strength from the thin-gap estimate V12/h, on both walls and at mid-film.
+    """Draw three maps of the deviation of the field strength from the thin-gap estimate V12/h.
+
+    The maps are of both walls and of mid-film.
 
     Parameters
     ----------
     result : PointResult
-        What to draw.
+        Result of a point contact.
     axes : sequence of Axes, optional
-        Where to, three of them; new axes otherwise.
+        Three axes to draw on; those of a new figure if omitted.
 
     Returns
     -------
     Axes
-        The first. In per mille of V12/h, over the Hertz ellipse alone: the edges of the range disturb the
-        field near them.
+        The first axes. The deviations are in per mille of V12/h, and shown inside the Hertz ellipse only:
+        near the side faces of the field domain, the faces disturb the field.
     """
     field, window = result.field, field_window(result)
     panels = {name: 1e3 * (_strength(result, name) / field.thin_gap_strength - 1.0) for name in SECTIONS}
@@ -220,21 +226,23 @@ def field_deviation(result: PointResult, axes: Sequence[Axes] | None = None) -> 
 
 
 def roughness(result: PointResult, axes: Sequence[Axes] | None = None) -> Axes:
-    """Heights of the roughness of both surfaces together, and what they change in the film.
+    """Draw maps of the sum of the roughness of both surfaces, and of the change it makes to the film.
 
     Parameters
     ----------
     result : PointResult
-        What to draw.
+        Result of a point contact.
     axes : sequence of Axes, optional
-        Where to, two of them; new axes otherwise.
+        Two axes to draw on, or one where the smooth contact was not solved; those of a new figure if
+        omitted.
 
     Returns
     -------
     Axes
-        The first, with the heights, peaks up for either surface. The second has the film less that between
-        smooth surfaces, on the same scale: where it is the heights with their sign changed, nothing is
-        flattened. It is not there where the smooth contact was not solved.
+        The first axes, with the heights; peaks of either surface are positive. The second axes have the rough
+        film minus the smooth film, with the same colours. Where the contact does not flatten the roughness,
+        this change is the height with its sign reversed. The second map is left out where the smooth contact
+        was not solved.
     """
     window, film, heights = film_window(result), result.film, result.roughness.sum(axis=0)
     factor, unit = unit_for(float(np.max(np.abs(heights))), "m", least=1.0)
@@ -251,10 +259,13 @@ def roughness(result: PointResult, axes: Sequence[Axes] | None = None) -> Axes:
     return first
 
 
-def _ends(panels: Mapping[str, Array], shown: Mask, beyond: float) -> Range:
-    """Ends of the colours of several maps, which leave out so many per cent of what is shown, if anything."""
-    shown = shown if np.any(shown) else np.ones_like(shown)
-    values = np.concatenate([panel[shown] for panel in panels.values()])
+def _ends(panels: Mapping[str, Array], region: Mask, beyond: float) -> Range:
+    """Ends of the colours of several maps, so that ``beyond`` per cent of the nodes lie beyond either end.
+
+    Nodes of ``region`` count, or all nodes where it is empty.
+    """
+    region = region if np.any(region) else np.ones_like(region)
+    values = np.concatenate([panel[region] for panel in panels.values()])
     low, high = np.percentile(values, [beyond, 100.0 - beyond])
     return float(low), float(high)
 
@@ -270,7 +281,7 @@ def _compared(
     label: str,
     clipped: bool = False,
 ) -> Axes:
-    """Maps of one scale with one colour bar, the whole window or the Hertz ellipse alone."""
+    """Draw maps with the same colours and one colour bar, inside the Hertz ellipse only where ``clipped``."""
     number = len(panels)
     axes = map_panels(result, number, window) if axes is None else axes
     look: dict[str, Any] = {"colours": "viridis", "limits": ends, "window": window, "number": number}
@@ -296,5 +307,5 @@ POINT_FIGURES: dict[str, Callable[..., Axes]] = {
 
 
 def point_figures_of(result: PointResult) -> dict[str, Callable[..., Axes]]:
-    """The figures of a result by the names of their files."""
+    """Functions that draw the figures of a point contact, by file name."""
     return POINT_FIGURES | ({ROUGHNESS_FIGURE: roughness} if np.any(result.roughness) else {})

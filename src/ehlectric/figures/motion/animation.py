@@ -1,4 +1,4 @@
-"""Animation of a transient contact, one recorded instant after the other."""
+"""Animation of a transient contact over its recorded instants."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-# Bounds of the instants shown per second: a GIF holds durations in hundredths of a second, and viewers slow
-# down what is faster than 50.
+# Bounds of the number of frames per second. A GIF stores durations in hundredths of a second, and viewers
+# slow down animations with more than 50 frames per second.
 _SLOWEST, _FASTEST = 0.1, 50.0
 
-# Colours of the palette that are reserved for lines and letters where a GIF shows maps.
+# Number of colours of a GIF's palette that are reserved for lines and letters beside maps.
 _GREYS = 24
 
-# Frames of a run by its kind of contact.
+# Functions that draw the frames of a run, by its kind of contact.
 _FRAMES = {"line": line_frames, "point": map_frames}
 
 
@@ -49,11 +49,11 @@ def save_animation(
     Parameters
     ----------
     dataset : xarray.Dataset
-        A run, complete or not, as ``read_motion`` gives it.
+        Dataset of a run, complete or not, from ``read_motion``.
     path : str or Path
-        File to write: a .gif, or an .mp4, for which ffmpeg must be installed.
+        File to write, .gif or .mp4. An .mp4 needs ffmpeg.
     fps : float
-        Instants per second, from 0.1 to 50.
+        Frames per second, from 0.1 to 50; each frame shows one recorded instant.
     dpi : int
         Pixels per inch; the figure of a line contact is 6.3 by 7.2 inches.
     progress : callable, optional
@@ -62,8 +62,8 @@ def save_animation(
     Raises
     ------
     InputError
-        Where the file has another suffix, ffmpeg is needed but missing or fails, the dataset is not a run of
-        moving roughness, or ``fps`` is out of range.
+        Where the file has another suffix, ffmpeg is missing or fails, the dataset is not a transient run, or
+        ``fps`` is out of range.
     """
     path = Path(path)
     if not _SLOWEST <= fps <= _FASTEST:
@@ -85,7 +85,7 @@ def save_animation(
 
 
 def _instants(drawn: Frames, frames: int, progress: Progress) -> Iterator[Frames]:
-    """The drawn frames, showing one instant after the other."""
+    """Yield the drawn frames once for every recorded instant, showing this instant."""
     for frame in range(frames):
         drawn.show(frame)
         yield drawn
@@ -106,7 +106,8 @@ def _writer(path: Path) -> Callable[[Path, Iterator[Frames], float], None]:
 
 
 def _write_gif(path: Path, instants: Iterator[Frames], fps: float) -> None:
-    # Each image is reduced to 256 colours at once: matplotlib's own writer keeps all images in full colour.
+    # Each image is reduced to 256 colours at once: matplotlib's own writer keeps all images in memory in full
+    # colour.
     images = (_image(drawn) for drawn in instants)
     duration = round(1000.0 / fps)
     # A file that Pillow opens itself would stay open where drawing an image fails.
@@ -122,12 +123,12 @@ def _image(drawn: Frames) -> Image.Image:
     image = Image.fromarray(pixels).convert("RGB")
     if not drawn.colours:
         return image.quantize(256)
-    # A palette made for each image would have few colours of a map, and different ones at each instant.
+    # A palette of its own would give each image few colours for the maps, and different ones at each instant.
     return image.quantize(palette=_palette(drawn.colours), dither=Image.Dither.NONE)
 
 
 def _palette(colours: tuple[str, ...]) -> Image.Image:
-    """Image with a palette of 256 colours: those of the colour maps, and greys for lines and letters."""
+    """Image with a palette of 256 colours: colours of the colour maps, and greys for lines and letters."""
     each = (256 - _GREYS) // len(colours)
     parts = [colormaps[name](np.linspace(0.0, 1.0, each)) for name in colours]
     parts.append(colormaps["gray"](np.linspace(0.0, 1.0, 256 - each * len(colours))))

@@ -24,7 +24,7 @@ from ehlectric.figures.motion.panels import (
 from ehlectric.figures.style import BLUE, GREY, ORANGE, axes_or_new, legend_above
 from ehlectric.motion.record import MotionRun, coincident_frame
 
-# Distance, in half-widths, within which roughness counts as lying where the case puts it.
+# Largest distance at which roughness counts as lying where the case puts it [half-widths].
 _SAME_PLACE = 1e-6
 
 
@@ -34,14 +34,14 @@ def film_beside(run: MotionRun, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     run : MotionRun
-        A run with an instant at which the surfaces lie where the case puts them.
+        Run with an instant at which the surfaces lie where the case puts them.
     ax : Axes, optional
         Axes to draw on; new axes by default.
 
     Returns
     -------
     Axes
-        Axes whose range fits the film in the Hertz zone; around it the film is thicker.
+        Axes whose range fits the film in the Hertz zone; outside the zone the film is thicker.
     """
     ax, lines = _three(run, ax, "thickness", film_unit(run), ("film thickness $h$", "least", np.nanmin))
     ax.set_ylim(*fitted(*(in_contact(run, line) for line in lines)))
@@ -54,7 +54,7 @@ def pressure_beside(run: MotionRun, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     run : MotionRun
-        A run with an instant at which the surfaces lie where the case puts them.
+        Run with an instant at which the surfaces lie where the case puts them.
     ax : Axes, optional
         Axes to draw on; new axes by default.
 
@@ -75,14 +75,14 @@ def field_beside(run: MotionRun, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     run : MotionRun
-        A run with an instant at which the surfaces lie where the case puts them.
+        Run with an instant at which the surfaces lie where the case puts them.
     ax : Axes, optional
         Axes to draw on; new axes by default.
 
     Returns
     -------
     Axes
-        Axes whose range fits the field in the Hertz zone; around it the field is smaller.
+        Axes whose range fits the field in the Hertz zone; outside the zone the field is smaller.
     """
     ax, lines = _three(run, ax, "strength", field_unit(run), ("field $|E|$", "largest", np.nanmax))
     ax.set_ylim(*fitted(*(in_contact(run, line) for line in lines)))
@@ -95,18 +95,18 @@ def roughness_at(run: MotionRun, frame: int, ax: Axes | None = None, *, unit: Un
     Parameters
     ----------
     run : MotionRun
-        The run to draw.
+        Run to draw.
     frame : int
         Number of the recorded instant.
     ax : Axes, optional
         Axes to draw on; new axes by default.
     unit : (float, str), optional
-        Factor and unit of the heights; by default those that suit this instant.
+        Factor and unit of the heights; by default they suit the heights at this instant.
 
     Returns
     -------
     Axes
-        Axes with the same range of x as those of the film; peaks point up on both surfaces.
+        Axes with the same range of x as the axes of the film. Peaks of both surfaces point up.
     """
     ax = axes_or_new(ax)
     heights = {k: run.along(f"roughness_{k}", frame) for k in run.speeds}
@@ -138,9 +138,9 @@ def coincidence_text(run: MotionRun) -> str:
 def _extremes(run: MotionRun, name: str, of: Callable[[Array], Any]) -> list[float]:
     """Extreme of a variable over all nodes: with moving and stationary roughness, and before the motion."""
     frame = coincident_frame(run)
-    found = [run.dataset[name].isel(frame=frame), run.dataset[f"stationary_{name}"]]
-    found.append(run.dataset[name].isel(frame=0))
-    return [float(of(values.values)) for values in found]
+    maps = [run.dataset[name].isel(frame=frame), run.dataset[f"stationary_{name}"]]
+    maps.append(run.dataset[name].isel(frame=0))
+    return [float(of(values.values)) for values in maps]
 
 
 def _three(
@@ -148,13 +148,14 @@ def _three(
     ax: Axes | None,
     name: str,
     unit: Unit,
-    said: tuple[str, str, Callable[[Array], Any]],
+    texts: tuple[str, str, Callable[[Array], Any]],
 ) -> tuple[Axes, list[Array]]:
     """Draw a variable along entrainment: with moving and stationary roughness, and before the motion.
 
-    ``said`` has the label of the axis, the name of an extreme in the legend, and its function.
+    ``texts`` has the label of the axis, the name of the extreme value in the legend, and the function that
+    computes this value.
     """
-    ax, (factor, suffix), (label, kind, extreme) = axes_or_new(ax), unit, said
+    ax, (factor, suffix), (label, kind, extreme) = axes_or_new(ax), unit, texts
     lines = [run.along(name, coincident_frame(run)), run.along(f"stationary_{name}"), run.along(name, 0)]
     looks = (
         ("moving", f"{kind} ", BLUE, "-"),
@@ -164,8 +165,8 @@ def _three(
     drawn = [factor * line for line in lines]
     extremes = _extremes(run, name, extreme)
     for line, value, (when, what, colour, style) in zip(drawn, extremes, looks, strict=True):
-        told = f"{when}, {what}{factor * value:.3g} {suffix}"
-        ax.plot(run.x, line, color=colour, ls=style, lw=1.0, label=told)
+        entry = f"{when}, {what}{factor * value:.3g} {suffix}"
+        ax.plot(run.x, line, color=colour, ls=style, lw=1.0, label=entry)
     ax.set_xlim(*shown_range(run))
     ax.set_ylabel(f"{label} [{suffix}]")
     along_label(run, ax)

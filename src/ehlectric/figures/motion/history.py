@@ -1,4 +1,4 @@
-"""History of a transient contact: smallest film, largest field strength and their places over time."""
+"""History of a transient contact: smallest film, largest field strength and their positions over time."""
 
 from __future__ import annotations
 
@@ -14,19 +14,19 @@ from ehlectric.motion.record import MotionRun
 
 
 def least_film(run: MotionRun, ax: Axes | None = None) -> Axes:
-    """Draw the smallest film over time, with that before the motion and that of stationary roughness.
+    """Draw the smallest film thickness over time, and compare it with stationary roughness.
 
     Parameters
     ----------
     run : MotionRun
-        The run to draw.
+        Run to draw.
     ax : Axes, optional
         Axes to draw on; new axes by default.
 
     Returns
     -------
     Axes
-        Axes over time.
+        Axes over time. Horizontal lines show the value before the motion, and with stationary roughness.
     """
     ax = axes_or_new(ax)
     factor, unit = film_unit(run)
@@ -46,20 +46,20 @@ def least_film(run: MotionRun, ax: Axes | None = None) -> Axes:
 
 
 def largest_field(run: MotionRun, ax: Axes | None = None) -> Axes:
-    """Draw the largest field strength over time, with that of stationary roughness.
+    """Draw the largest field strength over time, with its value for stationary roughness.
 
     Parameters
     ----------
     run : MotionRun
-        The run to draw.
+        Run to draw.
     ax : Axes, optional
         Axes to draw on; new axes by default.
 
     Returns
     -------
     Axes
-        Axes over time, with the voltage over the smallest film thickness at every step. The time is shaded in
-        which the field is above 90 % of its maximum (see ``FieldHistory``).
+        Axes over time, with the voltage over the smallest film thickness at every step. Times at which the
+        field is above 90 % of its maximum are shaded (see ``FieldHistory``).
     """
     ax = axes_or_new(ax)
     factor, unit = field_unit(run)
@@ -67,7 +67,7 @@ def largest_field(run: MotionRun, ax: Axes | None = None) -> Axes:
     estimate = factor * run.values("thin_gap_strength")
     (thin,) = ax.plot(_times(run, "time"), estimate, color=GREY, lw=0.6)
     thin.set_label(r"$V_{12}/h_\mathrm{min}$ at every step")
-    # Dots: a line between few instants would show a course that was not computed.
+    # Dots, because a line between few instants would show values that were not computed.
     size = 2.4 if run.frames <= 400 else 1.4
     (dots,) = ax.plot(
         _times(run, "frame_time"), strength, color=BLUE, ls="none", marker="o", ms=size, mew=0.0
@@ -107,14 +107,14 @@ def places(run: MotionRun, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     run : MotionRun
-        The run to draw.
+        Run to draw.
     ax : Axes, optional
         Axes to draw on; new axes by default.
 
     Returns
     -------
     Axes
-        Axes over time; for a point contact with the places across entrainment, too.
+        Axes over time; for a point contact also with the position across entrainment.
     """
     ax = axes_or_new(ax)
     b = run.conditions.half_width
@@ -123,7 +123,7 @@ def places(run: MotionRun, ax: Axes | None = None) -> Axes:
     ax.plot(time, least, color=GREY, ls="none", marker="o", ms=1.0, mew=0.0)
     largest = run.values("max_strength_x") / b
     ax.plot(frames, largest, color=BLUE, ls="none", marker="o", ms=2.4, mew=0.0, label="largest field")
-    # The dots are too small to be seen in a legend.
+    # A dotted line stands for the dots in the legend, where they would be too small.
     ax.plot([], [], color=GREY, ls=":", label="least film, every step")
     name, shown = "$x/b$", [least, largest]
     if "max_strength_y" in run.dataset:

@@ -33,14 +33,14 @@ _SIZE = (6.3, 7.2)
 
 @dataclass(frozen=True)
 class Frames:
-    """Figure of one recorded instant, which can be made to show another one.
+    """Figure of a transient run that can show any of its recorded instants.
 
     Attributes
     ----------
     figure : Figure
-        The figure, showing the first recorded instant.
+        Figure, which first shows the first recorded instant.
     show : callable
-        Draws the recorded instant of a number into the figure.
+        Function of the number of a recorded instant, which makes the figure show this instant.
     colours : tuple of str
         Names of the colour maps in the figure.
     """
@@ -51,7 +51,7 @@ class Frames:
 
 
 def time_text(run: MotionRun, frame: int) -> str:
-    """Text: time of a recorded instant, with as many digits as distinguish it from the next one."""
+    """Text: time of a recorded instant, with enough digits to distinguish it from the next one."""
     factor, unit = time_unit(run)
     times = factor * run.frame_time
     apart = float(np.min(np.diff(times))) if run.frames > 1 else float(times[0])
@@ -60,12 +60,12 @@ def time_text(run: MotionRun, frame: int) -> str:
 
 
 def line_frames(run: MotionRun) -> Frames:
-    """Draw film, pressure, field and roughness over x, dotted those before the motion.
+    """Draw film, pressure, field and roughness over x; dotted lines show the values before the motion.
 
     Parameters
     ----------
     run : MotionRun
-        A run of a line contact.
+        Run of a line contact.
 
     Returns
     -------
@@ -89,7 +89,7 @@ def line_frames(run: MotionRun) -> Frames:
 
 
 def _film(run: MotionRun, ax: Axes) -> Callable[[int], None]:
-    """Draw the gap filled with oil, and dotted the film before the motion."""
+    """Draw the gap filled with oil; a dotted line shows the film before the motion."""
     factor, unit = film_unit(run)
     thickness = factor * run.along("thickness")
     low, high = fitted(in_contact(run, thickness))
@@ -131,7 +131,7 @@ def _field(run: MotionRun, ax: Axes) -> Callable[[int], None]:
 
 
 def _curve(run: MotionRun, ax: Axes, values: Array) -> Callable[[int], None]:
-    """Draw values (frames, nx) at an instant, and dotted those before the motion."""
+    """Draw values, shape (frames, nx), at an instant; a dotted line shows them before the motion."""
     ax.plot(run.x, values[0], color="black", lw=0.9, ls=":")
     (line,) = ax.plot(run.x, values[0], color=BLUE)
     return lambda frame: line.set_ydata(values[frame])

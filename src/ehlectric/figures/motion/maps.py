@@ -18,13 +18,13 @@ from ehlectric.figures.motion.panels import along_label, field_unit, film_unit, 
 from ehlectric.figures.style import BODY, axes_or_new, figure_of, new_panels
 from ehlectric.motion.record import MotionRun
 
-# Range of x that is shown, -1.5 to 1.5 [half-widths]: beyond it the field is not solved, or nothing changes.
+# The maps show x from -1.5 to 1.5 [half-widths]: beyond it the field is not solved, or hardly changes.
 _REACH = 1.5
 
-# Parts of the duration at which the lines of the speeds cross x = 0.
+# Times at which the lines of the speeds cross x = 0, over the duration of the run.
 _CROSSINGS = (0.35, 0.75)
 
-# Part of the values in the Hertz zone that may exceed the colours on the open side of the bar [per cent].
+# Part of the values in the Hertz zone that may lie beyond the open end of the colour bar [per cent].
 _BEYOND = 5.0
 _SIZE = (7.2, 5.4)
 
@@ -35,14 +35,14 @@ def film_map(run: MotionRun, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     run : MotionRun
-        The run to draw.
+        Run to draw.
     ax : Axes, optional
         Axes to draw on; new axes by default.
 
     Returns
     -------
     Axes
-        Axes with a colour bar that fits the Hertz zone; the film of the inlet is thicker than its end.
+        Axes with a colour bar that fits the Hertz zone; thicker films, as in the inlet, lie beyond its end.
     """
     factor, unit = film_unit(run)
     values = factor * run.along("thickness")
@@ -58,7 +58,7 @@ def pressure_map(run: MotionRun, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     run : MotionRun
-        The run to draw.
+        Run to draw.
     ax : Axes, optional
         Axes to draw on; new axes by default.
 
@@ -80,7 +80,7 @@ def field_map(run: MotionRun, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     run : MotionRun
-        The run to draw.
+        Run to draw.
     ax : Axes, optional
         Axes to draw on; new axes by default.
 
@@ -103,12 +103,12 @@ def map_figure(run: MotionRun) -> Axes:
     Parameters
     ----------
     run : MotionRun
-        A run with at least two recorded instants.
+        Run with at least two recorded instants.
 
     Returns
     -------
     Axes
-        The first of three panels.
+        First of the three panels.
     """
     axes = new_panels(1, 3, _SIZE)
     for draw, ax in zip((film_map, pressure_map, field_map), axes, strict=True):
@@ -132,7 +132,7 @@ def _map(
     colours: str,
     extend: str,
 ) -> Axes:
-    """Draw values (frames, nx) as colours, with time upwards."""
+    """Draw values, shape (frames, nx), as colours, with the axis of time pointing up."""
     ax = axes_or_new(ax)
     factor, unit = time_unit(run)
     shown = np.flatnonzero(np.abs(run.x) <= _REACH)
@@ -163,22 +163,22 @@ def _map(
 
 
 def _speeds(run: MotionRun) -> list[tuple[float, dict[str, Any]]]:
-    """Mean speed and speeds of rough surfaces that differ from it [m/s], with the looks of their lines."""
+    """Mean speed, and speeds of rough surfaces that differ from it [m/s], with the styles of their lines."""
     mean = run.conditions.entrainment_speed
     edge = [withStroke(linewidth=1.8, foreground="black", alpha=0.6)]
     plain: dict[str, Any] = {"color": "white", "lw": 0.8, "path_effects": edge}
     same = [k for k, speed in run.speeds.items() if abs(speed - mean) <= 1e-9 * mean]
     name = ", also of both surfaces" if len(same) == 2 else f", also of surface {same[0]}" if same else ""
-    found = [(mean, {"ls": "--", "label": f"mean speed{name}", **plain})]
+    speeds = [(mean, {"ls": "--", "label": f"mean speed{name}", **plain})]
     looks = {1: "-", 2: ":"}
     for k, speed in run.speeds.items():
         if k not in same:
-            found.append((speed, {"ls": looks[k], "label": f"speed of surface {k}", **plain}))
-    return found
+            speeds.append((speed, {"ls": looks[k], "label": f"speed of surface {k}", **plain}))
+    return speeds
 
 
 def _handles(run: MotionRun) -> list[Artist]:
-    """Entries of the legend, in colours that are seen on white."""
+    """Entries of the legend, in colours that are visible on white."""
     handles: list[Artist] = [
         Line2D([], [], color="black", lw=0.9, ls=look["ls"], label=look["label"]) for _, look in _speeds(run)
     ]
@@ -189,7 +189,7 @@ def _handles(run: MotionRun) -> list[Artist]:
 
 
 def sampling_text(run: MotionRun) -> str:
-    """Text: number of recorded instants, and the distance travelled between two, which blurs waves."""
+    """Text: number of recorded instants, and distance travelled between two, which blurs short waves."""
     apart = float(np.max(np.diff(run.frame_time)))
     fastest = max(run.conditions.entrainment_speed, *(abs(speed) for speed in run.speeds.values()))
     factor, unit = unit_for(fastest * apart, "m", least=1.0)

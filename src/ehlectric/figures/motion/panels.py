@@ -1,4 +1,4 @@
-"""Units, titles, ranges and stacked panels of the figures of transient contacts."""
+"""Units, titles, ranges of axes and stacked panels in the figures of transient contacts."""
 
 from __future__ import annotations
 
@@ -14,33 +14,33 @@ from ehlectric.contact.bodies import surface_ratios
 from ehlectric.figures.style import figure_of, name_over
 from ehlectric.motion.record import MotionRun
 
-# Range of x that is shown [half-widths], as in the figures of stationary contacts.
+# Range of x in the figures [half-widths], as in the figures of stationary contacts.
 _BEFORE, _BEHIND = -2.0, 1.5
 
 # By the kind of contact: the smallest number that a film thickness may have in its unit, and the line along
-# which a map is drawn. Films of point contacts are measured by interferometry and given in nanometres.
+# which values are drawn. Films of point contacts are measured by interferometry and stated in nanometres.
 _LEAST_FILM = {"line": 0.1, "point": 1.0}
 _ALONG = {"line": "", "point": "on $y$ = 0, "}
 Unit = tuple[float, str]
 
 
 def time_unit(run: MotionRun) -> Unit:
-    """Factor and unit of times."""
+    """Factor from seconds to the unit of times, and this unit."""
     return unit_for(float(run.values("time")[-1]), "s")
 
 
 def film_unit(run: MotionRun) -> Unit:
-    """Factor and unit of film thicknesses."""
+    """Factor from metres to the unit of film thicknesses, and this unit."""
     return unit_for(float(run.values("minimum_thickness")[0]), "m", least=_LEAST_FILM[run.kind.name])
 
 
 def field_unit(run: MotionRun) -> Unit:
-    """Factor and unit of field strengths."""
+    """Factor from V/m to the unit of field strengths, and this unit."""
     return unit_for(float(np.max(run.values("max_strength"))), "V/m")
 
 
 def height_unit(heights: Array) -> Unit:
-    """Factor and unit of heights of roughness; nanometres where all heights are zero."""
+    """Factor from metres to the unit of heights, and this unit; nanometres where all heights are zero."""
     return unit_for(float(np.max(np.abs(heights), initial=1e-9)), "m", least=1.0)
 
 
@@ -50,14 +50,17 @@ def shown_range(run: MotionRun) -> tuple[float, float]:
 
 
 def in_contact(run: MotionRun, values: Array) -> Array:
-    """Finite values, of (..., nx), in the Hertz zone; those everywhere where the zone has none."""
+    """Finite values in the Hertz zone, from values of shape (..., nx).
+
+    Where the zone has no finite values, all finite values are returned.
+    """
     inside = values[..., np.abs(run.x) <= 1.0]
-    found = inside[np.isfinite(inside)]
-    return found if found.size else values[np.isfinite(values)]
+    finite = inside[np.isfinite(inside)]
+    return finite if finite.size else values[np.isfinite(values)]
 
 
 def fitted(*values: Array, least: float = 0.0) -> tuple[float, float]:
-    """Ends of an axis that leave room around all finite values, at least ``least`` apart."""
+    """Ends of an axis with room around all finite values; they are at least ``least`` apart."""
     low, high = (float(of([of(part) for part in values])) for of in (np.nanmin, np.nanmax))
     room = max(0.08 * (high - low), 0.5 * (least - (high - low)), 1e-3 * max(abs(low), abs(high)))
     return low - room, high + room
@@ -72,7 +75,7 @@ def along_label(run: MotionRun, ax: Axes) -> None:
 
 
 def share_below(axes: Sequence[Axes]) -> None:
-    """Remove the labels of the common axis from all stacked panels but the lowest."""
+    """Remove the labels of the common axis from all stacked panels except the lowest."""
     for ax in axes[:-1]:
         ax.set_xlabel("")
         ax.tick_params(labelbottom=False)
@@ -80,7 +83,7 @@ def share_below(axes: Sequence[Axes]) -> None:
 
 
 def speed_text(run: MotionRun) -> str:
-    """Text: speeds of the surfaces, or their common speed, and which of them are rough."""
+    """Text: speeds of the surfaces, or their common speed, and the numbers of the rough surfaces."""
     mean, slide = run.conditions.entrainment_speed, run.conditions.slide_to_roll_ratio
     rough = " and ".join(str(k) for k in run.speeds)
     what = f"surface {rough} rough" if len(run.speeds) == 1 else f"surfaces {rough} rough"
@@ -91,7 +94,7 @@ def speed_text(run: MotionRun) -> str:
 
 
 def name_run(ax: Axes, run: MotionRun, more: str = "") -> None:
-    """Draw the title: that of the case and the speeds of the surfaces; red where the run is not complete."""
+    """Draw a title with the title of the case and the speeds; it is red where the run is not complete."""
     title = textwrap.shorten(str(run.dataset.attrs.get("title", "")), 70, placeholder=" ...")
     if not run.complete:
         factor, unit = time_unit(run)

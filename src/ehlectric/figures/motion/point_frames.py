@@ -28,13 +28,13 @@ from ehlectric.motion.record import MotionRun
 
 _FILM_COLOURS, _FIELD_COLOURS = "viridis", "inferno"
 
-# Part of the values in the Hertz ellipse that may exceed the colours on the open side of the bar [per cent].
+# Part of the values in the Hertz ellipse that may lie beyond the open end of the colour bar [per cent].
 _BEYOND = 5.0
 
 
 @dataclass(frozen=True)
 class _Contact:
-    """Run of a point contact with the indices of the nodes at which the field was solved."""
+    """Run of a point contact, with the indices of the nodes at which the field was solved."""
 
     run: MotionRun
     conditions: PointConditions
@@ -46,13 +46,13 @@ class _Contact:
 
     @property
     def window(self) -> tuple[Range, Range]:
-        """Ranges of x/b and y/b of these nodes."""
+        """Ranges of x/b and y/b of the nodes at which the field was solved."""
         x, y = (axis / self.conditions.half_width for axis in self.axes)
         return (float(x[0]), float(x[-1])), (float(y[0]), float(y[-1]))
 
     @property
     def inside(self) -> Mask:
-        """Nodes in the Hertz ellipse, shape (nx, ny)."""
+        """Mask of the nodes in the Hertz ellipse, shape (nx, ny)."""
         x, y = self.axes
         of = self.conditions
         inside: Mask = (x[:, np.newaxis] / of.semi_axis_x) ** 2 + (y / of.semi_axis_y) ** 2 <= 1.0
@@ -60,17 +60,17 @@ class _Contact:
 
     def values(self, name: str, frame: int) -> Array:
         """Values of a variable at a recorded instant, shape (nx, ny)."""
-        found = self.run.dataset[name].isel(frame=frame).values[np.ix_(*self.nodes)]
-        return np.asarray(found, dtype=float)
+        values = self.run.dataset[name].isel(frame=frame).values[np.ix_(*self.nodes)]
+        return np.asarray(values, dtype=float)
 
 
 def map_frames(run: MotionRun) -> Frames:
-    """Draw maps of film thickness and field strength, where the field was solved.
+    """Draw maps of film thickness and field strength, at the nodes at which the field was solved.
 
     Parameters
     ----------
     run : MotionRun
-        A run of a point contact.
+        Run of a point contact.
 
     Returns
     -------
@@ -80,7 +80,7 @@ def map_frames(run: MotionRun) -> Frames:
     known = np.isfinite(run.dataset["strength"].isel(frame=0).values)
     nodes = np.flatnonzero(known.any(axis=1)), np.flatnonzero(known.any(axis=0))
     contact = _Contact(run, cast("PointConditions", run.conditions), nodes)
-    # ``map_panels`` leaves room for the rows of a legend below the panels; the colour bars lie there.
+    # ``map_panels`` leaves room for the rows of a legend below the panels, which the colour bars use.
     film, field = map_panels(contact, 2, contact.window, rows=4)
     parts = [_film(contact, film), _field(contact, field)]
     field.label_outer()
@@ -138,7 +138,7 @@ def _field(contact: _Contact, ax: Axes) -> Callable[[int], None]:
 def _map(
     contact: _Contact, ax: Axes, name: str, unit: Unit, *, limits: Range, colours: str
 ) -> Callable[[int], None]:
-    """Draw a map of a variable with its colour bar, which is open where values may exceed the colours."""
+    """Draw a map of a variable; its colour bar has an open end where values may lie beyond it."""
     factor = unit[0]
     ends = factor * limits[0], factor * limits[1]
     look: dict[str, Any] = {"colours": colours, "limits": ends, "window": contact.window, "number": 2}

@@ -1,4 +1,4 @@
-"""A value over one varied key of a sweep, a line for each value of a second one, and the applied voltage."""
+"""Line plots of a sweep: a value of the summaries over one varied key, one line per value of a second key."""
 
 from __future__ import annotations
 
@@ -34,23 +34,24 @@ from ehlectric.sweep.slices import Slice, take
 
 _TEXTS = (BLUE, ORANGE, GREEN, "#cc79a7", "#e69f00", "#56b4e9", "black", GREY)
 
-# Lines that a legend names; more are told apart by a colour bar.
+# Largest number of lines named in a legend; more lines have a colour bar instead.
 _NAMED = 8
 
-# Below the values is a strip for points that have none: its least height, and the height of each of those of
-# one x, in parts of the height of the axes; and its largest, in which they may overlap.
+# Points without a value are marked in a strip below the values. In parts of the height of the axes: the least
+# height of the strip, the height of one mark where several have nearly the same x, and the greatest height of
+# the strip, at which marks may overlap.
 _STRIP, _ROW, _MOST = 0.09, 0.035, 0.28
 
-# Crosses side by side in the width of the axes.
+# Number of crosses that fit side by side into the width of the axes.
 _COLUMNS = 50
 
-# A positive value is drawn from zero where its least is below this part of its largest.
+# The vertical axis of positive values begins at zero where their least is below this part of their largest.
 _FROM_ZERO = 0.5
 
 
 @dataclass(frozen=True)
 class _Line:
-    """Points of one value of the second key, by increasing x, and their colour."""
+    """One line: a value of the second key, the numbers of its points by increasing x, and its colour."""
 
     value: Any
     numbers: IntArray
@@ -59,28 +60,28 @@ class _Line:
 
 @dataclass(frozen=True)
 class _Path:
-    """What lines are between the points of a slice, as a map over the same axes has it."""
+    """Interpolation between the points of the lines of a slice, the same as in a map over the same axes."""
 
     results: SweepResults
-    taken: Slice
+    selection: Slice
     log_x: bool
     log_y: bool
 
     def values(self, line: _Line) -> tuple[Array, Array]:
-        """Places and what is drawn there, SI."""
-        if self.taken.value != self.taken.breakdown.margin:
-            return self._curve(self.taken.values, line)
-        places, breaks = self._curve(self.taken.margin * self.taken.voltage, line)
+        """Values of x along a line and the drawn values there, both in SI units."""
+        if self.selection.value != self.selection.breakdown.margin:
+            return self._curve(self.selection.values, line)
+        places, breaks = self._curve(self.selection.margin * self.selection.voltage, line)
         return places, breaks / self.voltages(line)[1]
 
     def voltages(self, line: _Line) -> tuple[Array, Array]:
-        """Places and the applied voltage there [V]."""
-        places, voltage = self._curve(self.taken.voltage, line)
-        applied = applied_at(self.results, self.taken, places, line.value)
+        """Values of x along a line, in SI units, and the applied voltage there [V]."""
+        places, voltage = self._curve(self.selection.voltage, line)
+        applied = applied_at(self.results, self.selection, places, line.value)
         return places, voltage if applied is None else np.where(np.isfinite(voltage), applied, np.nan)
 
     def _curve(self, values: Array, line: _Line) -> tuple[Array, Array]:
-        along, heights = self.taken.along[line.numbers], values[line.numbers]
+        along, heights = self.selection.along[line.numbers], values[line.numbers]
         if line.numbers.size < 2:
             return along, heights
         log = by_logarithm(values, log_axis=self.log_x or self.log_y)
@@ -96,80 +97,85 @@ def value_lines(
     at: Mapping[str, str] | None = None,
     ax: Axes | None = None,
 ) -> Axes:
-    """A value over one varied key, a line for each value of a second one.
+    """Draw a value of the summaries over one varied key, with a line for each value of a second key.
 
     Parameters
     ----------
     results : SweepResults
-        What to draw.
+        Results of a sweep.
     x : str
-        Varied key whose values are numbers.
+        Varied key along the horizontal axis; its values are numbers.
     y : str or None
-        Varied key, of numbers or texts.
+        Second varied key, of numbers or texts; None for a single line.
     value : str
-        Dotted key of the summary.
+        Dotted key of the summary that is drawn.
     at : mapping, optional
-        What is held, by varied key, where more vary.
+        Fixed value of each further varied key, as text.
     ax : Axes, optional
-        Where to; new axes otherwise.
+        Axes to draw on; those of a new figure if omitted.
 
     Returns
     -------
     Axes
-        A line ends where a point has no value, and is between points as a map is; its cross stands at the
-        bottom. Points of a design without lines, as "sobol", are drawn by themselves. A breakdown voltage has
-        the applied voltage, a margin 1.
+        Axes with the lines, interpolated between points as in a map. A line is interrupted where a point has
+        no value; such points are marked in a strip at the bottom. Points of a "sobol" design are not joined
+        by lines. A breakdown voltage is drawn with the applied voltage, a margin with the value 1.
 
     Raises
     ------
     InputError
-        As for ``take``.
+        Where ``ehlectric.sweep.slices.take`` refuses the keys or values.
     """
-    taken = take(results, x, y, value, at)
+    selection = take(results, x, y, value, at)
     ax = axes_or_new(ax)
-    name_x, scale_x = labelled(results, x, taken.along)
-    shown = _shown_values(taken)
-    name, scale = labelled(results, value, shown)
-    along = scale_x.factor * taken.along
-    log_y = y is not None and taken.numeric and spaced_log(results, y, np.array(taken.across))
-    lines = _lines(taken, log=log_y)
-    joined = _joined(taken, lines)
-    solved = kinds(taken).get("solved", np.zeros(along.size, dtype=bool))
-    path = _Path(results, taken, spaced_log(results, x, taken.along), log_y)
+    name_x, scale_x = labelled(results, x, selection.along)
+    needed = _needed_values(selection)
+    name, scale = labelled(results, value, needed)
+    along = scale_x.factor * selection.along
+    log_y = y is not None and selection.numeric and spaced_log(results, y, np.array(selection.across))
+    lines = _lines(selection, log=log_y)
+    joined = _joined(selection, lines)
+    solved = kinds(selection).get("solved", np.zeros(along.size, dtype=bool))
+    path = _Path(results, selection, spaced_log(results, x, selection.along), log_y)
     for line in lines:
-        heights = scale.factor * taken.values[line.numbers]
+        heights = scale.factor * selection.values[line.numbers]
         if joined:
             places, between = path.values(line)
             ax.plot(scale_x.factor * places, scale.factor * between, color=line.colour)
         dots = solved[line.numbers]
-        look = {"color": line.colour, "ms": dot_size(taken, 3.5)}
+        look = {"color": line.colour, "ms": dot_size(selection, 3.5)}
         mark(ax, "solved", along[line.numbers[dots]], heights[dots], **look)
     scale_axis(ax.xaxis, name_x.axis(scale_x), values=along, log=path.log_x)
-    scale_axis(ax.yaxis, name.axis(scale), values=scale.factor * shown, log=is_wide(taken.values))
+    scale_axis(ax.yaxis, name.axis(scale), values=scale.factor * needed, log=is_wide(selection.values))
     ax.margins(x=0.03)
-    own = {} if y is None else {"color": GREY}  # marks have the colours of their lines
-    handles: list[Artist] = [*kind_handles(taken, **own), *_applied(path, ax, (scale_x, scale), lines)]
-    _limit_values(ax, scale.factor * shown)
-    _strip(taken, ax, lines, along)
+    own = {} if y is None else {"color": GREY}  # the marks on the axes have the colours of their lines
+    handles: list[Artist] = [*kind_handles(selection, **own), *_applied(path, ax, (scale_x, scale), lines)]
+    _limit_values(ax, scale.factor * needed)
+    _strip(selection, ax, lines, along)
     if y is not None:
-        _name_lines(results, taken, ax, lines, log=log_y)
+        _name_lines(results, selection, ax, lines, log=log_y)
     legend_above(ax, handles)
     return ax
 
 
-def _shown_values(taken: Slice) -> Array:
-    """Values that the axis must hold: those drawn, and what is drawn in for the applied voltage."""
-    if taken.value == taken.breakdown.value:
-        return np.concatenate([taken.values, taken.voltage])
-    return np.append(taken.values, 1.0) if taken.value == taken.breakdown.margin else taken.values
+def _needed_values(selection: Slice) -> Array:
+    """Values that the vertical axis must include: the drawn ones, and those for the applied voltage."""
+    if selection.value == selection.breakdown.value:
+        return np.concatenate([selection.values, selection.voltage])
+    if selection.value == selection.breakdown.margin:
+        return np.append(selection.values, 1.0)
+    return selection.values
 
 
-def _lines(taken: Slice, *, log: bool) -> list[_Line]:
-    """Lines with their colours: from dark to light by a number, else of a few that stay apart."""
-    series = taken.series()
-    if taken.y is None:
+def _lines(selection: Slice, *, log: bool) -> list[_Line]:
+    """Lines of a slice with their colours.
+
+    Colours go from dark to light with a number; for texts they come from a list of distinct ones.
+    """
+    series = selection.series()
+    if selection.y is None:
         return [_Line(None, numbers, BLUE) for _, numbers in series]
-    if not taken.numeric:
+    if not selection.numeric:
         return [_Line(value, n, _TEXTS[k % len(_TEXTS)]) for k, (value, n) in enumerate(series)]
     if len(series) <= _NAMED:
         places = np.linspace(0.0, 1.0, len(series))
@@ -179,36 +185,37 @@ def _lines(taken: Slice, *, log: bool) -> list[_Line]:
     return [_Line(value, n, DARK_COLOURS(place)) for (value, n), place in zip(series, places, strict=True)]
 
 
-def _joined(taken: Slice, lines: list[_Line]) -> bool:
-    """Whether points of a line differ in x alone, and some line has two of them."""
-    return not taken.free and max(line.numbers.size for line in lines) > 1
+def _joined(selection: Slice, lines: list[_Line]) -> bool:
+    """Whether points are joined by lines: those of a line differ in x only, and some line has two of them."""
+    return not selection.free and max(line.numbers.size for line in lines) > 1
 
 
 def _norm(values: Array, *, log: bool) -> Normalize:
-    """Colours of many lines, from the least value to the largest."""
+    """Normalisation of colours of many lines, from the least value of the second key to the largest."""
     return norm_of(np.array([values.min(), values.max()]), log=log)
 
 
 def _applied(path: _Path, ax: Axes, scales: tuple[Scale, Scale], lines: list[_Line]) -> list[Artist]:
-    """What the value is at the applied voltage, with its legend."""
-    taken, (scale_x, scale) = path.taken, scales
-    volts = taken.voltage[np.isfinite(taken.voltage)]
-    if not (taken.of_discharge and volts.size):
+    """Draw the value that corresponds to the applied voltage, and return its legend entries."""
+    selection, (scale_x, scale) = path.selection, scales
+    volts = selection.voltage[np.isfinite(selection.voltage)]
+    if not (selection.of_discharge and volts.size):
         return []
-    about, applied = taken.breakdown, voltage_text(taken)
+    about, applied = selection.breakdown, voltage_text(selection)
     text = f"{about.voltage_name} {applied}"
-    if taken.value not in taken.breakdown.keys:
+    if selection.value not in selection.breakdown.keys:
         return [Line2D([], [], ls="none", label=f"at the {text}")]
-    if taken.value == taken.breakdown.margin:
-        # No voltage but where the two are equal.
+    if selection.value == selection.breakdown.margin:
+        # A margin of 1 is where breakdown voltage and applied voltage are equal.
         level, text = scale.factor, f"{about.name} = {about.whose} {applied}"
     elif np.ptp(volts) <= 1e-9 * volts[0]:
         level = scale.factor * float(volts[0])
-    elif not _joined(taken, lines):
+    elif not _joined(selection, lines):
         ax.axhspan(scale.factor * volts.min(), scale.factor * volts.max(), color=GREY, alpha=0.15, lw=0.0)
         return [Patch(facecolor=GREY, alpha=0.15, label=text)]
     else:
-        # No one voltage to shade below: that of each point, in the colour of its line.
+        # The applied voltage differs from point to point: it is drawn along each line, in its colour, and no
+        # range below it is shaded.
         for line in lines:
             places, voltages = path.voltages(line)
             ax.plot(scale_x.factor * places, scale.factor * voltages, color=line.colour, ls="--", lw=0.9)
@@ -221,7 +228,7 @@ def _applied(path: _Path, ax: Axes, scales: tuple[Scale, Scale], lines: list[_Li
 
 
 def _limit_values(ax: Axes, values: Array) -> None:
-    """Range of the vertical axis: that of the values with some room, or from zero."""
+    """Set the range of the vertical axis: that of the values and some room, or from zero."""
     finite = values[np.isfinite(values)]
     low, high = float(finite.min()), float(finite.max())
     if ax.get_yscale() == "log":
@@ -234,26 +241,26 @@ def _limit_values(ax: Axes, values: Array) -> None:
         ax.set_ylim(low - room, high + room)
 
 
-def _strip(taken: Slice, ax: Axes, lines: list[_Line], along: Array) -> None:
-    """A strip below the values, with the points that have none: those of one x one above the other."""
-    missing = {kind: mask for kind, mask in kinds(taken).items() if kind != "solved"}
+def _strip(selection: Slice, ax: Axes, lines: list[_Line], along: Array) -> None:
+    """Draw a strip below the values that marks the points without one, stacked where x is nearly equal."""
+    missing = {kind: mask for kind, mask in kinds(selection).items() if kind != "solved"}
     if not missing:
         return
     ax.autoscale_view(scaley=False)
     columns = _columns(ax, along)
     ranks: Counter[int] = Counter()
-    found = []
+    placed = []
     for line in lines:
         for number in line.numbers:
             for kind, mask in missing.items():
                 if mask[number]:
                     column = int(columns[number])
                     ranks[column] += 1
-                    found.append((kind, number, ranks[column], line.colour))
+                    placed.append((kind, number, ranks[column], line.colour))
     rows = max(ranks.values()) + 1
     part = min(max(_STRIP, _ROW * rows), _MOST)
-    for kind, number, rank, colour in found:
-        own = {"path_effects": []} | ({} if taken.y is None else {"color": colour})
+    for kind, number, rank, colour in placed:
+        own = {"path_effects": []} | ({} if selection.y is None else {"color": colour})
         place = (along[[number]], np.array([part * rank / rows]))
         mark(ax, kind, *place, transform=ax.get_xaxis_transform(), **own)
     low, high = ax.get_ylim()
@@ -271,29 +278,29 @@ def _strip(taken: Slice, ax: Axes, lines: list[_Line], along: Array) -> None:
 
 
 def _columns(ax: Axes, along: Array) -> IntArray:
-    """Which of some columns as wide as a cross each x lies in."""
+    """Number of the column that each x lies in, where a column is as wide as a cross."""
     places = ax.transScale.transform(np.column_stack([along, np.full(along.size, ax.get_ylim()[1])]))
     across = np.asarray(ax.transLimits.transform(places))[:, 0]
     return np.asarray(np.floor(_COLUMNS * across), dtype=np.intp)
 
 
-def _name_lines(results: SweepResults, taken: Slice, ax: Axes, lines: list[_Line], *, log: bool) -> None:
-    """Which line is of which value: beside the axes."""
-    assert taken.y is not None
-    numbers = np.array([line.value for line in lines]) if taken.numeric else np.empty(0)
-    label, scale = labelled(results, taken.y, numbers)
-    if taken.numeric and len(lines) > _NAMED:
-        shown = scale.factor * numbers
-        levels = round_numbers(shown.min(), shown.max()) if log else levels_of(shown, log=False)
-        inside = levels[(levels >= shown.min()) & (levels <= shown.max())]
-        colour_bar(ax, _norm(shown, log=log), label.axis(scale), inside, DARK_COLOURS)
+def _name_lines(results: SweepResults, selection: Slice, ax: Axes, lines: list[_Line], *, log: bool) -> None:
+    """Name the lines beside the axes by their value of the second key: in a legend or by a colour bar."""
+    assert selection.y is not None
+    numbers = np.array([line.value for line in lines]) if selection.numeric else np.empty(0)
+    label, scale = labelled(results, selection.y, numbers)
+    if selection.numeric and len(lines) > _NAMED:
+        scaled = scale.factor * numbers
+        levels = round_numbers(scaled.min(), scaled.max()) if log else levels_of(scaled, log=False)
+        inside = levels[(levels >= scaled.min()) & (levels <= scaled.max())]
+        colour_bar(ax, _norm(scaled, log=log), label.axis(scale), inside, DARK_COLOURS)
         return
     handles = [
         Line2D([], [], color=line.colour, marker="o", ms=3.5, label=_line_name(line.value, scale))
         for line in lines
     ]
     named = ax.legend(
-        handles=handles[::-1] if taken.numeric else handles,
+        handles=handles[::-1] if selection.numeric else handles,
         title="\n".join(
             [label.name, " ".join([label.symbol, f"[{scale.unit}]" if scale.unit else ""])]
         ).strip(),
@@ -303,7 +310,7 @@ def _name_lines(results: SweepResults, taken: Slice, ax: Axes, lines: list[_Line
         title_fontsize=8.0,
     )
     ax.add_artist(named)
-    named.set_clip_on(False)  # it lies outside of the axes
+    named.set_clip_on(False)  # the legend lies outside the axes
 
 
 def _line_name(value: Any, scale: Scale) -> str:

@@ -1,4 +1,4 @@
-"""Map of a value over two varied keys of a sweep, with the applied voltage drawn in."""
+"""Maps of a sweep: a value of the summaries over two varied keys, and where the film breaks down."""
 
 from __future__ import annotations
 
@@ -34,55 +34,56 @@ def value_map(
     at: Mapping[str, str] | None = None,
     ax: Axes | None = None,
 ) -> Axes:
-    """Map of a value over two varied keys.
+    """Draw a map of a value of the summaries over two varied keys.
 
     Parameters
     ----------
     results : SweepResults
-        What to draw.
+        Results of a sweep.
     x, y : str
-        Varied keys whose values are numbers.
+        Varied keys along the horizontal and the vertical axis; their values are numbers.
     value : str
-        Dotted key of the summary.
+        Dotted key of the summary that is drawn.
     at : mapping, optional
-        What is held, by varied key, where more than two vary.
+        Fixed value of each further varied key, as text.
     ax : Axes, optional
-        Where to; new axes otherwise.
+        Axes to draw on; those of a new figure if omitted.
 
     Returns
     -------
     Axes
-        With a colour bar. Filled between points that all have a value, linearly in the axes as they are drawn
-        (the logarithm of positive values where an axis is logarithmic); other points are marked in a hole.
-        Values of ``discharge``, and breakdown voltages of a bearing, have the line on which the breakdown
-        voltage is the applied one, the side that breaks down hatched.
+        Axes with the map and a colour bar. Cells are coloured where all of their corner points have a value;
+        points without one are marked in a hole of the map. Between points the value, or the logarithm of
+        positive values where an axis is logarithmic, is linear in the axes as they are drawn. Maps of
+        ``discharge`` values and of a bearing's breakdown voltages have a line on which the breakdown voltage
+        equals the applied voltage; the side that breaks down is hatched.
 
     Raises
     ------
     InputError
-        As for ``take``.
+        Where ``ehlectric.sweep.slices.take`` refuses the keys or values, or values of ``y`` are not numbers.
     """
-    taken = take(results, x, y, value, at)
-    taken.check_numeric()
+    selection = take(results, x, y, value, at)
+    selection.check_numeric()
     ax = axes_or_new(ax)
-    across = np.array(taken.across)
-    logs = {"log_x": spaced_log(results, x, taken.along), "log_y": spaced_log(results, y, across)}
-    (name_x, scale_x), (name_y, scale_y) = labelled(results, x, taken.along), labelled(results, y, across)
-    along, up = scale_x.factor * taken.along, scale_y.factor * across
+    across = np.array(selection.across)
+    logs = {"log_x": spaced_log(results, x, selection.along), "log_y": spaced_log(results, y, across)}
+    (name_x, scale_x), (name_y, scale_y) = labelled(results, x, selection.along), labelled(results, y, across)
+    along, up = scale_x.factor * selection.along, scale_y.factor * across
     scale_axis(ax.xaxis, name_x.axis(scale_x), values=along, log=logs["log_x"])
     scale_axis(ax.yaxis, name_y.axis(scale_y), values=up, log=logs["log_y"])
-    surface = surface_of(taken, **logs)
-    handles: list[Artist] = list(kind_handles(taken))
+    surface = surface_of(selection, **logs)
+    handles: list[Artist] = list(kind_handles(selection))
     if surface is None:
-        handles += _scatter(results, taken, ax, along, up)
+        handles += _scatter(results, selection, ax, along, up)
     else:
-        between = _Between(results, taken, surface, any(logs.values()), (scale_x.factor, scale_y.factor))
+        between = _Between(results, selection, surface, any(logs.values()), (scale_x.factor, scale_y.factor))
         handles += _fill(between, ax)
-        for kind, mask in kinds(taken).items():
-            # With a white edge, as they lie on dark colours and hatches too.
-            look = {"ms": dot_size(taken, 3.4), "mec": "white", "mew": 0.4} if kind == "solved" else {}
+        for kind, mask in kinds(selection).items():
+            # The white edge keeps the dots visible on dark colours and on hatches.
+            look = {"ms": dot_size(selection, 3.4), "mec": "white", "mew": 0.4} if kind == "solved" else {}
             mark(ax, kind, along[mask], up[mask], **look)
-    ax.use_sticky_edges = False  # points on the edge of the sweep lie clear of the frame
+    ax.use_sticky_edges = False  # leaves room between the outer points and the frame
     ax.margins(0.03)
     legend_above(ax, handles)
     return ax
@@ -90,44 +91,64 @@ def value_map(
 
 @dataclass(frozen=True)
 class _Between:
-    """A slice with its surface, whether an axis is logarithmic, and the factors of the units of both axes."""
+    """Interpolation between the points of a slice over two keys.
+
+    Attributes
+    ----------
+    results : SweepResults
+        The sweep.
+    selection : Slice
+        The slice that is drawn.
+    surface : Surface
+        Nodes and triangles between its points.
+    log_axis : bool
+        Whether one of the axes is logarithmic.
+    factors : tuple of float
+        Factors from SI units to the units of the horizontal and the vertical axis.
+    """
 
     results: SweepResults
-    taken: Slice
+    selection: Slice
     surface: Surface
     log_axis: bool
     factors: tuple[float, float]
 
     def values(self) -> tuple[Array, Mask]:
-        """What is drawn, SI, as ``Surface.at_nodes`` gives it."""
+        """Drawn values at the nodes, in SI units, and which triangles have values throughout."""
         return (
             self.margins()
-            if self.taken.value == self.taken.breakdown.margin
-            else self._at_nodes(self.taken.values)
+            if self.selection.value == self.selection.breakdown.margin
+            else self._at_nodes(self.selection.values)
         )
 
     def margins(self) -> tuple[Array, Mask]:
-        """Breakdown voltage over applied voltage, each between the points for itself."""
-        taken = self.taken
-        breaks = np.where(taken.margin > 0.0, taken.margin * taken.voltage, np.nan)
+        """Breakdown voltage over applied voltage at the nodes, and which triangles have values throughout.
+
+        The two voltages are interpolated separately, and divided afterwards.
+        """
+        selection = self.selection
+        breaks = np.where(selection.margin > 0.0, selection.margin * selection.voltage, np.nan)
         nodes, whole = self._at_nodes(breaks)
-        applied = applied_at(self.results, taken, self.surface.x, self.surface.y)
-        return nodes / (self._at_nodes(taken.voltage)[0] if applied is None else applied), whole
+        applied = applied_at(self.results, selection, self.surface.x, self.surface.y)
+        return nodes / (self._at_nodes(selection.voltage)[0] if applied is None else applied), whole
 
     def _at_nodes(self, values: Array) -> tuple[Array, Mask]:
         return self.surface.at_nodes(values, log=by_logarithm(values, log_axis=self.log_axis))
 
     def triangles(self, whole: Mask) -> Triangulation:
-        """Those that have values throughout, in the units of the axes."""
+        """Triangles with values throughout, in the units of the axes."""
         x, y = self.factors[0] * self.surface.x, self.factors[1] * self.surface.y
         return Triangulation(x, y, self.surface.triangles, mask=~whole)
 
 
 def _fill(between: _Between, ax: Axes) -> list[Artist]:
-    """Colours between round levels, with their bar, and of a discharge where the film breaks down."""
-    taken = between.taken
-    label, scale = labelled(between.results, taken.value, taken.values)
-    values = scale.factor * taken.values
+    """Colour the map between round levels, and add the colour bar and, of a discharge, the breakdown line.
+
+    Returns the legend entries.
+    """
+    selection = between.selection
+    label, scale = labelled(between.results, selection.value, selection.values)
+    values = scale.factor * selection.values
     log = is_wide(values)
     levels = levels_of(values, log=log)
     norm = norm_of(levels, log=log)
@@ -135,33 +156,36 @@ def _fill(between: _Between, ax: Axes) -> list[Artist]:
     handles: list[Artist] = []
     if np.any(whole):
         drawn = between.triangles(whole), scale.factor * nodes
-        # A value on the last level, as a probability of 1, is not below it, and so would have no colour.
+        # A value equal to the last level, such as a probability of 1, would be outside the colours.
         bounds = [*levels[:-1], levels[-1] + 1e-9 * (levels[-1] - levels[0])]
         ax.tricontourf(*drawn, levels=bounds, norm=norm, cmap=COLOURS)
         ax.tricontour(*drawn, levels=levels, colors="white", linewidths=0.4, linestyles="-")
         handles += _breakdown(between, ax)
-    alone = between.surface.alone(taken.values)
+    alone = between.surface.alone(selection.values)
     if np.any(alone):
-        at = between.factors[0] * taken.along, between.factors[1] * np.array(taken.across)
+        at = between.factors[0] * selection.along, between.factors[1] * np.array(selection.across)
         look = {"c": values, "cmap": COLOURS, "norm": norm, "s": 40.0}
-        handles += _dots(taken, ax, at, alone, look, beside=bool(np.any(whole)))
+        handles += _dots(selection, ax, at, alone, look, beside=bool(np.any(whole)))
     colour_bar(ax, norm, label.axis(scale), levels)
     return handles
 
 
 def _breakdown(between: _Between, ax: Axes) -> list[Artist]:
-    """The line on which the film breaks down at the applied voltage, the side where it does, their legend."""
-    if not between.taken.of_discharge:
+    """Draw where breakdown voltage and applied voltage are equal, and hatch where the film breaks down.
+
+    Returns the legend entries.
+    """
+    if not between.selection.of_discharge:
         return []
     margin, whole = between.margins()
     if not np.any(whole):
         return []
     shown = margin[between.surface.triangles[whole]]
     least, most = float(np.min(shown)), float(np.max(shown))
-    about, volts = between.taken.breakdown, voltage_text(between.taken)
+    about, volts = between.selection.breakdown, voltage_text(between.selection)
     whose = f"the {about.whose} {volts}"
     if least >= 1.0:
-        where = " where filled" * bool(np.any(between.surface.alone(between.taken.margin)))
+        where = " where filled" * bool(np.any(between.surface.alone(between.selection.margin)))
         return [Line2D([], [], ls="none", label=f"{about.name} above {whose}{where}")]
     drawn = between.triangles(whole), margin
     ax.tricontourf(*drawn, levels=[min(0.5 * least, 0.5), 1.0], colors="none", hatches=[_BREAKS])
@@ -176,7 +200,7 @@ def _breakdown(between: _Between, ax: Axes) -> list[Artist]:
 
 
 def _dots(
-    taken: Slice,
+    selection: Slice,
     ax: Axes,
     at: tuple[Array, Array],
     some: Mask,
@@ -184,14 +208,29 @@ def _dots(
     *,
     beside: bool = False,
 ) -> list[Artist]:
-    """Points by themselves, coloured by their value; of a discharge by their side of the applied voltage.
+    """Draw points as dots coloured by their value, and return their legend entries.
 
-    ``beside`` what is filled, which has a legend of its own, they are said to be alone.
+    Of a discharge, triangles mark points whose breakdown voltage is below the applied voltage.
+
+    Parameters
+    ----------
+    selection : Slice
+        The slice.
+    ax : Axes
+        Axes to draw on.
+    at : tuple of ndarray
+        Horizontal and vertical positions of all points of the slice, in the units of the axes.
+    some : ndarray of bool, shape (points,)
+        The points that are drawn.
+    look : mapping
+        Colours and size of the dots, as for ``Axes.scatter``.
+    beside : bool
+        Whether the figure has a coloured map too; the legend then calls these points "alone".
     """
     parts = {"": (some, "o")}
-    if taken.of_discharge and np.any(np.isfinite(taken.margin[some])):
-        low, about = some & (taken.margin < 1.0), taken.breakdown
-        whose = f"the {about.whose} {voltage_text(taken)}"
+    if selection.of_discharge and np.any(np.isfinite(selection.margin[some])):
+        low, about = some & (selection.margin < 1.0), selection.breakdown
+        whose = f"the {about.whose} {voltage_text(selection)}"
         parts = {
             f"{'alone,' if beside else about.name} above {whose}": (some & ~low, "o"),
             f"{'alone, ' if beside else ''}below {whose}": (low, "v"),
@@ -207,11 +246,11 @@ def _dots(
     ]
 
 
-def _scatter(results: SweepResults, taken: Slice, ax: Axes, along: Array, up: Array) -> list[Artist]:
-    """Points coloured by their value, where nothing is known between them, and their legend."""
-    label, scale = labelled(results, taken.value, taken.values)
-    values = scale.factor * taken.values
-    masks = kinds(taken)
+def _scatter(results: SweepResults, selection: Slice, ax: Axes, along: Array, up: Array) -> list[Artist]:
+    """Draw the points as dots coloured by their value, without interpolation; returns the legend entries."""
+    label, scale = labelled(results, selection.value, selection.values)
+    values = scale.factor * selection.values
+    masks = kinds(selection)
     for kind in masks.keys() - {"solved"}:
         mark(ax, kind, along[masks[kind]], up[masks[kind]])
     log = is_wide(values)
@@ -219,4 +258,4 @@ def _scatter(results: SweepResults, taken: Slice, ax: Axes, along: Array, up: Ar
     norm = norm_of(levels, log=log)
     colour_bar(ax, norm, label.axis(scale), levels)
     look = {"c": values, "cmap": COLOURS, "norm": norm, "s": 26.0}
-    return _dots(taken, ax, (along, up), masks["solved"], look)
+    return _dots(selection, ax, (along, up), masks["solved"], look)

@@ -1,4 +1,4 @@
-"""What the figures of a sweep share: axes with their units, points by their status, levels, legends."""
+"""Marks of the points of a sweep by their status, labels with units, and titles of its figures."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from ehlectric.sweep.labels import Label, Scale, label_of
 from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.slices import Slice
 
-# How points are shown by what became of them: in maps, and in legends.
+# Marker of a point by its kind, in figures and in their legends.
 _MARKS: dict[str, dict[str, Any]] = {
     "solved": {"marker": "o", "ms": 2.6, "color": "black", "mew": 0.0},
     "without this value": {"marker": "s", "ms": 4.0, "color": GREY, "mfc": "none", "mew": 0.8},
@@ -28,53 +28,53 @@ _MARKS: dict[str, dict[str, Any]] = {
 }
 
 
-def kinds(taken: Slice) -> dict[str, Mask]:
-    """Which points of a slice are of each kind that is shown, shape (points,) each; those there are."""
-    known = np.isfinite(taken.values)
+def kinds(selection: Slice) -> dict[str, Mask]:
+    """Mask of the points of each kind of mark, shape (points,); kinds without points are left out."""
+    known = np.isfinite(selection.values)
     masks = {
-        "solved": taken.of("solved") & known,
-        "without this value": taken.of("solved") & ~known & ~taken.doubtful,
-        "do not use": taken.doubtful,
-        "not converged": taken.of("not converged"),
-        "failed": taken.of("failed"),
-        "not tried yet": taken.of("open"),
+        "solved": selection.of("solved") & known,
+        "without this value": selection.of("solved") & ~known & ~selection.doubtful,
+        "do not use": selection.doubtful,
+        "not converged": selection.of("not converged"),
+        "failed": selection.of("failed"),
+        "not tried yet": selection.of("open"),
     }
     return {kind: mask for kind, mask in masks.items() if np.any(mask)}
 
 
-def dot_size(taken: Slice, largest: float) -> float:
-    """Size of the dots of solved points [pt]: where there are many, they leave room between them."""
-    return largest * min(1.0, max(0.3, math.sqrt(400.0 / len(taken.points))))
+def dot_size(selection: Slice, largest: float) -> float:
+    """Diameter of the dots of solved points [pt], smaller where there are more than 400 points."""
+    return largest * min(1.0, max(0.3, math.sqrt(400.0 / len(selection.points))))
 
 
 def mark(ax: Axes, kind: str, x: Array, y: Array, **look: Any) -> None:
-    """Mark points of a kind, over everything else."""
+    """Draw the marks of points of one kind, above everything else in the axes."""
     edge = [] if kind == "solved" else [withStroke(linewidth=2.6, foreground="white")]
     plain: dict[str, Any] = {"ls": "none", "zorder": 5.0, "clip_on": False, "path_effects": edge}
     ax.plot(x, y, **(plain | _MARKS[kind] | look))
 
 
-def kind_handles(taken: Slice, **look: Any) -> list[Line2D]:
-    """Entries of a legend: how many points there are of each kind."""
+def kind_handles(selection: Slice, **look: Any) -> list[Line2D]:
+    """Legend entries with the number of points of each kind."""
     return [
         Line2D([], [], ls="none", label=f"{np.sum(mask)} {kind}", **(_MARKS[kind] | look))
-        for kind, mask in kinds(taken).items()
+        for kind, mask in kinds(selection).items()
     ]
 
 
 def labelled(results: SweepResults, key: str, values: Array) -> tuple[Label, Scale]:
-    """What a key is called, and the unit that suits these values."""
+    """Name, symbol and SI unit of a key, and the prefixed unit that suits the values."""
     label = label_of(key, results.case)
     return label, label.scaled(values)
 
 
-def voltage_text(taken: Slice) -> str:
-    """The applied voltage of the solved points, or its range."""
-    return range_text(taken.voltage[np.isfinite(taken.voltage)], "V")
+def voltage_text(selection: Slice) -> str:
+    """Applied voltage of the solved points with its unit, or its range where it differs between them."""
+    return range_text(selection.voltage[np.isfinite(selection.voltage)], "V")
 
 
 def range_text(values: Array, unit: str) -> str:
-    """Values as one with its unit, or from the least to the largest.
+    """Text of the range of values: one value with the unit, or the least "to" the largest.
 
     Examples
     --------
@@ -86,21 +86,21 @@ def range_text(values: Array, unit: str) -> str:
 
 
 def name_figure(ax: Axes, results: SweepResults, more: str) -> None:
-    """Title of a figure: that of the case, and below it what else there is to say."""
+    """Write the title of a figure: the title of the sweep, and ``more`` below it."""
     title = textwrap.shorten(results.title, 70, placeholder=" ...")
     text = "\n".join(filter(None, [title, textwrap.fill(more, 100)]))
     if text:
         name_over(ax, text)
 
 
-def held_text(results: SweepResults, taken: Slice) -> str:
-    """What is held at which value, and what varies beside what is drawn."""
+def held_text(results: SweepResults, selection: Slice) -> str:
+    """Text of the keys with a fixed value, and of the varied keys that the figure neither shows nor fixes."""
     texts = []
-    for key, value in taken.at.items():
+    for key, value in selection.at.items():
         numbers = np.array([value]) if isinstance(value, int | float) else np.empty(0)
         label, scale = labelled(results, key, numbers)
         texts.append(f"{label.name} = {scale.text(value)}")
-    if taken.free:
-        names = ", ".join(label_of(key, results.case).name for key in taken.free)
+    if selection.free:
+        names = ", ".join(label_of(key, results.case).name for key in selection.free)
         texts.append(f"at any {names}")
     return ", ".join(texts)

@@ -1,4 +1,4 @@
-"""Figure of an uncertainty: the distribution of a value, and the part of each input in it."""
+"""Figure of a sensitivity analysis: distribution of a value, and sensitivity indices of the inputs."""
 
 from __future__ import annotations
 
@@ -29,60 +29,62 @@ from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.sensitivity import LEVEL, Sensitivity
 from ehlectric.sweep.slices import numbers_of
 
-# Probabilities that are marked.
+# Probabilities marked in the distribution.
 _MARKED = (0.05, 0.5, 0.95)
 
 
-def distribution(results: SweepResults, found: Sensitivity, ax: Axes | None = None) -> Axes:
-    """Share of the samples below a value, with its 5, 50 and 95 % and the applied voltage.
+def distribution(results: SweepResults, analysis: Sensitivity, ax: Axes | None = None) -> Axes:
+    """Draw the cumulative distribution of a value, with its 5, 50 and 95 % quantiles.
+
+    For a breakdown voltage or a margin, the applied voltage is drawn too.
 
     Parameters
     ----------
     results : SweepResults
-        Of the design "sobol".
-    found : Sensitivity
-        What ``sensitivity`` gave of it.
+        Results of a sweep of the design "sobol".
+    analysis : Sensitivity
+        Its analysis, from ``ehlectric.sweep.sensitivity.sensitivity``.
     ax : Axes, optional
-        Where to; new axes otherwise.
+        Axes to draw on; those of a new figure if omitted.
 
     Returns
     -------
     Axes
-        The samples are the solved points of A and B.
+        Axes with the share of samples below each value. The samples are the solved points of A and B.
     """
     ax = axes_or_new(ax)
-    samples = np.sort(_drawn(results, found.value))
-    label, scale = labelled(results, found.value, samples)
+    samples = np.sort(_drawn(results, analysis.value))
+    label, scale = labelled(results, analysis.value, samples)
     shares = np.arange(1, samples.size + 1) / samples.size
     ax.step(scale.factor * samples, shares, where="post", color=BLUE)
-    marked = [scale.factor * found.spread.quantiles[q] for q in _MARKED]
+    marked = [scale.factor * analysis.spread.quantiles[q] for q in _MARKED]
     ax.vlines(marked, 0.0, _MARKED, color=BLUE, lw=0.8, ls=":")
     (dots,) = ax.plot(marked, _MARKED, ls="none", marker="o", ms=4.0, color=BLUE)
-    shown = ", ".join(f"{100.0 * q:g}" for q in _MARKED) + " %: "
-    shown += ", ".join(f"{at:.3g}" for at in marked)
-    dots.set_label(f"{shown} {scale.unit}".rstrip())
+    text = ", ".join(f"{100.0 * q:g}" for q in _MARKED) + " %: "
+    text += ", ".join(f"{at:.3g}" for at in marked)
+    dots.set_label(f"{text} {scale.unit}".rstrip())
     handles: list[Artist] = [dots]
-    if found.share_below_voltage is not None:
-        handles.append(_applied(results, found, ax, scale.factor))
+    if analysis.share_below_voltage is not None:
+        handles.append(_applied(results, analysis, ax, scale.factor))
     ax.set(xlabel=label.axis(scale), ylabel=f"share of {samples.size} samples below", ylim=(0.0, 1.04))
     legend_above(ax, handles, columns=1)
     return ax
 
 
 def _drawn(results: SweepResults, value: str) -> Array:
-    """Values of the solved points of A and B."""
+    """Values at the solved points of the matrices A and B of the Sobol design."""
     values = numbers_of(results, value)[: 2 * results.samples]
     return np.asarray(values[np.isfinite(values)])
 
 
-def _applied(results: SweepResults, found: Sensitivity, ax: Axes, factor: float) -> Line2D:
-    """The applied voltage, or its range, and the part of the samples below it."""
-    about = breakdown_of(results.case, found.value)
+def _applied(results: SweepResults, analysis: Sensitivity, ax: Axes, factor: float) -> Line2D:
+    """Draw the applied voltage or its range, labelled with the part of the samples below it."""
+    about = breakdown_of(results.case, analysis.value)
     volts = results.values(about.voltage)[: 2 * results.samples]
     volts = volts[np.isfinite(volts)]
-    ends = factor * np.array([volts.min(), volts.max()]) if found.value == about.value else np.ones(2)
-    assert found.share_below_voltage is not None
-    share = f"{100.0 * found.share_below_voltage:.3g} % of the samples"
+    ends = factor * np.array([volts.min(), volts.max()]) if analysis.value == about.value else np.ones(2)
+    assert analysis.share_below_voltage is not None
+    share = f"{100.0 * analysis.share_below_voltage:.3g} % of the samples"
     line = ax.axvline(ends[0], color=ORANGE, lw=1.4, ls="--")
     if ends[1] > ends[0]:
         ax.axvspan(*ends, color=ORANGE, alpha=0.2, lw=0.0)
@@ -90,32 +92,32 @@ def _applied(results: SweepResults, found: Sensitivity, ax: Axes, factor: float)
     return line
 
 
-def parts(results: SweepResults, found: Sensitivity, ax: Axes | None = None) -> Axes:
-    """First-order and total index of each input with their confidence intervals, the largest on top.
+def parts(results: SweepResults, analysis: Sensitivity, ax: Axes | None = None) -> Axes:
+    """Draw the first-order and the total sensitivity index of each input with their confidence intervals.
 
     Parameters
     ----------
     results : SweepResults
-        Of the design "sobol".
-    found : Sensitivity
-        What ``sensitivity`` gave of it.
+        Results of a sweep of the design "sobol".
+    analysis : Sensitivity
+        Its analysis, from ``ehlectric.sweep.sensitivity.sensitivity``.
     ax : Axes, optional
-        Where to; new axes otherwise.
+        Axes to draw on; those of a new figure if omitted.
 
     Returns
     -------
     Axes
-        Of the indices, from 0 to 1 or somewhat beyond.
+        Axes with the indices as bars, the input with the largest total index on top.
     """
     ax = axes_or_new(ax)
-    ordered = sorted(found.indices, key=lambda index: index.total)
+    ordered = sorted(analysis.indices, key=lambda index: index.total)
     rows = np.arange(len(ordered))
     kinds = (("total", BLUE, 0.19), ("first_order", ORANGE, -0.19))
     for kind, colour, shift in kinds:
         middle = np.array([getattr(index, kind) for index in ordered])
         ends = np.array([getattr(index, f"{kind}_interval") for index in ordered]).T
         ax.barh(rows + shift, middle, height=0.36, color=colour, label=kind.replace("_", " "))
-        # A bootstrap interval of few rows may leave the estimate out.
+        # With few rows, the estimate may lie outside its bootstrap interval.
         reach = np.maximum([middle - ends[0], ends[1] - middle], 0.0)
         ax.errorbar(middle, rows + shift, xerr=reach, fmt="none", ecolor="black", elinewidth=0.9, capsize=2.5)
     ax.axvline(0.0, color="black", lw=0.7)
@@ -123,21 +125,21 @@ def parts(results: SweepResults, found: Sensitivity, ax: Axes | None = None) -> 
     highest = max(1.0, *(max(i.total_interval[1], i.first_order_interval[1]) for i in ordered))
     lowest = min(0.0, *(i.first_order_interval[0] for i in ordered))
     ax.set_xlim(1.05 * lowest, 1.03 * highest)
-    ax.set_xlabel(f"part of the variance\n{100.0 * LEVEL:g} % intervals of {found.used} rows")
+    ax.set_xlabel(f"part of the variance\n{100.0 * LEVEL:g} % intervals of {analysis.used} rows")
     ax.grid(axis="x", color=GREY, alpha=0.25, lw=0.5)
     ax.set_axisbelow(True)
     legend_above(ax)
     return ax
 
 
-def sensitivity_figure(results: SweepResults, found: Sensitivity) -> Figure:
+def sensitivity_figure(results: SweepResults, analysis: Sensitivity) -> Figure:
     """Figure of the distribution of a value beside the sensitivity indices of the inputs.
 
     Parameters
     ----------
     results : SweepResults
         Results of a sweep of the design "sobol".
-    found : Sensitivity
+    analysis : Sensitivity
         Sensitivity of the results, as ``sensitivity`` gives it.
 
     Returns
@@ -146,16 +148,18 @@ def sensitivity_figure(results: SweepResults, found: Sensitivity) -> Figure:
         The figure, with its title.
     """
     with style():
-        high = max(3.4, 1.6 + 0.42 * len(found.indices))
+        high = max(3.4, 1.6 + 0.42 * len(analysis.indices))
         left, right = new_panels(1, 2, (8.4, high))
-        distribution(results, found, left)
-        parts(results, found, right)
-        dropped = f"{found.dropped} of {found.rows} rows dropped: not solved" if found.dropped else ""
-        doubtful = f'{found.doubtful} of {found.used} used rows have points that say "do not use"'
-        name_figure(left, results, ", ".join(filter(None, [dropped, doubtful if found.doubtful else ""])))
+        distribution(results, analysis, left)
+        parts(results, analysis, right)
+        dropped = (
+            f"{analysis.dropped} of {analysis.rows} rows dropped: not solved" if analysis.dropped else ""
+        )
+        doubtful = f'{analysis.doubtful} of {analysis.used} used rows have points that say "do not use"'
+        name_figure(left, results, ", ".join(filter(None, [dropped, doubtful if analysis.doubtful else ""])))
     return figure_of(left)
 
 
-def save_sensitivity(results: SweepResults, found: Sensitivity, path: Path) -> None:
-    """Draw the distribution beside the indices as a PNG file."""
-    save_figure(sensitivity_figure(results, found), path)
+def save_sensitivity(results: SweepResults, analysis: Sensitivity, path: Path) -> None:
+    """Write a PNG file with the distribution of a value beside the sensitivity indices."""
+    save_figure(sensitivity_figure(results, analysis), path)
