@@ -1,8 +1,8 @@
 """Tables written from the code before every build: keys of a case, commands, variables, the paper's contacts.
 
 What the code knows (units, bounds, defaults, options, the meaning of a law's parameter, keys of
-summary.json) is read from it. What other keys of a case are for stands in ``keys.toml``; a key without a line
-there, or a line without a key, ends the build. So does a page that names a test that is not there.
+summary.json, descriptions of the keys of a case) is read from it. A page that names a test that is not there
+ends the build.
 """
 
 from __future__ import annotations
@@ -24,16 +24,12 @@ from sphinx.errors import ExtensionError
 
 import ehlectric
 from ehlectric import Case, solve
-from ehlectric.cases import bearing as bearing_inputs
 from ehlectric.cases import contact as contact_inputs
-from ehlectric.cases import discharge as discharge_inputs
-from ehlectric.cases import grid as inputs
 from ehlectric.cases import library
-from ehlectric.cases import lubricant as lubricant_inputs
-from ehlectric.cases import motion as motion_inputs
 from ehlectric.cases import roughness as roughness_inputs
 from ehlectric.cases import table as validation
-from ehlectric.cases.lubricant import LAWS, density_law, law_parameters, permittivity_law
+from ehlectric.cases.keys import TABLES, descriptions
+from ehlectric.cases.lubricant import LAWS, density_law, permittivity_law
 from ehlectric.cases.quantity import Count, Quantities, Quantity
 from ehlectric.commands.app import app as commands
 from ehlectric.errors import CODES
@@ -43,24 +39,7 @@ from ehlectric.paper.contacts import CONTACTS
 from ehlectric.paper.reproduce import reproduce
 from ehlectric.sweep import inputs as sweep_inputs
 
-_TABLES = {
-    "contact": contact_inputs.Contact,
-    "contact.body": contact_inputs.Body,
-    "lubricant": lubricant_inputs.Lubricant,
-    "roughness": roughness_inputs.Roughness,
-    "electric": inputs.Electric,
-    "discharge": discharge_inputs.Discharge,
-    "discharge.strength_table": discharge_inputs.StrengthTable,
-    "discharge.weibull": discharge_inputs.Weibull,
-    "discharge.pit": discharge_inputs.Pit,
-    "motion": motion_inputs.Motion,
-    "grid": inputs.Grid,
-    "solver": inputs.Solver,
-    "sweep": sweep_inputs.Sweep,
-    "bearing": bearing_inputs.Bearing,
-    "lubricant.temperature": bearing_inputs.OilTemperature,
-    "motor": bearing_inputs.Motor,
-}
+_TABLES = {**TABLES, "sweep": sweep_inputs.Sweep}
 # Keys that take a name, by what the names stand in.
 _NAMES: dict[str, Iterable[str]] = {
     **LAWS,
@@ -156,14 +135,9 @@ def _default(field: Any) -> str:
     return f'`"{value}"`' if isinstance(value, str) else f"`{_number(value)}`"
 
 
-def _keys(table: str, model: type[validation.Table], meanings: dict[str, str]) -> Iterator[list[str]]:
-    known = model.known_keys()
-    if table == "lubricant":
-        meanings = {p.name: p.meaning for p in law_parameters().values()} | meanings
-    if set(meanings) != set(known):
-        odd = ", ".join(sorted(set(meanings) ^ set(known)))
-        raise ExtensionError(f"docs/_ext/keys.toml and the keys of [{table}] differ in: {odd}")
-    for name, field in known.items():
+def _keys(table: str, model: type[validation.Table]) -> Iterator[list[str]]:
+    meanings = descriptions(table)
+    for name, field in model.known_keys().items():
         found = _find(field.annotation, field.metadata)
         takes = _takes(name, found, pair=get_origin(field.annotation) is tuple)
         yield [f"`{name}`", meanings[name], takes, _default(field)]
@@ -192,12 +166,11 @@ def _command(name: str, command: Any) -> Iterator[str]:
 def _write(app: Sphinx) -> None:
     folder = Path(app.srcdir) / "_generated"
     folder.mkdir(exist_ok=True)
-    meanings = tomllib.loads((Path(__file__).parent / "keys.toml").read_text(encoding="utf-8"))
     head = ["key", "what it is", "takes", "default"]
     pages = {}
     for table, model in _TABLES.items():
         pages[f"keys_{table.replace('.', '_')}"] = "```{rst-class} keys\n```\n\n" + _table(
-            head, _keys(table, model, meanings[table])
+            head, _keys(table, model)
         )
     pages["generators"] = _table(
         ["generator", "needs", "may have"],

@@ -14,11 +14,12 @@ if TYPE_CHECKING:
     from ehlectric.bearing.solver import solve_bearing
     from ehlectric.cases.bearing_case import BearingCase
     from ehlectric.cases.case import Case
-    from ehlectric.contact.files import load, save
+    from ehlectric.commands.runs import load
+    from ehlectric.contact.files import save
     from ehlectric.contact.results import Result
     from ehlectric.contact.solver import solve
     from ehlectric.errors import ConvergenceError, InputError
-    from ehlectric.figures.contact.save import save_figures
+    from ehlectric.figures.results import figure, save_figures
     from ehlectric.motion.record import read_motion
     from ehlectric.motion.run import run_motion
     from ehlectric.sweep.inputs import Sweep
@@ -33,6 +34,7 @@ __all__ = [
     "Result",
     "Sweep",
     "__version__",
+    "figure",
     "load",
     "read_motion",
     "read_sweep",
@@ -51,13 +53,14 @@ _HOMES = {
     "InputError": "errors",
     "Result": "contact.results",
     "Sweep": "sweep.inputs",
-    "load": "contact.files",
+    "load": "commands.runs",
     "read_motion": "motion.record",
     "read_sweep": "sweep.store",
     "run_motion": "motion.run",
     "run_sweep": "sweep.run",
     "save": "contact.files",
-    "save_figures": "figures.contact.save",
+    "figure": "figures.results",
+    "save_figures": "figures.results",
     "solve": "contact.solver",
     "solve_bearing": "bearing.solver",
 }

@@ -14,7 +14,7 @@ from ehlectric.cases import library
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.changes import flattened
 from ehlectric.cases.lubricant import effective_alpha, viscosity_law
-from ehlectric.commands.check import meaning
+from ehlectric.commands.runs import check
 from ehlectric.contact.kinds import KINDS, LINE
 from ehlectric.contact.problems import film_problem
 from ehlectric.contact.resolve import resolve
@@ -86,8 +86,8 @@ def table(geometry="line", **changes):
     return {"contact": contact, "lubricant": oil, "grid": {"nodes": 65}}
 
 
-def rows(printed):
-    return dict(zip(*(list(column.cells) for column in printed.columns[:2]), strict=True))
+def rows(meaning):
+    return {row.name: row.shown for row in meaning.rows}
 
 
 def films_of(summary):
@@ -119,15 +119,16 @@ def test_a_new_law_is_saved_and_loaded(tmp_path):
 def test_check_shows_formulas_and_warnings_of_a_new_law(geometry):
     case = Case.from_dict(table(geometry))
     assert effective_alpha(case.lubricant) == pytest.approx(22e-9, rel=1e-15)
-    printed, summary, texts = meaning(case)
+    meaning = check(case)
+    summary, texts = meaning.summary, meaning.warnings
     of_paper = Case.from_dict(table(geometry) | {"lubricant": {"base": "paper"}})
-    expected = meaning(of_paper)[1]
+    expected = check(of_paper).summary
     # Formulas know alpha alone, and the Moes groups too.
     assert summary["groups"] == pytest.approx(expected["groups"], rel=1e-14)
     assert films_of(summary) == pytest.approx(films_of(expected), rel=1e-13)
     times = summary["hertz"]["max_pressure"] / P_2
     assert f"the viscosity doubles {times:.0f} times" in list(map(str, texts))
-    assert rows(printed)["Moes L"] == f"{expected['groups']['moes_l']:.4g}"
+    assert rows(meaning)["Moes L"] == f"{expected['groups']['moes_l']:.4g}"
 
 
 @pytest.mark.usefixtures("laws")
@@ -246,11 +247,12 @@ def test_a_new_formula_is_in_results_and_tables(monkeypatch, module, geometry):
     """Its film is a thousandth of the viscosity, 0.04 Pa s."""
     monkeypatch.setitem(module.FORMULAS, "mine", Formula("My formula", central))
     case = Case.from_dict(table(geometry) | {"lubricant": {"base": "paper"}})
-    printed, summary, _ = meaning(case)
+    meaning = check(case)
+    summary = meaning.summary
     films = {"minimum_thickness": None, "central_thickness": 4e-5}
     assert summary["film_formulas"]["mine"] == films
-    assert rows(printed)["My formula, central"] == "40"
-    assert "My formula, minimum" not in rows(printed)
+    assert rows(meaning)["My formula, central"] == "40"
+    assert "My formula, minimum" not in rows(meaning)
     result = solve(case)
     assert result.formulas()["mine"] == CentralThickness(central_thickness=4e-5)
     assert result.summary()["film_formulas"]["mine"] == films
@@ -259,9 +261,10 @@ def test_a_new_formula_is_in_results_and_tables(monkeypatch, module, geometry):
 def test_a_piezoviscous_formula_gives_nothing_for_an_isoviscous_oil(monkeypatch):
     monkeypatch.setitem(film_line.FORMULAS, "mine", Formula("My formula", central, piezoviscous=True))
     oil = {"base": "paper", "viscosity_law": "constant"}
-    printed, summary, _ = meaning(Case.from_dict({"contact": PAPER_CONTACT, "lubricant": oil}))
+    meaning = check(Case.from_dict({"contact": PAPER_CONTACT, "lubricant": oil}))
+    summary = meaning.summary
     assert set(summary["film_formulas"]["mine"].values()) == {None}
-    assert not any(name.startswith("My formula") for name in rows(printed))
+    assert not any(name.startswith("My formula") for name in rows(meaning))
 
 
 def test_a_lubricant_of_the_library_is_one_file(tmp_path, monkeypatch):

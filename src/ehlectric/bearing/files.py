@@ -1,4 +1,4 @@
-"""Files of a bearing's result: summary.json, contacts.csv, impedance.csv and bearing.nc."""
+"""Run of a bearing and the files of its result: summary.json, contacts.csv, impedance.csv and bearing.nc."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ import csv
 import dataclasses
 import json
 import tomllib
-import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -24,9 +23,13 @@ from ehlectric.bearing.preparation import resolve_bearing
 from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.ring_contacts import RingContacts
 from ehlectric.bearing.solution import BearingSolution, Position, RingState
+from ehlectric.bearing.solver import check_bearing, solve_bearing
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.errors import InputError
-from ehlectric.runtime.files import clear, prepare, whole
+from ehlectric.runtime.files import clear, prepare, whole, write_json
+from ehlectric.runtime.netcdf import read_dataset
+from ehlectric.runtime.outcome import RunOutcome
+from ehlectric.runtime.progress import Progress, silent
 from ehlectric.runtime.stored_warnings import texts_and_codes, warnings_of
 
 if TYPE_CHECKING:
@@ -35,7 +38,7 @@ if TYPE_CHECKING:
 SUMMARY, CONTACTS, IMPEDANCE, NETCDF = "summary.json", "contacts.csv", "impedance.csv", "bearing.nc"
 FILES = (SUMMARY, CONTACTS, IMPEDANCE, NETCDF)
 
-# Format of bearing.nc.
+# Name and version of the layout of bearing.nc.
 SCHEMA = "ehlectric.bearing.solution/1"
 
 _RINGS = ("inner", "outer")
@@ -47,20 +50,80 @@ _UNITS = {
 }  # fmt: skip
 
 
+def run(
+    case: BearingCase,
+    folder: str | Path,
+    progress: Progress = silent,
+    *,
+    workers: int | None = None,
+    others: Sequence[str] = (),
+) -> RunOutcome[BearingResult]:
+    """Solve a whole bearing, and write summary.json, contacts.csv, impedance.csv and bearing.nc.
+
+    Parameters
+    ----------
+    case : BearingCase
+        Bearing to solve.
+    folder : str or Path
+        Folder of the files; it is made if it does not exist.
+    progress : callable, optional
+        Called with the number of contacts done, the number of all contacts, and what is being done.
+    workers : int, optional
+        Number of processes; by default as many as there are cores.
+    others : sequence of str, optional
+        Names of other files in the folder that belong to its result, such as figures. Those of an earlier
+        result are removed when the bearing is solved.
+
+    Returns
+    -------
+    RunOutcome
+        With a ``failure`` where a contact is not converged; its files are written all the same.
+
+    Raises
+    ------
+    InputError
+        Where the bearing cannot be solved, or the folder cannot be used.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> duty = {"radial_load": "1 kN", "inner_speed": "3000 rpm", "temperature": "70 degC"}
+    >>> case = BearingCase.from_dict(
+    ...     {
+    ...         "contacts": "formula",
+    ...         "bearing": duty | {"base": "6208", "radial_clearance": "10 um", "composite_rq": "0.03 um"},
+    ...         "lubricant": {"base": "paper", "viscosity": "20 mPa s"},
+    ...     }
+    ... )
+    >>> with TemporaryDirectory() as folder:
+    ...     outcome = run(case, folder)
+    >>> outcome.converged, [path.name for path in outcome.files]
+    (True, ['summary.json', 'contacts.csv', 'bearing.nc'])
+    """
+    check_bearing(case)
+    names = (*FILES, *others)
+    folder = prepare(folder, names)
+    result = solve_bearing(case, progress=progress, workers=workers)
+    clear(folder, names)
+    files = save(result, folder)
+    failure = None if result.converged else "not converged: a contact of the bearing"
+    return RunOutcome(result, result.summary(), tuple(files), tuple(result.warnings()), failure)
+
+
 def save(result: BearingResult, folder: str | Path) -> list[Path]:
     """Write summary.json, contacts.csv, bearing.nc and, where there is an impedance, impedance.csv.
 
     Parameters
     ----------
     result : BearingResult
-        As ``solve_bearing`` returns it.
+        Result of ``solve_bearing``.
     folder : str or Path
-        Where to; made if it is not there.
+        Folder of the files; it is made if it does not exist.
 
     Returns
     -------
     list of Path
-        The files written.
+        Files written.
 
     Raises
     ------
@@ -70,8 +133,7 @@ def save(result: BearingResult, folder: str | Path) -> list[Path]:
     folder = prepare(folder, FILES)
     clear(folder, FILES)
     summary, impedance = result.summary(), impedance_of(result.solution)
-    with whole(folder / SUMMARY) as path:
-        path.write_text(json.dumps(summary, indent=2, allow_nan=False) + "\n", encoding="utf-8")
+    write_json(folder / SUMMARY, summary)
     rows = summary["contacts"]
     _write_table(folder / CONTACTS, list(rows[0]), (row.values() for row in rows))
     written = [SUMMARY, CONTACTS]
@@ -93,7 +155,7 @@ def _write_table(path: Path, heads: Sequence[str], lines: Iterable[Iterable[Any]
 
 
 def load(path: str | Path) -> BearingResult:
-    """Read a bearing's result back from its NetCDF file.
+    """Load the result of a bearing from its NetCDF file.
 
     Parameters
     ----------
@@ -103,27 +165,37 @@ def load(path: str | Path) -> BearingResult:
     Returns
     -------
     BearingResult
-        As it was saved.
+        Result, equal to the one that was saved.
 
     Raises
     ------
     InputError
         Where the file cannot be read or is not the result of a bearing.
     """
-    import xarray as xr
-
     path = Path(path)
-    try:
-        path.open("rb").close()
-    except OSError as error:
-        reason = (error.strerror or str(error)).lower()
-        raise InputError(path, f"cannot be read, {reason}") from None
-    try:
-        with warnings.catch_warnings(), xr.open_dataset(path, engine="h5netcdf") as file:
-            warnings.simplefilter("ignore")  # of what xarray thinks of files that are refused below
-            dataset = file.load()
-    except Exception:  # whatever HDF5 and its wrappers raise at damaged files
-        raise InputError(path, "is not a NetCDF file") from None
+    return result_of(read_dataset(path), path)
+
+
+def result_of(dataset: xr.Dataset, path: Path) -> BearingResult:
+    """Result of a bearing from its dataset.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        Contents of a bearing.nc.
+    path : Path
+        The file, named in the error.
+
+    Returns
+    -------
+    BearingResult
+        Result, equal to the one that was saved.
+
+    Raises
+    ------
+    InputError
+        Where the dataset is not the result of a bearing.
+    """
     try:
         return BearingResult(_solution_of(dataset))
     except (InputError, ArithmeticError, AttributeError, LookupError, TypeError, ValueError):
@@ -131,7 +203,7 @@ def load(path: str | Path) -> BearingResult:
 
 
 def _dataset(solution: BearingSolution) -> xr.Dataset:
-    """A solution as variables over loads, positions of the cage, rings and elements, SI units."""
+    """Dataset of a solution: variables over loads, cage positions, rings and elements, SI units."""
     import xarray as xr
 
     variables: dict[str, tuple[tuple[str, ...], Array, dict[str, str]]] = {}
@@ -169,7 +241,7 @@ def _over_elements(name: str, values: Any) -> tuple[tuple[str, ...], Array, dict
 
 
 def _curve_variables(ring: str, curve: ContactCurve) -> dict[str, Any]:
-    """Solved contacts with one ring, over their load; an error that is not known is NaN."""
+    """Variables of the solved contacts with one ring over their load; NaN where an error is unknown."""
     solutions, dims = curve.solutions, (f"{ring}_load",)
     columns = dict(zip(ContactValues.__dataclass_fields__, curve.stack().columns(), strict=True))
     others = {
@@ -187,7 +259,7 @@ def _curve_variables(ring: str, curve: ContactCurve) -> dict[str, Any]:
 
 
 def _equilibrium_variables(equilibria: Sequence[Equilibrium]) -> dict[str, Any]:
-    """Equilibria at the positions of the cage, each quantity with the dimensions it has."""
+    """Variables of the equilibria over the cage positions, each with its own further dimensions."""
     elements = equilibria[0].position.size
     variables = {}
     for name, values in _stacked(equilibria).items():
@@ -198,7 +270,7 @@ def _equilibrium_variables(equilibria: Sequence[Equilibrium]) -> dict[str, Any]:
 
 
 def _stacked(equilibria: Sequence[Equilibrium]) -> dict[str, Array]:
-    """Quantities of equilibria by name, those of their speeds with a prefix, over the positions."""
+    """Quantities of the equilibria by name, stacked over the cage positions; speeds have a prefix."""
     tables = []
     for at in equilibria:
         table = {field.name: getattr(at, field.name) for field in dataclasses.fields(at)}
@@ -208,13 +280,13 @@ def _stacked(equilibria: Sequence[Equilibrium]) -> dict[str, Array]:
 
 
 def _solution_of(dataset: xr.Dataset) -> BearingSolution:
-    """The solution that ``_dataset`` made a dataset of."""
+    """Solution of a dataset that ``_dataset`` made."""
     attributes = dataset.attrs
     if attributes["schema"] != SCHEMA:
         raise ValueError("another format")
     case = BearingCase.from_dict(tomllib.loads(attributes["case"]))
     conditions = resolve_bearing(case)
-    told = json.loads(attributes["warnings"])
+    stored = json.loads(attributes["warnings"])
     inner, outer = (
         RingContacts(conditions, name == "inner", float(angle), float(speed))
         for name, angle, speed in zip(
@@ -222,7 +294,7 @@ def _solution_of(dataset: xr.Dataset) -> BearingSolution:
         )
     )
     inner_curve, outer_curve = (
-        _curve_of(dataset, name, texts) for name, texts in zip(_RINGS, told, strict=True)
+        _curve_of(dataset, name, texts) for name, texts in zip(_RINGS, stored, strict=True)
     )
     shape = float(attributes["weibull_shape"]) if attributes["weibull_shape"] else None
     positions = tuple(
@@ -244,7 +316,7 @@ def _solution_of(dataset: xr.Dataset) -> BearingSolution:
     )
 
 
-def _curve_of(dataset: xr.Dataset, ring: str, told: Sequence[Mapping[str, Any]]) -> ContactCurve:
+def _curve_of(dataset: xr.Dataset, ring: str, stored: Sequence[Mapping[str, Any]]) -> ContactCurve:
     columns = {
         name: dataset[f"{ring}_curve_{name}"].values
         for name in (*ContactValues.__dataclass_fields__, "load", "error", "moes_m", "moes_l", "mismatch")
@@ -257,12 +329,14 @@ def _curve_of(dataset: xr.Dataset, ring: str, told: Sequence[Mapping[str, Any]])
                 texts,
                 converged=bool(converged[k]),
             )
-            for k, texts in enumerate(told)
+            for k, texts in enumerate(stored)
         )
     )
 
 
-def _contact_of(numbers: Mapping[str, float], told: Mapping[str, Any], *, converged: bool) -> ContactSolution:
+def _contact_of(
+    numbers: Mapping[str, float], stored: Mapping[str, Any], *, converged: bool
+) -> ContactSolution:
     error = numbers["error"]
     return ContactSolution(
         load=numbers["load"],
@@ -272,7 +346,7 @@ def _contact_of(numbers: Mapping[str, float], told: Mapping[str, Any], *, conver
         moes_l=numbers["moes_l"],
         mismatch=numbers["mismatch"],
         converged=converged,
-        warnings=warnings_of(told),
+        warnings=warnings_of(stored),
     )
 
 

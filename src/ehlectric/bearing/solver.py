@@ -14,13 +14,11 @@ from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.ring_contacts import check_contact
 from ehlectric.bearing.solution import BearingSolution, Position, ring_state
 from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.runtime.progress import Progress, silent
 from ehlectric.runtime.workers import cores, run_all
 
 # Number of positions of the cage over one pitch of the elements.
 POSITIONS = 8
-
-# Called with the number of solved contacts, the number of all contacts, and a text.
-Progress = Callable[[int, int, str], None]
 
 
 def solve_bearing(
@@ -57,7 +55,7 @@ def solve_bearing(
     prepared = prepare_bearing(case, POSITIONS)
     tasks = [_tasks(case, prepared, inner=inner) for inner in (True, False)]
     processes = 1 if case.contacts == "formula" else workers or cores()
-    solutions = _solved([*tasks[0], *tasks[1]], progress or (lambda _done, _of, _text: None), processes)
+    solutions = _solved([*tasks[0], *tasks[1]], progress or silent, processes)
     first = len(tasks[0])
     curves = ContactCurve(tuple(solutions[:first])), ContactCurve(tuple(solutions[first:]))
     return BearingResult(

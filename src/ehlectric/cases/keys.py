@@ -2,15 +2,25 @@
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Mapping
+from functools import cache
+from importlib import resources
 from typing import Any, get_args, get_origin
 
 from pydantic.fields import FieldInfo
 
+from ehlectric.cases.bearing import Bearing, Motor, OilTemperature
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
+from ehlectric.cases.contact import Body, Contact
+from ehlectric.cases.discharge import Discharge, Pit, StrengthTable, Weibull
+from ehlectric.cases.grid import Electric, Grid, Solver
+from ehlectric.cases.lubricant import Lubricant, law_parameters
+from ehlectric.cases.motion import Motion
 from ehlectric.cases.quantity import Count, Quantities, Quantity
-from ehlectric.cases.table import Table, nearest_key, table_of
+from ehlectric.cases.roughness import Roughness
+from ehlectric.cases.table import Table, nearest, nearest_key, table_of
 from ehlectric.errors import InputError
 
 # Tables and keys that only a bearing file has.
@@ -61,6 +71,92 @@ INPUT_NAMES: Mapping[str, tuple[str, str]] = {
     "discharge.length": ("length of the contact", ""),
     "grid.nodes": ("nodes", ""),
 }
+
+
+# Tables of case and bearing files by the names under which keys.toml describes their keys. The table of sweep
+# files, "sweep", is in the package sweep.
+TABLES: Mapping[str, type[Table]] = {
+    "contact": Contact,
+    "contact.body": Body,
+    "lubricant": Lubricant,
+    "roughness": Roughness,
+    "electric": Electric,
+    "discharge": Discharge,
+    "discharge.strength_table": StrengthTable,
+    "discharge.weibull": Weibull,
+    "discharge.pit": Pit,
+    "motion": Motion,
+    "grid": Grid,
+    "solver": Solver,
+    "bearing": Bearing,
+    "lubricant.temperature": OilTemperature,
+    "motor": Motor,
+}
+
+
+@cache
+def _texts() -> dict[str, dict[str, str]]:
+    """Contents of keys.toml."""
+    text = resources.files("ehlectric.cases").joinpath("keys.toml").read_text(encoding="utf-8")
+    return tomllib.loads(text)
+
+
+def descriptions(table: str) -> dict[str, str]:
+    """Descriptions of the keys of a table, in Markdown with formulas in LaTeX.
+
+    Parameters
+    ----------
+    table : str
+        Name of the table in ``TABLES``, or "sweep".
+
+    Raises
+    ------
+    InputError
+        Where there is no such table.
+
+    Examples
+    --------
+    >>> descriptions("contact")["load"]
+    'load of a point contact'
+    """
+    if table not in _texts():
+        raise InputError.unknown(table, nearest(table, _texts()))
+    laws = {p.name: p.meaning for p in law_parameters().values()} if table == "lubricant" else {}
+    return laws | _texts()[table]
+
+
+def describe(key: str) -> str:
+    """Description of a key of a case, bearing or sweep file, in Markdown with formulas in LaTeX.
+
+    Parameters
+    ----------
+    key : str
+        Dotted key. The number of a rough surface may stand in it; keys of a sweep file begin with "sweep".
+
+    Returns
+    -------
+    str
+        A phrase, such as "load of a point contact".
+
+    Raises
+    ------
+    InputError
+        Where there is no such key; with the nearest known one.
+
+    Examples
+    --------
+    >>> describe("contact.load"), describe("roughness.1.hurst")
+    ('load of a point contact', 'Hurst exponent of a self-affine surface')
+    >>> describe("contact.body_1.youngs_modulus")
+    '$E$'
+    """
+    *names, leaf = [name for name in key.split(".") if not name.isdecimal()] or [key]
+    table = ".".join("body" if name in ("body_1", "body_2") else name for name in names)
+    known = descriptions(table) if table in _texts() else {}
+    if leaf not in known:
+        every = [f"{table}.{name}" for table in _texts() for name in descriptions(table)]
+        raise InputError.unknown(key, nearest(key, every))
+    return known[leaf]
 
 
 def input_field(key: str) -> FieldInfo:

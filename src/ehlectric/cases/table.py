@@ -14,6 +14,7 @@ from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
 from ehlectric.errors import InputError, shown
+from ehlectric.runtime.files import reading
 
 
 class Table(BaseModel):
@@ -51,9 +52,10 @@ def read_toml(path: str | Path) -> dict[str, Any]:
     """
     path = Path(path)
     try:
-        return tomllib.loads(path.read_text(encoding="utf-8-sig"))
-    except OSError as error:
-        raise InputError(path, f"cannot be read, {(error.strerror or str(error)).lower()}") from None
+        with reading(path):
+            return tomllib.loads(path.read_text(encoding="utf-8-sig"))
+    except InputError:
+        raise
     except UnicodeDecodeError:
         raise InputError(path, "is not a text file in UTF-8") from None
     except tomllib.TOMLDecodeError as error:

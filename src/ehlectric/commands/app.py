@@ -1,4 +1,4 @@
-"""The command line: its commands, and how it ends."""
+"""The application: all commands, and the exit status of the command line."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from ehlectric.commands.sweep import sweep
 from ehlectric.commands.terminal import WRONG_INPUT
 from ehlectric.version import __version__
 
-SIGNALLED = 128  # plus the number of the signal, as shells count
+SIGNALLED = 128  # plus the number of the signal, as in shells
 app = typer.Typer(
     help="Film and electric field of lubricated contacts.",
     no_args_is_help=True,
@@ -58,19 +58,19 @@ app.command()(sensitivity)
 
 
 def _stop(number: int, _: object) -> None:
-    # Leaves through every finally, so that no half-written file stays behind.
+    # SystemExit runs every finally clause, so that no half-written file is left.
     sys.exit(SIGNALLED + number)
 
 
 def _status() -> int:
-    """Run the command; wrong words on the command line are one line too."""
+    """Run the command and return its exit status; wrong arguments are told in one line."""
     try:
         status = app(standalone_mode=False)
         sys.stdout.flush()
     except (KeyboardInterrupt, typer.Abort):
         return SIGNALLED + signal.SIGINT
     except OSError as error:
-        # Nothing can be printed any more, not even what the interpreter still holds at its exit.
+        # Nothing can be printed any more, also not by the interpreter at its exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         if not isinstance(error, BrokenPipeError):
             reason = (error.strerror or str(error)).lower()
@@ -80,7 +80,7 @@ def _status() -> int:
         message = getattr(error, "format_message", None)
         if message is None:
             raise
-        # Without a command the help has been printed, and there is nothing to say.
+        # Without a command the help has been printed, and the error has no message.
         typer.echo(f"error: {message() or 'no command; they are listed above'}", err=True)
         return WRONG_INPUT
     return int(status or 0)
@@ -91,6 +91,6 @@ def main() -> None:
     for number in (signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, _stop)
     for stream in (sys.stdout, sys.stderr):
-        # A terminal that knows no micro sign must not end the run.
+        # A terminal without a micro sign must not end the run.
         stream.reconfigure(errors="replace")  # type: ignore[union-attr]
     sys.exit(_status())

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-import json
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ehlectric.commands.tables.bearing import bearing_table, films_table, loads_table
-from ehlectric.commands.terminal import NOT_CONVERGED, print_table, progress_bar, user_errors, warn
+from ehlectric.commands.terminal import progress_bar, report, user_errors
 
 if TYPE_CHECKING:
-    from ehlectric.errors import ResultWarning
+    from rich.table import Table
+
+    from ehlectric.runtime.outcome import RunOutcome
 
 
 def bearing(
@@ -34,43 +35,20 @@ def bearing(
     same.
     """
     with user_errors():
-        from ehlectric.cases.bearing_case import BearingCase
+        from ehlectric.commands import runs
 
-        case = BearingCase.from_toml(bearing_file)
-        if contacts:
-            case = case.replace({"contacts": contacts})
-
-        from ehlectric.bearing.files import FILES, save
-        from ehlectric.bearing.solver import check_bearing, solve_bearing
-        from ehlectric.figures.names import BEARING_FIGURE_FILES, SPEED_FIGURE_FILES
-        from ehlectric.runtime.files import clear, prepare
-
-        check_bearing(case)
-        names = (*FILES, *BEARING_FIGURE_FILES, *SPEED_FIGURE_FILES)
-        folder = prepare(output, names)
+        case = runs.read_bearing(bearing_file)
         with progress_bar(shown=not quiet) as progress:
-            result = solve_bearing(case, progress=progress)
-        summary = result.summary()
-        clear(folder, names)
-        files = save(result, folder)
-        left_out: list[ResultWarning] = []
-        if plots:
-            from ehlectric.bearing.speeds import over_speed
-            from ehlectric.figures.bearing.save import save_bearing_figures, save_speed_figures
+            outcome = runs.run_and_draw("bearing", case, output, progress, draw=plots, contacts=contacts)
+    report(outcome, _tables, quiet=quiet, as_json=as_json)
 
-            files += save_bearing_figures(result, folder)
-            speeds, left_out = over_speed(case)
-            own = case.bearing.inner_speed, summary
-            files += save_speed_figures(speeds, folder, case.title, own=own) if speeds else []
-    if as_json:
-        typer.echo(json.dumps(summary, indent=2))
-    elif not quiet:
-        print_table(loads_table(summary))
-        print_table(films_table(summary))
-        print_table(bearing_table(summary))
-        typer.echo("written: " + ", ".join(str(path) for path in files))
-    if not quiet:
-        warn([*summary["warnings"], *left_out])
-    if not result.converged:
-        typer.echo("error: not converged: a contact of the bearing", err=True)
-        raise typer.Exit(NOT_CONVERGED)
+
+def _tables(outcome: RunOutcome[object]) -> Iterator[Table]:
+    """Tables of a bearing: loads, films and totals."""
+    from ehlectric.commands.tables.bearing import films_table, loads_table, total_rows
+    from ehlectric.commands.tables.layout import table_of
+
+    summary = outcome.summary
+    yield loads_table(summary)
+    yield films_table(summary)
+    yield table_of(total_rows(summary), summary["title"])

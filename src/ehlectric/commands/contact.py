@@ -2,16 +2,28 @@
 
 from __future__ import annotations
 
-import json
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ehlectric.commands.motion import plot_moving, run_moving
+from ehlectric.commands.motion import tell_where_it_stops
 from ehlectric.commands.options import CaseFile, Json, Quiet
-from ehlectric.commands.terminal import NOT_CONVERGED, print_table, progress_line, user_errors, warn
-from ehlectric.errors import InputError, shown
+from ehlectric.commands.terminal import (
+    echo_files,
+    progress_bar,
+    progress_line,
+    report,
+    user_errors,
+    warn,
+)
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+    from ehlectric.contact.results import PointResult, Result
+    from ehlectric.runtime.outcome import RunOutcome
 
 
 def run(
@@ -33,67 +45,43 @@ def run(
     Exit status 0: solved. 2: the input is wrong. 3: not converged, everything is written all the same.
     """
     with user_errors():
-        from ehlectric.cases.case import Case
+        from ehlectric.commands import runs
 
-        # Before all that solving takes: what is wrong with a case is said at once.
-        case = Case.from_toml(case_file)
+        case = runs.read_case(case_file)
+        if case.motion is None:
+            with progress_line(shown=not quiet) as progress:
+                outcome = runs.run_and_draw("contact", case, output, progress, draw=plots, solver=solver)
+        else:
+            with progress_bar(shown=not quiet) as bar, tell_where_it_stops(output, bar) as progress:
+                outcome = runs.run_and_draw("motion", case, output, progress, draw=plots, solver=solver)
+    tables = _tables if case.motion is None else _transient_tables
+    report(outcome, tables, quiet=quiet, as_json=as_json)
 
-        from ehlectric.commands.check import check_motion
-        from ehlectric.contact.check import check_case
-        from ehlectric.contact.files import FILES, save
-        from ehlectric.contact.solver import solve
-        from ehlectric.figures.names import ALL_FIGURES, MOTION_FIGURE_FILES
-        from ehlectric.motion.record import MOTION
-        from ehlectric.paper.solvers import SOLVERS
-        from ehlectric.runtime.files import clear, prepare
 
-        if solver not in SOLVERS:
-            raise InputError("--solver", got=shown(solver), takes=f"one of {', '.join(SOLVERS)}")
-        contact = check_case(case)
-        check_motion(case)
-        SOLVERS[solver].check(case)
-        if case.motion is not None:
-            run_moving(case, output, solver=solver, plots=plots, quiet=quiet, as_json=as_json)
-            return
-        names = (*FILES, *ALL_FIGURES)
-        folder = prepare(output, names)
-        with progress_line(shown=not quiet) as stage:
-            result = solve(
-                case,
-                progress=lambda nodes, step, residual: stage(
-                    f"film: {nodes} nodes, step {step + 1}, residual {residual:.1e}"
-                ),
-                solvers=SOLVERS[solver],
-                prepared=contact,
-            )
-            stage("writing results")
-            clear(folder, (*names, MOTION, *MOTION_FIGURE_FILES))
-            files = save(result, folder)
-            if plots:
-                from ehlectric.figures.contact.save import save_figures
+def _tables(outcome: RunOutcome[Result | PointResult]) -> Iterator[Table]:
+    """Tables of a stationary contact: its rough surfaces and its key figures."""
+    from ehlectric.commands.tables.contact import result_rows
+    from ehlectric.commands.tables.layout import table_of
+    from ehlectric.commands.tables.surface import surface_table
 
-                stage("drawing figures")
-                files += save_figures(result, folder)
-    if as_json:
-        typer.echo(json.dumps(result.summary(), indent=2))
-    elif not quiet:
-        from ehlectric.commands.tables.contact import result_table
-        from ehlectric.commands.tables.surface import surface_table
+    for rough in outcome.result.rough:
+        if rough["steps"]:
+            yield surface_table(rough)
+    yield table_of(result_rows(outcome.result), outcome.result.case.title)
 
-        for rough in result.rough:
-            if rough["steps"]:
-                print_table(surface_table(rough))
-        print_table(result_table(result))
-        typer.echo("written: " + ", ".join(str(path) for path in files))
-    if not quiet:
-        warn(result.warnings)
-    if not result.converged:
-        typer.echo(f"error: not converged: {result.film.status}", err=True)
-        raise typer.Exit(NOT_CONVERGED)
+
+def _transient_tables(outcome: RunOutcome[object]) -> Iterator[Table]:
+    """Table of a transient contact."""
+    from ehlectric.commands.tables.layout import table_of
+    from ehlectric.commands.tables.motion import run_rows
+
+    yield table_of(run_rows(outcome.summary), outcome.summary["title"])
 
 
 def plot(
-    result_file: Annotated[Path, typer.Argument(help="A result.nc, or a motion.nc.", show_default=False)],
+    result_file: Annotated[
+        Path, typer.Argument(help="A result.nc, bearing.nc or motion.nc.", show_default=False)
+    ],
     output: Annotated[
         Path | None,
         typer.Option("--output", "-o", metavar="DIR", help="Folder, default that of the file."),
@@ -102,19 +90,9 @@ def plot(
 ) -> None:
     """Draw the figures of a result again."""
     with user_errors():
-        from ehlectric.contact.files import load
-        from ehlectric.figures.names import ALL_FIGURES
-        from ehlectric.motion.record import MOTION
-        from ehlectric.runtime.files import prepare
+        from ehlectric.commands.runs import load_and_draw
 
-        if result_file.name == MOTION:
-            plot_moving(result_file, result_file.parent if output is None else output, quiet=quiet)
-            return
-        result = load(result_file)
-        folder = prepare(result_file.parent if output is None else output, ALL_FIGURES)
-        from ehlectric.figures.contact.save import save_figures
-
-        files = save_figures(result, folder)
+        files, warnings = load_and_draw(result_file, result_file.parent if output is None else output)
     if not quiet:
-        typer.echo("written: " + ", ".join(str(path) for path in files))
-        warn(result.warnings)
+        echo_files(files)
+        warn(warnings)

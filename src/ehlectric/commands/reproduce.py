@@ -39,6 +39,7 @@ def reproduce(
 
 
 def _number(name: str, text: str | None) -> int | None:
+    """Number of the option of a name; None where it is not given."""
     try:
         return None if text is None else int(text)
     except ValueError:

@@ -52,9 +52,9 @@ def surface(
         from ehlectric.surfaces.rough_maps import whole_map
         from ehlectric.surfaces.rough_profiles import measured
 
-        given = {key: value for key, value in table.items() if value is not None}
-        asked = Roughness.from_dict({"surface": 1, "file": str(file)} | given)
-        rough = whole_map(asked) if whole else measured(asked)
+        keys = {key: value for key, value in table.items() if value is not None}
+        roughness = Roughness.from_dict({"surface": 1, "file": str(file)} | keys)
+        rough = whole_map(roughness) if whole else measured(roughness)
         if output is not None:
             prepare(output.parent, [output.name])
             from ehlectric.figures.surface import save_surface

@@ -5,26 +5,32 @@ from __future__ import annotations
 import sys
 import time
 from collections import Counter
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterator
+from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ehlectric.commands.tables.sweep import results_table
-from ehlectric.commands.terminal import NOT_CONVERGED, print_table, user_errors, warn
-from ehlectric.errors import InputError, LostError, ResultWarning, shown
-from ehlectric.version import __version__
+from ehlectric.commands.terminal import (
+    NOT_CONVERGED,
+    echo_files,
+    print_rows,
+    refuse_failure,
+    user_errors,
+    warn,
+)
+from ehlectric.errors import InputError, LostError, shown
+from ehlectric.runtime.progress import Progress, silent
 
 if TYPE_CHECKING:
     from ehlectric.sweep.results import SweepResults
 
 
-# Between two lines of progress where nobody sees a bar [s].
+# Time between two lines of progress where stderr is not a terminal [s].
 _EVERY = 15.0
 
-# More processes than any machine has cores.
+# Largest number of processes.
 _MOST_WORKERS = 1024
 
 
@@ -52,37 +58,26 @@ def sweep(
     was solved, or the scheduler is gone.
     """
     with user_errors():
-        count = _workers(workers, scheduler)
+        options = {"workers": _workers(workers, scheduler), "scheduler": scheduler}
 
-        from ehlectric.sweep.inputs import Sweep
+        from ehlectric.commands import runs
 
-        asked = Sweep.from_toml(sweep_file)
-
-        from ehlectric.sweep.run import crew, run_with
-
-        if scheduler is None:
-            solvers = crew(None, count)
-        else:
-            from ehlectric.sweep.cluster import cluster
-
-            solvers = cluster(scheduler)
-        with _told_where_it_stops(output) as begun, _shown(begun, quiet=quiet) as progress:
-            results = run_with(asked, output, solvers, progress)
+        asked = runs.read_sweep_file(sweep_file)
+        with _tell_where_it_stops(output) as begun, _shown(begun, quiet=quiet) as progress:
+            outcome = runs.RUNS["sweep"].run(asked, output, progress, **options)
     if not quiet:
-        from ehlectric.sweep.tables import FILES
+        from ehlectric.commands.tables.sweep import sweep_rows
 
-        print_table(results_table(results))
-        typer.echo("written: " + ", ".join(str(output / name) for name in FILES if (output / name).exists()))
-        warn(_warnings(results))
-    elif any(point.solved for point in results.points):
-        warn(_in_short(results))
-    if not any(point.solved for point in results.points):
-        typer.echo(f"error: none of {len(results.points)} points was solved", err=True)
-        raise typer.Exit(NOT_CONVERGED)
+        print_rows(sweep_rows(outcome.result))
+        echo_files(outcome.files)
+        warn(outcome.warnings)
+    elif outcome.converged:
+        warn(_in_short(outcome.result))
+    refuse_failure(outcome)
 
 
 def _workers(text: str | None, scheduler: str | None) -> int | None:
-    """The number of processes that an option gives."""
+    """Number of processes of the option --workers; None where it is not given."""
     if text is None:
         return None
     if scheduler is not None:
@@ -93,20 +88,20 @@ def _workers(text: str | None, scheduler: str | None) -> int | None:
 
 
 class _Begun:
-    """Whether points are being solved."""
+    """State of a sweep: ``yet`` is true when points are being solved."""
 
     yet = False
 
 
 @contextmanager
-def _told_where_it_stops(output: Path) -> Iterator[_Begun]:
-    """One line of what is saved where a sweep is stopped or loses those who solve it."""
+def _tell_where_it_stops(output: Path) -> Iterator[_Begun]:
+    """Context of a sweep; where it is stopped or loses its crew, one line tells how many points are saved."""
     begun = _Begun()
 
-    def told(why: str) -> None:
+    def tell(why: str) -> None:
         from ehlectric.sweep.store import saved_points
 
-        # Of the file, as the last rows may not have been told yet.
+        # Read from the file: the progress may not have been called for the last points yet.
         saved, points = saved_points(output)
         text = f"{saved} of {points} points are saved in {output}, the same command goes on with the others"
         typer.echo(f"{why}; {text}", err=True)
@@ -114,19 +109,18 @@ def _told_where_it_stops(output: Path) -> Iterator[_Begun]:
     try:
         yield begun
     except LostError as error:
-        told(f"error: those who solve are gone: {error}")
+        tell(f"error: those who solve are gone: {error}")
         raise typer.Exit(NOT_CONVERGED) from None
     except (KeyboardInterrupt, SystemExit):
         if begun.yet:
-            told("stopped")
+            tell("stopped")
         raise
 
 
 @contextmanager
-def _shown(begun: _Begun, *, quiet: bool) -> Iterator[Callable[[int, int, str], None]]:
-    """Progress on stderr: a bar where somebody sees it, else a line now and then."""
-    showing = _silent() if quiet else _bar() if sys.stderr.isatty() else _lines()
-    with showing as show:
+def _shown(begun: _Begun, *, quiet: bool) -> Iterator[Progress]:
+    """Context with progress on stderr: a bar on a terminal, else a line now and then."""
+    with nullcontext(silent) if quiet else _bar() if sys.stderr.isatty() else _lines() as show:
 
         def progress(done: int, of: int, text: str) -> None:
             begun.yet = True
@@ -136,13 +130,8 @@ def _shown(begun: _Begun, *, quiet: bool) -> Iterator[Callable[[int, int, str], 
 
 
 @contextmanager
-def _silent() -> Iterator[Callable[[int, int, str], None]]:
-    yield lambda _done, _of, _text: None
-
-
-@contextmanager
-def _lines() -> Iterator[Callable[[int, int, str], None]]:
-    """Plain lines, for a log file."""
+def _lines() -> Iterator[Progress]:
+    """Context with progress as plain lines, for a log file."""
     started, first, last = 0.0, 0, time.monotonic()
 
     def show(done: int, of: int, text: str) -> None:
@@ -161,8 +150,8 @@ def _lines() -> Iterator[Callable[[int, int, str], None]]:
 
 
 @contextmanager
-def _bar() -> Iterator[Callable[[int, int, str], None]]:
-    """A bar with rate and time left, those of this run."""
+def _bar() -> Iterator[Progress]:
+    """Context with a bar that shows the rate of this run and the time left."""
     from rich import progress
     from rich.console import Console
 
@@ -187,35 +176,17 @@ def _bar() -> Iterator[Callable[[int, int, str], None]]:
 
 
 def _duration(seconds: float) -> str:
+    """Time as hours, minutes and seconds."""
     minutes, rest = divmod(round(seconds), 60)
     hours, minutes = divmod(minutes, 60)
     return f"{hours}:{minutes:02}:{rest:02}"
 
 
-def _warnings(results: SweepResults) -> Iterator[ResultWarning]:
-    """Warnings of the solved points, and of points that another version solved."""
-    solved = [point for point in results.points if point.solved]
-    warned, doubtful = sum(bool(point.warnings) for point in solved), sum(results.doubtful)
-    where = "which the column warnings of sweep.csv has"
-    if warned:
-        text = f"{warned} of {len(solved)} solved points have warnings, {where}"
-        yield ResultWarning("points-with-warnings", text)
-    if doubtful:
-        told = f"{doubtful} of {len(solved)} solved points have a film that is not to be used"
-        text = f"{told}, as their warnings say: maps and lines leave them out"
-        yield ResultWarning("points-not-usable", text)
-    others = Counter(point.version for point in results.points if point.version not in ("", __version__))
-    for version, count in others.items():
-        kept = f"{count} points were solved by version {version} and are kept"
-        text = f"{kept}; in a new folder {__version__} solves them"
-        yield ResultWarning("points-of-another-version", text)
-
-
 def _in_short(results: SweepResults) -> Iterator[str]:
-    """In one line how many points are no use, where any is."""
+    """One line with the numbers of points that are not usable, where there are any."""
     counts = Counter(point.status for point in results.points)
-    told = [f"{counts[status]} {status}" for status in ("failed", "not converged") if counts[status]]
+    parts = [f"{counts[status]} {status}" for status in ("failed", "not converged") if counts[status]]
     if doubtful := sum(results.doubtful):
-        told.append(f'{doubtful} solved but "do not use"')
-    if told:
-        yield f"of {len(results.points)} points {', '.join(told)}; sweep.csv says why"
+        parts.append(f'{doubtful} solved but "do not use"')
+    if parts:
+        yield f"of {len(results.points)} points {', '.join(parts)}; sweep.csv says why"

@@ -1,18 +1,24 @@
-"""What all commands share: errors as one line, progress, tables and warnings on the terminal."""
+"""Output of all commands on the terminal: errors as one line, progress, tables, files and warnings."""
 
 from __future__ import annotations
 
+import json
 import sys
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import typer
 
 from ehlectric.errors import ConvergenceError, InputError, ResultWarning
+from ehlectric.runtime.progress import Progress, silent
 
 if TYPE_CHECKING:
     from rich.table import Table
+
+    from ehlectric.cases.row import Row
+    from ehlectric.runtime.outcome import RunOutcome
 
 
 WRONG_INPUT = 2
@@ -21,7 +27,10 @@ NOT_CONVERGED = 3
 
 @contextmanager
 def user_errors() -> Iterator[None]:
-    """Wrong input as one line on stderr and exit status 2."""
+    """Context in which errors of the user become one line on stderr.
+
+    The exit status is 2 where the input is wrong, and 3 where something is not converged.
+    """
     try:
         yield
     except InputError as error:
@@ -40,33 +49,83 @@ def user_errors() -> Iterator[None]:
 
 
 @contextmanager
-def progress_bar(*, shown: bool) -> Iterator[Callable[[int, int, str], None]]:
-    """A progress bar on stderr, where somebody can see it."""
+def progress_bar(*, shown: bool) -> Iterator[Progress]:
+    """Context with a progress bar on stderr; nothing is shown where stderr is not a terminal."""
     if not (shown and sys.stderr.isatty()):
-        yield lambda _done, _of, _text: None
+        yield silent
         return
+    from rich import progress
     from rich.console import Console
-    from rich.progress import Progress
 
-    with Progress(console=Console(stderr=True)) as bar:
+    with progress.Progress(console=Console(stderr=True)) as bar:
         task = bar.add_task("starting", total=None)
-        yield lambda done, of, text: bar.update(task, completed=done, total=of, description=text)
+        yield lambda done, of, text: bar.update(task, completed=done, total=of or None, description=text)
 
 
 @contextmanager
-def progress_line(*, shown: bool) -> Iterator[Callable[[str], None]]:
-    """A line on stderr that says what is being done, where somebody can see it."""
+def progress_line(*, shown: bool) -> Iterator[Progress]:
+    """Context with a line on stderr that says what is being done; only where stderr is a terminal."""
     if not (shown and sys.stderr.isatty()):
-        yield lambda _: None
+        yield silent
         return
     from rich.console import Console
 
     with Console(stderr=True).status("starting") as status:
-        yield status.update
+        yield lambda _done, _of, text: status.update(text)
+
+
+def report(
+    outcome: RunOutcome[Any],
+    tables: Callable[[RunOutcome[Any]], Iterable[Table]],
+    *,
+    quiet: bool,
+    as_json: bool,
+) -> None:
+    """Print the tables and files of a run, its warnings, and why it failed.
+
+    Parameters
+    ----------
+    outcome : RunOutcome
+        Outcome of the run.
+    tables : callable
+        Makes the tables of the outcome.
+    quiet : bool
+        Print no tables, files and warnings.
+    as_json : bool
+        Print the summary as JSON in place of tables and files.
+
+    Raises
+    ------
+    Exit
+        With status 3 where the run failed.
+    """
+    if as_json:
+        typer.echo(json.dumps(outcome.summary, indent=2))
+    elif not quiet:
+        for table in tables(outcome):
+            print_table(table)
+        echo_files(outcome.files)
+    if not quiet:
+        warn(outcome.warnings)
+    refuse_failure(outcome)
+
+
+def refuse_failure(outcome: RunOutcome[Any]) -> None:
+    """Print why a run failed, and end with exit status 3; nothing where it succeeded."""
+    if outcome.failure is not None:
+        typer.echo(f"error: {outcome.failure}", err=True)
+        raise typer.Exit(NOT_CONVERGED)
+
+
+def print_rows(rows: Iterable[Row], title: str = "") -> None:
+    """Print rows of data as a table on stdout."""
+    from ehlectric.commands.tables.layout import table_of
+
+    print_table(table_of(rows, title))
 
 
 def print_table(table: Table) -> None:
-    """Print a table on stdout, plain where nobody sees it."""
+    """Print a table on stdout; without colours where stdout is not a terminal."""
     from rich.console import Console
 
     console = Console(highlight=False)
@@ -75,7 +134,12 @@ def print_table(table: Table) -> None:
     typer.echo(captured.get(), nl=False)
 
 
+def echo_files(files: Iterable[Path]) -> None:
+    """Print the files that were written, on one line."""
+    typer.echo("written: " + ", ".join(str(path) for path in files))
+
+
 def warn(texts: Iterable[str | ResultWarning]) -> None:
-    """Warnings on stderr, a line each."""
+    """Print warnings on stderr, one on each line."""
     for text in texts:
         typer.echo(f"warning: {text}", err=True)

@@ -1,10 +1,9 @@
-"""Results on disk: summary.json, result.nc and film.csv, and back."""
+"""Files of a contact's result: summary.json, result.nc and film.csv."""
 
 from __future__ import annotations
 
 import json
 import tomllib
-import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -18,7 +17,8 @@ from ehlectric.contact.problems import scales_of
 from ehlectric.contact.results import RESULTS, PointResult, Result
 from ehlectric.contact.solution import Smooth
 from ehlectric.errors import InputError
-from ehlectric.runtime.files import prepare, whole
+from ehlectric.runtime.files import prepare, whole, write_json
+from ehlectric.runtime.netcdf import read_dataset
 from ehlectric.runtime.stored_warnings import of_attributes
 
 if TYPE_CHECKING:
@@ -36,28 +36,26 @@ def save(result: Result | PointResult, folder: str | Path) -> list[Path]:
 
     Parameters
     ----------
-    result : Result
-        What ``solve`` gave.
+    result : Result or PointResult
+        Result of ``solve``.
     folder : str or Path
-        Where to; made if it is not there.
+        Folder of the files; it is made if it does not exist.
 
     Returns
     -------
     list of Path
-        The files written.
+        Files written.
 
     Raises
     ------
     InputError
-        Where the folder cannot be written to, or the result has no case, which its file keeps.
+        Where the folder cannot be written to, or the result has no case, which the files must hold.
     """
     if not isinstance(result.case, Case):
         raise InputError("result", got="one of solve_contact, which has no case;", takes="one of solve(case)")
     folder = prepare(folder, FILES)
     files = [folder / name for name in FILES]
-    with whole(files[0]) as path:
-        text = json.dumps(result.summary(), indent=2, allow_nan=False)
-        path.write_text(text + "\n", encoding="utf-8")
+    write_json(files[0], result.summary())
     with whole(files[1]) as path:
         result.to_xarray().to_netcdf(path, engine="h5netcdf")
     with whole(files[2]) as path:
@@ -68,7 +66,7 @@ def save(result: Result | PointResult, folder: str | Path) -> list[Path]:
 
 
 def _film_columns(result: Result | PointResult) -> tuple[Array, list[str]]:
-    """The film as a table, one line a node, and the names of its positions."""
+    """Columns of film.csv, one row for each node, and the names of the columns of positions."""
     film = result.film
     names = [f"{name} [m]" for name in ("x", "y")[: len(film.axes)]]
     positions = np.meshgrid(*film.axes, indexing="ij")
@@ -77,7 +75,7 @@ def _film_columns(result: Result | PointResult) -> tuple[Array, list[str]]:
 
 
 def load(path: str | Path) -> Result | PointResult:
-    """Read a result back from its NetCDF file.
+    """Load the result of a contact from its NetCDF file.
 
     Parameters
     ----------
@@ -87,27 +85,37 @@ def load(path: str | Path) -> Result | PointResult:
     Returns
     -------
     Result or PointResult
-        As it was saved.
+        Result, equal to the one that was saved.
 
     Raises
     ------
     InputError
-        Where the file cannot be read or is not a result.
+        Where the file cannot be read or is not the result of a contact.
     """
-    import xarray as xr
-
     path = Path(path)
-    try:
-        path.open("rb").close()
-    except OSError as error:
-        reason = (error.strerror or str(error)).lower()
-        raise InputError(path, f"cannot be read, {reason}") from None
-    try:
-        with warnings.catch_warnings(), xr.open_dataset(path, engine="h5netcdf") as file:
-            warnings.simplefilter("ignore")  # of what xarray thinks of files that are refused below
-            dataset = file.load()
-    except Exception:  # whatever HDF5 and its wrappers raise at damaged files
-        raise InputError(path, "is not a NetCDF file") from None
+    return result_of(read_dataset(path), path)
+
+
+def result_of(dataset: xr.Dataset, path: Path) -> Result | PointResult:
+    """Result of a contact from its dataset.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        Contents of a result.nc.
+    path : Path
+        The file, named in the error.
+
+    Returns
+    -------
+    Result or PointResult
+        Result, equal to the one that was saved.
+
+    Raises
+    ------
+    InputError
+        Where the dataset is not the result of a contact.
+    """
     try:
         return _result_of(dataset)
     except (InputError, ArithmeticError, AttributeError, LookupError, TypeError, ValueError):
@@ -133,7 +141,7 @@ def _result_of(dataset: xr.Dataset) -> Result | PointResult:
 
 
 def _provenance(dataset: xr.Dataset) -> dict[str, Any]:
-    """What all solutions have beside their case, film and field."""
+    """Parts of a result beside its case, film and field."""
     attributes, smooth = dataset.attrs, smooth_of(dataset)
     film_seconds, field_seconds = json.loads(attributes["seconds"])
     return {

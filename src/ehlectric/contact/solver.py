@@ -5,7 +5,6 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from datetime import UTC, datetime
 from typing import Any
 
 import numpy as np
@@ -30,6 +29,7 @@ from ehlectric.contact.solution import Smooth
 from ehlectric.discharge.assessment import discharge_warnings
 from ehlectric.errors import ConvergenceError, InputError
 from ehlectric.film.state import Progress
+from ehlectric.runtime.files import now
 from ehlectric.surfaces.rough_maps import RoughMap
 from ehlectric.surfaces.rough_profiles import RoughSurface
 from ehlectric.version import __version__
@@ -259,7 +259,7 @@ def _solved(
         film_seconds=films.seconds,
         field_seconds=time.perf_counter() - started,
         version=__version__,
-        date=datetime.now(UTC).isoformat(timespec="seconds"),
+        date=now(),
     )
 
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import threading
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any, Protocol, TypeVar
 
 import matplotlib as mpl
 from matplotlib.artist import Artist
@@ -17,7 +18,10 @@ from matplotlib.figure import Figure
 from ehlectric.arrays import Array
 from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.conditions import Conditions, PointConditions
+from ehlectric.errors import InputError, shown
 from ehlectric.runtime.files import whole
+
+D = TypeVar("D")
 
 # Colours that stay apart in print and for colour-blind readers (Okabe and Ito).
 BLUE, ORANGE, GREEN, GREY = "#0072b2", "#d55e00", "#009e73", "#555555"
@@ -37,6 +41,8 @@ _STYLE: dict[str, Any] = {
     "figure.constrained_layout.use": True,
 }
 
+_turn = threading.RLock()
+
 
 class OfContact(Protocol):
     """Object with the conditions of a contact: a result, or a run with moving roughness."""
@@ -49,8 +55,12 @@ class OfContact(Protocol):
 
 @contextmanager
 def style() -> Iterator[None]:
-    """Context manager in which figures have the package's text sizes and line widths."""
-    with mpl.rc_context(_STYLE), warnings.catch_warnings():  # type: ignore[arg-type]
+    """Context manager in which figures have the package's text sizes and line widths.
+
+    The settings of matplotlib belong to the whole process and are restored at the end. Threads that draw
+    take turns, so that none restores the settings of another.
+    """
+    with _turn, mpl.rc_context(_STYLE), warnings.catch_warnings():  # type: ignore[arg-type]
         # The title of a case may contain characters that the font lacks.
         warnings.filterwarnings("ignore", message="Glyph .* missing")
         yield
@@ -81,10 +91,29 @@ def name_over(ax: Axes, text: str, *, converged: bool = True) -> None:
     figure_of(ax).suptitle(text, x=0.01, ha="left", size=9.0, parse_math=False, **how)
 
 
-def save_figure(ax: Axes, path: Path) -> None:
-    """Write the figure that the axes belong to as a PNG file; an interrupted write leaves no partial file."""
-    with whole(path) as beside:
-        figure_of(ax).savefig(beside)
+def save_figure(figure: Figure, path: Path) -> None:
+    """Write a figure as a PNG file; an interrupted write leaves no partial file."""
+    with style(), whole(path) as beside:
+        figure.savefig(beside)
+
+
+def drawing_of(drawings: Mapping[str, D], name: str) -> D:
+    """Entry of a table of drawings by its name.
+
+    Raises
+    ------
+    InputError
+        Where the result has no figure of this name.
+
+    Examples
+    --------
+    >>> drawing_of({"film.png": 1}, "field.png")
+    Traceback (most recent call last):
+    ehlectric.errors.InputError: figure: got 'field.png', takes one of film.png
+    """
+    if name not in drawings:
+        raise InputError("figure", got=shown(name), takes=f"one of {', '.join(drawings)}")
+    return drawings[name]
 
 
 def legend_above(ax: Axes, handles: Sequence[Artist] | None = None, columns: int = 2) -> None:

@@ -101,4 +101,4 @@ def save_surface(steps: Sequence[tuple[str, Profile | Map]], path: Path) -> None
         for ax, (name, step) in zip(panels, first_and_last, strict=True):
             drawn = height_map(step, ax) if isinstance(step, Map) else profile(step, ax)
             drawn.set_title(name if step is steps[0][1] else "after the last step", loc="left")
-        save_figure(panels[0], path)
+        save_figure(figure_of(panels[0]), path)

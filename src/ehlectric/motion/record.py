@@ -18,7 +18,7 @@ from ehlectric.errors import InputError
 from ehlectric.motion.field_history import FieldHistory, strength_between
 from ehlectric.motion.kinds import KINDS, AnyKind
 from ehlectric.motion.schedule import Schedule, schedule_of
-from ehlectric.runtime.netcdf import opened
+from ehlectric.runtime.netcdf import opened, read_dataset
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -54,28 +54,16 @@ def read_motion(path: str | Path) -> xr.Dataset:
     InputError
         Where the file cannot be read, is damaged, or has no transient run.
     """
-    import xarray as xr
-
     path = Path(path)
     path = path / MOTION if path.is_dir() else path
-    try:
-        path.open("rb").close()
-    except OSError as error:
-        raise InputError(path, f"cannot be read, {(error.strerror or str(error)).lower()}") from None
-    damaged = InputError(path, "is no motion of ehlectric, or damaged")
-    try:
-        with opened(path, "r") as file:
-            dataset = xr.open_dataset(xr.backends.H5NetCDFStore(file)).load()
-    except InputError:
-        raise
-    except Exception:  # HDF5 and its wrappers raise errors of many kinds at damaged files
-        raise damaged from None
+    damaged = "is no motion of ehlectric, or damaged"
+    dataset = read_dataset(path, damaged)
     try:
         Case.from_dict(tomllib.loads(dataset.attrs["case"]))
         frames = int(dataset.attrs["frames"])
         last = int(dataset["frame_step"].values[:frames][-1])
     except (LookupError, TypeError, ValueError):
-        raise damaged from None
+        raise InputError(path, damaged) from None
     return dataset.isel(frame=slice(0, frames), step=slice(0, last + 1))
 
 

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import json
 import time
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,6 +12,7 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
+from ehlectric.contact.check import check_case
 from ehlectric.contact.files import FILES, SUMMARY
 from ehlectric.contact.memory import check_memory
 from ehlectric.contact.results import PointResult, Result
@@ -24,8 +24,10 @@ from ehlectric.motion.file import MotionFile, Record, Row, described
 from ehlectric.motion.record import MOTION, read_motion
 from ehlectric.motion.solver import TransientSolver
 from ehlectric.motion.summary import summary_of
-from ehlectric.runtime.files import clear, now, plain, prepare, whole
-from ehlectric.runtime.stored_warnings import as_attributes
+from ehlectric.runtime.files import clear, now, plain, prepare, write_json
+from ehlectric.runtime.outcome import RunOutcome
+from ehlectric.runtime.progress import Progress, silent
+from ehlectric.runtime.stored_warnings import as_attributes, warnings_of
 from ehlectric.version import __version__
 
 if TYPE_CHECKING:
@@ -35,54 +37,31 @@ if TYPE_CHECKING:
 # Part of its height by which moving roughness may differ from the stationary one without a warning.
 _ALIKE = 1e-3
 
-# Called with the number of steps done, the number of all steps, and what is being done.
-Progress = Callable[[int, int, str], None]
 
-
-def _quiet(_done: int, _of: int, _text: str) -> None:
-    pass
-
-
-@dataclass(frozen=True)
-class MotionOutcome:
-    """Results of a transient run and the files that have them.
-
-    Attributes
-    ----------
-    dataset : xarray.Dataset
-        The run, as ``read_motion`` gives it.
-    summary : dict
-        Results as in summary.json, SI units.
-    files : tuple of Path
-        Files written: summary.json and motion.nc.
-    failure : ConvergenceError or None
-        Why the run ended before its last step; None where it is complete.
-    """
-
-    dataset: xr.Dataset
-    summary: dict[str, Any]
-    files: tuple[Path, ...]
-    failure: ConvergenceError | None = None
-
-
-def run(case: Case, folder: str | Path, progress: Progress = _quiet) -> MotionOutcome:
+def run(
+    case: Case, folder: str | Path, progress: Progress = silent, *, others: Sequence[str] = ()
+) -> RunOutcome[xr.Dataset]:
     """Solve a contact with moving roughness, and write motion.nc and summary.json.
 
     Parameters
     ----------
     case : Case
-        A case with ``motion``.
+        Case with ``motion``.
     folder : str or Path
-        Folder of the files; made if it is not there. An unfinished run of the same case there is resumed. A
-        complete one without summary.json is summed up without being solved again. The files of any other
-        result there are replaced.
+        Folder of the files; it is made if it does not exist. An unfinished run of the same case there is
+        resumed. A complete run without summary.json is summed up without being solved again. The files of any
+        other result there are replaced.
     progress : callable, optional
         Called with the number of steps done, the number of all steps, and what is being done.
+    others : sequence of str, optional
+        Names of other files in the folder that belong to its result, such as figures. Those of an earlier
+        result are removed.
 
     Returns
     -------
-    MotionOutcome
-        Where a time step is not solved, the steps before it are summed up, and ``failure`` says why.
+    RunOutcome
+        Its result is the dataset of ``read_motion``. Where a time step is not solved, the steps before it are
+        summed up, and ``failure`` says why.
 
     Raises
     ------
@@ -91,25 +70,26 @@ def run(case: Case, folder: str | Path, progress: Progress = _quiet) -> MotionOu
     ConvergenceError
         Where the film before the motion is not converged, so that there is nothing to sum up.
     """
-    folder = prepare(folder, (MOTION, *FILES))
+    check_case(case)
+    contact = TransientContact.of(case)
+    folder = prepare(folder, (MOTION, *FILES, *others))
     # A run that was stopped between its last step and its summary has no summary.json.
     again = (folder / SUMMARY).is_file()
-    clear(folder, FILES)
+    clear(folder, (*FILES, *others))
     failure = None
     try:
-        run_motion(case, folder, again=again, progress=progress)
+        _solve(contact, folder / MOTION, again=again, progress=progress)
     except ConvergenceError as error:
         if not (folder / MOTION).is_file():
             raise
-        failure = error
+        failure = f"not converged: {error}"
     dataset = read_motion(folder)
     summary = summary_of(dataset)
-    with whole(folder / SUMMARY) as path:
-        path.write_text(json.dumps(summary, indent=2, allow_nan=False) + "\n", encoding="utf-8")
-    return MotionOutcome(dataset, summary, (folder / SUMMARY, folder / MOTION), failure)
+    write_json(folder / SUMMARY, summary)
+    return RunOutcome(dataset, summary, (folder / SUMMARY, folder / MOTION), warnings_of(summary), failure)
 
 
-def run_motion(case: Case, folder: str | Path, *, again: bool = True, progress: Progress = _quiet) -> Path:
+def run_motion(case: Case, folder: str | Path, *, again: bool = True, progress: Progress = silent) -> Path:
     """Solve a contact with moving roughness, and write motion.nc while it is solved.
 
     Parameters
@@ -139,10 +119,16 @@ def run_motion(case: Case, folder: str | Path, *, again: bool = True, progress: 
     contact = TransientContact.of(case)
     check_memory(case)
     path = prepare(folder, (MOTION,)) / MOTION
+    _solve(contact, path, again=again, progress=progress)
+    return path
+
+
+def _solve(contact: TransientContact, path: Path, *, again: bool, progress: Progress) -> None:
+    """Solve the time steps that a file does not have yet, and write the recorded instants into it."""
     solver = TransientSolver(contact)
     file = MotionFile(path, contact)
     if not again and file.whole():
-        return path
+        return
     resumed = file.resumed()
     if resumed is None:
         path.unlink(missing_ok=True)
@@ -162,7 +148,6 @@ def run_motion(case: Case, folder: str | Path, *, again: bool = True, progress: 
             file.append(Record(step, rows, snapshot, latest, started - since))
             rows = []
             progress(step, contact.schedule.steps, "in time")
-    return path
 
 
 def _begin(file: MotionFile, solver: TransientSolver) -> None:

@@ -1,12 +1,13 @@
-"""Files written whole or not at all, folders made ready for them, and values as JSON takes them."""
+"""Files that are written whole or not at all, folders for them, and values that JSON can hold."""
 
 from __future__ import annotations
 
+import json
 import math
 import os
 import secrets
 import tempfile
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from datetime import UTC, datetime
 from pathlib import Path
@@ -16,13 +17,15 @@ import numpy as np
 
 from ehlectric.errors import InputError
 
-# It can only be read by setting it, for the whole process: once, at the start.
-_UMASK = os.umask(0o077)
-os.umask(_UMASK)
-
 
 def plain(value: Any) -> Any:
-    """JSON value: no NumPy scalars, and None for what is not finite."""
+    """JSON value: NumPy scalars become Python numbers, and numbers that are not finite None.
+
+    Examples
+    --------
+    >>> plain({"load": np.float64(20.0), "error": float("nan"), "at": (1, 2)})
+    {'load': 20.0, 'error': None, 'at': [1, 2]}
+    """
     if isinstance(value, dict):
         return {key: plain(item) for key, item in value.items()}
     if isinstance(value, list | tuple):
@@ -35,14 +38,16 @@ def plain(value: Any) -> Any:
 
 
 def prepare(folder: str | Path, names: Iterable[str] = ()) -> Path:
-    """Make a folder for files of these names, before anything is solved.
+    """Make a folder for results and check that files can be written into it.
+
+    Call it before anything is solved, so that no result is lost.
 
     Parameters
     ----------
     folder : str or Path
-        Where the files will go.
+        Folder of the files; it is made if it does not exist.
     names : iterable of str
-        Files that will be written there.
+        Names of the files that will be written.
 
     Returns
     -------
@@ -52,7 +57,8 @@ def prepare(folder: str | Path, names: Iterable[str] = ()) -> Path:
     Raises
     ------
     InputError
-        Where it cannot be made or written to, or a name is taken by something that is no file.
+        Where the folder cannot be made or written to, or a folder, a device or a broken link has one of the
+        names.
     """
     folder = Path(folder)
     if folder.exists() and not folder.is_dir():
@@ -70,41 +76,89 @@ def prepare(folder: str | Path, names: Iterable[str] = ()) -> Path:
 
 
 def refuse_special(path: Path) -> None:
-    """Refuse to write where a folder, a device or a broken link is.
+    """Refuse to write a file where a folder, a device or a broken link is.
 
     Raises
     ------
     InputError
-        Where ``path`` is there and no regular file.
+        Where ``path`` exists and is no regular file.
     """
     if os.path.lexists(path) and not path.is_file():
         raise InputError(path, "cannot be written to, it is no regular file")
 
 
+@contextmanager
+def reading(path: str | Path) -> Iterator[None]:
+    """Context in which a file is read: an OSError becomes an InputError of one line.
+
+    Raises
+    ------
+    InputError
+        Where an OSError is raised within the context.
+
+    Examples
+    --------
+    >>> with reading("no.toml"):
+    ...     text = Path("no.toml").read_text()
+    Traceback (most recent call last):
+    ehlectric.errors.InputError: no.toml: cannot be read, no such file or directory
+    """
+    try:
+        yield
+    except OSError as error:
+        raise InputError(path, f"cannot be read, {(error.strerror or str(error)).lower()}") from None
+
+
+def refuse_unreadable(path: Path) -> None:
+    """Refuse a file that does not exist or cannot be opened.
+
+    Raises
+    ------
+    InputError
+        Where ``path`` cannot be read.
+    """
+    with reading(path):
+        path.open("rb").close()
+
+
 def clear(folder: Path, names: Iterable[str]) -> None:
-    """Take files of an earlier result away: a folder holds one result, whole."""
+    """Remove files of an earlier result: a folder holds the files of one result only."""
     for name in names:
         (folder / name).unlink(missing_ok=True)
 
 
 @contextmanager
 def whole(path: Path) -> Iterator[Path]:
-    """A path beside ``path`` to write to; it becomes ``path`` when all went well, else it goes.
+    """Context that writes a file whole or not at all.
 
-    A link is followed, and its target replaced.
+    Yields a new empty file in the same folder. It is renamed to ``path`` where the context ends without an
+    exception, and removed otherwise. The file has the permissions of any new file of the process. Where
+    ``path`` is a link, its target is replaced.
     """
     path = path.resolve()
     beside = path.with_name(f".{path.stem}-{secrets.token_hex(4)}{path.suffix}")
-    # Named before it is made: a signal in between must not leave it behind.
+    # The name is known before the file is made: a signal in between must not leave the file behind.
     try:
-        beside.touch(mode=0o600, exist_ok=False)
+        # The kernel takes the umask off this mode: the umask can only be read by changing it.
+        os.close(os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666))
         yield beside
-        beside.chmod(0o666 & ~_UMASK)
         beside.replace(path)
     finally:
         beside.unlink(missing_ok=True)
 
 
+def write_json(path: Path, table: Mapping[str, Any]) -> None:
+    """Write a table as a JSON file, whole or not at all.
+
+    Raises
+    ------
+    ValueError
+        Where a number is not finite; ``plain`` turns such numbers into None.
+    """
+    with whole(path) as beside:
+        beside.write_text(json.dumps(table, indent=2, allow_nan=False) + "\n", encoding="utf-8")
+
+
 def now() -> str:
-    """Date and time, ISO 8601."""
+    """Date and time in UTC, ISO 8601."""
     return datetime.now(UTC).isoformat(timespec="seconds")

@@ -1,4 +1,4 @@
-"""Interrupts that wait until what is written is whole."""
+"""Interrupts that wait until a file is written."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ _STOPPING = tuple(getattr(signal, name) for name in _NAMES if hasattr(signal, na
 
 @contextmanager
 def held_back() -> Iterator[None]:
-    """Signals that stop a program are held back, and delivered at the end.
+    """Context in which signals that stop the program are held back; they are delivered at its end.
 
-    In other threads than the main one nothing is to be done: no signal interrupts them.
+    In other threads than the main thread the context does nothing, as no signal interrupts them.
 
     Examples
     --------
@@ -40,7 +40,7 @@ def held_back() -> Iterator[None]:
         yield
     finally:
         for held, handler in before.items():
-            # None: one that was not set from Python, and cannot be set from it.
+            # A handler that was not set from Python is None, and cannot be set again.
             signal.signal(held, signal.SIG_DFL if handler is None else handler)
         if came:
             signal.raise_signal(came[0])

@@ -1,4 +1,4 @@
-"""What the machine has of memory."""
+"""Memory of the machine."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 
 
 def physical_memory() -> float:
-    """Memory of the machine [bytes], infinite where the system does not tell."""
+    """Physical memory of the machine [bytes]; infinite where the operating system does not tell it."""
     try:
         return float(os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE"))
     except (AttributeError, ValueError, OSError):

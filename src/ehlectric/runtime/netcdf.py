@@ -1,29 +1,70 @@
-"""NetCDF files that are written as it goes, and that others may look at meanwhile."""
+"""NetCDF files: reading them, and writing files that grow while other programs read them."""
 
 from __future__ import annotations
 
 import shutil
 import time
+import warnings
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ehlectric.errors import InputError
+from ehlectric.runtime.files import refuse_unreadable
 from ehlectric.runtime.interrupts import held_back
 
-# What a run waits for those who read its file, and they for it, and in which steps [s].
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+# Longest time to wait for another program that has the file open, and time between two attempts [s].
 _PATIENCE, _AGAIN = 30.0, 0.05
 
 
-@contextmanager
-def opened(path: Path, mode: str) -> Iterator[Any]:
-    """A file, once nobody else has it open; who stops the program waits until it is closed.
+def read_dataset(path: Path, damaged: str = "is not a NetCDF file") -> xr.Dataset:
+    """Read a NetCDF file into memory.
+
+    Parameters
+    ----------
+    path : Path
+        File to read; it may be growing.
+    damaged : str
+        Words of the error where the file is damaged or no NetCDF file.
+
+    Returns
+    -------
+    xarray.Dataset
+        All variables and attributes.
 
     Raises
     ------
     InputError
-        Where it stays open.
+        Where the file cannot be read, is damaged, or stays open in another program.
+    """
+    import xarray as xr
+
+    refuse_unreadable(path)
+    try:
+        with warnings.catch_warnings(), opened(path, "r") as file:
+            warnings.simplefilter("ignore")  # xarray warns about files that are refused below
+            return xr.open_dataset(xr.backends.H5NetCDFStore(file)).load()
+    except InputError:
+        raise
+    except Exception:  # HDF5 and its wrappers raise errors of many types for damaged files
+        raise InputError(path, damaged) from None
+
+
+@contextmanager
+def opened(path: Path, mode: str) -> Iterator[Any]:
+    """Context with an open file. It waits while another program has the file open.
+
+    Interrupts are held back until the file is closed, so that they leave no damaged file.
+
+    Raises
+    ------
+    InputError
+        Where another program keeps the file open.
     """
     import h5netcdf
 
@@ -44,26 +85,26 @@ def opened(path: Path, mode: str) -> Iterator[Any]:
 
 
 def check_space(path: Path, needed: int) -> None:
-    """Refuse to write what a disk has no room for: HDF5 itself does not survive a full one.
+    """Refuse to write more than the disk has room for: HDF5 damages the file when the disk is full.
 
     Parameters
     ----------
     path : Path
-        The file.
+        File that grows.
     needed : int
-        Bytes that it may grow by.
+        Largest number of bytes that it may grow by.
 
     Raises
     ------
     InputError
-        Where there are fewer.
+        Where the disk has fewer bytes left.
     """
     if shutil.disk_usage(path.parent).free < needed:
         raise InputError(path, "cannot be written to, the disk is full")
 
 
 def resize(file: Any, sizes: Mapping[str, int]) -> None:
-    """Give dimensions these sizes, those that have others."""
+    """Resize the dimensions of an open file whose sizes differ from the ones in ``sizes``."""
     for name, size in sizes.items():
         if file.dimensions[name].size != size:
             file.resize_dimension(name, size)

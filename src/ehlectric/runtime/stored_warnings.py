@@ -1,4 +1,4 @@
-"""Warnings as files keep them, texts beside codes, and codes for files of versions that wrote texts alone."""
+"""Warnings in files: texts beside codes, and codes for files of earlier versions, which have texts only."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ehlectric.errors import CODES, ResultWarning
 # Keys of summary.json, and names of attributes in NetCDF files.
 TEXTS, CODES_OF_TEXTS = "warnings", "warning_codes"
 
-# Words that only warnings of one code have, in the order in which they are looked for.
+# Words that occur in the warnings of one code only, in the order in which they are searched for.
 _WORDS = (
     ("on this grid; do not use it", "grid-far-too-coarse"),
     ("it is no solution: ", "not-converged"),
@@ -62,15 +62,16 @@ _WORDS = (
 
 
 def texts_and_codes(warnings: Iterable[ResultWarning]) -> dict[str, list[str]]:
-    """Warnings as two entries of a summary, lists of equal length.
+    """Entries of a summary for warnings: their texts and their codes, lists of equal length.
 
     Examples
     --------
     >>> texts_and_codes([ResultWarning("regime", "rigid-piezoviscous regime")])
     {'warnings': ['rigid-piezoviscous regime'], 'warning_codes': ['regime']}
     """
-    told = tuple(warnings)
-    return {TEXTS: [str(warning) for warning in told], CODES_OF_TEXTS: [warning.code for warning in told]}
+    listed = tuple(warnings)
+    texts, codes = [str(warning) for warning in listed], [warning.code for warning in listed]
+    return {TEXTS: texts, CODES_OF_TEXTS: codes}
 
 
 def warnings_of(table: Mapping[str, Any]) -> tuple[ResultWarning, ...]:
@@ -79,9 +80,14 @@ def warnings_of(table: Mapping[str, Any]) -> tuple[ResultWarning, ...]:
     Parameters
     ----------
     table : mapping
-        With ``warnings`` and ``warning_codes`` as ``texts_and_codes`` gives them. Without ``warning_codes``,
-        as in files of earlier versions, the codes are those of ``code_of_text``; so is a code that this
-        version does not know.
+        Summary with ``warnings`` and ``warning_codes``, as ``texts_and_codes`` makes them. ``code_of_text``
+        gives the codes where ``warning_codes`` is missing, as in files of earlier versions, and where this
+        version does not know a code.
+
+    Returns
+    -------
+    tuple of ResultWarning
+        Warnings in the order of their texts.
 
     Raises
     ------
@@ -95,7 +101,7 @@ def warnings_of(table: Mapping[str, Any]) -> tuple[ResultWarning, ...]:
     'severe'
     """
     texts = table.get(TEXTS, ())
-    codes = table.get(CODES_OF_TEXTS, texts)  # no text is a code
+    codes = table.get(CODES_OF_TEXTS, texts)  # a text is never a code
     return tuple(
         ResultWarning(code if code in CODES else code_of_text(text), text)
         for text, code in zip(texts, codes, strict=True)
@@ -128,12 +134,12 @@ def code_of_text(text: str) -> str:
 
 
 def as_attributes(warnings: Iterable[ResultWarning]) -> dict[str, str]:
-    """Warnings as two attributes of a NetCDF file, JSON."""
+    """Attributes of a NetCDF file for warnings: texts and codes, each as JSON."""
     return {name: json.dumps(values) for name, values in texts_and_codes(warnings).items()}
 
 
 def of_attributes(attributes: Mapping[Any, Any]) -> tuple[ResultWarning, ...]:
-    """Warnings of a NetCDF file, from its attributes, as ``warnings_of`` reads them.
+    """Warnings in the attributes of a NetCDF file, read as by ``warnings_of``.
 
     Examples
     --------

@@ -1,7 +1,7 @@
-"""One BLAS thread around small and banded factorisations.
+"""One BLAS thread for small and banded factorisations.
 
-OpenBLAS spreads even a factorisation of bandwidth six over its threads, and spends tens of times the work on
-handing it over.
+OpenBLAS uses all of its threads even for a factorisation of bandwidth six. Starting them takes tens of times
+longer than the factorisation.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ _turn = threading.RLock()
 
 @cache
 def _controller() -> ThreadpoolController:
-    # Looking for the libraries takes milliseconds: once a process is enough.
+    # The search for the libraries takes milliseconds and is done once in a process.
     return ThreadpoolController()
 
 
@@ -26,8 +26,8 @@ def _controller() -> ThreadpoolController:
 def one_blas_thread() -> Iterator[None]:
     """Context in which BLAS and LAPACK run on one thread.
 
-    The limit is the whole process's, and so threads take turns: one that set it while another was about to
-    lift it would leave it behind. Solving in parallel takes processes.
+    The limit holds for the whole process. Threads therefore take turns: overlapping contexts could leave the
+    limit set at their end. Solve in several processes to use several cores.
     """
     with _turn, _controller().limit(limits=1, user_api="blas"):
         yield

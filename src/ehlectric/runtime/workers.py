@@ -1,4 +1,4 @@
-"""A pool of processes that ends when it should: at once where the run is stopped, and with its parent."""
+"""Pool of processes that ends at once where a run is stopped, and with its parent process."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ T = TypeVar("T")
 
 
 def cores() -> int:
-    """Cores that this process may use."""
+    """Number of cores that this process may use."""
     affinity = getattr(os, "sched_getaffinity", None)
     return (os.cpu_count() or 1) if affinity is None else len(affinity(0))
 
@@ -24,21 +24,21 @@ def cores() -> int:
 def run_all(
     tasks: Sequence[Callable[[], T]], done: Callable[[int, T], None], *, processes: int | None = None
 ) -> None:
-    """Run tasks in processes of their own, one a core.
+    """Run tasks in parallel, in processes of their own.
 
     Parameters
     ----------
     tasks : sequence of callable
-        Without arguments; they and what they return must pickle.
+        Tasks without arguments. They and their results must pickle.
     done : callable
-        Called in this process with the number of a task and what it returned, as they finish.
+        Called in this process with the number of a task and its result, as the tasks finish.
     processes : int, optional
-        How many at most; as many as there are cores otherwise.
+        Largest number of processes; by default as many as there are cores.
 
     Raises
     ------
     RuntimeError
-        Where a process was killed, or could not begin: a script that calls this needs
+        Where a process was killed or could not begin. A script that calls this needs
         ``if __name__ == "__main__":``.
     """
     pool = ProcessPoolExecutor(
@@ -48,7 +48,7 @@ def run_all(
     )
     try:
         with without_interrupts():
-            # Processes begin with the first tasks, and inherit that interrupts are not for them.
+            # The processes start with the first tasks and inherit that interrupts are ignored.
             futures = {pool.submit(task): number for number, task in enumerate(tasks)}
         for future in as_completed(futures):
             done(futures[future], future.result())
@@ -64,7 +64,7 @@ def run_all(
 
 
 def end_now(pool: ProcessPoolExecutor) -> None:
-    """End a pool and its processes, whatever they are at: nobody waits for what they would still find."""
+    """End a pool and its processes at once, without waiting for the tasks that are running."""
     with without_interrupts():
         for process in list((getattr(pool, "_processes", None) or {}).values()):
             process.terminate()
@@ -73,7 +73,7 @@ def end_now(pool: ProcessPoolExecutor) -> None:
 
 @contextmanager
 def without_interrupts() -> Iterator[None]:
-    """Ctrl-C ignored for a moment; threads that are not the main one have no say in that."""
+    """Context in which Ctrl-C is ignored. In other threads than the main thread it does nothing."""
     if threading.current_thread() is not threading.main_thread():
         yield
         return
@@ -85,7 +85,7 @@ def without_interrupts() -> Iterator[None]:
 
 
 def end_with_parent() -> None:
-    """End this process when its parent is gone, however that came: what a process of a pool begins with."""
+    """Start a thread that ends this process as soon as its parent has ended. Processes of a pool call it."""
 
     def watch() -> None:
         parent = multiprocessing.parent_process()

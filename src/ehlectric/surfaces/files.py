@@ -14,6 +14,7 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.errors import InputError, ResultWarning
+from ehlectric.runtime.files import reading
 from ehlectric.surfaces.instrument_files import HeightMap, read_al3d, read_x3p
 from ehlectric.surfaces.maps import Map
 from ehlectric.surfaces.profiles import LEAST_POINTS, Profile
@@ -247,12 +248,11 @@ def read_surface(path: str | Path, *, x_unit: str | None = None, z_unit: str | N
 
 def _content(path: Path) -> bytes:
     try:
-        # Reading a pipe could wait for ever.
-        if path.exists() and not (path.is_file() or path.is_dir()):
-            raise InputError(path, "is no regular file")
-        return path.read_bytes()
-    except OSError as error:
-        raise InputError(path, f"cannot be read, {(error.strerror or str(error)).lower()}") from None
+        with reading(path):
+            # Reading a pipe would wait for ever.
+            if path.exists() and not (path.is_file() or path.is_dir()):
+                raise InputError(path, "is no regular file")
+            return path.read_bytes()
     except ValueError as error:
         raise error if isinstance(error, InputError) else InputError(f"{path!r}", "is no path") from None
 

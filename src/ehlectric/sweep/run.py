@@ -1,9 +1,9 @@
-"""run_sweep: many cases solved in parallel, each saved as it finishes."""
+"""Runs of sweeps: many cases solved in parallel, each saved as it finishes."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor
 from contextlib import AbstractContextManager, ExitStack, nullcontext
 from pathlib import Path
@@ -11,15 +11,15 @@ from typing import Any
 
 from ehlectric.errors import InputError, LostError
 from ehlectric.runtime.files import clear, prepare
+from ehlectric.runtime.outcome import RunOutcome
+from ehlectric.runtime.progress import Progress, silent
 from ehlectric.runtime.workers import cores
 from ehlectric.sweep.engine import Crew, Task, crew_of, processes, run_points
 from ehlectric.sweep.inputs import Sweep
 from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.store import LOCK, NAME, Outcome, Planned, Store, plan, read_sweep
 from ehlectric.sweep.tables import FILES, write_tables
-
-# Called with (points done, points in all, what is to be said).
-Progress = Callable[[int, int, str], None]
+from ehlectric.sweep.warnings import sweep_warnings
 
 
 def run_sweep(
@@ -35,36 +35,38 @@ def run_sweep(
     Parameters
     ----------
     sweep : Sweep
-        What to solve.
+        Sweep to solve.
     folder : str or Path
-        Where sweep.sqlite is kept, and the tables are written.
+        Folder of sweep.sqlite and of the tables; it is made if it does not exist.
     executor : Executor, optional
-        Who solves, of the kind of concurrent.futures; not ended here. Processes of this machine otherwise.
+        Executor of concurrent.futures that solves the points; it is not shut down here. By default, processes
+        of this machine solve them.
     progress : callable, optional
-        Called with (points done, points in all, a text) as they finish.
+        Called with the number of points done, the number of all points, and a text.
     workers : int, optional
-        Processes of this machine; as many as there are cores if not given.
+        Number of processes of this machine; by default as many as there are cores.
 
     Returns
     -------
     SweepResults
-        All of its points.
+        Results of all points.
 
     Raises
     ------
     InputError
-        Where no point is a case, or the folder cannot be used.
+        Where no point is a valid case, or the folder cannot be used.
     LostError
-        Where the executor is gone; what is solved is saved, and the same call goes on. Also where a script
-        calls this without ``if __name__ == "__main__":``, as processes import it again.
+        Where the executor no longer works. The points solved so far are saved, and the same call solves the
+        others. Also where a script calls this without ``if __name__ == "__main__":``, as every process
+        imports the script again.
 
     Notes
     -----
-    Each point is committed as it finishes. Points that the folder has are not solved again, but those whose
-    process was killed or whose memory did not do.
+    Each point is saved as it finishes. A point that the folder has is not solved again, unless its process
+    was killed or ran out of memory.
     """
     try:
-        return run_with(sweep, folder, crew(executor, workers), progress)
+        return run(sweep, folder, progress or silent, solvers=crew(executor, workers)).result
     except LostError as error:
         if executor is not None:
             raise
@@ -72,39 +74,69 @@ def run_sweep(
 
 
 def crew(executor: Executor | None, workers: int | None) -> AbstractContextManager[Crew]:
-    """Who solves: the executor, or processes of this machine."""
+    """Context with the crew that solves points: an executor, or by default processes of this machine."""
     return processes(workers or cores()) if executor is None else nullcontext(crew_of(executor))
 
 
-def run_with(
+def run(
     sweep: Sweep,
     folder: str | Path,
-    solvers: AbstractContextManager[Crew],
-    progress: Progress | None = None,
-) -> SweepResults:
-    """``run_sweep`` with a crew that comes when the sweep is known to be one, before its folder is made."""
-    planned = planned_points(sweep)
-    with ExitStack() as crews:
-        those = crews.enter_context(solvers)
-        folder = prepare(folder, (NAME, LOCK, *FILES))
-        with Store(folder) as store:
-            store.begin(sweep, planned)
-            clear(folder, FILES)
-            _solve(sweep, store, planned, those, progress or (lambda _done, _of, _text: None))
-            # They leave while the tables are written, which nobody else can do meanwhile.
-            crews.close()
-            results = read_sweep(folder)
-            write_tables(results, folder)
-    return results
+    progress: Progress = silent,
+    *,
+    solvers: AbstractContextManager[Crew] | None = None,
+) -> RunOutcome[SweepResults]:
+    """Solve the points of a sweep that its folder does not have yet, and write its tables.
 
+    Parameters
+    ----------
+    sweep : Sweep
+        Sweep to solve.
+    folder : str or Path
+        Folder of sweep.sqlite and of the tables; it is made if it does not exist.
+    progress : callable, optional
+        Called with the number of points done, the number of all points, and a text.
+    solvers : context manager of Crew, optional
+        Crew that solves the points. It is entered when the sweep is known to have valid cases. By default,
+        as many processes as there are cores.
 
-def planned_points(sweep: Sweep) -> list[Planned]:
-    """The points of a sweep with the keys of their cases.
+    Returns
+    -------
+    RunOutcome
+        Its summary is the number of points of each status. It has a ``failure`` where no point is solved.
 
     Raises
     ------
     InputError
-        Where none of them is a case.
+        Where no point is a valid case, or the folder cannot be used.
+    LostError
+        Where the crew no longer works. The points solved so far are saved, and the same call solves the
+        others.
+    """
+    planned = planned_points(sweep)
+    with ExitStack() as crews:
+        working = crews.enter_context(crew(None, None) if solvers is None else solvers)
+        folder = prepare(folder, (NAME, LOCK, *FILES))
+        with Store(folder) as store:
+            store.begin(sweep, planned)
+            clear(folder, FILES)
+            _solve(sweep, store, planned, working, progress)
+            # The crew leaves before the tables are written: a cluster can be used for something else.
+            crews.close()
+            results = read_sweep(folder)
+            write_tables(results, folder)
+    files = tuple(folder / name for name in FILES if (folder / name).exists())
+    counts: dict[str, int] = dict(Counter(str(point.status) for point in results.points))
+    failure = None if "solved" in counts else f"none of {len(results.points)} points was solved"
+    return RunOutcome(results, counts, files, tuple(sweep_warnings(results)), failure)
+
+
+def planned_points(sweep: Sweep) -> list[Planned]:
+    """Points of a sweep with the keys of their cases.
+
+    Raises
+    ------
+    InputError
+        Where no point is a valid case.
     """
     planned = list(plan(sweep))
     if all(point.key is None for point in planned):
@@ -113,17 +145,18 @@ def planned_points(sweep: Sweep) -> list[Planned]:
 
 
 def _solve(sweep: Sweep, store: Store, planned: Sequence[Planned], solvers: Crew, progress: Progress) -> None:
+    """Solve the open points, save each, and call the progress."""
     points, counts = Counter(point.key for point in planned), Counter(store.counts())
 
-    def done(found: Sequence[tuple[str, Outcome]]) -> None:
-        if found:
-            store.write(found)
-        for key, outcome in found:
+    def done(outcomes: Sequence[tuple[str, Outcome]]) -> None:
+        if outcomes:
+            store.write(outcomes)
+        for key, outcome in outcomes:
             counts[outcome.status] += points[key]
             counts["open"] -= points[key]
-        told = [f"{counts[status]} {status}" for status in ("not converged", "failed") if counts[status]]
-        waiting = solvers.waiting()
-        progress(len(planned) - counts["open"], len(planned), ", ".join([*told, *filter(None, [waiting])]))
+        texts = [f"{counts[status]} {status}" for status in ("not converged", "failed") if counts[status]]
+        texts += filter(None, [solvers.waiting()])
+        progress(len(planned) - counts["open"], len(planned), ", ".join(texts))
 
     def tasks() -> Iterator[Task]:
         for key, inputs in store.open_points():
@@ -134,4 +167,5 @@ def _solve(sweep: Sweep, store: Store, planned: Sequence[Planned], solvers: Crew
 
 
 def _plain(sweep: Sweep, inputs: dict[str, Any]) -> dict[str, Any]:
+    """Tables of the case of a point."""
     return sweep.case.replace(inputs).to_dict()

@@ -15,7 +15,7 @@ from typing import Any, Self
 
 from ehlectric.cases.any_case import AnyCase, case_of_dict
 from ehlectric.errors import InputError
-from ehlectric.runtime.files import now, refuse_special
+from ehlectric.runtime.files import now, reading, refuse_special, refuse_unreadable
 from ehlectric.sweep.inputs import Sweep
 from ehlectric.sweep.results import Point, Range, Status, SweepResults
 from ehlectric.version import __version__
@@ -133,12 +133,9 @@ def case_key(case: AnyCase) -> str:
     for surface in table.get("roughness", ()):
         if "file" in surface:
             path = Path(surface["file"])
-            try:
+            with reading(path):
                 status = path.stat()
                 surface["file"] = _contents(path, status.st_mtime_ns, status.st_size)
-            except OSError as error:
-                reason = (error.strerror or str(error)).lower()
-                raise InputError(path, f"cannot be read, {reason}") from None
     text = json.dumps(table, sort_keys=True, separators=(",", ":"), allow_nan=False)
     return hashlib.sha256(text.encode()).hexdigest()
 
@@ -294,10 +291,7 @@ def read_sweep(folder: str | Path) -> SweepResults:
         Where the folder has no sweep, or its file is damaged.
     """
     path = Path(folder) / NAME
-    try:
-        path.open("rb").close()
-    except OSError as error:
-        raise InputError(path, f"cannot be read, {(error.strerror or str(error)).lower()}") from None
+    refuse_unreadable(path)
     with _one_line_errors(path):
         file = _opened(path, "rw")
         try:

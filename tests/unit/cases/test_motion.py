@@ -1,11 +1,12 @@
 """The motion table of a case: what each bad one is told, round trips, replacement, and speeds of surfaces."""
 
 import re
+from pathlib import Path
 
 import pytest
 
 from ehlectric import Case, InputError, Sweep, solve
-from ehlectric.commands.check import check_motion, meaning
+from ehlectric.commands.runs import check, run_motion
 from ehlectric.motion.contact import TransientContact
 from tests.helpers.moving_cases import LINE, POINT, moving
 
@@ -13,6 +14,9 @@ TAKES_PASSES = "takes a number, above 0 and at most 10000: lengths of the domain
 TAKES_DURATION = "takes a number in s or a text with its unit, above 0 and at most 10000: of the motion"
 TAKES_RECORD = "takes a whole number from 2 to 100000: stored instants"
 EITHER = "takes either passes or duration"
+
+# A folder that is never made.
+FOLDER = Path("no-folder-of-a-refused-case")
 
 # What is wrong with the table itself.
 BAD_TABLES = [
@@ -83,10 +87,12 @@ def test_bad_combinations_are_one_line(table, tables, message):
     ("changes", "message"),
     [({"motion.steps": 7}, TOO_FEW), ({"contact.slide_to_roll_ratio": -2.0}, AT_REST)],
 )
-@pytest.mark.parametrize("refuse", [TransientContact.of, check_motion, meaning])
+@pytest.mark.parametrize("refuse", [TransientContact.of, check, lambda case: run_motion(case, FOLDER)])
 def test_what_cannot_be_solved_is_refused_by_all_that_look(table, changes, message, refuse):
+    """Before a folder is made for its results."""
     with pytest.raises(InputError, match=f"^{re.escape(message)}$"):
         refuse(moving(table, changes))
+    assert not FOLDER.exists()
 
 
 def test_a_motion_that_is_none():

@@ -12,7 +12,7 @@ from scipy.integrate import quad
 
 from ehlectric import Case, load, save, solve
 from ehlectric.cases.lubricant import permittivity_law
-from ehlectric.commands.tables.contact import line_result_table, point_result_table
+from ehlectric.commands.tables.contact import result_rows
 from ehlectric.contact.problems import field_problem
 from ehlectric.discharge.assessment import Assessment
 from ehlectric.discharge.outlet import filled_permittivity, oil_fraction
@@ -286,7 +286,7 @@ def test_summary_and_files(solved, kind, discharge, tmp_path):
 
 
 def test_rows_of_the_table(solved):
-    line_rows = rows(line_result_table(solved("line", ALL)))
+    line_rows = rows(result_rows(solved("line", ALL)))
     found = solved("line", ALL).discharge
     assert line_rows["breakdown voltage"] == (f"{found.breakdown_voltage:.4g}", "V, at 63.2 %")
     assert line_rows["capacitance, whole film"] == (f"{found.capacitance * 1e9:.4g}", "nF/m")
@@ -294,19 +294,18 @@ def test_rows_of_the_table(solved):
     assert line_rows["pit it melts"] == (f"{found.pit_diameter * 1e6:.4g}", "µm; assumption: a hemisphere")
     assert line_rows["current density"][1] == "A/mm², published limits 0.1, 0.3, 0.8"
     assert float(line_rows["relaxation time"][0]) == pytest.approx(21.25, abs=0.06)  # 8.854 pF/m 2.4
-    constant = rows(point_result_table(solved("point", LAWS["constant"])))
+    constant = rows(result_rows(solved("point", LAWS["constant"])))
     assert constant["breakdown voltage"][1] == "V, at 15 V/µm"
     assert constant["capacitance, whole film"][1] == "pF"
     assert constant["sides"][1] == "pF"
     assert "relaxation time" not in constant
     assert "energy of a discharge" not in constant
-    assert "breakdown voltage" not in rows(line_result_table(solved("line", {})))
+    assert "breakdown voltage" not in rows(result_rows(solved("line", {})))
 
 
 def rows(table):
-    """Value and unit of each row of a table for the terminal, by its name."""
-    name, value, unit = (list(column.cells) for column in table.columns)
-    return {str(n).strip(): (str(v), str(u)) for n, v, u in zip(name, value, unit, strict=True)}
+    """Value, and unit with note, of each row of a table as a terminal shows them, by its name."""
+    return {row.name.strip(): (row.shown, row.unit + row.note) for row in table}
 
 
 def test_slivers_of_film_behind_a_rough_exit_bring_no_oil():

@@ -52,7 +52,7 @@ def test_a_complete_run_without_a_summary_is_summed_up_alone(monkeypatch, comple
     assert [path.name for path in outcome.files] == ["summary.json", MOTION]
     assert sorted(path.name for path in complete.iterdir()) == [MOTION, "summary.json"]
     assert json.loads(outcome.files[0].read_text()) == outcome.summary
-    assert outcome.summary["motion"]["steps_done"] == outcome.dataset.sizes["step"] - 1 == 12
+    assert outcome.summary["motion"]["steps_done"] == outcome.result.sizes["step"] - 1 == 12
 
 
 def test_a_complete_run_with_a_summary_is_solved_again(monkeypatch, complete):
@@ -60,14 +60,14 @@ def test_a_complete_run_with_a_summary_is_solved_again(monkeypatch, complete):
     calls = fail_at(monkeypatch, 1)
     outcome = run(CASE, complete)
     assert len(calls) == 1
-    assert str(outcome.failure) == "step 1 of 12: film not found"
+    assert outcome.failure == "not converged: step 1 of 12: film not found"
 
 
 def test_the_steps_before_a_failure_are_summed_up(monkeypatch, tmp_path):
     fail_at(monkeypatch, 7)
     told = []
     outcome = run(CASE, tmp_path, lambda *what: told.append(what))
-    assert str(outcome.failure) == "step 7 of 12: film not found"
+    assert outcome.failure == "not converged: step 7 of 12: film not found"
     assert (outcome.summary["converged"], outcome.summary["motion"]["steps_done"]) == (False, 4)
     assert told[-1] == (4, 12, "in time")
 

@@ -9,7 +9,7 @@ import pytest
 from ehlectric import InputError, read_sweep, run_sweep, solve
 from ehlectric.errors import LostError
 from ehlectric.sweep.engine import Crew, crew_of, solve_point
-from ehlectric.sweep.run import run_with
+from ehlectric.sweep.run import run
 from tests.helpers.sweeps import CASE, LOAD, NODES, PRESSURE, SPEED, speeds, sweep_over
 
 
@@ -123,7 +123,7 @@ def test_two_sweeps_in_one_folder(tmp_path):
         return threads.submit(call, *values)
 
     with ThreadPoolExecutor(1) as threads:
-        results = run_with(speeds(2), tmp_path, nullcontext(Crew(submit, lambda: 2)))
+        results = run(speeds(2), tmp_path, solvers=nullcontext(Crew(submit, lambda: 2))).result
     assert refused
     assert [point.status for point in results.points] == ["solved", "solved"]
 
@@ -133,7 +133,7 @@ def test_what_holds_the_crew_up_is_told(tmp_path):
     with ThreadPoolExecutor(1) as threads:
         crew = Crew(crew_of(threads).submit, lambda: 2, waiting=lambda: "no workers yet")
         vary = {"solver.max_iterations": [1, 30]}
-        run_with(sweep_over(vary), tmp_path, nullcontext(crew), lambda *values: told.append(values))
+        run(sweep_over(vary), tmp_path, lambda *values: told.append(values), solvers=nullcontext(crew))
     assert told[0] == (0, 2, "no workers yet")
     assert told[-1] == (2, 2, "1 not converged, no workers yet")
 
@@ -152,9 +152,8 @@ def test_progress_while_nothing_finishes(tmp_path, monkeypatch):
         return call(*values)
 
     with ThreadPoolExecutor(1) as threads:
-        run_with(
-            speeds(1), tmp_path, nullcontext(Crew(submit, lambda: 2)), lambda *values: told.append(values)
-        )
+        progress = lambda *values: told.append(values)  # noqa: E731
+        run(speeds(1), tmp_path, progress, solvers=nullcontext(Crew(submit, lambda: 2)))
     assert told[:5] == [(0, 1, "")] * 5
     assert told[-1] == (1, 1, "")
 
@@ -185,5 +184,5 @@ def test_solve_point_is_what_is_submitted(tmp_path):
         return threads.submit(call, *values)
 
     with ThreadPoolExecutor(1) as threads:
-        run_with(speeds(1), tmp_path, nullcontext(Crew(submit, lambda: 1)))
+        run(speeds(1), tmp_path, solvers=nullcontext(Crew(submit, lambda: 1)))
     assert calls == [(solve_point, CASE.replace({SPEED: 1.0}).to_dict())]

@@ -1,1 +1,1 @@
-"""Tables that the command line prints."""
+"""Tables of results: rows as data, and how a terminal prints them."""

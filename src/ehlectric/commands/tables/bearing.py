@@ -1,17 +1,20 @@
-"""Tables of a bearing."""
+"""Rows of the totals of a bearing, and tables of the contacts of its elements."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
+
+from ehlectric.bearing.keys import BEARING_KEYS
+from ehlectric.cases.row import Row, rows_of
 
 if TYPE_CHECKING:
     from rich.table import Table
 
 
-def loads_table(summary: dict[str, Any]) -> Table:
-    """Load and dry contact of every element with either ring."""
+def loads_table(summary: Mapping[str, Any]) -> Table:
+    """Table of the loads and dry contacts of all elements with both rings."""
     heads = ("at\n[deg]", "load\n[N]", "angle\n[deg]", "p_h\n[GPa]", "semi-axes\n[µm]")
     rows = (
         (
@@ -26,8 +29,8 @@ def loads_table(summary: dict[str, Any]) -> Table:
     return _contacts_table(summary, heads, rows)
 
 
-def films_table(summary: dict[str, Any]) -> Table:
-    """Film, capacitance and voltages of every element with either ring."""
+def films_table(summary: Mapping[str, Any]) -> Table:
+    """Table of the films, capacitances and voltages of all elements with both rings."""
     driven = summary["bearing"]["shaft_voltage"] is not None
     heads = ("h_min\n[µm]", "h(0)\n[µm]", "lambda", "C\n[pF]", "share\n[%]")
     rows = (
@@ -46,13 +49,16 @@ def films_table(summary: dict[str, Any]) -> Table:
     return _contacts_table(summary, (*heads, field, "breaks\n[V]"), rows)
 
 
-def _contacts_table(summary: dict[str, Any], heads: Sequence[str], rows: Iterable[tuple[str, ...]]) -> Table:
+def _contacts_table(
+    summary: Mapping[str, Any], heads: Sequence[str], rows: Iterable[tuple[str, ...]]
+) -> Table:
+    """Table with a row for each element and ring, and these columns."""
     from rich.markup import escape
     from rich.table import Table
 
     table = Table(box=None, padding=(0, 2, 0, 0))
     for head in ("", "ring", *heads):
-        # Unescaped, a unit of small letters would be taken for a style.
+        # Rich would read a unit of small letters in brackets as a style.
         table.add_column(escape(head), justify="right", no_wrap=True)
     for row, texts in zip(summary["contacts"], rows, strict=True):
         table.add_row(str(row["element"]), row["ring"], *texts)
@@ -60,40 +66,44 @@ def _contacts_table(summary: dict[str, Any], heads: Sequence[str], rows: Iterabl
 
 
 def _number(value: float | None, factor: float, digits: str) -> str:
-    """A number in its column; nothing where there is none."""
+    """Number of a cell as text; empty where it is None."""
     return "" if value is None else f"{value * factor:{digits}}"
 
 
-def bearing_table(summary: dict[str, Any]) -> Table:
-    """The totals of a bearing."""
-    from ehlectric.bearing.keys import BEARING_KEYS
-    from ehlectric.commands.tables.layout import add_numbers, plain_table
+def total_rows(summary: Mapping[str, Any]) -> list[Row]:
+    """Rows of the totals of a bearing.
 
-    found = summary["bearing"]
-    table = plain_table(summary["title"])
-    factor = summary["inputs"]["bearing"]["film_factor"]
-    rows = (
-        ("capacitance", "bearing.capacitance", "pF", f", contacts {found['contacts']}"),
-        ("  all in oil", "bearing.capacitance_oil", "pF", ""),
-        ("  air around the films", "bearing.capacitance_air", "pF", ""),
-        ("  over that of plates", "bearing.capacitance_ratio", "", ""),
-        ("least lambda", "bearing.lambda_ratio", "", found["lubrication"]),
+    Parameters
+    ----------
+    summary : mapping
+        Summary of a bearing, as ``BearingResult.summary`` gives it.
+
+    Returns
+    -------
+    list of Row
+        Values in SI units.
+    """
+    totals, factor = summary["bearing"], summary["inputs"]["bearing"]["film_factor"]
+    entries = (
+        ("capacitance", "bearing.capacitance", "pF", f", contacts {totals['contacts']}"),
+        ("  all in oil", "bearing.capacitance_oil", "pF"),
+        ("  air around the films", "bearing.capacitance_air", "pF"),
+        ("  over that of plates", "bearing.capacitance_ratio", ""),
+        ("least lambda", "bearing.lambda_ratio", "", totals["lubrication"]),
         ("film factor", "bearing.film_factor", "", "" if isinstance(factor, float) else factor),
-        ("first break", "bearing.first_break", "V", ""),
-        ("  mean over a pitch", "bearing.first_break_mean", "V", ""),
-        ("through breakdown", "bearing.through_breakdown", "V", ""),
-        ("  mean over a pitch", "bearing.through_breakdown_mean", "V", ""),
+        ("first break", "bearing.first_break", "V"),
+        ("  mean over a pitch", "bearing.first_break_mean", "V"),
+        ("through breakdown", "bearing.through_breakdown", "V"),
+        ("  mean over a pitch", "bearing.through_breakdown_mean", "V"),
         ("largest field by volt", "bearing.strength_per_volt", "1/µm", ", of the bearing's voltage"),
-        ("  at the shaft voltage", "bearing.max_strength", "V/µm", ""),
-        ("bearing voltage ratio", "bearing.bearing_voltage_ratio", "%", ""),
+        ("  at the shaft voltage", "bearing.max_strength", "V/µm"),
+        ("bearing voltage ratio", "bearing.bearing_voltage_ratio", "%"),
         ("shaft voltage", "bearing.shaft_voltage", "V", ", capacitive alone"),
-        ("first break over it", "bearing.margin", "", ""),
-        ("error of the film", "bearing.discretisation_error", "%", ""),
-        ("error of interpolation", "bearing.interpolation_error", "%", ""),
+        ("first break over it", "bearing.margin", ""),
+        ("error of the film", "bearing.discretisation_error", "%"),
+        ("error of interpolation", "bearing.interpolation_error", "%"),
     )
-    numbers = {f"bearing.{name}": value for name, value in found.items()}
-    add_numbers(table, BEARING_KEYS, numbers, rows)
-    if found["first_break_at"] is not None:
-        table.add_row("breaks first", "", found["first_break_at"])
-    table.add_row("time", f"{summary['seconds']:.3g}", "s")
-    return table
+    rows = list(rows_of(BEARING_KEYS, summary, entries))
+    if totals["first_break_at"] is not None:
+        rows.append(Row("breaks first", note=totals["first_break_at"]))
+    return [*rows, Row("time", summary["seconds"], "s", digits=".3g")]

@@ -1,209 +1,226 @@
-"""Tables of contacts: what a case means and what its solution is."""
+"""Rows of the tables of contacts: of a case before it is solved, and of its solution."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
-from rich.table import Table
-
 from ehlectric.cases.case import Case
-from ehlectric.commands.tables.discharge import add_discharge
-from ehlectric.commands.tables.layout import plain_table
+from ehlectric.cases.row import Row
+from ehlectric.commands.tables.discharge import discharge_rows
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.results import PointResult, Result
-from ehlectric.formulas.film_line import FORMULAS as FILM_LINE_FORMULAS
+from ehlectric.formulas.film_line import FORMULAS as LINE_FORMULAS
 from ehlectric.formulas.film_line import Formula, Thickness
-from ehlectric.formulas.film_line import regime as film_line_regime
-from ehlectric.formulas.film_point import FORMULAS, regime
+from ehlectric.formulas.film_line import regime as line_regime
+from ehlectric.formulas.film_point import FORMULAS as POINT_FORMULAS
+from ehlectric.formulas.film_point import regime as point_regime
+
+_FORMULAS: Mapping[str, Mapping[str, Formula[Any]]] = {"line": LINE_FORMULAS, "point": POINT_FORMULAS}
 
 
-def add_point_conditions(table: Table, conditions: PointConditions) -> None:
-    """Rows of the dry contact and the groups, that a case and its solution share."""
-    table.add_row("Hertz pressure", f"{conditions.max_pressure / 1e9:.4g}", "GPa")
-    table.add_row("semi-axis, along", f"{conditions.semi_axis_x * 1e6:.4g}", "µm")
-    table.add_row("semi-axis, across", f"{conditions.semi_axis_y * 1e6:.4g}", "µm")
-    table.add_row("  across over along", f"{conditions.ratio:.4g}")
-    table.add_row("Moes M", f"{conditions.contact.moes_m:.4g}")
-    table.add_row("Moes L", f"{conditions.contact.moes_l:.4g}")
-    table.add_row("regime", regime(conditions.contact))
+def case_rows(case: Case, conditions: Conditions | PointConditions) -> list[Row]:
+    """Rows of a contact before it is solved: its conditions, its groups, and what the formulas predict.
+
+    Parameters
+    ----------
+    case : Case
+        Case of a line or point contact.
+    conditions : Conditions or PointConditions
+        Resolved conditions of the case.
+
+    Returns
+    -------
+    list of Row
+        Values in SI units.
+    """
+    return list(_CASES[conditions.geometry](case, conditions))
 
 
-def point_table(case: Case, conditions: PointConditions) -> Table:
-    """What a case of a point contact means, before it is solved."""
-    table = plain_table(case.title)
-    table.add_row("reduced radius, along", f"{conditions.radius_x * 1e3:.4g}", "mm")
-    table.add_row("reduced radius, across", f"{conditions.radius_y * 1e3:.4g}", "mm")
-    table.add_row("reduced modulus", f"{conditions.reduced_modulus / 1e9:.4g}", "GPa")
-    table.add_row("load", f"{conditions.load:.4g}", "N")
-    table.add_row("entrainment speed", f"{conditions.entrainment_speed:.4g}", "m/s")
-    table.add_row("slide-to-roll ratio", f"{conditions.slide_to_roll_ratio:.4g}")
-    add_point_conditions(table, conditions)
-    table.add_row("velocity parameter lambda", f"{conditions.velocity_parameter:.4g}")
-    films = {name: formula(conditions.contact) for name, formula in FORMULAS.items()}
-    add_expected(table, case, films, FORMULAS)
+def result_rows(result: Result | PointResult) -> list[Row]:
+    """Rows of a solved contact: key figures of film, field and discharge, beside the film formulas.
+
+    Parameters
+    ----------
+    result : Result or PointResult
+        Result of ``solve``.
+
+    Returns
+    -------
+    list of Row
+        Values in SI units.
+    """
+    return list(_RESULTS[result.conditions.geometry](result))
+
+
+def _line_case(case: Case, conditions: Conditions) -> Iterator[Row]:
+    yield Row("reduced radius", conditions.reduced_radius, "mm")
+    yield Row("reduced modulus", conditions.reduced_modulus, "GPa")
+    yield Row("load per length", conditions.load_per_length, "MN/m")
+    yield from _speeds(conditions)
+    yield from _line_conditions(conditions)
+    yield Row("velocity parameter lambda", conditions.velocity_parameter)
+    yield from _expected(case, conditions)
+    yield Row("grid", str(case.grid.nodes), note=f"nodes, {case.grid.wedge} wedge")
+
+
+def _point_case(case: Case, conditions: PointConditions) -> Iterator[Row]:
+    yield Row("reduced radius, along", conditions.radius_x, "mm")
+    yield Row("reduced radius, across", conditions.radius_y, "mm")
+    yield Row("reduced modulus", conditions.reduced_modulus, "GPa")
+    yield Row("load", conditions.load, "N")
+    yield from _speeds(conditions)
+    yield from _point_conditions(conditions)
+    yield Row("velocity parameter lambda", conditions.velocity_parameter)
+    yield from _expected(case, conditions)
     grid = case.grid
-    table.add_row("grid", f"{grid.nodes} x {grid.nodes_across}", f"nodes, {grid.wedge} wedge")
-    table.add_row("  sides", f"{conditions.side:.4g}", "semi-axes across")
-    return table
+    yield Row("grid", f"{grid.nodes} x {grid.nodes_across}", note=f"nodes, {grid.wedge} wedge")
+    yield Row("  sides", conditions.side, note="semi-axes across")
 
 
-def point_result_table(result: PointResult) -> Table:
-    """The key figures of a solution, with the film formulas and their difference from it."""
-    field, conditions = result.field, result.conditions
-    table = plain_table(result.case.title)
-    add_status(table, result)
-    add_point_conditions(table, conditions)
-    add_film(table, result, ("x/b, y/b", _in_semi_axes(result, result.film.minimum_position)))
-    nx, ny = result.film.thickness.shape
-    table.add_row("grid", f"{nx} x {ny}", "nodes")
-    add_field(table, result, ("x/b, y/b", _in_semi_axes(result, field.max_strength_position)))
-    table.add_row("area above 95 %", f"{field.high_field_area * 1e12:.4g}", "µm²")
-    table.add_row("capacitance, field range", f"{field.capacitance * 1e12:.4g}", "pF")
-    for name, capacitance in result.capacitance_by_zone.items():
-        table.add_row(f"  {name}", f"{capacitance * 1e12:.4g}", "pF")
-    add_thin_gap(table, result)
+def _speeds(conditions: Conditions | PointConditions) -> Iterator[Row]:
+    yield Row("entrainment speed", conditions.entrainment_speed, "m/s")
+    yield Row("slide-to-roll ratio", conditions.slide_to_roll_ratio)
+
+
+def _line_conditions(conditions: Conditions) -> Iterator[Row]:
+    """Rows of the dry contact and its groups, in the tables of a case and of its solution."""
+    yield Row("Hertz pressure", conditions.max_pressure, "GPa")
+    yield Row("half-width", conditions.half_width, "µm")
+    yield Row("Moes M", conditions.contact.moes_m)
+    yield Row("Moes L", conditions.contact.moes_l)
+    yield Row("regime", line_regime(conditions.contact))
+
+
+def _point_conditions(conditions: PointConditions) -> Iterator[Row]:
+    """Rows of the dry contact and its groups, in the tables of a case and of its solution."""
+    yield Row("Hertz pressure", conditions.max_pressure, "GPa")
+    yield Row("semi-axis, along", conditions.semi_axis_x, "µm")
+    yield Row("semi-axis, across", conditions.semi_axis_y, "µm")
+    yield Row("  across over along", conditions.ratio)
+    yield Row("Moes M", conditions.contact.moes_m)
+    yield Row("Moes L", conditions.contact.moes_l)
+    yield Row("regime", point_regime(conditions.contact))
+
+
+def _expected(case: Case, conditions: Conditions | PointConditions) -> Iterator[Row]:
+    """Rows of the voltage, and of the film thicknesses of the formulas."""
+    yield Row("voltage", case.electric.voltage, "V")
+    formulas = _FORMULAS[conditions.geometry]
+    for name, formula in formulas.items():
+        for film, value in _films(formula(conditions.contact)):
+            yield Row(f"{formulas[name].name}, {film}", value, "µm")
+
+
+def _films(thickness: Thickness) -> Iterator[tuple[str, float]]:
+    """Film thicknesses that a formula gives [m], with their names, such as "minimum"."""
+    for key, value in vars(thickness).items():
+        if value is not None:
+            yield key.removesuffix("_thickness"), value
+
+
+def _line_result(result: Result) -> Iterator[Row]:
+    field, half_width = result.field, result.conditions.half_width
+    yield from _status(result)
+    yield from _line_conditions(result.conditions)
+    yield from _film(result, Row("  at x/b", result.film.minimum_position / half_width))
+    yield from _field(result, "  at x/b", f"{field.max_strength_position / half_width:.4g}")
+    yield Row("width above 95 %", field.high_field_width, "µm")
+    yield Row("capacitance, field range", field.capacitance, "nF/m")
+    yield from _thin_gap(result)
     if result.rough:
-        add_roughness(table, result)
-    add_discharge(table, result)
-    add_formulas(table, result, FORMULAS)
-    return table
+        yield Row("field solved on", str(field.x.size), note="columns")
+        yield from _roughness(result)
+    yield from discharge_rows(result)
+    yield from _formulas(result)
+
+
+def _point_result(result: PointResult) -> Iterator[Row]:
+    field, film = result.field, result.film
+    yield from _status(result)
+    yield from _point_conditions(result.conditions)
+    yield from _film(result, Row("  at x/b, y/b", _in_semi_axes(result, film.minimum_position)))
+    nx, ny = film.thickness.shape
+    yield Row("grid", f"{nx} x {ny}", note="nodes")
+    yield from _field(result, "  at x/b, y/b", _in_semi_axes(result, field.max_strength_position))
+    yield Row("area above 95 %", field.high_field_area, "µm²")
+    yield Row("capacitance, field range", field.capacitance, "pF")
+    for name, capacitance in result.capacitance_by_zone.items():
+        yield Row(f"  {name}", capacitance, "pF")
+    yield from _thin_gap(result)
+    if result.rough:
+        yield from _roughness(result)
+    yield from discharge_rows(result)
+    yield from _formulas(result)
 
 
 def _in_semi_axes(result: PointResult, position: tuple[float, float]) -> str:
+    """Position over the semi-axis along entrainment, as text."""
     return ", ".join(f"{at / result.conditions.semi_axis_x:.3g}" for at in position)
 
 
-def _add_conditions(table: Table, conditions: Conditions) -> None:
-    table.add_row("Hertz pressure", f"{conditions.max_pressure / 1e9:.4g}", "GPa")
-    table.add_row("half-width", f"{conditions.half_width * 1e6:.4g}", "µm")
-    table.add_row("Moes M", f"{conditions.contact.moes_m:.4g}")
-    table.add_row("Moes L", f"{conditions.contact.moes_l:.4g}")
-    table.add_row("regime", film_line_regime(conditions.contact))
-
-
-def conditions_table(case: Case, conditions: Conditions) -> Table:
-    """What a case means, before it is solved."""
-    table = plain_table(case.title)
-    table.add_row("reduced radius", f"{conditions.reduced_radius * 1e3:.4g}", "mm")
-    table.add_row("reduced modulus", f"{conditions.reduced_modulus / 1e9:.4g}", "GPa")
-    table.add_row("load per length", f"{conditions.load_per_length / 1e6:.4g}", "MN/m")
-    table.add_row("entrainment speed", f"{conditions.entrainment_speed:.4g}", "m/s")
-    table.add_row("slide-to-roll ratio", f"{conditions.slide_to_roll_ratio:.4g}")
-    _add_conditions(table, conditions)
-    table.add_row("velocity parameter lambda", f"{conditions.velocity_parameter:.4g}")
-    films = {name: formula(conditions.contact) for name, formula in FILM_LINE_FORMULAS.items()}
-    add_expected(table, case, films, FILM_LINE_FORMULAS)
-    table.add_row("grid", f"{case.grid.nodes}", f"nodes, {case.grid.wedge} wedge")
-    return table
-
-
-def add_expected(
-    table: Table, case: Case, films: Mapping[str, Thickness], formulas: Mapping[str, Formula[Any]]
-) -> None:
-    """Rows of the voltage and of the films that the formulas give, before anything is solved."""
-    table.add_row("voltage", f"{case.electric.voltage:.4g}", "V")
-    for name, thickness in films.items():
-        for key, value in vars(thickness).items():
-            if value is not None:
-                film = key.removesuffix("_thickness")
-                table.add_row(f"{formulas[name].name}, {film}", f"{value * 1e6:.4g}", "µm")
-
-
-def line_result_table(result: Result) -> Table:
-    """The key figures of a solution, with the film formulas and their difference from it."""
-    field, conditions = result.field, result.conditions
-    table = plain_table(result.case.title)
-    add_status(table, result)
-    _add_conditions(table, conditions)
-    add_film(table, result, ("x/b", f"{result.film.minimum_position / conditions.half_width:.4g}"))
-    add_field(table, result, ("x/b", f"{field.max_strength_position / conditions.half_width:.4g}"))
-    table.add_row("width above 95 %", f"{field.high_field_width * 1e6:.4g}", "µm")
-    table.add_row("capacitance, field range", f"{field.capacitance * 1e9:.4g}", "nF/m")
-    add_thin_gap(table, result)
-    if result.rough:
-        table.add_row("field solved on", f"{field.x.size}", "columns")
-        add_roughness(table, result)
-    add_discharge(table, result)
-    add_formulas(table, result, FILM_LINE_FORMULAS)
-    return table
-
-
-def add_status(table: Table, result: Result | PointResult) -> None:
-    """A red row where a film is no solution."""
+def _status(result: Result | PointResult) -> Iterator[Row]:
+    """Row that warns of a film that is not converged."""
     if not result.converged:
-        status = f"{result.film.status}: do not use these numbers"
-        table.add_row("NOT CONVERGED", "", status, style="red")
+        yield Row("NOT CONVERGED", note=f"{result.film.status}: do not use these numbers", alarm=True)
 
 
-def add_film(table: Table, result: Result | PointResult, minimum_at: tuple[str, str]) -> None:
-    """Rows of the film; where its minimum is, by name and value."""
+def _film(result: Result | PointResult, minimum_at: Row) -> Iterator[Row]:
     film = result.film
-    table.add_row("minimum film", f"{film.minimum_thickness * 1e6:.4g}", "µm")
-    table.add_row(f"  at {minimum_at[0]}", minimum_at[1])
-    table.add_row("central film", f"{film.central_thickness * 1e6:.4g}", "µm")
-    table.add_row("mean film, Hertz zone", f"{film.mean_thickness * 1e6:.4g}", "µm")
-    table.add_row("maximum pressure", f"{film.max_pressure / 1e9:.4g}", "GPa")
+    yield Row("minimum film", film.minimum_thickness, "µm")
+    yield minimum_at
+    yield Row("central film", film.central_thickness, "µm")
+    yield Row("mean film, Hertz zone", film.mean_thickness, "µm")
+    yield Row("maximum pressure", film.max_pressure, "GPa")
     error = film.discretisation_error
-    table.add_row("discretisation error", *(["unknown"] if error is None else [f"{100 * error:.2g}", "%"]))
+    if error is None:
+        yield Row("discretisation error", "unknown")
+    else:
+        yield Row("discretisation error", error, "%", digits=".2g")
     steps = "V-cycles" if result.film_solver == "paper" else "Newton steps"
-    table.add_row("residual", f"{film.residual:.1e}", f"{film.newton_iterations} {steps}")
-    table.add_row("load residual", f"{film.load_residual:.1e}")
+    yield Row("residual", film.residual, note=f"{film.newton_iterations} {steps}", digits=".1e")
+    yield Row("load residual", film.load_residual, digits=".1e")
 
 
-def add_field(table: Table, result: Result | PointResult, maximum_at: tuple[str, str]) -> None:
-    """Rows of the field; where its maximum is, by name and value."""
+def _field(result: Result | PointResult, place: str, maximum_at: str) -> Iterator[Row]:
     field = result.field
-    table.add_row("voltage", f"{field.voltage:.4g}", "V")
-    table.add_row("maximum field", f"{field.max_strength / 1e6:.4g}", "V/µm")
-    table.add_row(f"  at {maximum_at[0]}", maximum_at[1], field.max_strength_wall if result.rough else "")
-    table.add_row("  times h_min/V12", f"{result.max_dimensionless:.4f}")
+    yield Row("voltage", field.voltage, "V")
+    yield Row("maximum field", field.max_strength, "V/µm")
+    yield Row(place, maximum_at, note=field.max_strength_wall if result.rough else "")
+    yield Row("  times h_min/V12", result.max_dimensionless, digits=".4f")
 
 
-def add_thin_gap(table: Table, result: Result | PointResult) -> None:
-    """A row of what the voltage over the minimum film misses."""
+def _thin_gap(result: Result | PointResult) -> Iterator[Row]:
+    """Row of the difference between the largest field and the voltage over the minimum film."""
     if result.thin_gap_error is not None:
-        table.add_row("V12/h_min below it by", f"{100 * result.thin_gap_error:.2g}", "%")
+        yield Row("V12/h_min below it by", result.thin_gap_error, "%", digits=".2g")
 
 
-def add_roughness(table: Table, result: Result | PointResult) -> None:
-    """Rows of a rough contact."""
+def _roughness(result: Result | PointResult) -> Iterator[Row]:
     roughness = result.roughness_statistics
     for k, rq in ((1, roughness.rq_1), (2, roughness.rq_2)):
-        table.add_row(f"Rq of surface {k}, Hertz zone", f"{rq * 1e9:.3g}", "nm")
+        yield Row(f"Rq of surface {k}, Hertz zone", rq, "nm", digits=".3g")
     if roughness.lambda_ratio is not None:
-        table.add_row("lambda ratio", f"{roughness.lambda_ratio:.3g}", "minimum film over Rq of both")
+        yield Row("lambda ratio", roughness.lambda_ratio, note="minimum film over Rq of both", digits=".3g")
     if roughness.lambda_ratio_smooth is not None:
-        table.add_row("  of the smooth film", f"{roughness.lambda_ratio_smooth:.3g}")
+        yield Row("  of the smooth film", roughness.lambda_ratio_smooth, digits=".3g")
     if result.smooth:
-        table.add_row("minimum film, smooth", f"{result.smooth.minimum_thickness * 1e6:.4g}", "µm")
+        yield Row("minimum film, smooth", result.smooth.minimum_thickness, "µm")
 
 
-def add_formulas(table: Table, result: Result | PointResult, formulas: Mapping[str, Formula[Any]]) -> None:
-    """Film formulas, each with its difference from the solved film of the same name, and the time."""
-    table.add_section()
+def _formulas(result: Result | PointResult) -> Iterator[Row]:
+    """Rows of the film formulas, each with its difference from the solved film, and of the time."""
+    formulas = _FORMULAS[result.conditions.geometry]
     about = "difference from the solved film, up to 40 % is usual" if result.converged else ""
-    table.add_row("film formulas", "", about)
+    yield Row("film formulas", note=about)
     for name, thickness in result.formulas().items():
-        for key, value in vars(thickness).items():
-            if value is not None:
-                difference = 100.0 * (value / getattr(result.film, key) - 1.0)
-                beside = f", {difference:+.0f} %" if result.converged else ""
-                film = key.removesuffix("_thickness")
-                table.add_row(f"  {formulas[name].name}, {film}", f"{value * 1e6:.4g}", f"µm{beside}")
-    table.add_row("time", f"{result.film_seconds + result.field_seconds:.2g}", "s")
+        for film, value in _films(thickness):
+            difference = 100.0 * (value / getattr(result.film, f"{film}_thickness") - 1.0)
+            beside = f", {difference:+.0f} %" if result.converged else ""
+            yield Row(f"  {formulas[name].name}, {film}", value, "µm", beside)
+    yield Row("time", result.film_seconds + result.field_seconds, "s", digits=".2g")
 
 
-# Tables by the geometry of the contact: before it is solved, and of its solution.
-_CASES: Mapping[str, Callable[..., Table]] = {"line": conditions_table, "point": point_table}
-_RESULTS: Mapping[str, Callable[..., Table]] = {"line": line_result_table, "point": point_result_table}
-
-
-def case_table(case: Case, conditions: Conditions | PointConditions) -> Table:
-    """Table of what a case of any contact means, before it is solved."""
-    return _CASES[conditions.geometry](case, conditions)
-
-
-def result_table(result: Result | PointResult) -> Table:
-    """Table of the key figures of a solution of any contact."""
-    return _RESULTS[result.conditions.geometry](result)
+# Rows by the geometry of the contact: before it is solved, and of its solution.
+_CASES: Mapping[str, Callable[..., Iterator[Row]]] = {"line": _line_case, "point": _point_case}
+_RESULTS: Mapping[str, Callable[..., Iterator[Row]]] = {"line": _line_result, "point": _point_result}

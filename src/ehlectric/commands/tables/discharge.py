@@ -1,84 +1,88 @@
-"""Rows of a result's table on its discharge."""
+"""Rows of the discharge of a contact."""
 
 from __future__ import annotations
 
-from rich.table import Table
+from collections.abc import Iterator
 
+from ehlectric.cases.row import Row
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.discharge.laws import LARGEST_PIT, MEAN_PIT
-from ehlectric.discharge.parts import Breakdown, BreakdownZone, Capacitances, DischargeCosts
+from ehlectric.discharge.parts import Breakdown, BreakdownZone, Capacitances, DischargeCosts, Leakage
 
-# Factor and unit of a capacitance by the geometry of the contact: per length of a line.
-_CAPACITANCE = {"line": (1e9, "nF/m"), "point": (1e12, "pF")}
+# Unit of a capacitance by the geometry of the contact: a line has it per length.
+_CAPACITANCE = {"line": "nF/m", "point": "pF"}
 
 
-def add_discharge(table: Table, result: Result | PointResult) -> None:
-    """Rows of the discharge, where the case has one."""
-    found = result.discharge
-    if found is None:
+def discharge_rows(result: Result | PointResult) -> Iterator[Row]:
+    """Rows of the discharge of a solved contact; none where its case has no discharge."""
+    discharge = result.discharge
+    if discharge is None:
         return
-    table.add_section()
-    table.add_row("discharge")
-    _add_breakdown(table, found.breakdown)
-    _add_zone(table, found.zone, result.conditions.half_width)
-    _add_capacitance(table, found.capacitances, *_CAPACITANCE[result.conditions.geometry])
-    _add_costs(table, found.costs)
-    leakage = found.leakage
-    if leakage.relaxation_time is not None and leakage.corner_frequency is not None:
-        table.add_row("relaxation time", f"{leakage.relaxation_time:.3g}", "s, at ambient pressure")
-        table.add_row("  a capacitor above", f"{leakage.corner_frequency:.3g}", "Hz")
+    yield Row("discharge")
+    yield from _breakdown(discharge.breakdown)
+    yield from _zone(discharge.zone, result.conditions.half_width)
+    yield from _capacitances(discharge.capacitances, _CAPACITANCE[result.conditions.geometry])
+    yield from _costs(discharge.costs)
+    yield from _leakage(discharge.leakage)
 
 
-def _add_breakdown(table: Table, found: Breakdown) -> None:
-    if found.breakdown_voltage is None or found.margin is None or found.probability is None:
+def _breakdown(breakdown: Breakdown) -> Iterator[Row]:
+    voltage, strength = breakdown.breakdown_voltage, breakdown.dielectric_strength
+    if voltage is None or breakdown.margin is None or breakdown.probability is None:
         return
-    of_law = "63.2 %" if found.dielectric_strength is None else f"{found.dielectric_strength / 1e6:.4g} V/µm"
-    table.add_row("breakdown voltage", f"{found.breakdown_voltage:.4g}", f"V, at {of_law}")
-    if found.breakdown_voltage_low is not None and found.breakdown_voltage_high is not None:
-        band = f"{found.breakdown_voltage_low:.4g} to {found.breakdown_voltage_high:.4g}"
-        table.add_row("  5 to 95 %", band, "V")
-    table.add_row("  over the voltage", f"{found.margin:.4g}")
-    table.add_row("  probability of breakdown", f"{found.probability:.3g}", "at the voltage")
+    condition = "63.2 %" if strength is None else f"{strength / 1e6:.4g} V/µm"
+    yield Row("breakdown voltage", voltage, "V", f", at {condition}")
+    low, high = breakdown.breakdown_voltage_low, breakdown.breakdown_voltage_high
+    if low is not None and high is not None:
+        yield Row("  5 to 95 %", f"{low:.4g} to {high:.4g}", "V")
+    yield Row("  over the voltage", breakdown.margin)
+    yield Row("  probability of breakdown", breakdown.probability, note="at the voltage", digits=".3g")
 
 
-def _add_zone(table: Table, found: BreakdownZone, half_width: float) -> None:
-    position = found.zone_position
+def _zone(zone: BreakdownZone, half_width: float) -> Iterator[Row]:
+    position = zone.zone_position
     places = position if isinstance(position, tuple) else (position,)
     at = ", ".join(f"{place / half_width:.3g}" for place in places)
-    table.add_row("zone that breaks first, at", at, "x/b, y/b" if len(places) > 1 else "x/b")
+    yield Row("zone that breaks first, at", at, note="x/b, y/b" if len(places) > 1 else "x/b")
     pits = f"published pits {MEAN_PIT * 1e6:g}, at most {LARGEST_PIT * 1e6:g}"
-    table.add_row("  across", f"{found.zone_size * 1e6:.4g}", f"µm, above 95 %; {pits}")
+    yield Row("  across", zone.zone_size, "µm", f", above 95 %; {pits}")
 
 
-def _add_capacitance(table: Table, found: Capacitances, scale: float, unit: str) -> None:
-    table.add_row("capacitance, whole film", f"{found.capacitance * scale:.4g}", unit)
-    table.add_row("  over that of plates", f"{found.capacitance_ratio:.4g}")
+def _capacitances(capacitances: Capacitances, unit: str) -> Iterator[Row]:
+    yield Row("capacitance, whole film", capacitances.capacitance, unit)
+    yield Row("  over that of plates", capacitances.capacitance_ratio)
     zones = {
-        "hertz": found.capacitance_hertz,
-        "inlet": found.capacitance_inlet,
-        "outlet": found.capacitance_outlet,
-        "sides": found.capacitance_sides,
+        "hertz": capacitances.capacitance_hertz,
+        "inlet": capacitances.capacitance_inlet,
+        "outlet": capacitances.capacitance_outlet,
+        "sides": capacitances.capacitance_sides,
     }
     for zone, value in zones.items():
         if value is not None:
-            about = f", {found.outlet}" if zone == "outlet" else ""
-            table.add_row(f"  {zone}", f"{value * scale:.4g}", unit + about)
-    least, most = found.capacitance_layers * scale, found.capacitance_full * scale
-    table.add_row("  whole, by outlet", f"{least:.4g} to {most:.4g}", f"{unit}, assumption: layers to full")
-
-
-def _add_costs(table: Table, found: DischargeCosts) -> None:
-    rows = (
-        ("energy of the contact", found.contact_energy, 1e9, "nJ"),
-        ("energy of a discharge", found.discharge_energy, 1e9, "nJ"),
-        ("  at the breakdown voltage", found.breakdown_energy, 1e9, "nJ"),
-        ("pit it melts", found.pit_diameter, 1e6, "µm; assumption: a hemisphere"),
+            yield Row(f"  {zone}", value, unit, f", {capacitances.outlet}" if zone == "outlet" else "")
+    least, most = (
+        Row("", value, unit).shown
+        for value in (capacitances.capacitance_layers, capacitances.capacitance_full)
     )
-    for name, value, scale, unit in rows:
-        if value is not None:
-            table.add_row(name, f"{value * scale:.4g}", unit)
-    if found.current_density is not None and found.current_density_limits is not None:
-        limits = ", ".join(f"{limit / 1e6:g}" for limit in found.current_density_limits)
-        table.add_row(
-            "current density", f"{found.current_density / 1e6:.3g}", f"A/mm², published limits {limits}"
+    yield Row("  whole, by outlet", f"{least} to {most}", unit, ", assumption: layers to full")
+
+
+def _costs(costs: DischargeCosts) -> Iterator[Row]:
+    rows = (
+        ("energy of the contact", costs.contact_energy, "nJ"),
+        ("energy of a discharge", costs.discharge_energy, "nJ"),
+        ("  at the breakdown voltage", costs.breakdown_energy, "nJ"),
+        ("pit it melts", costs.pit_diameter, "µm", "; assumption: a hemisphere"),
+    )
+    yield from (Row(name, value, *unit) for name, value, *unit in rows if value is not None)
+    if costs.current_density is not None and costs.current_density_limits is not None:
+        limits = ", ".join(f"{limit / 1e6:g}" for limit in costs.current_density_limits)
+        yield Row(
+            "current density", costs.current_density, "A/mm²", f", published limits {limits}", digits=".3g"
         )
+
+
+def _leakage(leakage: Leakage) -> Iterator[Row]:
+    if leakage.relaxation_time is not None and leakage.corner_frequency is not None:
+        yield Row("relaxation time", leakage.relaxation_time, "s", ", at ambient pressure", digits=".3g")
+        yield Row("  a capacitor above", leakage.corner_frequency, "Hz", digits=".3g")

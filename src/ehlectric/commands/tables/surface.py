@@ -1,4 +1,4 @@
-"""Table of a rough surface and what was done to it."""
+"""Table of a rough surface: its statistics after every processing step."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any
 from rich.table import Table
 from rich.text import Text
 
-# Columns of the statistics of a profile and of a map: head, key, and how the number is written.
+# Columns of the statistics of a profile and of a map: head, key, and format of the number.
 _PROFILE_COLUMNS = (
     ("Rq\n[nm]", "rq", "height"),
     ("Ra\n[nm]", "ra", "height"),
@@ -28,7 +28,7 @@ _MAP_COLUMNS = (
 
 
 def surface_table(surface: dict[str, Any]) -> Table:
-    """What was read of a surface, and its statistics after every step: of a profile or of a map."""
+    """Table of a profile or map: its source and size, and its statistics after every processing step."""
     first = surface["steps"][0]
     of_map = "sq" in first
     size = "made" if surface["size"] is None else " x ".join(str(n) for n in surface["size"]) + " points"
@@ -51,6 +51,7 @@ def surface_table(surface: dict[str, Any]) -> Table:
 
 
 def _statistic(value: float, how: str) -> str:
+    """Number of a statistic as text, heights in nm and lengths in µm."""
     match how:
         case "height":
             return f"{value * 1e9:.{1 if value < 1e-6 else 0}f}"

@@ -1,44 +1,49 @@
-"""Table of a sweep."""
+"""Rows of the table of a sweep: how many points were solved, and why the others were not."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from rich.table import Table
+from ehlectric.cases.row import Row
+from ehlectric.sweep.results import SweepResults
 
-    from ehlectric.sweep.results import SweepResults
-
-
-# Reasons that are printed; all of them are in the tables.
+# Largest number of reasons that are shown; sweep.csv has all of them.
 _REASONS = 5
 
-# What reasons that are alike differ in.
+# Numbers, in which reasons of the same kind differ.
 _NUMBER = re.compile(r"\d[\d.e+-]*")
 
 
-def results_table(results: SweepResults) -> Table:
-    """How many points were solved, and why the others were not."""
-    from ehlectric.commands.tables.layout import plain_table
+def sweep_rows(results: SweepResults) -> list[Row]:
+    """Rows of the numbers of points of each status, with the reasons of those that are not solved.
 
-    table = plain_table("")
+    Parameters
+    ----------
+    results : SweepResults
+        Results of a sweep.
+
+    Returns
+    -------
+    list of Row
+        Rows without a name are reasons, with the number of their points.
+    """
+    rows = []
     for status in ("solved", "not converged", "failed"):
         reasons = [point.reason for point in results.points if point.status == status]
-        table.add_row(status, str(len(reasons)), f"of {len(results.points)} points" * (status == "solved"))
-        for count, reason in _alike(reasons):
-            table.add_row("", str(count), reason)
-    return table
+        of_all = f"of {len(results.points)} points" if status == "solved" else ""
+        rows.append(Row(status, str(len(reasons)), note=of_all))
+        rows += [Row("", str(count), note=reason) for count, reason in _grouped(reasons)]
+    return rows
 
 
-def _alike(reasons: Iterable[str]) -> Iterator[tuple[int, str]]:
-    """How many reasons are alike but for their numbers, with the first of them; the most frequent ones."""
-    kinds: dict[str, list[str]] = {}
+def _grouped(reasons: Iterable[str]) -> Iterator[tuple[int, str]]:
+    """Most frequent reasons with the number of their points; reasons that differ in numbers are one."""
+    groups: dict[str, list[str]] = {}
     for reason in filter(None, reasons):
-        kinds.setdefault(_NUMBER.sub("", reason), []).append(reason)
-    found = sorted(kinds.values(), key=len, reverse=True)
-    for alike in found[:_REASONS]:
-        yield len(alike), alike[0] if len(set(alike)) == 1 else f"such as: {alike[0]}"
-    if others := sum(map(len, found[_REASONS:])):
+        groups.setdefault(_NUMBER.sub("", reason), []).append(reason)
+    ordered = sorted(groups.values(), key=len, reverse=True)
+    for group in ordered[:_REASONS]:
+        yield len(group), group[0] if len(set(group)) == 1 else f"such as: {group[0]}"
+    if others := sum(map(len, ordered[_REASONS:])):
         yield others, "for other reasons, which are in sweep.csv"

@@ -11,7 +11,7 @@ from matplotlib.ticker import MaxNLocator
 from ehlectric.arrays import Array
 from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.results import Result
-from ehlectric.figures.names import FIGURE_FILES, ROUGHNESS_FIGURE
+from ehlectric.figures.names import ROUGHNESS_FIGURE
 from ehlectric.figures.section import draw_section
 from ehlectric.figures.style import (
     BLUE,
@@ -276,13 +276,13 @@ def roughness(result: Result, ax: Axes | None = None) -> Axes:
     return ax
 
 
-FIGURES: dict[str, Callable[..., Axes]] = dict(
-    zip(
-        FIGURE_FILES,
-        (pressure_and_film, potential, field_strength, field_profiles, field_deviation),
-        strict=True,
-    )
-)
+FIGURES: dict[str, Callable[..., Axes]] = {
+    "film.png": pressure_and_film,
+    "potential.png": potential,
+    "field_strength.png": field_strength,
+    "field_profiles.png": field_profiles,
+    "field_deviation.png": field_deviation,
+}
 
 
 def figures_of(result: Result) -> dict[str, Callable[..., Axes]]:

@@ -33,7 +33,7 @@ from ehlectric.figures.contact.maps import (
     panel_name,
     round_levels,
 )
-from ehlectric.figures.names import POINT_FIGURE_FILES, ROUGHNESS_FIGURE
+from ehlectric.figures.names import ROUGHNESS_FIGURE
 from ehlectric.figures.style import GREY, legend_above
 
 SECTIONS = ("surface 1", "mid-film", "surface 2")
@@ -296,13 +296,14 @@ def _compared(
     return axes[0]
 
 
-POINT_FIGURES: dict[str, Callable[..., Axes]] = dict(
-    zip(
-        POINT_FIGURE_FILES,
-        (film_map, pressure_map, field_map, field_deviation, field_sections, cuts),
-        strict=True,
-    )
-)
+POINT_FIGURES: dict[str, Callable[..., Axes]] = {
+    "film_map.png": film_map,
+    "pressure_map.png": pressure_map,
+    "field_map.png": field_map,
+    "field_deviation.png": field_deviation,
+    "field_sections.png": field_sections,
+    "cuts.png": cuts,
+}
 
 
 def point_figures_of(result: PointResult) -> dict[str, Callable[..., Axes]]:

@@ -1,48 +1,80 @@
-"""The figures of any result as PNG files."""
+"""Figures of stationary contacts: by name, and as PNG files."""
 
 from __future__ import annotations
 
 import textwrap
+from collections.abc import Callable
 from pathlib import Path
 
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.figures.contact.line import figures_of
 from ehlectric.figures.contact.point import point_figures_of
-from ehlectric.figures.style import NOT_CONVERGED, name_over, save_figure, style
+from ehlectric.figures.style import NOT_CONVERGED, drawing_of, figure_of, name_over, save_figure, style
 
 
-def save_figures(result: Result | PointResult, folder: Path) -> list[Path]:
-    """Draw all figures as PNG files.
+def drawings_of(result: Result | PointResult) -> dict[str, Callable[..., Axes]]:
+    """Functions that draw the figures of a contact, by the names of their files.
+
+    The roughness is among them where a surface is rough.
+    """
+    return point_figures_of(result) if isinstance(result, PointResult) else figures_of(result)
+
+
+def figure(result: Result | PointResult, name: str) -> Figure:
+    """Figure of a contact.
 
     Parameters
     ----------
     result : Result or PointResult
-        What to draw.
+        Result of the contact.
+    name : str
+        Name of its file, such as "film.png".
+
+    Returns
+    -------
+    Figure
+        The figure, with its title.
+
+    Raises
+    ------
+    InputError
+        Where the result has no figure of this name.
+    """
+    draw = drawing_of(drawings_of(result), name)
+    with style():
+        ax = draw(result)
+        _name(ax, result)
+    return figure_of(ax)
+
+
+def save_figures(result: Result | PointResult, folder: Path) -> list[Path]:
+    """Draw all figures of a contact as PNG files.
+
+    Parameters
+    ----------
+    result : Result or PointResult
+        Result of the contact.
     folder : Path
-        Where to; it must be there.
+        Folder of the files; it must exist.
 
     Returns
     -------
     list of Path
-        The files written.
+        Files written.
     """
-    drawn = point_figures_of(result) if isinstance(result, PointResult) else figures_of(result)
-    title = textwrap.shorten(result.case.title, 45, placeholder=" ...")
-    files = []
-    with style():
-        for name, draw in drawn.items():
-            ax = draw(result)
-            _name(ax, result, title)
-            save_figure(ax, folder / name)
-            files.append(folder / name)
+    files = [folder / name for name in drawings_of(result)]
+    for file in files:
+        save_figure(figure(result, file.name), file)
     return files
 
 
-def _name(ax: Axes, result: Result | PointResult, title: str) -> None:
-    """Title of a figure: over its axes, or over all of its panels."""
+def _name(ax: Axes, result: Result | PointResult) -> None:
+    """Draw the title of a figure: over the axes of a line contact, over all panels of a point contact."""
     converged = result.converged
+    title = textwrap.shorten(result.case.title, 45, placeholder=" ...")
     text = title if converged else "NOT CONVERGED"
     if isinstance(result, PointResult):
         name_over(ax, text, converged=converged)

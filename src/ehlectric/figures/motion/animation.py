@@ -19,6 +19,7 @@ from ehlectric.figures.motion.point_frames import map_frames
 from ehlectric.figures.style import style
 from ehlectric.motion.record import MotionRun
 from ehlectric.runtime.files import refuse_special, whole
+from ehlectric.runtime.progress import Progress, silent
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -34,9 +35,6 @@ _GREYS = 24
 # Functions that draw the frames of a run, by its kind of contact.
 _FRAMES = {"line": line_frames, "point": map_frames}
 
-# Called with the number of frames drawn and the number of all frames.
-Progress = Callable[[int, int], None]
-
 
 def save_animation(
     dataset: xr.Dataset,
@@ -44,7 +42,7 @@ def save_animation(
     *,
     fps: float = 25.0,
     dpi: int = 110,
-    progress: Progress | None = None,
+    progress: Progress = silent,
 ) -> None:
     """Draw the recorded instants of a transient run as an animation.
 
@@ -59,7 +57,7 @@ def save_animation(
     dpi : int
         Pixels per inch; the figure of a line contact is 6.3 by 7.2 inches.
     progress : callable, optional
-        Called with the number of frames drawn and the number of all frames.
+        Called with the number of frames drawn, the number of all frames, and a text.
 
     Raises
     ------
@@ -86,13 +84,12 @@ def save_animation(
                 raise InputError.worded(path, "cannot be written, ffmpeg failed; a .gif takes none") from None
 
 
-def _instants(drawn: Frames, frames: int, progress: Progress | None) -> Iterator[Frames]:
+def _instants(drawn: Frames, frames: int, progress: Progress) -> Iterator[Frames]:
     """Yield the drawn frames once for every recorded instant, showing this instant."""
     for frame in range(frames):
         drawn.show(frame)
         yield drawn
-        if progress is not None:
-            progress(frame + 1, frames)
+        progress(frame + 1, frames, "drawing")
 
 
 def _writer(path: Path) -> Callable[[Path, Iterator[Frames], float], None]:

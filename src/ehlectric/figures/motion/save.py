@@ -1,12 +1,13 @@
-"""Figures of transient contacts as PNG files."""
+"""Figures of transient contacts: by name, and as PNG files."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from ehlectric.figures.motion.beside import (
     coincidence_text,
@@ -18,8 +19,7 @@ from ehlectric.figures.motion.beside import (
 from ehlectric.figures.motion.history import largest_field, least_film, places
 from ehlectric.figures.motion.maps import map_figure, sampling_text
 from ehlectric.figures.motion.panels import name_run, share_below
-from ehlectric.figures.names import MOTION_FIGURE_FILES
-from ehlectric.figures.style import new_panels, save_figure, style
+from ehlectric.figures.style import drawing_of, figure_of, new_panels, save_figure, style
 from ehlectric.motion.record import MotionRun, coincident_frame
 
 if TYPE_CHECKING:
@@ -94,6 +94,49 @@ def beside_stationary(run: MotionRun) -> Axes:
     return axes[0]
 
 
+FIGURES: Mapping[str, Callable[[MotionRun], Axes]] = {
+    "motion_history.png": history,
+    "motion_maps.png": maps,
+    "motion_beside_stationary.png": beside_stationary,
+}
+
+
+def drawings_of(run: MotionRun) -> dict[str, Callable[[MotionRun], Axes]]:
+    """Functions that draw the figures of a transient run, by the names of their files.
+
+    There are no maps where a single instant is recorded, and no comparison with stationary roughness where
+    its film is missing or the surfaces never lie where the case puts them.
+    """
+    empty = [maps] if run.frames < 2 else []
+    empty += [beside_stationary] if coincident_frame(run) is None else []
+    return {name: draw for name, draw in FIGURES.items() if draw not in empty}
+
+
+def figure(run: MotionRun, name: str) -> Figure:
+    """Figure of a transient run.
+
+    Parameters
+    ----------
+    run : MotionRun
+        The run to draw.
+    name : str
+        Name of its file, such as "motion_history.png".
+
+    Returns
+    -------
+    Figure
+        The figure, with its title.
+
+    Raises
+    ------
+    InputError
+        Where the run has no figure of this name.
+    """
+    draw = drawing_of(drawings_of(run), name)
+    with style():
+        return figure_of(draw(run))
+
+
 def save_motion_figures(dataset: xr.Dataset, folder: Path) -> list[Path]:
     """Draw all figures of a transient run as PNG files.
 
@@ -107,8 +150,7 @@ def save_motion_figures(dataset: xr.Dataset, folder: Path) -> list[Path]:
     Returns
     -------
     list of Path
-        Files written. There are no maps where a single instant is recorded, and no comparison with stationary
-        roughness where its film is missing or the surfaces never lie where the case puts them.
+        Files written: those of ``drawings_of``.
 
     Raises
     ------
@@ -116,18 +158,12 @@ def save_motion_figures(dataset: xr.Dataset, folder: Path) -> list[Path]:
         Where the dataset is not a run of moving roughness.
     """
     run = MotionRun.of(dataset)
-    drawn = dict(zip(MOTION_FIGURE_FILES, (history, maps, beside_stationary), strict=True))
-    if run.frames < 2:
-        del drawn[MOTION_FIGURE_FILES[1]]
-    if coincident_frame(run) is None:
-        del drawn[MOTION_FIGURE_FILES[2]]
-    files = []
-    with style():
-        for name, draw in drawn.items():
-            save_figure(draw(run), folder / name)
-            files.append(folder / name)
+    files = [folder / name for name in drawings_of(run)]
+    for file in files:
+        save_figure(figure(run, file.name), file)
     return files
 
 
 def _stack(panels: int) -> Sequence[Axes]:
+    """Axes of panels below each other."""
     return new_panels(panels, 1, (_WIDTH, _HEIGHT * panels + _TITLE))

@@ -1,31 +1,85 @@
-"""The figures of a sweep as PNG files."""
+"""Figures of sweeps: by name, and as PNG files."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ehlectric.errors import InputError, shown
 from ehlectric.figures.bearing.save import save_speed_figures
-from ehlectric.figures.style import new_panels, save_figure, style
+from ehlectric.figures.names import SENSITIVITY_FIGURE, map_files
+from ehlectric.figures.style import figure_of, new_panels, save_figure, style
 from ehlectric.figures.sweep.lines import value_lines
 from ehlectric.figures.sweep.maps import value_map
 from ehlectric.figures.sweep.points import held_text, name_figure
+from ehlectric.figures.sweep.sensitivity import sensitivity_figure
+from ehlectric.sweep.breakdown import breakdown_of
 from ehlectric.sweep.results import SweepResults
+from ehlectric.sweep.sensitivity import sensitivity
 from ehlectric.sweep.slices import Slice, take
 
 _SPEED = "bearing.inner_speed"
-_MAP_SIZE, _LINES_SIZE = (6.3, 4.7), (6.3, 4.3)
+
+# Functions that draw a value over varied keys, by the first word of the file's name; sizes [inches].
+FIGURES: Mapping[str, Callable[..., Axes]] = {"map": value_map, "lines": value_lines}
+_SIZES = {"map": (6.3, 4.7), "lines": (6.3, 4.3)}
 
 
-def map_files(value: str) -> tuple[str, str]:
-    """Names of the files of the map and of the lines of a value.
+def figure(
+    results: SweepResults,
+    name: str,
+    *,
+    x: str = "",
+    y: str | None = None,
+    value: str = "",
+    at: Mapping[str, str] | None = None,
+) -> Figure:
+    """Figure of a sweep.
 
-    Examples
-    --------
-    >>> map_files("discharge.breakdown_voltage")
-    ('map_discharge.breakdown_voltage.png', 'lines_discharge.breakdown_voltage.png')
+    Parameters
+    ----------
+    results : SweepResults
+        Results of the sweep.
+    name : str
+        Name of its file: "map_KEY.png" or "lines_KEY.png" with a dotted key of the summary, or
+        "sensitivity.png".
+    x : str, optional
+        Varied key along the horizontal axis of a map or of lines.
+    y : str, optional
+        Second varied key; a map needs it.
+    value : str, optional
+        Dotted key of the summary whose sensitivity is drawn; by default a breakdown voltage.
+    at : mapping of str to str, optional
+        Values of the other varied keys.
+
+    Returns
+    -------
+    Figure
+        The figure, with its title.
+
+    Raises
+    ------
+    InputError
+        Where there is no figure of this name, or as ``take`` and ``sensitivity`` raise it.
     """
-    return f"map_{value}.png", f"lines_{value}.png"
+    if name == SENSITIVITY_FIGURE:
+        indices = sensitivity(results, value or breakdown_of(results.case).value)
+        return sensitivity_figure(results, indices)
+    kind, _, key = name.removesuffix(".png").partition("_")
+    if kind not in FIGURES or name not in map_files(key):
+        allowed = f"map_KEY.png, lines_KEY.png or {SENSITIVITY_FIGURE}"
+        raise InputError("figure", got=shown(name), takes=allowed)
+    if kind == "map" and y is None:
+        raise InputError.missing("y", "a varied key, for a map")
+    text = held_text(results, take(results, x, y, key, at))
+    with style():
+        ax = new_panels(1, 1, _SIZES[kind])[0]
+        FIGURES[kind](results, x, y, key, at=at, ax=ax)
+        name_figure(ax, results, text)
+    return figure_of(ax)
 
 
 def save_maps(
@@ -37,65 +91,57 @@ def save_maps(
     *,
     at: Mapping[str, str] | None = None,
 ) -> list[Path]:
-    """Draw a value as a map and as lines.
+    """Draw a value of a sweep as a map and as lines, as PNG files.
 
     Parameters
     ----------
     results : SweepResults
-        What to draw.
+        Results of the sweep.
     x : str
         Varied key whose values are numbers.
     y : str or None
-        Second varied key; without one, or where its values are texts, there is no map.
+        Second varied key. There is no map without it, or where its values are texts.
     value : str
         Dotted key of the summary.
     folder : Path
-        Where to; it must be there.
-    at : mapping, optional
-        What is held, by varied key, where more vary.
+        Folder of the files; it must exist.
+    at : mapping of str to str, optional
+        Values of the other varied keys.
 
     Returns
     -------
     list of Path
-        The files written.
+        Files written.
 
     Raises
     ------
     InputError
-        As for ``take``.
+        As ``take`` raises it.
     """
-    taken = take(results, x, y, value, at)
-    named = held_text(results, taken)
-    map_file, lines_file = map_files(value)
-    files = []
-    with style():
-        drawn = [(lines_file, value_lines(results, x, y, value, at=at, ax=new_panels(1, 1, _LINES_SIZE)[0]))]
-        if y is not None and taken.numeric:
-            ax = value_map(results, x, y, value, at=at, ax=new_panels(1, 1, _MAP_SIZE)[0])
-            drawn.insert(0, (map_file, ax))
-        for name, ax in drawn:
-            name_figure(ax, results, named)
-            save_figure(ax, folder / name)
-            files.append(folder / name)
+    numeric = take(results, x, y, value, at).numeric
+    names = [name for name in map_files(value) if (y is not None and numeric) or name.startswith("lines_")]
+    files = [folder / name for name in names]
+    for file in files:
+        save_figure(figure(results, file.name, x=x, y=y, at=at), file)
     return files
 
 
 def save_speeds(results: SweepResults, taken: Slice, folder: Path) -> list[Path]:
-    """Draw capacitance and breakdown voltages of bearings over the speed, where a slice is over that alone.
+    """Draw capacitance and breakdown voltages of bearings over the speed, as PNG files.
 
     Parameters
     ----------
     results : SweepResults
-        Of what.
+        Results of the sweep.
     taken : Slice
-        Its points; those that are not solved, and doubtful ones, are left out.
+        Points to draw. Points that are not solved or must not be used are left out.
     folder : Path
-        Where to; it must be there.
+        Folder of the files; it must exist.
 
     Returns
     -------
     list of Path
-        The files written; none of other slices.
+        Files written; none where the slice is not over the speed of a bearing alone.
     """
     if taken.x != _SPEED or taken.y is not None or taken.free:
         return []
@@ -104,6 +150,6 @@ def save_speeds(results: SweepResults, taken: Slice, folder: Path) -> list[Path]
         for speed, point in zip(taken.along, taken.points, strict=True)
         if point.solved and not point.doubtful and point.summary is not None
     ]
-    # Not the title of the case, which may name what is held otherwise here.
+    # The title of the case may name values that the sweep changes.
     title = ", ".join(filter(None, [results.title, held_text(results, taken).removeprefix("at ")]))
     return save_speed_figures(points, folder, title) if points else []

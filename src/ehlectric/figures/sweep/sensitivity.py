@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from ehlectric.arrays import Array
@@ -15,6 +16,7 @@ from ehlectric.figures.style import (
     GREY,
     ORANGE,
     axes_or_new,
+    figure_of,
     legend_above,
     new_panels,
     save_figure,
@@ -130,8 +132,21 @@ def parts(results: SweepResults, analysis: Sensitivity, ax: Axes | None = None) 
     return ax
 
 
-def save_sensitivity(results: SweepResults, analysis: Sensitivity, path: Path) -> None:
-    """Write a PNG file with the distribution of a value beside the sensitivity indices."""
+def sensitivity_figure(results: SweepResults, analysis: Sensitivity) -> Figure:
+    """Figure of the distribution of a value beside the sensitivity indices of the inputs.
+
+    Parameters
+    ----------
+    results : SweepResults
+        Results of a sweep of the design "sobol".
+    analysis : Sensitivity
+        Sensitivity of the results, as ``sensitivity`` gives it.
+
+    Returns
+    -------
+    Figure
+        The figure, with its title.
+    """
     with style():
         high = max(3.4, 1.6 + 0.42 * len(analysis.indices))
         left, right = new_panels(1, 2, (8.4, high))
@@ -142,4 +157,9 @@ def save_sensitivity(results: SweepResults, analysis: Sensitivity, path: Path) -
         )
         doubtful = f'{analysis.doubtful} of {analysis.used} used rows have points that say "do not use"'
         name_figure(left, results, ", ".join(filter(None, [dropped, doubtful if analysis.doubtful else ""])))
-        save_figure(left, path)
+    return figure_of(left)
+
+
+def save_sensitivity(results: SweepResults, analysis: Sensitivity, path: Path) -> None:
+    """Write a PNG file with the distribution of a value beside the sensitivity indices."""
+    save_figure(sensitivity_figure(results, analysis), path)

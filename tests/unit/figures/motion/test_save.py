@@ -353,7 +353,7 @@ def test_animation_has_every_instant(contact, tmp_path):
             assert image.info["duration"] == 50
             images.append(np.asarray(image.convert("RGB")))
     assert all(np.any(first != second) for first, second in pairwise(images))
-    assert done == [(k, 5) for k in range(1, 6)]
+    assert done == [(k, 5, "drawing") for k in range(1, 6)]
 
 
 def test_colours_of_a_point_contact_are_those_of_its_maps(tmp_path):

@@ -1,0 +1,79 @@
+"""Run of a contact: its solution with the files of its results."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from ehlectric.cases.case import Case
+from ehlectric.contact.check import check_case
+from ehlectric.contact.files import FILES, save
+from ehlectric.contact.results import PointResult, Result
+from ehlectric.contact.solver import OWN, Solvers, solve
+from ehlectric.runtime.files import clear, prepare
+from ehlectric.runtime.outcome import RunOutcome
+from ehlectric.runtime.progress import Progress, silent
+
+
+def run(
+    case: Case,
+    folder: str | Path,
+    progress: Progress = silent,
+    *,
+    solvers: Solvers = OWN,
+    others: Sequence[str] = (),
+) -> RunOutcome[Result | PointResult]:
+    """Solve a contact, and write summary.json, result.nc and film.csv.
+
+    Parameters
+    ----------
+    case : Case
+        Case without ``motion``.
+    folder : str or Path
+        Folder of the files; it is made if it does not exist.
+    progress : callable, optional
+        Called with 0, 0 and a text: the number of Newton steps is not known before.
+    solvers : Solvers, optional
+        Solvers of film and field; by default those of the package.
+    others : sequence of str, optional
+        Names of other files in the folder that belong to its result, such as figures. Those of an earlier
+        result are removed when the contact is solved.
+
+    Returns
+    -------
+    RunOutcome
+        With a ``failure`` where the film is not converged; its files are written all the same.
+
+    Raises
+    ------
+    InputError
+        Where the case or the folder cannot be used.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> contact = {"reduced_radius": "14.1 mm", "reduced_modulus": "226 GPa"}
+    >>> contact |= {"max_hertz_pressure": "1 GPa", "entrainment_speed": "4 m/s"}
+    >>> case = Case.from_dict({"contact": contact, "lubricant": {"base": "paper"}, "grid": {"nodes": 401}})
+    >>> with TemporaryDirectory() as folder:
+    ...     outcome = run(case, folder)
+    >>> outcome.converged, [path.name for path in outcome.files]
+    (True, ['summary.json', 'result.nc', 'film.csv'])
+    """
+    prepared = check_case(case)
+    solvers.check(case)
+    names = (*FILES, *others)
+    folder = prepare(folder, names)
+    result = solve(
+        case,
+        progress=lambda nodes, step, residual: progress(
+            0, 0, f"film: {nodes} nodes, step {step + 1}, residual {residual:.1e}"
+        ),
+        solvers=solvers,
+        prepared=prepared,
+    )
+    progress(0, 0, "writing results")
+    clear(folder, names)
+    files = save(result, folder)
+    failure = None if result.converged else f"not converged: {result.film.status}"
+    return RunOutcome(result, result.summary(), tuple(files), result.warnings, failure)

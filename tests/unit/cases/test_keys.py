@@ -1,0 +1,54 @@
+"""Descriptions of the keys of all files: each key has one, and each belongs to a key."""
+
+import pytest
+
+from ehlectric import InputError
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.case import Case
+from ehlectric.cases.keys import INPUT_NAMES, TABLES, describe, descriptions, input_field
+from ehlectric.cases.table import Table, table_of
+from ehlectric.sweep.inputs import Sweep
+
+ALL = {**TABLES, "sweep": Sweep}
+
+
+@pytest.mark.parametrize("table", ALL)
+def test_every_key_has_a_description_and_every_description_a_key(table):
+    assert set(descriptions(table)) == set(ALL[table].known_keys())
+    assert all(text.strip() for text in descriptions(table).values())
+
+
+@pytest.mark.parametrize("model", [Case, BearingCase])
+def test_every_table_of_a_file_is_among_them(model):
+    def tables(of):
+        for field in of.known_keys().values():
+            inner = table_of(field.annotation)
+            if inner is not None:
+                yield inner
+                yield from tables(inner)
+
+    assert all(any(issubclass(found, known) for known in TABLES.values()) for found in tables(model))
+    assert issubclass(model, Table)
+
+
+def test_a_key_that_can_be_varied_can_be_described():
+    for key in INPUT_NAMES:
+        input_field(key)
+        assert describe(key)
+    assert describe("contact.body_2.radius_x") == describe("contact.body_1.radius_x")
+    assert describe("roughness.rq") == describe("roughness.1.rq")
+
+
+@pytest.mark.parametrize(
+    ("key", "nearest"),
+    [
+        ("contact.lod", "contact.load"),
+        ("loads.radial_load", "bearing.radial_load"),
+        ("contact", "contact."),
+        ("", ""),
+        ("sweep.varies", "sweep.vary"),
+    ],
+)
+def test_a_key_that_is_none_is_refused_with_the_nearest_one(key, nearest):
+    with pytest.raises(InputError, match=rf"^{key}: unknown key; the nearest known one is {nearest}"):
+        describe(key)

@@ -1,0 +1,68 @@
+"""Rows of a table as data: numbers in SI units beside the unit in which they are shown."""
+
+import subprocess
+import sys
+
+import pytest
+
+from ehlectric.cases.quantity import to_si
+from ehlectric.cases.result_key import ResultKey
+from ehlectric.cases.row import UNITS, Row, rows_of, value_at
+from ehlectric.commands.tables.layout import table_of
+
+KEYS = {"film.minimum_thickness": ResultKey("smallest film", "m")}
+ENTRY = ("minimum film", "film.minimum_thickness")
+
+
+@pytest.mark.parametrize("unit", [unit for unit in UNITS if unit not in ("", "%")])
+def test_units_are_those_of_case_files(unit):
+    si, factor = UNITS[unit]
+    assert to_si(f"1 {unit}", si) * factor == pytest.approx(1.0, rel=1e-14)
+
+
+def test_a_number_is_kept_in_si_and_shown_in_its_unit():
+    row = Row("minimum film", 1.23456e-7, "nm", digits=".3g")
+    assert (row.value, row.shown) == (1.23456e-7, "123")
+    assert Row("share", 0.125, "%").shown == "12.5"
+    assert Row("grid", "65 x 65", note="nodes").shown == "65 x 65"
+    assert Row("discharge").shown == ""
+
+
+def test_a_number_in_an_unknown_unit_is_refused():
+    with pytest.raises(ValueError, match=r"^'mW' is no unit of a row"):
+        Row("power", 1.0, "mW")
+    assert Row("position", "1, 2", "x/b").shown == "1, 2"
+
+
+def test_rows_of_a_summary():
+    summary = {"film": {"minimum_thickness": 2e-7}}
+    assert list(rows_of(KEYS, summary, [(*ENTRY, "µm", ", of all")])) == [
+        Row("minimum film", 2e-7, "µm", ", of all")
+    ]
+    assert list(rows_of(KEYS, {"film": {"minimum_thickness": None}}, [(*ENTRY, "µm")])) == []
+    assert list(rows_of(KEYS, {"film": None}, [(*ENTRY, "µm")])) == []
+    with pytest.raises(ValueError, match=r"^film\.minimum_thickness in m is not shown in V$"):
+        list(rows_of(KEYS, summary, [(*ENTRY, "V")]))
+
+
+def test_values_by_dotted_key():
+    table = {"a": {"b": [1.0, {"c": 2.0}]}, "n": None}
+    assert value_at(table, "a.b.1.c") == 2.0
+    assert [value_at(table, key) for key in ("a.b.2", "a.b.x", "a.c", "n.b")] == [None] * 4
+
+
+def test_a_terminal_shows_name_value_unit_and_note():
+    table = table_of([Row("first", 1e-6, "µm", ", here"), Row("WRONG", note="x", alarm=True)], "Title [m]")
+    cells = [list(column.cells) for column in table.columns]
+    assert cells == [["first", "WRONG"], ["1", ""], ["µm, here", "x"]]
+    assert [row.style for row in table.rows] == [None, "red"]
+    assert str(table.title) == "Title [m]"
+
+
+@pytest.mark.parametrize("kind", ["contact", "discharge", "bearing", "motion", "sweep", "sensitivity"])
+def test_rows_are_made_without_a_terminal(kind):
+    code = (
+        f"import sys, ehlectric.commands.tables.{kind}; print('rich' in sys.modules, 'typer' in sys.modules)"
+    )
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert run.stdout.split() == ["False", "False"]
