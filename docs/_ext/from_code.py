@@ -28,13 +28,13 @@ from ehlectric.cases import contact as contact_inputs
 from ehlectric.cases import library
 from ehlectric.cases import roughness as roughness_inputs
 from ehlectric.cases import table as validation
-from ehlectric.cases.keys import TABLES, descriptions
+from ehlectric.cases.input_keys import TABLES, descriptions
 from ehlectric.cases.lubricant import LAWS, density_law, permittivity_law
 from ehlectric.cases.quantity import Count, Quantities, Quantity
 from ehlectric.commands.app import app as commands
 from ehlectric.errors import CODES
-from ehlectric.motion.record import read_motion
 from ehlectric.motion.run import run_motion
+from ehlectric.motion.stored_run import read_motion
 from ehlectric.paper.contacts import CONTACTS
 from ehlectric.paper.reproduce import reproduce
 from ehlectric.sweep import inputs as sweep_inputs

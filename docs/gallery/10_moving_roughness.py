@@ -14,8 +14,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import ehlectric
-from ehlectric.motion.record import MotionRun, read_motion
 from ehlectric.motion.run import run_motion
+from ehlectric.motion.stored_run import MotionRun, read_motion
 from ehlectric.motion.summary import instant_beside, summary_of
 
 case = ehlectric.Case.from_dict(

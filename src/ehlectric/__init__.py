@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     from ehlectric.contact.solver import solve
     from ehlectric.errors import ConvergenceError, InputError
     from ehlectric.figures.results import figure, save_figures
-    from ehlectric.motion.record import read_motion
     from ehlectric.motion.run import run_motion
+    from ehlectric.motion.stored_run import read_motion
     from ehlectric.sweep.inputs import Sweep
     from ehlectric.sweep.run import run_sweep
     from ehlectric.sweep.store import read_sweep
@@ -54,7 +54,7 @@ _HOMES = {
     "Result": "contact.results",
     "Sweep": "sweep.inputs",
     "load": "commands.runs",
-    "read_motion": "motion.record",
+    "read_motion": "motion.stored_run",
     "read_sweep": "sweep.store",
     "run_motion": "motion.run",
     "run_sweep": "sweep.run",

@@ -16,7 +16,7 @@ from ehlectric.commands.app import app
 from ehlectric.errors import ConvergenceError
 from ehlectric.figures.names import MOTION_FIGURE_FILES
 from ehlectric.film.unsteady import UnsteadyFilm
-from ehlectric.motion.record import MotionRun, read_motion
+from ehlectric.motion.stored_run import MotionRun, read_motion
 from tests.helpers.commands import COMMAND
 
 CASE = """\

@@ -45,7 +45,7 @@ def draw_maps(
         from ehlectric.figures.names import SPEED_FIGURE_FILES, map_files
         from ehlectric.figures.sweep.save import save_maps, save_speeds
         from ehlectric.runtime.files import prepare
-        from ehlectric.sweep.breakdown import breakdown_of
+        from ehlectric.sweep.breakdown_keys import breakdown_of
         from ehlectric.sweep.slices import take
         from ehlectric.sweep.store import read_sweep
 
@@ -68,7 +68,7 @@ def sensitivity(folder: SweepFolder, value: Value = "", output: Output = None, q
         from ehlectric.figures.names import SENSITIVITY_FIGURE
         from ehlectric.figures.sweep.sensitivity import save_sensitivity
         from ehlectric.runtime.files import prepare, write_json
-        from ehlectric.sweep.breakdown import breakdown_of
+        from ehlectric.sweep.breakdown_keys import breakdown_of
         from ehlectric.sweep.sensitivity import sensitivity as sensitivity_of
         from ehlectric.sweep.store import read_sweep
 

@@ -30,7 +30,7 @@ def tell_where_it_stops(folder: Path, show: Progress) -> Iterator[Progress]:
         yield progress
     except (KeyboardInterrupt, SystemExit):
         if steps:
-            from ehlectric.motion.record import MOTION, saved_steps
+            from ehlectric.motion.stored_run import MOTION, saved_steps
 
             # Read from the file: the progress may not have been called for the last instant yet.
             saved = saved_steps(folder / MOTION)
@@ -51,7 +51,7 @@ def animate(
     """Draw the recorded instants of a contact whose roughness moves as an animation."""
     with user_errors():
         from ehlectric.figures.motion.animation import save_animation
-        from ehlectric.motion.record import read_motion
+        from ehlectric.motion.stored_run import read_motion
 
         dataset = read_motion(folder)
         with progress_bar(shown=not quiet) as progress:

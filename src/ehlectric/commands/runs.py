@@ -179,7 +179,7 @@ def run_contact(
 ) -> RunOutcome[Result | PointResult]:
     """Solve a stationary contact by a solver of a name, "ehlectric" or "paper", and write its results."""
     from ehlectric.contact.run import run
-    from ehlectric.motion.record import MOTION
+    from ehlectric.motion.stored_run import MOTION
     from ehlectric.paper.solvers import SOLVERS
 
     _check_solver(solver, tuple(SOLVERS))
@@ -364,7 +364,7 @@ def load_and_draw(path: str | Path, folder: str | Path) -> tuple[tuple[Path, ...
         Where the file is not a result, or the folder cannot be used.
     """
     from ehlectric.bearing.result import BearingResult
-    from ehlectric.motion.record import MOTION, read_motion
+    from ehlectric.motion.stored_run import MOTION, read_motion
     from ehlectric.runtime.stored_warnings import of_attributes
 
     if Path(path).name == MOTION:

@@ -9,7 +9,7 @@ from scipy.constants import epsilon_0
 
 from ehlectric.arrays import Array
 from ehlectric.discharge.columns import at_columns
-from ehlectric.discharge.outlet import OUTLETS, filled_permittivity, oil_fraction
+from ehlectric.discharge.outlet_filling import OUTLETS, filled_permittivity, oil_fraction
 from ehlectric.field.line import Field
 from ehlectric.field.point import PointField
 from ehlectric.field.poisson import ATOM

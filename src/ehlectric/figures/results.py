@@ -17,7 +17,7 @@ from ehlectric.figures.bearing import save as bearing
 from ehlectric.figures.contact import save as contact
 from ehlectric.figures.motion import save as motion
 from ehlectric.figures.sweep import save as sweep
-from ehlectric.motion.record import MotionRun
+from ehlectric.motion.stored_run import MotionRun
 from ehlectric.sweep.results import SweepResults
 
 AnyResult = Result | PointResult | BearingResult | xr.Dataset | MotionRun | SweepResults

@@ -21,8 +21,8 @@ from ehlectric.errors import ConvergenceError, ResultWarning
 from ehlectric.field.poisson import ATOM
 from ehlectric.motion.contact import TransientContact
 from ehlectric.motion.file import MotionFile, Record, Row, described
-from ehlectric.motion.record import MOTION, read_motion
 from ehlectric.motion.solver import TransientSolver
+from ehlectric.motion.stored_run import MOTION, read_motion
 from ehlectric.motion.summary import summary_of
 from ehlectric.runtime.files import clear, now, plain, prepare, write_json
 from ehlectric.runtime.outcome import RunOutcome

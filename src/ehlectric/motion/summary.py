@@ -12,7 +12,7 @@ from scipy.ndimage import maximum_filter
 from ehlectric.arrays import Array, Mask
 from ehlectric.discharge.utilisation import dielectric_strength
 from ehlectric.errors import ResultWarning
-from ehlectric.motion.record import MotionRun
+from ehlectric.motion.stored_run import MotionRun
 from ehlectric.runtime.files import plain
 from ehlectric.runtime.stored_warnings import of_attributes, texts_and_codes
 

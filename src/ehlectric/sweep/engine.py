@@ -29,8 +29,8 @@ from ehlectric.contact.solver import solve
 from ehlectric.errors import ConvergenceError, InputError, LostError, MemoryLimitError
 from ehlectric.runtime.files import now
 from ehlectric.runtime.workers import end_now, end_with_parent, without_interrupts
+from ehlectric.sweep.plan import Outcome
 from ehlectric.sweep.results import Status
-from ehlectric.sweep.store import Outcome
 from ehlectric.version import __version__
 
 T = TypeVar("T")

@@ -14,7 +14,7 @@ from pydantic.fields import FieldInfo
 
 from ehlectric.cases.any_case import AnyCase, case_of_dict, case_of_file
 from ehlectric.cases.case import Case, Title, find_files
-from ehlectric.cases.keys import input_field, number_of
+from ehlectric.cases.input_keys import input_field, number_of
 from ehlectric.cases.quantity import Count, Quantity
 from ehlectric.cases.table import Table, nearest, read_toml
 from ehlectric.errors import InputError, shown

@@ -16,8 +16,9 @@ from ehlectric.runtime.progress import Progress, silent
 from ehlectric.runtime.workers import cores
 from ehlectric.sweep.engine import Crew, Task, crew_of, processes, run_points
 from ehlectric.sweep.inputs import Sweep
+from ehlectric.sweep.plan import Outcome, Planned, plan
 from ehlectric.sweep.results import SweepResults
-from ehlectric.sweep.store import LOCK, NAME, Outcome, Planned, Store, plan, read_sweep
+from ehlectric.sweep.store import LOCK, NAME, Store, read_sweep
 from ehlectric.sweep.tables import FILES, write_tables
 from ehlectric.sweep.warnings import sweep_warnings
 

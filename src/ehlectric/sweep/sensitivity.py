@@ -10,7 +10,7 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.errors import InputError
-from ehlectric.sweep.breakdown import breakdown_of
+from ehlectric.sweep.breakdown_keys import breakdown_of
 from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.slices import numbers_of
 

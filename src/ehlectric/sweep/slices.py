@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array, IntArray, Mask
-from ehlectric.cases.keys import kind_of
+from ehlectric.cases.input_keys import kind_of
 from ehlectric.cases.quantity import Count, Quantity
 from ehlectric.cases.table import nearest
 from ehlectric.errors import InputError, shown
-from ehlectric.sweep.breakdown import Breakdown, breakdown_of
+from ehlectric.sweep.breakdown_keys import Breakdown, breakdown_of
 from ehlectric.sweep.results import Point, Status, SweepResults, as_number, flat
 
 # Largest number of names or values that a message lists.

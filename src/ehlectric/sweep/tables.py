@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ehlectric.cases.keys import kind_of
+from ehlectric.cases.input_keys import kind_of
 from ehlectric.runtime.files import clear, prepare, whole
 from ehlectric.sweep.labels import label_of
 from ehlectric.sweep.results import SweepResults, as_number, flat

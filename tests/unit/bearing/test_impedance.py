@@ -49,7 +49,7 @@ def test_the_impedance_of_an_earlier_bearing_is_taken_away(monkeypatch, tmp_path
     file.write_text(tomli_w.dumps(TABLE), encoding="utf-8")
     for changes, there in (({}, True), ({"discharge": None}, False)):
         result = by_hand(positions=1, **changes)
-        monkeypatch.setattr("ehlectric.bearing.solver.solve_bearing", lambda *_, r=result, **__: r)
+        monkeypatch.setattr("ehlectric.bearing.files.solve_bearing", lambda *_, r=result, **__: r)
         done = CliRunner().invoke(app, ["bearing", str(file), "-o", str(out), "-q", "--no-plots"])
         assert done.exit_code == 0, done.output
         assert (out / "impedance.csv").exists() == there

@@ -15,7 +15,7 @@ from ehlectric.cases.lubricant import permittivity_law
 from ehlectric.commands.tables.contact import result_rows
 from ehlectric.contact.problems import field_problem
 from ehlectric.discharge.assessment import Assessment
-from ehlectric.discharge.outlet import filled_permittivity, oil_fraction
+from ehlectric.discharge.outlet_filling import filled_permittivity, oil_fraction
 from ehlectric.field.line import solve_field
 from ehlectric.field.zones import part_widths
 from ehlectric.paper.solvers import PAPER

@@ -19,8 +19,8 @@ from ehlectric.figures.motion import save as of_motions
 from ehlectric.figures.results import draw_figures, figure_names
 from ehlectric.figures.style import style
 from ehlectric.figures.sweep import save as of_sweeps
-from ehlectric.motion.record import MotionRun
 from ehlectric.motion.run import run_motion
+from ehlectric.motion.stored_run import MotionRun
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.bearings import BALLS, bearing_case
 from tests.helpers.moving_cases import moving

@@ -17,9 +17,9 @@ from ehlectric.film.unsteady import UnsteadyFilm
 from ehlectric.motion.contact import TransientContact
 from ehlectric.motion.file import MotionFile
 from ehlectric.motion.kinds import LINE
-from ehlectric.motion.record import MOTION, MotionRun, read_motion, saved_steps
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.solver import TransientSolver
+from ehlectric.motion.stored_run import MOTION, MotionRun, read_motion, saved_steps
 from ehlectric.runtime import netcdf as netcdf_files
 from tests.helpers.moving_cases import POINT, moving
 

@@ -6,8 +6,8 @@ import pytest
 
 from ehlectric.errors import ConvergenceError
 from ehlectric.film.unsteady import UnsteadyFilm
-from ehlectric.motion.record import MOTION
 from ehlectric.motion.run import run, run_motion
+from ehlectric.motion.stored_run import MOTION
 from tests.helpers.moving_cases import moving
 
 # Twelve steps of two grid spacings, recorded are 0, 4, 8 and 12.

@@ -13,8 +13,8 @@ from ehlectric.figures.motion.save import save_motion_figures
 from ehlectric.figures.names import MOTION_FIGURE_FILES
 from ehlectric.motion import kinds, schedule
 from ehlectric.motion.field_history import time_above
-from ehlectric.motion.record import MotionRun, read_motion
 from ehlectric.motion.run import run_motion
+from ehlectric.motion.stored_run import MotionRun, read_motion
 from ehlectric.motion.summary import SCHEMA, counted, instant_beside, local_maxima, summary_of
 from tests.helpers.moving_cases import LINE, POINT, moving
 

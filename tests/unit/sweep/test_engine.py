@@ -15,7 +15,7 @@ from ehlectric.errors import LostError
 from ehlectric.runtime.workers import cores
 from ehlectric.sweep import engine as sweep_engine
 from ehlectric.sweep.engine import Crew, crew_of, processes, run_points, solve_point
-from ehlectric.sweep.store import Outcome
+from ehlectric.sweep.plan import Outcome
 from ehlectric.version import __version__
 from tests.helpers.sweeps import CASE, DEADLY, NODES, SLOW, SPEED, solve_or_die
 

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ehlectric import Case, InputError, Sweep
-from ehlectric.cases.keys import input_field, number_of
+from ehlectric.cases.input_keys import input_field, number_of
 from ehlectric.contact.resolve import resolve
 from ehlectric.sweep.results import Range
 from tests.cli.conftest import CASE as CASE_FILE

@@ -7,11 +7,11 @@ import pytest
 
 from ehlectric import Case, solve
 from ehlectric.bearing.solver import solve_bearing
-from ehlectric.cases.keys import INPUT_NAMES, input_field
+from ehlectric.cases.input_keys import INPUT_NAMES, input_field
 from ehlectric.cases.quantity import to_si
 from ehlectric.cases.result_key import key_of
-from ehlectric.motion.record import read_motion
 from ehlectric.motion.run import run_motion
+from ehlectric.motion.stored_run import read_motion
 from ehlectric.motion.summary import summary_of
 from ehlectric.sweep.labels import label_of, result_keys
 from ehlectric.sweep.results import flat

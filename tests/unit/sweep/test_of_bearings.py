@@ -16,7 +16,7 @@ from ehlectric.figures.names import SPEED_FIGURE_FILES
 from ehlectric.figures.sweep.lines import value_lines
 from ehlectric.figures.sweep.maps import value_map
 from ehlectric.figures.sweep.save import save_speeds
-from ehlectric.sweep.breakdown import CONTACT, FIRST_BREAK, THROUGH, breakdown_of
+from ehlectric.sweep.breakdown_keys import CONTACT, FIRST_BREAK, THROUGH, breakdown_of
 from ehlectric.sweep.labels import label_of
 from ehlectric.sweep.results import Range
 from ehlectric.sweep.sensitivity import sensitivity

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ehlectric import InputError
-from ehlectric.sweep.breakdown import CONTACT
+from ehlectric.sweep.breakdown_keys import CONTACT
 from ehlectric.sweep.interpolation import spaced_log, surface_of
 from ehlectric.sweep.labels import label_of, scale_for
 from ehlectric.sweep.results import Range

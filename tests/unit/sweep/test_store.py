@@ -10,8 +10,9 @@ from dataclasses import replace
 import pytest
 
 from ehlectric import Case, InputError, read_sweep
+from ehlectric.sweep.plan import Outcome, case_key, plan
 from ehlectric.sweep.results import Range
-from ehlectric.sweep.store import NAME, Outcome, Store, case_key, plan
+from ehlectric.sweep.store import NAME, Store
 from ehlectric.version import __version__
 from tests.helpers.sweeps import CASE, LOAD, NODES, PRESSURE, SPEED, TABLE, speeds, sweep_over
 

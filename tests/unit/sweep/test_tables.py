@@ -13,8 +13,9 @@ from pyarrow import parquet
 
 from ehlectric import read_sweep
 from ehlectric.sweep.engine import solve_point
+from ehlectric.sweep.plan import Outcome, plan
 from ehlectric.sweep.results import flat
-from ehlectric.sweep.store import NAME, Outcome, Store, plan
+from ehlectric.sweep.store import NAME, Store
 from ehlectric.sweep.tables import columns_of, to_xarray, write_tables
 from tests.helpers.sweeps import LOAD, NODES, PRESSURE, SPEED, sweep_over
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ehlectric.cases.row import Row
-from ehlectric.sweep.breakdown import breakdown_of
+from ehlectric.sweep.breakdown_keys import breakdown_of
 from ehlectric.sweep.labels import label_of
 from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.sensitivity import Sensitivity

@@ -17,7 +17,7 @@ from ehlectric.errors import InputError, shown
 from ehlectric.figures.motion.line_frames import Frames, line_frames
 from ehlectric.figures.motion.point_frames import map_frames
 from ehlectric.figures.style import style
-from ehlectric.motion.record import MotionRun
+from ehlectric.motion.stored_run import MotionRun
 from ehlectric.runtime.files import refuse_special, whole
 from ehlectric.runtime.progress import Progress, silent
 

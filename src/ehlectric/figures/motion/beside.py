@@ -22,7 +22,7 @@ from ehlectric.figures.motion.panels import (
     time_unit,
 )
 from ehlectric.figures.style import BLUE, GREY, ORANGE, axes_or_new, legend_above
-from ehlectric.motion.record import MotionRun, coincident_frame
+from ehlectric.motion.stored_run import MotionRun, coincident_frame
 
 # Largest distance at which roughness counts as lying where the case puts it [half-widths].
 _SAME_PLACE = 1e-6

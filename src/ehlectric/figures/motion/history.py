@@ -10,7 +10,7 @@ from ehlectric.arrays import Array
 from ehlectric.figures.motion.panels import field_unit, film_unit, fitted, time_unit
 from ehlectric.figures.style import BLUE, GREEN, GREY, ORANGE, axes_or_new, legend_above
 from ehlectric.motion.field_history import NEAR_MAXIMUM, intervals_above
-from ehlectric.motion.record import MotionRun
+from ehlectric.motion.stored_run import MotionRun
 
 
 def least_film(run: MotionRun, ax: Axes | None = None) -> Axes:

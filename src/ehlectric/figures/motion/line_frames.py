@@ -25,7 +25,7 @@ from ehlectric.figures.motion.panels import (
     time_unit,
 )
 from ehlectric.figures.style import BLUE, BODY, OIL, ORANGE, figure_of, new_panels
-from ehlectric.motion.record import MotionRun
+from ehlectric.motion.stored_run import MotionRun
 
 # Size of a frame [inches].
 _SIZE = (6.3, 7.2)

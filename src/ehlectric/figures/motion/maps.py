@@ -16,7 +16,7 @@ from ehlectric.cases.quantity import unit_for
 from ehlectric.figures.contact.maps import round_levels
 from ehlectric.figures.motion.panels import along_label, field_unit, film_unit, in_contact, time_unit
 from ehlectric.figures.style import BODY, axes_or_new, figure_of, new_panels
-from ehlectric.motion.record import MotionRun
+from ehlectric.motion.stored_run import MotionRun
 
 # The maps show x from -1.5 to 1.5 [half-widths]: beyond it the field is not solved, or hardly changes.
 _REACH = 1.5

@@ -24,7 +24,7 @@ from ehlectric.figures.contact.maps import (
 from ehlectric.figures.motion.line_frames import Frames, time_text
 from ehlectric.figures.motion.panels import Unit, field_unit, film_unit, name_run
 from ehlectric.figures.style import figure_of
-from ehlectric.motion.record import MotionRun
+from ehlectric.motion.stored_run import MotionRun
 
 _FILM_COLOURS, _FIELD_COLOURS = "viridis", "inferno"
 

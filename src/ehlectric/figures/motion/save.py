@@ -20,7 +20,7 @@ from ehlectric.figures.motion.history import largest_field, least_film, places
 from ehlectric.figures.motion.maps import map_figure, sampling_text
 from ehlectric.figures.motion.panels import name_run, share_below
 from ehlectric.figures.style import drawing_of, figure_of, new_panels, save_figure, style
-from ehlectric.motion.record import MotionRun, coincident_frame
+from ehlectric.motion.stored_run import MotionRun, coincident_frame
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -16,7 +16,7 @@ from ehlectric.figures.sweep.lines import value_lines
 from ehlectric.figures.sweep.maps import value_map
 from ehlectric.figures.sweep.points import held_text, name_figure
 from ehlectric.figures.sweep.sensitivity import sensitivity_figure
-from ehlectric.sweep.breakdown import breakdown_of
+from ehlectric.sweep.breakdown_keys import breakdown_of
 from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.sensitivity import sensitivity
 from ehlectric.sweep.slices import Slice, take

@@ -23,7 +23,7 @@ from ehlectric.figures.style import (
     style,
 )
 from ehlectric.figures.sweep.points import labelled, name_figure, range_text
-from ehlectric.sweep.breakdown import breakdown_of
+from ehlectric.sweep.breakdown_keys import breakdown_of
 from ehlectric.sweep.labels import label_of
 from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.sensitivity import LEVEL, Sensitivity

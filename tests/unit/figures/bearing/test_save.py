@@ -264,7 +264,7 @@ def test_the_command_draws_unless_told_not_to(result, monkeypatch, tmp_path):
     """And takes the figures of an earlier bearing away."""
     file = tmp_path / "bearing.toml"
     file.write_text(tomli_w.dumps(TABLE), encoding="utf-8")
-    monkeypatch.setattr("ehlectric.bearing.solver.solve_bearing", lambda *_args, **_kwargs: result)
+    monkeypatch.setattr("ehlectric.bearing.files.solve_bearing", lambda *_args, **_kwargs: result)
     drawn = *BEARING_FIGURE_FILES, *SPEED_FIGURE_FILES
     for option, figures in (("--plots", drawn), ("--no-plots", ())):
         done = CliRunner().invoke(app, ["bearing", str(file), "-o", str(tmp_path / "out"), "-q", option])

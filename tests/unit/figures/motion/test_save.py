@@ -23,7 +23,7 @@ from ehlectric.figures.motion.point_frames import map_frames
 from ehlectric.figures.motion.save import beside_stationary, history, maps, save_motion_figures
 from ehlectric.figures.names import MOTION_FIGURE_FILES
 from ehlectric.motion.field_history import intervals_above
-from ehlectric.motion.record import MotionRun
+from ehlectric.motion.stored_run import MotionRun
 
 HISTORY, MAPS, BESIDE = MOTION_FIGURE_FILES
 VOLTS, MEAN, SLIDE, STEPS = 2.0, 4.0, 0.5, 200

@@ -10,7 +10,7 @@ from scipy.constants import epsilon_0
 from scipy.integrate import quad
 
 from ehlectric.discharge.capacitance import zone_capacitances
-from ehlectric.discharge.outlet import OUTLETS, filled_permittivity, oil_fraction
+from ehlectric.discharge.outlet_filling import OUTLETS, filled_permittivity, oil_fraction
 from ehlectric.field.zones import line_zone_areas
 from tests.reference.field import near
 from tests.reference.gaps import line_gap, line_gap_field

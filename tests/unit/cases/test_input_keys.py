@@ -5,7 +5,7 @@ import pytest
 from ehlectric import InputError
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
-from ehlectric.cases.keys import INPUT_NAMES, TABLES, describe, descriptions, input_field
+from ehlectric.cases.input_keys import INPUT_NAMES, TABLES, describe, descriptions, input_field
 from ehlectric.cases.table import Table, table_of
 from ehlectric.sweep.inputs import Sweep
 

@@ -1,0 +1,128 @@
+"""Plan of a sweep: the points to solve, the key of each case, and what comes of a point."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from ehlectric.cases.any_case import AnyCase
+from ehlectric.errors import InputError
+from ehlectric.runtime.files import reading
+from ehlectric.sweep.inputs import Sweep
+from ehlectric.sweep.results import Status
+from ehlectric.version import __version__
+
+
+@dataclass(frozen=True)
+class Planned:
+    """Point of a sweep before it is solved.
+
+    Attributes
+    ----------
+    number : int
+        Number of the point in the order of the design, from 0.
+    inputs : mapping
+        Values of the varied keys, by dotted key of the case, SI.
+    key : str or None
+        Key of its case, from ``case_key``; None where these inputs make no valid case.
+    refused : str
+        Reason why the inputs make no valid case; empty where they do.
+    """
+
+    number: int
+    inputs: Mapping[str, Any]
+    key: str | None
+    refused: str = ""
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """Outcome of a point that was tried.
+
+    Attributes
+    ----------
+    status : str
+        "solved", "not converged" or "failed".
+    reason : str
+        Reason why the point is not solved; empty where it is.
+    again : bool
+        Whether another try may succeed, as after a killed process.
+    summary : mapping or None
+        Nested tables, as in summary.json; None where the point failed.
+    seconds : float
+        Time that the solution took [s].
+    version : str
+        Version of ehlectric that tried the point.
+    date : str
+        Date and time of the outcome, ISO 8601.
+    """
+
+    status: Status
+    reason: str = ""
+    again: bool = False
+    summary: Mapping[str, Any] | None = None
+    seconds: float = 0.0
+    version: str = __version__
+    date: str = ""
+
+
+def case_key(case: AnyCase) -> str:
+    """Hash of everything that the solution of a case depends on.
+
+    It covers all inputs, with their defaults, and the contents of files. The title and the paths of files are
+    left out.
+
+    Parameters
+    ----------
+    case : Case or BearingCase
+        A valid case.
+
+    Returns
+    -------
+    str
+        SHA-256 hash, hexadecimal.
+
+    Raises
+    ------
+    InputError
+        Where a file of the case cannot be read.
+
+    Examples
+    --------
+    >>> contact = {"reduced_radius": "14.1 mm", "reduced_modulus": "226 GPa"}
+    >>> contact |= {"max_hertz_pressure": "1 GPa", "entrainment_speed": "4 m/s"}
+    >>> case = case_of_dict({"contact": contact, "lubricant": {"base": "paper"}})
+    >>> case_key(case) == case_key(case.replace(title="Another", solver={"max_iterations": 30}))
+    True
+    """
+    table = case.to_dict()
+    del table["title"]
+    for surface in table.get("roughness", ()):
+        if "file" in surface:
+            path = Path(surface["file"])
+            with reading(path):
+                status = path.stat()
+                surface["file"] = _contents(path, status.st_mtime_ns, status.st_size)
+    text = json.dumps(table, sort_keys=True, separators=(",", ":"), allow_nan=False)
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+@cache
+def _contents(path: Path, _changed: int, _size: int) -> str:
+    """SHA-256 hash of a file; it is read again only when its time of change or size differs."""
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
+def plan(sweep: Sweep) -> Iterator[Planned]:
+    """Points of a sweep, each with the key of its case, or with the reason why it is no valid case."""
+    for number, inputs in enumerate(sweep.points()):
+        try:
+            yield Planned(number, inputs, case_key(sweep.case.replace(inputs)))
+        except InputError as error:
+            yield Planned(number, inputs, None, str(error))
