@@ -94,6 +94,7 @@ def case_key(case: AnyCase) -> str:
 
     Examples
     --------
+    >>> from ehlectric.cases.any_case import case_of_dict
     >>> contact = {"reduced_radius": "14.1 mm", "reduced_modulus": "226 GPa"}
     >>> contact |= {"max_hertz_pressure": "1 GPa", "entrainment_speed": "4 m/s"}
     >>> case = case_of_dict({"contact": contact, "lubricant": {"base": "paper"}})
