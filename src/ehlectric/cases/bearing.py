@@ -133,7 +133,7 @@ class OilTemperature(Table):
     kinematic_viscosity_40: _Viscosity
     kinematic_viscosity_100: _Viscosity
     density_15: Annotated[float, Quantity("kg/m**3", least=500.0, most=2000.0, reason="of an oil")]
-    # D. Dowson and G. R. Higginson, Elasto-Hydrodynamic Lubrication, Pergamon, 1966, as quoted since.
+    # D. Dowson and G. R. Higginson, Elasto-Hydrodynamic Lubrication, Pergamon, 1966, as quoted in later literature.
     expansion: Annotated[float, Quantity("1/K", least=1e-5, most=2e-3, reason="thermal, of an oil")] = 6.5e-4
     thermal_conductivity: (
         Annotated[float, Quantity("W/m/K", least=0.01, most=1.0, reason="of an oil")] | None

@@ -35,7 +35,7 @@ def set_keys(table: dict[str, Any], flat: Mapping[str, Any]) -> None:
             target = _part(target, parent, key)
         if isinstance(target, list):
             raise InputError(key, "is a table", takes=f"one of its keys, as {key}.surface")
-        # An empty table adds a table that does not exist, but does not change one that does.
+        # An empty value adds a missing table, but does not change an existing table.
         if not (value == {} and isinstance(target.get(leaf), dict)):
             target[leaf] = value
 

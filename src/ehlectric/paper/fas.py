@@ -190,7 +190,7 @@ def _cycles(
 def residual_norm(equations: FilmEquations, at: Iterate) -> float:
     """Residual of an iterate: the largest scaled residual of the Reynolds equation, or that of the load.
 
-    The larger one counts; the residual of the load is ten times its relative error. The result is nan where
+    The larger one counts; the residual of the load is ten times its relative error. The result is NaN where
     the film thickness is not positive at every node.
     """
     c = equations.coefficients(at)

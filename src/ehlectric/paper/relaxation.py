@@ -90,7 +90,7 @@ def _band(equations: FilmEquations, derivatives: tuple[Array, Array], free: Mask
 
 
 def _solve_band(band: Array, right: Array) -> Array:
-    """Solution of a banded linear system; nan where the matrix is singular or not finite."""
+    """Solution of a banded linear system; NaN where the matrix is singular or not finite."""
     if not np.all(np.isfinite(band)):
         return np.full_like(right, np.nan)
     try:

@@ -146,7 +146,7 @@ def run_study(parts: Iterable[str], *, progress: Callable[[int, int, str], None]
     Raises
     ------
     RuntimeError
-        Where a process was killed, or a script calls this without ``if __name__ == "__main__":``.
+        If a process was killed, or a script calls this without ``if __name__ == "__main__":``.
     """
     requested = dict.fromkeys(parts)
     with measured_profile() as profile:
@@ -186,7 +186,7 @@ def straight_line(result: Result) -> Array:
     Returns
     -------
     ndarray, shape (nx,)
-        abs(E) at the columns of the field [V/m]; nan where the line is outside the film.
+        abs(E) at the columns of the field [V/m]; NaN where the line is outside the film.
 
     Notes
     -----

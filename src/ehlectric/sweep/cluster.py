@@ -45,7 +45,7 @@ def cluster(address: str) -> Iterator[Crew]:
     Raises
     ------
     InputError
-        Where no scheduler answers at the address, or dask.distributed is not installed.
+        If no scheduler answers at the address, or dask.distributed is not installed.
 
     Notes
     -----
@@ -59,7 +59,7 @@ def cluster(address: str) -> Iterator[Crew]:
         ) from None
     _silence()
     with warnings.catch_warnings():
-        # Dask warns where versions differ. Where the difference breaks something, an error says so.
+        # Dask warns where versions differ. If the difference breaks something, an error says so.
         warnings.simplefilter("ignore")
         try:
             asyncio.run(asyncio.wait_for(_ask(address), ANSWER))

@@ -51,7 +51,7 @@ def paired(axes: Mapping[str, Sequence[Any]]) -> Iterator[dict[str, Any]]:
     Raises
     ------
     ValueError
-        Where the keys have different numbers of values.
+        If the keys have different numbers of values.
 
     Examples
     --------
@@ -70,7 +70,7 @@ def sobol(
     Parameters
     ----------
     ranges : mapping
-        Range of each key, SI.
+        Range of each key, in SI units.
     samples : int
         Number n of rows of the matrices A and B, a power of two.
     seed : int
@@ -82,8 +82,8 @@ def sobol(
     Yields
     ------
     dict
-        Inputs of a point by key, SI. For d keys there are n(d + 2) points: the rows of A, the rows of B, and
-        then for each key the rows of A with the column of that key taken from B.
+        Inputs of a point by key, in SI units. For d keys there are n(d + 2) points: the rows of A, the rows
+        of B, and then for each key the rows of A with the column of that key taken from B.
 
     Notes
     -----

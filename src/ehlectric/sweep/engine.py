@@ -59,7 +59,7 @@ class Crew:
     renew : callable
         Replaces processes that died.
     waiting : callable
-        Returns a text that says what the crew is waiting for; empty where it is working.
+        Returns a text that says what the crew is waiting for; empty if it is working.
     """
 
     submit: Callable[..., Future[Any]]
@@ -137,12 +137,12 @@ def run_points(
     Raises
     ------
     LostError
-        Where the crew cannot be reached any more. All finished points have been passed to ``done`` before.
+        If the crew cannot be reached any more. All finished points have been passed to ``done`` before.
 
     Notes
     -----
-    Where a process dies, the points in flight are tried again one at a time. A point whose process dies again
-    is failed. Where not even an empty call returns, the crew is lost.
+    If a process dies, the points in flight are tried again one at a time. A point whose process dies again is
+    failed. If not even an empty call returns, the crew is lost.
     """
     remaining, flying = iter(tasks), dict[Future[Outcome], Task]()
     try:

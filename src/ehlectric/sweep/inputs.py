@@ -93,7 +93,7 @@ class Sweep(Table):
         Raises
         ------
         InputError
-            Where the file or that of its case cannot be read, is not TOML, or is not a sweep.
+            If the file or that of its case cannot be read, is not TOML, or is not a sweep.
         """
         table, folder = read_toml(path), Path(path).parent
         match table.get("case"):
@@ -117,7 +117,7 @@ class Sweep(Table):
         Raises
         ------
         InputError
-            Where a key or value is invalid. The message is one line: the key, what it got, what it takes.
+            If a key or value is invalid. The message is one line: the key, what it got, what it takes.
         """
         case = table.get("case")
         try:
@@ -137,12 +137,12 @@ class Sweep(Table):
 
     @property
     def axes(self) -> dict[str, tuple[Any, ...]]:
-        """Values of each varied key, SI; empty for a "sobol" design."""
+        """Values of each varied key, in SI units; empty for a "sobol" design."""
         return {} if self.design == "sobol" else dict(self.vary)
 
     @property
     def ranges(self) -> dict[str, Range]:
-        """Range of each varied key of a "sobol" design, SI; empty for other designs."""
+        """Range of each varied key of a "sobol" design, in SI units; empty for other designs."""
         return dict(self.vary) if self.design == "sobol" else {}
 
     @property
@@ -154,7 +154,7 @@ class Sweep(Table):
         return math.prod(lengths) if self.design == "grid" else lengths[0]
 
     def points(self) -> Iterator[dict[str, Any]]:
-        """Inputs of every point by dotted key of the case, SI, in the order of the design."""
+        """Inputs of every point by dotted key of the case, in SI units, in the order of the design."""
         if self.design == "sobol":
             whole = [key for key in self.vary if isinstance(number_of(input_field(key)), Count)]
             return sweep_design.sobol(self.ranges, self.samples or 0, self.seed, whole)
@@ -187,7 +187,7 @@ def _locate(tables: dict[str, Any], folder: Path, prefix: str = "") -> None:
 
 
 def _axis(key: str, value: Any, design: str) -> tuple[Any, ...] | Range:
-    """Values of a varied key, SI, or its range in a sobol design."""
+    """Values of a varied key, in SI units, or its range in a sobol design."""
     if key.partition(".")[0] == "motion":
         raise InputError(key, got="it in a sweep, whose films are at rest;", takes="other keys of the case")
     field = input_field(key)
@@ -227,7 +227,7 @@ def _values(key: str, field: FieldInfo, values: Sequence[Any]) -> Iterator[Any]:
 def _range(
     key: str, table: Mapping[str, Any], number: Quantity | Count | None, design: str
 ) -> tuple[Any, ...] | Range:
-    """Values of a varied key between two ends, SI, or its range in a sobol design."""
+    """Values of a varied key between two ends, in SI units, or its range in a sobol design."""
     if number is None:
         raise InputError(key, got="a range", takes="a list of values: it is no number")
     for name in table:

@@ -120,7 +120,7 @@ def scale_for(largest: float, unit: str) -> Scale:
     Parameters
     ----------
     largest : float
-        Largest of the values, SI, > 0.
+        Largest of the values, in SI units, > 0.
     unit : str
         SI unit in the notation of pint.
 

@@ -38,13 +38,13 @@ class Point:
     number : int
         Number of the point in the order of the design, from 0.
     inputs : mapping
-        Values of the varied keys, by dotted key of the case, SI.
+        Values of the varied keys, by dotted key of the case, in SI units.
     status : str
         "solved", "not converged", "failed" or "open".
     reason : str
-        Reason why the point is not solved; empty where it is solved or open.
+        Reason why the point is not solved; empty if it is solved or open.
     summary : mapping or None
-        Nested tables, as in summary.json; None where the point failed or is open.
+        Nested tables, as in summary.json; None if the point failed or is open.
     seconds : float
         Time that the solution took [s].
     version : str
@@ -66,7 +66,7 @@ class Point:
 
     @property
     def warnings(self) -> tuple[ResultWarning, ...]:
-        """Warnings of the summary; empty where the point has no summary."""
+        """Warnings of the summary; empty if the point has no summary."""
         return warnings_of(self.summary or {})
 
     @property
@@ -93,7 +93,7 @@ class SweepResults:
     design : str
         "grid", "paired" or "sobol".
     axes : mapping
-        Values of each varied key in the order of the input, SI; empty for a "sobol" design.
+        Values of each varied key in the order of the input, in SI units; empty for a "sobol" design.
     ranges : mapping
         Range of each varied key of a "sobol" design, in the order of the input; empty for other designs.
     samples : int
@@ -137,7 +137,7 @@ class SweepResults:
         Returns
         -------
         ndarray, shape (points,)
-            Values in SI units, doubtful points included; nan where a point is not solved, or its summary has
+            Values in SI units, doubtful points included; NaN where a point is not solved, or its summary has
             no number at this key.
         """
         column = [flat(point.summary or {}).get(key) if point.solved else None for point in self.points]
@@ -164,5 +164,5 @@ def flat(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
 
 
 def as_number(value: Any) -> float:
-    """Value as a float; nan where it is not a number."""
+    """Value as a float; NaN where it is not a number."""
     return float(value) if isinstance(value, int | float) else math.nan

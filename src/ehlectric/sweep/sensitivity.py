@@ -34,9 +34,9 @@ class Spread:
     samples : int
         Number of samples, the solved points of A and B.
     mean, standard_deviation, minimum, maximum : float
-        Moments and extremes of the samples, SI.
+        Moments and extremes of the samples, in SI units.
     quantiles : mapping
-        Quantiles by probability, SI, interpolated linearly between the samples.
+        Quantiles by probability, in SI units, interpolated linearly between the samples.
     """
 
     samples: int
@@ -91,8 +91,8 @@ class Sensitivity:
     indices : tuple of Index
         Indices of the inputs, in the order of the varied keys.
     share_below_voltage : float or None
-        Part of the samples whose breakdown voltage is below the applied voltage; None where the value is not
-        a breakdown voltage or a margin.
+        Part of the samples whose breakdown voltage is below the applied voltage; None if the value is not a
+        breakdown voltage or a margin.
     resamples, seed : int
         Number of bootstrap samples, and seed of their random numbers.
     """
@@ -115,7 +115,7 @@ class Sensitivity:
         return self.rows - self.used
 
     def to_dict(self) -> dict[str, Any]:
-        """Contents of sensitivity.json as nested tables, SI."""
+        """Contents of sensitivity.json as nested tables, in SI units."""
         spread = self.spread
         return {
             "schema": SCHEMA,
@@ -171,7 +171,7 @@ def sensitivity(results: SweepResults, value: str, *, resamples: int = 1000, see
     Raises
     ------
     InputError
-        Where the design is not "sobol", the value is in no summary or constant, or fewer than 16 rows are
+        If the design is not "sobol", the value is in no summary or constant, or fewer than 16 rows are
         complete.
 
     Notes
@@ -271,7 +271,7 @@ def indices(a: Array, b: Array, mixed: Array) -> tuple[Array, Array]:
     Returns
     -------
     first, total : ndarray, shape (inputs,)
-        Indices of the inputs; nan where the value does not vary.
+        Indices of the inputs; NaN where the value does not vary.
 
     Examples
     --------

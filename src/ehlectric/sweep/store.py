@@ -55,11 +55,11 @@ class Planned:
     number : int
         Number of the point in the order of the design, from 0.
     inputs : mapping
-        Values of the varied keys, by dotted key of the case, SI.
+        Values of the varied keys, by dotted key of the case, in SI units.
     key : str or None
-        Key of its case, from ``case_key``; None where these inputs make no valid case.
+        Key of its case, from ``case_key``; None if these inputs make no valid case.
     refused : str
-        Reason why the inputs make no valid case; empty where they do.
+        Reason why the inputs make no valid case; empty if they do.
     """
 
     number: int
@@ -77,11 +77,11 @@ class Outcome:
     status : str
         "solved", "not converged" or "failed".
     reason : str
-        Reason why the point is not solved; empty where it is.
+        Reason why the point is not solved; empty if it is.
     again : bool
         Whether another try may succeed, as after a killed process.
     summary : mapping or None
-        Nested tables, as in summary.json; None where the point failed.
+        Nested tables, as in summary.json; None if the point failed.
     seconds : float
         Time that the solution took [s].
     version : str
@@ -118,7 +118,7 @@ def case_key(case: AnyCase) -> str:
     Raises
     ------
     InputError
-        Where a file of the case cannot be read.
+        If a file of the case cannot be read.
 
     Examples
     --------
@@ -291,7 +291,7 @@ def read_sweep(folder: str | Path) -> SweepResults:
     Raises
     ------
     InputError
-        Where the folder has no sweep, or its file is damaged.
+        If the folder has no sweep, or its file is damaged.
     """
     path = Path(folder) / NAME
     try:
@@ -326,7 +326,7 @@ def saved_points(folder: str | Path) -> tuple[int, int]:
     Raises
     ------
     InputError
-        Where the file cannot be used, or is not a sweep.
+        If the file cannot be used, or is not a sweep.
     """
     path = Path(folder) / NAME
     with _one_line_errors(path):

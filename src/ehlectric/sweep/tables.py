@@ -1,4 +1,4 @@
-"""Tables of a sweep: CSV, NetCDF (gridded for a grid design) and, where pyarrow is installed, Parquet."""
+"""Tables of a sweep: CSV, NetCDF (gridded for a grid design) and, if pyarrow is installed, Parquet."""
 
 from __future__ import annotations
 
@@ -41,14 +41,14 @@ _OWN = {
 
 
 def write_tables(results: SweepResults, folder: str | Path) -> list[Path]:
-    """Write sweep.csv, sweep.nc and, where pyarrow is installed, sweep.parquet.
+    """Write sweep.csv, sweep.nc and, if pyarrow is installed, sweep.parquet.
 
     Parameters
     ----------
     results : SweepResults
         A sweep, finished or not.
     folder : str or Path
-        Output folder; created where it does not exist.
+        Output folder; created if it does not exist.
 
     Returns
     -------
@@ -58,7 +58,7 @@ def write_tables(results: SweepResults, folder: str | Path) -> list[Path]:
     Raises
     ------
     InputError
-        Where the folder cannot be written to.
+        If the folder cannot be written to.
     """
     folder = prepare(folder, FILES)
     columns = columns_of(results)
@@ -92,11 +92,12 @@ def columns_of(results: SweepResults) -> dict[str, list[Any]]:
     -------
     dict
         Columns by name. First are number, status, reason, warnings, warning_codes and seconds; several
-        warnings of a point are joined by "; ". The varied inputs and the results follow by dotted key, SI.
+        warnings of a point are joined by "; ". The varied inputs and the results follow by dotted key, in SI
+        units.
 
-        A result is None where the point is not solved, or its summary has no such value. Of the inputs that
-        the summary repeats, only those that differ between points have a column. A value of the summary with
-        the key of a varied input, such as a film factor, has no column of its own.
+        A result is None if the point is not solved, or its summary has no such value. Of the inputs that the
+        summary repeats, only those that differ between points have a column. A value of the summary with the
+        key of a varied input, such as a film factor, has no column of its own.
     """
     points = results.points
     columns: dict[str, list[Any]] = {
@@ -119,7 +120,7 @@ def texts_of(results: SweepResults) -> dict[str, list[str | None]]:
 
 
 def numbers_of(results: SweepResults) -> dict[str, list[float | None]]:
-    """Numbers of the summaries by dotted key, each a list over the points, None where a point has none.
+    """Numbers of the summaries by dotted key, each a list over the points, None if a point has none.
 
     Of the inputs that the summaries repeat, only those are kept that differ between points and are not varied
     keys themselves, such as a viscosity that follows from a varied temperature.
@@ -156,9 +157,9 @@ def to_xarray(results: SweepResults) -> xr.Dataset:
     -------
     xarray.Dataset
         Dataset over the varied keys for a "grid" design, else over ``point``. Numbers of the summaries have
-        their dotted key as name, and are nan where a point is not solved. ``status``, ``reason``,
-        ``warnings`` and ``warning_codes`` are texts; so are the lubrication and the first contact to break
-        of a bearing.
+        their dotted key as name, and are NaN where a point is not solved. ``status``, ``reason``,
+        ``warnings`` and ``warning_codes`` are texts; so are the lubrication and the first contact to break of
+        a bearing.
     """
     import xarray as xr
 

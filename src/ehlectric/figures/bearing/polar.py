@@ -50,7 +50,7 @@ def load_around(result: BearingResult, ax: Axes | None = None) -> Axes:
     result : BearingResult
         Result of the bearing to draw.
     ax : Axes, optional
-        Polar axes to draw on; new axes by default.
+        Polar axes to draw on; axes of a new figure if omitted.
 
     Returns
     -------
@@ -79,7 +79,7 @@ def film_around(result: BearingResult, ax: Axes | None = None) -> Axes:
     result : BearingResult
         Result of the bearing to draw.
     ax : Axes, optional
-        Polar axes to draw on; new axes by default.
+        Polar axes to draw on; axes of a new figure if omitted.
 
     Returns
     -------

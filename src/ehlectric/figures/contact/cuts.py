@@ -64,7 +64,7 @@ class Cut:
     def away(self, field: PointField) -> Mask:
         """Mask of the columns of the cut far enough from the side faces of the field domain.
 
-        Where the cut itself lies near a side face, so that at most two columns are left, the mask is True for
+        If the cut itself lies near a side face, so that at most two columns are left, the mask is True for
         all of them.
         """
         inner: Mask = self.of(field.inner)
@@ -86,7 +86,7 @@ def pressure_cut(result: PointResult, ax: Axes | None = None, *, along: str = "x
     result : PointResult
         Result of a point contact.
     ax : Axes, optional
-        Axes to draw on; those of a new figure if omitted.
+        Axes to draw on; axes of a new figure if omitted.
     along : str
         Direction of the cuts: "x", along entrainment, or "y", across it.
 
@@ -118,7 +118,7 @@ def film_cut(result: PointResult, ax: Axes | None = None, *, along: str = "x") -
     result : PointResult
         Result of a point contact.
     ax : Axes, optional
-        Axes to draw on; those of a new figure if omitted.
+        Axes to draw on; axes of a new figure if omitted.
     along : str
         Direction of the cuts: "x", along entrainment, or "y", across it.
 
@@ -150,7 +150,7 @@ def field_cut(result: PointResult, ax: Axes | None = None, *, along: str = "x") 
     result : PointResult
         Result of a point contact.
     ax : Axes, optional
-        Axes to draw on; those of a new figure if omitted.
+        Axes to draw on; axes of a new figure if omitted.
     along : str
         Direction of the cuts: "x", along entrainment, or "y", across it.
 
@@ -216,7 +216,7 @@ def cuts(result: PointResult, axes: Sequence[Axes] | None = None) -> Axes:
     result : PointResult
         Result of a point contact.
     axes : sequence of Axes, optional
-        Six axes to draw on, in three rows of two; those of a new figure if omitted.
+        Six axes to draw on, in three rows of two; axes of a new figure if omitted.
 
     Returns
     -------
@@ -241,7 +241,7 @@ def field_section(result: PointResult, ax: Axes | None = None, *, along: str = "
     result : PointResult
         Result of a point contact.
     ax : Axes, optional
-        Axes to draw on; those of a new figure if omitted.
+        Axes to draw on; axes of a new figure if omitted.
     along : str
         Direction of the section: "x", along entrainment, or "y", across it.
 
@@ -310,7 +310,7 @@ def field_sections(result: PointResult, axes: Sequence[Axes] | None = None) -> A
     result : PointResult
         Result of a point contact.
     axes : sequence of Axes, optional
-        Two axes to draw on; those of a new figure if omitted.
+        Two axes to draw on; axes of a new figure if omitted.
 
     Returns
     -------

@@ -26,7 +26,7 @@ from ehlectric.figures.style import figure_of, label_position, new_panels
 # lies along the page, and entrainment points down.
 _TURNED = 1.2
 
-# Least height of a map over its width, about, for a single map and for several beside each other. Where this
+# Least height of a map over its width, about, for a single map and for several beside each other. If this
 # takes different scales in x and y, the label of the axis says so.
 _LEAST_HEIGHT, _LEAST_OF_SEVERAL = 0.42, 0.25
 
@@ -159,7 +159,7 @@ def draw_map(
     colours : str
         Name of the colour map.
     limits : tuple of float
-        Values at the two ends of the colours.
+        Values at the two ends of the colour scale.
     window : tuple of tuple of float
         Ranges of x/b and of y/b that are shown.
     number : int
@@ -234,7 +234,7 @@ def colour_bar(
     window : tuple of tuple of float
         Ranges of x/b and of y/b of the maps.
     ticks : ndarray
-        Values with ticks; those beyond the ends of the colours are left out.
+        Values with ticks; those beyond the ends of the colour scale are left out.
     extend : str
         Ends of the bar that point to values beyond it: "neither", "min", "max" or "both".
     """

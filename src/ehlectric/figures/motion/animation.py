@@ -64,7 +64,7 @@ def save_animation(
     Raises
     ------
     InputError
-        Where the file has another suffix, ffmpeg is missing or fails, the dataset is not a transient run, or
+        If the file has another suffix, ffmpeg is missing or fails, the dataset is not a transient run, or
         ``fps`` is out of range.
     """
     path = Path(path)

@@ -14,14 +14,14 @@ from ehlectric.motion.record import MotionRun
 
 
 def least_film(run: MotionRun, ax: Axes | None = None) -> Axes:
-    """Draw the smallest film thickness over time, and compare it with stationary roughness.
+    """Draw the minimum film thickness over time, and compare it with stationary roughness.
 
     Parameters
     ----------
     run : MotionRun
         Run to draw.
     ax : Axes, optional
-        Axes to draw on; new axes by default.
+        Axes to draw on; axes of a new figure if omitted.
 
     Returns
     -------
@@ -53,12 +53,12 @@ def largest_field(run: MotionRun, ax: Axes | None = None) -> Axes:
     run : MotionRun
         Run to draw.
     ax : Axes, optional
-        Axes to draw on; new axes by default.
+        Axes to draw on; axes of a new figure if omitted.
 
     Returns
     -------
     Axes
-        Axes over time, with the voltage over the smallest film thickness at every step. Times at which the
+        Axes over time, with the voltage over the minimum film thickness at every step. Times at which the
         field is above 90 % of its maximum are shaded (see ``FieldHistory``).
     """
     ax = axes_or_new(ax)
@@ -109,7 +109,7 @@ def places(run: MotionRun, ax: Axes | None = None) -> Axes:
     run : MotionRun
         Run to draw.
     ax : Axes, optional
-        Axes to draw on; new axes by default.
+        Axes to draw on; axes of a new figure if omitted.
 
     Returns
     -------

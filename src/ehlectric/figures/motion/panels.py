@@ -52,7 +52,7 @@ def shown_range(run: MotionRun) -> tuple[float, float]:
 def in_contact(run: MotionRun, values: Array) -> Array:
     """Finite values in the Hertz zone, from values of shape (..., nx).
 
-    Where the zone has no finite values, all finite values are returned.
+    If the zone has no finite values, all finite values are returned.
     """
     inside = values[..., np.abs(run.x) <= 1.0]
     finite = inside[np.isfinite(inside)]

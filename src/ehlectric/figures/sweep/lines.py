@@ -112,7 +112,7 @@ def value_lines(
     at : mapping, optional
         Fixed value of each further varied key, as text.
     ax : Axes, optional
-        Axes to draw on; those of a new figure if omitted.
+        Axes to draw on; axes of a new figure if omitted.
 
     Returns
     -------
@@ -124,7 +124,7 @@ def value_lines(
     Raises
     ------
     InputError
-        Where ``ehlectric.sweep.slices.take`` refuses the keys or values.
+        If ``ehlectric.sweep.slices.take`` refuses the keys or values.
     """
     selection = take(results, x, y, value, at)
     ax = axes_or_new(ax)
