@@ -262,5 +262,5 @@ class ResultWarning:
 
     @property
     def severity(self) -> Severity:
-        """Severity of the code: "note", "warning", or "severe" where the numbers must not be used."""
+        """Severity of the code: "note", "warning", or "severe" if the numbers must not be used."""
         return CODES[self.code].severity

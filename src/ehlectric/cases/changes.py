@@ -16,6 +16,13 @@ Groups = tuple[tuple[tuple[str, ...], ...], ...]
 def set_keys(table: dict[str, Any], flat: Mapping[str, Any]) -> None:
     """Set values of nested tables by dotted key; a table in a list is named by its number, from 1.
 
+    Parameters
+    ----------
+    table : dict
+        Nested tables, changed in place.
+    flat : mapping
+        New values by dotted key.
+
     Raises
     ------
     InputError

@@ -259,7 +259,7 @@ class PointConditions:
 
     @property
     def ratio(self) -> float:
-        """Ratio k = a/b of the semi-axes of the dry contact, a across and b along entrainment, dimensionless."""
+        """Ratio k = a/b of the semi-axes of the dry contact, a across and b along entrainment."""
         return self.semi_axis_y / self.semi_axis_x
 
     @property

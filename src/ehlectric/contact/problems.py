@@ -238,7 +238,7 @@ def smooth_problem(
 
 
 def _added_gap(conditions: Conditions, rough: Sequence[RoughSurface]) -> Callable[[Array, Array], Array]:
-    """Dimensionless gap that the roughness of both surfaces adds, as a function of X; it is negative at asperities."""
+    """Dimensionless gap that the roughness of both surfaces adds at X; it is negative at asperities."""
     b, scale = conditions.half_width, conditions.thickness_scale
 
     def added_gap(x: Array, _y: Array) -> Array:

@@ -52,6 +52,11 @@ class TransientContact:
         case : Case
             A case with ``motion`` and roughness.
 
+        Returns
+        -------
+        TransientContact
+            Contact that is ready to be solved in time steps.
+
         Raises
         ------
         InputError

@@ -110,12 +110,17 @@ class MotionRun:
     def of(cls, dataset: xr.Dataset) -> MotionRun:
         """Run from a dataset, without steps and instants that are not solved yet.
 
-        Files of surfaces are not read.
+        Surface files are not read.
 
         Parameters
         ----------
         dataset : xarray.Dataset
             Dataset from ``read_motion``.
+
+        Returns
+        -------
+        MotionRun
+            Run with the solved steps and recorded instants.
 
         Raises
         ------

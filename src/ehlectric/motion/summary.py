@@ -36,7 +36,7 @@ def counted(run: MotionRun) -> Mask:
 def summary_of(dataset: xr.Dataset) -> dict[str, Any]:
     """Results of a transient run, nested as in summary.json, SI units.
 
-    The case is part of the dataset. Files of surfaces are not needed.
+    The case is part of the dataset. Surface files are not needed.
 
     Parameters
     ----------

@@ -44,7 +44,7 @@ class CartesianGrid:
     column, row : ndarray of int, shape (n,)
         Column and row of every unknown. Unknowns with even column + row come first.
     number : ndarray of int, shape (nx, ny)
-        Number of the unknown at a node; -1 where the node is none.
+        Number of the unknown at a node; -1 if the node is not an unknown.
     even : int
         Number of unknowns with even column + row.
     """
@@ -103,9 +103,9 @@ class Stencil:
     neighbour : ndarray of int, shape (4, n)
         Numbers of the neighbours of every unknown; n is the lower surface and n + 1 the upper one.
     share : ndarray, shape (4, n)
-        Coefficients a_1 to a_4 over a_0.
+        Coefficients a_1 to a_4 divided by a_0.
     source : ndarray or float
-        Contribution of free charge [V], shape (n,) where there is any.
+        Contribution of free charge [V], shape (n,) if there is any.
     arm : ndarray, shape (4, n)
         Distances to the neighbours [m].
     permittivity : ndarray, shape (4, n)

@@ -190,7 +190,7 @@ def _cycles(
 def residual_norm(equations: FilmEquations, at: Iterate) -> float:
     """Residual of an iterate: the largest scaled residual of the Reynolds equation, or that of the load.
 
-    The larger one counts; the residual of the load is ten times its relative error. The result is NaN where
+    The larger one counts; the residual of the load is ten times its relative error. The result is NaN if
     the film thickness is not positive at every node.
     """
     c = equations.coefficients(at)
@@ -212,7 +212,7 @@ def v_cycle(grids: list[FilmEquations], at: Iterate) -> Iterate:
     Returns
     -------
     Iterate
-        New iterate, with a smaller residual where the cycles converge.
+        New iterate, with a smaller residual if the cycles converge.
     """
     fine, *coarser = grids
     if not coarser:
@@ -267,7 +267,7 @@ def _film(
     cycled: _Cycled,
     coarser: tuple[FilmEquations, Iterate] | None,
 ) -> Film:
-    """Film on the finest grid in SI units, also where the cycles diverged before they reached this grid."""
+    """Film on the finest grid in SI units, also if the cycles diverged before they reached this grid."""
     at, scales, fluid = cycled.at, problem.scales, problem.fluid
     if at.pressure.size != finest.x.size:
         reached = np.linspace(finest.x[0], finest.x[-1], at.pressure.size)

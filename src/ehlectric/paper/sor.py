@@ -22,7 +22,7 @@ from ehlectric.paper.cartesian import EAST, NORTH, SOUTH, WEST, CartesianGrid, S
 # comes from the spacing of the columns.
 ROWS = 8
 
-# Residual of eq. (16) over the voltage at which the sweeps stop, and largest number of sweeps.
+# Residual of eq. (16), divided by the voltage, at which the sweeps stop; and largest number of sweeps.
 TOLERANCE = 1e-10
 MOST_SWEEPS = 100_000
 
@@ -60,7 +60,7 @@ def over_relax(equations: Stencil, start: Array, *, factor: float, tolerance: fl
     factor : float
         Damping factor zeta, from 0 to 2.
     tolerance : float
-        Largest residual over the voltage at which the sweeps stop.
+        Largest residual, divided by the voltage, at which the sweeps stop.
 
     Returns
     -------

@@ -95,7 +95,7 @@ def breakdown_of(case: AnyCase, value: str | None = None) -> Breakdown:
     Returns
     -------
     Breakdown
-        Breakdown of a contact. For a bearing, the first break of one of its contacts, except where ``value``
+        Breakdown of a contact. For a bearing, the first break of one of its contacts, except if ``value``
         is a key of the through breakdown.
     """
     if not isinstance(case, BearingCase):

@@ -163,8 +163,8 @@ def shares(over: Range, unit: ArrayLike) -> Array:
     Returns
     -------
     ndarray of int, shape (...)
-        Whole numbers of the range. With linear spacing each covers an equal part of the unit interval;
-        rounding alone would leave half a part to the two ends.
+        Whole numbers of the range. With linear spacing, each covers an equal part of the unit
+        interval. Rounding alone would give half a part to each of the two ends.
 
     Examples
     --------

@@ -21,7 +21,7 @@ from ehlectric.errors import InputError, shown
 from ehlectric.sweep import design as sweep_design
 from ehlectric.sweep.results import Range
 
-# Summaries and tables take about 20 kB of memory a point, thus 4 GB for so many points.
+# Summaries and tables take about 20 kB of memory per point, thus 4 GB for this number of points.
 MOST_POINTS = 200_000
 _RANGE_KEYS = ("from", "to", "count", "spacing")
 _SPACINGS = ("linear", "log")
@@ -31,8 +31,8 @@ class Sweep(Table):
     """Sweep over many cases: a base case, and the keys of it that vary.
 
     ``vary`` maps dotted keys of the case to their values in SI units or, in a "sobol" design, to a ``Range``.
-    Rough surfaces are numbered from 1, as in "roughness.1.rescale_rq". Of alternative keys, such as load or
-    Hertz pressure, a varied one replaces the one in the base case.
+    Rough surfaces are numbered from 1, as in "roughness.1.rescale_rq". A varied key
+    replaces its alternative in the base case, as a load replaces a Hertz pressure.
 
     Examples
     --------
@@ -55,7 +55,7 @@ class Sweep(Table):
     @field_validator("vary", mode="before")
     @classmethod
     def _parsed(cls, tables: Any, info: ValidationInfo) -> Any:
-        """Varied values in SI units; unchanged where the case or the design is already invalid."""
+        """Varied values in SI units; unchanged if the case or the design is already invalid."""
         case, design = info.data.get("case"), info.data.get("design")
         if not isinstance(tables, Mapping) or case is None or design is None:
             return tables
@@ -90,10 +90,20 @@ class Sweep(Table):
     def from_toml(cls, path: str | Path) -> Self:
         """Read a sweep from a TOML file; file names in it are relative to its folder.
 
+        Parameters
+        ----------
+        path : str or Path
+            TOML file.
+
+        Returns
+        -------
+        Sweep
+            Sweep with its base case and its varied keys.
+
         Raises
         ------
         InputError
-            If the file or that of its case cannot be read, is not TOML, or is not a sweep.
+            If the file or its case file cannot be read or is not TOML, or if the sweep is not valid.
         """
         table, folder = read_toml(path), Path(path).parent
         match table.get("case"):
@@ -114,10 +124,15 @@ class Sweep(Table):
         table : mapping
             Tables of the sweep. Its ``case`` is a Case, the tables of a case, or the path of a case file.
 
+        Returns
+        -------
+        Sweep
+            Sweep with its base case and its varied keys.
+
         Raises
         ------
         InputError
-            If a key or value is invalid. The message is one line: the key, what it got, what it takes.
+            If a key or value is invalid. The message is one line: the key, its value, and what is allowed.
         """
         case = table.get("case")
         try:
@@ -211,7 +226,7 @@ def _axis(key: str, value: Any, design: str) -> tuple[Any, ...] | Range:
 
 
 def _values(key: str, field: FieldInfo, values: Sequence[Any]) -> Iterator[Any]:
-    """Values of a varied key as a case stores them, thus numbers in SI units."""
+    """Values of a varied key as a case stores them; numbers are in SI units."""
     table, _, leaf = key.rpartition(".")
     annotation = Annotated[field.annotation, *field.metadata] if field.metadata else field.annotation
     keys: Any = {leaf: (annotation, ...)}

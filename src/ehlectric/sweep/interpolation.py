@@ -14,12 +14,12 @@ from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.slices import Slice
 
-# Nodes along either axis of a grid, about, and parts that the edge of a triangle is divided into: enough for
-# contour lines to look smooth on logarithmic axes, where they are curved.
+# Approximate number of nodes along each axis of a grid, and number of parts of the edge of a triangle.
+# Contour lines are curved on logarithmic axes, and look smooth with these numbers.
 _NODES, _PARTS = 160, 6
 _POTENTIALS = ("electric.potential_1", "electric.potential_2")
 
-# Least voltage between its surfaces that a case allows [V].
+# Smallest voltage between the surfaces that a case allows [V].
 _LEAST_VOLTAGE = 1e-6
 
 
@@ -54,7 +54,7 @@ class Surface:
         Parameters
         ----------
         values : ndarray, shape (points,)
-            Values at the points, NaN where a point has none; positive where ``log``.
+            Values at the points, NaN where a point has none; positive if ``log``.
         log : bool
             Whether the logarithm of the values is linear between the points, instead of the values.
 
@@ -101,14 +101,14 @@ def surface_of(selection: Slice, *, log_x: bool, log_y: bool) -> Surface | None:
     Parameters
     ----------
     selection : Slice
-        Slice over ``x`` and ``y``, both of numbers.
+        Slice over ``x`` and ``y``; the values of both are numbers.
     log_x, log_y : bool
         Whether the horizontal and the vertical axis are logarithmic.
 
     Returns
     -------
     Surface or None
-        Bilinear interpolation where the points are a full grid of any spacing, else linear interpolation in a
+        Bilinear interpolation if the points are a full grid of any spacing, else linear interpolation in a
         Delaunay triangulation of the points. None if the points lie on a line, or differ in further varied
         keys.
     """
@@ -155,7 +155,7 @@ def curve_of(x: Array, values: Array, *, log_x: bool, log: bool) -> tuple[Array,
     Parameters
     ----------
     x : ndarray, shape (points,)
-        Increasing positions of at least two points; positive where ``log_x``.
+        Increasing positions of at least two points; positive if ``log_x``.
     values : ndarray, shape (points,)
         Values at the points, NaN where a point has none; positive where ``log``.
     log_x : bool
@@ -187,7 +187,7 @@ def curve_of(x: Array, values: Array, *, log_x: bool, log: bool) -> tuple[Array,
 def applied_at(results: SweepResults, selection: Slice, along: Array, across: Any) -> Array | None:
     """Exact applied voltage between the points of a slice over a surface potential.
 
-    The applied voltage is an absolute difference of two potentials. Linear interpolation of it is wrong where
+    The applied voltage is an absolute difference of two potentials. It must not be interpolated linearly if
     the potentials cross.
 
     Parameters
@@ -215,7 +215,7 @@ def applied_at(results: SweepResults, selection: Slice, along: Array, across: An
 
 
 def _between(values: Array, *, log: bool) -> tuple[Array, IntArray, Array]:
-    """Nodes at and between increasing values, the number of the cell of each, and its place there, 0 to 1."""
+    """Nodes at and between increasing values, with the number of their cell and their place in it, 0 to 1."""
     parts = max(1, _NODES // values.size)
     cell, step = np.divmod(np.arange((values.size - 1) * parts + 1), parts)
     last = cell == values.size - 1

@@ -28,11 +28,11 @@ class Label:
     Attributes
     ----------
     name : str
-        Name, such as "load per length"; the dotted key itself where it has no name.
+        Name, such as "load per length"; the dotted key itself if it has no name.
     symbol : str
         Symbol, such as "$w$"; may be empty.
     unit : str
-        SI unit in the notation of pint; empty for dimensionless values, or where the unit is not known.
+        SI unit in the notation of pint; empty for dimensionless values, or if the unit is not known.
     """
 
     name: str

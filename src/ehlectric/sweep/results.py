@@ -22,7 +22,7 @@ Spacing = Literal["linear", "log"]
 
 @dataclass(frozen=True)
 class Range:
-    """Range of an input between two SI values, spaced evenly in the value or in its logarithm."""
+    """Range of an input between two SI values, with values spaced evenly, linearly or in the logarithm."""
 
     start: float
     stop: float
@@ -46,7 +46,7 @@ class Point:
     summary : mapping or None
         Nested tables, as in summary.json; None if the point failed or is open.
     seconds : float
-        Time that the solution took [s].
+        Time taken by the solution [s].
     version : str
         Version of ehlectric that solved the point.
     """
@@ -61,7 +61,7 @@ class Point:
 
     @property
     def solved(self) -> bool:
-        """Whether the point converged. Its numbers must still not be used where it is ``doubtful``."""
+        """Whether the point converged. Its numbers must still not be used if it is ``doubtful``."""
         return self.status == "solved"
 
     @property
@@ -164,5 +164,5 @@ def flat(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
 
 
 def as_number(value: Any) -> float:
-    """Value as a float; NaN where it is not a number."""
+    """Value as a float; NaN if it is not a number."""
     return float(value) if isinstance(value, int | float) else math.nan

@@ -27,7 +27,7 @@ _CONSTANT = 1e-9
 
 @dataclass(frozen=True)
 class Spread:
-    """Distribution of a value where every input is drawn from its range.
+    """Distribution of a value if every input is drawn from its range.
 
     Attributes
     ----------
@@ -85,7 +85,7 @@ class Sensitivity:
     rows, used : int
         Number of rows of the design, and number of complete rows, from which the indices are computed.
     doubtful : int
-        Number of complete rows with at least one point whose film must not be used, by a severe warning.
+        Number of complete rows in which the film of at least one point must not be used (severe warning).
     spread : Spread
         Distribution of the value.
     indices : tuple of Index
@@ -111,7 +111,7 @@ class Sensitivity:
 
     @property
     def dropped(self) -> int:
-        """Number of incomplete rows: a point of them is not solved, or does not have the value."""
+        """Number of incomplete rows, in which a point is not solved or does not have the value."""
         return self.rows - self.used
 
     def to_dict(self) -> dict[str, Any]:

@@ -147,7 +147,7 @@ def take(
     results : SweepResults
         Results of a sweep.
     x : str
-        Varied key along the horizontal axis, of numbers.
+        Varied key along the horizontal axis; its values must be numbers.
     y : str or None
         Second varied key, if any.
     value : str
@@ -281,7 +281,7 @@ def _is_number(value: Any) -> bool:
 
 
 def _hashable(value: Any) -> Any:
-    """Value as a float where it is a number, else as text."""
+    """Value as a float if it is a number, else as text."""
     return float(value) if _is_number(value) else str(value)
 
 

@@ -41,8 +41,8 @@ CREATE TABLE IF NOT EXISTS results (
 );
 """
 
-# SQL condition for an outcome that is final. A failed point is tried again where its process was killed or
-# ran out of memory, or where another version of ehlectric failed.
+# SQL condition for an outcome that is final. A failed point is tried again if its process was killed or
+# ran out of memory, or if another version of ehlectric failed.
 _DONE = f"(results.status <> 'failed' OR (NOT results.again AND results.version = '{__version__}'))"
 
 
@@ -83,7 +83,7 @@ class Outcome:
     summary : mapping or None
         Nested tables, as in summary.json; None if the point failed.
     seconds : float
-        Time that the solution took [s].
+        Time taken by the solution [s].
     version : str
         Version of ehlectric that tried the point.
     date : str
@@ -102,8 +102,8 @@ class Outcome:
 def case_key(case: AnyCase) -> str:
     """Hash of everything that the solution of a case depends on.
 
-    It covers all inputs, with their defaults, and the contents of files. The title and the paths of files are
-    left out.
+    The hash covers all inputs, with their defaults, and the contents of files, but not the title and the
+    paths of files.
 
     Parameters
     ----------
@@ -174,7 +174,7 @@ class Store:
     Raises
     ------
     InputError
-        From every method, where the file cannot be used, is not a sweep, or is written by another process.
+        By every method, if the file cannot be used, is not a sweep, or is written by another process.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -263,7 +263,7 @@ class Store:
 
     @contextmanager
     def _transaction(self) -> Iterator[None]:
-        """Commit what is written in the context, or roll it back where an exception is raised."""
+        """Commit what is written in the context, or roll it back if an exception is raised."""
         with _one_line_errors(self._path):
             self._file.execute("BEGIN IMMEDIATE")
             try:

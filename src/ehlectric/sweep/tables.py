@@ -203,7 +203,7 @@ def to_xarray(results: SweepResults) -> xr.Dataset:
 
 
 def _array(values: list[Any]) -> Any:
-    """Values as an array of numbers, or of texts where some are not numbers; lists become JSON texts."""
+    """Values as an array of numbers, or of texts if some are not numbers; lists become JSON texts."""
     numeric = [isinstance(value, int | float) and not isinstance(value, bool) for value in values]
     if all(numeric):
         return np.array(values)
@@ -228,7 +228,7 @@ def _cell(value: Any) -> Any:
 
 
 def _attributes(key: str, results: SweepResults) -> dict[str, str]:
-    """CF attributes of an input or result: its name and, where it is a number, its unit."""
+    """CF attributes of an input or result: its name and, if it is a number, its unit."""
     label = label_of(key, results.case)
     attributes = {"long_name": label.name}
     if key in _TEXTS or (key in results.varied and kind_of(key) is None):

@@ -252,7 +252,7 @@ def breakdown_over_pitch(result: BearingResult, ax: Axes | None = None) -> Axes:
     Returns
     -------
     Axes
-        Axes that also show the shaft voltage where there is one.
+        Axes that also show the shaft voltage if there is one.
     """
     ax = axes_or_new(ax)
     circuits = result.solution.circuits()

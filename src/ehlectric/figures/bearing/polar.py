@@ -86,7 +86,7 @@ def film_around(result: BearingResult, ax: Axes | None = None) -> Axes:
     Axes
         Polar axes on which the radial load points down. Dotted lines and hollow markers show the gaps of
         unloaded contacts. Circles show the film thicknesses at lambda ratios of 1, below which surfaces
-        touch, and 3. The radius is logarithmic where films differ widely.
+        touch, and 3. The radius is logarithmic if films differ widely.
     """
     ax = _polar_or_new(result, ax)
     states = [(position.inner, position.outer) for position in result.solution.positions]

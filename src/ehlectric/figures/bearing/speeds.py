@@ -34,7 +34,7 @@ def capacitance_over_speed(points: Speeds, ax: Axes | None = None, *, own: Speed
     Returns
     -------
     Axes
-        Axes whose scales are logarithmic where the values differ by more than a factor of 20.
+        Axes whose scales are logarithmic if the values differ by more than a factor of 20.
     """
     ax = axes_or_new(ax)
     speed = _speed(points, ax)

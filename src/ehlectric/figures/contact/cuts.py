@@ -125,8 +125,8 @@ def film_cut(result: PointResult, ax: Axes | None = None, *, along: str = "x") -
     Returns
     -------
     Axes
-        Axes with the film up to twice the central or the mean film thickness, whichever is larger. The film
-        between smooth surfaces is dotted where it was solved beside that of the rough ones.
+        Axes with the film up to twice the central or the mean film thickness, whichever is larger. A dotted
+        line shows the film with smooth surfaces, if it was solved for a rough contact.
     """
     ax, film = axes_or_new(ax), result.film
     factor, unit = film_unit(result)
@@ -185,7 +185,7 @@ def _axis(result: PointResult, along: str) -> Array:
 
 
 def _semi_axis(result: PointResult, along: str) -> float:
-    """Semi-axis of the Hertz ellipse along a cut, over the semi-axis b along entrainment."""
+    """Semi-axis of the Hertz ellipse along a cut, divided by the semi-axis b along entrainment."""
     return 1.0 if along == "x" else result.conditions.ratio
 
 
@@ -249,7 +249,7 @@ def field_section(result: PointResult, ax: Axes | None = None, *, along: str = "
     -------
     Axes
         Axes with the section and a colour bar. Heights are measured from the middle between the smooth
-        surfaces, because the middle surface itself is curved where the two bodies are unequal.
+        surfaces, because the middle surface itself is curved if the two bodies are unequal.
     """
     ax, field, electric = axes_or_new(ax), result.field, result.case.electric
     cut = Cut.near(along, field.max_strength_position, field.x, field.y)

@@ -233,14 +233,14 @@ def roughness(result: PointResult, axes: Sequence[Axes] | None = None) -> Axes:
     result : PointResult
         Result of a point contact.
     axes : sequence of Axes, optional
-        Two axes to draw on, or one where the smooth contact was not solved; axes of a new figure if omitted.
+        Two axes to draw on, or one if the smooth contact was not solved; axes of a new figure if omitted.
 
     Returns
     -------
     Axes
         The first axes, with the heights; peaks of either surface are positive. The second axes have the rough
         film minus the smooth film, with the same colours. If the contact does not flatten the roughness, this
-        change is the height with its sign reversed. The second map is left out where the smooth contact was
+        change is the height with its sign reversed. The second map is left out if the smooth contact was
         not solved.
     """
     window, film, heights = film_window(result), result.film, result.roughness.sum(axis=0)
@@ -261,7 +261,7 @@ def roughness(result: PointResult, axes: Sequence[Axes] | None = None) -> Axes:
 def _ends(panels: Mapping[str, Array], region: Mask, beyond: float) -> Range:
     """Ends of the colours of several maps, so that ``beyond`` per cent of the nodes lie beyond either end.
 
-    Nodes of ``region`` count, or all nodes where it is empty.
+    Nodes of ``region`` count, or all nodes if it is empty.
     """
     region = region if np.any(region) else np.ones_like(region)
     values = np.concatenate([panel[region] for panel in panels.values()])
@@ -280,7 +280,7 @@ def _compared(
     label: str,
     clipped: bool = False,
 ) -> Axes:
-    """Draw maps with the same colours and one colour bar, inside the Hertz ellipse only where ``clipped``."""
+    """Draw maps with the same colours and one colour bar, inside the Hertz ellipse only if ``clipped``."""
     number = len(panels)
     axes = map_panels(result, number, window) if axes is None else axes
     look: dict[str, Any] = {"colours": "viridis", "limits": ends, "window": window, "number": number}

@@ -58,8 +58,8 @@ def largest_field(run: MotionRun, ax: Axes | None = None) -> Axes:
     Returns
     -------
     Axes
-        Axes over time, with the voltage over the minimum film thickness at every step. Times at which the
-        field is above 90 % of its maximum are shaded (see ``FieldHistory``).
+        Axes over time, with the voltage divided by the minimum film thickness at every step. Times at which
+        the field is above 90 % of its maximum are shaded (see ``FieldHistory``).
     """
     ax = axes_or_new(ax)
     factor, unit = field_unit(run)

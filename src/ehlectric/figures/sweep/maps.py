@@ -52,9 +52,9 @@ def value_map(
     Returns
     -------
     Axes
-        Axes with the map and a colour bar. Cells are coloured where all of their corner points have a value;
+        Axes with the map and a colour bar. Cells are coloured if all of their corner points have a value;
         points without one are marked in a hole of the map. Between points the value, or the logarithm of
-        positive values where an axis is logarithmic, is linear in the axes as they are drawn. Maps of
+        positive values if an axis is logarithmic, is linear in the axes as they are drawn. Maps of
         ``discharge`` values and of a bearing's breakdown voltages have a line on which the breakdown voltage
         equals the applied voltage; the side that breaks down is hatched.
 
