@@ -245,7 +245,7 @@ class BearingDischarge(Discharge):
         Returns
         -------
         Discharge
-            Inputs with a dielectric strength that no longer depends on temperature.
+            Inputs of the discharge, with this temperature for a strength table over temperature.
 
         Raises
         ------

@@ -157,8 +157,8 @@ def schedule_of(case: Case, conditions: Conditions | PointConditions) -> Schedul
     Raises
     ------
     InputError
-        If the case has no ``motion``, the run is shorter than one grid spacing, the time steps are too long,
-        or all rough surfaces are at rest.
+        If the case has no ``motion``, or all rough surfaces are at rest. Also if the run is shorter than one
+        grid spacing, or the time steps are too long.
     """
     if case.motion is None:
         raise InputError.worded("motion", "missing, a case whose roughness moves takes it")

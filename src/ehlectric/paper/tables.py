@@ -84,7 +84,7 @@ def _table(
 def agrees(computed: float, printed: float) -> bool:
     """Whether a computed film thickness [m] agrees with the printed one [m].
 
-    They agree if they differ by at most 4 % and half of the last printed digit.
+    The two agree if they differ by at most 4 % and half of the last printed digit.
 
     Examples
     --------

@@ -31,8 +31,8 @@ class Sweep(Table):
     """Sweep over many cases: a base case, and the keys of it that vary.
 
     ``vary`` maps dotted keys of the case to their values in SI units or, in a "sobol" design, to a ``Range``.
-    Rough surfaces are numbered from 1, as in "roughness.1.rescale_rq". A varied key
-    replaces its alternative in the base case, as a load replaces a Hertz pressure.
+    Rough surfaces are numbered from 1, as in "roughness.1.rescale_rq". A varied key replaces its alternative
+    in the base case, as a load replaces a Hertz pressure.
 
     Examples
     --------

@@ -176,8 +176,8 @@ def sensitivity(results: SweepResults, value: str, *, resamples: int = 1000, see
 
     Notes
     -----
-    With m and V the mean and variance of the value y over A and B, the first-order index of input i is
-    mean((y_B - m)(y_ABi - y_A))/V (Saltelli et al. 2010, doi:10.1016/j.cpc.2009.09.018, Table 2 (b)), and the
+    Let m and V be the mean and variance of the value y over A and B. The first-order index of input i is
+    mean((y_B - m)(y_ABi - y_A))/V (Saltelli et al. 2010, doi:10.1016/j.cpc.2009.09.018, Table 2 (b)). The
     total index is mean((y_A - y_ABi)^2)/(2 V) (Jansen 1999, doi:10.1016/S0010-4655(98)00154-4).
 
     The intervals lie between the 2.5 % and 97.5 % quantiles of the indices of rows drawn with replacement

@@ -106,8 +106,8 @@ class Slice:
         Returns
         -------
         tuple or None
-            Increasing values of ``x``, shape (nx,), and of ``y``, shape (ny,), and the index in ``points`` of
-            the point of each pair, shape (nx, ny). None if a pair has no point, or two points.
+            Increasing values of ``x``, shape (nx,), and of ``y``, shape (ny,). The third item is the index in
+            ``points`` for each pair, shape (nx, ny). None if a pair has no point, or two points.
         """
         xs, i = np.unique(self.along, return_inverse=True)
         ys, j = np.unique(np.array(self.across, dtype=float), return_inverse=True)
@@ -164,8 +164,8 @@ def take(
     Raises
     ------
     InputError
-        If a key does not vary, the values of ``x`` are not numbers, no usable point of the slice has the
-        value, or a grid design has further varied keys without a fixed value.
+        If a key does not vary, or the values of ``x`` are not numbers. Also if no usable point of the slice has
+        the value, or a grid design has further varied keys without a fixed value.
     """
     for name, key in (("x", x), ("y", y)):
         if key is not None and key not in results.varied:

@@ -95,8 +95,8 @@ def columns_of(results: SweepResults) -> dict[str, list[Any]]:
         warnings of a point are joined by "; ". The varied inputs and the results follow by dotted key, in SI
         units.
 
-        A result is None if the point is not solved, or its summary has no such value. Of the inputs that the
-        summary repeats, only those that differ between points have a column. A value of the summary with the
+        A result is None if the point is not solved, or its summary has no such value. An input that
+        the summary repeats has a column only if it differs between points. A value of the summary with the
         key of a varied input, such as a film factor, has no column of its own.
     """
     points = results.points
@@ -122,8 +122,8 @@ def texts_of(results: SweepResults) -> dict[str, list[str | None]]:
 def numbers_of(results: SweepResults) -> dict[str, list[float | None]]:
     """Numbers of the summaries by dotted key, each a list over the points, None if a point has none.
 
-    Of the inputs that the summaries repeat, only those are kept that differ between points and are not varied
-    keys themselves, such as a viscosity that follows from a varied temperature.
+    An input that the summaries repeat is kept only if it differs between points and is not a varied key. An
+    example is a viscosity that follows from a varied temperature.
     """
     rows = [_numbers(point.summary) if point.solved and point.summary else {} for point in results.points]
     keys = dict.fromkeys(key for row in rows for key in row)
