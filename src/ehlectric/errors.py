@@ -24,9 +24,9 @@ def _line(text: str) -> str:
 class InputError(ValueError):
     """Error of a wrong input: one line that names the key, its value, and the values that are allowed.
 
-    The line is ``key: got VALUE, takes TAKES``, or ``key: missing, takes TAKES`` without a value. There is no
-    comma after a value, or a text in its place, that ends in a semicolon. A single argument is the whole line
-    of an error without a key.
+    The line is ``key: got VALUE, takes TAKES``, or ``key: missing, takes TAKES`` without a value. If the
+    value, or the text in its place, ends in a semicolon, no comma follows it. A single argument is the whole
+    line of an error without a key.
 
     Parameters
     ----------
@@ -42,13 +42,13 @@ class InputError(ValueError):
     Attributes
     ----------
     key : str or None
-        Name of the wrong input; None where the error is not about a single input.
+        Name of the wrong input; None if the error is not about a single input.
     text : str
         The line without the key.
     got : object
-        Value of the input, or the text in its place; None where the line has neither.
+        Value of the input, or the text in its place; None if the line has neither.
     takes : str or None
-        Values that are allowed; None where the line does not state them.
+        Values that are allowed; None if the line does not state them.
 
     Examples
     --------
@@ -132,7 +132,7 @@ class InputError(ValueError):
 
 
 class MemoryLimitError(InputError):
-    """Error of a solution that does not fit into the memory of this machine; another one may have enough."""
+    """Error of a solution that does not fit into the memory of this machine; a larger one may solve it."""
 
 
 class LostError(RuntimeError):
@@ -234,12 +234,12 @@ class ResultWarning:
     code : str
         Code of the warning, one of ``CODES``, such as "grid-too-coarse".
     text : str
-        One line that says what is unreliable, and what to do.
+        One line that says what is unreliable and what to do about it.
 
     Raises
     ------
     ValueError
-        Where the code is not in ``CODES``.
+        If the code is not in ``CODES``.
 
     Examples
     --------
@@ -262,5 +262,5 @@ class ResultWarning:
 
     @property
     def severity(self) -> Severity:
-        """Severity of the code: "note", "warning", or "severe" where the numbers must not be used."""
+        """Severity of the code: "note", "warning", or "severe" if the numbers must not be used."""
         return CODES[self.code].severity

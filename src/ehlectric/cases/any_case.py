@@ -16,6 +16,16 @@ AnyCase = Case | BearingCase
 def case_of_dict(table: Mapping[str, Any]) -> AnyCase:
     """Make a bearing case from tables with the key ``bearing``, else a case of a contact.
 
+    Parameters
+    ----------
+    table : mapping
+        Nested tables, as read from a TOML file.
+
+    Returns
+    -------
+    Case or BearingCase
+        Case of the contact or of the bearing.
+
     Raises
     ------
     InputError
@@ -27,10 +37,20 @@ def case_of_dict(table: Mapping[str, Any]) -> AnyCase:
 def case_of_file(path: str | Path) -> AnyCase:
     """Read a case of a contact or of a bearing from a TOML file.
 
+    Parameters
+    ----------
+    path : str or Path
+        TOML file.
+
+    Returns
+    -------
+    Case or BearingCase
+        Case of the contact or of the bearing.
+
     Raises
     ------
     InputError
-        If the file cannot be read, is not TOML, or is neither of the two.
+        If the file cannot be read, is not TOML, or is not a valid case of a contact or of a bearing.
     """
     table = read_toml(path)
     find_files(table, Path(path).parent)

@@ -133,7 +133,7 @@ class OilTemperature(Table):
     kinematic_viscosity_40: _Viscosity
     kinematic_viscosity_100: _Viscosity
     density_15: Annotated[float, Quantity("kg/m**3", least=500.0, most=2000.0, reason="of an oil")]
-    # D. Dowson and G. R. Higginson, Elasto-Hydrodynamic Lubrication, Pergamon, 1966, as quoted since.
+    # D. Dowson and G. R. Higginson, Elasto-Hydrodynamic Lubrication, Pergamon, 1966, as later works quote it.
     expansion: Annotated[float, Quantity("1/K", least=1e-5, most=2e-3, reason="thermal, of an oil")] = 6.5e-4
     thermal_conductivity: (
         Annotated[float, Quantity("W/m/K", least=0.01, most=1.0, reason="of an oil")] | None
@@ -171,7 +171,17 @@ class BearingLubricant(Lubricant):
         return self
 
     def at(self, temperature: float) -> Lubricant:
-        """Return the lubricant at an absolute temperature [K].
+        """Return the lubricant at a temperature.
+
+        Parameters
+        ----------
+        temperature : float
+            Absolute temperature [K].
+
+        Returns
+        -------
+        Lubricant
+            Lubricant with the viscosity and the parameters of its laws at this temperature.
 
         Raises
         ------
@@ -225,7 +235,17 @@ class BearingDischarge(Discharge):
             )
 
     def at(self, temperature: float) -> Discharge:
-        """Return the inputs of the discharge at an absolute temperature [K].
+        """Return the inputs of the discharge at a temperature.
+
+        Parameters
+        ----------
+        temperature : float
+            Absolute temperature [K].
+
+        Returns
+        -------
+        Discharge
+            Inputs of the discharge, with this temperature for a strength table over temperature.
 
         Raises
         ------

@@ -55,6 +55,16 @@ class BearingCase(Table):
     def from_toml(cls, path: str | Path) -> Self:
         """Read a bearing case from a TOML file.
 
+        Parameters
+        ----------
+        path : str or Path
+            TOML file.
+
+        Returns
+        -------
+        BearingCase
+            Case with the values of the file, in SI units.
+
         Raises
         ------
         InputError

@@ -112,6 +112,16 @@ class Case(Table):
     def from_toml(cls, path: str | Path) -> Self:
         """Read a case from a TOML file.
 
+        Parameters
+        ----------
+        path : str or Path
+            TOML file.
+
+        Returns
+        -------
+        Case
+            Case with the values of the file, in SI units.
+
         Raises
         ------
         InputError

@@ -16,6 +16,13 @@ Groups = tuple[tuple[tuple[str, ...], ...], ...]
 def set_keys(table: dict[str, Any], flat: Mapping[str, Any]) -> None:
     """Set values of nested tables by dotted key; a table in a list is named by its number, from 1.
 
+    Parameters
+    ----------
+    table : dict
+        Nested tables, changed in place.
+    flat : mapping
+        New values by dotted key.
+
     Raises
     ------
     InputError
@@ -35,7 +42,7 @@ def set_keys(table: dict[str, Any], flat: Mapping[str, Any]) -> None:
             target = _part(target, parent, key)
         if isinstance(target, list):
             raise InputError(key, "is a table", takes=f"one of its keys, as {key}.surface")
-        # An empty table adds a table that does not exist, but does not change one that does.
+        # An empty value adds a missing table, but does not change an existing table.
         if not (value == {} and isinstance(target.get(leaf), dict)):
             target[leaf] = value
 

@@ -240,6 +240,11 @@ def unit_of(key: str) -> str:
     key : str
         Dotted key of the case; the key of an item of a list ends in its number.
 
+    Returns
+    -------
+    str
+        Unit such as "N/m".
+
     Examples
     --------
     >>> unit_of("contact.load_per_length"), unit_of("discharge.strength_table.strength.0")

@@ -72,17 +72,17 @@ def _values(law: Law, lubricant: Lubricant) -> dict[str, float]:
 
 
 def viscosity_law(lubricant: Lubricant) -> PressureLaw:
-    """Viscosity law: ln(eta/eta0) and its derivative [1/Pa] over pressure [Pa] and temperature [K]."""
+    """Viscosity law: ln(eta/eta0) and its slope [1/Pa] as functions of pressure [Pa] and temperature [K]."""
     return _bound(VISCOSITY_LAWS[lubricant.viscosity_law], lubricant)
 
 
 def density_law(lubricant: Lubricant) -> PressureLaw:
-    """Density law: rho/rho0 and its derivative [1/Pa] over pressure [Pa] and temperature [K]."""
+    """Density law: rho/rho0 and its slope [1/Pa] as functions of pressure [Pa] and temperature [K]."""
     return _bound(DENSITY_LAWS[lubricant.density_law], lubricant)
 
 
 def permittivity_law(lubricant: Lubricant) -> DensityRatioLaw:
-    """Permittivity law: relative permittivity over rho/rho0 and temperature [K]."""
+    """Permittivity law: relative permittivity as a function of rho/rho0 and temperature [K]."""
     return _bound(PERMITTIVITY_LAWS[lubricant.permittivity_law], lubricant)
 
 

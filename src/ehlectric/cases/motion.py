@@ -1,4 +1,4 @@
-"""Table ``motion`` of a case: duration, time steps and stored instants of roughness that moves."""
+"""Table ``motion`` of a case: duration, time steps and recorded instants of moving roughness."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ehlectric.errors import InputError
 
 
 class Motion(Table):
-    """Duration, time steps and stored instants of roughness that moves with its surface.
+    """Duration, time steps and recorded instants of a contact with moving roughness.
 
     Examples
     --------

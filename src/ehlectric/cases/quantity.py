@@ -40,7 +40,7 @@ _ZEROS = {"K": 0.0, "degC": 273.15, "°C": 273.15}
 
 
 def unit_for(largest: float, unit: str, *, least: float = 0.1) -> tuple[float, str]:
-    """Factor and prefixed unit in which ``largest`` is between ``least`` and a thousand times ``least``."""
+    """Factor from ``unit`` to a prefixed unit in which ``largest`` is at least ``least``, and this unit."""
     size = next((p for p in _PREFIXES if least * p <= largest), 1e-12)
     prefixed = _PREFIXES[size] + unit
     # Dielectric strengths are usually given in V/µm.

@@ -47,6 +47,11 @@ def under(table: str, keys: Keys) -> dict[str, ResultKey]:
     keys : mapping of str to ResultKey
         Keys within the table.
 
+    Returns
+    -------
+    dict of str to ResultKey
+        The same keys, each preceded by ``table`` and a dot.
+
     Examples
     --------
     >>> list(under("film", {"residual": ResultKey("largest residual")}))

@@ -26,6 +26,16 @@ class Table(BaseModel):
     def from_dict(cls, table: Mapping[str, Any]) -> Self:
         """Validate nested tables, as read from a TOML file, and make an instance from them.
 
+        Parameters
+        ----------
+        table : mapping
+            Nested tables; numbers in SI units, or texts with a unit.
+
+        Returns
+        -------
+        Table
+            Instance of this class, with numbers in SI units.
+
         Raises
         ------
         InputError

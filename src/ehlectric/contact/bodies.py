@@ -61,7 +61,7 @@ def check_width(half_width: float, radius: float) -> None:
 def check_pressure(pressure: float, lubricant: Lubricant) -> None:
     """Raise an InputError if the Hertz pressure [Pa] is near the ambient pressure.
 
-    The permittivity law, too, raises an InputError if it has no value at this pressure.
+    An InputError is also raised if the permittivity law has no value at this pressure.
     """
     least = max(1e4, 10.0 * lubricant.ambient_pressure)
     if pressure < least:

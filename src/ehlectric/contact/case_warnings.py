@@ -17,8 +17,8 @@ from ehlectric.formulas import film_point as point_formulas
 # Hertz pressure at which bearing steel deforms permanently in line contacts (ISO 76) [Pa].
 _LINE_PERMANENT = 4e9
 
-# The film between rigid bodies builds up over about 10 sqrt(2 R h), which in half-widths of a line contact is
-# this number over Moes' M.
+# The film between rigid bodies builds up over a length of about 10 sqrt(2 R h). In half-widths of a line
+# contact, this length is the following number divided by Moes' M.
 _RIGID_INLET = 14.0
 
 # Hertz pressure at which bearing steel deforms permanently in point contacts (ISO 76) [Pa].
@@ -61,9 +61,9 @@ def pressure_warnings(
 ) -> Iterator[ResultWarning]:
     """Warnings that follow from the Hertz pressure of a contact and from its lubricant.
 
-    ``pressure`` is the Hertz pressure [Pa]. ``domain`` is the load carried by a uniform pressure over the
-    whole domain, divided by the load of a dry contact whose Hertz pressure is the same. ``permanent`` is the
-    Hertz pressure above which bearing steel deforms permanently in contacts of this ``kind`` [Pa].
+    ``pressure`` is the Hertz pressure [Pa]. ``domain`` is the load that the Hertz pressure would
+    carry if it acted on the whole domain, divided by the load of the contact. ``permanent`` is the Hertz
+    pressure above which bearing steel deforms permanently in contacts of this ``kind`` [Pa].
     """
     ambient_load = lubricant.ambient_pressure / pressure * domain
     if ambient_load > 0.01:

@@ -29,7 +29,7 @@ class PreparedContact:
     domain : Domain
         Domain in which the film is solved [m].
     rough : sequence of RoughSurface or RoughMap
-        Rough surfaces, one for each table of roughness.
+        Rough surfaces, one for each table ``roughness`` of the case.
     """
 
     case: Case | Setup

@@ -19,7 +19,7 @@ from ehlectric.formulas.film_point import PointContact
 _LEAST_SIDE, _CIRCLE_SIDE, _MOST_SIDE = 1.6, 3.0, 4.5
 
 # Exponents of the entrainment speed in the film thickness of hard contacts: lines (Pan and Hamrock), points
-# (Hamrock and Dowson). By them, a film factor is converted to a factor of the entrainment speed.
+# (Hamrock and Dowson). They convert a film factor to a factor of the entrainment speed.
 LINE_FILM_EXPONENT, POINT_FILM_EXPONENT = 0.69, 0.67
 
 
@@ -30,7 +30,7 @@ class Conditions:
     Attributes
     ----------
     reduced_radius, reduced_modulus, load_per_length : float
-        R [m], E' [Pa] by 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2, and w [N/m].
+        R [m], E' [Pa] with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2, and w [N/m].
     entrainment_speed : float
         (u1 + u2)/2 [m/s].
     slide_to_roll_ratio : float
@@ -42,7 +42,7 @@ class Conditions:
     curvature_share, compliance_share : float
         Surface 1's shares of 1/R and of 2/E', dimensionless; 0.5 if only the reduced values are known.
     film_factor : float
-        Film thickness over the isothermal, fully flooded film thickness, dimensionless; see ``contact``.
+        Film thickness divided by that of an isothermal, fully flooded film, dimensionless; see ``contact``.
     """
 
     geometry: ClassVar[str] = "line"
@@ -194,7 +194,7 @@ class PointConditions:
     compliance_share : float
         Surface 1's share of 2/E', dimensionless; 0.5 if only the reduced modulus is known.
     film_factor : float
-        Film thickness over the isothermal, fully flooded film thickness, dimensionless; see ``contact``.
+        Film thickness divided by that of an isothermal, fully flooded film, dimensionless; see ``contact``.
     """
 
     geometry: ClassVar[str] = "point"
@@ -259,7 +259,7 @@ class PointConditions:
 
     @property
     def ratio(self) -> float:
-        """Ratio k of the semi-axes of the dry contact, across over along entrainment, dimensionless."""
+        """Ratio k = a/b of the semi-axes of the dry contact, a across and b along entrainment."""
         return self.semi_axis_y / self.semi_axis_x
 
     @property
@@ -347,7 +347,7 @@ def default_side(ratio: float) -> float:
     Parameters
     ----------
     ratio : float
-        Ratio k of the semi-axes of the dry contact, across over along entrainment, dimensionless.
+        Ratio k = a/b of the semi-axes of the dry contact, a across and b along entrainment, dimensionless.
 
     Returns
     -------

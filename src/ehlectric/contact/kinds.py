@@ -142,7 +142,7 @@ def _point_field(solution: Solution[PointConditions, PointFilm, PointField]) -> 
 
 
 def _whole_field(problem: PointFieldProblem) -> PointField:
-    """Field on both sides of the plane y = 0, also where the problem covers only the half y >= 0."""
+    """Field on both sides of the plane y = 0, also if the problem covers only the half y >= 0."""
     field = solve_point_field(problem)
     return field.mirrored() if field.y[0] == 0.0 else field
 

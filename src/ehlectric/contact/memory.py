@@ -21,12 +21,12 @@ FIELD_BYTES = 64
 # flexible GMRES, two per iteration and at most ``newton.KRYLOV_LIMIT`` iterations; of the field per column
 # that is solved for and per (degree + 1). Measured on 129 x 129 to 1025 x 1025 nodes, on half and on whole
 # contacts, for a circle and an ellipse, at degrees 3 to 12: 790 to 950 bytes for the film without those
-# vectors, and 580 to 660 for the field. A fifth is added.
+# vectors, and 580 to 660 for the field. The constants contain a margin of a fifth.
 POINT_FILM_BYTES = 1140
 KRYLOV_VECTORS = 2 * KRYLOV_LIMIT + 1
 POINT_FIELD_BYTES = 790
 
-# Memory of moving roughness [bytes], per node and stored instant: six maps in single precision, as they are
+# Memory of moving roughness [bytes], per node and recorded instant: six maps in single precision, as they are
 # read back, and copies in double precision of the maps that figures use.
 RECORD_BYTES = 64
 
@@ -42,7 +42,7 @@ def check_memory(case: Case) -> None:
     Raises
     ------
     MemoryLimitError
-        If film and field, or the stored instants of a motion, need more than the physical memory.
+        If film and field, or the recorded instants of a motion, need more than the physical memory.
     """
     if case.motion is not None:
         _check_record(case.motion, case.grid, _NODES[case.contact.geometry](case.grid))

@@ -175,7 +175,7 @@ def point_surfaces(conditions: PointConditions, film: PointFilm, roughness: Arra
 
 
 def _dimensionless(law: PressureLaw, scale: float) -> FluidLaw:
-    """Convert a law over pressure [Pa], at the temperature of the case, to a law over P = p/scale."""
+    """Convert a law of pressure [Pa], at the temperature of the case, to a law of P = p/scale."""
 
     def of_dimensionless(pressure: Array) -> tuple[Array, Array]:
         value, slope = law(scale * pressure)
@@ -185,7 +185,7 @@ def _dimensionless(law: PressureLaw, scale: float) -> FluidLaw:
 
 
 def fluid_of(lubricant: Lubricant, max_pressure: float, velocity_parameter: float) -> Fluid:
-    """Density and viscosity of the lubricant over the dimensionless pressure P = p/``max_pressure``."""
+    """Density and viscosity of the lubricant as functions of the pressure P = p/``max_pressure``."""
     return Fluid(
         density=_dimensionless(density_law(lubricant), max_pressure),
         log_viscosity=_dimensionless(viscosity_law(lubricant), max_pressure),
@@ -221,7 +221,7 @@ def smooth_problem(
 ) -> FilmProblem:
     """Film problem of a smooth line contact, and the basis of the film problem of all other contacts.
 
-    ``expected`` is the film thickness by a formula; its central value [m] scales the initial guess.
+    ``expected`` is the film thickness from a formula; its central value [m] scales the initial guess.
     """
     grid, guess = setup.grid, expected.central_thickness
     return FilmProblem(
@@ -238,7 +238,7 @@ def smooth_problem(
 
 
 def _added_gap(conditions: Conditions, rough: Sequence[RoughSurface]) -> Callable[[Array, Array], Array]:
-    """Dimensionless gap that the roughness of both surfaces adds, over X; it is negative at asperities."""
+    """Dimensionless gap that the roughness of both surfaces adds at X; it is negative at asperities."""
     b, scale = conditions.half_width, conditions.thickness_scale
 
     def added_gap(x: Array, _y: Array) -> Array:

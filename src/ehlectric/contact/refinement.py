@@ -30,7 +30,7 @@ class Refined:
     setup : Setup
         Setup with the last grid; its ``grid.refine`` is None.
     seconds : float
-        Time taken by the films of all grids [s].
+        Time taken to solve the films on all grids [s].
     warnings : tuple of ResultWarning
         A warning if the target error was not reached.
     """

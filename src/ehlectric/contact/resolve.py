@@ -14,8 +14,8 @@ from ehlectric.formulas import hertz_point
 def resolve(case: Case) -> Conditions:
     """Compute the operating conditions of a case of a line contact.
 
-    Two radii are converted to the reduced radius, a Hertz pressure to the load, and two speeds to the
-    entrainment speed and the slide-to-roll ratio.
+    Two radii are converted to the reduced radius, and a Hertz pressure to the load. Two speeds are converted
+    to the entrainment speed and the slide-to-roll ratio.
 
     Parameters
     ----------
@@ -86,8 +86,8 @@ def _line_radius(contact: Contact) -> tuple[float, float]:
 def resolve_point(case: Case) -> PointConditions:
     """Compute the operating conditions of a case of a point contact.
 
-    The radii of two bodies are converted to the reduced radii, a Hertz pressure to the load, and two speeds
-    to the entrainment speed and the slide-to-roll ratio.
+    The radii of two bodies are converted to the reduced radii, and a Hertz pressure to the load. Two speeds
+    are converted to the entrainment speed and the slide-to-roll ratio.
 
     Parameters
     ----------
@@ -103,8 +103,8 @@ def resolve_point(case: Case) -> PointConditions:
     ------
     InputError
         If the values contradict each other: no positive reduced radius in a plane, a Hertz pressure near the
-        ambient pressure, a dry contact too wide for its bodies, or a grid too coarse across entrainment. Also
-        if the case is of a line contact.
+        ambient pressure, or a dry contact too wide for its bodies. Also if the grid is too coarse across
+        entrainment, or the case is of a line contact.
 
     Examples
     --------

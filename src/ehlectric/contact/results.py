@@ -34,7 +34,7 @@ class ContactResult(Solution[ConditionsT, FilmT, FieldT]):
         Returns
         -------
         dict
-            Numbers, texts and lists; None where a value has no meaning, never NaN.
+            Numbers, texts and lists; None if a value has no meaning, never NaN.
         """
         return summary_of(self)
 
@@ -43,7 +43,7 @@ class ContactResult(Solution[ConditionsT, FilmT, FieldT]):
         return dataset_of(self, KINDS[self.conditions.geometry].layout, summary_of(self))
 
     def formulas(self) -> Mapping[str, Thickness]:
-        """Film thickness by each of the published formulas [m], by the name of the formula."""
+        """Film thickness from each published formula [m], keyed by the name of the formula."""
         return formulas_of(self.conditions)
 
     @cached_property

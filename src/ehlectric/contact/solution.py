@@ -32,7 +32,7 @@ class Smooth:
     ----------
     pressure, thickness : ndarray, shape (nx,) or (nx, ny)
         Pressure [Pa] and film thickness [m] at the film's nodes.
-    middle_strength : ndarray
+    middle_strength : ndarray, shape (mx,) or (mx, my)
         Field strength at mid-film, at the columns of the field [V/m].
     """
 
@@ -42,7 +42,7 @@ class Smooth:
 
     @property
     def minimum_thickness(self) -> float:
-        """Smallest film thickness of all nodes [m]."""
+        """Minimum film thickness at the nodes [m]."""
         return float(np.min(self.thickness))
 
 
@@ -59,7 +59,7 @@ class Solution(Generic[ConditionsT, FilmT, FieldT]):
     film, field : Film and Field, or PointFilm and PointField
         Film and electric field, SI units.
     roughness : ndarray, shape (2, nx) or (2, nx, ny)
-        Heights of both surfaces' roughness at the film's nodes, positive out of the body [m].
+        Roughness heights of both surfaces at the film's nodes, positive out of the body [m].
     rough : tuple of dict
         Source of each rough surface, and its statistics after each processing step, SI units.
     smooth : Smooth or None

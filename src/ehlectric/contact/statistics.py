@@ -34,10 +34,10 @@ class RoughnessStatistics:
     combined : mapping
         All statistics of the sum of both surfaces, SI units.
     lambda_ratio : float or None
-        Minimum film thickness over ``rq_combined``, dimensionless; None if the Hertz zone is smooth.
+        Minimum film thickness divided by ``rq_combined``, dimensionless; None if the Hertz zone is smooth.
     lambda_ratio_smooth : float or None
-        ``smooth_minimum_thickness`` over ``rq_combined``, dimensionless; None if the Hertz zone is smooth or
-        the smooth contact was not solved.
+        ``smooth_minimum_thickness`` divided by ``rq_combined``, dimensionless; None if the Hertz zone is
+        smooth or the smooth contact was not solved.
     smooth_minimum_thickness : float or None
         Minimum film thickness of the same contact with smooth surfaces [m]; None if it was not solved.
     """

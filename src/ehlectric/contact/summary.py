@@ -28,7 +28,7 @@ def summary_of(solution: Solution[Any, Any, Any]) -> dict[str, Any]:
     Returns
     -------
     dict
-        Numbers, texts and lists; None where a value has no meaning, never NaN.
+        Numbers, texts and lists; None if a value has no meaning, never NaN.
     """
     kind, film, conditions = KINDS[solution.conditions.geometry], solution.film, solution.conditions
     summary: dict[str, Any] = {
@@ -96,7 +96,7 @@ def case_summary(case: Case | Setup, conditions: Conditions | PointConditions) -
     Returns
     -------
     dict
-        Inputs, dimensionless groups, dry contact, lubrication regime, and film thickness by the published
+        Inputs, dimensionless groups, dry contact, lubrication regime, and film thickness from the published
         formulas.
     """
     return {
@@ -132,6 +132,6 @@ def hertz_of(conditions: Conditions | PointConditions) -> dict[str, float]:
 
 
 def formulas_of(conditions: Conditions | PointConditions) -> Mapping[str, Thickness]:
-    """Film thickness by each of the published formulas [m], by the name of the formula."""
+    """Film thickness from each published formula [m], keyed by the name of the formula."""
     formulas = KINDS[conditions.geometry].formulas
     return {name: formula(conditions.contact) for name, formula in formulas.items()}

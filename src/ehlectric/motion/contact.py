@@ -28,7 +28,7 @@ class TransientContact:
     case : Case
         Case of a line or a point contact.
     conditions : Conditions or PointConditions
-        Conditions of the case.
+        Operating conditions of the case.
     schedule : Schedule
         Time steps and speeds of the surfaces.
     travelled : Case
@@ -52,10 +52,15 @@ class TransientContact:
         case : Case
             A case with ``motion`` and roughness.
 
+        Returns
+        -------
+        TransientContact
+            Contact that is ready to be solved in time steps.
+
         Raises
         ------
         InputError
-            Where the schedule is refused (see ``schedule_of``), or a surface cannot be generated or read.
+            If the schedule is refused (see ``schedule_of``), or a surface cannot be generated or read.
         """
         kind = KINDS[case.contact.geometry]
         conditions = kind.contact.resolve(case)
@@ -72,12 +77,12 @@ class TransientContact:
 
     @property
     def half_width(self) -> float:
-        """Half-width b, in a point contact the semi-axis along entrainment [m]."""
+        """Half-width b [m]; for a point contact, the semi-axis along entrainment."""
         return self.conditions.half_width
 
     @cached_property
     def problem(self) -> FilmProblem:
-        """Film equations without moving roughness: rough surfaces at rest are part of the gap."""
+        """Film problem without moving roughness; the roughness of surfaces at rest is part of the gap."""
         return self.kind.film_problem(self.case, self.travelled, self.conditions, self.roughness)
 
     def moving_gap(self, time: float, x: Array, y: Array) -> Array:
@@ -95,7 +100,7 @@ class TransientContact:
         Returns
         -------
         ndarray, shape (nx, ny)
-            Change of the gap over the scale of the film thickness, dimensionless.
+            Change of the gap divided by the scale of the film thickness, dimensionless.
         """
         heights = self.roughness.moving_height(time, *(x, y)[: len(self.kind.axes)])
         gap: Array = -heights.reshape(x.size, y.size) / self.conditions.thickness_scale

@@ -1,4 +1,4 @@
-"""Largest field strength of a transient run over time, and how long it is near its maximum."""
+"""Largest field strength of a transient run over time, and the time for which it is near its maximum."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 
 from ehlectric.arrays import Array, Mask
 
-# The field counts as near its maximum above this part of its largest value over time.
+# The field counts as near its maximum if it is above this fraction of its largest value over time.
 NEAR_MAXIMUM = 0.9
 
 
@@ -24,7 +24,7 @@ class FieldHistory:
     strength : ndarray, shape (steps,)
         Largest field strength at the steps [V/m].
     settled_from : float
-        Time from which statistics count [s].
+        Time at which the statistics begin [s].
     """
 
     time: Array
@@ -33,7 +33,7 @@ class FieldHistory:
 
     @cached_property
     def _settled(self) -> Mask:
-        """Steps that count for statistics, shape (steps,)."""
+        """Mask of the steps that count for statistics, shape (steps,)."""
         return np.asarray(self.time >= self.settled_from)
 
     @property
@@ -58,15 +58,15 @@ class FieldHistory:
 def strength_between(time: Array, estimate: Array, frame_time: Array, strength: Array) -> Array:
     """Largest field strength at every time step, interpolated between the recorded instants.
 
-    The largest field strength is the voltage over the smallest film thickness, times a ratio that changes
-    little with time. The ratio is interpolated between the recorded instants.
+    The largest field strength is the voltage divided by the minimum film thickness, times a ratio that
+    changes little with time. The ratio is interpolated between the recorded instants.
 
     Parameters
     ----------
     time : ndarray, shape (steps,)
         Times of the steps [s].
     estimate : ndarray, shape (steps,)
-        Voltage over the smallest film thickness [V/m].
+        Voltage divided by the minimum film thickness [V/m].
     frame_time : ndarray, shape (frames,)
         Times of the recorded instants [s].
     strength : ndarray, shape (frames,)

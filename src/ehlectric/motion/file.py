@@ -3,7 +3,7 @@
 The file is closed between two recorded instants, so it is intact when the run stops there. If the run stops
 while an instant is written, that instant does not count, because the number of recorded instants is written
 last. The films from which a run is resumed are stored twice (see ``ehlectric.motion.resume``). Maps are
-stored in single precision, the films to resume from in double precision.
+stored in single precision. The films from which a run is resumed are stored in double precision.
 """
 
 from __future__ import annotations
@@ -63,13 +63,13 @@ _OF_POINTS = ("minimum_y", "max_strength_y")
 _CHUNK = 1024
 
 # Upper bounds of the disk space of a recorded instant [bytes]: per node, for its maps and the films to resume
-# from, and in addition for the time steps since the recorded instant before.
+# from; and, in addition, for the time steps since the previous recorded instant.
 _NODE_BYTES, _CHUNK_BYTES = 256, 10_000_000
 
 
 @dataclass(frozen=True)
 class Row:
-    """Values of a time step by the names of the variables in the file, SI units."""
+    """Values of a time step, keyed by the names of the variables in the file, in SI units."""
 
     values: Mapping[str, float]
 
@@ -162,7 +162,7 @@ class MotionFile:
         Raises
         ------
         InputError
-            Where another run has written to the file, or the disk has not enough space.
+            If another run has written to the file, or the disk has not enough space.
         """
         maps, numbers = self._maps(record.snapshot), _numbers(record)
         check_space(self._path, _NODE_BYTES * record.snapshot.film.pressure.size + _CHUNK_BYTES)
@@ -199,7 +199,7 @@ class MotionFile:
         }
 
     def whole(self) -> bool:
-        """Whether the file exists and has a complete run of the same case."""
+        """Whether the file exists and contains a complete run of the same case."""
         try:
             with opened(self._path, "r") as file:
                 return bool(file.attrs["complete"]) and self._same(file.attrs)
@@ -209,7 +209,7 @@ class MotionFile:
     def resumed(self) -> tuple[int, History] | None:
         """Last recorded step of an unfinished run of the same case, and the films to resume it from.
 
-        None where the file does not exist, or does not have such a run.
+        None if the file does not exist, or does not contain such a run.
         """
         if not self._path.is_file():
             return None
@@ -283,7 +283,7 @@ def _add(
 
 
 def _state(file: Any) -> tuple[Any, int]:
-    """Date and number of recorded instants of a file; they change where another run writes to it."""
+    """Date and number of recorded instants of a file; they change if another run writes to it."""
     return file.attrs["date"], int(file.attrs["frames"])
 
 

@@ -43,7 +43,7 @@ class Kind(Generic[C, R, F, E]):
     name : str
         Geometry of the case, "line" or "point".
     axes : tuple of str
-        Names of the axes of a map: x along entrainment, and of a point contact y across it.
+        Names of the axes of a map: x along entrainment and, for a point contact, y across it.
     capacitance_unit : str
         Unit of the capacitance in the field range.
     contact : Kind
@@ -58,7 +58,7 @@ class Kind(Generic[C, R, F, E]):
     film : callable
         Film from its solution, the film equations and the mesh.
     column_strength : callable
-        Largest field strength across the film at its nodes [V/m]; not a number outside the field range.
+        Largest field strength across the film at its nodes [V/m]; NaN outside the field range.
     in_hertz_zone : callable
         Mask of the nodes in the Hertz zone, from the conditions and the positions along each axis [m].
     """
@@ -88,7 +88,7 @@ def _point_film_problem(
     case: Case, travelled: Case, conditions: PointConditions, roughness: MovingRoughness
 ) -> FilmProblem:
     problem = point_film_problem(case, conditions, cast("list[RoughMap]", roughness.resting))
-    # Half of the contact suffices only where all roughness that passes is symmetric about y = 0.
+    # Half of the contact suffices only if all roughness that passes is symmetric about y = 0.
     whole = point_film_problem(travelled, conditions, cast("list[RoughMap]", roughness.surfaces))
     return replace(problem, width=whole.width)
 

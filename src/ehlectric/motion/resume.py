@@ -59,12 +59,12 @@ def kept(file: Any, frames: int) -> History | None:
     Returns
     -------
     History or None
-        Last two instants; None where no instant is recorded, or its place is not complete.
+        Last two instants; None if no instant is recorded, or its place is not complete.
 
     Raises
     ------
     KeyError
-        Where the file has no group "resume", or not all its variables.
+        If the file has no group "resume", or not all its variables.
     """
     group, place = file.groups["resume"], (frames - 1) % _PLACES
     values = {name: np.asarray(group.variables[name][place]) for name in (*_OVER_MESH, *_NUMBERS)}

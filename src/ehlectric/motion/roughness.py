@@ -1,7 +1,7 @@
 """Moving roughness: heights of the surfaces of a transient contact over position and time.
 
-The case describes each surface at rest. A point at x in the case is at x - D + u_k t at the time t, with the
-length D of the domain and the speed u_k of its surface; where u_k is negative, it is at x + D + u_k t.
+The case describes each surface at rest. A point at x in the case is at x - D + u_k t at the time t. Here D is
+the length of the domain and u_k the speed of its surface. If u_k is negative, the point is at x + D + u_k t.
 Roughness that lies beyond the far end of the domain in the case is left out. Moving roughness therefore
 begins with a front, behind which its height rises from zero over one half-width.
 """
@@ -48,7 +48,7 @@ class MovingRoughness:
         return [surface for surface in self.surfaces if not self.schedule.speed_of(surface.surface)]
 
     def heights(self, time: float, *axes: Array) -> Array:
-        """Roughness of both surfaces at a time.
+        """Roughness heights of both surfaces at a time.
 
         Parameters
         ----------

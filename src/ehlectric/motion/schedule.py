@@ -2,10 +2,10 @@
 
 The schedule follows from the case and its conditions alone; it does not need the heights of the surfaces.
 
-Time is dimensionless, T = t u/b with the mean speed u and the half-width b, and positions are in half-widths,
-X = x/b. At T = 0 all moving roughness lies outside the domain. A point at x in the case is at x - D + u_k t
-at the time t, with the length D of the domain and the speed u_k of its surface. At the time D/u_k it lies
-where the case puts it.
+Time is dimensionless, T = t u/b, and positions are in half-widths, X = x/b. Here u is the entrainment speed,
+the mean speed of the surfaces, and b is the half-width. At T = 0 all moving roughness lies outside the
+domain. A point at x in the case is at x - D + u_k t at the time t. Here D is the length of the domain, and
+u_k is the speed of its surface. At the time D/u_k the point is at its position in the case.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.errors import InputError
 from ehlectric.film.unsteady import MOST_COURANT
 
-# A surface is at rest below this speed over the mean speed. It is also the relative tolerance of comparisons
-# of times and speeds.
+# A surface is at rest below this speed divided by the entrainment speed. It is also the relative tolerance of
+# comparisons of times and speeds.
 _AT_REST = 1e-9
 
 
@@ -39,15 +39,15 @@ class Schedule:
     steps : int
         Number of time steps, all of the same length.
     courant : float
-        Grid spacings that the mean speed travels in one time step.
+        Distance travelled at the entrainment speed in one time step [grid spacings].
     recorded : ndarray of int, shape (n,)
-        Numbers of the steps whose instants are kept, from 0 to ``steps``.
+        Numbers of the time steps that are recorded, from 0 to ``steps``.
     time : float
-        Time b/u of T = 1 [s].
+        Unit of time b/u, which corresponds to T = 1 [s].
     domain : tuple of float
         Inlet and outlet of the film's domain [half-widths].
     speeds : tuple of float
-        Speeds of surface 1 and surface 2 over the mean speed; exactly 0 where a surface is at rest.
+        Speeds of surfaces 1 and 2 divided by the entrainment speed; exactly 0 if a surface is at rest.
     rough : tuple of int
         Numbers of the rough surfaces, 1 or 2, in ascending order.
 
@@ -87,17 +87,17 @@ class Schedule:
         return outlet - inlet
 
     def speed_of(self, surface: int) -> float:
-        """Speed of surface 1 or 2 over the mean speed; exactly 0 where it is at rest."""
+        """Speed of surface 1 or 2 divided by the entrainment speed; exactly 0 if it is at rest."""
         return self.speeds[surface - 1]
 
     @property
     def moving_speeds(self) -> tuple[float, ...]:
-        """Speeds of the moving rough surfaces over the mean speed."""
+        """Speeds of the moving rough surfaces divided by the entrainment speed."""
         return tuple(self.speed_of(surface) for surface in self.rough if self.speed_of(surface))
 
     @property
     def covered(self) -> float:
-        """Time T from which moving roughness fills the Hertz zone; infinite where the run ends before."""
+        """Time T from which moving roughness fills the Hertz zone; infinite if the run ends earlier."""
         inlet, outlet = self.domain
         # Distance from the end where the roughness enters to the far side of the zone, plus the half-width
         # over which the height rises behind the front.
@@ -108,9 +108,9 @@ class Schedule:
 
     @property
     def coincident(self) -> float:
-        """Time T at which all moving roughness lies where the case puts it.
+        """Time T at which all moving roughness is at its position in the case.
 
-        Infinite where the run ends before, and where the rough surfaces move at different speeds.
+        Infinite if the run ends earlier, or if the rough surfaces move at different speeds.
         """
         speeds = sorted(map(abs, self.moving_speeds))
         if not speeds or speeds[-1] - speeds[0] > _AT_REST * speeds[-1]:
@@ -119,7 +119,7 @@ class Schedule:
         return time if time <= self.end * (1.0 + _AT_REST) else np.inf
 
     def moments(self) -> dict[str, float]:
-        """Times ``covered_from`` and ``coincident``, as far as the run reaches them [s]."""
+        """Times ``covered_from`` and ``coincident``, without those that the run does not reach [s]."""
         times = {"covered_from": self.covered, "coincident": self.coincident}
         return {name: time * self.time for name, time in times.items() if math.isfinite(time)}
 
@@ -146,19 +146,19 @@ def schedule_of(case: Case, conditions: Conditions | PointConditions) -> Schedul
     case : Case
         A case with ``motion`` and roughness.
     conditions : Conditions or PointConditions
-        Conditions of the case, from ``resolve`` or ``resolve_point``.
+        Operating conditions of the case, from ``resolve`` or ``resolve_point``.
 
     Returns
     -------
     Schedule
-        Time steps and speeds. The recorded instants include the one at which all moving roughness lies where
-        the case puts it, if the run reaches it.
+        Time steps and speeds. The recorded instants include the one at which all moving roughness is at its
+        position in the case, if the run reaches it.
 
     Raises
     ------
     InputError
-        Where the case has no ``motion``, the run is shorter than one grid spacing, the time steps are too
-        long, or all rough surfaces are at rest.
+        If the case has no ``motion``, or all rough surfaces are at rest. Also if the run is shorter than one
+        grid spacing, or the time steps are too long.
     """
     if case.motion is None:
         raise InputError.worded("motion", "missing, a case whose roughness moves takes it")
@@ -218,5 +218,5 @@ def _time_grid(case: Case, conditions: Conditions | PointConditions) -> Schedule
 
 
 def _moving(speed: float) -> float:
-    """Speed over the mean speed, with 0 in place of rounding errors."""
+    """Speed divided by the entrainment speed, with 0 in place of rounding errors."""
     return speed if abs(speed) > _AT_REST else 0.0

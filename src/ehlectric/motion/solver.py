@@ -47,12 +47,12 @@ class Snapshot:
 
 @dataclass(frozen=True)
 class Extremes:
-    """Smallest film thickness with its position, and largest pressure, at one instant.
+    """Minimum film thickness with its position, and largest pressure, at one instant.
 
     Attributes
     ----------
     minimum_thickness : float
-        Smallest film thickness [m].
+        Minimum film thickness [m].
     minimum_position : tuple of float
         Position along each axis of the node where the film is thinnest [m].
     max_pressure : float
@@ -83,7 +83,7 @@ class TransientSolver:
         Raises
         ------
         ConvergenceError
-            Where the stationary film is not converged.
+            If the stationary film does not converge.
         """
         with quiet_solution():
             steady = nested_iteration(self.contact.problem, progress)[-1]
@@ -109,7 +109,7 @@ class TransientSolver:
         Raises
         ------
         ConvergenceError
-            Where a step does not converge, even after it was halved several times.
+            If a time step does not converge, even after it was halved several times.
         """
         schedule = self.contact.schedule
         for step in range(done + 1, schedule.steps + 1):
@@ -130,7 +130,7 @@ class TransientSolver:
         return Snapshot(instant.time * contact.schedule.time, film, roughness, field)
 
     def extremes(self, instant: Instant) -> Extremes:
-        """Smallest film thickness and largest pressure; unlike ``film``, no deflection is computed."""
+        """Minimum film thickness and largest pressure; unlike ``film``, no deflection is computed."""
         mesh, scales = self._film.level.mesh, self.contact.problem.scales
         thickness = self.contact.kind.shaped(mesh, scales.thickness * instant.state.thickness)
         place = np.unravel_index(int(np.argmin(thickness)), thickness.shape)

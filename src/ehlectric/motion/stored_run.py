@@ -52,7 +52,7 @@ def read_motion(path: str | Path) -> xr.Dataset:
     Raises
     ------
     InputError
-        Where the file cannot be read, is damaged, or has no transient run.
+        If the file cannot be read, is damaged, or has no transient run.
     """
     path = Path(path)
     path = path / MOTION if path.is_dir() else path
@@ -68,7 +68,7 @@ def read_motion(path: str | Path) -> xr.Dataset:
 
 
 def saved_steps(path: Path) -> int:
-    """Number of the last recorded time step in a file; 0 where it has none or cannot be read."""
+    """Number of the last recorded time step in a file; 0 if it has none or cannot be read."""
     try:
         with opened(path, "r") as file:
             return int(file.variables["frame_step"][: int(file.attrs["frames"])][-1])
@@ -87,7 +87,7 @@ class MotionRun:
     case : Case
         Case of the run.
     conditions : Conditions or PointConditions
-        Conditions of the case.
+        Operating conditions of the case.
     """
 
     dataset: xr.Dataset
@@ -98,17 +98,22 @@ class MotionRun:
     def of(cls, dataset: xr.Dataset) -> MotionRun:
         """Run from a dataset, without steps and instants that are not solved yet.
 
-        Files of surfaces are not read.
+        Surface files are not read.
 
         Parameters
         ----------
         dataset : xarray.Dataset
             Dataset from ``read_motion``.
 
+        Returns
+        -------
+        MotionRun
+            Run with the solved steps and recorded instants.
+
         Raises
         ------
         InputError
-            Where the dataset is not a transient run, or has no recorded instant.
+            If the dataset is not a transient run, or has no recorded instant.
         """
         missing = [name for name in _NEEDED if name not in dataset]
         if missing or "case" not in dataset.attrs:
@@ -166,7 +171,7 @@ class MotionRun:
         return np.asarray(self.dataset[name].values, dtype=float)
 
     def moment(self, name: str) -> float:
-        """Time ``covered_from`` or ``coincident`` [s]; NaN where the run does not reach it."""
+        """Time ``covered_from`` or ``coincident`` [s]; NaN if the run does not reach it."""
         return float(self.dataset.attrs.get(name, np.nan))
 
     def along(self, name: str, frame: int | None = None) -> Array:
@@ -200,18 +205,18 @@ class MotionRun:
 
 
 def settled_from(run: MotionRun) -> float:
-    """Time from which statistics over a run count [s]: the time at which the roughness fills the contact.
+    """Time at which the statistics of a run begin [s]: the time at which the roughness fills the contact.
 
-    It is 0 where the roughness never fills the contact, or fewer than two instants are recorded afterwards.
+    It is 0 if the roughness never fills the contact, or if fewer than two instants are recorded afterwards.
     """
     covered = run.moment("covered_from")
     return covered if np.count_nonzero(run.frame_time >= covered) > 1 else 0.0
 
 
 def coincident_frame(run: MotionRun) -> int | None:
-    """Number of the recorded instant nearest to the time at which the surfaces lie where the case puts them.
+    """Number of the recorded instant at which the surfaces are nearest to their positions in the case.
 
-    None where the run does not reach this time, or has no stationary film to compare with.
+    None if the run does not reach the time of these positions, or has no stationary film to compare with.
     """
     time, at = run.frame_time, run.moment("coincident")
     if "stationary_thickness" not in run.dataset or not time[0] <= at <= time[-1]:

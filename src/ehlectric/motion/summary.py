@@ -24,7 +24,7 @@ SCHEMA = "ehlectric.motion/1"
 QUANTILES = 0.05, 0.5, 0.95
 
 # The recorded instant that is compared with stationary roughness may be at most this far from the time at
-# which all roughness lies where the case puts it [time steps].
+# which all roughness is at its position in the case [time steps].
 _NEAR = 0.6
 
 
@@ -36,7 +36,7 @@ def counted(run: MotionRun) -> Mask:
 def summary_of(dataset: xr.Dataset) -> dict[str, Any]:
     """Results of a transient run, nested as in summary.json, SI units.
 
-    The case is part of the dataset. Files of surfaces are not needed.
+    The case is part of the dataset. Surface files are not needed.
 
     Parameters
     ----------
@@ -47,12 +47,12 @@ def summary_of(dataset: xr.Dataset) -> dict[str, Any]:
     -------
     dict
         Results. Statistics over time begin when the roughness has filled the Hertz zone, or at the start of
-        the run where it never does.
+        the run if it never fills the zone.
 
     Raises
     ------
     InputError
-        Where the dataset is not a transient run.
+        If the dataset is not a transient run.
     """
     run, attributes = MotionRun.of(dataset), dataset.attrs
     complete = bool(attributes["complete"])
@@ -189,9 +189,9 @@ def _discharge(run: MotionRun) -> dict[str, Any] | None:
 
 
 def instant_beside(run: MotionRun) -> int | None:
-    """Number of the recorded instant at which all roughness lies where the case puts it.
+    """Number of the recorded instant at which all roughness is at its position in the case.
 
-    None where no instant is recorded close to this time, or the run has no stationary film to compare with.
+    None if no instant is recorded close to this time, or the run has no stationary film to compare with.
     """
     schedule, dataset = run.schedule, run.dataset
     if "stationary_thickness" not in dataset or not np.isfinite(schedule.coincident):
@@ -204,7 +204,7 @@ def instant_beside(run: MotionRun) -> int | None:
 def _beside(run: MotionRun) -> dict[str, Any] | None:
     """Differences between moving and stationary roughness when both are in the same position.
 
-    They are over the nodes with abs(x) < b. None without such an instant.
+    The nodes with abs(x) < b are compared. None if no such instant is recorded.
     """
     frame, dataset = instant_beside(run), run.dataset
     if frame is None:
@@ -220,7 +220,7 @@ def _beside(run: MotionRun) -> dict[str, Any] | None:
 
 
 def _compared(name: str, which: str, moving: Array, stationary: Array) -> dict[str, Any]:
-    """Extremes and differences of a quantity at the same nodes, by key; None where there are no nodes."""
+    """Extremes and differences of a quantity at the same nodes, by key; None if there are no nodes."""
     extreme = f"{which}_{name}"
     keys = extreme, f"{extreme}_stationary", f"{name}_rms_difference", f"{name}_largest_difference"
     if not moving.size:

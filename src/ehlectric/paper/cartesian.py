@@ -6,8 +6,8 @@ neighbours, the coefficient a_1 of the eastern neighbour is::
 
     a_1 = (eps_(l,k) + eps_(l,k-1))/2 dy^2 2/(h_E (h_E + h_W))
 
-with a_0 = a_1 + a_2 + a_3 + a_4 and Q = rho_q dy^2. Where all arms are dx = dy, these are the equations of
-the paper. An arm that meets a surface ends there, at the potential of the surface (Shortley and Weller 1938,
+with a_0 = a_1 + a_2 + a_3 + a_4 and Q = rho_q dy^2. If all arms are dx = dy, these are the equations of the
+paper. An arm that meets a surface ends there, at the potential of the surface (Shortley and Weller 1938,
 doi:10.1063/1.1710426).
 """
 
@@ -44,7 +44,7 @@ class CartesianGrid:
     column, row : ndarray of int, shape (n,)
         Column and row of every unknown. Unknowns with even column + row come first.
     number : ndarray of int, shape (nx, ny)
-        Number of the unknown at a node; -1 where the node is none.
+        Number of the unknown at a node; -1 if the node is not an unknown.
     even : int
         Number of unknowns with even column + row.
     """
@@ -60,12 +60,12 @@ class CartesianGrid:
 
     @classmethod
     def over(cls, x: Array, lower: Array, upper: Array, *, rows: int) -> CartesianGrid:
-        """Create a grid with ``rows`` rows in the least gap.
+        """Create a grid with ``rows`` rows in the smallest gap.
 
         Raises
         ------
         ConvergenceError
-            Where the grid would have more than 3e7 nodes.
+            If the grid would have more than 3e7 nodes.
         """
         dy = float(np.min(upper - lower)) / rows
         nodes = x.size * float(np.max(upper) - np.min(lower)) / dy
@@ -103,9 +103,9 @@ class Stencil:
     neighbour : ndarray of int, shape (4, n)
         Numbers of the neighbours of every unknown; n is the lower surface and n + 1 the upper one.
     share : ndarray, shape (4, n)
-        Coefficients a_1 to a_4 over a_0.
+        Coefficients a_1 to a_4 divided by a_0.
     source : ndarray or float
-        Contribution of free charge [V], shape (n,) where there is any.
+        Contribution of free charge [V], shape (n,) if there is any.
     arm : ndarray, shape (4, n)
         Distances to the neighbours [m].
     permittivity : ndarray, shape (4, n)

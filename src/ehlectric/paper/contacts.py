@@ -25,7 +25,7 @@ class PaperContact:
     Attributes
     ----------
     gigapascal : int
-        Maximum Hertz pressure [GPa], 1 or 2.
+        Hertz pressure [GPa], 1 or 2.
     u_s : float
         Sum of the surface speeds u1 + u2 [m/s].
     load : float

@@ -131,7 +131,7 @@ def _square_cells(study: Study) -> str:
     result = study.rough[contact]
     film = result.film
     problem = field_problem(result.case, result.conditions, film, result.roughness)
-    # Cells of the size of the paper's grid: columns at its film nodes, and eight rows in the least gap.
+    # Cells of the size of the paper's grid: columns at its film nodes, and eight rows in the smallest gap.
     dx = float(np.ptp(film.x)) / (SMOOTH_NODES - 1)
     dy = film.minimum_thickness / ROWS
     squeezed = solve_field(replace(problem, x=problem.x * dy / dx))

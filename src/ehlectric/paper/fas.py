@@ -82,8 +82,8 @@ def solve_film(problem: FilmProblem, *, progress: Progress | None = None) -> Fil
     -----
     Eqs. (1) to (13) and (19) of Morris et al. (2022), doi:10.3390/lubricants10050087. On a coarse grid H the
     unknown is the injected iterate plus its correction. The right side of its Reynolds equation is
-    L_H(I P) + R(f - L_h(P)), with the injection I, the restriction R and the equation L_h(P) = f of the finer
-    grid h. The film equation has a right side as well, and the load equation the defect of the finer grid.
+    L_H(I P) + R(f - L_h(P)). Here I is the injection, R is the restriction, and L_h(P) = f is the equation of
+    the finer grid h. The film equation has a right side as well, and the load equation the defect of the finer grid.
     """
     if problem.geometry is not LINE:
         raise ValueError("the paper's multigrid takes deflecting line contacts")
@@ -190,7 +190,7 @@ def _cycles(
 def residual_norm(equations: FilmEquations, at: Iterate) -> float:
     """Residual of an iterate: the largest scaled residual of the Reynolds equation, or that of the load.
 
-    The larger one counts; the residual of the load is ten times its relative error. The result is nan where
+    The larger one counts; the residual of the load is ten times its relative error. The result is NaN if
     the film thickness is not positive at every node.
     """
     c = equations.coefficients(at)
@@ -212,7 +212,7 @@ def v_cycle(grids: list[FilmEquations], at: Iterate) -> Iterate:
     Returns
     -------
     Iterate
-        New iterate, with a smaller residual where the cycles converge.
+        New iterate, with a smaller residual if the cycles converge.
     """
     fine, *coarser = grids
     if not coarser:
@@ -267,7 +267,7 @@ def _film(
     cycled: _Cycled,
     coarser: tuple[FilmEquations, Iterate] | None,
 ) -> Film:
-    """Film on the finest grid in SI units, also where the cycles diverged before they reached this grid."""
+    """Film on the finest grid in SI units, also if the cycles diverged before they reached this grid."""
     at, scales, fluid = cycled.at, problem.scales, problem.fluid
     if at.pressure.size != finest.x.size:
         reached = np.linspace(finest.x[0], finest.x[-1], at.pressure.size)

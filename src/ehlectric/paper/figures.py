@@ -52,7 +52,7 @@ def _of(gigapascal: int) -> list[PaperContact]:
 
 
 def _panel_name(contact: PaperContact, letter: str, result: Result) -> str:
-    """Letter and name of a sub-figure as printed, with the computed M where it differs from the print."""
+    """Letter and name of a sub-figure as printed, with the computed M if it differs from the print."""
     groups = result.conditions.contact
     name = f"({letter}) {contact.printed}"
     printed = float(contact.printed[1:].split("L")[0])

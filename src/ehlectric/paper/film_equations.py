@@ -168,7 +168,7 @@ class FilmEquations:
         return above
 
     def scaled(self, at: Iterate, c: Coefficients) -> Array:
-        """Residual over its local coefficient, a change of P, shape (n,); zero at cavitated nodes."""
+        """Residual divided by its local coefficient, a change of P, shape (n,); zero at cavitated nodes."""
         local = c.density * (self.kernel[0] - self.kernel[1]) / self.dx
         residual = self.residual(at, c)
         return np.where(self.free(at, residual), residual / (self.poiseuille(c) + local), 0.0)

@@ -22,9 +22,9 @@ from ehlectric.paper.tables import AMPLITUDE, BY_SMOOTH, OWN, WITHIN, PaperTable
 from ehlectric.version import __version__
 
 # Criteria by which the three conclusions hold. Conclusion 1: in every placement of the profile, E_max differs
-# from V12/h_min by at most so many per cent. Conclusion 2: the width over b falls with rising M at both
-# pressures, and the largest is at least so many times the least. Conclusion 3: E_max changes by at most so
-# many per cent.
+# from V12/h_min by at most this many per cent. Conclusion 2: the width divided by b falls with rising M at
+# both pressures, and the largest is at least this many times the smallest. Conclusion 3: E_max changes by at
+# most this many per cent.
 LARGEST_EXCESS = 5.0
 LEAST_WIDTHS = 2.0
 LARGEST_CHANGE = 1.0
@@ -172,13 +172,13 @@ def _percent(table: PaperTable, head: str) -> list[float]:
 
 
 def _range(values: list[float], digits: str) -> str:
-    """Text of the range of values, a single number where both ends are the same in these digits."""
+    """Text of the range of values, a single number if both ends are the same in these digits."""
     low, high = format(min(values), digits), format(max(values), digits)
     return low if low == high else f"{low} to {high}"
 
 
 def _width_law(study: Study) -> tuple[tuple[float, float], float]:
-    """Exponents of M and L in a power law fitted to the width over b, and the largest relative deviation."""
+    """Exponents of M and L in a power law fitted to width/b, and the largest relative deviation."""
     results = list(study.smooth.values())
     groups = [result.conditions.contact for result in results]
     logs = np.column_stack([np.ones(len(groups)), np.log([[g.moes_m, g.moes_l] for g in groups])])

@@ -28,7 +28,7 @@ class Reproduced:
     tables : dict
         Tables written, by name.
     verdicts : dict
-        Verdicts from ``ehlectric.paper.report.verdicts``; empty where only one figure or table was made.
+        Verdicts from ``ehlectric.paper.report.verdicts``; empty if only one figure or table was made.
     converged : bool
         Whether every film is converged.
     """
@@ -56,7 +56,7 @@ def reproduce(
     Parameters
     ----------
     folder : str or Path
-        Output folder; created where it does not exist.
+        Output folder; created if it does not exist.
     figure : int, optional
         Number of the only figure to write, 2 to 11.
     table : int, optional
@@ -73,7 +73,7 @@ def reproduce(
     Raises
     ------
     InputError
-        Where there is no such figure or table, or the folder cannot be written to.
+        If there is no such figure or table, or the folder cannot be written to.
 
     Notes
     -----

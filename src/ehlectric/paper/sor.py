@@ -18,11 +18,11 @@ from ehlectric.field.line import Field, field_from_potential
 from ehlectric.field.poisson import FieldProblem, lobatto_nodes
 from ehlectric.paper.cartesian import EAST, NORTH, SOUTH, WEST, CartesianGrid, Stencil, stencil
 
-# Rows in the least gap. Eight are enough: across a film the potential is nearly linear, and the error comes
-# from the spacing of the columns.
+# Rows in the smallest gap. Eight are enough: across a film the potential is nearly linear, and the error
+# comes from the spacing of the columns.
 ROWS = 8
 
-# Residual of eq. (16) over the voltage at which the sweeps stop, and largest number of sweeps.
+# Residual of eq. (16), divided by the voltage, at which the sweeps stop; and largest number of sweeps.
 TOLERANCE = 1e-10
 MOST_SWEEPS = 100_000
 
@@ -60,7 +60,7 @@ def over_relax(equations: Stencil, start: Array, *, factor: float, tolerance: fl
     factor : float
         Damping factor zeta, from 0 to 2.
     tolerance : float
-        Largest residual over the voltage at which the sweeps stop.
+        Largest residual, divided by the voltage, at which the sweeps stop.
 
     Returns
     -------
@@ -70,7 +70,7 @@ def over_relax(equations: Stencil, start: Array, *, factor: float, tolerance: fl
     Raises
     ------
     ConvergenceError
-        Where 100 000 sweeps do not reach the tolerance.
+        If 100 000 sweeps do not reach the tolerance.
     """
     v = start.copy()
     voltage = abs(v[-1] - v[-2])
@@ -120,7 +120,7 @@ def cartesian(problem: FieldProblem, rows: int) -> tuple[Stencil, Array]:
     problem : FieldProblem
         Geometry, permittivity by column and potentials, SI units.
     rows : int
-        Number of rows in the least gap.
+        Number of rows in the smallest gap.
 
     Returns
     -------
@@ -132,8 +132,8 @@ def cartesian(problem: FieldProblem, rows: int) -> tuple[Stencil, Array]:
     Raises
     ------
     ValueError
-        Where the problem has something that the paper's method lacks: free charge, potentials on the end
-        faces, or a permittivity that varies across the gap.
+        If the problem has something that the paper's method lacks: free charge, potentials on the end faces,
+        or a permittivity that varies across the gap.
     """
     if problem.charge_density is not None or problem.end_potentials is not None:
         raise ValueError("the paper's field has no free charge and no given end potentials")
@@ -159,7 +159,7 @@ def solve_field(problem: FieldProblem, *, rows: int = ROWS) -> Field:
     problem : FieldProblem
         Geometry, permittivity by column and potentials, SI units; its ``x`` are the columns of the grid.
     rows : int
-        Number of rows of the grid in the least gap, at least 4.
+        Number of rows of the grid in the smallest gap, at least 4.
 
     Returns
     -------
@@ -171,9 +171,9 @@ def solve_field(problem: FieldProblem, *, rows: int = ROWS) -> Field:
     Raises
     ------
     ValueError
-        Where the problem has free charge, end potentials or a permittivity that varies across the gap.
+        If the problem has free charge, end potentials or a permittivity that varies across the gap.
     ConvergenceError
-        Where the grid would have too many nodes, or 100 000 sweeps do not reach the tolerance.
+        If the grid would have too many nodes, or 100 000 sweeps do not reach the tolerance.
 
     Examples
     --------

@@ -146,7 +146,7 @@ def run_study(parts: Iterable[str], *, progress: Callable[[int, int, str], None]
     Raises
     ------
     RuntimeError
-        Where a process was killed, or a script calls this without ``if __name__ == "__main__":``.
+        If a process was killed, or a script calls this without ``if __name__ == "__main__":``.
     """
     requested = dict.fromkeys(parts)
     with measured_profile() as profile:
@@ -186,7 +186,7 @@ def straight_line(result: Result) -> Array:
     Returns
     -------
     ndarray, shape (nx,)
-        abs(E) at the columns of the field [V/m]; nan where the line is outside the film.
+        abs(E) at the columns of the field [V/m]; NaN where the line is outside the film.
 
     Notes
     -----
@@ -210,7 +210,7 @@ def readings_differ_by(result: Result) -> float:
 
 
 def _line(case: Case, *, beside_smooth: bool = True) -> Result:
-    """Solve a line contact; with ``beside_smooth``, a rough contact is solved between smooth surfaces too."""
+    """Solve a line contact; with ``beside_smooth``, a rough contact is also solved with smooth surfaces."""
     result = solve(case, beside_smooth=beside_smooth)
     assert isinstance(result, Result)
     return result
@@ -232,7 +232,7 @@ def _placed(profile: Path, contact: PaperContact) -> tuple[Placed, ...]:
 
 
 def _moved(case: Case) -> Placed:
-    """Result of a rough case, without the smooth contact beside it."""
+    """Result of a rough case; the smooth contact is not solved."""
     result = _line(case, beside_smooth=False)
     return Placed(result.film.minimum_thickness, result.max_dimensionless, result.converged)
 

@@ -84,7 +84,7 @@ def _table(
 def agrees(computed: float, printed: float) -> bool:
     """Whether a computed film thickness [m] agrees with the printed one [m].
 
-    They agree where they differ by at most 4 % and half of the last printed digit.
+    The two agree if they differ by at most 4 % and half of the last printed digit.
 
     Examples
     --------
@@ -151,7 +151,7 @@ _HEAD = [("contact", ""), ("M", ".1f"), ("L", ".2f")]
 
 
 def rough_table(study: Study) -> PaperTable:
-    """Table of the largest field of the rough contacts over V12/h_min of the rough and of the smooth film."""
+    """Table of the largest field of rough contacts, divided by V12/h_min of the rough and smooth films."""
     rows = []
     for contact, rough in study.rough.items():
         smooth, (same, *moved) = study.smooth[contact], study.placed[contact]
@@ -195,10 +195,10 @@ AMPLITUDE = "film over roughness, rms"
 
 
 def amplitude(rough: Result) -> float:
-    """Amplitude ratio of the roughness in the contact: deformed roughness over original roughness.
+    """Amplitude ratio of the roughness in the contact: deformed divided by original roughness.
 
     The deformed roughness is the rough film minus the smooth film. Both are rms values about their means over
-    abs(x) < 0.9 b. The ratio is below 1 where the contact flattens the roughness (amplitude reduction).
+    abs(x) < 0.9 b. The ratio is below 1 if the contact flattens the roughness (amplitude reduction).
     """
     assert rough.smooth is not None
     inner = np.abs(rough.film.x) < INNER * rough.conditions.half_width
@@ -207,7 +207,7 @@ def amplitude(rough: Result) -> float:
 
 
 def width_table(study: Study) -> PaperTable:
-    """Table of the width of the zone above 95 % of the largest mid-film field, over b and pit sizes."""
+    """Table of the width of the zone above 95 % of the largest mid-film field, with b and pit sizes."""
     rows = []
     for contact, result in study.smooth.items():
         width, fine = result.field.high_field_width, study.fine[contact].field.high_field_width
@@ -236,7 +236,7 @@ def width_table(study: Study) -> PaperTable:
 
 
 def permittivity_table(study: Study) -> PaperTable:
-    """Table of the changes in field and capacitance where the permittivity is constant."""
+    """Table of the changes in field and capacitance if the permittivity is constant."""
     rows = []
     for contact, constant in study.constant.items():
         result = study.smooth[contact]

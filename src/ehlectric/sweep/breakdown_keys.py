@@ -21,7 +21,7 @@ class Breakdown:
     value : str
         Dotted key of the breakdown voltage in the summary.
     margin : str
-        Dotted key of the margin, breakdown voltage over applied voltage.
+        Dotted key of the margin, breakdown voltage divided by applied voltage.
     voltage : str
         Dotted key of the applied voltage.
     name : str
@@ -45,7 +45,7 @@ class Breakdown:
         return self.value, self.margin
 
     def margins(self, results: SweepResults) -> Array:
-        """Breakdown voltage over applied voltage of every point of a sweep.
+        """Breakdown voltage divided by applied voltage of every point of a sweep.
 
         Parameters
         ----------
@@ -55,7 +55,7 @@ class Breakdown:
         Returns
         -------
         ndarray, shape (points,)
-            Margin of each point, from its summary or, where that has none, from the two voltages; nan where a
+            Margin of each point, from its summary or, where that has none, from the two voltages; NaN where a
             point has no breakdown voltage.
         """
         margin = results.values(self.margin)
@@ -95,7 +95,7 @@ def breakdown_of(case: AnyCase, value: str | None = None) -> Breakdown:
     Returns
     -------
     Breakdown
-        Breakdown of a contact. For a bearing, the first break of one of its contacts, except where ``value``
+        Breakdown of a contact. For a bearing, the first break of one of its contacts, except if ``value``
         is a key of the through breakdown.
     """
     if not isinstance(case, BearingCase):

@@ -15,10 +15,11 @@ from typing import Any
 from ehlectric.errors import InputError, LostError, shown
 from ehlectric.sweep.engine import Crew
 
-# Time that an address has to answer in, and the client to reconnect to a lost scheduler [s].
+# Time limit for the answer of an address, and for the reconnection to a lost scheduler [s].
 ANSWER = 8.0
 
-# Least number of points in flight. A cluster that adapts its workers to the queued work needs some to start.
+# Smallest number of points in flight. A cluster that adapts its workers to the queued work needs some points
+# to start.
 _LEAST = 64
 
 # Interval between two requests for the number of workers [s].
@@ -45,7 +46,7 @@ def cluster(address: str) -> Iterator[Crew]:
     Raises
     ------
     InputError
-        Where no scheduler answers at the address, or dask.distributed is not installed.
+        If no scheduler answers at the address, or dask.distributed is not installed.
 
     Notes
     -----
@@ -59,12 +60,12 @@ def cluster(address: str) -> Iterator[Crew]:
         ) from None
     _silence()
     with warnings.catch_warnings():
-        # Dask warns where versions differ. Where the difference breaks something, an error says so.
+        # Dask warns if versions differ. If the difference breaks something, an error says so.
         warnings.simplefilter("ignore")
         try:
             asyncio.run(asyncio.wait_for(_ask(address), ANSWER))
             client = Client(address, timeout=ANSWER, set_as_default=False)
-        except Exception as error:  # of the address, the socket, TLS or another kind of server
+        except Exception as error:  # from the address, the socket, TLS or another kind of server
             reason = " ".join(str(error).split())[:200] or f"none in {ANSWER:g} s"
             raise InputError("scheduler", got=f"no answer from {shown(address)}, {reason}") from None
     try:
@@ -93,7 +94,7 @@ def _crew(client: Any, executor: Executor) -> Crew:
     def width() -> int:
         """Number of points that the present workers may have in flight.
 
-        The number of workers is requested only now and then, as the request takes the scheduler some time.
+        The number of workers is requested at intervals only, because each request costs the scheduler time.
         """
         nonlocal threads, asked_at
         if client.status != "running":
@@ -101,7 +102,7 @@ def _crew(client: Any, executor: Executor) -> Crew:
         if time.monotonic() - asked_at > _REFRESH:
             try:
                 threads, asked_at = sum(client.nthreads().values()), time.monotonic()
-            except Exception as error:  # of the connection
+            except Exception as error:  # from the connection
                 raise LostError(" ".join(str(error).split())) from None
         return max(_LEAST, 3 * threads)
 

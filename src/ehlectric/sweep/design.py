@@ -51,7 +51,7 @@ def paired(axes: Mapping[str, Sequence[Any]]) -> Iterator[dict[str, Any]]:
     Raises
     ------
     ValueError
-        Where the keys have different numbers of values.
+        If the keys have different numbers of values.
 
     Examples
     --------
@@ -70,7 +70,7 @@ def sobol(
     Parameters
     ----------
     ranges : mapping
-        Range of each key, SI.
+        Range of each key, in SI units.
     samples : int
         Number n of rows of the matrices A and B, a power of two.
     seed : int
@@ -82,8 +82,8 @@ def sobol(
     Yields
     ------
     dict
-        Inputs of a point by key, SI. For d keys there are n(d + 2) points: the rows of A, the rows of B, and
-        then for each key the rows of A with the column of that key taken from B.
+        Inputs of a point by key, in SI units. For d keys there are n(d + 2) points. The rows of A come
+        first, then the rows of B. For each key, the rows of A follow with the column of this key from B.
 
     Notes
     -----
@@ -163,8 +163,8 @@ def shares(over: Range, unit: ArrayLike) -> Array:
     Returns
     -------
     ndarray of int, shape (...)
-        Whole numbers of the range. With linear spacing each covers an equal part of the unit interval;
-        rounding alone would leave half a part to the two ends.
+        Whole numbers of the range. With linear spacing, each covers an equal part of the unit interval.
+        Rounding alone would give half a part to each of the two ends.
 
     Examples
     --------

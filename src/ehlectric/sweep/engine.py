@@ -1,4 +1,4 @@
-"""Solution of the points of a sweep by an executor; every point gets an outcome, also where it fails."""
+"""Solution of the points of a sweep by an executor; every point gets an outcome, also if it fails."""
 
 from __future__ import annotations
 
@@ -53,13 +53,13 @@ class Crew:
     Attributes
     ----------
     submit : callable
-        Hands over a call with its arguments, and returns its future.
+        Function that submits a call with its arguments, and returns its future.
     width : callable
-        Returns the number of points that may be in flight.
+        Function that returns the number of points that may be in flight.
     renew : callable
-        Replaces processes that died.
+        Function that replaces processes that died.
     waiting : callable
-        Returns a text that says what the crew is waiting for; empty where it is working.
+        Function that returns what the crew is waiting for, as text; empty if it is working.
     """
 
     submit: Callable[..., Future[Any]]
@@ -106,7 +106,7 @@ def _attempt(table: Mapping[str, Any]) -> tuple[Status, str, bool, dict[str, Any
 
 
 def _solved(table: Mapping[str, Any]) -> tuple[bool, dict[str, Any], str]:
-    """Whether a case converged, its summary, and the reason where it did not."""
+    """Whether a case converged, its summary, and the reason if it did not."""
     case = case_of_dict(table)
     if isinstance(case, BearingCase):
         bearing = solve_bearing(case, workers=1)
@@ -127,7 +127,7 @@ def run_points(
     Parameters
     ----------
     tasks : iterable of (str, mapping)
-        Key of each point and its case as plain data. The iterable is read only as points are handed over.
+        Key of each point and its case as plain data. An item is read only when its point is handed over.
     crew : Crew
         Processes or machines that solve the points.
     done : callable
@@ -137,12 +137,12 @@ def run_points(
     Raises
     ------
     LostError
-        Where the crew cannot be reached any more. All finished points have been passed to ``done`` before.
+        If the crew cannot be reached any more. All finished points have been passed to ``done`` before.
 
     Notes
     -----
-    Where a process dies, the points in flight are tried again one at a time. A point whose process dies again
-    is failed. Where not even an empty call returns, the crew is lost.
+    If a process dies, the points in flight are tried again one at a time. A point whose process dies again is
+    failed. If not even an empty call returns, the crew is lost.
     """
     remaining, flying = iter(tasks), dict[Future[Outcome], Task]()
     try:
@@ -219,7 +219,7 @@ def _alone(task: Task, crew: Crew) -> Outcome:
 
 
 def _ask(crew: Crew) -> None:
-    """Check with an empty call that the crew still answers, and raise a LostError where it does not."""
+    """Check with an empty call that the crew still answers, and raise a LostError if it does not."""
     try:
         crew.submit(_here).result()
     except (CancelledError, Exception) as error:
@@ -237,7 +237,7 @@ def crew_of(executor: Executor) -> Crew:
     Parameters
     ----------
     executor : Executor
-        Executor whose workers can import ehlectric. It is not shut down here; that is left to its owner.
+        Executor whose workers can import ehlectric. It is not shut down here, but by its owner.
 
     Returns
     -------
@@ -267,7 +267,7 @@ def processes(number: int) -> Iterator[Crew]:
     pool = _pool(number)
 
     def submit(call: Callable[..., T], *values: Any) -> Future[T]:
-        # The first calls start the processes, which inherit that they ignore interrupts (Ctrl-C).
+        # The first calls start the processes. They inherit the setting that ignores interrupts (Ctrl-C).
         with without_interrupts():
             return pool.submit(call, *values)
 

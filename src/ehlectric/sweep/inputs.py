@@ -21,7 +21,7 @@ from ehlectric.errors import InputError, shown
 from ehlectric.sweep import design as sweep_design
 from ehlectric.sweep.results import Range
 
-# Summaries and tables take about 20 kB of memory a point, thus 4 GB for so many points.
+# Summaries and tables take about 20 kB of memory per point, thus 4 GB for this number of points.
 MOST_POINTS = 200_000
 _RANGE_KEYS = ("from", "to", "count", "spacing")
 _SPACINGS = ("linear", "log")
@@ -31,8 +31,8 @@ class Sweep(Table):
     """Sweep over many cases: a base case, and the keys of it that vary.
 
     ``vary`` maps dotted keys of the case to their values in SI units or, in a "sobol" design, to a ``Range``.
-    Rough surfaces are numbered from 1, as in "roughness.1.rescale_rq". Of alternative keys, such as load or
-    Hertz pressure, a varied one replaces the one in the base case.
+    Rough surfaces are numbered from 1, as in "roughness.1.rescale_rq". A varied key replaces its alternative
+    in the base case, as a load replaces a Hertz pressure.
 
     Examples
     --------
@@ -55,7 +55,7 @@ class Sweep(Table):
     @field_validator("vary", mode="before")
     @classmethod
     def _parsed(cls, tables: Any, info: ValidationInfo) -> Any:
-        """Varied values in SI units; unchanged where the case or the design is already invalid."""
+        """Varied values in SI units; unchanged if the case or the design is already invalid."""
         case, design = info.data.get("case"), info.data.get("design")
         if not isinstance(tables, Mapping) or case is None or design is None:
             return tables
@@ -90,10 +90,20 @@ class Sweep(Table):
     def from_toml(cls, path: str | Path) -> Self:
         """Read a sweep from a TOML file; file names in it are relative to its folder.
 
+        Parameters
+        ----------
+        path : str or Path
+            TOML file.
+
+        Returns
+        -------
+        Sweep
+            Sweep with its base case and its varied keys.
+
         Raises
         ------
         InputError
-            Where the file or that of its case cannot be read, is not TOML, or is not a sweep.
+            If the file or its case file cannot be read or is not TOML, or if the sweep is not valid.
         """
         table, folder = read_toml(path), Path(path).parent
         match table.get("case"):
@@ -114,10 +124,15 @@ class Sweep(Table):
         table : mapping
             Tables of the sweep. Its ``case`` is a Case, the tables of a case, or the path of a case file.
 
+        Returns
+        -------
+        Sweep
+            Sweep with its base case and its varied keys.
+
         Raises
         ------
         InputError
-            Where a key or value is invalid. The message is one line: the key, what it got, what it takes.
+            If a key or value is invalid. The message is one line: the key, its value, and what is allowed.
         """
         case = table.get("case")
         try:
@@ -137,12 +152,12 @@ class Sweep(Table):
 
     @property
     def axes(self) -> dict[str, tuple[Any, ...]]:
-        """Values of each varied key, SI; empty for a "sobol" design."""
+        """Values of each varied key, in SI units; empty for a "sobol" design."""
         return {} if self.design == "sobol" else dict(self.vary)
 
     @property
     def ranges(self) -> dict[str, Range]:
-        """Range of each varied key of a "sobol" design, SI; empty for other designs."""
+        """Range of each varied key of a "sobol" design, in SI units; empty for other designs."""
         return dict(self.vary) if self.design == "sobol" else {}
 
     @property
@@ -154,7 +169,7 @@ class Sweep(Table):
         return math.prod(lengths) if self.design == "grid" else lengths[0]
 
     def points(self) -> Iterator[dict[str, Any]]:
-        """Inputs of every point by dotted key of the case, SI, in the order of the design."""
+        """Inputs of every point by dotted key of the case, in SI units, in the order of the design."""
         if self.design == "sobol":
             whole = [key for key in self.vary if isinstance(number_of(input_field(key)), Count)]
             return sweep_design.sobol(self.ranges, self.samples or 0, self.seed, whole)
@@ -187,7 +202,7 @@ def _locate(tables: dict[str, Any], folder: Path, prefix: str = "") -> None:
 
 
 def _axis(key: str, value: Any, design: str) -> tuple[Any, ...] | Range:
-    """Values of a varied key, SI, or its range in a sobol design."""
+    """Values of a varied key, in SI units, or its range in a sobol design."""
     if key.partition(".")[0] == "motion":
         raise InputError(key, got="it in a sweep, whose films are at rest;", takes="other keys of the case")
     field = input_field(key)
@@ -211,7 +226,7 @@ def _axis(key: str, value: Any, design: str) -> tuple[Any, ...] | Range:
 
 
 def _values(key: str, field: FieldInfo, values: Sequence[Any]) -> Iterator[Any]:
-    """Values of a varied key as a case stores them, thus numbers in SI units."""
+    """Values of a varied key as a case stores them; numbers are in SI units."""
     table, _, leaf = key.rpartition(".")
     annotation = Annotated[field.annotation, *field.metadata] if field.metadata else field.annotation
     keys: Any = {leaf: (annotation, ...)}
@@ -227,7 +242,7 @@ def _values(key: str, field: FieldInfo, values: Sequence[Any]) -> Iterator[Any]:
 def _range(
     key: str, table: Mapping[str, Any], number: Quantity | Count | None, design: str
 ) -> tuple[Any, ...] | Range:
-    """Values of a varied key between two ends, SI, or its range in a sobol design."""
+    """Values of a varied key between two ends, in SI units, or its range in a sobol design."""
     if number is None:
         raise InputError(key, got="a range", takes="a list of values: it is no number")
     for name in table:

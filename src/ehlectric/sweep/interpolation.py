@@ -14,12 +14,12 @@ from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.slices import Slice
 
-# Nodes along either axis of a grid, about, and parts that the edge of a triangle is divided into: enough for
-# contour lines to look smooth on logarithmic axes, where they are curved.
+# Approximate number of nodes along each axis of a grid, and number of parts of the edge of a triangle.
+# Contour lines are curved on logarithmic axes, and look smooth with these numbers.
 _NODES, _PARTS = 160, 6
 _POTENTIALS = ("electric.potential_1", "electric.potential_2")
 
-# Least voltage between its surfaces that a case allows [V].
+# Smallest voltage between the surfaces that a case allows [V].
 _LEAST_VOLTAGE = 1e-6
 
 
@@ -33,7 +33,7 @@ class Surface:
     Attributes
     ----------
     x, y : ndarray, shape (nodes,)
-        Positions of the nodes, SI.
+        Positions of the nodes, in SI units.
     triangles : ndarray, shape (triangles, 3)
         Numbers of the nodes of each triangle.
     weights : sparse array, shape (nodes, points)
@@ -54,7 +54,7 @@ class Surface:
         Parameters
         ----------
         values : ndarray, shape (points,)
-            Values at the points, nan where a point has none; positive where ``log``.
+            Values at the points, NaN where a point has none; positive if ``log``.
         log : bool
             Whether the logarithm of the values is linear between the points, instead of the values.
 
@@ -68,7 +68,8 @@ class Surface:
         known = np.isfinite(values)
         there = np.where(known, values, values[known][0] if np.any(known) else 1.0)
         nodes = np.asarray(self.weights @ (np.log(there) if log else there))
-        # Rounding could exceed the values at the points, and so put a probability of 1 outside the colours.
+        # Rounding could exceed the values at the points, and so put a probability of 1 outside the colour
+        # scale.
         ends = (float(np.min(there)), float(np.max(there)))
         return np.clip(np.exp(nodes) if log else nodes, *ends), self._whole(known)
 
@@ -78,7 +79,7 @@ class Surface:
         Parameters
         ----------
         values : ndarray, shape (points,)
-            Values at the points, nan where a point has none.
+            Values at the points, NaN where a point has none.
 
         Returns
         -------
@@ -100,15 +101,15 @@ def surface_of(selection: Slice, *, log_x: bool, log_y: bool) -> Surface | None:
     Parameters
     ----------
     selection : Slice
-        Slice over ``x`` and ``y``, both of numbers.
+        Slice over ``x`` and ``y``; the values of both are numbers.
     log_x, log_y : bool
         Whether the horizontal and the vertical axis are logarithmic.
 
     Returns
     -------
     Surface or None
-        Bilinear interpolation where the points are a full grid of any spacing, else linear interpolation in a
-        Delaunay triangulation of the points. None where the points lie on a line, or differ in further varied
+        Bilinear interpolation if the points are a full grid of any spacing, else linear interpolation in a
+        Delaunay triangulation of the points. None if the points lie on a line, or differ in further varied
         keys.
     """
     if selection.free:
@@ -154,9 +155,9 @@ def curve_of(x: Array, values: Array, *, log_x: bool, log: bool) -> tuple[Array,
     Parameters
     ----------
     x : ndarray, shape (points,)
-        Increasing positions of at least two points; positive where ``log_x``.
+        Increasing positions of at least two points; positive if ``log_x``.
     values : ndarray, shape (points,)
-        Values at the points, nan where a point has none; positive where ``log``.
+        Values at the points, NaN where a point has none; positive where ``log``.
     log_x : bool
         Whether the nodes are evenly spaced in the logarithm of x.
     log : bool
@@ -165,7 +166,7 @@ def curve_of(x: Array, values: Array, *, log_x: bool, log: bool) -> tuple[Array,
     Returns
     -------
     x, values : ndarray, shape (nodes,)
-        Nodes and the values there; nan between two points of which at least one has no value.
+        Nodes and the values there; NaN between two points of which at least one has no value.
 
     Examples
     --------
@@ -178,7 +179,7 @@ def curve_of(x: Array, values: Array, *, log_x: bool, log: bool) -> tuple[Array,
     nodes, cell, part = _between(x, log=log_x)
     ends = _onto(values, log=log)
     between = (1.0 - part) * ends[cell] + part * ends[cell + 1]
-    # A node at a point has its value even where that of the neighbouring point is nan.
+    # A node at a point has its value even where that of the neighbouring point is NaN.
     at_nodes = np.where(part == 0.0, ends[cell], np.where(part == 1.0, ends[cell + 1], between))
     return nodes, _back(at_nodes, log=log)
 
@@ -186,7 +187,7 @@ def curve_of(x: Array, values: Array, *, log_x: bool, log: bool) -> tuple[Array,
 def applied_at(results: SweepResults, selection: Slice, along: Array, across: Any) -> Array | None:
     """Exact applied voltage between the points of a slice over a surface potential.
 
-    The applied voltage is an absolute difference of two potentials. Linear interpolation of it is wrong where
+    The applied voltage is an absolute difference of two potentials. It must not be interpolated linearly if
     the potentials cross.
 
     Parameters
@@ -196,12 +197,12 @@ def applied_at(results: SweepResults, selection: Slice, along: Array, across: An
     selection : Slice
         Slice of the sweep, with its fixed values.
     along, across : ndarray or float
-        Values of ``selection.x`` and ``selection.y``, SI.
+        Values of ``selection.x`` and ``selection.y``, in SI units.
 
     Returns
     -------
     ndarray or None
-        Applied voltage [V], at least the 1e-6 V that a case allows. None where neither key is a potential, or
+        Applied voltage [V], at least the 1e-6 V that a case allows. None if neither key is a potential, or
         the sweep is of a bearing; the voltage is then interpolated between the points.
     """
     if isinstance(results.case, BearingCase) or not {selection.x, selection.y} & set(_POTENTIALS):
@@ -214,7 +215,7 @@ def applied_at(results: SweepResults, selection: Slice, along: Array, across: An
 
 
 def _between(values: Array, *, log: bool) -> tuple[Array, IntArray, Array]:
-    """Nodes at and between increasing values, the number of the cell of each, and its place there, 0 to 1."""
+    """Nodes at and between increasing values, with the number of their cell and their place in it, 0 to 1."""
     parts = max(1, _NODES // values.size)
     cell, step = np.divmod(np.arange((values.size - 1) * parts + 1), parts)
     last = cell == values.size - 1
@@ -267,13 +268,13 @@ def spaced_log(results: SweepResults, key: str, values: Array) -> bool:
     key : str
         Varied key.
     values : ndarray
-        Values of the key at the points, SI.
+        Values of the key at the points, in SI units.
 
     Returns
     -------
     bool
-        In a "sobol" design, True where the range of the key has logarithmic spacing. In other designs, True
-        where the logarithms of the values are more evenly spaced than the values.
+        In a "sobol" design, True if the range of the key has logarithmic spacing. In other designs, True if
+        the logarithms of the values are more evenly spaced than the values.
     """
     if key in results.ranges:
         return results.ranges[key].spacing == "log"

@@ -28,11 +28,11 @@ class Label:
     Attributes
     ----------
     name : str
-        Name, such as "load per length"; the dotted key itself where it has no name.
+        Name, such as "load per length"; the dotted key itself if it has no name.
     symbol : str
         Symbol, such as "$w$"; may be empty.
     unit : str
-        SI unit in the notation of pint; empty for dimensionless values, or where the unit is not known.
+        SI unit in the notation of pint; empty for dimensionless values, or if the unit is not known.
     """
 
     name: str
@@ -120,7 +120,7 @@ def scale_for(largest: float, unit: str) -> Scale:
     Parameters
     ----------
     largest : float
-        Largest of the values, SI, > 0.
+        Largest of the values, in SI units, > 0.
     unit : str
         SI unit in the notation of pint.
 

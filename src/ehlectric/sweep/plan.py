@@ -27,11 +27,11 @@ class Planned:
     number : int
         Number of the point in the order of the design, from 0.
     inputs : mapping
-        Values of the varied keys, by dotted key of the case, SI.
+        Values of the varied keys, by dotted key of the case, in SI units.
     key : str or None
-        Key of its case, from ``case_key``; None where these inputs make no valid case.
+        Key of its case, from ``case_key``; None if these inputs make no valid case.
     refused : str
-        Reason why the inputs make no valid case; empty where they do.
+        Reason why the inputs make no valid case; empty if they do.
     """
 
     number: int
@@ -49,13 +49,13 @@ class Outcome:
     status : str
         "solved", "not converged" or "failed".
     reason : str
-        Reason why the point is not solved; empty where it is.
+        Reason why the point is not solved; empty if it is.
     again : bool
         Whether another try may succeed, as after a killed process.
     summary : mapping or None
-        Nested tables, as in summary.json; None where the point failed.
+        Nested tables, as in summary.json; None if the point failed.
     seconds : float
-        Time that the solution took [s].
+        Time taken by the solution [s].
     version : str
         Version of ehlectric that tried the point.
     date : str
@@ -74,8 +74,8 @@ class Outcome:
 def case_key(case: AnyCase) -> str:
     """Hash of everything that the solution of a case depends on.
 
-    It covers all inputs, with their defaults, and the contents of files. The title and the paths of files are
-    left out.
+    The hash covers all inputs, with their defaults, and the contents of files, but not the title and the
+    paths of files.
 
     Parameters
     ----------
@@ -90,7 +90,7 @@ def case_key(case: AnyCase) -> str:
     Raises
     ------
     InputError
-        Where a file of the case cannot be read.
+        If a file of the case cannot be read.
 
     Examples
     --------

@@ -22,7 +22,7 @@ Spacing = Literal["linear", "log"]
 
 @dataclass(frozen=True)
 class Range:
-    """Range of an input between two SI values, spaced evenly in the value or in its logarithm."""
+    """Range of an input between two SI values, with values spaced evenly, linearly or in the logarithm."""
 
     start: float
     stop: float
@@ -38,15 +38,15 @@ class Point:
     number : int
         Number of the point in the order of the design, from 0.
     inputs : mapping
-        Values of the varied keys, by dotted key of the case, SI.
+        Values of the varied keys, by dotted key of the case, in SI units.
     status : str
         "solved", "not converged", "failed" or "open".
     reason : str
-        Reason why the point is not solved; empty where it is solved or open.
+        Reason why the point is not solved; empty if it is solved or open.
     summary : mapping or None
-        Nested tables, as in summary.json; None where the point failed or is open.
+        Nested tables, as in summary.json; None if the point failed or is open.
     seconds : float
-        Time that the solution took [s].
+        Time taken by the solution [s].
     version : str
         Version of ehlectric that solved the point.
     """
@@ -61,12 +61,12 @@ class Point:
 
     @property
     def solved(self) -> bool:
-        """Whether the point converged. Its numbers must still not be used where it is ``doubtful``."""
+        """Whether the point converged. Its numbers must still not be used if it is ``doubtful``."""
         return self.status == "solved"
 
     @property
     def warnings(self) -> tuple[ResultWarning, ...]:
-        """Warnings of the summary; empty where the point has no summary."""
+        """Warnings of the summary; empty if the point has no summary."""
         return warnings_of(self.summary or {})
 
     @property
@@ -93,12 +93,12 @@ class SweepResults:
     design : str
         "grid", "paired" or "sobol".
     axes : mapping
-        Values of each varied key in the order of the input, SI; empty for a "sobol" design.
+        Values of each varied key in the order of the input, in SI units; empty for a "sobol" design.
     ranges : mapping
         Range of each varied key of a "sobol" design, in the order of the input; empty for other designs.
     samples : int
-        Base samples n of a "sobol" design: its points are the n rows of A, the n rows of B, and then for each
-        varied key k the n rows of A with column k of B. 0 for other designs.
+        Base samples n of a "sobol" design; 0 for other designs. The points are the n rows of A, then the n rows
+        of B. For each varied key k, the n rows of A follow with column k of B.
     points : tuple of Point
         All points in the order of the design; in a "grid" the last varied key varies fastest.
     seed : int
@@ -137,7 +137,7 @@ class SweepResults:
         Returns
         -------
         ndarray, shape (points,)
-            Values in SI units, doubtful points included; nan where a point is not solved, or its summary has
+            Values in SI units, doubtful points included; NaN where a point is not solved, or its summary has
             no number at this key.
         """
         column = [flat(point.summary or {}).get(key) if point.solved else None for point in self.points]
@@ -164,5 +164,5 @@ def flat(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
 
 
 def as_number(value: Any) -> float:
-    """Value as a float; nan where it is not a number."""
+    """Value as a float; NaN if it is not a number."""
     return float(value) if isinstance(value, int | float) else math.nan

@@ -27,16 +27,16 @@ _CONSTANT = 1e-9
 
 @dataclass(frozen=True)
 class Spread:
-    """Distribution of a value where every input is drawn from its range.
+    """Distribution of a value if every input is drawn from its range.
 
     Attributes
     ----------
     samples : int
         Number of samples, the solved points of A and B.
     mean, standard_deviation, minimum, maximum : float
-        Moments and extremes of the samples, SI.
+        Moments and extremes of the samples, in SI units.
     quantiles : mapping
-        Quantiles by probability, SI, interpolated linearly between the samples.
+        Quantiles by probability, in SI units, interpolated linearly between the samples.
     """
 
     samples: int
@@ -85,14 +85,14 @@ class Sensitivity:
     rows, used : int
         Number of rows of the design, and number of complete rows, from which the indices are computed.
     doubtful : int
-        Number of complete rows with at least one point whose film must not be used, by a severe warning.
+        Number of complete rows in which the film of at least one point must not be used (severe warning).
     spread : Spread
         Distribution of the value.
     indices : tuple of Index
         Indices of the inputs, in the order of the varied keys.
     share_below_voltage : float or None
-        Part of the samples whose breakdown voltage is below the applied voltage; None where the value is not
-        a breakdown voltage or a margin.
+        Part of the samples whose breakdown voltage is below the applied voltage; None if the value is not a
+        breakdown voltage or a margin.
     resamples, seed : int
         Number of bootstrap samples, and seed of their random numbers.
     """
@@ -111,11 +111,11 @@ class Sensitivity:
 
     @property
     def dropped(self) -> int:
-        """Number of incomplete rows: a point of them is not solved, or does not have the value."""
+        """Number of incomplete rows, in which a point is not solved or does not have the value."""
         return self.rows - self.used
 
     def to_dict(self) -> dict[str, Any]:
-        """Contents of sensitivity.json as nested tables, SI."""
+        """Contents of sensitivity.json as nested tables, in SI units."""
         spread = self.spread
         return {
             "schema": SCHEMA,
@@ -171,13 +171,13 @@ def sensitivity(results: SweepResults, value: str, *, resamples: int = 1000, see
     Raises
     ------
     InputError
-        Where the design is not "sobol", the value is in no summary or constant, or fewer than 16 rows are
+        If the design is not "sobol", the value is in no summary or constant, or fewer than 16 rows are
         complete.
 
     Notes
     -----
-    With m and V the mean and variance of the value y over A and B, the first-order index of input i is
-    mean((y_B - m)(y_ABi - y_A))/V (Saltelli et al. 2010, doi:10.1016/j.cpc.2009.09.018, Table 2 (b)), and the
+    Let m and V be the mean and variance of the value y over A and B. The first-order index of input i is
+    mean((y_B - m)(y_ABi - y_A))/V (Saltelli et al. 2010, doi:10.1016/j.cpc.2009.09.018, Table 2 (b)). The
     total index is mean((y_A - y_ABi)^2)/(2 V) (Jansen 1999, doi:10.1016/S0010-4655(98)00154-4).
 
     The intervals lie between the 2.5 % and 97.5 % quantiles of the indices of rows drawn with replacement
@@ -271,7 +271,7 @@ def indices(a: Array, b: Array, mixed: Array) -> tuple[Array, Array]:
     Returns
     -------
     first, total : ndarray, shape (inputs,)
-        Indices of the inputs; nan where the value does not vary.
+        Indices of the inputs; NaN where the value does not vary.
 
     Examples
     --------

@@ -35,21 +35,21 @@ class Slice:
     breakdown : Breakdown
         Keys of the breakdown voltage and the applied voltage that belong to ``value``.
     at : mapping
-        Fixed values of further varied keys, SI.
+        Fixed values of further varied keys, in SI units.
     free : tuple of str
         Further varied keys that are not fixed; none in a "grid" design, where all must be fixed.
     points : tuple of Point
         Points of the slice, in the order of the design.
     along : ndarray, shape (points,)
-        Values of ``x``, SI.
+        Values of ``x``, in SI units.
     across : tuple
-        Value of ``y`` at each point, SI numbers or texts; empty where ``y`` is None.
+        Value of ``y`` at each point, SI numbers or texts; empty if ``y`` is None.
     values : ndarray, shape (points,)
-        Drawn values, SI; nan where a point is not solved, or doubtful.
+        Drawn values, in SI units; NaN where a point is not solved, or doubtful.
     voltage : ndarray, shape (points,)
-        Applied voltage [V]; nan where a point is not solved, or doubtful.
+        Applied voltage [V]; NaN where a point is not solved, or doubtful.
     margin : ndarray, shape (points,)
-        Breakdown voltage over applied voltage; nan where a point has none.
+        Breakdown voltage divided by applied voltage; NaN where a point has none.
     """
 
     x: str
@@ -90,7 +90,7 @@ class Slice:
         Raises
         ------
         InputError
-            Where they are texts or lists.
+            If they are texts or lists.
         """
         if not self.numeric:
             raise InputError.worded(
@@ -106,8 +106,8 @@ class Slice:
         Returns
         -------
         tuple or None
-            Increasing values of ``x``, shape (nx,), and of ``y``, shape (ny,), and the index in ``points`` of
-            the point of each pair, shape (nx, ny). None where a pair has no point, or two points.
+            Increasing values of ``x``, shape (nx,), and of ``y``, shape (ny,). The third item is the index in
+            ``points`` for each pair, shape (nx, ny). None if a pair has no point, or two points.
         """
         xs, i = np.unique(self.along, return_inverse=True)
         ys, j = np.unique(np.array(self.across, dtype=float), return_inverse=True)
@@ -124,8 +124,8 @@ class Slice:
         -------
         list of (value, numbers)
             Each value of ``y``, with the indices in ``points`` of its points by increasing ``x``. Numbers are
-            sorted; texts are in the order of the design. Where ``y`` is None, there is a single group, of
-            value None.
+            sorted; texts are in the order of the design. If ``y`` is None, there is a single group, of value
+            None.
         """
         values: list[Any] = list(dict.fromkeys(self.across)) if self.across else [None]
         values = sorted(values) if self.numeric else values
@@ -147,7 +147,7 @@ def take(
     results : SweepResults
         Results of a sweep.
     x : str
-        Varied key along the horizontal axis, of numbers.
+        Varied key along the horizontal axis; its values must be numbers.
     y : str or None
         Second varied key, if any.
     value : str
@@ -164,8 +164,8 @@ def take(
     Raises
     ------
     InputError
-        Where a key does not vary, the values of ``x`` are not numbers, no usable point of the slice has the
-        value, or a grid design has further varied keys without a fixed value.
+        If a key does not vary, or the values of ``x`` are not numbers. Also if no usable point of the slice has
+        the value, or a grid design has further varied keys without a fixed value.
     """
     for name, key in (("x", x), ("y", y)):
         if key is not None and key not in results.varied:
@@ -256,12 +256,12 @@ def numbers_of(results: SweepResults, value: str) -> Array:
     Returns
     -------
     ndarray, shape (points,)
-        Values in SI units; nan where a point has none.
+        Values in SI units; NaN where a point has none.
 
     Raises
     ------
     InputError
-        Where no point is solved, or no solved point has a number at this key.
+        If no point is solved, or no solved point has a number at this key.
     """
     if not any(point.solved for point in results.points):
         raise InputError(f"no point of {len(results.points)} is solved, there is nothing to show")
@@ -281,7 +281,7 @@ def _is_number(value: Any) -> bool:
 
 
 def _hashable(value: Any) -> Any:
-    """Value as a float where it is a number, else as text."""
+    """Value as a float if it is a number, else as text."""
     return float(value) if _is_number(value) else str(value)
 
 
@@ -334,7 +334,7 @@ def _requested(key: str, text: str) -> float:
 
 
 def _si(key: str) -> str:
-    """SI unit of a key of the case with a space before it; empty where it has none."""
+    """SI unit of a key of the case with a space before it; empty if it has none."""
     kind = kind_of(key)
     unit = kind.unit if isinstance(kind, Quantity) else ""
     return f" {unit}" if unit else ""

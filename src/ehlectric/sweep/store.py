@@ -40,8 +40,8 @@ CREATE TABLE IF NOT EXISTS results (
 );
 """
 
-# SQL condition for an outcome that is final. A failed point is tried again where its process was killed or
-# ran out of memory, or where another version of ehlectric failed.
+# SQL condition for an outcome that is final. A failed point is tried again if its process was killed or
+# ran out of memory, or if another version of ehlectric failed.
 _DONE = f"(results.status <> 'failed' OR (NOT results.again AND results.version = '{__version__}'))"
 
 
@@ -60,7 +60,7 @@ class Store:
     Raises
     ------
     InputError
-        From every method, where the file cannot be used, is not a sweep, or is written by another process.
+        By every method, if the file cannot be used, is not a sweep, or is written by another process.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -149,7 +149,7 @@ class Store:
 
     @contextmanager
     def _transaction(self) -> Iterator[None]:
-        """Commit what is written in the context, or roll it back where an exception is raised."""
+        """Commit what is written in the context, or roll it back if an exception is raised."""
         with _one_line_errors(self._path):
             self._file.execute("BEGIN IMMEDIATE")
             try:
@@ -177,7 +177,7 @@ def read_sweep(folder: str | Path) -> SweepResults:
     Raises
     ------
     InputError
-        Where the folder has no sweep, or its file is damaged.
+        If the folder has no sweep, or its file is damaged.
     """
     path = Path(folder) / NAME
     refuse_unreadable(path)
@@ -209,7 +209,7 @@ def saved_points(folder: str | Path) -> tuple[int, int]:
     Raises
     ------
     InputError
-        Where the file cannot be used, or is not a sweep.
+        If the file cannot be used, or is not a sweep.
     """
     path = Path(folder) / NAME
     with _one_line_errors(path):

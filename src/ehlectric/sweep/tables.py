@@ -1,4 +1,4 @@
-"""Tables of a sweep: CSV, NetCDF (gridded for a grid design) and, where pyarrow is installed, Parquet."""
+"""Tables of a sweep: CSV, NetCDF (gridded for a grid design) and, if pyarrow is installed, Parquet."""
 
 from __future__ import annotations
 
@@ -41,14 +41,14 @@ _OWN = {
 
 
 def write_tables(results: SweepResults, folder: str | Path) -> list[Path]:
-    """Write sweep.csv, sweep.nc and, where pyarrow is installed, sweep.parquet.
+    """Write sweep.csv, sweep.nc and, if pyarrow is installed, sweep.parquet.
 
     Parameters
     ----------
     results : SweepResults
         A sweep, finished or not.
     folder : str or Path
-        Output folder; created where it does not exist.
+        Output folder; created if it does not exist.
 
     Returns
     -------
@@ -58,7 +58,7 @@ def write_tables(results: SweepResults, folder: str | Path) -> list[Path]:
     Raises
     ------
     InputError
-        Where the folder cannot be written to.
+        If the folder cannot be written to.
     """
     folder = prepare(folder, FILES)
     columns = columns_of(results)
@@ -92,11 +92,12 @@ def columns_of(results: SweepResults) -> dict[str, list[Any]]:
     -------
     dict
         Columns by name. First are number, status, reason, warnings, warning_codes and seconds; several
-        warnings of a point are joined by "; ". The varied inputs and the results follow by dotted key, SI.
+        warnings of a point are joined by "; ". The varied inputs and the results follow by dotted key, in SI
+        units.
 
-        A result is None where the point is not solved, or its summary has no such value. Of the inputs that
-        the summary repeats, only those that differ between points have a column. A value of the summary with
-        the key of a varied input, such as a film factor, has no column of its own.
+        A result is None if the point is not solved, or its summary has no such value. An input that
+        the summary repeats has a column only if it differs between points. A value of the summary with the
+        key of a varied input, such as a film factor, has no column of its own.
     """
     points = results.points
     columns: dict[str, list[Any]] = {
@@ -119,10 +120,10 @@ def texts_of(results: SweepResults) -> dict[str, list[str | None]]:
 
 
 def numbers_of(results: SweepResults) -> dict[str, list[float | None]]:
-    """Numbers of the summaries by dotted key, each a list over the points, None where a point has none.
+    """Numbers of the summaries by dotted key, each a list over the points, None if a point has none.
 
-    Of the inputs that the summaries repeat, only those are kept that differ between points and are not varied
-    keys themselves, such as a viscosity that follows from a varied temperature.
+    An input that the summaries repeat is kept only if it differs between points and is not a varied key. An
+    example is a viscosity that follows from a varied temperature.
     """
     rows = [_numbers(point.summary) if point.solved and point.summary else {} for point in results.points]
     keys = dict.fromkeys(key for row in rows for key in row)
@@ -156,9 +157,9 @@ def to_xarray(results: SweepResults) -> xr.Dataset:
     -------
     xarray.Dataset
         Dataset over the varied keys for a "grid" design, else over ``point``. Numbers of the summaries have
-        their dotted key as name, and are nan where a point is not solved. ``status``, ``reason``,
-        ``warnings`` and ``warning_codes`` are texts; so are the lubrication and the first contact to break
-        of a bearing.
+        their dotted key as name, and are NaN where a point is not solved. ``status``, ``reason``,
+        ``warnings`` and ``warning_codes`` are texts; so are the lubrication and the first contact to break of
+        a bearing.
     """
     import xarray as xr
 
@@ -202,7 +203,7 @@ def to_xarray(results: SweepResults) -> xr.Dataset:
 
 
 def _array(values: list[Any]) -> Any:
-    """Values as an array of numbers, or of texts where some are not numbers; lists become JSON texts."""
+    """Values as an array of numbers, or of texts if some are not numbers; lists become JSON texts."""
     numeric = [isinstance(value, int | float) and not isinstance(value, bool) for value in values]
     if all(numeric):
         return np.array(values)
@@ -227,7 +228,7 @@ def _cell(value: Any) -> Any:
 
 
 def _attributes(key: str, results: SweepResults) -> dict[str, str]:
-    """CF attributes of an input or result: its name and, where it is a number, its unit."""
+    """CF attributes of an input or result: its name and, if it is a number, its unit."""
     label = label_of(key, results.case)
     attributes = {"long_name": label.name}
     if key in _TEXTS or (key in results.varied and kind_of(key) is None):

@@ -34,7 +34,7 @@ def contact_capacitances(result: BearingResult, ax: Axes | None = None) -> Axes:
     result : BearingResult
         Result of the bearing to draw.
     ax : Axes, optional
-        Axes to draw on; new axes by default.
+        Axes to draw on; axes of a new figure if omitted.
 
     Returns
     -------
@@ -65,7 +65,7 @@ def voltage_shares(result: BearingResult, ax: Axes | None = None) -> Axes:
     result : BearingResult
         Result of the bearing to draw.
     ax : Axes, optional
-        Axes to draw on; new axes by default.
+        Axes to draw on; axes of a new figure if omitted.
 
     Returns
     -------
@@ -92,7 +92,7 @@ def breakdown_voltages(result: BearingResult, ax: Axes | None = None) -> Axes:
     result : BearingResult
         Result of a bearing that has breakdown voltages.
     ax : Axes, optional
-        Axes to draw on; new axes by default.
+        Axes to draw on; axes of a new figure if omitted.
 
     Returns
     -------
@@ -154,7 +154,7 @@ def impedance_magnitude(result: BearingResult, ax: Axes | None = None) -> Axes:
     result : BearingResult
         Result of a bearing whose oil has a conductivity.
     ax : Axes, optional
-        Axes to draw on; new axes by default.
+        Axes to draw on; axes of a new figure if omitted.
 
     Returns
     -------
@@ -180,7 +180,7 @@ def impedance_phase(result: BearingResult, ax: Axes | None = None) -> Axes:
     result : BearingResult
         Result of a bearing whose oil has a conductivity.
     ax : Axes, optional
-        Axes to draw on; new axes by default.
+        Axes to draw on; axes of a new figure if omitted.
 
     Returns
     -------
@@ -219,7 +219,7 @@ def capacitance_over_pitch(result: BearingResult, ax: Axes | None = None) -> Axe
     result : BearingResult
         Result of the bearing to draw.
     ax : Axes, optional
-        Axes to draw on; new axes by default.
+        Axes to draw on; axes of a new figure if omitted.
 
     Returns
     -------
@@ -247,12 +247,12 @@ def breakdown_over_pitch(result: BearingResult, ax: Axes | None = None) -> Axes:
     result : BearingResult
         Result of a bearing that has breakdown voltages.
     ax : Axes, optional
-        Axes to draw on; new axes by default.
+        Axes to draw on; axes of a new figure if omitted.
 
     Returns
     -------
     Axes
-        Axes that also show the shaft voltage where there is one.
+        Axes that also show the shaft voltage if there is one.
     """
     ax = axes_or_new(ax)
     circuits = result.solution.circuits()

@@ -50,7 +50,7 @@ def load_around(result: BearingResult, ax: Axes | None = None) -> Axes:
     result : BearingResult
         Result of the bearing to draw.
     ax : Axes, optional
-        Polar axes to draw on; new axes by default.
+        Polar axes to draw on; axes of a new figure if omitted.
 
     Returns
     -------
@@ -79,14 +79,14 @@ def film_around(result: BearingResult, ax: Axes | None = None) -> Axes:
     result : BearingResult
         Result of the bearing to draw.
     ax : Axes, optional
-        Polar axes to draw on; new axes by default.
+        Polar axes to draw on; axes of a new figure if omitted.
 
     Returns
     -------
     Axes
         Polar axes on which the radial load points down. Dotted lines and hollow markers show the gaps of
         unloaded contacts. Circles show the film thicknesses at lambda ratios of 1, below which surfaces
-        touch, and 3. The radius is logarithmic where films differ widely.
+        touch, and 3. The radius is logarithmic if films differ widely.
     """
     ax = _polar_or_new(result, ax)
     states = [(position.inner, position.outer) for position in result.solution.positions]

@@ -27,14 +27,14 @@ def capacitance_over_speed(points: Speeds, ax: Axes | None = None, *, own: Speed
     points : sequence of (float, dict)
         Speeds of the inner ring [rad/s] with their summaries.
     ax : Axes, optional
-        Axes to draw on; new axes by default.
+        Axes to draw on; axes of a new figure if omitted.
     own : (float, dict), optional
         Speed and summary of a bearing to mark with a star, for example one with solved contacts.
 
     Returns
     -------
     Axes
-        Axes whose scales are logarithmic where the values differ by more than a factor of 20.
+        Axes whose scales are logarithmic if the values differ by more than a factor of 20.
     """
     ax = axes_or_new(ax)
     speed = _speed(points, ax)
@@ -67,7 +67,7 @@ def breakdown_over_speed(points: Speeds, ax: Axes | None = None, *, own: Speed |
     points : sequence of (float, dict)
         Speeds of the inner ring [rad/s] with their summaries.
     ax : Axes, optional
-        Axes to draw on; new axes by default.
+        Axes to draw on; axes of a new figure if omitted.
     own : (float, dict), optional
         Speed and summary of a bearing to mark with a star, for example one with solved contacts.
 

@@ -64,7 +64,7 @@ class Cut:
     def away(self, field: PointField) -> Mask:
         """Mask of the columns of the cut far enough from the side faces of the field domain.
 
-        Where the cut itself lies near a side face, so that at most two columns are left, the mask is True for
+        If the cut itself lies near a side face, so that at most two columns are left, the mask is True for
         all of them.
         """
         inner: Mask = self.of(field.inner)
@@ -86,7 +86,7 @@ def pressure_cut(result: PointResult, ax: Axes | None = None, *, along: str = "x
     result : PointResult
         Result of a point contact.
     ax : Axes, optional
-        Axes to draw on; those of a new figure if omitted.
+        Axes to draw on; axes of a new figure if omitted.
     along : str
         Direction of the cuts: "x", along entrainment, or "y", across it.
 
@@ -118,15 +118,15 @@ def film_cut(result: PointResult, ax: Axes | None = None, *, along: str = "x") -
     result : PointResult
         Result of a point contact.
     ax : Axes, optional
-        Axes to draw on; those of a new figure if omitted.
+        Axes to draw on; axes of a new figure if omitted.
     along : str
         Direction of the cuts: "x", along entrainment, or "y", across it.
 
     Returns
     -------
     Axes
-        Axes with the film up to twice the central or the mean film thickness, whichever is larger. The film
-        between smooth surfaces is dotted where it was solved beside that of the rough ones.
+        Axes with the film up to twice the central or the mean film thickness, whichever is larger. A dotted
+        line shows the film with smooth surfaces, if it was solved for a rough contact.
     """
     ax, film = axes_or_new(ax), result.film
     factor, unit = film_unit(result)
@@ -150,7 +150,7 @@ def field_cut(result: PointResult, ax: Axes | None = None, *, along: str = "x") 
     result : PointResult
         Result of a point contact.
     ax : Axes, optional
-        Axes to draw on; those of a new figure if omitted.
+        Axes to draw on; axes of a new figure if omitted.
     along : str
         Direction of the cuts: "x", along entrainment, or "y", across it.
 
@@ -185,7 +185,7 @@ def _axis(result: PointResult, along: str) -> Array:
 
 
 def _semi_axis(result: PointResult, along: str) -> float:
-    """Semi-axis of the Hertz ellipse along a cut, over the semi-axis b along entrainment."""
+    """Semi-axis of the Hertz ellipse along a cut, divided by the semi-axis b along entrainment."""
     return 1.0 if along == "x" else result.conditions.ratio
 
 
@@ -216,7 +216,7 @@ def cuts(result: PointResult, axes: Sequence[Axes] | None = None) -> Axes:
     result : PointResult
         Result of a point contact.
     axes : sequence of Axes, optional
-        Six axes to draw on, in three rows of two; those of a new figure if omitted.
+        Six axes to draw on, in three rows of two; axes of a new figure if omitted.
 
     Returns
     -------
@@ -241,7 +241,7 @@ def field_section(result: PointResult, ax: Axes | None = None, *, along: str = "
     result : PointResult
         Result of a point contact.
     ax : Axes, optional
-        Axes to draw on; those of a new figure if omitted.
+        Axes to draw on; axes of a new figure if omitted.
     along : str
         Direction of the section: "x", along entrainment, or "y", across it.
 
@@ -249,7 +249,7 @@ def field_section(result: PointResult, ax: Axes | None = None, *, along: str = "
     -------
     Axes
         Axes with the section and a colour bar. Heights are measured from the middle between the smooth
-        surfaces, because the middle surface itself is curved where the two bodies are unequal.
+        surfaces, because the middle surface itself is curved if the two bodies are unequal.
     """
     ax, field, electric = axes_or_new(ax), result.field, result.case.electric
     cut = Cut.near(along, field.max_strength_position, field.x, field.y)
@@ -310,7 +310,7 @@ def field_sections(result: PointResult, axes: Sequence[Axes] | None = None) -> A
     result : PointResult
         Result of a point contact.
     axes : sequence of Axes, optional
-        Two axes to draw on; those of a new figure if omitted.
+        Two axes to draw on; axes of a new figure if omitted.
 
     Returns
     -------

@@ -34,7 +34,7 @@ def pressure_and_film(result: Result, ax: Axes | None = None) -> Axes:
     result : Result
         Result of a line contact.
     ax : Axes, optional
-        Axes to draw on; those of a new figure if omitted.
+        Axes to draw on; axes of a new figure if omitted.
 
     Returns
     -------
@@ -79,7 +79,7 @@ def potential(result: Result, ax: Axes | None = None) -> Axes:
     result : Result
         Result of a line contact.
     ax : Axes, optional
-        Axes to draw on; those of a new figure if omitted.
+        Axes to draw on; axes of a new figure if omitted.
 
     Returns
     -------
@@ -104,9 +104,9 @@ def field_strength(result: Result, ax: Axes | None = None, *, largest: float | N
     result : Result
         Result of a line contact.
     ax : Axes, optional
-        Axes to draw on; those of a new figure if omitted.
+        Axes to draw on; axes of a new figure if omitted.
     largest : float, optional
-        Value of abs(E) h_min/V12 at the end of the colours; its maximum in the film if omitted.
+        Value of abs(E) h_min/V12 at the end of the colour scale; its maximum in the film if omitted.
 
     Returns
     -------
@@ -170,7 +170,7 @@ def field_profiles(result: Result, ax: Axes | None = None) -> Axes:
     result : Result
         Result of a line contact.
     ax : Axes, optional
-        Axes to draw on; those of a new figure if omitted.
+        Axes to draw on; axes of a new figure if omitted.
 
     Returns
     -------
@@ -214,7 +214,7 @@ def field_deviation(result: Result, ax: Axes | None = None) -> Axes:
     result : Result
         Result of a line contact.
     ax : Axes, optional
-        Axes to draw on; those of a new figure if omitted.
+        Axes to draw on; axes of a new figure if omitted.
 
     Returns
     -------
@@ -251,7 +251,7 @@ def roughness(result: Result, ax: Axes | None = None) -> Axes:
     result : Result
         Result of a line contact.
     ax : Axes, optional
-        Axes to draw on; those of a new figure if omitted.
+        Axes to draw on; axes of a new figure if omitted.
 
     Returns
     -------

@@ -22,16 +22,16 @@ from ehlectric.contact.conditions import PointConditions
 from ehlectric.contact.results import PointResult
 from ehlectric.figures.style import figure_of, label_position, new_panels
 
-# Ratio of semi-axes, across entrainment over along it, above which a contact is drawn turned: its long axis
-# lies along the page, and entrainment points down.
+# Ratio a/b of the semi-axes, a across and b along entrainment, above which a contact is drawn turned: its
+# long axis lies along the page, and entrainment points down.
 _TURNED = 1.2
 
-# Least height of a map over its width, about, for a single map and for several beside each other. Where this
-# takes different scales in x and y, the label of the axis says so.
+# Smallest ratio of height to width, approximately, of a single map and of several maps side by side. If this
+# needs different scales in x and y, the label of the axis says so.
 _LEAST_HEIGHT, _LEAST_OF_SEVERAL = 0.42, 0.25
 
-# Maps whose height over width is below this take the whole width of the page: they are drawn below each
-# other, with the colour bar below them.
+# Maps whose ratio of height to width is below this take the whole width of the page. They are drawn below
+# each other, with the colour bar below them.
 _LOW = 0.5
 
 # Widths of a figure: with one map, what each further map beside it adds, and with low maps [inches].
@@ -91,6 +91,11 @@ def map_panels(
         Ranges of x/b and of y/b.
     rows : int
         Rows of a legend above the maps.
+
+    Returns
+    -------
+    list of Axes
+        Axes of the maps.
     """
     shape, _ = _shape(result, number, window)
     more = _ABOVE + _ROW * rows
@@ -111,9 +116,9 @@ def on_low_page(result: OfPointContact, number: int, window: tuple[Range, Range]
 
 
 def _shape(result: OfPointContact, number: int, window: tuple[Range, Range]) -> tuple[float, float]:
-    """Height over width of each of several maps, and the factor by which their vertical axis is stretched.
+    """Ratio of height to width of each map, and the factor by which its vertical axis is stretched.
 
-    The factor is 1 where both axes have the same scale, else a multiple of 0.5.
+    The factor is 1 if both axes have the same scale, else a multiple of 0.5.
     """
     width, height = _on_page(result, *(high - low for low, high in window))
     shape = float(height / width)
@@ -159,7 +164,7 @@ def draw_map(
     colours : str
         Name of the colour map.
     limits : tuple of float
-        Values at the two ends of the colours.
+        Values at the two ends of the colour scale.
     window : tuple of tuple of float
         Ranges of x/b and of y/b that are shown.
     number : int
@@ -196,14 +201,14 @@ def film_unit(result: PointResult) -> tuple[float, str]:
 
 
 def on_page(result: OfPointContact, x: Array, y: Array) -> tuple[Array, Array]:
-    """Horizontal and vertical positions on the page of nodes x, y [m], over semi-axis b, each (nx, ny)."""
+    """Horizontal and vertical positions on the page of nodes x, y [m], in semi-axes b, each (nx, ny)."""
     b = result.conditions.semi_axis_x
     along, across = np.meshgrid(x / b, y / b, indexing="ij")
     return _on_page(result, along, across)
 
 
 def _label_map(result: OfPointContact, ax: Axes, stretch: float) -> None:
-    """Label both axes of a map, with the scale where the vertical one is stretched."""
+    """Label both axes of a map, with the scale if the vertical one is stretched."""
     horizontal, vertical = _on_page(result, "x", "y")
     label_position(result, ax, horizontal)
     ax.set_ylabel(f"${vertical}/b$" + ("" if stretch == 1.0 else f", scale {stretch:g}:1"))
@@ -219,7 +224,7 @@ def colour_bar(
     ticks: Array,
     extend: str = "neither",
 ) -> Colorbar:
-    """Add one colour bar for the maps on ``axes``: beside them, or below them where they are low.
+    """Add one colour bar for the maps on ``axes``: beside them, or below them if they are low.
 
     Parameters
     ----------
@@ -234,9 +239,14 @@ def colour_bar(
     window : tuple of tuple of float
         Ranges of x/b and of y/b of the maps.
     ticks : ndarray
-        Values with ticks; those beyond the ends of the colours are left out.
+        Values with ticks; those beyond the ends of the colour scale are left out.
     extend : str
         Ends of the bar that point to values beyond it: "neither", "min", "max" or "both".
+
+    Returns
+    -------
+    Colorbar
+        Colour bar of all maps.
     """
     place: dict[str, Any] = {"pad": 0.02}
     if on_low_page(result, len(axes), window):

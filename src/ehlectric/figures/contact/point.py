@@ -38,11 +38,11 @@ from ehlectric.figures.style import GREY, legend_above
 
 SECTIONS = ("surface 1", "mid-film", "surface 2")
 
-# Part of the Hertz ellipse [%], near the inlet, whose film is thicker than the end of the colours.
+# Part of the Hertz ellipse [%], near the inlet, whose film is thicker than the end of the colour scale.
 _THICKER = 2.0
 
-# Part of the nodes [%] whose values lie beyond either end of the colours, in maps of the deviation from the
-# thin-gap estimate and of heights of the roughness.
+# Part of the nodes [%] whose values lie beyond either end of the colour scale, in maps of the deviation from
+# the thin-gap estimate and of heights of the roughness.
 _DEVIATIONS_BEYOND, _HEIGHTS_BEYOND = 0.5, 0.1
 
 # Part of the largest pressure above which no lines are drawn: at the pressure ridge they would be too dense.
@@ -58,7 +58,7 @@ def film_map(result: PointResult, ax: Axes | None = None) -> Axes:
     result : PointResult
         Result of a point contact.
     ax : Axes, optional
-        Axes to draw on; those of a new figure if omitted.
+        Axes to draw on; axes of a new figure if omitted.
 
     Returns
     -------
@@ -99,7 +99,7 @@ def pressure_map(result: PointResult, ax: Axes | None = None) -> Axes:
     result : PointResult
         Result of a point contact.
     ax : Axes, optional
-        Axes to draw on; those of a new figure if omitted.
+        Axes to draw on; axes of a new figure if omitted.
 
     Returns
     -------
@@ -151,7 +151,7 @@ def field_map(result: PointResult, ax: Axes | None = None, *, section: str = "mi
     result : PointResult
         Result of a point contact.
     ax : Axes, optional
-        Axes to draw on; those of a new figure if omitted.
+        Axes to draw on; axes of a new figure if omitted.
     section : str
         Section of the film that is drawn: "mid-film", "surface 1" or "surface 2".
 
@@ -208,7 +208,7 @@ def field_deviation(result: PointResult, axes: Sequence[Axes] | None = None) -> 
     result : PointResult
         Result of a point contact.
     axes : sequence of Axes, optional
-        Three axes to draw on; those of a new figure if omitted.
+        Three axes to draw on; axes of a new figure if omitted.
 
     Returns
     -------
@@ -233,16 +233,15 @@ def roughness(result: PointResult, axes: Sequence[Axes] | None = None) -> Axes:
     result : PointResult
         Result of a point contact.
     axes : sequence of Axes, optional
-        Two axes to draw on, or one where the smooth contact was not solved; those of a new figure if
-        omitted.
+        Two axes to draw on, or one if the smooth contact was not solved; axes of a new figure if omitted.
 
     Returns
     -------
     Axes
         The first axes, with the heights; peaks of either surface are positive. The second axes have the rough
-        film minus the smooth film, with the same colours. Where the contact does not flatten the roughness,
-        this change is the height with its sign reversed. The second map is left out where the smooth contact
-        was not solved.
+        film minus the smooth film, with the same colours. If the contact does not flatten the roughness, this
+        change is the height with its sign reversed. The second map is left out if the smooth contact was
+        not solved.
     """
     window, film, heights = film_window(result), result.film, result.roughness.sum(axis=0)
     factor, unit = unit_for(float(np.max(np.abs(heights))), "m", least=1.0)
@@ -262,7 +261,7 @@ def roughness(result: PointResult, axes: Sequence[Axes] | None = None) -> Axes:
 def _ends(panels: Mapping[str, Array], region: Mask, beyond: float) -> Range:
     """Ends of the colours of several maps, so that ``beyond`` per cent of the nodes lie beyond either end.
 
-    Nodes of ``region`` count, or all nodes where it is empty.
+    Nodes of ``region`` count, or all nodes if it is empty.
     """
     region = region if np.any(region) else np.ones_like(region)
     values = np.concatenate([panel[region] for panel in panels.values()])
@@ -281,7 +280,7 @@ def _compared(
     label: str,
     clipped: bool = False,
 ) -> Axes:
-    """Draw maps with the same colours and one colour bar, inside the Hertz ellipse only where ``clipped``."""
+    """Draw maps with the same colours and one colour bar, inside the Hertz ellipse only if ``clipped``."""
     number = len(panels)
     axes = map_panels(result, number, window) if axes is None else axes
     look: dict[str, Any] = {"colours": "viridis", "limits": ends, "window": window, "number": number}

@@ -62,7 +62,7 @@ def save_animation(
     Raises
     ------
     InputError
-        Where the file has another suffix, ffmpeg is missing or fails, the dataset is not a transient run, or
+        If the file has another suffix, ffmpeg is missing or fails, the dataset is not a transient run, or
         ``fps`` is out of range.
     """
     path = Path(path)
@@ -110,7 +110,7 @@ def _write_gif(path: Path, instants: Iterator[Frames], fps: float) -> None:
     # colour.
     images = (_image(drawn) for drawn in instants)
     duration = round(1000.0 / fps)
-    # A file that Pillow opens itself would stay open where drawing an image fails.
+    # A file that Pillow opens itself would stay open if drawing an image fails.
     with path.open("wb") as file:
         next(images).save(file, "GIF", save_all=True, append_images=images, duration=duration, loop=0)
 

@@ -24,7 +24,7 @@ from ehlectric.figures.motion.panels import (
 from ehlectric.figures.style import BLUE, GREY, ORANGE, axes_or_new, legend_above
 from ehlectric.motion.stored_run import MotionRun, coincident_frame
 
-# Largest distance at which roughness counts as lying where the case puts it [half-widths].
+# Largest distance at which roughness counts as being at its position in the case [half-widths].
 _SAME_PLACE = 1e-6
 
 
@@ -34,9 +34,9 @@ def film_beside(run: MotionRun, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     run : MotionRun
-        Run with an instant at which the surfaces lie where the case puts them.
+        Run with an instant at which the surfaces are at their positions in the case.
     ax : Axes, optional
-        Axes to draw on; new axes by default.
+        Axes to draw on; axes of a new figure if omitted.
 
     Returns
     -------
@@ -54,9 +54,9 @@ def pressure_beside(run: MotionRun, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     run : MotionRun
-        Run with an instant at which the surfaces lie where the case puts them.
+        Run with an instant at which the surfaces are at their positions in the case.
     ax : Axes, optional
-        Axes to draw on; new axes by default.
+        Axes to draw on; axes of a new figure if omitted.
 
     Returns
     -------
@@ -75,9 +75,9 @@ def field_beside(run: MotionRun, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     run : MotionRun
-        Run with an instant at which the surfaces lie where the case puts them.
+        Run with an instant at which the surfaces are at their positions in the case.
     ax : Axes, optional
-        Axes to draw on; new axes by default.
+        Axes to draw on; axes of a new figure if omitted.
 
     Returns
     -------
@@ -99,7 +99,7 @@ def roughness_at(run: MotionRun, frame: int, ax: Axes | None = None, *, unit: Un
     frame : int
         Number of the recorded instant.
     ax : Axes, optional
-        Axes to draw on; new axes by default.
+        Axes to draw on; axes of a new figure if omitted.
     unit : (float, str), optional
         Factor and unit of the heights; by default they suit the heights at this instant.
 
@@ -121,7 +121,7 @@ def roughness_at(run: MotionRun, frame: int, ax: Axes | None = None, *, unit: Un
 
 
 def coincidence_text(run: MotionRun) -> str:
-    """Text: time of the drawn instant, and how far the surfaces are then from where the case puts them."""
+    """Text: time of the drawn instant, and how far the surfaces are then from their positions in the case."""
     frame = coincident_frame(run)
     assert frame is not None
     factor, unit = time_unit(run)

@@ -14,14 +14,14 @@ from ehlectric.motion.stored_run import MotionRun
 
 
 def least_film(run: MotionRun, ax: Axes | None = None) -> Axes:
-    """Draw the smallest film thickness over time, and compare it with stationary roughness.
+    """Draw the minimum film thickness over time, and compare it with stationary roughness.
 
     Parameters
     ----------
     run : MotionRun
         Run to draw.
     ax : Axes, optional
-        Axes to draw on; new axes by default.
+        Axes to draw on; axes of a new figure if omitted.
 
     Returns
     -------
@@ -53,13 +53,13 @@ def largest_field(run: MotionRun, ax: Axes | None = None) -> Axes:
     run : MotionRun
         Run to draw.
     ax : Axes, optional
-        Axes to draw on; new axes by default.
+        Axes to draw on; axes of a new figure if omitted.
 
     Returns
     -------
     Axes
-        Axes over time, with the voltage over the smallest film thickness at every step. Times at which the
-        field is above 90 % of its maximum are shaded (see ``FieldHistory``).
+        Axes over time, with the voltage divided by the minimum film thickness at every step. Times at which
+        the field is above 90 % of its maximum are shaded (see ``FieldHistory``).
     """
     ax = axes_or_new(ax)
     factor, unit = field_unit(run)
@@ -109,7 +109,7 @@ def places(run: MotionRun, ax: Axes | None = None) -> Axes:
     run : MotionRun
         Run to draw.
     ax : Axes, optional
-        Axes to draw on; new axes by default.
+        Axes to draw on; axes of a new figure if omitted.
 
     Returns
     -------

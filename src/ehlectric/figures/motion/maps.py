@@ -37,7 +37,7 @@ def film_map(run: MotionRun, ax: Axes | None = None) -> Axes:
     run : MotionRun
         Run to draw.
     ax : Axes, optional
-        Axes to draw on; new axes by default.
+        Axes to draw on; axes of a new figure if omitted.
 
     Returns
     -------
@@ -60,7 +60,7 @@ def pressure_map(run: MotionRun, ax: Axes | None = None) -> Axes:
     run : MotionRun
         Run to draw.
     ax : Axes, optional
-        Axes to draw on; new axes by default.
+        Axes to draw on; axes of a new figure if omitted.
 
     Returns
     -------
@@ -82,7 +82,7 @@ def field_map(run: MotionRun, ax: Axes | None = None) -> Axes:
     run : MotionRun
         Run to draw.
     ax : Axes, optional
-        Axes to draw on; new axes by default.
+        Axes to draw on; axes of a new figure if omitted.
 
     Returns
     -------

@@ -40,7 +40,7 @@ def field_unit(run: MotionRun) -> Unit:
 
 
 def height_unit(heights: Array) -> Unit:
-    """Factor from metres to the unit of heights, and this unit; nanometres where all heights are zero."""
+    """Factor from metres to the unit of heights, and this unit; nanometres if all heights are zero."""
     return unit_for(float(np.max(np.abs(heights), initial=1e-9)), "m", least=1.0)
 
 
@@ -52,7 +52,7 @@ def shown_range(run: MotionRun) -> tuple[float, float]:
 def in_contact(run: MotionRun, values: Array) -> Array:
     """Finite values in the Hertz zone, from values of shape (..., nx).
 
-    Where the zone has no finite values, all finite values are returned.
+    If the zone has no finite values, all finite values are returned.
     """
     inside = values[..., np.abs(run.x) <= 1.0]
     finite = inside[np.isfinite(inside)]
@@ -94,7 +94,7 @@ def speed_text(run: MotionRun) -> str:
 
 
 def name_run(ax: Axes, run: MotionRun, more: str = "") -> None:
-    """Draw a title with the title of the case and the speeds; it is red where the run is not complete."""
+    """Draw a title with the title of the case and the speeds; it is red if the run is not complete."""
     title = textwrap.shorten(str(run.dataset.attrs.get("title", "")), 70, placeholder=" ...")
     if not run.complete:
         factor, unit = time_unit(run)

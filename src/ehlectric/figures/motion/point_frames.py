@@ -138,7 +138,7 @@ def _field(contact: _Contact, ax: Axes) -> Callable[[int], None]:
 def _map(
     contact: _Contact, ax: Axes, name: str, unit: Unit, *, limits: Range, colours: str
 ) -> Callable[[int], None]:
-    """Draw a map of a variable; its colour bar has an open end where values may lie beyond it."""
+    """Draw a map of a variable; its colour bar has an open end if values may lie beyond it."""
     factor = unit[0]
     ends = factor * limits[0], factor * limits[1]
     look: dict[str, Any] = {"colours": colours, "limits": ends, "window": contact.window, "number": 2}

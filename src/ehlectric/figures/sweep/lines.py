@@ -37,15 +37,15 @@ _TEXTS = (BLUE, ORANGE, GREEN, "#cc79a7", "#e69f00", "#56b4e9", "black", GREY)
 # Largest number of lines named in a legend; more lines have a colour bar instead.
 _NAMED = 8
 
-# Points without a value are marked in a strip below the values. In parts of the height of the axes: the least
-# height of the strip, the height of one mark where several have nearly the same x, and the greatest height of
-# the strip, at which marks may overlap.
+# Points without a value are marked in a strip below the values. As fractions of the height of the axes: the
+# smallest height of the strip, the height of one mark if several have nearly the same x, and the largest
+# height of the strip, at which marks may overlap.
 _STRIP, _ROW, _MOST = 0.09, 0.035, 0.28
 
 # Number of crosses that fit side by side into the width of the axes.
 _COLUMNS = 50
 
-# The vertical axis of positive values begins at zero where their least is below this part of their largest.
+# The vertical axis of positive values begins at zero if the smallest is below this part of the largest.
 _FROM_ZERO = 0.5
 
 
@@ -112,7 +112,7 @@ def value_lines(
     at : mapping, optional
         Fixed value of each further varied key, as text.
     ax : Axes, optional
-        Axes to draw on; those of a new figure if omitted.
+        Axes to draw on; axes of a new figure if omitted.
 
     Returns
     -------
@@ -124,7 +124,7 @@ def value_lines(
     Raises
     ------
     InputError
-        Where ``ehlectric.sweep.slices.take`` refuses the keys or values.
+        If ``ehlectric.sweep.slices.take`` refuses the keys or values.
     """
     selection = take(results, x, y, value, at)
     ax = axes_or_new(ax)
@@ -191,7 +191,7 @@ def _joined(selection: Slice, lines: list[_Line]) -> bool:
 
 
 def _norm(values: Array, *, log: bool) -> Normalize:
-    """Normalisation of colours of many lines, from the least value of the second key to the largest."""
+    """Normalisation of colours of many lines, from the smallest value of the second key to the largest."""
     return norm_of(np.array([values.min(), values.max()]), log=log)
 
 
@@ -242,7 +242,7 @@ def _limit_values(ax: Axes, values: Array) -> None:
 
 
 def _strip(selection: Slice, ax: Axes, lines: list[_Line], along: Array) -> None:
-    """Draw a strip below the values that marks the points without one, stacked where x is nearly equal."""
+    """Draw a strip below the values that marks the points without one, stacked if x is nearly equal."""
     missing = {kind: mask for kind, mask in kinds(selection).items() if kind != "solved"}
     if not missing:
         return

@@ -47,21 +47,21 @@ def value_map(
     at : mapping, optional
         Fixed value of each further varied key, as text.
     ax : Axes, optional
-        Axes to draw on; those of a new figure if omitted.
+        Axes to draw on; axes of a new figure if omitted.
 
     Returns
     -------
     Axes
-        Axes with the map and a colour bar. Cells are coloured where all of their corner points have a value;
+        Axes with the map and a colour bar. Cells are coloured if all of their corner points have a value;
         points without one are marked in a hole of the map. Between points the value, or the logarithm of
-        positive values where an axis is logarithmic, is linear in the axes as they are drawn. Maps of
+        positive values if an axis is logarithmic, is linear in the axes as they are drawn. Maps of
         ``discharge`` values and of a bearing's breakdown voltages have a line on which the breakdown voltage
         equals the applied voltage; the side that breaks down is hatched.
 
     Raises
     ------
     InputError
-        Where ``ehlectric.sweep.slices.take`` refuses the keys or values, or values of ``y`` are not numbers.
+        If ``ehlectric.sweep.slices.take`` refuses the keys or values, or values of ``y`` are not numbers.
     """
     selection = take(results, x, y, value, at)
     selection.check_numeric()
@@ -114,7 +114,7 @@ class _Between:
     factors: tuple[float, float]
 
     def values(self) -> tuple[Array, Mask]:
-        """Drawn values at the nodes, in SI units, and which triangles have values throughout."""
+        """Drawn values at the nodes, in SI units, and mask of the triangles with values throughout."""
         return (
             self.margins()
             if self.selection.value == self.selection.breakdown.margin
@@ -122,9 +122,10 @@ class _Between:
         )
 
     def margins(self) -> tuple[Array, Mask]:
-        """Breakdown voltage over applied voltage at the nodes, and which triangles have values throughout.
+        """Margin of the breakdown voltage at the nodes, and mask of the triangles with values throughout.
 
-        The two voltages are interpolated separately, and divided afterwards.
+        The margin is breakdown voltage divided by applied voltage. The voltages are interpolated before the
+        division.
         """
         selection = self.selection
         breaks = np.where(selection.margin > 0.0, selection.margin * selection.voltage, np.nan)
@@ -156,7 +157,7 @@ def _fill(between: _Between, ax: Axes) -> list[Artist]:
     handles: list[Artist] = []
     if np.any(whole):
         drawn = between.triangles(whole), scale.factor * nodes
-        # A value equal to the last level, such as a probability of 1, would be outside the colours.
+        # A value equal to the last level, such as a probability of 1, would be outside the colour scale.
         bounds = [*levels[:-1], levels[-1] + 1e-9 * (levels[-1] - levels[0])]
         ax.tricontourf(*drawn, levels=bounds, norm=norm, cmap=COLOURS)
         ax.tricontour(*drawn, levels=levels, colors="white", linewidths=0.4, linestyles="-")

@@ -43,7 +43,7 @@ def kinds(selection: Slice) -> dict[str, Mask]:
 
 
 def dot_size(selection: Slice, largest: float) -> float:
-    """Diameter of the dots of solved points [pt], smaller where there are more than 400 points."""
+    """Diameter of the dots of solved points [pt], smaller if there are more than 400 points."""
     return largest * min(1.0, max(0.3, math.sqrt(400.0 / len(selection.points))))
 
 
@@ -69,12 +69,12 @@ def labelled(results: SweepResults, key: str, values: Array) -> tuple[Label, Sca
 
 
 def voltage_text(selection: Slice) -> str:
-    """Applied voltage of the solved points with its unit, or its range where it differs between them."""
+    """Applied voltage of the solved points with its unit, or its range if it differs between them."""
     return range_text(selection.voltage[np.isfinite(selection.voltage)], "V")
 
 
 def range_text(values: Array, unit: str) -> str:
-    """Text of the range of values: one value with the unit, or the least "to" the largest.
+    """Text of the range of values: one value with the unit, or the smallest "to" the largest.
 
     Examples
     --------

@@ -45,7 +45,7 @@ def distribution(results: SweepResults, analysis: Sensitivity, ax: Axes | None =
     analysis : Sensitivity
         Its analysis, from ``ehlectric.sweep.sensitivity.sensitivity``.
     ax : Axes, optional
-        Axes to draw on; those of a new figure if omitted.
+        Axes to draw on; axes of a new figure if omitted.
 
     Returns
     -------
@@ -102,7 +102,7 @@ def parts(results: SweepResults, analysis: Sensitivity, ax: Axes | None = None) 
     analysis : Sensitivity
         Its analysis, from ``ehlectric.sweep.sensitivity.sensitivity``.
     ax : Axes, optional
-        Axes to draw on; those of a new figure if omitted.
+        Axes to draw on; axes of a new figure if omitted.
 
     Returns
     -------
