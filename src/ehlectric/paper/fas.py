@@ -83,7 +83,8 @@ def solve_film(problem: FilmProblem, *, progress: Progress | None = None) -> Fil
     Eqs. (1) to (13) and (19) of Morris et al. (2022), doi:10.3390/lubricants10050087. On a coarse grid H the
     unknown is the injected iterate plus its correction. The right side of its Reynolds equation is
     L_H(I P) + R(f - L_h(P)). Here I is the injection, R is the restriction, and L_h(P) = f is the equation of
-    the finer grid h. The film equation has a right side as well, and the load equation the defect of the finer grid.
+    the finer grid h. The film equation has a right side as well, and the load equation has the defect of the
+    finer grid.
     """
     if problem.geometry is not LINE:
         raise ValueError("the paper's multigrid takes deflecting line contacts")

@@ -97,8 +97,8 @@ class SweepResults:
     ranges : mapping
         Range of each varied key of a "sobol" design, in the order of the input; empty for other designs.
     samples : int
-        Base samples n of a "sobol" design; 0 for other designs. The points are the n rows of A, then the n rows
-        of B. For each varied key k, the n rows of A follow with column k of B.
+        Base samples n of a "sobol" design; 0 for other designs. The points are the n rows of A, then the n
+        rows of B. For each varied key k, the n rows of A follow with column k of B.
     points : tuple of Point
         All points in the order of the design; in a "grid" the last varied key varies fastest.
     seed : int

@@ -164,8 +164,8 @@ def take(
     Raises
     ------
     InputError
-        If a key does not vary, or the values of ``x`` are not numbers. Also if no usable point of the slice has
-        the value, or a grid design has further varied keys without a fixed value.
+        If a key does not vary, or the values of ``x`` are not numbers. Also if no usable point of the slice
+        has the value, or a grid design has further varied keys without a fixed value.
     """
     for name, key in (("x", x), ("y", y)):
         if key is not None and key not in results.varied:
