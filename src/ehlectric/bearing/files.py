@@ -48,24 +48,26 @@ _UNITS = {
 
 
 def save(result: BearingResult, folder: str | Path) -> list[Path]:
-    """Write summary.json, contacts.csv, bearing.nc and, where there is an impedance, impedance.csv.
+    """Save the result of a bearing: summary.json, contacts.csv, bearing.nc and impedance.csv.
+
+    The file impedance.csv is written only if the bearing has an impedance.
 
     Parameters
     ----------
     result : BearingResult
-        As ``solve_bearing`` returns it.
+        Result that ``solve_bearing`` returned.
     folder : str or Path
-        Where to; made if it is not there.
+        Folder for the files. It is created if it does not exist.
 
     Returns
     -------
     list of Path
-        The files written.
+        Paths of the files that were written.
 
     Raises
     ------
     InputError
-        Where the folder cannot be written to.
+        If the folder cannot be written to.
     """
     folder = prepare(folder, FILES)
     clear(folder, FILES)
@@ -98,17 +100,17 @@ def load(path: str | Path) -> BearingResult:
     Parameters
     ----------
     path : str or Path
-        A bearing.nc.
+        Path of a bearing.nc.
 
     Returns
     -------
     BearingResult
-        As it was saved.
+        Result as it was saved.
 
     Raises
     ------
     InputError
-        Where the file cannot be read or is not the result of a bearing.
+        If the file cannot be read, or is not the result of a bearing.
     """
     import xarray as xr
 
@@ -131,7 +133,7 @@ def load(path: str | Path) -> BearingResult:
 
 
 def _dataset(solution: BearingSolution) -> xr.Dataset:
-    """A solution as variables over loads, positions of the cage, rings and elements, SI units."""
+    """Solution as variables over loads, positions of the cage, rings and elements, SI units."""
     import xarray as xr
 
     variables: dict[str, tuple[tuple[str, ...], Array, dict[str, str]]] = {}
@@ -169,7 +171,7 @@ def _over_elements(name: str, values: Any) -> tuple[tuple[str, ...], Array, dict
 
 
 def _curve_variables(ring: str, curve: ContactCurve) -> dict[str, Any]:
-    """Solved contacts with one ring, over their load; an error that is not known is NaN."""
+    """Variables of the solved contacts with one ring over their load; an unknown error is NaN."""
     solutions, dims = curve.solutions, (f"{ring}_load",)
     columns = dict(zip(ContactValues.__dataclass_fields__, curve.stack().columns(), strict=True))
     others = {
@@ -187,7 +189,7 @@ def _curve_variables(ring: str, curve: ContactCurve) -> dict[str, Any]:
 
 
 def _equilibrium_variables(equilibria: Sequence[Equilibrium]) -> dict[str, Any]:
-    """Equilibria at the positions of the cage, each quantity with the dimensions it has."""
+    """Variables of the equilibria at the positions of the cage, each quantity with its own dimensions."""
     elements = equilibria[0].position.size
     variables = {}
     for name, values in _stacked(equilibria).items():
@@ -198,7 +200,7 @@ def _equilibrium_variables(equilibria: Sequence[Equilibrium]) -> dict[str, Any]:
 
 
 def _stacked(equilibria: Sequence[Equilibrium]) -> dict[str, Array]:
-    """Quantities of equilibria by name, those of their speeds with a prefix, over the positions."""
+    """Quantities of equilibria over the positions, by name; the names of speeds have a prefix."""
     tables = []
     for at in equilibria:
         table = {field.name: getattr(at, field.name) for field in dataclasses.fields(at)}
@@ -208,7 +210,7 @@ def _stacked(equilibria: Sequence[Equilibrium]) -> dict[str, Array]:
 
 
 def _solution_of(dataset: xr.Dataset) -> BearingSolution:
-    """The solution that ``_dataset`` made a dataset of."""
+    """Bearing solution from a dataset of ``_dataset``."""
     attributes = dataset.attrs
     if attributes["schema"] != SCHEMA:
         raise ValueError("another format")
