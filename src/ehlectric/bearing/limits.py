@@ -43,8 +43,8 @@ def check_load(conditions: BearingConditions[Geometry]) -> None:
 def shoulder_angle(bearing: Bearing, *, inner: bool) -> float:
     """Angle from the bottom of a ball's groove to its shoulder, arccos(1 - H/f) [rad].
 
-    H is the height of the shoulder and f the radius of the groove, both over the diameter of the ball. The
-    angle is infinite for a cylindrical raceway, which has no shoulder.
+    H is the height of the shoulder over the diameter of the ball, and f the osculation. The angle is infinite
+    for a cylindrical raceway, which has no shoulder.
 
     Examples
     --------
@@ -65,7 +65,7 @@ def shoulder_angle(bearing: Bearing, *, inner: bool) -> float:
 
 
 def groove_ratio(bearing: Bearing, *, inner: bool) -> float:
-    """Radius of the groove over the diameter of the ball, f; infinite for a cylindrical raceway."""
+    """Osculation f: radius of the groove over the diameter of the ball; infinite for a cylinder."""
     groove = bearing.inner_groove if inner else bearing.outer_groove
     return math.inf if groove is None else groove
 
