@@ -242,8 +242,8 @@ class ContactCurve:
     def interpolation_error(self) -> float:
         """Largest relative error of capacitance and breakdown voltage when one solved load is left out.
 
-        Without that load the distance of the loads is twice as large, so that this is an upper bound of the
-        interpolation error with all loads.
+        Without that load the distance of the loads is twice as large. The interpolation error with all loads
+        is therefore expected to be smaller.
         """
         worst, loads, stack = 0.0, self.loads, self.stack()
         for k in range(1, loads.size - 1):

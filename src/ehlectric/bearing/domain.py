@@ -63,7 +63,7 @@ def _line_inlet(length: float) -> float:
 
 
 def _line_most(contact: RollerContact) -> float:
-    """Longest inlet in half-widths: to where the roller is no parabola any more, or what a grid holds."""
+    """Longest inlet in half-widths: as far as a parabola describes the roller, or what a grid holds."""
     return min(0.5 * contact.ring.radii.element_x / contact.conditions.half_width, _LINE_MOST)
 
 

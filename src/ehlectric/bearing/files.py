@@ -111,7 +111,9 @@ def run(
 
 
 def save(result: BearingResult, folder: str | Path) -> list[Path]:
-    """Write summary.json, contacts.csv, bearing.nc and, where there is an impedance, impedance.csv.
+    """Save the result of a bearing: summary.json, contacts.csv, bearing.nc and impedance.csv.
+
+    The file impedance.csv is written only if the bearing has an impedance.
 
     Parameters
     ----------
@@ -128,7 +130,7 @@ def save(result: BearingResult, folder: str | Path) -> list[Path]:
     Raises
     ------
     InputError
-        Where the folder cannot be written to.
+        If the folder cannot be written to.
     """
     folder = prepare(folder, FILES)
     clear(folder, FILES)
@@ -160,7 +162,7 @@ def load(path: str | Path) -> BearingResult:
     Parameters
     ----------
     path : str or Path
-        A bearing.nc.
+        Path of a bearing.nc.
 
     Returns
     -------
@@ -170,7 +172,7 @@ def load(path: str | Path) -> BearingResult:
     Raises
     ------
     InputError
-        Where the file cannot be read or is not the result of a bearing.
+        If the file cannot be read, or is not the result of a bearing.
     """
     path = Path(path)
     return result_of(read_dataset(path), path)

@@ -43,7 +43,8 @@ def check_load(conditions: BearingConditions[Geometry]) -> None:
 def shoulder_angle(bearing: Bearing, *, inner: bool) -> float:
     """Angle from the bottom of a ball's groove to its shoulder, arccos(1 - H/f) [rad].
 
-    It is infinite for a cylinder, which has no shoulder.
+    H is the height of the shoulder over the diameter of the ball, and f the osculation. The angle is infinite
+    for a cylindrical raceway, which has no shoulder.
 
     Examples
     --------
@@ -64,7 +65,7 @@ def shoulder_angle(bearing: Bearing, *, inner: bool) -> float:
 
 
 def groove_ratio(bearing: Bearing, *, inner: bool) -> float:
-    """Radius of the groove over the diameter of the ball; infinite for a cylinder."""
+    """Osculation f: radius of the groove over the diameter of the ball; infinite for a cylinder."""
     groove = bearing.inner_groove if inner else bearing.outer_groove
     return math.inf if groove is None else groove
 

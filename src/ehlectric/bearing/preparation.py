@@ -34,8 +34,8 @@ LOADS, _LEAST = 6, 0.02
 _LIGHTEST = 0.002
 
 # Light loads that are solved below the others: about one for each of these ratios, up to six. Their
-# distances, a power of their number, are shortest at the light end, where the film of rigid bodies, which is
-# proportional to 1/Q, turns into the film of bodies that deform.
+# distances, a power of their number, are shortest at the light end. There the film of rigid bodies, which is
+# proportional to 1/Q for a roller and to 1/Q^2 for a ball, turns into the film of bodies that deform.
 _BETWEEN, _MOST_BETWEEN, _CROWDED = 1.5, 6, 1.5
 
 # Ratio of the largest to the least load below which all loads count as equal.

@@ -255,7 +255,7 @@ def capacitance_is_bound(solution: BearingSolution) -> bool:
 def plate_capacitance(solution: BearingSolution) -> float | None:
     """Capacitance of plates with the Hertz areas at the distance h(0), mean over the positions [F].
 
-    Elements count where both contacts are loaded. None for ceramic elements, which are no plates.
+    Elements count where both contacts are loaded. None for ceramic elements, which insulate.
     """
     if solution.conditions.ceramic:
         return None

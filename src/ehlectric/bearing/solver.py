@@ -27,7 +27,7 @@ def solve_bearing(
     progress: Progress | None = None,
     workers: int | None = None,
 ) -> BearingResult:
-    """Loads, films, fields and the circuit of a whole rolling bearing.
+    """Solve a whole rolling bearing: loads, films, fields and the electrical circuit.
 
     Contacts with each ring are solved at six loads, and at the loads of light elements; the contacts of all
     elements are interpolated between them.

@@ -119,7 +119,7 @@ def clearance_warnings(clearance: float, position: Position) -> Iterator[ResultW
     Parameters
     ----------
     clearance : float
-        Diametral clearance [m]; negative with a preload.
+        Radial internal clearance, the full diametral play [m]; negative with a preload.
     position : Position
         Loads and films at one position of the cage.
     """

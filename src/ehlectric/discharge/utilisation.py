@@ -25,7 +25,7 @@ class FieldUtilisation:
     Attributes
     ----------
     strength : ndarray, shape (nx,) or (nx, ny)
-        Largest field strength in each column of the solved field [V/m].
+        Largest field strength of each column of the solved field, on either wall or at mid-film [V/m].
     dielectric_strength : ndarray, shape (nx,) or (nx, ny)
         Dielectric strength at each column [V/m]; 1 V/m if the case gives none, or gives a Weibull law.
     position : tuple of float

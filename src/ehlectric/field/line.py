@@ -43,13 +43,13 @@ class Field(GapField):
     voltage : float
         Magnitude of the potential difference of the walls [V].
     capacitance, capacitance_by_charge : float
-        Capacitance per length of the contact [F/m], from the energy of the field and from the charge of a
-        wall. Free charge in the gap is left out. The two values agree, unless potentials are prescribed on
+        Capacitance per length of the contact [F/m], from the energy of the field and from the charge of wall
+        2. Free charge in the gap is left out. The two values agree, unless potentials are prescribed on
         the end faces.
     thin_gap_capacitance : float
         Integral of eps0 eps/h over x [F/m].
     capacitance_density : ndarray, shape (nx,)
-        Charge of a wall per area and voltage [F/m^2]. Its integral over x by the trapezoidal rule is
+        Charge of wall 2 per area and voltage [F/m^2]. Its integral over x by the trapezoidal rule is
         ``capacitance_by_charge``.
     """
 
@@ -226,7 +226,7 @@ def field_from_potential(
     capacitance : float
         Capacitance per length from the energy of the field [F/m].
     capacitance_density : ndarray, shape (nx,)
-        Charge of a wall per area and voltage [F/m^2].
+        Charge of wall 2 per area and voltage [F/m^2].
 
     Returns
     -------

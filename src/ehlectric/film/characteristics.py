@@ -1,7 +1,7 @@
-"""Discretisation of the transient film equations along the lines X - T = const, on which oil travels.
+"""Discretisation of the transient film equations along the lines X - T = const, which Couette flow follows.
 
-Dimensionless, with T = t u/b for the mean speed u of the surfaces, the two terms of the mass rho H are one
-derivative along these lines:
+Dimensionless, with T = t u/b for the mean speed u of the surfaces, the squeeze term and the wedge term are
+one derivative along these lines:
 
     d(rho H)/dT + d(rho H)/dX = D(rho H)/DT
 

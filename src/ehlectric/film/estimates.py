@@ -1,4 +1,4 @@
-"""Error estimates of a film: discretisation error, and pressure that is lost at the ends of the domain."""
+"""Error estimates of a film: discretisation error, and pressure that is lost at the edges of the domain."""
 
 from __future__ import annotations
 
@@ -125,9 +125,9 @@ def side_deficit(problem: FilmProblem, mesh: Mesh, pressure: Array, thickness: A
     Notes
     -----
     For H = X^2/2 + (Rx/Ry) Y^2/2 + const the reduced pressure is -lambda X/((3 + 2 Rx/Ry) H^2), an exact
-    solution of the Reynolds equation for constant viscosity (P. Kapitza, Zh. Tekh. Fiz. 25 (1955) 747). Its
-    largest value on the sides is compared with the largest reduced pressure, the integral of dP/eta, on the
-    line Y = 0.
+    solution of the Reynolds equation for constant density, without cavitation (P. Kapitza, Zh. Tekh. Fiz. 25
+    (1955) 747). Its largest value on the sides is compared with the largest reduced pressure, the integral of
+    dP/eta, on the line Y = 0.
     """
     fluid = problem.fluid
     if not np.all(np.isfinite(pressure)):

@@ -45,7 +45,7 @@ class FilmProblem:
         Lubricant over dimensionless pressure P, with the ambient pressure over p_h and the velocity parameter
         lambda = 6 eta0 u_s R^2/(b^3 p_h), u_s = u1 + u2.
     nodes : int
-        Number of nodes along x, at least 65.
+        Number of nodes along x.
     inlet, outlet : float
         Ends of the domain along x, in half-widths; inlet < -1 and outlet > 1.
     thickness_guess : float
@@ -97,7 +97,7 @@ def velocity_parameter(
     Parameters
     ----------
     viscosity : float
-        Viscosity eta0 of the lubricant at ambient pressure [Pa s].
+        Viscosity eta0 of the lubricant at zero pressure [Pa s].
     entrainment_speed : float
         Mean surface speed (u1 + u2)/2 [m/s].
     radius : float

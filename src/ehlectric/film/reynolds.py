@@ -4,10 +4,10 @@ Dimensionless, with X = x/b, Y = y/b, P = p/p_h and H = h R/b^2:
 
     r = d(rho H)/dX - d/dX(eps dP/dX) - d/dY(eps dP/dY) = 0,   eps = rho H^3/(eta lambda)
 
-A line contact has no term in Y. Arrays have the shape (nx, ny), with x along entrainment. The Poiseuille term
-is a central difference of second order; its flux is computed in ``ehlectric.film.flow``. The wedge term is an
-upstream difference of first order (eq. 7 of Morris et al. (2022), doi:10.3390/lubricants10050087) or of
-second order.
+The first term is the wedge (Couette) term, the others are the Poiseuille term. A line contact has no term in
+Y. Arrays have the shape (nx, ny), with x along entrainment. The Poiseuille term is a central difference of
+second order; its flux is computed in ``ehlectric.film.flow``. The wedge term is an upstream difference of
+first order (eq. 7 of Morris et al. (2022), doi:10.3390/lubricants10050087) or of second order.
 """
 
 from __future__ import annotations

@@ -4,12 +4,12 @@ Dimensionless, with T = t u/b for the mean speed u of the surfaces:
 
     d(rho H)/dT + d(rho H)/dX - d/dX(eps dP/dX) - d/dY(eps dP/dY) = 0
 
-The first two terms are one derivative along the lines X - T = const, on which oil travels
-(``ehlectric.film.characteristics``). It is discretised along these lines by a backward difference over two
-steps. A film that is carried through the flat zone therefore keeps its shape. With time steps as long as the
-grid spacing the lines begin at nodes, and nothing is interpolated. Without motion the film is then equal to
-that of the stationary scheme of second order, to the last digit. Where the film is cavitated, its mass is the
-oil that flows in, which does not fill the gap.
+The squeeze term and the wedge term are one derivative along the lines X - T = const, on which the Couette
+flow carries the oil (``ehlectric.film.characteristics``). It is discretised along these lines by a backward
+difference over two steps. A film that is carried through the Hertz zone therefore keeps its shape. With time
+steps as long as the grid spacing the lines begin at nodes, and nothing is interpolated. Without motion the
+film is then equal to that of the stationary scheme of second order, to the last digit. Where the film is
+cavitated, its mass is the oil that flows in, which does not fill the gap.
 """
 
 from __future__ import annotations

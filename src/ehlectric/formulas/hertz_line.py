@@ -22,7 +22,7 @@ def reduced_radius(radius_1: float, radius_2: float) -> float:
     Returns
     -------
     float
-        R [m]. It is not positive if the radius of a concave body is smaller than that of the other body.
+        R [m]. It is negative if the radius of a concave body is smaller than that of the other body.
 
     Notes
     -----

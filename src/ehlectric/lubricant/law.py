@@ -29,7 +29,10 @@ class PressureLaw(Protocol):
     """Law of viscosity or density with fixed parameters, as a function of pressure and temperature."""
 
     def __call__(self, pressure: ArrayLike, temperature: ArrayLike | None = None, /) -> tuple[Array, Array]:
-        """Value, dimensionless, and derivative by pressure [1/Pa] at pressure [Pa] and temperature [K]."""
+        """Value of the law and its derivative by pressure [1/Pa] at a pressure [Pa] and a temperature [K].
+
+        The value is dimensionless: the density ratio, or the logarithm of the relative viscosity.
+        """
         ...
 
 

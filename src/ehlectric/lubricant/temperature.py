@@ -85,7 +85,7 @@ class Walther:
         return 1e-6 * nu
 
     def slope(self, temperature: float) -> float:
-        """Temperature coefficient of viscosity -d ln(nu)/dT [1/K] at an absolute temperature [K]."""
+        """Temperature coefficient of the kinematic viscosity, -d ln(nu)/dT [1/K], at a temperature [K]."""
         total = 1e6 * self.viscosity(temperature) + _ADDED
         return math.log(total) * self.b * total / ((total - _ADDED) * temperature)
 

@@ -1,4 +1,4 @@
-"""Viscosity laws of the lubricant: relative viscosity over pressure and temperature."""
+"""Viscosity laws of the lubricant: logarithm of the relative viscosity over pressure and temperature."""
 
 from __future__ import annotations
 

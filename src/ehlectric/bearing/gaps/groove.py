@@ -89,7 +89,7 @@ class Raceway:
         element_diameter, pitch_diameter : float
             Diameter D of the balls, and diameter of the circle of their centres [m].
         groove : float
-            Radius of the groove over the diameter of the ball, above 0.5.
+            Osculation: radius of the groove over the diameter of the ball, above 0.5.
         shoulder_height : float
             Height of the shoulders above the bottom of the groove over the diameter of the ball.
         outer : bool

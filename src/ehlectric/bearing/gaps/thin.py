@@ -3,7 +3,7 @@
 On a plane below a conductor at the voltage V and the gap h(x, y), the charge density is (eps0 eps V)/h to
 leading order. For the gap of a ball, h = rho^2/(2 r), the next order is constant over the whole tail. It adds
 some percent to the capacitance of a ball and is therefore included. Expanding the potential in powers of the
-slope, V(z)/V = z/h + (z^3 - z h^2) h (1/h)_xx/6 ..., gives (1 + abs(grad h)^2/3 - h lap h/6)/h on the plane.
+slope, V(z)/V = z/h + z (h^2 - z^2) lap(1/h)/6 + ..., gives (1 + abs(grad h)^2/3 - h lap h/6)/h on the plane.
 Let delta be the distance along the normal of the far surface, beta the angle between both normals there, and
 k_far and k_near the sums of the principal curvatures of both surfaces. On the near surface the charge density
 over eps0 eps V is then

@@ -63,7 +63,7 @@ class BallEquilibrium:
     centrifugal_force : float
         Centrifugal force on each ball at ``cage_speed`` [N].
     axial_displacement : float
-        Displacement of the inner ring from where both grooves face each other [m]; A sin a_0 is play.
+        Displacement of the inner ring from where both grooves face each other [m]; play up to A sin a_0.
     radial_displacement, lateral_displacement : float
         Displacement of the inner ring along the radial load, and towards the angle of 90 deg [m].
     moment, lateral_moment : float

@@ -93,9 +93,9 @@ class BallBearing:
         Ball diameter D and pitch diameter d_m [m]. d_m is the mean of both raceway diameters at the bottom
         of the grooves.
     inner_groove, outer_groove : float
-        Radius of the groove over the diameter of the ball, f_i and f_o, above 0.5.
+        Osculation f_i and f_o: radius of the groove over the diameter of the ball, above 0.5.
     radial_clearance : float or None
-        Diametral clearance P_d between inner ring, balls and outer ring [m]; negative with a radial preload.
+        Radial internal clearance, the full diametral play P_d [m]; negative with a radial preload.
     contact_angle : float or None
         Free contact angle a_0, at which ball and grooves just touch without load [rad].
 
@@ -154,7 +154,7 @@ class BallBearing:
 
     @property
     def clearance(self) -> float:
-        """Diametral clearance P_d = 2 A (1 - cos a_0), given or from the free contact angle [m]."""
+        """Radial internal clearance P_d = 2 A (1 - cos a_0), given or from the free contact angle [m]."""
         if self.radial_clearance is not None:
             return self.radial_clearance
         assert self.contact_angle is not None
@@ -174,7 +174,7 @@ class BallBearing:
 
     @property
     def endplay(self) -> float:
-        """Axial clearance from one end to the other, 2 A sin a_0 [m]."""
+        """Axial internal clearance (endplay) from one end to the other, 2 A sin a_0 [m]."""
         return 2.0 * self.groove_distance * math.sin(self.free_angle)
 
     @property
@@ -228,7 +228,7 @@ class RollerBearing:
     roller_length : float
         Effective length L of the rollers [m].
     radial_clearance : float
-        Diametral clearance P_d [m]; negative with a radial preload.
+        Radial internal clearance, the full diametral play P_d [m]; negative with a radial preload.
     profile : str
         "none" for straight rollers, or "logarithmic" for the profile of ISO/TS 16281.
 
@@ -298,7 +298,7 @@ class RollerBearing:
 
     @property
     def clearance(self) -> float:
-        """Diametral clearance P_d [m]."""
+        """Radial internal clearance, the full diametral play P_d [m]."""
         return self.radial_clearance
 
     @property

@@ -24,7 +24,8 @@ class Speeds:
     cage : Array or float
         Angular speed of the element's centre about the axis of the bearing [rad/s].
     spin : Array or float
-        Angular speed of the element about its own axis, relative to the cage [rad/s].
+        Angular speed of the element about its own axis, relative to the cage [rad/s]. It is not the spinning
+        motion about the normal of a contact, which these formulas leave out.
     inner_entrainment, outer_entrainment : Array or float
         Entrainment speed (u1 + u2)/2, with the speeds of both surfaces relative to the contact [m/s].
     """
@@ -66,7 +67,7 @@ def rolling_speeds(
     Notes
     -----
     T. A. Harris and M. N. Kotzalas, Essential Concepts of Bearing Technology, 5th ed., 2006, chapter 10,
-    doi:10.1201/9781420006599. The spin axis is perpendicular to the line of contact.
+    doi:10.1201/9781420006599. The ball's own axis is perpendicular to the line of contact.
 
     Examples
     --------
@@ -112,7 +113,7 @@ def centrifugal_force(mass: float, pitch_diameter: float, cage_speed: float) -> 
 def gyroscopic_moment(mass: float, diameter: float, speeds: Speeds, contact_angle: ArrayLike) -> Array:
     """Gyroscopic moment of a ball, J w_s w_c sin a with J = m D^2/10.
 
-    The spin axis of the ball is perpendicular to the line of contact. A spin axis closer to the axis of the
+    The ball's own axis is taken perpendicular to the line of contact. An axis closer to the axis of the
     bearing, as with outer raceway control, makes the moment smaller.
 
     Parameters
@@ -120,7 +121,7 @@ def gyroscopic_moment(mass: float, diameter: float, speeds: Speeds, contact_angl
     mass, diameter : float
         Mass m [kg] and diameter D [m] of the ball.
     speeds : Speeds
-        Spin w_s and cage speed w_c of the ball.
+        Speeds of the ball: w_s about its own axis, and w_c of the cage.
     contact_angle : array_like, shape (...)
         Contact angle a [rad].
 
