@@ -11,20 +11,12 @@ import numpy as np
 
 from ehlectric.cases.discharge import Discharge
 from ehlectric.cases.lubricant import Lubricant
+from ehlectric.discharge.breakdown import Breakdown, BreakdownZone, breakdown, breakdown_zone
+from ehlectric.discharge.capacitance import Capacitances, capacitances
+from ehlectric.discharge.contact_size import Size
+from ehlectric.discharge.energy import DischargeCosts, discharge_costs
 from ehlectric.discharge.laws import SOURCES, TUNNELLING
-from ehlectric.discharge.parts import (
-    Breakdown,
-    BreakdownZone,
-    Capacitances,
-    DischargeCosts,
-    Leakage,
-    Size,
-    breakdown,
-    breakdown_zone,
-    capacitances,
-    discharge_costs,
-    leakage,
-)
+from ehlectric.discharge.leakage import Leakage, leakage
 from ehlectric.discharge.utilisation import FieldUtilisation
 from ehlectric.errors import ResultWarning
 from ehlectric.field.line import Field

@@ -1,18 +1,23 @@
-"""Capacitance of each zone of a contact, over the whole domain of its film."""
+"""Capacitance of a contact, by zone and by what fills its outlet, over the whole domain of its film."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.constants import epsilon_0
 
 from ehlectric.arrays import Array
+from ehlectric.cases.discharge import Discharge
+from ehlectric.cases.lubricant import Lubricant, permittivity_law
 from ehlectric.discharge.columns import at_columns
+from ehlectric.discharge.contact_size import Size
 from ehlectric.discharge.outlet_filling import OUTLETS, filled_permittivity, oil_fraction
 from ehlectric.field.line import Field
 from ehlectric.field.point import PointField
 from ehlectric.field.poisson import ATOM
+from ehlectric.field.zones import line_zone_areas, point_zone_areas
 from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
 
@@ -63,3 +68,93 @@ def zone_capacitances(
             for name, weights in zones[0].items()
         }
     return by_outlet
+
+
+@dataclass(frozen=True)
+class Capacitances:
+    """Capacitances of a contact: per length [F/m] for a line contact, [F] for a point contact.
+
+    Attributes
+    ----------
+    capacitance : float
+        Capacitance over the whole domain of the film.
+    capacitance_hertz, capacitance_inlet, capacitance_outlet : float
+        Capacitances of the Hertz zone, of the inlet before it, and of the outlet behind it.
+    capacitance_sides : float or None
+        Capacitance of the sides of a point contact; None for a line contact.
+    capacitance_plate : float
+        Capacitance of parallel plates over the Hertz zone, eps0 eps_r A/h(0), with eps_r at ambient pressure.
+    capacitance_ratio : float
+        ``capacitance`` over ``capacitance_plate``, dimensionless.
+    capacitance_outlet_full, capacitance_outlet_fingers, capacitance_outlet_layers : float
+        Capacitance of the outlet for each filling of the gap behind the exit.
+    capacitance_full, capacitance_fingers, capacitance_layers : float
+        Capacitance over the whole domain for each filling. In a point contact it affects the sides too.
+    outlet : str
+        Filling of the outlet on which ``capacitance`` and the energies are based.
+    """
+
+    capacitance: float
+    capacitance_hertz: float
+    capacitance_inlet: float
+    capacitance_outlet: float
+    capacitance_sides: float | None
+    capacitance_plate: float
+    capacitance_ratio: float
+    capacitance_outlet_full: float
+    capacitance_outlet_fingers: float
+    capacitance_outlet_layers: float
+    capacitance_full: float
+    capacitance_fingers: float
+    capacitance_layers: float
+    outlet: str
+
+
+def capacitances(
+    discharge: Discharge,
+    lubricant: Lubricant,
+    semi_axes: tuple[float, ...],
+    film: Film | PointFilm,
+    field: Field | PointField,
+) -> Capacitances:
+    """Capacitances of the zones of a contact, for each filling of the outlet.
+
+    Parameters
+    ----------
+    discharge : Discharge
+        Inputs of the discharge, with the filling of the outlet.
+    lubricant : Lubricant
+        Lubricant, for its relative permittivity.
+    semi_axes : tuple of float
+        Half-width of a line contact, or semi-axes of a point contact along and across entrainment [m].
+    film, field : Film and Field, or PointFilm and PointField
+        Solution of the contact.
+
+    Returns
+    -------
+    Capacitances
+        Capacitances per length [F/m] of a line contact, or [F] of a point contact.
+    """
+    areas = line_zone_areas if len(semi_axes) == 1 else point_zone_areas
+    zones = areas(film.axes, *semi_axes), areas(field.axes, *semi_axes)
+    by_outlet = zone_capacitances(film, field, zones, permittivity_law(lubricant))
+    chosen = by_outlet[discharge.outlet]
+    total = {name: sum(parts.values()) for name, parts in by_outlet.items()}
+    hertz = Size.of(semi_axes, discharge).hertz
+    plate = epsilon_0 * lubricant.relative_permittivity * hertz / film.central_thickness
+    return Capacitances(
+        capacitance=total[discharge.outlet],
+        capacitance_hertz=chosen["hertz"],
+        capacitance_inlet=chosen["inlet"],
+        capacitance_outlet=chosen["outlet"],
+        capacitance_sides=chosen.get("sides"),
+        capacitance_plate=plate,
+        capacitance_ratio=total[discharge.outlet] / plate,
+        capacitance_outlet_full=by_outlet["full"]["outlet"],
+        capacitance_outlet_fingers=by_outlet["fingers"]["outlet"],
+        capacitance_outlet_layers=by_outlet["layers"]["outlet"],
+        capacitance_full=total["full"],
+        capacitance_fingers=total["fingers"],
+        capacitance_layers=total["layers"],
+        outlet=discharge.outlet,
+    )

@@ -6,8 +6,11 @@ from collections.abc import Iterator
 
 from ehlectric.cases.row import Row
 from ehlectric.contact.results import PointResult, Result
+from ehlectric.discharge.breakdown import Breakdown, BreakdownZone
+from ehlectric.discharge.capacitance import Capacitances
+from ehlectric.discharge.energy import DischargeCosts
 from ehlectric.discharge.laws import LARGEST_PIT, MEAN_PIT
-from ehlectric.discharge.parts import Breakdown, BreakdownZone, Capacitances, DischargeCosts, Leakage
+from ehlectric.discharge.leakage import Leakage
 
 # Unit of a capacitance by the geometry of the contact: a line has it per length.
 _CAPACITANCE = {"line": "nF/m", "point": "pF"}
