@@ -286,7 +286,15 @@ class Quantities:
 
 @dataclass(frozen=True)
 class Count:
-    """Pydantic annotation of a whole number from ``least`` to ``most``; ``reason`` is for messages."""
+    """Pydantic annotation of a whole number within bounds.
+
+    Attributes
+    ----------
+    least, most : int
+        Smallest and largest value allowed.
+    reason : str
+        Reason for the bounds, or a description of the number, for messages.
+    """
 
     least: int
     most: int

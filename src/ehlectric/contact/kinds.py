@@ -210,7 +210,7 @@ POINT: Kind[PointConditions, PointContact, RoughMap, PointFilm, PointFieldProble
     roughness=point_roughness,
 )
 
-# Kind of contact whose types are not known before run time, for example that of a case read from a file.
+# Kind of contact whose types are not known before run time, for example the kind of a case read from a file.
 AnyKind = Kind[Any, Any, Any, Any, Any, Any]
 
 # Kinds of contact by the ``geometry`` of a case or of operating conditions.

@@ -93,7 +93,7 @@ def solve(
     -------
     Result or PointResult
         Result of a line contact or of a point contact. If the film did not converge, ``converged`` is False
-        and the field is that of the last film.
+        and the field belongs to the last iterate of the film.
 
     Raises
     ------

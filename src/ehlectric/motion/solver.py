@@ -92,7 +92,7 @@ class TransientSolver:
         return self._film.start(steady, self.contact.schedule.step)
 
     def run(self, history: History, done: int = 0) -> Iterator[tuple[int, History]]:
-        """Solve the time steps from the one after ``done`` to the last.
+        """Solve the time steps after step ``done``.
 
         Parameters
         ----------

@@ -136,7 +136,7 @@ def stencil(grid: CartesianGrid, cells: Array, charge_density: Array | None = No
     -------
     Stencil
         The coefficients. No flux leaves through the first and the last column: the neighbour beyond them is
-        the mirror image of the one inside.
+        the mirror image of the neighbour inside.
     """
     neighbour, arm = _arms(grid)
     east = np.minimum(grid.column, grid.x.size - 2)

@@ -113,7 +113,8 @@ class PaperContact:
         return self.case(lubricant=lubricant)
 
 
-# Load per length [N/m] by Hertz pressure [GPa]. Table 2 gives that of 2 GPa; at 1 GPa, w = 2 pi R p_h^2/E'.
+# Load per length [N/m] by Hertz pressure [GPa]. Table 2 gives the load at 2 GPa. At 1 GPa,
+# w = 2 pi R p_h^2/E'.
 LOADS = {1: 3.925e5, 2: 1.57e6}
 _PRINTED = {
     1: ("M12L15", "M17L13", "M24L11", "M34L9"),

@@ -29,8 +29,8 @@ from ehlectric.runtime.threads import one_blas_thread
 # Relaxations of a grid before and after its coarse-grid correction, as in the paper's V(3,2) cycles.
 BEFORE, AFTER = 3, 2
 
-# Halving stops at this many nodes or fewer, as a coarser grid cannot resolve a thin film; and the largest
-# number of nodes that the coarsest grid may have.
+# Number of nodes at or below which halving stops, because a coarser grid cannot resolve a thin film; and
+# largest number of nodes of the coarsest grid.
 COARSEST = 101
 LARGEST_COARSEST = 201
 
@@ -83,8 +83,8 @@ def solve_film(problem: FilmProblem, *, progress: Progress | None = None) -> Fil
     Eqs. (1) to (13) and (19) of Morris et al. (2022), doi:10.3390/lubricants10050087. On a coarse grid H the
     unknown is the injected iterate plus its correction. The right side of its Reynolds equation is
     L_H(I P) + R(f - L_h(P)). Here I is the injection, R is the restriction, and L_h(P) = f is the equation of
-    the finer grid h. The film equation has a right side as well, and the load equation has the defect of the
-    finer grid.
+    the finer grid h. The film equation also has a right side. The load equation contains the residual of
+    the finer grid.
     """
     if problem.geometry is not LINE:
         raise ValueError("the paper's multigrid takes deflecting line contacts")
@@ -160,8 +160,8 @@ def equations_of(problem: FilmProblem, nodes: int) -> FilmEquations:
 def _first_grid(problem: FilmProblem, grids: list[FilmEquations]) -> _Cycled:
     """Film on the first grid of the nested iteration, from the Hertz pressure as initial guess.
 
-    The first-order wedge is used, as it is monotone. The initial H00 gives the central film thickness of a
-    film formula.
+    The first-order wedge is used, because it is monotone. The initial H00 gives the central film thickness of
+    a film formula.
     """
     first = grids[0]
     pressure = np.maximum(line_pressure(first.x), problem.fluid.ambient_pressure)

@@ -20,7 +20,7 @@ HALF_BAND = 6
 # Largest change of a pressure P in one relaxation.
 CHANGE = 0.1
 
-# Damping factor c of eq. (19). It is negative, as H00 must be lowered if the pressure carries too little
+# Damping factor c of eq. (19). It is negative: H00 must be lowered if the pressure carries too little
 # load. The dimensionless load of a Hertz contact falls by 4.5 when its H00 is raised by 1.
 LOAD_DAMPING = -0.2
 

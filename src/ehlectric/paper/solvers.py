@@ -1,4 +1,4 @@
-"""Solvers of contacts by name, as the command line takes it: those of ehlectric, and those of the paper."""
+"""Solvers of contacts by their names on the command line: methods of ehlectric and of the paper."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from ehlectric.paper import fas, sor
 
 
 def _check(case: Case) -> None:
-    """Refuse cases that the paper's methods cannot solve: other than line contacts, or unsuitable grids."""
+    """Raise an InputError if the paper's methods cannot solve a case: no line contact, or unsuitable grid."""
     if case.contact.geometry != "line":
         raise InputError.worded(
             "contact.geometry",

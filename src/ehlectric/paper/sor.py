@@ -127,7 +127,7 @@ def cartesian(problem: FieldProblem, rows: int) -> tuple[Stencil, Array]:
     equations : Stencil
         Equation (16) at every unknown.
     start : ndarray, shape (n + 2,)
-        Potential that is linear across the gap, then that of the lower and the upper surface [V].
+        Potential that is linear across the gap, then the potentials of the lower and the upper surface [V].
 
     Raises
     ------
@@ -191,8 +191,8 @@ def solve_field(problem: FieldProblem, *, rows: int = ROWS) -> Field:
 def field_from(problem: FieldProblem, equations: Stencil, potential: Array) -> Field:
     """Field from the potential of the unknowns and the two surfaces, shape (n + 2,) [V].
 
-    The derivative along y is that of cubic splines along the columns. The derivative along x is a difference
-    between columns at the same height.
+    The derivative along y is computed from cubic splines along the columns. The derivative along x is a
+    difference between columns at the same height.
     """
     grid, voltage = equations.grid, problem.potential_2 - problem.potential_1
     s = np.append(lobatto_nodes(problem.degree), 0.5)

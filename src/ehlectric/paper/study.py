@@ -168,7 +168,7 @@ def run_study(parts: Iterable[str], *, progress: Callable[[int, int, str], None]
 
         if work:
             run_all([partial(task, contact) for _, contact, task in work], done)
-    # The results are in the order of the contacts, not in that of their completion.
+    # The results are in the order of the contacts, not in the order of completion.
     return Study(**{part: {contact: solved[part, contact] for contact in CONTACTS} for part in requested})
 
 

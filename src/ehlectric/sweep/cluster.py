@@ -110,7 +110,7 @@ def _crew(client: Any, executor: Executor) -> Crew:
 
 
 def _silence() -> None:
-    """Switch off the loggers of Dask, those that exist and, through their parents, those created later."""
+    """Switch off the loggers of Dask: existing ones and, through their parents, loggers created later."""
     for name in (*_LOGGERS, *logging.root.manager.loggerDict):
         if name.partition(".")[0] in _LOGGERS:
             logging.getLogger(name).setLevel(logging.CRITICAL + 1)

@@ -189,7 +189,7 @@ def _take(
             outcomes.append((task[0], future.result()))
         except CancelledError:
             gone = True
-        except Exception:  # raised by the executor, as solve_point raises none
+        except Exception:  # raised by the executor, because solve_point raises none
             suspects.append(task)
     done(outcomes)
     if gone:
@@ -296,6 +296,6 @@ def _prepare_process() -> None:
     from threadpoolctl import threadpool_limits
 
     end_with_parent()
-    # The environment limits libraries that are loaded later, threadpool_limits those already loaded.
+    # The environment limits libraries that are loaded later; threadpool_limits limits loaded libraries.
     os.environ |= dict.fromkeys(_THREADS, "1")
     threadpool_limits(1)

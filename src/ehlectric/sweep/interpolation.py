@@ -179,7 +179,7 @@ def curve_of(x: Array, values: Array, *, log_x: bool, log: bool) -> tuple[Array,
     nodes, cell, part = _between(x, log=log_x)
     ends = _onto(values, log=log)
     between = (1.0 - part) * ends[cell] + part * ends[cell + 1]
-    # A node at a point has its value even where that of the neighbouring point is NaN.
+    # A node at a point has the value of this point, even if the value of the neighbouring point is NaN.
     at_nodes = np.where(part == 0.0, ends[cell], np.where(part == 1.0, ends[cell + 1], between))
     return nodes, _back(at_nodes, log=log)
 

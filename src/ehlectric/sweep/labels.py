@@ -40,7 +40,7 @@ class Label:
     unit: str
 
     def scaled(self, values: Array) -> Scale:
-        """Prefixed unit that suits the largest of some SI values; those that are not finite are ignored."""
+        """Prefixed unit that suits the largest of some SI values; values that are not finite are ignored."""
         finite = np.abs(values[np.isfinite(values)])
         return scale_for(float(np.max(finite, initial=0.0)) or 1.0, self.unit)
 
@@ -51,7 +51,15 @@ class Label:
 
 @dataclass(frozen=True)
 class Scale:
-    """Unit in which values are shown, and the factor from SI values to it."""
+    """Unit in which values are shown.
+
+    Attributes
+    ----------
+    factor : float
+        Factor from values in SI units to values in this unit.
+    unit : str
+        Unit as printed, such as "µm".
+    """
 
     factor: float
     unit: str

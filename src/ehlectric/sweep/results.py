@@ -22,7 +22,15 @@ Spacing = Literal["linear", "log"]
 
 @dataclass(frozen=True)
 class Range:
-    """Range of an input between two SI values, with values spaced evenly, linearly or in the logarithm."""
+    """Range of an input between two values.
+
+    Attributes
+    ----------
+    start, stop : float
+        Ends of the range, in SI units.
+    spacing : str
+        "linear" if values are spaced evenly, or "log" if their logarithms are.
+    """
 
     start: float
     stop: float

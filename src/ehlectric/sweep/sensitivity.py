@@ -81,7 +81,7 @@ class Sensitivity:
     value : str
         Dotted key of the summary.
     points, solved : int
-        Number of points of the design, and number of those that are solved.
+        Number of points of the design, and number of solved points.
     rows, used : int
         Number of rows of the design, and number of complete rows, from which the indices are computed.
     doubtful : int
@@ -164,9 +164,9 @@ def sensitivity(results: SweepResults, value: str, *, resamples: int = 1000, see
     Returns
     -------
     Sensitivity
-        Spread and indices. A row of the design consists of a point of A, the point of B, and that of A with
-        each column of B. The indices are computed from complete rows, of which all points are solved; the
-        spread is computed from all solved points of A and B.
+        Spread and indices. A row of the design consists of a point of A, the point of B, and the point of A
+        with each column of B. The indices are computed from complete rows, of which all points are solved;
+        the spread is computed from all solved points of A and B.
 
     Raises
     ------
@@ -320,7 +320,7 @@ def intervals(a: Array, b: Array, mixed: Array, *, resamples: int, seed: int) ->
 def _columns(a: Array, b: Array, mixed: Array) -> Array:
     """Quantities whose means over the rows give the indices, shape (4 + 3 inputs, n).
 
-    The values are centred before they are squared, as rounding would spoil the variance of a value that
+    The values are centred before they are squared: rounding would spoil the variance of a value that
     varies little.
     """
     middle = 0.5 * (np.mean(a) + np.mean(b))

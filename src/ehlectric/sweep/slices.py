@@ -227,7 +227,7 @@ def take(
 
 
 def _drawn(points: Sequence[Point]) -> str:
-    """Text of the number of points in a slice, and of those with a severe warning."""
+    """Text: number of points in a slice, and number of points with a severe warning."""
     doubtful = sum(point.doubtful for point in points)
     text = f"{len(points)} points that are drawn"
     return text + (f', of which {doubtful} are solved but say "do not use"' if doubtful else "")

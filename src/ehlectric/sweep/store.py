@@ -88,7 +88,7 @@ class Store:
         self._lock.close()
 
     def begin(self, sweep: Sweep, planned: Iterable[Planned]) -> None:
-        """Write the input and points of a sweep in place of earlier ones; stored outcomes are kept."""
+        """Replace the stored input and points by those of a sweep; stored outcomes are kept."""
         settings = {
             "case": sweep.case.to_toml(),
             "design": sweep.design,
@@ -265,13 +265,13 @@ def _point(
         return Point(number, inputs, "failed" if refused else "open", refused)
     reason, seconds, version = outcome
     if summary is not None:
-        # The key does not cover the title, so the summary may be that of a case with another title.
+        # The key does not cover the title, so the summary may belong to a case with another title.
         summary["title"] = inputs.get("title", case.title)
     return Point(number, inputs, status, reason, summary, seconds, version)
 
 
 def _opened(path: Path, mode: str) -> sqlite3.Connection:
-    """Connection to a file, which must be empty or that of a sweep."""
+    """Connection to a file, which must be empty or the file of a sweep."""
     file = sqlite3.connect(
         f"{path.absolute().as_uri()}?mode={mode}", uri=True, timeout=_PATIENCE, isolation_level=None
     )

@@ -97,7 +97,7 @@ def film_around(result: BearingResult, ax: Axes | None = None) -> Axes:
         float(np.min(race.values.minimum_thickness[race.solved])) for pair in states for race in pair
     )
     factor, unit = unit_for(thinnest, "m")
-    # Circles far below the films are left out, as they would leave little room for the films.
+    # Circles far below the films are left out, because they would leave little room for the films.
     ratios = [ratio for ratio in (CONDUCTING, PARTIAL) if films.min() < _FAR * ratio * rq]
     everything = factor * np.concatenate([films, rq * np.array(ratios)])
     angles = np.linspace(0.0, 2.0 * np.pi, 181)

@@ -28,7 +28,7 @@ from ehlectric.figures.style import (
     new_panels,
 )
 
-# Colour and dashes of the cut through the centre, and of that through the minimum film or the largest field.
+# Colour and dashes of the cut through the centre, and of the cut through the minimum film or largest field.
 _LOOKS = ((BLUE, "-"), (ORANGE, (0, (4.0, 1.2))))
 
 
@@ -158,7 +158,7 @@ def field_cut(result: PointResult, ax: Axes | None = None, *, along: str = "x") 
     -------
     Axes
         Axes with the field strength as lines, and the thin-gap estimate V12/h as wide bands behind them. The
-        ends of the field domain are left out, as its side faces disturb the field there.
+        ends of the field domain are left out, because its side faces disturb the field there.
     """
     ax, field = axes_or_new(ax), result.field
     factor, unit = unit_for(field.max_strength, "V/m")

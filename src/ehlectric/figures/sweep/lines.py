@@ -228,7 +228,7 @@ def _applied(path: _Path, ax: Axes, scales: tuple[Scale, Scale], lines: list[_Li
 
 
 def _limit_values(ax: Axes, values: Array) -> None:
-    """Set the range of the vertical axis: that of the values and some room, or from zero."""
+    """Set the range of the vertical axis: the range of the values with some room, or from zero."""
     finite = values[np.isfinite(values)]
     low, high = float(finite.min()), float(finite.max())
     if ax.get_yscale() == "log":
