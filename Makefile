@@ -9,7 +9,7 @@ export PIP_CONSTRAINT := $(CURDIR)/requirements.lock
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
 .DEFAULT_GOAL := help
-.PHONY: help run test slow lint check format docs figures bench bench-public lock clean
+.PHONY: help install run test slow lint check format docs figures bench bench-public lock clean
 
 help:
 	@echo "make run     install and solve the example, with figures"
@@ -43,6 +43,11 @@ $(VENV)/.dev: $(BIN)/python pyproject.toml requirements.lock
 $(VENV)/.docs: $(BIN)/python pyproject.toml requirements.lock
 	$(BIN)/python -m pip install --quiet --editable ".[docs]"
 	@touch $@
+
+# All extras in one step, in place of one step for each command below.
+install: $(BIN)/python pyproject.toml requirements.lock
+	$(BIN)/python -m pip install --quiet --editable ".[dev,docs]"
+	@touch $(VENV)/.run $(VENV)/.test $(VENV)/.dev $(VENV)/.docs
 
 run: $(VENV)/.run
 	$(BIN)/ehlectric run examples/line_contact.toml -o $(RESULTS)

@@ -4,6 +4,7 @@ import dataclasses
 import functools
 import os
 import re
+import signal
 from pathlib import Path
 
 import numpy as np
@@ -206,7 +207,11 @@ def test_a_task_that_fails_or_dies_is_said():
     with pytest.raises(ZeroDivisionError):
         run_all([functools.partial(divmod, 1, 0)], lambda _number, _result: None, processes=1)
     with pytest.raises(RuntimeError, match="was killed or could not begin"):
-        run_all([functools.partial(os._exit, 3)], lambda _number, _result: None, processes=1)
+        run_all(
+            [functools.partial(signal.raise_signal, signal.SIGKILL)],
+            lambda _number, _result: None,
+            processes=1,
+        )
 
 
 def test_cores_without_affinity(monkeypatch):
