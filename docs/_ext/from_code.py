@@ -106,7 +106,7 @@ def _unit(written: str) -> str:
 
 
 def _takes(name: str, found: Any, *, pair: bool) -> str:
-    """What the key takes, with its unit, and why."""
+    """Values that a key accepts, with their unit and the reason for their bounds."""
     if name in _NAMES:
         return ", ".join(f'`"{name}"`' for name in _NAMES[name])
     if name == "film_factor":
