@@ -306,7 +306,7 @@ def check(case: Case) -> Meaning:
     contact = check_case(case)
     rows, summary = case_rows(case, contact.conditions), case_summary(case, contact.conditions)
     if case.motion is not None:
-        schedule = TransientContact.of(case).schedule
+        schedule = TransientContact.of(case, contact.rough).schedule
         summary["motion"] = schedule.described()
         rows += schedule_rows(schedule, contact.conditions.entrainment_speed)
     return Meaning(case.title, tuple(rows), summary, tuple(contact.warnings()))

@@ -117,7 +117,7 @@ def solve(
             "motion", got="it where a film at rest is solved;", takes="run_motion, or a case without it"
         )
     return _solved(
-        check_case(case) if prepared is None else prepared,
+        check_case(case) if prepared is None else replace(prepared, case=case),
         progress=progress,
         require_convergence=require_convergence,
         solvers=solvers,

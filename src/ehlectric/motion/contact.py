@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import zip_longest
+from typing import Any
 
 import numpy as np
 
@@ -14,6 +17,8 @@ from ehlectric.film.problem import FilmProblem
 from ehlectric.motion.kinds import KINDS, AnyKind
 from ehlectric.motion.roughness import MovingRoughness
 from ehlectric.motion.schedule import Schedule, schedule_of
+from ehlectric.surfaces.rough_maps import RoughMap
+from ehlectric.surfaces.rough_profiles import RoughSurface
 
 # Tolerance for a whole number of grid intervals in the extended domain [grid intervals].
 _ROUNDING = 1e-9
@@ -44,13 +49,16 @@ class TransientContact:
     roughness: MovingRoughness
 
     @classmethod
-    def of(cls, case: Case) -> TransientContact:
+    def of(cls, case: Case, rough: Sequence[RoughSurface | RoughMap] = ()) -> TransientContact:
         """Contact of a case, with its surfaces generated or read.
 
         Parameters
         ----------
         case : Case
             A case with ``motion`` and roughness.
+        rough : sequence of RoughSurface or RoughMap, optional
+            Surfaces of the same case at rest. Those from files do not depend on the domain and are taken as
+            they are, so that no file is read twice.
 
         Returns
         -------
@@ -66,7 +74,11 @@ class TransientContact:
         conditions = kind.contact.resolve(case)
         schedule = schedule_of(case, conditions)
         travelled = travelled_case(case, schedule)
-        surfaces = kind.contact.rough(travelled.roughness, kind.contact.domain(travelled, conditions))
+        domain = kind.contact.domain(travelled, conditions)
+        surfaces: list[Any] = [
+            kind.contact.rough([table], domain)[0] if surface is None or table.file is None else surface
+            for table, surface in zip_longest(travelled.roughness, rough)
+        ]
         roughness = MovingRoughness(surfaces, schedule, conditions.half_width)
         return cls(case, conditions, schedule, travelled, roughness)
 

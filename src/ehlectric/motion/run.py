@@ -12,9 +12,8 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
-from ehlectric.contact.check import check_case
+from ehlectric.contact.check import PreparedContact, check_case
 from ehlectric.contact.files import FILES, SUMMARY
-from ehlectric.contact.memory import check_memory
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.contact.solver import solve
 from ehlectric.errors import ConvergenceError, ResultWarning
@@ -70,15 +69,15 @@ def run(
     ConvergenceError
         Where the film before the motion is not converged, so that there is nothing to sum up.
     """
-    check_case(case)
-    contact = TransientContact.of(case)
+    prepared = check_case(case)
+    contact = TransientContact.of(case, prepared.rough)
     folder = prepare(folder, (MOTION, *FILES, *others))
     # A run that was stopped between its last step and its summary has no summary.json.
     again = (folder / SUMMARY).is_file()
     clear(folder, (*FILES, *others))
     failure = None
     try:
-        _solve(contact, folder / MOTION, again=again, progress=progress)
+        _solve(contact, prepared, folder / MOTION, again=again, progress=progress)
     except ConvergenceError as error:
         if not (folder / MOTION).is_file():
             raise
@@ -116,14 +115,16 @@ def run_motion(case: Case, folder: str | Path, *, again: bool = True, progress: 
     ConvergenceError
         Where a step is not solved; the file has the recorded instants before it.
     """
-    contact = TransientContact.of(case)
-    check_memory(case)
+    prepared = check_case(case)
+    contact = TransientContact.of(case, prepared.rough)
     path = prepare(folder, (MOTION,)) / MOTION
-    _solve(contact, path, again=again, progress=progress)
+    _solve(contact, prepared, path, again=again, progress=progress)
     return path
 
 
-def _solve(contact: TransientContact, path: Path, *, again: bool, progress: Progress) -> None:
+def _solve(
+    contact: TransientContact, prepared: PreparedContact, path: Path, *, again: bool, progress: Progress
+) -> None:
     """Solve the time steps that a file does not have yet, and write the recorded instants into it."""
     solver = TransientSolver(contact)
     file = MotionFile(path, contact)
@@ -133,7 +134,7 @@ def _solve(contact: TransientContact, path: Path, *, again: bool, progress: Prog
     if resumed is None:
         path.unlink(missing_ok=True)
         progress(0, contact.schedule.steps, "before the motion")
-        _begin(file, solver)
+        _begin(file, solver, prepared)
         resumed = file.resumed()
         assert resumed is not None
     done, history = resumed
@@ -150,10 +151,11 @@ def _solve(contact: TransientContact, path: Path, *, again: bool, progress: Prog
             progress(step, contact.schedule.steps, "in time")
 
 
-def _begin(file: MotionFile, solver: TransientSolver) -> None:
+def _begin(file: MotionFile, solver: TransientSolver, prepared: PreparedContact) -> None:
     """Write the film before the motion as the first instant, with the film of stationary roughness."""
     contact, started = solver.contact, time.perf_counter()
-    still = solve(contact.case.replace(motion=None), beside_smooth=False)
+    at_rest = contact.case.replace(motion=None)
+    still = solve(at_rest, prepared=prepared, beside_smooth=False)
     history = solver.start()
     first = solver.snapshot(history.now)
     attributes = {

@@ -8,7 +8,9 @@ from ehlectric.errors import ConvergenceError
 from ehlectric.film.unsteady import UnsteadyFilm
 from ehlectric.motion.run import run, run_motion
 from ehlectric.motion.stored_run import MOTION
-from tests.helpers.moving_cases import moving
+from ehlectric.surfaces import rough_profiles
+from tests.helpers.moving_cases import LINE, moving
+from tests.helpers.places import DEKTAK
 
 # Twelve steps of two grid spacings, recorded are 0, 4, 8 and 12.
 CASE = moving(motion={"passes": 0.375, "steps": 12, "record": 4})
@@ -76,3 +78,17 @@ def test_without_a_film_before_the_motion_there_is_nothing_to_sum_up(tmp_path):
     with pytest.raises(ConvergenceError, match=r"^film before the motion "):
         run(CASE.replace({"solver.max_iterations": 1}), tmp_path)
     assert not list(tmp_path.iterdir())
+
+
+def test_a_run_reads_each_surface_once(tmp_path, monkeypatch):
+    """Checked, moved and at rest: one surface from one reading of its file."""
+    read, paths = rough_profiles.read_surface, []
+
+    def counted(path, **units):
+        paths.append(path)
+        return read(path, **units)
+
+    monkeypatch.setattr(rough_profiles, "read_surface", counted)
+    rough = {"surface": 1, "file": str(DEKTAK), "form": "parabola"}
+    run(moving(LINE, roughness=[rough], motion={"passes": 0.25, "steps": 2, "record": 2}), tmp_path)
+    assert list(map(str, paths)) == [str(DEKTAK)]
