@@ -13,6 +13,7 @@ from ehlectric.arrays import Array
 from ehlectric.errors import ConvergenceError
 from ehlectric.field.line import Field
 from ehlectric.field.point import PointField
+from ehlectric.film.gap import Gap
 from ehlectric.film.levels import Level
 from ehlectric.film.line import Film
 from ehlectric.film.nested import nested_iteration
@@ -153,7 +154,7 @@ def film_of(contact: TransientContact, level: Level, instant: Instant) -> Film |
     def shaped(values: NDArray[Any]) -> NDArray[Any]:
         return contact.kind.shaped(mesh, values)
 
-    load = float(np.vdot(level.weights, state.pressure))
+    load = Gap(level, state.thickness).load(state.pressure)
     solution = FilmSolution(
         x=scales.length * mesh.x,
         pressure=shaped(pressure_of(scales, state, instant.full_film)),

@@ -7,8 +7,9 @@ import pytest
 
 from ehlectric import Case, InputError
 from ehlectric.contact.memory import KRYLOV_VECTORS, check_memory, point_memory
-from ehlectric.film.newton import KRYLOV_LIMIT
+from ehlectric.film import newton
 from ehlectric.runtime.memory import physical_memory
+from tests.helpers.films import film_alone
 from tests.helpers.moving_cases import TABLES, moving
 
 POINT = {"geometry": "point", "radius_x": 0.01, "radius_y": 0.01, "load": 20.0, "reduced_modulus": 226e9}
@@ -44,9 +45,18 @@ def test_contacts_that_are_no_mirror_image_of_themselves_take_twice_as_much(monk
         check_memory(point(PIT, nodes=513))
 
 
-def test_krylov_space_that_is_reckoned_with():
-    # Flexible GMRES keeps every direction and its preconditioned one, and the first residual.
-    assert KRYLOV_VECTORS == 2 * KRYLOV_LIMIT + 1
+def test_krylov_space_that_is_reckoned_with(paper_case, monkeypatch):
+    """Flexible GMRES keeps every direction and its preconditioned one, and the first residual."""
+    solver, limits = newton.gcrotmk, []
+
+    def counted(*values, **options):
+        limits.append(options["m"] * options["maxiter"])
+        return solver(*values, **options)
+
+    monkeypatch.setattr(newton, "gcrotmk", counted)
+    film_alone(paper_case.replace({"grid.nodes": 401}))
+    assert limits
+    assert 2 * max(limits) + 1 == KRYLOV_VECTORS
 
 
 # Solves in a fresh process; what the system counts as its highest memory, before and after.
