@@ -24,9 +24,8 @@ def _line(text: str) -> str:
 class InputError(ValueError):
     """Error of a wrong input: one line that names the key, its value, and the values that are allowed.
 
-    The line is ``key: got VALUE, takes TAKES``, or ``key: missing, takes TAKES`` without a value. If the
-    value, or the text in its place, ends in a semicolon, no comma follows it. A single argument is the whole
-    line of an error without a key.
+    The line is ``key: got VALUE; expected TAKES``, or ``key: missing; expected TAKES`` without a value. A
+    single argument is the whole line of an error without a key.
 
     Parameters
     ----------
@@ -54,11 +53,11 @@ class InputError(ValueError):
     --------
     >>> error = InputError("contact.radius_x", got="-1 m", takes="above 0 m")
     >>> str(error)
-    'contact.radius_x: got -1 m, takes above 0 m'
+    'contact.radius_x: got -1 m; expected above 0 m'
     >>> error.key, error.got, error.takes
     ('contact.radius_x', '-1 m', 'above 0 m')
     >>> str(InputError("rough.csv", "has 3 points", takes="at least 16"))
-    'rough.csv: has 3 points, takes at least 16'
+    'rough.csv: has 3 points; expected at least 16'
     """
 
     key: str | None
@@ -80,8 +79,7 @@ class InputError(ValueError):
         else:
             wrong = says if says is not None else "missing" if got is None else f"got {got}"
             got = says if got is None else got
-        comma = "" if wrong.endswith(";") else ","
-        self.text = _line(wrong if takes is None else f"{wrong}{comma} takes {takes}")
+        self.text = _line(wrong if takes is None else f"{wrong.removesuffix(';')}; expected {takes}")
         self.key = None if key is None else _line(str(key))
         self.got = got.removesuffix(";") if isinstance(got, str) else got
         self.takes = takes
@@ -94,7 +92,7 @@ class InputError(ValueError):
         Examples
         --------
         >>> str(InputError.missing("contact.load", "a value"))
-        'contact.load: missing, takes a value'
+        'contact.load: missing; expected a value'
         """
         return cls(key, takes=takes)
 
@@ -126,7 +124,7 @@ class InputError(ValueError):
         Examples
         --------
         >>> str(InputError("width", got="2 m", takes="less").under("roughness"))
-        'roughness.width: got 2 m, takes less'
+        'roughness.width: got 2 m; expected less'
         """
         return self.retold(".".join(filter(None, [table, self.key])) or None, self.text)
 
@@ -255,7 +253,7 @@ class ResultWarning:
 
     def __post_init__(self) -> None:
         if self.code not in CODES:
-            raise ValueError(f"{self.code!r} is no code of a warning; takes one of {', '.join(CODES)}")
+            raise ValueError(f"{self.code!r} is no code of a warning; expected one of {', '.join(CODES)}")
 
     def __str__(self) -> str:
         return self.text

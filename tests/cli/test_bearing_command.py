@@ -111,7 +111,7 @@ def test_json_on_request(ehlectric, bearing_file, tmp_path):
             "elements = 14",
             "elements = 18",
             (
-                "bearing.elements: got 18, takes 3 to 17, the most of 0.011 m that a pitch circle of 0.06 m "
+                "bearing.elements: got 18; expected 3 to 17, the most of 0.011 m that a pitch circle of 0.06 m "
                 "holds"
             ),
         ),
@@ -119,7 +119,7 @@ def test_json_on_request(ehlectric, bearing_file, tmp_path):
             "[lubricant]\n",
             '[lubricant]\nviscosity = "0.02 Pa s"\n',
             (
-                "lubricant.viscosity: got viscosity and temperature together, takes either viscosity or "
+                "lubricant.viscosity: got viscosity and temperature together; expected either viscosity or "
                 "temperature"
             ),
         ),
@@ -147,7 +147,7 @@ def test_a_bearing_is_not_taken_for_a_contact(ehlectric, bearing_file, command):
     """The line names the command that takes it, as that one does for the file of a contact."""
     done = ehlectric(command, bearing_file)
     assert done.returncode == 2
-    line = "is the file of a bearing, takes that of a contact; ehlectric bearing solves it"
+    line = "is the file of a bearing; expected that of a contact; ehlectric bearing solves it"
     assert done.stderr.splitlines() == [f"error: {bearing_file}: {line}"]
 
 
@@ -155,7 +155,7 @@ def test_a_contact_is_not_taken_for_a_bearing(ehlectric, case_file):
     done = ehlectric("bearing", case_file)
     assert done.returncode == 2
     assert done.stderr.splitlines() == [
-        f"error: {case_file}: is the file of a contact, takes that of a bearing; ehlectric run solves it"
+        f"error: {case_file}: is the file of a contact; expected that of a bearing; ehlectric run solves it"
     ]
 
 

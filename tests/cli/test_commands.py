@@ -204,7 +204,7 @@ def test_surface_shows_the_whole_map(ehlectric, tmp_path):
     assert as_read["points"] == 200
     assert "line: got 3 for a whole map" in one_line(ehlectric(*words, "--map", "--line", "3"))
     hfm = SURFACES / "hfm-1.hfm"
-    assert "is a profile, takes a map" in one_line(ehlectric("surface", hfm, "--map"))
+    assert "is a profile; expected a map" in one_line(ehlectric("surface", hfm, "--map"))
 
 
 @pytest.mark.slow
@@ -217,7 +217,7 @@ def test_surfaces_that_cannot_be_used(ehlectric, case_file, tmp_path):
     assert "no such file" in one_line(ehlectric("run", case_file))
     pit = '[[roughness]]\nsurface = 1\ngenerator = "pit"\ndepth = "50 nm"\nwidth = "9 mm"\n'
     case_file.write_text(CASE + pit)
-    assert "roughness.width: got 0.009 m, takes less" in one_line(ehlectric("run", case_file))
+    assert "roughness.width: got 0.009 m; expected less" in one_line(ehlectric("run", case_file))
     assert not (tmp_path / "results").exists()
 
 
@@ -274,7 +274,7 @@ def test_point_contacts_are_begun_and_checked(ehlectric, tmp_path):
         assert all(len(line.rstrip()) <= 80 for line in done.stdout.splitlines())
     wrong = ehlectric("init", "other.toml", "--geometry", "ball")
     assert wrong.returncode == 2
-    assert wrong.stderr == "error: --geometry: got 'ball', takes one of line, point\n"
+    assert wrong.stderr == "error: --geometry: got 'ball'; expected one of line, point\n"
 
 
 def test_check_of_a_point_contact_as_json(ehlectric):
@@ -319,7 +319,7 @@ BAD_FILES = [
     ('reduced_modulus = "226 GPa"', 'reduced_modulus = "226 kg"', "contact.reduced_modulus: got '226 kg'"),
     ("reduced_modulus", "reduced_moduls", "the nearest known one is contact.reduced_modulus"),
     ('max_hertz_pressure = "1 GPa"', "", "contact.load_per_length: missing"),
-    ('max_hertz_pressure = "1 GPa"', "max_hertz_pressure = 0", "got 0, takes"),
+    ('max_hertz_pressure = "1 GPa"', "max_hertz_pressure = 0", "got 0; expected"),
     ('max_hertz_pressure = "1 GPa"', "max_hertz_pressure = nan", "got nan"),
     ("nodes = 801", "nodes = 1e12", "grid.nodes: got 1000000000000.0"),
     ("nodes = 801", "inlet = 3.0", "grid.inlet: got 3.0"),
@@ -387,7 +387,7 @@ def test_the_papers_solvers(ehlectric, case_file, tmp_path):
 def test_unknown_solver_is_refused(ehlectric, case_file, tmp_path):
     done = ehlectric("run", case_file, "-o", "out", "--solver", "comsol")
     assert done.returncode == 2
-    assert done.stderr == "error: --solver: got 'comsol', takes one of ehlectric, paper\n"
+    assert done.stderr == "error: --solver: got 'comsol'; expected one of ehlectric, paper\n"
     assert not (tmp_path / "out").exists()
 
 

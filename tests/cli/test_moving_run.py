@@ -112,28 +112,28 @@ def test_a_point_contact_is_run_too(ehlectric, tmp_path, case_file):
 # What is typed, changes of the case, and what is said.
 PASSES = "passes = 0.375\n"
 ALONE = (
-    "motion: got roughness on surfaces at rest alone; takes it on one that moves, or a case without motion"
+    "motion: got roughness on surfaces at rest alone; expected it on one that moves, or a case without motion"
 )
 ROUGH = CASE[CASE.index("[[roughness]]") : CASE.index("[grid]")]
 BAD = [
     (
         (PASSES, PASSES + 'duration = "1 ms"\n'),
-        "motion.passes: got passes and duration together, takes either",
+        "motion.passes: got passes and duration together; expected either",
     ),
-    ((PASSES, ""), "motion.passes: missing, takes either passes or duration"),
+    ((PASSES, ""), "motion.passes: missing; expected either passes or duration"),
     (
         (PASSES, 'duration = "1 m"\n'),
-        "motion.duration: got '1 m' (m is not a unit of this quantity), takes a",
+        "motion.duration: got '1 m' (m is not a unit of this quantity); expected a",
     ),
-    (("record = 4", "record = 1"), "motion.record: got 1, takes a whole number from 2 to 100000"),
+    (("record = 4", "record = 1"), "motion.record: got 1; expected a whole number from 2 to 100000"),
     (
         ("steps = 12", "steps = 2"),
         "motion.steps: got 2, in each of which oil would travel 12 grid spacings; ",
     ),
-    ((ROUGH, ""), "motion: got it without roughness, which is what moves; takes a rough surface"),
+    ((ROUGH, ""), "motion: got it without roughness, which is what moves; expected a rough surface"),
     (
         ("nodes = 65", 'nodes = 65\nwedge = "first-order"'),
-        "grid.wedge: got 'first-order' beside motion, takes",
+        "grid.wedge: got 'first-order' beside motion; expected",
     ),
     (("nodes = 65", "nodes = 65\nrefine = 0.1"), "grid.refine: got it beside motion, which takes one grid"),
     (("[lubricant]", "slide_to_roll_ratio = -2.0\n[lubricant]"), ALONE),
@@ -157,8 +157,8 @@ def test_wrong_input_is_one_line_before_anything_is_made(
 @pytest.mark.parametrize(
     ("name", "message"),
     [
-        ("paper", "--solver: got 'paper' for a case with motion, takes 'ehlectric'"),
-        ("other", "--solver: got 'other', takes one of ehlectric, paper"),
+        ("paper", "--solver: got 'paper' for a case with motion; expected 'ehlectric'"),
+        ("other", "--solver: got 'other'; expected one of ehlectric, paper"),
     ],
 )
 def test_other_solvers_know_no_motion(typed, tmp_path, case_file, name, message):
@@ -181,7 +181,7 @@ def test_other_commands_refuse_it(typed, tmp_path, case_file):
         'case = "case.toml"\n[vary]\ncontact.entrainment_speed = ["1 m/s", "2 m/s"]\n'
     )
     swept = typed("sweep", "sweep.toml", "-o", "out")
-    text = "error: case.motion: got it in a sweep, whose films are at rest; takes a case without it\n"
+    text = "error: case.motion: got it in a sweep, whose films are at rest; expected a case without it\n"
     assert (swept.exit_code, swept.stdout, swept.stderr) == (2, "", text)
     shown = typed("surface", case_file)
     assert (shown.exit_code, shown.stdout, shown.stderr.count("\n")) == (2, "", 1)

@@ -57,12 +57,12 @@ def test_one_figure_alone(ehlectric, tmp_path):
         (
             "--figure",
             "1",
-            "error: --figure: got 1, takes 2 to 11: Figure 1 is a photograph under copyright\n",
+            "error: --figure: got 1; expected 2 to 11: Figure 1 is a photograph under copyright\n",
         ),
-        ("--figure", "12", "error: --figure: got 12, takes 2 to 11\n"),
-        ("--figure", "5-", "error: --figure: got '5-', takes a number\n"),
-        ("--table", "x", "error: --table: got 'x', takes a number\n"),
-        ("--table", "1", "error: --table: got 1, takes 3; Tables 1 and 2 are inputs\n"),
+        ("--figure", "12", "error: --figure: got 12; expected 2 to 11\n"),
+        ("--figure", "5-", "error: --figure: got '5-'; expected a number\n"),
+        ("--table", "x", "error: --table: got 'x'; expected a number\n"),
+        ("--table", "1", "error: --table: got 1; expected 3; Tables 1 and 2 are inputs\n"),
     ],
 )
 def test_what_is_not_there_is_refused(ehlectric, tmp_path, option, value, message):

@@ -120,7 +120,7 @@ def test_points_that_failed_are_counted_by_their_reason(ehlectric, tmp_path, swe
         counts[row["status"]] += 1
     # 13 half-widths take 105 nodes at least: four points have 65.
     assert counts["failed"] == 4
-    assert "failed 4 4 grid.nodes: got 65 over 13 half-widths, takes at least 105" in " ".join(
+    assert "failed 4 4 grid.nodes: got 65 over 13 half-widths; expected at least 105" in " ".join(
         done.stdout.split()
     )
 
@@ -146,11 +146,11 @@ BAD = [
         [],
         "vary: no point is a case; of the first, contact.load_per_length: got load_per",
     ),
-    (SWEEP, ["--workers", "two"], "--workers: got 'two', takes a whole number from 1 to 1024"),
+    (SWEEP, ["--workers", "two"], "--workers: got 'two'; expected a whole number from 1 to 1024"),
     (
         SWEEP,
         ["--workers", "2", "--scheduler", "a:1"],
-        "--workers: got it beside --scheduler, takes one",
+        "--workers: got it beside --scheduler; expected one",
     ),
     (SWEEP, ["--scheduler", "nonsense"], "scheduler: got no answer from 'nonsense', missing port number"),
 ]
@@ -239,7 +239,7 @@ def test_a_second_sweep_in_the_same_folder_is_refused(ehlectric, tmp_path, swept
     process = begun(tmp_path, "--workers", "1")
     second = ehlectric("sweep", "sweep.toml", "-o", "out")
     assert (second.returncode, second.stdout) == (2, "")
-    assert second.stderr == "error: out: is being written to by another sweep, takes a folder of its own\n"
+    assert second.stderr == "error: out: is being written to by another sweep; expected a folder of its own\n"
     assert process.poll() is None
     process.terminate()
     process.communicate(timeout=30)

@@ -149,7 +149,7 @@ def test_toml_round_trip_keeps_the_parameters_in_order(tmp_path):
         ({"doubling_pressure": None}, "doubling_pressure: missing, viscosity_law 'doubling' takes it"),
         (
             {"doubling_pressure": "1 kPa"},
-            "doubling_pressure: got '1 kPa', takes a number in Pa",
+            "doubling_pressure: got '1 kPa'; expected a number in Pa",
         ),
         (
             {"doubling_presure": 1e7},
@@ -157,7 +157,7 @@ def test_toml_round_trip_keeps_the_parameters_in_order(tmp_path):
         ),
         (
             {"bulk_modulus": 1e7},
-            "bulk_modulus: got 10000000.0, takes a number in Pa",
+            "bulk_modulus: got 10000000.0; expected a number in Pa",
         ),
     ],
 )

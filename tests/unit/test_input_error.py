@@ -38,22 +38,22 @@ TEXTS = st.text(max_size=20) | st.sampled_from(["a\nb", "x;", "got", "takes", "a
     [
         (
             InputError("contact.radius_x", got="-1 m", takes="above 0 m"),
-            "contact.radius_x: got -1 m, takes above 0 m",
+            "contact.radius_x: got -1 m; expected above 0 m",
             ("contact.radius_x", "-1 m", "above 0 m"),
         ),
         (
             InputError("motion", got="it where a film is at rest;", takes="a case without it"),
-            "motion: got it where a film is at rest; takes a case without it",
+            "motion: got it where a film is at rest; expected a case without it",
             ("motion", "it where a film is at rest", "a case without it"),
         ),
         (
             InputError(Path("rough.csv"), "has 3 points", takes="at least 16"),
-            "rough.csv: has 3 points, takes at least 16",
+            "rough.csv: has 3 points; expected at least 16",
             ("rough.csv", "has 3 points", "at least 16"),
         ),
         (
             InputError("line", got=0, takes="a row from 1"),
-            "line: got 0, takes a row from 1",
+            "line: got 0; expected a row from 1",
             ("line", 0, "a row from 1"),
         ),
         (
@@ -63,7 +63,7 @@ TEXTS = st.text(max_size=20) | st.sampled_from(["a\nb", "x;", "got", "takes", "a
         ),
         (
             InputError.missing("contact.load", "a value"),
-            "contact.load: missing, takes a value",
+            "contact.load: missing; expected a value",
             ("contact.load", None, "a value"),
         ),
         (
@@ -76,7 +76,7 @@ TEXTS = st.text(max_size=20) | st.sampled_from(["a\nb", "x;", "got", "takes", "a
             "grid.nodes: got 8, the solver takes odd ones",
             ("grid.nodes", 8, "odd ones"),
         ),
-        (InputError(got="2 kg", takes="a length"), "got 2 kg, takes a length", (None, "2 kg", "a length")),
+        (InputError(got="2 kg", takes="a length"), "got 2 kg; expected a length", (None, "2 kg", "a length")),
         (InputError("no point is solved"), "no point is solved", (None, None, None)),
         (InputError(), "", (None, None, None)),
     ],
@@ -93,16 +93,16 @@ def test_error_of_a_worker_arrives_whole(kind: type[InputError]) -> None:
     error = kind("grid.nodes", got=10**6, takes="a grid that fits").under("case")
     for arrived in (pickle.loads(pickle.dumps(error)), copy.copy(error)):
         assert type(arrived) is kind
-        assert str(arrived) == str(error) == "case.grid.nodes: got 1000000, takes a grid that fits"
+        assert str(arrived) == str(error) == "case.grid.nodes: got 1000000; expected a grid that fits"
         assert vars(arrived) == vars(error)
 
 
 @pytest.mark.parametrize(
     ("error", "table", "key", "line"),
     [
-        (InputError("width", got=2, takes="less"), "roughness", "roughness.width", "got 2, takes less"),
-        (InputError(got=2, takes="less"), "contact.load", "contact.load", "got 2, takes less"),
-        (InputError("width", got=2, takes="less"), "", "width", "got 2, takes less"),
+        (InputError("width", got=2, takes="less"), "roughness", "roughness.width", "got 2; expected less"),
+        (InputError(got=2, takes="less"), "contact.load", "contact.load", "got 2; expected less"),
+        (InputError("width", got=2, takes="less"), "", "width", "got 2; expected less"),
     ],
 )
 def test_key_is_put_under_a_table(error: InputError, table: str, key: str, line: str) -> None:
@@ -165,7 +165,7 @@ def test_refused_case_knows_key_value_and_what_is_allowed(
 
 def test_refused_key_of_a_case_is_known_within_a_sweep(tmp_path: Path) -> None:
     wrong = CASE | {"grid": {"nodes": 4}}
-    with pytest.raises(InputError, match=r"^case\.grid\.nodes: got 4, takes") as refused:
+    with pytest.raises(InputError, match=r"^case\.grid\.nodes: got 4; expected") as refused:
         Sweep.from_dict({"case": wrong, "design": "grid", "vary": {}})
     assert (refused.value.key, refused.value.got) == ("case.grid.nodes", "4")
     file = tmp_path / "case.toml"
@@ -192,8 +192,8 @@ def test_refused_file_is_the_key(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("error", "line"),
     [
-        (InputError("contact", "too wide;", takes="less load"), "too wide; takes less load"),
-        (MemoryLimitError("grid.nodes", got=8, takes="4"), "grid.nodes: got 8, takes 4"),
+        (InputError("contact", "too wide;", takes="less load"), "too wide; expected less load"),
+        (MemoryLimitError("grid.nodes", got=8, takes="4"), "grid.nodes: got 8; expected 4"),
     ],
 )
 def test_contact_of_a_bearing_is_to_blame_by_key(error: InputError, line: str) -> None:

@@ -80,5 +80,5 @@ def test_a_warning_reads_as_its_text():
 
 
 def test_unknown_codes_are_refused():
-    with pytest.raises(ValueError, match=r"^'inlet' is no code of a warning; takes one of regime, "):
+    with pytest.raises(ValueError, match=r"^'inlet' is no code of a warning; expected one of regime, "):
         ResultWarning("inlet", "lower grid.inlet")

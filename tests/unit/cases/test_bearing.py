@@ -90,58 +90,58 @@ MISTAKES = [
     ({"bearing__shoulder_height": None}, "bearing.shoulder_height: missing, a bearing of kind"),
     ({"bearing__radial_clearance": None}, "bearing.radial_clearance: missing, a bearing of kind"),
     ({"bearing__kind": "cylindrical roller"}, "bearing.roller_length: missing, a bearing of kind 'cylindr"),
-    (AS_ROLLERS, "bearing.axial_load: got 300 N, takes 0 in a cylindrical roller bearing"),
-    ({**AS_ROLLERS, "bearing__profile": "crowned"}, "bearing.profile: got 'crowned', takes 'none' or 'loga"),
+    (AS_ROLLERS, "bearing.axial_load: got 300 N; expected 0 in a cylindrical roller bearing"),
+    ({**AS_ROLLERS, "bearing__profile": "crowned"}, "bearing.profile: got 'crowned'; expected 'none' or 'loga"),
     # Values.
-    ({"bearing__kind": "tapered"}, "bearing.kind: got 'tapered', takes 'deep-groove ball', 'angular-contact"),
-    ({"bearing__elements": 2}, "bearing.elements: got 2, takes a whole number from 3"),
-    ({"bearing__elements": 9.5}, "bearing.elements: got 9.5, takes a whole number"),
-    ({"bearing__inner_groove": 0.5}, "bearing.inner_groove: got 0.5, takes a number, above 0.5"),
-    ({"bearing__shoulder_height": 0.6}, "bearing.shoulder_height: got 0.6, takes a number, above 0"),
-    ({"bearing__composite_rq": None}, "bearing.composite_rq: missing, takes a value"),
-    ({"bearing__composite_rq": "0 um"}, "bearing.composite_rq: got '0 um', takes a number in m"),
-    ({"bearing__temperature": "70"}, "bearing.temperature: got '70' (it has no unit), takes a number in K"),
-    ({"bearing__temperature": 70}, "bearing.temperature: got 70, takes a number in K"),
-    ({"bearing__inner_speed": "0 rpm"}, "bearing.inner_speed: got '0 rpm', takes a number in rad/s"),
+    ({"bearing__kind": "tapered"}, "bearing.kind: got 'tapered'; expected 'deep-groove ball', 'angular-contact"),
+    ({"bearing__elements": 2}, "bearing.elements: got 2; expected a whole number from 3"),
+    ({"bearing__elements": 9.5}, "bearing.elements: got 9.5; expected a whole number"),
+    ({"bearing__inner_groove": 0.5}, "bearing.inner_groove: got 0.5; expected a number, above 0.5"),
+    ({"bearing__shoulder_height": 0.6}, "bearing.shoulder_height: got 0.6; expected a number, above 0"),
+    ({"bearing__composite_rq": None}, "bearing.composite_rq: missing; expected a value"),
+    ({"bearing__composite_rq": "0 um"}, "bearing.composite_rq: got '0 um'; expected a number in m"),
+    ({"bearing__temperature": "70"}, "bearing.temperature: got '70' (it has no unit); expected a number in K"),
+    ({"bearing__temperature": 70}, "bearing.temperature: got 70; expected a number in K"),
+    ({"bearing__inner_speed": "0 rpm"}, "bearing.inner_speed: got '0 rpm'; expected a number in rad/s"),
     ({"bearing__inner_speed": "3000 m/s"}, "bearing.inner_speed: got '3000 m/s'"),
-    ({"bearing__radial_load": "-5 N"}, "bearing.radial_load: got '-5 N', takes a number in N"),
-    ({"bearing__radial_load": 0, "bearing__axial_load": 0}, "bearing.radial_load: missing, takes a load"),
-    ({"bearing__radial_load": None, "bearing__axial_load": None}, "bearing.radial_load: missing, takes a"),
-    ({"bearing__fill": "grease"}, "bearing.fill: got 'grease', takes 'oil' or 'air'"),
-    ({"bearing__film_factor": 2}, "bearing.film_factor: got 2, takes 'none', 'inlet-shear', or a number"),
-    ({"bearing__film_factor": 0}, "bearing.film_factor: got 0, takes 'none'"),
-    ({"bearing__film_factor": True}, "bearing.film_factor: got True, takes 'none'"),
-    ({"bearing__film_factor": math.nan}, "bearing.film_factor: got nan, takes 'none'"),
-    ({"bearing__film_factor": "0.8"}, "bearing.film_factor: got '0.8', takes 'none'"),
+    ({"bearing__radial_load": "-5 N"}, "bearing.radial_load: got '-5 N'; expected a number in N"),
+    ({"bearing__radial_load": 0, "bearing__axial_load": 0}, "bearing.radial_load: missing; expected a load"),
+    ({"bearing__radial_load": None, "bearing__axial_load": None}, "bearing.radial_load: missing; expected a"),
+    ({"bearing__fill": "grease"}, "bearing.fill: got 'grease'; expected 'oil' or 'air'"),
+    ({"bearing__film_factor": 2}, "bearing.film_factor: got 2; expected 'none', 'inlet-shear', or a number"),
+    ({"bearing__film_factor": 0}, "bearing.film_factor: got 0; expected 'none'"),
+    ({"bearing__film_factor": True}, "bearing.film_factor: got True; expected 'none'"),
+    ({"bearing__film_factor": math.nan}, "bearing.film_factor: got nan; expected 'none'"),
+    ({"bearing__film_factor": "0.8"}, "bearing.film_factor: got '0.8'; expected 'none'"),
     ({"bearing__film_factor": "inlet-shear"}, "lubricant.temperature.thermal_conductivity: missing, film"),
     # Materials and names.
-    ({"bearing__ring_material": "silicon-nitride"}, "bearing.ring_material: got 'silicon-nitride', takes"),
-    ({"bearing__element_material": "brass"}, "bearing.element_material: got 'brass', takes one of the libra"),
+    ({"bearing__ring_material": "silicon-nitride"}, "bearing.ring_material: got 'silicon-nitride'; expected"),
+    ({"bearing__element_material": "brass"}, "bearing.element_material: got 'brass'; expected one of the libra"),
     ({"bearing__element_capacitance": "10 pF"}, "bearing.element_capacitance: got it for elements that"),
-    ({**CERAMIC, "bearing__element_capacitance": "0 pF"}, "bearing.element_capacitance: got '0 pF', takes a"),
+    ({**CERAMIC, "bearing__element_capacitance": "0 pF"}, "bearing.element_capacitance: got '0 pF'; expected a"),
     (
         {"bearing__base": "6209"},
-        "bearing.base: got '6209', takes a name of the library: 209-hamrock, 6208, nu-215",
+        "bearing.base: got '6209'; expected a name of the library: 209-hamrock, 6208, nu-215",
     ),
     (
         {"bearing__base": 6208},
-        "bearing.base: got 6208, takes a text, a name of the library: 209-hamrock, 6208, nu-215",
+        "bearing.base: got 6208; expected a text, a name of the library: 209-hamrock, 6208, nu-215",
     ),
-    ({"lubricant__base": "papier"}, "lubricant.base: got 'papier', takes"),
-    ({"lubricant__base": 46}, "lubricant.base: got 46, takes a text, a name of the library: "),
+    ({"lubricant__base": "papier"}, "lubricant.base: got 'papier'; expected"),
+    ({"lubricant__base": 46}, "lubricant.base: got 46; expected a text, a name of the library: "),
     ({"bearing__groove": 0.52}, "bearing.groove: unknown key; the nearest known one is bearing."),
     ({"grid__nodes": 257}, "grid: unknown key; the nearest known one is"),
-    ({"bearing": None}, "bearing: missing, takes a table"),
-    ({"motor": 3}, "motor: got 3, takes a table"),
+    ({"bearing": None}, "bearing: missing; expected a table"),
+    ({"motor": 3}, "motor: got 3; expected a table"),
     # The oil.
     ({"lubricant__viscosity": "0.02 Pa s"}, "lubricant.viscosity: got viscosity and temperature together"),
     (
         {"lubricant": NO_VISCOSITY},
-        "lubricant.viscosity: missing, takes either viscosity or temperature",
+        "lubricant.viscosity: missing; expected either viscosity or temperature",
     ),
     (
         {"lubricant__temperature__kinematic_viscosity_100": None},
-        "lubricant.temperature.kinematic_viscosity_100: missing, takes a value",
+        "lubricant.temperature.kinematic_viscosity_100: missing; expected a value",
     ),
     ({"lubricant__temperature__density_15": "870 g/m^3"}, "lubricant.temperature.density_15: got '870"),
     # Discharge and motor.
@@ -149,10 +149,10 @@ MISTAKES = [
     ({"discharge__external_capacitance": "1 nF"}, "discharge.external_capacitance: got it for a bearing"),
     (
         {"discharge__dielectric_strength": None, "discharge__temperature": "40 degC"},
-        "discharge.temperature: got 313.15 K for a bearing, takes bearing.temperature in its place",
+        "discharge.temperature: got 313.15 K for a bearing; expected bearing.temperature in its place",
     ),
-    ({"motor__winding_rotor_capacitance": None}, "motor.winding_rotor_capacitance: missing, takes a value"),
-    ({"motor__common_mode_voltage": "-300 V"}, "motor.common_mode_voltage: got '-300 V', takes a number"),
+    ({"motor__winding_rotor_capacitance": None}, "motor.winding_rotor_capacitance: missing; expected a value"),
+    ({"motor__common_mode_voltage": "-300 V"}, "motor.common_mode_voltage: got '-300 V'; expected a number"),
 ]
 
 
@@ -168,12 +168,12 @@ def test_mistakes_are_one_line(changes, text):
 
 # What only shows when the numbers meet.
 CONTRADICTIONS = [
-    ({"bearing__elements": 16}, "bearing.elements: got 16, takes 3 to 15"),
-    ({"bearing__radial_clearance": "2 mm"}, "bearing.radial_clearance: got 0.002 m, takes one below"),
+    ({"bearing__elements": 16}, "bearing.elements: got 16; expected 3 to 15"),
+    ({"bearing__radial_clearance": "2 mm"}, "bearing.radial_clearance: got 0.002 m; expected one below"),
     ({"bearing__temperature": "300 degC"}, "bearing.temperature: got 573.15 K, at which the oil has 0.814"),
     (
         {"lubricant__temperature__kinematic_viscosity_100": "60 mm^2/s"},
-        "lubricant.temperature.kinematic_viscosity_100: got 6e-05 m^2/s, takes less than",
+        "lubricant.temperature.kinematic_viscosity_100: got 6e-05 m^2/s; expected less than",
     ),
     (
         {"lubricant__roelands_pressure": "1 kg"},
@@ -205,7 +205,7 @@ ANGULAR = {
     [
         (
             {**ANGULAR, "bearing__axial_load": None},
-            "bearing.axial_load: got 0 N, takes one above 0: an an",
+            "bearing.axial_load: got 0 N; expected one above 0: an an",
         ),
         # Semi-axes go with the cube root of the load: 1.44 mm at 876 N, over a fourth of the ball at 10 kN.
         ({"bearing__radial_load": "3 MN"}, "bearing: inner contact at "),
@@ -250,7 +250,7 @@ def test_an_oil_without_constants_of_roelands_needs_its_alpha():
         "relative_permittivity": 2.4,
     }
     changes = {f"lubricant__{key}": value for key, value in barus.items()}
-    with pytest.raises(InputError, match=r"lubricant\.pressure_viscosity_coefficient: missing, takes it, or"):
+    with pytest.raises(InputError, match=r"lubricant\.pressure_viscosity_coefficient: missing; expected it, or"):
         bearing_case(BALLS, **changes).lubricant.at(343.15)
 
 
@@ -346,7 +346,7 @@ def test_a_strength_over_temperature_is_that_of_the_bearing():
 
 def test_a_strength_does_not_reach_beyond_its_temperatures():
     case = bearing_case(BALLS, contacts="formula", **over_temperature("20 degC", "60 degC"))
-    line = r"^bearing\.temperature: got 343\.15 K, takes one within the strength_table, 293\.15 to 333\.15 K$"
+    line = r"^bearing\.temperature: got 343\.15 K; expected one within the strength_table, 293\.15 to 333\.15 K$"
     for refused in (check_bearing, solve_bearing):
         with pytest.raises(InputError, match=line):
             refused(case)

@@ -10,8 +10,8 @@ from ehlectric.commands.runs import check, run_motion
 from ehlectric.motion.contact import TransientContact
 from tests.helpers.moving_cases import LINE, POINT, moving
 
-TAKES_PASSES = "takes a number, above 0 and at most 10000: lengths of the domain at the mean speed"
-TAKES_DURATION = "takes a number in s or a text with its unit, above 0 and at most 10000: of the motion"
+TAKES_PASSES = "expected a number, above 0 and at most 10000: lengths of the domain at the mean speed"
+TAKES_DURATION = "expected a number in s or a text with its unit, above 0 and at most 10000: of the motion"
 TAKES_RECORD = "takes a whole number from 2 to 100000: stored instants"
 EITHER = "takes either passes or duration"
 
@@ -23,45 +23,45 @@ BAD_TABLES = [
     ({}, f"motion.passes: missing, {EITHER}"),
     ({"steps": 100, "record": 10}, f"motion.passes: missing, {EITHER}"),
     ({"passes": 1, "duration": "1 ms"}, f"motion.passes: got passes and duration together, {EITHER}"),
-    ({"passes": 0}, f"motion.passes: got 0, {TAKES_PASSES}"),
-    ({"passes": -1.0}, f"motion.passes: got -1.0, {TAKES_PASSES}"),
-    ({"passes": 10001}, f"motion.passes: got 10001, {TAKES_PASSES}"),
-    ({"passes": "1 ms"}, f"motion.passes: got '1 ms' (it is not a number), {TAKES_PASSES}"),
-    ({"passes": float("nan")}, f"motion.passes: got nan (it is not finite), {TAKES_PASSES}"),
-    ({"duration": 0.0}, f"motion.duration: got 0.0, {TAKES_DURATION}"),
+    ({"passes": 0}, f"motion.passes: got 0; {TAKES_PASSES}"),
+    ({"passes": -1.0}, f"motion.passes: got -1.0; {TAKES_PASSES}"),
+    ({"passes": 10001}, f"motion.passes: got 10001; {TAKES_PASSES}"),
+    ({"passes": "1 ms"}, f"motion.passes: got '1 ms' (it is not a number); {TAKES_PASSES}"),
+    ({"passes": float("nan")}, f"motion.passes: got nan (it is not finite); {TAKES_PASSES}"),
+    ({"duration": 0.0}, f"motion.duration: got 0.0; {TAKES_DURATION}"),
     (
         {"duration": "1 m"},
-        f"motion.duration: got '1 m' (m is not a unit of this quantity), {TAKES_DURATION}",
+        f"motion.duration: got '1 m' (m is not a unit of this quantity); {TAKES_DURATION}",
     ),
-    ({"duration": "3 h"}, f"motion.duration: got '3 h', {TAKES_DURATION}"),
-    ({"passes": 1, "record": 1}, f"motion.record: got 1, {TAKES_RECORD}"),
-    ({"passes": 1, "record": 100_001}, f"motion.record: got 100001, {TAKES_RECORD}"),
-    ({"passes": 1, "record": 2.5}, f"motion.record: got 2.5, {TAKES_RECORD}"),
-    ({"passes": 1, "steps": 0}, "motion.steps: got 0, takes a whole number from 1 to 100000000: of time"),
+    ({"duration": "3 h"}, f"motion.duration: got '3 h'; {TAKES_DURATION}"),
+    ({"passes": 1, "record": 1}, f"motion.record: got 1; {TAKES_RECORD}"),
+    ({"passes": 1, "record": 100_001}, f"motion.record: got 100001; {TAKES_RECORD}"),
+    ({"passes": 1, "record": 2.5}, f"motion.record: got 2.5; {TAKES_RECORD}"),
+    ({"passes": 1, "steps": 0}, "motion.steps: got 0; expected a whole number from 1 to 100000000: of time"),
     ({"passes": 1, "speed": 2}, "motion.speed: unknown key; the nearest known one is motion.steps"),
-    (3, "motion: got 3, takes a table"),
+    (3, "motion: got 3; expected a table"),
 ]
 
 # What is wrong with it in its case.
 BAD_CASES = [
-    ({"roughness": []}, "motion: got it without roughness, which is what moves; takes a rough surface"),
+    ({"roughness": []}, "motion: got it without roughness, which is what moves; expected a rough surface"),
     (
         {"grid": {"wedge": "first-order"}},
-        "grid.wedge: got 'first-order' beside motion, takes 'second-order'",
+        "grid.wedge: got 'first-order' beside motion; expected 'second-order'",
     ),
     (
         {"grid": {"refine": "3 %"}},
-        "grid.refine: got it beside motion, which takes one grid; takes grid.nodes",
+        "grid.refine: got it beside motion, which takes one grid; expected grid.nodes",
     ),
 ]
 
 # 64 intervals of the grid in one pass: seven steps are longer than the eight of them that a step may take.
 TOO_FEW = (
-    "motion.steps: got 7, in each of which oil would travel 9.14 grid spacings; takes at least 8, and 64 for "
+    "motion.steps: got 7, in each of which oil would travel 9.14 grid spacings; expected at least 8, and 64 for "
     "one spacing a step"
 )
 AT_REST = (
-    "motion: got roughness on surfaces at rest alone; takes it on one that moves, or a case without motion"
+    "motion: got roughness on surfaces at rest alone; expected it on one that moves, or a case without motion"
 )
 
 
@@ -102,18 +102,18 @@ def test_a_motion_that_is_none():
 
 @pytest.mark.parametrize("table", [LINE, POINT], ids=["line", "point"])
 def test_a_film_at_rest_is_not_that_of_a_moving_case(table):
-    text = "motion: got it where a film at rest is solved; takes run_motion, or a case without it"
+    text = "motion: got it where a film at rest is solved; expected run_motion, or a case without it"
     with pytest.raises(InputError, match=f"^{re.escape(text)}$"):
         solve(moving(table))
 
 
 def test_sweeps_take_no_motion():
     case = moving()
-    text = "case.motion: got it in a sweep, whose films are at rest; takes a case without it"
+    text = "case.motion: got it in a sweep, whose films are at rest; expected a case without it"
     with pytest.raises(InputError, match=f"^{re.escape(text)}$"):
         Sweep.from_dict({"case": case, "vary": {"contact.entrainment_speed": [1.0, 2.0]}})
     for key in ("motion.passes", "motion.duration", "motion.steps"):
-        text = f"vary.{key}: got it in a sweep, whose films are at rest; takes other keys of the case"
+        text = f"vary.{key}: got it in a sweep, whose films are at rest; expected other keys of the case"
         with pytest.raises(InputError, match=f"^{re.escape(text)}$"):
             Sweep.from_dict({"case": case.replace(motion=None), "vary": {key: [1, 2]}})
 

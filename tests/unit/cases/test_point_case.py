@@ -42,45 +42,45 @@ NO_RADII = {"radius_x": None, "radius_y": None}
 NO_MODULUS = {"reduced_modulus": None}
 # ruff: noqa: E501
 BAD = [
-    (table({"geometry": "ball"}), r"contact\.geometry: got 'ball', takes 'line' or 'point'"),
+    (table({"geometry": "ball"}), r"contact\.geometry: got 'ball'; expected 'line' or 'point'"),
     (table({"load_per_length": 1e5}), r"contact\.load_per_length: got it in a point contact, which has no use.* load or max_hertz_pressure"),
     (table({"reduced_radius": 0.01}), r"contact\.reduced_radius: got it in a point contact"),
-    (table({"radius_1": 0.01}), r"contact\.radius_1: got it in a point contact.* takes radius_x and radius_y or body_1\.radius_x"),
+    (table({"radius_1": 0.01}), r"contact\.radius_1: got it in a point contact.* expected radius_x and radius_y or body_1\.radius_x"),
     (table({"radius_2": 0.01}), r"contact\.radius_2: got it in a point contact"),
     ({"contact": PAPER_CONTACT | {"load": 20}, "lubricant": {"base": "paper"}}, r"contact\.load: got it in a line contact"),
-    ({"contact": PAPER_CONTACT | {"radius_x": 1}, "lubricant": {"base": "paper"}}, r"contact\.radius_x: got it in a line contact.* takes reduced_radius or radius_1"),
+    ({"contact": PAPER_CONTACT | {"radius_x": 1}, "lubricant": {"base": "paper"}}, r"contact\.radius_x: got it in a line contact.* expected reduced_radius or radius_1"),
     ({"contact": PAPER_CONTACT | {"radius_y": 1}, "lubricant": {"base": "paper"}}, r"contact\.radius_y: got it in a line contact"),
     ({"contact": PAPER_CONTACT | {"body_1": STEEL | BALL}, "lubricant": {"base": "paper"}}, r"contact\.body_1\.radius_x: got it in a line"),
-    ({"contact": PAPER_CONTACT | {"body_1": {"youngs_modulus": 1e11}}, "lubricant": {"base": "paper"}}, r"contact\.body_1\.poissons_ratio: missing, takes a value"),
-    ({"contact": PAPER_CONTACT | {"body_1": {}}, "lubricant": {"base": "paper"}}, r"contact\.body_1\.youngs_modulus: missing, takes a value; missing too: poissons_ratio"),
-    (table({"radius_y": None}), r"contact\.radius_y: missing, takes either radius_x and radius_y or body_1"),
-    (table(NO_RADII), r"contact\.radius_x: missing, takes either radius_x and radius_y or body_1\.radius_x and"),
-    (table({"load": None}), r"contact\.load: missing, takes either load or max_hertz_pressure"),
+    ({"contact": PAPER_CONTACT | {"body_1": {"youngs_modulus": 1e11}}, "lubricant": {"base": "paper"}}, r"contact\.body_1\.poissons_ratio: missing; expected a value"),
+    ({"contact": PAPER_CONTACT | {"body_1": {}}, "lubricant": {"base": "paper"}}, r"contact\.body_1\.youngs_modulus: missing; expected a value; missing too: poissons_ratio"),
+    (table({"radius_y": None}), r"contact\.radius_y: missing; expected either radius_x and radius_y or body_1"),
+    (table(NO_RADII), r"contact\.radius_x: missing; expected either radius_x and radius_y or body_1\.radius_x and"),
+    (table({"load": None}), r"contact\.load: missing; expected either load or max_hertz_pressure"),
     (table({"max_hertz_pressure": 1e9}), r"contact\.load: got load, max_hertz_pressure together"),
     (table({"body_1": BALL}), r"contact\.radius_x: got radius_x, radius_y, body_1\.radius_x, body_1\.radius_y together"),
     (table({"body_1": STEEL, "body_2": STEEL}), r"contact\.reduced_modulus: got reduced_modulus, body_1\.youngs_modulus"),
     (table(NO_RADII | {"body_1": BALL}), r"contact\.body_2\.radius_x: missing"),
     (table(NO_RADII | {"body_1": BALL, "body_2": {"radius_x": 1}}), r"contact\.body_2\.radius_y: missing"),
-    (table(NO_RADII | {"body_1": BALL, "body_2": BALL | {"radius_y": 0}}), r"contact\.body_2\.radius_y: got 0 m, takes at least 1e-06 m"),
+    (table(NO_RADII | {"body_1": BALL, "body_2": BALL | {"radius_y": 0}}), r"contact\.body_2\.radius_y: got 0 m; expected at least 1e-06 m"),
     (table(NO_RADII | {"body_1": BALL | {"radius_x": 1e-9}, "body_2": BALL}), r"contact\.body_1\.radius_x: got 1e-09 m"),
     (table(NO_MODULUS | {"body_1": STEEL}), r"contact\.body_2\.youngs_modulus: missing"),
     (table(NO_MODULUS | {"body_1": {"youngs_modulus": 1e11}, "body_2": STEEL}), r"contact\.body_1\.poissons_ratio: missing"),
     (table({"load": "20 N/m"}), r"contact\.load: got '20 N/m' \(N/m is not a unit of this quantity\)"),
-    (table({"load": 0}), r"contact\.load: got 0, takes .*at least 1e-06"),
-    (table({"radius_x": -0.01}), r"contact\.radius_x: got -0\.01, takes"),
+    (table({"load": 0}), r"contact\.load: got 0; expected .*at least 1e-06"),
+    (table({"radius_x": -0.01}), r"contact\.radius_x: got -0\.01; expected"),
     (table({"body_1": {"radius_z": 1}}), r"contact\.body_1\.radius_z: unknown key.*contact\.body_1\.radius_[xy]"),
-    (table(grid={"nodes": 4098}), r"grid\.nodes: got 4098 in a point contact, takes at most 4097"),
-    (table(grid={"field_nodes": 5000}), r"grid\.field_nodes: got 5000 in a point contact, takes at most 4097"),
-    (table(grid={"nodes_y": 32}), r"grid\.nodes_y: got 32, takes a whole number from 33 to 4097"),
-    (table(grid={"nodes": 65, "inlet": -9.0}), r"grid\.nodes: got 65 over 10\.5 semi-axes, takes at least 85"),
-    (table(grid={"nodes": 65, "side": 5.0}), r"grid\.nodes: got 65 across 10 semi-axes, takes at least 81"),
+    (table(grid={"nodes": 4098}), r"grid\.nodes: got 4098 in a point contact; expected at most 4097"),
+    (table(grid={"field_nodes": 5000}), r"grid\.field_nodes: got 5000 in a point contact; expected at most 4097"),
+    (table(grid={"nodes_y": 32}), r"grid\.nodes_y: got 32; expected a whole number from 33 to 4097"),
+    (table(grid={"nodes": 65, "inlet": -9.0}), r"grid\.nodes: got 65 over 10\.5 semi-axes; expected at least 85"),
+    (table(grid={"nodes": 65, "side": 5.0}), r"grid\.nodes: got 65 across 10 semi-axes; expected at least 81"),
     (table(grid={"nodes_y": 65, "side": 5.0}), r"grid\.nodes_y: got 65 across 10 semi-axes"),
-    (table(grid={"side": 1.0}), r"grid\.side: got 1\.0, takes .*above 1"),
-    (table(grid={"side": 1.1}), r"grid\.field_side: got 1\.25, takes at most side, 1\.1"),
-    (table(grid={"refine": "3 K"}), r"grid\.refine: got '3 K' \(it is not a number in percent\), takes a number or a text in percent"),
+    (table(grid={"side": 1.0}), r"grid\.side: got 1\.0; expected .*above 1"),
+    (table(grid={"side": 1.1}), r"grid\.field_side: got 1\.25; expected at most side, 1\.1"),
+    (table(grid={"refine": "3 K"}), r"grid\.refine: got '3 K' \(it is not a number in percent\); expected a number or a text in percent"),
     (table(grid={"refine": "3 deg"}), r"grid\.refine: got '3 deg' \(it is not a number in percent"),
-    (table(grid={"refine": "60 %"}), r"grid\.refine: got '60 %', takes .* at most 0\.5"),
-    (table(grid=[1]), r"grid: got \[1\], takes a table"),
+    (table(grid={"refine": "60 %"}), r"grid\.refine: got '60 %'; expected .* at most 0\.5"),
+    (table(grid=[1]), r"grid: got \[1\]; expected a table"),
     *(
         ({"contact": PAPER_CONTACT, "lubricant": {"base": "paper"}, "grid": {key: 40}}, rf"grid\.{key}: got it in a line contact")
         for key in ("nodes_y", "side", "field_side", "field_nodes_y")
@@ -207,7 +207,7 @@ CONTRADICTIONS = [
     (table({"radius_x": 1e-5, "radius_y": 10.0, "load": "100 kN"}), "dry contact would be .*smallest radius 1e-05"),
     (table(NO_RADII | {"load": "1 MN", "body_1": RING | {"radius_y": -5.96e-3}, "body_2": BALL}), "less conforming"),
     (table({"load": "1 uN", "reduced_modulus": "1 MPa"}), "well above the ambient"),
-    (table({"radius_x": 0.1}, grid={"nodes_y": 65}), r"grid\.nodes_y: got 65 across 9 semi-axes, takes at least 73"),
+    (table({"radius_x": 0.1}, grid={"nodes_y": 65}), r"grid\.nodes_y: got 65 across 9 semi-axes; expected at least 73"),
 ]  # fmt: skip
 
 
@@ -256,9 +256,9 @@ def test_common_contacts_need_no_warning():
 
 def test_each_geometry_is_resolved_by_its_own():
     line = Case.from_dict({"contact": PAPER_CONTACT, "lubricant": {"base": "paper"}})
-    with pytest.raises(InputError, match="got 'point', takes 'line'"):
+    with pytest.raises(InputError, match="got 'point'; expected 'line'"):
         resolve(point())
-    with pytest.raises(InputError, match="got 'line', takes 'point'"):
+    with pytest.raises(InputError, match="got 'line'; expected 'point'"):
         resolve_point(line)
 
 
@@ -335,7 +335,7 @@ def test_any_case_means_something_or_is_refused_in_words(table):
 def test_grids_that_do_not_fit_into_memory(monkeypatch):
     monkeypatch.setattr("ehlectric.contact.memory.physical_memory", lambda: 1e9)
     check_memory(point())
-    with pytest.raises(InputError, match=r"grid\.nodes: got 2049 x 2049 .* GB; takes a grid .* 1 GB"):
+    with pytest.raises(InputError, match=r"grid\.nodes: got 2049 x 2049 .* GB; expected a grid .* 1 GB"):
         check_memory(point(grid={"nodes": 2049}))
     with pytest.raises(InputError, match=r"grid\.field_nodes: got 4001 x 4001 with field_degree 20"):
         check_memory(point(grid={"field_nodes": 4001, "field_nodes_y": 4001, "field_degree": 20}))

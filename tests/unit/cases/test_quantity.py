@@ -51,7 +51,7 @@ LENGTH = Quantity("m", above=0.0, most=10.0, reason="a test")
     "given", [0.0, -1.0, 11, math.nan, math.inf, True, None, [1.0], {}, "inf m", "-1 m", 10**400, "1e999 m"]
 )
 def test_quantity_says_what_it_got_and_takes(given):
-    with pytest.raises(ValueError, match=r"got .*takes a number in m .*above 0 and at most 10: a test"):
+    with pytest.raises(ValueError, match=r"got .*expected a number in m .*above 0 and at most 10: a test"):
         LENGTH.parse(given)
 
 
@@ -78,7 +78,7 @@ def test_prefixes_are_powers_of_ten(number, prefix, unit):
 
 @pytest.mark.parametrize("given", [4, 101, 10.0, True, "10", None, [10], math.nan])
 def test_count_takes_whole_numbers_only(given):
-    with pytest.raises(ValueError, match=r"got .* takes a whole number from 5 to 100: a test"):
+    with pytest.raises(ValueError, match=r"got .* expected a whole number from 5 to 100: a test"):
         Count(5, 100, "a test").parse(given)
 
 
@@ -108,10 +108,10 @@ def test_lists_of_quantities():
     lengths = Quantities(LENGTH, least=2)
     assert lengths.parse(["1 mm", 2.0]) == (0.001, 2.0)
     for wrong, message in (
-        ([1.0], r"got \[1\.0\], takes a list of 2 or more, each a number in m"),
-        (1.0, r"got 1\.0, takes a list"),
-        ("1 mm", r"got '1 mm', takes a list"),
-        ([1.0, 11.0], r"got 11\.0, takes a number in m"),
+        ([1.0], r"got \[1\.0\]; expected a list of 2 or more, each a number in m"),
+        (1.0, r"got 1\.0; expected a list"),
+        ("1 mm", r"got '1 mm'; expected a list"),
+        ([1.0, 11.0], r"got 11\.0; expected a number in m"),
         ([1.0, None], r"got None \(it is not a number\)"),
     ):
         with pytest.raises(ValueError, match=message):

@@ -117,9 +117,9 @@ def test_files_of_no_kind_are_refused(tmp_path):
 
 
 def test_solvers_are_chosen_by_name(files, tmp_path):
-    with pytest.raises(InputError, match=r"^--solver: got 'none', takes one of ehlectric, paper$"):
+    with pytest.raises(InputError, match=r"^--solver: got 'none'; expected one of ehlectric, paper$"):
         run(files["contact"], tmp_path / "out", solver="none")
-    with pytest.raises(InputError, match=r"^--solver: got 'paper' for a case with motion, takes "):
+    with pytest.raises(InputError, match=r"^--solver: got 'paper' for a case with motion; expected "):
         run(files["motion"], tmp_path / "out", solver="paper")
     assert not (tmp_path / "out").exists()
 

@@ -146,7 +146,7 @@ def test_half_a_symmetric_field_mirrored_is_the_whole():
 
 
 def test_only_a_field_from_the_plane_of_symmetry_is_mirrored():
-    with pytest.raises(InputError, match="takes one that starts at y = 0"):
+    with pytest.raises(InputError, match="expected one that starts at y = 0"):
         solve_point_field(plates(y=Y + 1e-6)).mirrored()
 
 

@@ -79,7 +79,7 @@ def test_figures_of_a_contact(kind, tmp_path):
     drawn = figure(result, expected[0])
     assert isinstance(drawn, Figure)
     assert titles(drawn)[0] == "By name"
-    with pytest.raises(InputError, match=rf"^figure: got 'roughness\.png', takes one of {expected[0]}, "):
+    with pytest.raises(InputError, match=rf"^figure: got 'roughness\.png'; expected one of {expected[0]}, "):
         figure(result, "roughness.png")
     files = save_figures(result, tmp_path)
     assert tuple(file.name for file in files) == expected
@@ -101,7 +101,7 @@ def test_figures_of_a_bearing(bearing, tmp_path):
     over_speed = figure(bearing, "capacitance_over_speed.png")
     assert over_speed.axes[0].get_xlabel().endswith("[rpm]")
     with pytest.raises(
-        InputError, match=r"^figure: got 'film\.png', takes one of bearing_loads.*speed\.png$"
+        InputError, match=r"^figure: got 'film\.png'; expected one of bearing_loads.*speed\.png$"
     ):
         figure(bearing, "film.png")
     drawn = draw_figures(bearing, tmp_path)
@@ -114,7 +114,7 @@ def test_figures_of_a_motion(motion, tmp_path):
     """Of the dataset and of the run; it does not reach the instant that is compared."""
     assert figure_names(motion) == figure_names(MotionRun.of(motion)) == list(names.MOTION_FIGURE_FILES[:2])
     assert len(figure(motion, "motion_history.png").axes) >= 3
-    with pytest.raises(InputError, match=r"^figure: got 'motion_beside_stationary\.png', takes one of "):
+    with pytest.raises(InputError, match=r"^figure: got 'motion_beside_stationary\.png'; expected one of "):
         figure(motion, "motion_beside_stationary.png")
     assert len(save_figures(MotionRun.of(motion), tmp_path)) == 2
 
@@ -127,9 +127,9 @@ def test_figures_of_a_sweep(tmp_path):
     lines = figure(results, f"lines_{value}.png", x=SPEED, at={LOAD: "1 MN/m"})
     assert "breakdown voltage" in lines.axes[0].get_ylabel()
     assert figure_names(results) == save_figures(results, tmp_path) == []
-    with pytest.raises(InputError, match=r"^figure: got 'film\.png', takes map_KEY\.png, lines_KEY\.png or "):
+    with pytest.raises(InputError, match=r"^figure: got 'film\.png'; expected map_KEY\.png, lines_KEY\.png or "):
         figure(results, "film.png")
-    with pytest.raises(InputError, match=r"^y: missing, takes a varied key, for a map$"):
+    with pytest.raises(InputError, match=r"^y: missing; expected a varied key, for a map$"):
         figure(results, f"map_{value}.png", x=SPEED)
 
 

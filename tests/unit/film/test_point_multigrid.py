@@ -116,7 +116,7 @@ def test_a_cycle_reduces_the_residual(name):
     """A random one to a quarter or less.
 
     Not for ever: by itself the cycle is no solver here, as it overshoots a few directions along the ridge of
-    pressure at the exit. GMRES, which it preconditions, takes those out.
+    pressure at the exit. GMRES, which it preconditions; expected those out.
     """
     levels = jacobians(problem_of(name, 65))
     finest = levels[0]

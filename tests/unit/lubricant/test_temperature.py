@@ -52,7 +52,7 @@ def test_slope_is_the_derivative(temperature):
     [
         (46e-6, 46e-6, "less than kinematic_viscosity_40"),
         (46e-6, 60e-6, "less than kinematic_viscosity_40"),
-        (5e-6, 1.9e-6, "takes at least 2e-06 m\\^2/s"),
+        (5e-6, 1.9e-6, "expected at least 2e-06 m\\^2/s"),
     ],
 )
 def test_oils_that_are_none(at_40, at_100, text):

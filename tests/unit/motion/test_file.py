@@ -500,7 +500,7 @@ def test_a_second_run_in_the_same_folder_is_refused(tmp_path, stopped, whole):
         if what[0] == 4:
             run(CASE, tmp_path)
 
-    with pytest.raises(InputError, match=r"motion\.nc: is being written to by another run, takes a "):
+    with pytest.raises(InputError, match=r"motion\.nc: is being written to by another run; expected a "):
         run_motion(CASE, tmp_path, progress=progress)
     assert told == [of_step(4)]
     same(read_motion(tmp_path), whole)

@@ -186,7 +186,7 @@ def test_files_that_are_cut_or_wrong(tmp_path):
         ("no.x3p", "no whole X3P"),
         ("binary.opd", "neither text, X3P nor AL3D|cannot be read by SurfaceTopography"),
         ("words.csv", "no two columns"),
-        ("short.al3d", "bytes long, takes 513000"),
+        ("short.al3d", "bytes long; expected 513000"),
         ("nowhere.csv", "no such file"),
     ):
         with pytest.raises(InputError, match=message):
@@ -205,7 +205,7 @@ def test_lines_that_are_not_there(tmp_path):
     heights = MAP.copy()
     heights[4] = 1e30
     surface = read_surface(al3d(tmp_path / "a.al3d", heights))
-    with pytest.raises(InputError, match="got 20, takes a row from 0 to 19"):
+    with pytest.raises(InputError, match="got 20; expected a row from 0 to 19"):
         surface.line(20)
     with pytest.raises(InputError, match="row 4 has data at 0 of 31"):
         surface.line(4)

@@ -64,15 +64,15 @@ DOUBTFUL = [
         [f"{k},{k + 5}" for k in K],
         "line 2 is '0,5', one number with a decimal comma or two",
     ),
-    ([], [f"{k},{k % 7},{k},5" for k in K], "has 4 columns, takes two"),
+    ([], [f"{k},{k % 7},{k},5" for k in K], "has 4 columns; expected two"),
     ([], [*rows_of(";")[:-1], "99,50;1"], "mixes decimal points and decimal commas"),
     ([], [*rows_of(";")[:-1], "1.234,5;1"], "holds no two columns|line 200 is"),
     (["x [um];y [um];z [nm]"], [f"{x};0.0;{z:.4f}" for x, z in zip(X, Z, strict=True)], "has 3 columns"),
     (["X;Y;invalid", "[um];[nm];[1/0]"], [line + ";0" for line in rows_of(";")], "has 3 columns"),
     (["x;y;is it", "valid;or;not"], [line + ";1" for line in rows_of(";")], "has 3 columns"),
-    (VALIDITY, [*[line + ";1" for line in rows_of(";")[:-1]], "99.50;1"], "line 202 has 2 columns, takes 3"),
-    (VALIDITY, [line + ";2" for line in rows_of(";")], "line 3 has the validity '2', takes 0 or 1"),
-    (VALIDITY, [*[line + ";1" for line in rows_of(";")[:-1]], "99.50;1;"], "has the validity '', takes 0"),
+    (VALIDITY, [*[line + ";1" for line in rows_of(";")[:-1]], "99.50;1"], "line 202 has 2 columns; expected 3"),
+    (VALIDITY, [line + ";2" for line in rows_of(";")], "line 3 has the validity '2'; expected 0 or 1"),
+    (VALIDITY, [*[line + ";1" for line in rows_of(";")[:-1]], "99.50;1;"], "has the validity ''; expected 0"),
     ([], [*rows_of(";")[:-1], "1e999;1"], "line 200 holds a number that is too large"),
     ([], [*rows_of(";")[:-1], "9e99;1"], "lengths above 10 m"),
 ]
@@ -136,7 +136,7 @@ def test_units_are_those_of_their_own_column(tmp_path, separator, head, stated):
 @pytest.mark.parametrize("unit", ["foo", "kg", "", "um; rm", "1", "1/um"])
 def test_units_that_are_no_length(tmp_path, unit):
     path = written(tmp_path / "a.txt", [], rows_of(";"))
-    with pytest.raises(InputError, match=r"z_unit: got .* takes a unit of length"):
+    with pytest.raises(InputError, match=r"z_unit: got .* expected a unit of length"):
         read_surface(path, x_unit="um", z_unit=unit)
 
 

@@ -103,11 +103,11 @@ def test_rough_surfaces_count_from_one():
 
 def test_replace_refuses_surfaces_that_are_not_there():
     rough = Case.from_dict(ROUGH)
-    with pytest.raises(InputError, match=r"roughness\.3\.rq: got '3' .* takes a number from 1 to 2"):
+    with pytest.raises(InputError, match=r"roughness\.3\.rq: got '3' .* expected a number from 1 to 2"):
         rough.replace({"roughness.3.rq": 1e-8})
-    with pytest.raises(InputError, match=r"roughness\.1\.rq: got '1' .* takes none, as there are no tables"):
+    with pytest.raises(InputError, match=r"roughness\.1\.rq: got '1' .* expected none, as there are no tables"):
         CASE.replace({"roughness.1.rq": 1e-8})
-    with pytest.raises(InputError, match=r"roughness\.1: is a table, takes one of its keys"):
+    with pytest.raises(InputError, match=r"roughness\.1: is a table; expected one of its keys"):
         rough.replace({"roughness.1": {"rq": 1e-8}})
 
 
@@ -145,16 +145,16 @@ def test_the_example_is_a_sweep():
 # Each bad sweep with a part of the one line it gets.
 # ruff: noqa: E501
 BAD = [
-    ({}, r"^vary: got no key, takes at least one key of the case"),
+    ({}, r"^vary: got no key; expected at least one key of the case"),
     (
         {"contact.entrainment_sped": [1]},
         r"^vary\.contact\.entrainment_sped: unknown key; the nearest known one is contact\.entrainment_speed$",
     ),
     ({"contact": {"entrainment_sped": [1]}}, r"^vary\.contact\.entrainment_sped: unknown key"),
-    ({"contact": [1]}, r"^vary\.contact: is a table, takes one of its keys"),
+    ({"contact": [1]}, r"^vary\.contact: is a table; expected one of its keys"),
     (
         {"contact.body_1": [{}]},
-        r"^vary\.contact\.body_1: is a table, takes one of its keys, as contact\.body_1\.youngs_modulus",
+        r"^vary\.contact\.body_1: is a table; expected one of its keys, as contact\.body_1\.youngs_modulus",
     ),
     (
         {"roughness.1.rescale_r": [1]},
@@ -162,56 +162,56 @@ BAD = [
     ),
     (
         {"roughness.rescale_rq": [1]},
-        r"^vary\.roughness\.rescale_rq: is a list of tables, takes .* roughness\.1\.rescale_rq",
+        r"^vary\.roughness\.rescale_rq: is a list of tables; expected .* roughness\.1\.rescale_rq",
     ),
     ({"roughness": [[]]}, r"^vary\.roughness: is a list of tables"),
-    ({SPEED: "1 m/s"}, r"^vary\.contact\.entrainment_speed: got '1 m/s', takes a list of values or a table"),
-    ({SPEED: 1.0}, r"^vary\.contact\.entrainment_speed: got 1\.0, takes a list"),
-    ({SPEED: []}, r"^vary\.contact\.entrainment_speed: got \[\], takes a list"),
+    ({SPEED: "1 m/s"}, r"^vary\.contact\.entrainment_speed: got '1 m/s'; expected a list of values or a table"),
+    ({SPEED: 1.0}, r"^vary\.contact\.entrainment_speed: got 1\.0; expected a list"),
+    ({SPEED: []}, r"^vary\.contact\.entrainment_speed: got \[\]; expected a list"),
     ({SPEED: ["1 m"]}, r"^vary\.contact\.entrainment_speed: got '1 m' \(m is not a unit of this quantity\)"),
-    ({SPEED: [-1]}, r"^vary\.contact\.entrainment_speed: got -1, takes .* at least 1e-09"),
-    ({SPEED: [1, "1 m/s"]}, r"^vary\.contact\.entrainment_speed: got 1\.0 twice, takes values that differ"),
+    ({SPEED: [-1]}, r"^vary\.contact\.entrainment_speed: got -1; expected .* at least 1e-09"),
+    ({SPEED: [1, "1 m/s"]}, r"^vary\.contact\.entrainment_speed: got 1\.0 twice; expected values that differ"),
     ({SPEED: {"from": 1, "to": 2}}, r"^vary\.contact\.entrainment_speed\.count: missing"),
-    ({SPEED: {"from": 1, "to": 2, "count": 1}}, r"\.count: got 1, takes how many values"),
-    ({SPEED: {"from": 1, "to": 2, "count": True}}, r"\.count: got True, takes"),
-    ({SPEED: {"from": 1, "to": 2, "count": 10**7}}, r"\.count: got 10000000, takes .* to 200000"),
+    ({SPEED: {"from": 1, "to": 2, "count": 1}}, r"\.count: got 1; expected how many values"),
+    ({SPEED: {"from": 1, "to": 2, "count": True}}, r"\.count: got True; expected"),
+    ({SPEED: {"from": 1, "to": 2, "count": 10**7}}, r"\.count: got 10000000; expected .* to 200000"),
     (
         {SPEED: {"from": 1, "count": 2}},
-        r"^vary\.contact\.entrainment_speed\.to: missing, takes a number in m/s",
+        r"^vary\.contact\.entrainment_speed\.to: missing; expected a number in m/s",
     ),
     (
         {SPEED: {"from": 1, "to": "2 kg", "count": 2}},
         r"\.to: got '2 kg' \(kg is not a unit of this quantity\)",
     ),
-    ({SPEED: {"from": 2, "to": 1, "count": 2}}, r"\.to: got 1, takes more than from, 2$"),
+    ({SPEED: {"from": 2, "to": 1, "count": 2}}, r"\.to: got 1; expected more than from, 2$"),
     (
         {SPEED: {"from": 1, "to": 2, "cont": 2}},
         r"\.cont: unknown key; the nearest known one is contact\.entrainment_speed\.count",
     ),
     (
         {SPEED: {"from": 1, "to": 2, "count": 2, "spacing": "lin"}},
-        r"\.spacing: got 'lin', takes 'linear' or 'log'",
+        r"\.spacing: got 'lin'; expected 'linear' or 'log'",
     ),
     (
         {"contact.slide_to_roll_ratio": {"from": -1, "to": 1, "count": 2, "spacing": "log"}},
-        r"\.from: got -1, takes more than 0 with spacing 'log'",
+        r"\.from: got -1; expected more than 0 with spacing 'log'",
     ),
     (
         {NODES: {"from": 101, "to": 103, "count": 4}},
-        r"^vary\.grid\.nodes\.count: got 4, takes at most the whole numbers from 101 to 103",
+        r"^vary\.grid\.nodes\.count: got 4; expected at most the whole numbers from 101 to 103",
     ),
     (
         {NODES: {"from": 101.5, "to": 103, "count": 2}},
-        r"^vary\.grid\.nodes\.from: got 101\.5, takes a whole number",
+        r"^vary\.grid\.nodes\.from: got 101\.5; expected a whole number",
     ),
     (
         {"grid.wedge": {"from": 1, "to": 2, "count": 2}},
-        r"^vary\.grid\.wedge: got a range, takes a list of values: it is no number",
+        r"^vary\.grid\.wedge: got a range; expected a list of values: it is no number",
     ),
     ({"grid.field_range": {"from": 1, "to": 2, "count": 2}}, r"^vary\.grid\.field_range: got a range"),
     (
         {"grid.wedge": ["third-order"]},
-        r"^vary\.grid\.wedge: got 'third-order', takes 'second-order' or 'first-order'",
+        r"^vary\.grid\.wedge: got 'third-order'; expected 'second-order' or 'first-order'",
     ),
     (
         {"lubricant.viscosity_law": ["roeland"]},
@@ -220,7 +220,7 @@ BAD = [
     ({SPEED: [1], "contact": {"entrainment_speed": [2]}}, r"^vary\.contact\.entrainment_speed: got it twice"),
     (
         {NODES: {"from": 101, "to": 10**5, "count": 10**4}, SPEED: {"from": 1, "to": 2, "count": 101}},
-        r"^vary: got 1010000 points, takes at most 200000",
+        r"^vary: got 1010000 points; expected at most 200000",
     ),
 ]
 
@@ -234,21 +234,21 @@ def test_bad_sweeps_are_refused_in_one_line(vary, message):
 
 BAD_KEYS = [
     ({"desing": "grid"}, r"^desing: unknown key; the nearest known one is design"),
-    ({"design": "random"}, r"^design: got 'random', takes 'grid', 'paired' or 'sobol'"),
+    ({"design": "random"}, r"^design: got 'random'; expected 'grid', 'paired' or 'sobol'"),
     ({"samples": 8}, r"^samples: got it in a grid design, which has no use for it"),
     ({"seed": 8}, r"^seed: got it in a grid design, which has no use for it"),
-    ({"design": "sobol"}, r"takes a table with from and to in a sobol design"),
+    ({"design": "sobol"}, r"expected a table with from and to in a sobol design"),
     (
         {"design": "sobol", "vary": {SPEED: {"from": 1, "to": 2}}},
         r"^samples: missing, a sobol design takes it",
     ),
     (
         {"design": "sobol", "samples": 12, "vary": {SPEED: {"from": 1, "to": 2}}},
-        r"^samples: got 12, takes a power of two",
+        r"^samples: got 12; expected a power of two",
     ),
     (
         {"design": "sobol", "samples": 8, "seed": -1, "vary": {SPEED: {"from": 1, "to": 2}}},
-        r"^seed: got -1, takes a whole number",
+        r"^seed: got -1; expected a whole number",
     ),
     (
         {"design": "sobol", "samples": 8, "vary": {SPEED: {"from": 1, "to": 2, "count": 3}}},
@@ -256,15 +256,15 @@ BAD_KEYS = [
     ),
     (
         {"design": "sobol", "samples": 2**16, "vary": {key: {"from": 1, "to": 2} for key in (SPEED, LOAD)}},
-        r"^vary: got 262144 points, takes at most 200000",
+        r"^vary: got 262144 points; expected at most 200000",
     ),
     (
         {"design": "paired", "vary": {SPEED: [1, 2], LOAD: [1e5]}},
-        r"^vary: got 2 of contact\.entrainment_speed, 1 of contact\.load_per_length, takes as many of each",
+        r"^vary: got 2 of contact\.entrainment_speed, 1 of contact\.load_per_length; expected as many of each",
     ),
-    ({"vary": [1]}, r"^vary: got \[1\], takes a table"),
-    ({"case": {"contact": {}}}, r"^case\.contact\.reduced_radius: missing, takes either"),
-    ({"case": 3}, r"^case: got 3, takes a table"),
+    ({"vary": [1]}, r"^vary: got \[1\]; expected a table"),
+    ({"case": {"contact": {}}}, r"^case\.contact\.reduced_radius: missing; expected either"),
+    ({"case": 3}, r"^case: got 3; expected a table"),
 ]
 
 

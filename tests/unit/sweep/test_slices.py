@@ -68,21 +68,21 @@ def test_texts_are_lines_and_no_map():
     [
         (
             ("contact.speed", LOAD, VALUE),
-            r"x: got 'contact.speed', takes a key that varies: .* nearest is contact",
+            r"x: got 'contact.speed'; expected a key that varies: .* nearest is contact",
         ),
         ((SPEED, SPEED, VALUE), "y: got .*, which is x"),
         ((SPEED, LOAD, "discharge.breakdown"), f"value: got .* nearest is {VALUE}"),
         (
             (SPEED, LOAD, "film"),
-            r"value: got 'film', takes a number of summary.json; nearest is film\.minimum_th",
+            r"value: got 'film'; expected a number of summary.json; nearest is film\.minimum_th",
         ),
         (
             (SPEED, LOAD, VALUE),
-            f"at: missing, {POTENTIAL} varies too; takes {POTENTIAL}=VALUE, one of 1, 4 V",
+            f"at: missing, {POTENTIAL} varies too; expected {POTENTIAL}=VALUE, one of 1, 4 V",
         ),
         ((SPEED, None, VALUE), f"at: missing, {LOAD}, {POTENTIAL} vary too"),
-        ((SPEED, LOAD, VALUE, {POTENTIAL: "9 V"}), f"at: got {POTENTIAL}=9 V, takes a value from 1 to 4 V"),
-        ((SPEED, LOAD, VALUE, {POTENTIAL: "4 m"}), f"at: {POTENTIAL}: got '4 m' .* takes a number in V"),
+        ((SPEED, LOAD, VALUE, {POTENTIAL: "9 V"}), f"at: got {POTENTIAL}=9 V; expected a value from 1 to 4 V"),
+        ((SPEED, LOAD, VALUE, {POTENTIAL: "4 m"}), f"at: {POTENTIAL}: got '4 m' .* expected a number in V"),
         ((SPEED, LOAD, VALUE, {"electric.potential_1": "4 V"}), f"nearest is {POTENTIAL}"),
         ((SPEED, LOAD, VALUE, {SPEED: "1 m/s"}), f"at: got {SPEED}, which is x"),
     ],
@@ -100,7 +100,7 @@ def test_other_refusals():
     ):
         with pytest.raises(InputError, match=message):
             take(results, SPEED, None, key)
-    with pytest.raises(InputError, match="takes one of paper, gear"):
+    with pytest.raises(InputError, match="expected one of paper, gear"):
         take(
             grid({SPEED: SPEEDS, "lubricant.base": ("paper", "gear")}),
             *(SPEED, None, VALUE),

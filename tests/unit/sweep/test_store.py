@@ -128,7 +128,7 @@ def test_points_that_are_no_case_are_failed_with_their_reason(tmp_path):
     refused = read_sweep(tmp_path).points[1]
     # 24 half-widths hold 8 nodes each at least: 193 of them.
     assert (refused.status, refused.summary) == ("failed", None)
-    assert refused.reason.startswith("grid.nodes: got 129 over 24 half-widths, takes at least 193")
+    assert refused.reason.startswith("grid.nodes: got 129 over 24 half-widths; expected at least 193")
 
 
 def test_a_changed_sweep_keeps_what_it_shares(tmp_path):
@@ -175,7 +175,7 @@ def test_what_a_kill_left_half_written_is_taken_back_by_the_next_reader(tmp_path
 def test_two_writers_are_one_too_many(tmp_path):
     with (
         Store(tmp_path),
-        pytest.raises(InputError, match=r": is being written to by another sweep, takes a folder of its"),
+        pytest.raises(InputError, match=r": is being written to by another sweep; expected a folder of its"),
     ):
         Store(tmp_path)
     Store(tmp_path).__exit__()

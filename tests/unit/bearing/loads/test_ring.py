@@ -54,5 +54,5 @@ def test_duties():
     np.testing.assert_allclose(positions, 0.1 + np.array([0.0, 0.5, 1.0, 1.5]) * np.pi, rtol=1e-15)
     with pytest.raises(InputError, match="radial_load, axial_load: both are 0"):
         Operation(0.0)
-    with pytest.raises(InputError, match="radial_load: got -1 N, takes 0 or more"):
+    with pytest.raises(InputError, match="radial_load: got -1 N; expected 0 or more"):
         Operation(-1.0)

@@ -159,10 +159,10 @@ def test_unloaded_rollers():
 @pytest.mark.parametrize(
     ("duty", "other", "message"),
     [
-        ((500.0, 10.0), {}, "axial_load: got 10 N, takes 0: the raceways"),
-        ((0.0, 10.0), {}, "axial_load: got 10 N, takes 0: the raceways"),
+        ((500.0, 10.0), {}, "axial_load: got 10 N; expected 0: the raceways"),
+        ((0.0, 10.0), {}, "axial_load: got 10 N; expected 0: the raceways"),
         ((500.0,), {"unloaded": "inner"}, "unloaded: got 'inner'"),
-        ((500.0,), {"slices": 40}, "slices: got 40, takes an odd number from 31"),
+        ((500.0,), {"slices": 40}, "slices: got 40; expected an odd number from 31"),
         ((500.0,), {"slices": 29}, "slices: got 29"),
     ],
 )

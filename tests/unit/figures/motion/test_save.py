@@ -128,7 +128,7 @@ def mesh_of(ax):
 
 
 def test_what_is_no_run_is_refused_in_one_line():
-    with pytest.raises(InputError, match="without 'strength', takes that of roughness that moves") as caught:
+    with pytest.raises(InputError, match="without 'strength'; expected that of roughness that moves") as caught:
         save_motion_figures(by_hand().drop_vars("strength"), None)
     assert "\n" not in str(caught.value)
 
@@ -381,10 +381,10 @@ def test_an_animation_stopped_on_its_way_leaves_what_was_there(tmp_path):
 @pytest.mark.parametrize(
     ("name", "fps", "said"),
     [
-        ("run.avi", 25.0, "animation: got 'run.avi', takes a name that ends in .gif or .mp4"),
-        ("run.mp4", 25.0, "animation: got 'run.mp4' and no ffmpeg is found, takes a name in .gif"),
-        ("run.gif", 0.0, "fps: got 0, takes 0.1 to 50 instants a second"),
-        ("run.gif", 1e3, "fps: got 1000, takes 0.1 to 50 instants a second"),
+        ("run.avi", 25.0, "animation: got 'run.avi'; expected a name that ends in .gif or .mp4"),
+        ("run.mp4", 25.0, "animation: got 'run.mp4' and no ffmpeg is found; expected a name in .gif"),
+        ("run.gif", 0.0, "fps: got 0; expected 0.1 to 50 instants a second"),
+        ("run.gif", 1e3, "fps: got 1000; expected 0.1 to 50 instants a second"),
     ],
 )
 def test_animations_that_cannot_be_made_are_refused(name, fps, said, tmp_path, monkeypatch):
