@@ -72,7 +72,10 @@ def test_map_without_y_is_lines_in_another_folder(command, tmp_path):
         (("map", "grid", "--x", SPEED, "--y", LOAD), f"error: at: missing, {POTENTIAL} varies too"),
         (("map", "grid", "--x", SPEED, "--value", "discharge.voltage"), f"nearest is {VALUE}"),
         (("map", "grid", "--x", "speed"), f"nearest is {SPEED}"),
-        (("map", "grid", "--x", SPEED, "--at", POTENTIAL), f"error: at: got '{POTENTIAL}'; expected KEY=VALUE"),
+        (
+            ("map", "grid", "--x", SPEED, "--at", POTENTIAL),
+            f"error: at: got '{POTENTIAL}'; expected KEY=VALUE",
+        ),
         (("map", "grid", "--x", SPEED, "--at", "a=1", "--at", "a=2"), "error: at: got a twice"),
         (("sensitivity", "nothing"), "error: nothing: holds no sweep"),
         (("sensitivity", "grid"), 'error: design: got "grid"'),

@@ -91,16 +91,25 @@ MISTAKES = [
     ({"bearing__radial_clearance": None}, "bearing.radial_clearance: missing, a bearing of kind"),
     ({"bearing__kind": "cylindrical roller"}, "bearing.roller_length: missing, a bearing of kind 'cylindr"),
     (AS_ROLLERS, "bearing.axial_load: got 300 N; expected 0 in a cylindrical roller bearing"),
-    ({**AS_ROLLERS, "bearing__profile": "crowned"}, "bearing.profile: got 'crowned'; expected 'none' or 'loga"),
+    (
+        {**AS_ROLLERS, "bearing__profile": "crowned"},
+        "bearing.profile: got 'crowned'; expected 'none' or 'loga",
+    ),
     # Values.
-    ({"bearing__kind": "tapered"}, "bearing.kind: got 'tapered'; expected 'deep-groove ball', 'angular-contact"),
+    (
+        {"bearing__kind": "tapered"},
+        "bearing.kind: got 'tapered'; expected 'deep-groove ball', 'angular-contact",
+    ),
     ({"bearing__elements": 2}, "bearing.elements: got 2; expected a whole number from 3"),
     ({"bearing__elements": 9.5}, "bearing.elements: got 9.5; expected a whole number"),
     ({"bearing__inner_groove": 0.5}, "bearing.inner_groove: got 0.5; expected a number, above 0.5"),
     ({"bearing__shoulder_height": 0.6}, "bearing.shoulder_height: got 0.6; expected a number, above 0"),
     ({"bearing__composite_rq": None}, "bearing.composite_rq: missing; expected a value"),
     ({"bearing__composite_rq": "0 um"}, "bearing.composite_rq: got '0 um'; expected a number in m"),
-    ({"bearing__temperature": "70"}, "bearing.temperature: got '70' (it has no unit); expected a number in K"),
+    (
+        {"bearing__temperature": "70"},
+        "bearing.temperature: got '70' (it has no unit); expected a number in K",
+    ),
     ({"bearing__temperature": 70}, "bearing.temperature: got 70; expected a number in K"),
     ({"bearing__inner_speed": "0 rpm"}, "bearing.inner_speed: got '0 rpm'; expected a number in rad/s"),
     ({"bearing__inner_speed": "3000 m/s"}, "bearing.inner_speed: got '3000 m/s'"),
@@ -116,9 +125,15 @@ MISTAKES = [
     ({"bearing__film_factor": "inlet-shear"}, "lubricant.temperature.thermal_conductivity: missing, film"),
     # Materials and names.
     ({"bearing__ring_material": "silicon-nitride"}, "bearing.ring_material: got 'silicon-nitride'; expected"),
-    ({"bearing__element_material": "brass"}, "bearing.element_material: got 'brass'; expected one of the libra"),
+    (
+        {"bearing__element_material": "brass"},
+        "bearing.element_material: got 'brass'; expected one of the libra",
+    ),
     ({"bearing__element_capacitance": "10 pF"}, "bearing.element_capacitance: got it for elements that"),
-    ({**CERAMIC, "bearing__element_capacitance": "0 pF"}, "bearing.element_capacitance: got '0 pF'; expected a"),
+    (
+        {**CERAMIC, "bearing__element_capacitance": "0 pF"},
+        "bearing.element_capacitance: got '0 pF'; expected a",
+    ),
     (
         {"bearing__base": "6209"},
         "bearing.base: got '6209'; expected a name of the library: 209-hamrock, 6208, nu-215",
@@ -151,7 +166,10 @@ MISTAKES = [
         {"discharge__dielectric_strength": None, "discharge__temperature": "40 degC"},
         "discharge.temperature: got 313.15 K for a bearing; expected bearing.temperature in its place",
     ),
-    ({"motor__winding_rotor_capacitance": None}, "motor.winding_rotor_capacitance: missing; expected a value"),
+    (
+        {"motor__winding_rotor_capacitance": None},
+        "motor.winding_rotor_capacitance: missing; expected a value",
+    ),
     ({"motor__common_mode_voltage": "-300 V"}, "motor.common_mode_voltage: got '-300 V'; expected a number"),
 ]
 
@@ -250,7 +268,9 @@ def test_an_oil_without_constants_of_roelands_needs_its_alpha():
         "relative_permittivity": 2.4,
     }
     changes = {f"lubricant__{key}": value for key, value in barus.items()}
-    with pytest.raises(InputError, match=r"lubricant\.pressure_viscosity_coefficient: missing; expected it, or"):
+    with pytest.raises(
+        InputError, match=r"lubricant\.pressure_viscosity_coefficient: missing; expected it, or"
+    ):
         bearing_case(BALLS, **changes).lubricant.at(343.15)
 
 
@@ -346,7 +366,9 @@ def test_a_strength_over_temperature_is_that_of_the_bearing():
 
 def test_a_strength_does_not_reach_beyond_its_temperatures():
     case = bearing_case(BALLS, contacts="formula", **over_temperature("20 degC", "60 degC"))
-    line = r"^bearing\.temperature: got 343\.15 K; expected one within the strength_table, 293\.15 to 333\.15 K$"
+    line = (
+        r"^bearing\.temperature: got 343\.15 K; expected one within the strength_table, 293\.15 to 333\.15 K$"
+    )
     for refused in (check_bearing, solve_bearing):
         with pytest.raises(InputError, match=line):
             refused(case)

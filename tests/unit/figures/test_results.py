@@ -127,7 +127,9 @@ def test_figures_of_a_sweep(tmp_path):
     lines = figure(results, f"lines_{value}.png", x=SPEED, at={LOAD: "1 MN/m"})
     assert "breakdown voltage" in lines.axes[0].get_ylabel()
     assert figure_names(results) == save_figures(results, tmp_path) == []
-    with pytest.raises(InputError, match=r"^figure: got 'film\.png'; expected map_KEY\.png, lines_KEY\.png or "):
+    with pytest.raises(
+        InputError, match=r"^figure: got 'film\.png'; expected map_KEY\.png, lines_KEY\.png or "
+    ):
         figure(results, "film.png")
     with pytest.raises(InputError, match=r"^y: missing; expected a varied key, for a map$"):
         figure(results, f"map_{value}.png", x=SPEED)

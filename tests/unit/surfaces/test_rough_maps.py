@@ -195,7 +195,9 @@ def holed(path, share, **kind):
 
 def test_too_many_voids_are_refused(tmp_path):
     measured_map(Roughness(surface=1, file=holed(tmp_path, 0.2)))
-    with pytest.raises(InputError, match="has data at 1580 of 40 x 50 points; expected a map with at least 16"):
+    with pytest.raises(
+        InputError, match="has data at 1580 of 40 x 50 points; expected a map with at least 16"
+    ):
         measured_map(Roughness(surface=1, file=holed(tmp_path, 0.21)))
 
 
@@ -214,7 +216,10 @@ def test_maps_that_cannot_be_used(tmp_path, monkeypatch):
         with pytest.raises(InputError, match=message) as caught:
             surfaces_of({"surface": 1} | table)
         assert "\n" not in str(caught.value)
-    for table, message in (({"line": 3}, "line: got 3 for a whole map"), ({}, "is a profile; expected a map")):
+    for table, message in (
+        ({"line": 3}, "line: got 3 for a whole map"),
+        ({}, "is a profile; expected a map"),
+    ):
         with pytest.raises(InputError, match=message):
             whole_map(Roughness(surface=1, file=str(DEKTAK), **table))
     monkeypatch.setattr("ehlectric.surfaces.files.MOST_MAP_POINTS", 50_000)

@@ -70,7 +70,11 @@ DOUBTFUL = [
     (["x [um];y [um];z [nm]"], [f"{x};0.0;{z:.4f}" for x, z in zip(X, Z, strict=True)], "has 3 columns"),
     (["X;Y;invalid", "[um];[nm];[1/0]"], [line + ";0" for line in rows_of(";")], "has 3 columns"),
     (["x;y;is it", "valid;or;not"], [line + ";1" for line in rows_of(";")], "has 3 columns"),
-    (VALIDITY, [*[line + ";1" for line in rows_of(";")[:-1]], "99.50;1"], "line 202 has 2 columns; expected 3"),
+    (
+        VALIDITY,
+        [*[line + ";1" for line in rows_of(";")[:-1]], "99.50;1"],
+        "line 202 has 2 columns; expected 3",
+    ),
     (VALIDITY, [line + ";2" for line in rows_of(";")], "line 3 has the validity '2'; expected 0 or 1"),
     (VALIDITY, [*[line + ";1" for line in rows_of(";")[:-1]], "99.50;1;"], "has the validity ''; expected 0"),
     ([], [*rows_of(";")[:-1], "1e999;1"], "line 200 holds a number that is too large"),

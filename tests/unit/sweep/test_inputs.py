@@ -105,7 +105,9 @@ def test_replace_refuses_surfaces_that_are_not_there():
     rough = Case.from_dict(ROUGH)
     with pytest.raises(InputError, match=r"roughness\.3\.rq: got '3' .* expected a number from 1 to 2"):
         rough.replace({"roughness.3.rq": 1e-8})
-    with pytest.raises(InputError, match=r"roughness\.1\.rq: got '1' .* expected none, as there are no tables"):
+    with pytest.raises(
+        InputError, match=r"roughness\.1\.rq: got '1' .* expected none, as there are no tables"
+    ):
         CASE.replace({"roughness.1.rq": 1e-8})
     with pytest.raises(InputError, match=r"roughness\.1: is a table; expected one of its keys"):
         rough.replace({"roughness.1": {"rq": 1e-8}})
@@ -165,12 +167,18 @@ BAD = [
         r"^vary\.roughness\.rescale_rq: is a list of tables; expected .* roughness\.1\.rescale_rq",
     ),
     ({"roughness": [[]]}, r"^vary\.roughness: is a list of tables"),
-    ({SPEED: "1 m/s"}, r"^vary\.contact\.entrainment_speed: got '1 m/s'; expected a list of values or a table"),
+    (
+        {SPEED: "1 m/s"},
+        r"^vary\.contact\.entrainment_speed: got '1 m/s'; expected a list of values or a table",
+    ),
     ({SPEED: 1.0}, r"^vary\.contact\.entrainment_speed: got 1\.0; expected a list"),
     ({SPEED: []}, r"^vary\.contact\.entrainment_speed: got \[\]; expected a list"),
     ({SPEED: ["1 m"]}, r"^vary\.contact\.entrainment_speed: got '1 m' \(m is not a unit of this quantity\)"),
     ({SPEED: [-1]}, r"^vary\.contact\.entrainment_speed: got -1; expected .* at least 1e-09"),
-    ({SPEED: [1, "1 m/s"]}, r"^vary\.contact\.entrainment_speed: got 1\.0 twice; expected values that differ"),
+    (
+        {SPEED: [1, "1 m/s"]},
+        r"^vary\.contact\.entrainment_speed: got 1\.0 twice; expected values that differ",
+    ),
     ({SPEED: {"from": 1, "to": 2}}, r"^vary\.contact\.entrainment_speed\.count: missing"),
     ({SPEED: {"from": 1, "to": 2, "count": 1}}, r"\.count: got 1; expected how many values"),
     ({SPEED: {"from": 1, "to": 2, "count": True}}, r"\.count: got True; expected"),

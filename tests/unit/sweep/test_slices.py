@@ -81,7 +81,10 @@ def test_texts_are_lines_and_no_map():
             f"at: missing, {POTENTIAL} varies too; expected {POTENTIAL}=VALUE, one of 1, 4 V",
         ),
         ((SPEED, None, VALUE), f"at: missing, {LOAD}, {POTENTIAL} vary too"),
-        ((SPEED, LOAD, VALUE, {POTENTIAL: "9 V"}), f"at: got {POTENTIAL}=9 V; expected a value from 1 to 4 V"),
+        (
+            (SPEED, LOAD, VALUE, {POTENTIAL: "9 V"}),
+            f"at: got {POTENTIAL}=9 V; expected a value from 1 to 4 V",
+        ),
         ((SPEED, LOAD, VALUE, {POTENTIAL: "4 m"}), f"at: {POTENTIAL}: got '4 m' .* expected a number in V"),
         ((SPEED, LOAD, VALUE, {"electric.potential_1": "4 V"}), f"nearest is {POTENTIAL}"),
         ((SPEED, LOAD, VALUE, {SPEED: "1 m/s"}), f"at: got {SPEED}, which is x"),

@@ -128,7 +128,9 @@ def mesh_of(ax):
 
 
 def test_what_is_no_run_is_refused_in_one_line():
-    with pytest.raises(InputError, match="without 'strength'; expected that of roughness that moves") as caught:
+    with pytest.raises(
+        InputError, match="without 'strength'; expected that of roughness that moves"
+    ) as caught:
         save_motion_figures(by_hand().drop_vars("strength"), None)
     assert "\n" not in str(caught.value)
 
