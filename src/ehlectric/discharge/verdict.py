@@ -47,7 +47,7 @@ class Verdict:
 # Probability below which a voltage of a Weibull law counts as safe.
 UNLIKELY = 0.05
 
-# Warnings of results whose margin may be lower than it is computed to be: no verdict is green with one of them.
+# Warnings of results whose margin may be lower than computed: no verdict is green with one of them.
 DOUBTS = (
     "surfaces-touch",
     "thinner-than-atom",
@@ -163,8 +163,8 @@ def contact_verdict(
     if margin is None or at is None:
         return Verdict(
             "grey",
-            f"No verdict: no dielectric strength given, thus no breakdown voltage to compare with the applied "
-            f"{voltage:.3g} V.",
+            "No verdict: no dielectric strength given, no breakdown voltage. "
+            f"The applied voltage is {voltage:.3g} V.",
         )
     off = error or 0.0
     low, doubts = margin * (1.0 - off), doubts_of(warnings)
@@ -196,7 +196,7 @@ def weibull_part(shape: float, probability: float) -> float:
     >>> round(weibull_part(10.0, 0.05), 3)
     0.743
     """
-    return (-math.log1p(-probability)) ** (1.0 / shape)
+    return math.pow(-math.log1p(-probability), 1.0 / shape)
 
 
 def breakdown_warning(kind: str, voltage: float, at: str, margin: float) -> ResultWarning:

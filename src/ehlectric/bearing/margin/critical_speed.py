@@ -1,10 +1,11 @@
-"""Critical speed of a bearing, below which breakdown is expected, and the speed below which surfaces touch."""
+"""Critical speed of a bearing, below which breakdown is expected."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from scipy.optimize import brentq
@@ -101,7 +102,7 @@ def speed_range(margins: FormulaMargins) -> SpeedRange:
 
 def _crossing(speeds: list[float], value: Callable[[float], float]) -> float | None:
     """Highest speed at which a value rises from below 0 to above 0; None where there is none."""
-    for low, high in reversed(list(zip(speeds[:-1], speeds[1:], strict=True))):
+    for low, high in reversed(list(pairwise(speeds))):
         if value(low) < 0.0 <= value(high):
             found: float = brentq(lambda log: value(float(np.exp(log))), math.log(low), math.log(high),
                                   xtol=_TOLERANCE)  # fmt: skip

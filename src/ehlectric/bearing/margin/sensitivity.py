@@ -156,7 +156,7 @@ def _standard(case: BearingCase, table: Mapping[str, Any]) -> Iterator[_Change]:
     name = "radial load" if radial else "axial load"
     yield _Change(
         f"bearing.{'radial' if radial else 'axial'}_load",
-        f"{name}, the other one in proportion" if both else name,
+        f"{name} ({'axial' if radial else 'radial'} in proportion)" if both else name,
         _part(load, LOAD),
         factor_of_load=both,
     )

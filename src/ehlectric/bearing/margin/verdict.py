@@ -64,9 +64,9 @@ def bearing_verdict(solution: BearingSolution, analysis: MarginAnalysis) -> Verd
     if state == "conducting":
         return Verdict(
             "yellow",
-            f"Surfaces touch (lambda ratio {lambda_ratio(solution):.2g}) {_at(solution)}: the bearing conducts "
-            "and has no breakdown voltage. Current passes, and contacts that open may spark, which is not "
-            "computed.",
+            f"Surfaces touch {_at(solution)} (lambda ratio {lambda_ratio(solution):.2g}): the bearing "
+            "conducts and has no breakdown voltage. This is no protection: current passes, and contacts that "
+            "open may spark.",
         )
     breakdown, shaft = breakdown_of(solution), shaft_voltage(solution)
     if breakdown is None:
@@ -155,19 +155,24 @@ def _speeds(speeds: SpeedRange | None) -> Iterator[str]:
     if speeds is None:
         return
     if speeds.critical is not None:
-        yield f"Below about {_rpm(speeds.critical)} breakdown is expected."
+        yield f"Below about {rpm_text(speeds.critical)} rpm breakdown is expected."
     else:
         lowest = max(speeds.lowest, speeds.touching or 0.0)
-        says = "No breakdown" if speeds.above else "Breakdown"
-        yield f"{says} is expected at all speeds from {_rpm(lowest)} to {_rpm(speeds.highest)}."
+        says, highest = "No breakdown" if speeds.above else "Breakdown", rpm_text(speeds.highest)
+        yield f"{says} is expected at all speeds from {rpm_text(lowest)} to {highest} rpm."
     if speeds.touching is not None:
-        yield f"Below about {_rpm(speeds.touching)} the surfaces touch."
+        yield f"Below about {rpm_text(speeds.touching)} rpm the surfaces touch and conduct."
 
 
-def _rpm(speed: float) -> str:
-    """Speed as text, rounded to three digits."""
-    value = speed * 30.0 / math.pi
-    return f"{float(f'{value:.3g}'):g} rpm" if value < 1e6 else f"{value:.3g} rpm"
+def rpm_text(speed: float) -> str:
+    """Speed [rad/s] as text in revolutions per minute, rounded to three digits.
+
+    Examples
+    --------
+    >>> rpm_text(144.38)
+    '1380'
+    """
+    return f"{float(f'{speed * 30.0 / math.pi:.3g}'):.10g}"
 
 
 def _at(solution: BearingSolution) -> str:
