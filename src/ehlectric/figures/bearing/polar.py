@@ -19,7 +19,7 @@ from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solution import CONDUCTING, PARTIAL, RingState
 from ehlectric.cases.quantity import unit_for
 from ehlectric.figures.axes import is_wide, round_numbers
-from ehlectric.figures.style import BLUE, GREY, ORANGE
+from ehlectric.figures.style import BLUE, GREY, ORANGE, page_size
 
 # Name of each ring, with colour, line width and size of markers. The loads of both rings are nearly equal, so
 # the line of the inner ring is drawn last, over the wider line of the outer ring.
@@ -36,8 +36,8 @@ _MOST_TICKS = 7
 
 
 def new_polar(columns: int, size: tuple[float, float]) -> list[Axes]:
-    """Polar axes side by side in a new figure, whose size is in inches."""
-    figure = Figure(figsize=size)
+    """Polar axes side by side in a new figure, whose size on the screen is in inches."""
+    figure = Figure(figsize=page_size(size))
     FigureCanvasAgg(figure)
     return list(figure.subplots(1, columns, squeeze=False, subplot_kw={"projection": "polar"}).ravel())
 

@@ -1,4 +1,4 @@
-"""Figures of bearings: by name, and as PNG files."""
+"""Figures of bearings: by name, and as files."""
 
 from __future__ import annotations
 
@@ -33,6 +33,7 @@ from ehlectric.figures.bearing.speeds import (
     capacitance_over_speed,
     how_found,
 )
+from ehlectric.figures.names import in_formats
 from ehlectric.figures.style import drawing_of, figure_of, name_over, new_panels, save_figure, style
 
 Draw = Callable[[BearingResult, Axes], Axes]
@@ -117,6 +118,7 @@ def figure(result: BearingResult, name: str) -> Figure:
         Where the bearing has no figure of this name.
     """
     drawings = bearing_figures_of(result)
+    (name,) = in_formats([name])
     if name in SPEED_FIGURES:
         points, _ = over_speed(result.case)
         return speed_figure(points, name, result.case.title, own=_own_speed(result))
@@ -164,8 +166,10 @@ def speed_figure(points: Speeds, name: str, title: str = "", *, own: Speed | Non
         return _named(ax, title, converged=all(summary["converged"] for _, summary in points))
 
 
-def save_bearing_figures(result: BearingResult, folder: Path) -> list[Path]:
-    """Draw the figures of a bearing at its own speed as PNG files.
+def save_bearing_figures(
+    result: BearingResult, folder: Path, formats: Sequence[str] = ("png",)
+) -> list[Path]:
+    """Draw the figures of a bearing at its own speed as files.
 
     Parameters
     ----------
@@ -173,22 +177,30 @@ def save_bearing_figures(result: BearingResult, folder: Path) -> list[Path]:
         Result of the bearing.
     folder : Path
         Folder of the files; it must exist.
+    formats : sequence of str
+        Formats of the files, of "png", "svg" and "pdf".
 
     Returns
     -------
     list of Path
         Files written: those of ``bearing_figures_of``.
     """
-    files = [folder / name for name in bearing_figures_of(result)]
-    for file in files:
-        save_figure(figure(result, file.name), file)
-    return files
+    return [
+        file
+        for name in bearing_figures_of(result)
+        for file in save_figure(figure(result, name), folder / name, formats)
+    ]
 
 
 def save_speed_figures(
-    points: Speeds, folder: Path, title: str = "", *, own: Speed | None = None
+    points: Speeds,
+    folder: Path,
+    title: str = "",
+    *,
+    own: Speed | None = None,
+    formats: Sequence[str] = ("png",),
 ) -> list[Path]:
-    """Draw capacitance and, where there are any, breakdown voltages over the speed as PNG files.
+    """Draw capacitance and, where there are any, breakdown voltages over the speed as files.
 
     Parameters
     ----------
@@ -196,6 +208,8 @@ def save_speed_figures(
         Speed of the inner ring [rad/s], and the summary at this speed.
     folder : Path
         Folder of the files; it must exist.
+    formats : sequence of str
+        Formats of the files, of "png", "svg" and "pdf".
     title : str, optional
         First line of the titles.
     own : (float, dict), optional
@@ -206,14 +220,17 @@ def save_speed_figures(
     list of Path
         Files written.
     """
-    files = [folder / name for name in _speed_drawings(points)]
-    for file in files:
-        save_figure(speed_figure(points, file.name, title, own=own), file)
-    return files
+    return [
+        file
+        for name in _speed_drawings(points)
+        for file in save_figure(speed_figure(points, name, title, own=own), folder / name, formats)
+    ]
 
 
-def save_over_speed(result: BearingResult, folder: Path) -> tuple[list[Path], list[ResultWarning]]:
-    """Solve a bearing by formula at speeds around its own, and draw it over speed as PNG files.
+def save_over_speed(
+    result: BearingResult, folder: Path, formats: Sequence[str] = ("png",)
+) -> tuple[list[Path], list[ResultWarning]]:
+    """Solve a bearing by formula at speeds around its own, and draw it over speed as files.
 
     Parameters
     ----------
@@ -221,6 +238,8 @@ def save_over_speed(result: BearingResult, folder: Path) -> tuple[list[Path], li
         Result of the bearing at its own speed.
     folder : Path
         Folder of the files; it must exist.
+    formats : sequence of str
+        Formats of the files, of "png", "svg" and "pdf".
 
     Returns
     -------
@@ -230,8 +249,10 @@ def save_over_speed(result: BearingResult, folder: Path) -> tuple[list[Path], li
         Speeds that are left out, and why.
     """
     points, left_out = over_speed(result.case)
-    files = save_speed_figures(points, folder, result.case.title, own=_own_speed(result)) if points else []
-    return files, left_out
+    if not points:
+        return [], left_out
+    own = _own_speed(result)
+    return save_speed_figures(points, folder, result.case.title, own=own, formats=formats), left_out
 
 
 def _speed_drawings(points: Speeds) -> dict[str, Callable[..., Axes]]:

@@ -21,6 +21,7 @@ from ehlectric.figures.bearing import speeds as bearing_speed_plot
 from ehlectric.figures.bearing.save import bearing_figures_of, save_bearing_figures, save_speed_figures
 from ehlectric.figures.names import BEARING_FIGURE_FILES, SPEED_FIGURE_FILES
 from tests.helpers.bearings import contact_solution
+from tests.helpers.titles import title_of
 
 LOADS, CIRCUIT, PITCH, IMPEDANCE = BEARING_FIGURE_FILES
 
@@ -285,8 +286,7 @@ def test_the_command_draws_unless_told_not_to(result, monkeypatch, tmp_path):
 def test_titles_say_the_duty_and_what_the_film_is_worth(changes, text, monkeypatch, tmp_path):
     """0.2 um of film at 900 N, about the most loaded ball here, over 0.03 um of roughness."""
     named = []
-    monkeypatch.setattr(Figure, "suptitle", lambda _self, text, **_: named.append(text))
-    monkeypatch.setattr(Figure, "savefig", lambda *_args, **_kwargs: None)
+    monkeypatch.setattr(Figure, "savefig", lambda figure, *_, **__: named.append("\n".join(title_of(figure))))
     save_bearing_figures(by_hand(positions=1, **changes), tmp_path)
     assert named
     plain = text.removesuffix(": voltages are upper bounds")
@@ -316,8 +316,7 @@ def test_a_bearings_capacitance_over_its_contacts_is_that_of_the_position_shown(
 
 def test_a_bearing_that_did_not_converge_says_so(result, monkeypatch, tmp_path):
     named = []
-    monkeypatch.setattr(Figure, "suptitle", lambda _self, text, **_: named.append(text))
-    monkeypatch.setattr(Figure, "savefig", lambda *_args, **_kwargs: None)
+    monkeypatch.setattr(Figure, "savefig", lambda figure, *_, **__: named.append("\n".join(title_of(figure))))
     curve = result.solution.inner_curve
     failed = replace(curve, solutions=(replace(curve.solutions[0], converged=False), *curve.solutions[1:]))
     save_bearing_figures(BearingResult(replace(result.solution, inner_curve=failed)), tmp_path)
