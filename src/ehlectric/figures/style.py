@@ -17,6 +17,7 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.font_manager import FontProperties
 from matplotlib.text import Annotation
 
 from ehlectric.arrays import Array
@@ -106,6 +107,10 @@ _ONE_COLUMN = 6.5
 
 # Characters of a title that fit into an inch, and sizes of its first line and of the others [pt].
 _AN_INCH, _FINDING, _BELOW = 14.0, 10.0, 8.5
+
+# Part of the width of a figure that a legend above its axes may take; width of a letter, and of the key at a
+# label, as multiples of the size of the letters.
+_LEGEND_PART, _LETTER, _KEY = 0.9, 0.5, 4.0
 
 _turn = threading.RLock()
 _style: ContextVar[str] = ContextVar("style", default="screen")
@@ -293,9 +298,17 @@ def drawing_of(drawings: Mapping[str, D], name: str) -> D:
 
 
 def legend_above(ax: Axes, handles: Sequence[Artist] | None = None, columns: int = 2) -> None:
-    """Place a legend above the axes, of the given artists, or of all that have a label."""
+    """Place a legend above the axes, of the given artists, or of all that have a label.
+
+    It has at most ``columns`` columns, and fewer where the longest label would not fit into the figure.
+    """
+    shown_handles = ax.get_legend_handles_labels()[0] if handles is None else list(handles)
+    longest = max((len(str(handle.get_label())) for handle in shown_handles), default=0)
+    room = _LEGEND_PART * figure_of(ax).get_figwidth() * 72.0
+    letters = FontProperties(size=mpl.rcParams["legend.fontsize"]).get_size_in_points()
+    columns = max(1, min(columns, int(room / (letters * (_LETTER * longest + _KEY)))))
     ax.legend(
-        handles=ax.get_legend_handles_labels()[0] if handles is None else list(handles),
+        handles=shown_handles,
         loc="lower left",
         bbox_to_anchor=(0.0, 1.0),
         borderaxespad=0.3,

@@ -95,7 +95,7 @@ def test_the_roughness_is_among_the_figures_of_a_rough_contact():
 
 def test_figures_of_a_bearing(bearing, tmp_path):
     assert tuple(figure_names(bearing)) == names.BEARING_FIGURE_FILES
-    assert len(figure(bearing, "bearing_circuit.png").axes) == 3
+    assert len(figure(bearing, "bearing_circuit.png").axes) == 2
     over_speed = figure(bearing, "capacitance_over_speed.png")
     assert over_speed.axes[0].get_xlabel().endswith("[rpm]")
     with pytest.raises(
