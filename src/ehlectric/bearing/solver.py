@@ -127,7 +127,7 @@ def _solved(
         solutions[len(tasks) - 1 - number] = solution
         progress(len(solutions), len(tasks), f"contact with {solution.load:.4g} N")
 
-    progress(0, len(tasks), "contacts")
+    progress(0, len(tasks), "solving contacts")
     if workers == 1 or len(tasks) == 1:
         for number, task in enumerate(reversed(tasks)):
             done(number, task())
