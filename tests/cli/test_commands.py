@@ -224,7 +224,14 @@ def test_surfaces_that_cannot_be_used(ehlectric, case_file, tmp_path):
 def test_check_says_what_a_case_means(ehlectric, case_file):
     done = ehlectric("check", case_file)
     assert done.returncode == 0
-    for text in ("Hertz pressure", "half-width", "Moes M", "Moes L", "piezoviscous-elastic", "lambda"):
+    for text in (
+        "Hertz pressure",
+        "half-width",
+        "M (Moes)",
+        "L (Moes)",
+        "piezoviscous-elastic",
+        "parameter Λ",
+    ):
         assert text in done.stdout
     summary = json.loads(ehlectric("check", case_file, "--json").stdout)
     assert summary["hertz"]["max_pressure"] == pytest.approx(1e9)
@@ -244,13 +251,13 @@ def test_check_says_what_is_doubtful_about_the_roughness(ehlectric, case_file, t
         "the asperity of surface 1, whose width is 1 µm",
         "does not resolve the profile of surface 2",
         "it was continued by extend = 'mirror'",
-        "1 of the 97 distances are twice the others",
+        "1 of the 97 distances between positions are twice the others",
     ):
         assert text in checked.stderr
     ran = ehlectric("run", case_file, "--no-plots")
     assert set(checked.stderr.splitlines()) <= set(ran.stderr.splitlines())
     shown = ehlectric("surface", "a.csv")
-    assert "warning: a.csv: positions are written in steps of their spacing" in shown.stderr
+    assert "warning: a.csv: 1 of the 97 distances between positions are twice the others" in shown.stderr
 
 
 def test_init_writes_a_case_that_solves(ehlectric, tmp_path):
@@ -269,7 +276,11 @@ def test_point_contacts_are_begun_and_checked(ehlectric, tmp_path):
     for path in ("ball.toml", EXAMPLES / "ball_contact.toml", EXAMPLES / "ball_bearing.toml"):
         done = ehlectric("check", path)
         assert (done.returncode, done.stderr) == (0, "")
-        for text in ("semi-axis, across", "Hamrock-Dowson, central", "Chittenden et al., minimum"):
+        for text in (
+            "semi-axis a across entrainment",
+            "central film (Hamrock-Dowson)",
+            "minimum film (Chittenden et al.)",
+        ):
             assert text in done.stdout
         assert all(len(line.rstrip()) <= 80 for line in done.stdout.splitlines())
     wrong = ehlectric("init", "other.toml", "--geometry", "ball")

@@ -3,6 +3,7 @@
 import json
 import os
 import random
+import re
 import signal
 import subprocess
 import time
@@ -77,19 +78,20 @@ def test_a_moving_case_is_solved_written_and_told(ehlectric, tmp_path, case_file
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
     assert (summary["schema"], summary["converged"], summary["title"]) == ("ehlectric.motion/1", True, "Bump")
     assert done.stderr == "".join(f"warning: {text}\n" for text in summary["warnings"])
-    rows = {line[:26].strip(): line[26:].split() for line in done.stdout.splitlines()}
+    rows = dict(re.split(r" {2,}", line.strip()) for line in done.stdout.splitlines() if "  " in line.strip())
     dataset = read_motion(tmp_path / "out")
     assert dict(dataset.sizes) == {"x": 65, "step": 13, "frame": 4}
     told = {
-        "time": (summary["motion"]["duration"] * 1e3, ["ms", "in", "12", "steps"]),
-        "smallest film": (float(dataset["minimum_thickness"].min()) * 1e6, ["µm"]),
-        "largest pressure": (float(dataset["max_pressure"].max()) / 1e9, ["GPa"]),
-        "largest field": (float(dataset["max_strength"].max()) / 1e6, ["V/µm"]),
-        "voltage": (2.0, ["V"]),
+        "duration": (summary["motion"]["duration"] * 1e3, "ms, 12 time steps"),
+        "minimum film, moving roughness": (float(dataset["minimum_thickness"].min()) * 1e6, "µm at "),
+        "maximum pressure, moving roughness": (float(dataset["max_pressure"].max()) / 1e9, "GPa"),
+        "maximum field, moving roughness": (float(dataset["max_strength"].max()) / 1e6, "V/µm at "),
+        "voltage across the film": (2.0, "V"),
     }
     for name, (value, unit) in told.items():
-        assert float(rows[name][0]) == pytest.approx(value, rel=1e-3)
-        assert rows[name][1:] == unit
+        number, _, rest = rows[name].partition(" ")
+        assert float(number) == pytest.approx(value, rel=1e-3)
+        assert rest.startswith(unit)
 
 
 def test_options_of_what_is_printed(typed, tmp_path, case_file):
@@ -255,7 +257,7 @@ def test_a_film_before_the_motion_that_is_not_found(typed, tmp_path, case_file):
     case_file.write_text(CASE + "[solver]\nmax_iterations = 1\n")
     done = typed("run", case_file, "-o", "out", "--no-plots")
     assert (done.exit_code, done.stdout) == (3, "")
-    assert done.stderr.startswith("error: not converged: film before the motion ")
+    assert done.stderr.startswith("error: not converged: film before the motion, ")
     assert done.stderr.count("\n") == 1
     assert files(tmp_path / "out") == []
 
@@ -368,5 +370,5 @@ def test_check_says_what_moves_and_for_how_long(typed, case_file):
     assert (motion["speed_ratio_1"], motion["speed_ratio_2"]) == (1.0, 1.0)
     assert (motion["covered_from"], motion["coincident"]) == (None, None)
     told = typed("check", case_file).stdout
-    assert "ms in 12 steps" in told
-    assert "surface 1, rough" in told
+    assert "ms, 12 time steps" in told
+    assert "speed of rough surface 1" in told

@@ -86,7 +86,7 @@ def test_a_sweep_is_solved_saved_and_told(ehlectric, tmp_path, swept):
     doubtful = sum("do not use" in row["warnings"] for row in rows)
     assert (done.returncode, done.stderr) == (0, told_of(4, warned, doubtful))
     assert 0 < warned <= 4
-    assert done.stdout.split()[:5] == ["solved", "4", "of", "4", "points"]
+    assert done.stdout.split()[:5] == ["points", "solved", "4", "of", "4"]
     written = done.stdout.splitlines()[-1]
     assert written == "written: out/sweep.csv, out/sweep.parquet, out/sweep.nc"
     assert [row["contact.entrainment_speed"] for row in rows] == ["1.0", "1.0", "2.0", "2.0"]

@@ -65,7 +65,7 @@ def over_speed(
         try:
             solution = solution_of(changed.replace({"bearing.inner_speed": speed}))
         except InputError as error:
-            text = f"over speed, {speed * 30.0 / np.pi:.4g} rpm: {error}"
+            text = f"figures over speed leave out {speed * 30.0 / np.pi:.4g} rpm: {error}"
             left_out.append(ResultWarning("speed-left-out", text))
         else:
             points.append((speed, summary_of(solution)))
@@ -84,7 +84,7 @@ def _by_formula(case: BearingCase) -> tuple[BearingCase | None, list[ResultWarni
         try:
             check_formula(discharge.at(case.bearing.temperature), lubricant)
         except InputError as error:
-            left_out = [ResultWarning("speed-left-out", f"over speed: {error}")]
+            left_out = [ResultWarning("speed-left-out", f"figures over speed are incomplete: {error}")]
         else:
             changed = case.replace({"contacts": "formula"})
             return changed.model_copy(update={"discharge": discharge}), left_out

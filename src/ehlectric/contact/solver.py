@@ -228,7 +228,7 @@ def _solved(
     )
     film = films.film
     if require_convergence and not film.converged:
-        raise ConvergenceError(f"film {film.status} at the residual {film.residual:.1e}")
+        raise ConvergenceError(f"film, {film.status} at a residual of {film.residual:.1e}")
     roughness = heights_of(rough, *film.axes)
     # The field of an unconverged film is for inspection only. Solvers other than OWN may not converge for it.
     field_solvers = solvers if film.converged else OWN

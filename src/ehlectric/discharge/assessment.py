@@ -171,8 +171,8 @@ def discharge_warnings(discharge: Discharge | None, film: Film | PointFilm) -> I
     if film.minimum_thickness < TUNNELLING:
         yield ResultWarning(
             "tunnelling",
-            f"the film is {film.minimum_thickness * 1e9:.2g} nm thin: below about {TUNNELLING * 1e9:g} nm "
-            "electrons tunnel through it, which is not in the model",
+            f"the minimum film is {film.minimum_thickness * 1e9:.2g} nm: below about {TUNNELLING * 1e9:g} nm "
+            "electrons tunnel through the film, which is not modelled; do not rely on the breakdown voltage",
         )
     table = discharge.strength_table
     if table is not None and table.over == "pressure":
@@ -181,6 +181,7 @@ def discharge_warnings(discharge: Discharge | None, film: Film | PointFilm) -> I
         if least < low or most > high:
             yield ResultWarning(
                 "strength-table-exceeded",
-                f"the pressure in the film, {least / 1e9:.3g} to {most / 1e9:.3g} GPa, leaves "
-                f"discharge.strength_table, {low / 1e9:.3g} to {high / 1e9:.3g} GPa, whose ends hold there",
+                f"the pressure in the film, {least / 1e9:.3g} to {most / 1e9:.3g} GPa, exceeds the range of "
+                f"discharge.strength_table, {low / 1e9:.3g} to {high / 1e9:.3g} GPa: its end values are used "
+                "outside; extend the table",
             )

@@ -133,12 +133,12 @@ def _solve(
     resumed = file.resumed()
     if resumed is None:
         path.unlink(missing_ok=True)
-        progress(0, contact.schedule.steps, "before the motion")
+        progress(0, contact.schedule.steps, "film before the motion")
         _begin(file, solver, prepared)
         resumed = file.resumed()
         assert resumed is not None
     done, history = resumed
-    progress(done, contact.schedule.steps, "in time")
+    progress(done, contact.schedule.steps, "time steps")
     started, rows = time.perf_counter(), list[Row]()
     recorded = set(contact.schedule.recorded.tolist())
     for step, latest in solver.run(history, done):
@@ -148,7 +148,7 @@ def _solve(
             since, started = started, time.perf_counter()
             file.append(Record(step, rows, snapshot, latest, started - since))
             rows = []
-            progress(step, contact.schedule.steps, "in time")
+            progress(step, contact.schedule.steps, "time steps")
 
 
 def _begin(file: MotionFile, solver: TransientSolver, prepared: PreparedContact) -> None:
@@ -203,10 +203,13 @@ def _warnings(contact: TransientContact, still: Result | PointResult) -> Iterato
     yield from kind.surface_warnings(travelled.roughness, contact.roughness.surfaces, domain, *spacings)
     yield from _unlike(contact, still)
     if not still.converged:
-        text = f"the same roughness held still is not solved: {still.film.status}"
+        text = f"with stationary roughness the film did not converge ({still.film.status}): no comparison"
         yield ResultWarning("stationary-not-converged", text)
     elif (error := still.film.discretisation_error) is not None and error > 0.01:
-        text = f"held still, the film may be {100.0 * error:.2g} % off on this grid, and moving about as much"
+        text = (
+            f"the discretisation error of the film with stationary roughness is estimated at "
+            f"{100.0 * error:.2g} %, and with moving roughness it is probably similar; use more grid.nodes"
+        )
         yield ResultWarning("stationary-error", text)
 
 
@@ -225,6 +228,6 @@ def _unlike(contact: TransientContact, still: Result | PointResult) -> Iterator[
     if part > _ALIKE:
         yield ResultWarning(
             "stationary-differs",
-            f"the roughness that moves is up to {100.0 * part:.2g} % of its height off that held still: form "
-            "and rescale_rq are of all that moves through the contact, which is longer",
+            f"the moving roughness differs from the stationary one by up to {100.0 * part:.2g} % of its "
+            "height: form and rescale_rq are applied to the longer profile that moves through the contact",
         )

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ehlectric.cases.row import Row
-from ehlectric.contact.conditions import PointConditions
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.discharge.breakdown import Breakdown, BreakdownZone
 from ehlectric.discharge.capacitance import Capacitances
@@ -28,17 +27,6 @@ def discharge_rows(result: Result | PointResult) -> Iterator[Row]:
     yield from _costs(discharge.costs)
     yield from _leakage(discharge.leakage)
     yield from _breakdown(discharge.breakdown, result.field.voltage)
-
-
-def duty_rows(result: Result | PointResult) -> Iterator[Row]:
-    """Rows of the inputs of a contact that decide its film: load, entrainment speed and viscosity."""
-    conditions = result.conditions
-    if isinstance(conditions, PointConditions):
-        yield Row("load", conditions.load, "N")
-    else:
-        yield Row("load per length", conditions.load_per_length, "MN/m")
-    yield Row("entrainment speed", conditions.entrainment_speed, "m/s")
-    yield Row("viscosity", conditions.viscosity, "mPa s")
 
 
 def _breakdown(breakdown: Breakdown, applied: float) -> Iterator[Row]:
