@@ -84,9 +84,8 @@ def _capacitances(capacitances: Capacitances, unit: str) -> Iterator[Row]:
         Row("", value, unit).shown
         for value in (capacitances.capacitance_layers, capacitances.capacitance_full)
     )
-    yield Row(
-        "  capacitance by filling of the outlet", f"{least} to {most}", unit, ", assumption: layers to full"
-    )
+    note = ", assumption: layers to full"
+    yield Row("  capacitance by outlet filling", f"{least} to {most}", unit, note)
 
 
 def _costs(costs: DischargeCosts) -> Iterator[Row]:
