@@ -1,4 +1,4 @@
-"""Critical speed, effects and range of the margin of bearings by formula, from limits and by solving again."""
+"""Critical speed, effects and range of the margin of bearings, from limits and by solving again."""
 
 import dataclasses
 import math
@@ -53,9 +53,9 @@ def test_the_margin_at_the_critical_speed_is_one(request, name):
     """Solved again at that speed at eight positions of the cage, where the analysis has two."""
     result = request.getfixturevalue(name)
     critical = result.margin_analysis.critical_speed
-    assert margin_at(result, **{"bearing.inner_speed": critical}) == pytest.approx(1.0, abs=5e-3)
-    assert margin_at(result, **{"bearing.inner_speed": 0.8 * critical}) < 1.0
-    assert margin_at(result, **{"bearing.inner_speed": 1.25 * critical}) > 1.0
+    assert margin_at(result, **{"bearing.inner_speed": critical}) == pytest.approx(1.0, abs=1e-2)
+    assert margin_at(result, **{"bearing.inner_speed": 0.95 * critical}) < 1.0
+    assert margin_at(result, **{"bearing.inner_speed": 1.05 * critical}) > 1.0
 
 
 def test_the_critical_speed_does_not_depend_on_the_speed_of_the_file(balls):
@@ -86,7 +86,7 @@ def test_films_are_scaled_to_those_of_the_solution(balls):
     thin = type(balls)(dataclasses.replace(balls.solution, positions=tuple(states)))
     assert thin.breaks()["margin"] == pytest.approx(0.8 * balls.breaks()["margin"], rel=1e-12)
     ratio = thin.margin_analysis.critical_speed / balls.margin_analysis.critical_speed
-    # The shaft voltage rises a little with speed, too, so the exponent of the margin is below that of the film.
+    # The shaft voltage rises a little with speed, too: the margin has a smaller exponent than the film.
     assert 0.8 ** (-1.0 / 0.67) < ratio < 0.8 ** (-1.0 / 0.5)
 
 
@@ -137,13 +137,14 @@ def test_effects_are_those_of_bearings_solved_again(balls):
 def test_the_load_acts_on_the_film_and_on_the_shaft_voltage(balls):
     """A load makes the film thinner, and the capacitance larger, which takes voltage from the shaft.
 
-    Without the other capacitances of the motor the shaft has all of the voltage, and only the film counts.
+    Coupled to the winding by far more than its bearings hold, the shaft has all of the voltage, and only the
+    film counts.
     """
     found = effect(balls, "bearing.radial_load")
     assert found.low_input == pytest.approx(1440.0)
     both = {"bearing.radial_load": 1440.0, "bearing.axial_load": 240.0}
     assert margin_at(balls, **both) == pytest.approx(found.low_margin, rel=2e-3)
-    stiff = solved(motor__winding_rotor_capacitance="1 F", motor__rotor_frame_capacitance="1 nF")
+    stiff = solved(motor__winding_rotor_capacitance="1 mF")
     alone = effect(stiff, "bearing.radial_load")
     assert alone.low_margin > stiff.breaks()["margin"] > alone.high_margin
     assert found.label == "radial load (axial in proportion)"
@@ -162,7 +163,7 @@ def test_inputs_of_each_kind_of_bearing(rollers):
     keys = {one.key for one in rollers.margin_analysis.effects}
     assert keys == {STRENGTH, TEMPERATURE, "bearing.radial_clearance", "bearing.radial_load"}
     found = effect(solved(**ANGULAR), "bearing.contact_angle")
-    assert (math.degrees(found.low_input), math.degrees(found.high_input)) == (20.0, pytest.approx(30.0))
+    assert (math.degrees(found.low_input), math.degrees(found.high_input)) == pytest.approx((20.0, 30.0))
 
 
 def test_a_small_clearance_stays_positive():
@@ -183,7 +184,9 @@ def test_a_strength_over_temperature_counts_and_its_ends_are_said():
     table = {"temperature": ["20 degC", "75 degC"], "strength": ["20 V/um", "14.5 V/um"]}
     result = solved(discharge={"strength_table": table})
     analysis = result.margin_analysis
-    assert any(text.startswith("temperature: bearing.temperature: got 353.15 K") for text in analysis.left_out)
+    assert any(
+        text.startswith("temperature: bearing.temperature: got 353.15 K") for text in analysis.left_out
+    )
     assert effect(result, OF_TABLE).high_margin == pytest.approx(1.2 * result.breaks()["margin"])
     assert "table of dielectric strength over temperature is an assumption" in result.verdict.text
 
@@ -215,7 +218,7 @@ def test_the_range_contains_the_margin_of_the_file():
 
 
 def test_a_range_that_formulas_cannot_follow_is_said(balls):
-    """Beyond 600 K no oil of a bearing is; without its other end the range has no margin, nor a green verdict."""
+    """The shape of a Weibull law has no part in a formula; a rough end of a range leaves no film at all."""
     margins = FormulaMargins.of(balls.solution)
     with pytest.raises(InputError, match="has an effect that contacts by formula do not have"):
         margins.at({"discharge.weibull.shape": 5.0})
@@ -229,9 +232,11 @@ def test_a_range_that_formulas_cannot_follow_is_said(balls):
 
 def test_without_a_margin_there_is_no_analysis():
     for changes in (
-        {"motor": None}, {"discharge__dielectric_strength": None}, {"bearing__element_material": "silicon-nitride"},
+        {"motor": None},
+        {"discharge__dielectric_strength": None},
+        {"bearing__element_material": "silicon-nitride"},
         {"bearing__inner_speed": "30 rpm"},
-    ):  # fmt: skip
+    ):
         analysis = solved(**changes).margin_analysis
         assert analysis.critical_speed is None
         assert analysis.effects == ()
