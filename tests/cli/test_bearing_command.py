@@ -49,7 +49,7 @@ def by_formula(text):
 
 
 def test_a_bearing_that_breaks_down_says_so_last(ehlectric, bearing_file, tmp_path):
-    """A margin below one is a warning, and the last line is the answer; the exit status is that of a result."""
+    """A margin below one is a warning, and the last line is the answer."""
     bearing_file.write_text(by_formula(ROLLERS.replace("15 V/um", "4 V/um")))
     done = ehlectric("bearing", bearing_file, "-o", "out", "--no-plots")
     assert done.returncode == 0, done.stderr

@@ -17,13 +17,16 @@ def test_a_file_gets_one_line_without_colours(capsys, level):
 
 
 @pytest.mark.parametrize(("level", "code"), [("green", "32"), ("yellow", "33"), ("red", "31"), ("grey", "1")])
-def test_a_terminal_gets_the_colour_of_the_level(monkeypatch, capsys, level, code):
+def test_a_terminal_gets_the_colour_of_the_level(monkeypatch, level, code):
+    """What is handed to ``typer.echo``, which takes colours away where stdout is no terminal."""
+    said = []
+    monkeypatch.setattr("typer.echo", lambda text, **_: said.append(text))
     monkeypatch.setattr(
         "rich.console.Console",
         lambda **options: Console(**options, force_terminal=True, color_system="standard", _environ={}),
     )
     print_verdict(Verdict(level, TEXT))
-    out = capsys.readouterr().out
+    (out,) = said
     assert code in out.partition("m")[0].partition("[")[2].split(";")
     assert "end." in out
 
