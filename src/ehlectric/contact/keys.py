@@ -100,8 +100,8 @@ _FIELD: Keys = {
         "abs(E) h_min/V12 at mid-film and x = 0; null outside the field range"
     ),
     "thin_gap_error": ResultKey(
-        "relative error of the estimate V12/h_min: (max_strength − V12/h_min)/max_strength; null if the field "
-        "range does not contain the minimum film",
+        "relative error of the estimate V12/h_min: (max_strength − V12/h_min)/max_strength; null if the "
+        "minimum film is outside the field range",
         "",
         "error of the estimate V/h_min",
     ),

@@ -30,22 +30,25 @@ SOURCES = {
     "zone_over_half_width": "assumption: as zone_size",
     "zone_over_largest_pit": f"4 µm: {_PITS}; assumption: as zone_size",
     "zone_over_mean_pit": f"1.7 µm: {_PITS}; assumption: as zone_size",
-    "capacitance": "of the computed domain only; for a point contact it grows with the logarithm of the domain size",
-    "capacitance_plate": "assumption: parallel plates of the Hertz area at the distance h(0), permittivity at ambient pressure",
+    "capacitance": "of the computed domain only; of a point contact it grows with the logarithm of this domain",
+    "capacitance_plate": (
+        "assumption: parallel plates of the Hertz area at the distance h(0), with the permittivity at ambient "
+        "pressure"
+    ),
     "capacitance_ratio": "assumption: as capacitance_plate",
     "outlet": "assumption: filling of the gap behind the exit; the limiting cases are given, too",
     "capacitance_outlet_full": "assumption: only oil behind the exit, even if there is not enough oil",
-    "capacitance_outlet_fingers": "assumption: oil from wall to wall beside gas; the mass of the oil is conserved",
-    "capacitance_outlet_layers": "assumption: oil on both walls with gas between; the mass of the oil is conserved",
+    "capacitance_outlet_fingers": "assumption: oil from wall to wall beside gas; the oil mass is conserved",
+    "capacitance_outlet_layers": "assumption: oil on both walls with gas between; the oil mass is conserved",
     "discharge_energy": "assumption: one spark discharges all of the charge",
     "breakdown_energy": "assumption: one spark discharges all of the charge",
-    "pit_volume": "assumption: energy at the voltage of the case, with the given efficiency and melting energy",
+    "pit_volume": "assumption: energy at the voltage of the case; efficiency and melting energy as given",
     "pit_diameter": "assumption: hemispherical pit",
     "current_density_limits": (
         "0.1 to 0.3 A/mm^2: Lubricants 12 (2024) 148, doi:10.3390/lubricants12050148; 0.8 A/mm^2: Busse et "
         "al. (1997), as quoted by Morris et al. (2022), who print it in A/m^2"
     ),
-    "relaxation_time": "assumption: permittivity at ambient pressure, and the given conductivity at any pressure",
+    "relaxation_time": "assumption: permittivity at ambient pressure; the same conductivity at any pressure",
     "corner_frequency": "assumption: as relaxation_time",
 }
 

@@ -125,8 +125,8 @@ def _keys(capacitance: str, surface: Keys) -> Keys:
         ),
         **under("stationary", _stationary(capacitance)),
         "beside_stationary": ResultKey(
-            "comparison of moving and stationary roughness within abs(x) < b, at the recorded instant next to "
-            "`coincident`; null if none is within 0.6 of a step, or the stationary film did not converge"
+            "comparison of moving and stationary roughness within abs(x) < b, at the recorded instant next "
+            "to `coincident`; null if none is within 0.6 of a step, or the stationary film did not converge"
         ),
         **under("beside_stationary", _BESIDE),
         "rough": ResultKey("source, size, voids and statistics after every step, for each rough surface"),
