@@ -20,6 +20,7 @@ extensions = [
     "from_code",
     "myst_parser",
     "numpydoc",
+    "sketches",
     "sphinx.ext.autodoc",
     "sphinx.ext.autosummary",
     "sphinx.ext.mathjax",

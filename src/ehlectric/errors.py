@@ -188,6 +188,7 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "field-grid-too-coarse": Cause("The grid of the field is coarser than that of the film."),
         "field-range-too-narrow": Cause("The maximum field is at an edge of the field range."),
         "field-above-insulators": Cause("The maximum field is higher than any insulator withstands."),
+        "breakdown-expected": Cause("The margin is below 1: breakdown is expected."),
         "tunnelling": Cause("The film is so thin that electrons tunnel through it."),
         "strength-table-exceeded": Cause("The film pressure exceeds the range of discharge.strength_table."),
         # Transient contacts

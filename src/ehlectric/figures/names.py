@@ -5,6 +5,14 @@ The functions that draw them stand in tables by these names; this module is impo
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
+
+from ehlectric.errors import InputError, shown
+
+# Formats of the files, and styles of the figures.
+FORMATS = ("png", "svg", "pdf")
+STYLES = ("screen", "journal")
+
 # Figures of contacts. The figure of the roughness is drawn of rough contacts only.
 FIGURE_FILES = (
     "film.png",
@@ -53,3 +61,40 @@ def map_files(value: str) -> tuple[str, str]:
     ('map_discharge.breakdown_voltage.png', 'lines_discharge.breakdown_voltage.png')
     """
     return f"map_{value}.png", f"lines_{value}.png"
+
+
+def in_formats(files: Iterable[str], formats: Sequence[str] = ("png",)) -> tuple[str, ...]:
+    """Names of the files of figures in some formats.
+
+    Parameters
+    ----------
+    files : iterable of str
+        Names, with or without the ending of a format.
+    formats : sequence of str
+        Formats, each of ``FORMATS``. A format that is given twice counts once.
+
+    Returns
+    -------
+    tuple of str
+        Names of the files, figure by figure.
+
+    Raises
+    ------
+    InputError
+        Where there is no format of this name.
+
+    Examples
+    --------
+    >>> in_formats(["film.png", "cuts"], ["png", "svg"])
+    ('film.png', 'film.svg', 'cuts.png', 'cuts.svg')
+    """
+    for name in formats:
+        if name not in FORMATS:
+            raise InputError("format", got=shown(name), takes=f"one of {', '.join(FORMATS)}")
+    return tuple(f"{_stem(file)}.{name}" for file in files for name in dict.fromkeys(formats))
+
+
+def _stem(file: str) -> str:
+    """Name of a file without the ending of a format; the key of a sweep in it may have points."""
+    stem, point, ending = file.rpartition(".")
+    return stem if point and ending in FORMATS else file

@@ -1,9 +1,9 @@
-"""Figures of stationary contacts: by name, and as PNG files."""
+"""Figures of stationary contacts: by name, and as files."""
 
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from matplotlib.axes import Axes
@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.figures.contact.line import figures_of
 from ehlectric.figures.contact.point import point_figures_of
-from ehlectric.figures.style import NOT_CONVERGED, drawing_of, figure_of, name_over, save_figure, style
+from ehlectric.figures.style import drawing_of, figure_of, name_over, save_figure, style
 
 
 def drawings_of(result: Result | PointResult) -> dict[str, Callable[..., Axes]]:
@@ -50,8 +50,8 @@ def figure(result: Result | PointResult, name: str) -> Figure:
     return figure_of(ax)
 
 
-def save_figures(result: Result | PointResult, folder: Path) -> list[Path]:
-    """Draw all figures of a contact as PNG files.
+def save_figures(result: Result | PointResult, folder: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
+    """Draw all figures of a contact as files.
 
     Parameters
     ----------
@@ -59,24 +59,22 @@ def save_figures(result: Result | PointResult, folder: Path) -> list[Path]:
         Result of the contact.
     folder : Path
         Folder of the files; it must exist.
+    formats : sequence of str
+        Formats of the files, of "png", "svg" and "pdf".
 
     Returns
     -------
     list of Path
         Files written.
     """
-    files = [folder / name for name in drawings_of(result)]
-    for file in files:
-        save_figure(figure(result, file.name), file)
-    return files
+    return [
+        file
+        for name in drawings_of(result)
+        for file in save_figure(figure(result, name), folder / name, formats)
+    ]
 
 
 def _name(ax: Axes, result: Result | PointResult) -> None:
-    """Draw the title of a figure: over the axes of a line contact, over all panels of a point contact."""
-    converged = result.converged
-    title = textwrap.shorten(result.case.title, 45, placeholder=" ...")
-    text = title if converged else "NOT CONVERGED"
-    if isinstance(result, PointResult):
-        name_over(ax, text, converged=converged)
-    else:
-        ax.set_title(text, loc="left", parse_math=False, **({} if converged else NOT_CONVERGED))
+    """Draw the title of a figure over all of its panels."""
+    title = textwrap.shorten(result.case.title, 90, placeholder=" ...")
+    name_over(ax, title if result.converged else f"NOT CONVERGED\n{title}", converged=result.converged)

@@ -1,4 +1,4 @@
-"""Figures of transient contacts: by name, and as PNG files."""
+"""Figures of transient contacts: by name, and as files."""
 
 from __future__ import annotations
 
@@ -137,8 +137,8 @@ def figure(run: MotionRun, name: str) -> Figure:
         return figure_of(draw(run))
 
 
-def save_motion_figures(dataset: xr.Dataset, folder: Path) -> list[Path]:
-    """Draw all figures of a transient run as PNG files.
+def save_motion_figures(dataset: xr.Dataset, folder: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
+    """Draw all figures of a transient run as files.
 
     Parameters
     ----------
@@ -146,11 +146,13 @@ def save_motion_figures(dataset: xr.Dataset, folder: Path) -> list[Path]:
         A run, complete or not, as ``read_motion`` gives it.
     folder : Path
         Folder of the files; it must exist.
+    formats : sequence of str
+        Formats of the files, of "png", "svg" and "pdf".
 
     Returns
     -------
     list of Path
-        Files written: those of ``drawings_of``.
+        Files written: those of ``drawings_of``, in each format.
 
     Raises
     ------
@@ -158,10 +160,9 @@ def save_motion_figures(dataset: xr.Dataset, folder: Path) -> list[Path]:
         Where the dataset is not a run of moving roughness.
     """
     run = MotionRun.of(dataset)
-    files = [folder / name for name in drawings_of(run)]
-    for file in files:
-        save_figure(figure(run, file.name), file)
-    return files
+    return [
+        file for name in drawings_of(run) for file in save_figure(figure(run, name), folder / name, formats)
+    ]
 
 
 def _stack(panels: int) -> Sequence[Axes]:

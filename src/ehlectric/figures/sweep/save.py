@@ -1,8 +1,8 @@
-"""Figures of sweeps: by name, and as PNG files."""
+"""Figures of sweeps: by name, and as files."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from matplotlib.axes import Axes
@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from ehlectric.errors import InputError, shown
 from ehlectric.figures.bearing.save import save_speed_figures
-from ehlectric.figures.names import SENSITIVITY_FIGURE, map_files
+from ehlectric.figures.names import SENSITIVITY_FIGURE, in_formats, map_files
 from ehlectric.figures.style import figure_of, new_panels, save_figure, style
 from ehlectric.figures.sweep.lines import value_lines
 from ehlectric.figures.sweep.maps import value_map
@@ -65,6 +65,7 @@ def figure(
     InputError
         Where there is no figure of this name, or as ``take`` and ``sensitivity`` raise it.
     """
+    (name,) = in_formats([name])
     if name == SENSITIVITY_FIGURE:
         indices = sensitivity(results, value or breakdown_of(results.case).value)
         return sensitivity_figure(results, indices)
@@ -90,8 +91,9 @@ def save_maps(
     folder: Path,
     *,
     at: Mapping[str, str] | None = None,
+    formats: Sequence[str] = ("png",),
 ) -> list[Path]:
-    """Draw a value of a sweep as a map and as lines, as PNG files.
+    """Draw a value of a sweep as a map and as lines, as files.
 
     Parameters
     ----------
@@ -107,6 +109,8 @@ def save_maps(
         Folder of the files; it must exist.
     at : mapping of str to str, optional
         Values of the other varied keys.
+    formats : sequence of str
+        Formats of the files, of "png", "svg" and "pdf".
 
     Returns
     -------
@@ -120,14 +124,17 @@ def save_maps(
     """
     numeric = take(results, x, y, value, at).numeric
     names = [name for name in map_files(value) if (y is not None and numeric) or name.startswith("lines_")]
-    files = [folder / name for name in names]
-    for file in files:
-        save_figure(figure(results, file.name, x=x, y=y, at=at), file)
-    return files
+    return [
+        file
+        for name in names
+        for file in save_figure(figure(results, name, x=x, y=y, at=at), folder / name, formats)
+    ]
 
 
-def save_speeds(results: SweepResults, taken: Slice, folder: Path) -> list[Path]:
-    """Draw capacitance and breakdown voltages of bearings over the speed, as PNG files.
+def save_speeds(
+    results: SweepResults, taken: Slice, folder: Path, formats: Sequence[str] = ("png",)
+) -> list[Path]:
+    """Draw capacitance and breakdown voltages of bearings over the speed, as files.
 
     Parameters
     ----------
@@ -137,6 +144,8 @@ def save_speeds(results: SweepResults, taken: Slice, folder: Path) -> list[Path]
         Points to draw. Points that are not solved or must not be used are left out.
     folder : Path
         Folder of the files; it must exist.
+    formats : sequence of str
+        Formats of the files, of "png", "svg" and "pdf".
 
     Returns
     -------
@@ -152,4 +161,4 @@ def save_speeds(results: SweepResults, taken: Slice, folder: Path) -> list[Path]
     ]
     # The title of the case may name values that the sweep changes.
     title = ", ".join(filter(None, [results.title, held_text(results, taken).removeprefix("at ")]))
-    return save_speed_figures(points, folder, title) if points else []
+    return save_speed_figures(points, folder, title, formats=formats) if points else []

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -160,6 +161,8 @@ def sensitivity_figure(results: SweepResults, analysis: Sensitivity) -> Figure:
     return figure_of(left)
 
 
-def save_sensitivity(results: SweepResults, analysis: Sensitivity, path: Path) -> None:
-    """Write a PNG file with the distribution of a value beside the sensitivity indices."""
-    save_figure(sensitivity_figure(results, analysis), path)
+def save_sensitivity(
+    results: SweepResults, analysis: Sensitivity, path: Path, formats: Sequence[str] = ("png",)
+) -> list[Path]:
+    """Write the distribution of a value beside the sensitivity indices, as a file of each format."""
+    return save_figure(sensitivity_figure(results, analysis), path, formats)

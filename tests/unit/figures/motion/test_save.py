@@ -292,7 +292,7 @@ def test_roughness_below_is_that_of_the_instant():
 
 @pytest.mark.parametrize("contact", [CONTACT, BALL])
 def test_figures_are_written(contact, tmp_path, monkeypatch):
-    monkeypatch.setitem(drawing._STYLE, "savefig.dpi", 60)
+    monkeypatch.setitem(drawing._SCREEN, "savefig.dpi", 60)
     files = save_motion_figures(by_hand(contact=contact), tmp_path)
     assert [file.name for file in files] == [HISTORY, MAPS, BESIDE]
     assert sorted(tmp_path.iterdir()) == sorted(files)
@@ -311,7 +311,7 @@ def test_figures_are_written(contact, tmp_path, monkeypatch):
     ],
 )
 def test_figures_with_nothing_to_show_are_left_out(changes, left, tmp_path, monkeypatch):
-    monkeypatch.setattr("ehlectric.figures.motion.save.save_figure", lambda *_: None)
+    monkeypatch.setattr("ehlectric.figures.motion.save.save_figure", lambda _, path, *__: [path])
     assert [file.name for file in save_motion_figures(by_hand(**changes), tmp_path)] == left
 
 
