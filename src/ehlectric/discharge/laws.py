@@ -30,7 +30,7 @@ SOURCES = {
     "zone_over_half_width": "assumption: as zone_size",
     "zone_over_largest_pit": f"4 µm: {_PITS}; assumption: as zone_size",
     "zone_over_mean_pit": f"1.7 µm: {_PITS}; assumption: as zone_size",
-    "capacitance": "of the computed domain only; of a point contact it grows with the logarithm of the domain",
+    "capacitance": "of the computed domain only; of a point contact it grows with the log of the domain size",
     "capacitance_plate": (
         "assumption: parallel plates of the Hertz area at the distance h(0), with the permittivity at "
         "ambient pressure"
