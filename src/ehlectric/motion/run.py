@@ -203,7 +203,10 @@ def _warnings(contact: TransientContact, still: Result | PointResult) -> Iterato
     yield from kind.surface_warnings(travelled.roughness, contact.roughness.surfaces, domain, *spacings)
     yield from _unlike(contact, still)
     if not still.converged:
-        text = f"with stationary roughness the film did not converge ({still.film.status}): no comparison"
+        text = (
+            f"the film with stationary roughness did not converge ({still.film.status}), so there is no "
+            "comparison with the moving roughness; try more grid.nodes"
+        )
         yield ResultWarning("stationary-not-converged", text)
     elif (error := still.film.discretisation_error) is not None and error > 0.01:
         text = (
