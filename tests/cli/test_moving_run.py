@@ -82,7 +82,7 @@ def test_a_moving_case_is_solved_written_and_told(ehlectric, tmp_path, case_file
     dataset = read_motion(tmp_path / "out")
     assert dict(dataset.sizes) == {"x": 65, "step": 13, "frame": 4}
     told = {
-        "duration": (summary["motion"]["duration"] * 1e3, "ms, 12 time steps"),
+        "duration of the motion": (summary["motion"]["duration"] * 1e3, "ms, 12 time steps"),
         "minimum film, moving roughness": (float(dataset["minimum_thickness"].min()) * 1e6, "µm at "),
         "maximum pressure, moving roughness": (float(dataset["max_pressure"].max()) / 1e9, "GPa"),
         "maximum field, moving roughness": (float(dataset["max_strength"].max()) / 1e6, "V/µm at "),

@@ -158,7 +158,7 @@ def clearance_warnings(clearance: float, position: Position) -> Iterator[ResultW
             "clearance-taken-up",
             f"both films of the most loaded element are {1e6 * films:.2g} µm together, compared with "
             f"{beside} {1e6 * room:.2g} µm: the loads are computed for dry contacts, and such "
-            "films change them",
+            "films change them; treat loads and films as estimates",
         )
 
 

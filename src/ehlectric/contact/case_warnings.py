@@ -40,8 +40,8 @@ def regime_warnings(conditions: Conditions) -> Iterator[ResultWarning]:
     elif regime != "piezoviscous-elastic":
         yield ResultWarning(
             "regime",
-            f"the contact is in the {regime} regime, for which only the film formula of Moes is meant: "
-            "use the solved film",
+            f"the contact is in the {regime} regime, outside the range of all film formulas but that of "
+            "Moes; use the solved film",
         )
 
 
@@ -104,6 +104,6 @@ def point_regime_warnings(conditions: PointConditions) -> Iterator[ResultWarning
     elif regime == "isoviscous-elastic":
         yield ResultWarning(
             "regime",
-            f"the contact is in the {regime} regime, for which only the film formula of Nijenbanning, Venner "
-            "and Moes is meant: use the solved film",
+            f"the contact is in the {regime} regime, outside the range of all film formulas but that of "
+            "Nijenbanning, Venner and Moes; use the solved film",
         )

@@ -51,7 +51,7 @@ def run(
         resumed. A complete run without summary.json is summed up without being solved again. The files of any
         other result there are replaced.
     progress : callable, optional
-        Called with the number of steps done, the number of all steps, and what is being done.
+        Called with the number of solved steps, the number of all steps, and a message.
     others : sequence of str, optional
         Names of other files in the folder that belong to its result, such as figures. Those of an earlier
         result are removed.
@@ -89,7 +89,7 @@ def run(
 
 
 def run_motion(case: Case, folder: str | Path, *, again: bool = True, progress: Progress = silent) -> Path:
-    """Solve a contact with moving roughness, and write motion.nc while it is solved.
+    """Solve a contact with moving roughness, and write each recorded instant to motion.nc.
 
     Parameters
     ----------
@@ -99,9 +99,9 @@ def run_motion(case: Case, folder: str | Path, *, again: bool = True, progress: 
         Folder of motion.nc; made if it is not there. An unfinished run of the same case there is resumed from
         the last recorded instant; any other file of this name is replaced.
     again : bool
-        Whether a complete run of the same case is solved again.
+        True to solve a complete run of the same case again.
     progress : callable, optional
-        Called with the number of steps done, the number of all steps, and what is being done.
+        Called with the number of solved steps, the number of all steps, and a message.
 
     Returns
     -------
@@ -111,9 +111,9 @@ def run_motion(case: Case, folder: str | Path, *, again: bool = True, progress: 
     Raises
     ------
     InputError
-        Where the case or the folder cannot be used.
+        If the case or the folder cannot be used.
     ConvergenceError
-        Where a step is not solved; the file has the recorded instants before it.
+        If a time step does not converge; the file has the recorded instants before this step.
     """
     prepared = check_case(case)
     contact = TransientContact.of(case, prepared.rough)
@@ -203,7 +203,10 @@ def _warnings(contact: TransientContact, still: Result | PointResult) -> Iterato
     yield from kind.surface_warnings(travelled.roughness, contact.roughness.surfaces, domain, *spacings)
     yield from _unlike(contact, still)
     if not still.converged:
-        text = f"with stationary roughness the film did not converge ({still.film.status}): no comparison"
+        text = (
+            f"the film with stationary roughness did not converge ({still.film.status}), so there is no "
+            "comparison with the moving roughness; try more grid.nodes"
+        )
         yield ResultWarning("stationary-not-converged", text)
     elif (error := still.film.discretisation_error) is not None and error > 0.01:
         text = (

@@ -32,7 +32,7 @@ def run_sweep(
     *,
     workers: int | None = None,
 ) -> SweepResults:
-    """Solve the points of a sweep that its folder does not have yet, and write its tables.
+    """Solve a sweep, except the points that its folder already has, and write its tables.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ def run_sweep(
         Executor of concurrent.futures that solves the points; it is not shut down here. By default, processes
         of this machine solve them.
     progress : callable, optional
-        Called with the number of points done, the number of all points, and a text.
+        Called with the number of solved points, the number of all points, and a message.
     workers : int, optional
         Number of processes of this machine; by default as many as there are cores.
 
@@ -87,7 +87,7 @@ def run(
     *,
     solvers: AbstractContextManager[Crew] | None = None,
 ) -> RunOutcome[SweepResults]:
-    """Solve the points of a sweep that its folder does not have yet, and write its tables.
+    """Solve a sweep, except the points that its folder already has, and write its tables.
 
     Parameters
     ----------
@@ -96,7 +96,7 @@ def run(
     folder : str or Path
         Folder of sweep.sqlite and of the tables; it is made if it does not exist.
     progress : callable, optional
-        Called with the number of points done, the number of all points, and a text.
+        Called with the number of solved points, the number of all points, and a message.
     solvers : context manager of Crew, optional
         Crew that solves the points. It is entered when the sweep is known to have valid cases. By default,
         as many processes as there are cores.

@@ -390,7 +390,7 @@ def test_roughness_that_is_not_solved_held_still_has_no_maps(tmp_path, monkeypat
     assert part.attrs["stationary"] == "null"
     texts, codes = (json.loads(part.attrs[name]) for name in ("warnings", "warning_codes"))
     told = dict(zip(codes, texts, strict=True))["stationary-not-converged"]
-    assert told.startswith("with stationary roughness the film did not converge (")
+    assert told.startswith("the film with stationary roughness did not converge (")
 
 
 def test_roughness_that_is_another_one_held_still_is_said(tmp_path):

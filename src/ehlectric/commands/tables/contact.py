@@ -197,7 +197,7 @@ def _roughness(result: Result | PointResult) -> Iterator[Row]:
         about = ", minimum film / combined Rq"
         yield Row("lambda ratio", roughness.lambda_ratio, note=about, digits=".3g")
     if roughness.lambda_ratio_smooth is not None:
-        about = ", film of smooth surfaces / combined Rq"
+        about = ", smooth film / combined Rq"
         yield Row("lambda ratio of the smooth film", roughness.lambda_ratio_smooth, note=about, digits=".3g")
     if result.smooth:
         yield Row("minimum film with smooth surfaces", result.smooth.minimum_thickness, "µm")
@@ -222,7 +222,7 @@ def _field(result: Result | PointResult) -> Iterator[Row]:
 
 def _line_field(result: Result) -> Iterator[Row]:
     field = result.field
-    yield Row("width of the high-field zone", field.high_field_width, "µm", ", above 95 % of the maximum")
+    yield Row("width of the high-field zone", field.high_field_width, "µm", ", above 95 % of maximum")
     yield Row("capacitance per length", field.capacitance, "nF/m", ", over the field range")
     if result.rough:
         yield Row("grid of the field", str(field.x.size), note="columns")
@@ -230,7 +230,7 @@ def _line_field(result: Result) -> Iterator[Row]:
 
 def _point_field(result: PointResult) -> Iterator[Row]:
     field = result.field
-    yield Row("area of the high-field zone", field.high_field_area, "µm²", ", above 95 % of the maximum")
+    yield Row("area of the high-field zone", field.high_field_area, "µm²", ", above 95 % of maximum")
     yield Row("capacitance", field.capacitance, "pF", ", over the field range")
     for zone, capacitance in result.capacitance_by_zone.items():
         yield Row(f"capacitance of the {_ZONES.get(zone, zone)}", capacitance, "pF")
@@ -242,7 +242,7 @@ def _formulas(result: Result | PointResult) -> Iterator[Row]:
     formulas = _FORMULAS[result.conditions.geometry]
     for key, name, value in _by_formula(formulas, result.formulas()):
         difference = 100.0 * (value / getattr(result.film, key) - 1.0)
-        beside = f", {difference:+.0f} % from the solved film" if result.converged else ""
+        beside = f", {difference:+.0f} % vs. solved film" if result.converged else ""
         yield Row(name, value, "µm", beside)
     yield Row("usual difference from a solved film", "up to 40 %")
     yield Row("run")

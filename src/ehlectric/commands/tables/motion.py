@@ -30,7 +30,7 @@ def schedule_rows(schedule: Schedule, entrainment_speed: float) -> Iterator[Row]
     """
     moments = schedule.moments()
     yield Row("motion of the roughness")
-    yield Row("duration", schedule.end * schedule.time, "ms", f", {schedule.steps} time steps")
+    yield Row("duration of the motion", schedule.end * schedule.time, "ms", f", {schedule.steps} time steps")
     yield Row("oil travel per time step / grid spacing", schedule.courant, digits=".3g")
     for surface in schedule.rough:
         speed = schedule.speed_of(surface) * entrainment_speed
@@ -72,7 +72,10 @@ def _entries(summary: Mapping[str, Any]) -> Iterator[tuple[str, tuple[tuple[str,
     steps, peaks = summary["motion"]["steps"], summary["field"]["local_maxima"]
     film_at, field_at = _time(summary, "film.minimum_time"), _time(summary, "field.max_strength_time")
     breakdown_at = _time(summary, "discharge.breakdown_time")
-    yield "motion of the roughness", (("duration", "motion.duration", "ms", f", {steps} time steps"),)
+    yield (
+        "motion of the roughness",
+        (("duration of the motion", "motion.duration", "ms", f", {steps} time steps"),),
+    )
     yield (
         "film",
         (
