@@ -80,8 +80,9 @@ def draw_section(
         zip((0.04, 0.96), ("bottom", "top"), potentials, strict=True), 1
     ):
         text = f"surface {surface}, {volts:g} V".replace("-", "−")
+        # Beside the middle, so that an inset has room on the left.
         ax.text(
-            0.5,
+            0.62,
             height,
             text,
             transform=ax.transAxes,
@@ -108,7 +109,7 @@ class _Enlargement(Text):
 
     def draw(self, renderer: RendererBase) -> None:
         """Draw the text for the size that the axes have now."""
-        self.set_text(f"heights enlarged {_two_digits(self._times())} times")
+        self.set_text(f"heights enlarged\n{_two_digits(self._times())} times")
         super().draw(renderer)
 
     def _times(self) -> float:

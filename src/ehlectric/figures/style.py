@@ -18,6 +18,7 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.font_manager import FontProperties
 from matplotlib.text import Annotation
 from matplotlib.transforms import offset_copy
 
@@ -309,25 +310,45 @@ def legend_above(
     handles : sequence of Artist, optional
         Artists in the legend; all that have a label if omitted.
     columns : int
-        Columns of the legend.
+        Columns of the legend; fewer where the page is too narrow for them.
     lift : float
         Height of the legend above the axes [pt], which leaves room for an axis on top of them.
     **options
         Further options of a legend of matplotlib.
     """
+    entries = ax.get_legend_handles_labels()[0] if handles is None else list(handles)
+    labels = options.get("labels") or [str(entry.get_label()) for entry in entries]
     ax.legend(
-        handles=ax.get_legend_handles_labels()[0] if handles is None else list(handles),
+        handles=entries,
         loc="lower left",
         bbox_to_anchor=(0.0, 1.0),
         bbox_transform=offset_copy(ax.transAxes, figure_of(ax), y=lift, units="points"),
         borderaxespad=0.3,
         borderpad=0.2,
-        ncols=columns if page_width(_ONE_COLUMN) == _ONE_COLUMN else min(columns, 2),
+        ncols=_fitting(labels, columns, 0.84 * 72.0 * figure_of(ax).get_figwidth() / _side_by_side(ax)),
         frameon=False,
         handlelength=2.2,
         columnspacing=1.4,
         **options,
     )
+
+
+def _fitting(labels: Sequence[str], columns: int, room: float) -> int:
+    """Number of columns of a legend with these labels, at most ``columns``, that fit into ``room`` [pt]."""
+    size = FontProperties(size=mpl.rcParams["legend.fontsize"]).get_size_in_points()
+    for number in range(columns, 1, -1):
+        rows = -(-len(labels) // number)
+        of_columns = [labels[first : first + rows] for first in range(0, len(labels), rows)]
+        # A letter is about half as wide as its size; the handle and the space around it take eight letters.
+        if sum(0.52 * size * (8.0 + max(map(len, column))) for column in of_columns) <= room:
+            return number
+    return 1
+
+
+def _side_by_side(ax: Axes) -> int:
+    """Number of axes side by side in the figure of some axes."""
+    spec = ax.get_subplotspec()
+    return 1 if spec is None else int(spec.get_gridspec().ncols)
 
 
 def in_half_widths(result: OfContact, x: Array) -> Array:

@@ -6,11 +6,12 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.patheffects import withStroke
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.discharge.laws import WeakestLink
-from ehlectric.figures.contact.findings import AnyContact, strength_limit
+from ehlectric.figures.contact.findings import AnyContact, signed, strength_limit
 from ehlectric.figures.names import BREAKDOWN_FIGURE
 from ehlectric.figures.style import (
     BLUE,
@@ -24,6 +25,9 @@ from ehlectric.figures.style import (
 
 # Colour of the dielectric strength and of breakdown.
 STRENGTH = "#a50026"
+
+# White edge of a text, which keeps it readable on a line.
+_OUTLINE = [withStroke(linewidth=2.0, foreground="white")]
 
 # A dielectric strength above this many times the maximum field is named beside the axes instead of drawn: the
 # field would be flat below it.
@@ -81,6 +85,8 @@ def limit_line(ax: Axes, x: Array, limit: Array, largest: float, unit: str) -> f
         color=STRENGTH,
         fontsize=8.0,
         va="top",
+        path_effects=_OUTLINE,
+        zorder=5.0,
     )
     return float(np.max(limit[limit <= _FAR * largest]))
 
@@ -119,17 +125,16 @@ def breakdown(result: AnyContact, axes: Sequence[Axes] | Axes | None = None) -> 
         The first axes. The voltage axis ends where breakdown is far above the applied voltage. Where the line
         lies below the applied voltage, the film breaks down, and the range between them is shaded.
     """
-    point = isinstance(result, PointResult)
     if axes is None:
-        axes = new_panels(1, 2, (7.0, 3.4)) if point else new_panels(1, 1, (6.3, 3.4))
+        rows = 2 if isinstance(result, PointResult) else 1
+        axes = new_panels(rows, 1, (6.3, 0.9 + 2.5 * rows))
     panels = [axes] if isinstance(axes, Axes) else list(axes)
     for ax, (axis, at, voltages, on) in zip(panels, _lines(result), strict=True):
         _voltage_line(result, ax, at[on], voltages[on])
         label_position(result, ax, axis)
         length_axis(result, ax, axis)
-    if point:
-        panels[1].set_ylabel("")
-        panels[1].tick_params(labelleft=False)
+    if isinstance(result, PointResult):
+        _name_cuts(result, panels)
     legend_above(panels[0], lift=LENGTH_AXIS, columns=3)
     return panels[0]
 
@@ -148,6 +153,24 @@ def _lines(result: AnyContact) -> list[tuple[str, Array, Array, Mask]]:
         ("x", x / b, voltages[:, j], _or_all(field.inner[:, j])),
         ("y", y / b, voltages[k], _or_all(field.inner[k])),
     ]
+
+
+def _name_cuts(result: PointResult, panels: Sequence[Axes]) -> None:
+    """Write on two panels where they cut the film: through the place that breaks down first."""
+    assert result.discharge is not None
+    x, y = np.atleast_1d(result.discharge.zone_position) / result.conditions.semi_axis_x
+    names = (f"along entrainment at y/b = {y + 0.0:.3g}", f"across entrainment at x/b = {x + 0.0:.3g}")
+    for ax, name in zip(panels, names, strict=True):
+        ax.text(
+            0.5,
+            0.94,
+            signed(name),
+            transform=ax.transAxes,
+            ha="center",
+            va="top",
+            fontsize=8.0,
+            path_effects=_OUTLINE,
+        )
 
 
 def _or_all(mask: Mask) -> Mask:

@@ -44,11 +44,12 @@ def per_cent(part: float) -> str:
 
     Examples
     --------
-    >>> per_cent(0.836), per_cent(0.00087)
-    ('84 %', '0.87 ‰')
+    >>> per_cent(1.434), per_cent(0.836), per_cent(0.00087)
+    ('143 %', '84 %', '0.87 ‰')
     """
     thousandth = abs(part) < 1e-3
-    number = f"{(1e3 if thousandth else 1e2) * part:#.2g}".rstrip(".")
+    scaled = (1e3 if thousandth else 1e2) * part
+    number = f"{scaled:.0f}" if abs(scaled) >= 9.95 else f"{scaled:#.2g}".rstrip(".")
     return signed(number) + (" ‰" if thousandth else " %")
 
 
@@ -77,15 +78,18 @@ def strength_limit(result: AnyContact) -> Array | None:
 def film_text(result: AnyContact) -> str:
     """Minimum film, where it is, and how it compares with smooth surfaces or with the centre."""
     film = result.film
-    text = f"Minimum film {_film(film.minimum_thickness)} at {place_text(result, film.minimum_position)}"
+    text = (
+        f"Minimum film {_film(result, film.minimum_thickness)} at {place_text(result, film.minimum_position)}"
+    )
     if result.smooth is None:
-        return f"{text}; central film {_film(film.central_thickness)}"
+        return f"{text}; central film {_film(result, film.central_thickness)}"
     change = film.minimum_thickness / result.smooth.minimum_thickness - 1.0
-    return f"{text}, {_more(change, 'thicker', 'thinner')} than with smooth surfaces"
+    return f"{text}, {_more(change, 'thicker', 'thinner')} than smooth"
 
 
-def _film(thickness: float) -> str:
-    return with_unit(thickness, "m")
+def _film(result: AnyContact, thickness: float) -> str:
+    """Film thickness in the unit of the figures: maps are in nanometres below a micrometre."""
+    return with_unit(thickness, "m", least=1.0 if isinstance(result, PointResult) else 0.1)
 
 
 def _more(change: float, more: str, less: str) -> str:
@@ -154,8 +158,11 @@ def pressure_text(result: PointResult) -> str:
 
 
 def has_spike(result: PointResult) -> bool:
-    """Whether the maximum pressure is that of the pressure spike, whose height depends on the grid."""
-    return result.film.max_pressure > _SPIKE * result.conditions.max_pressure
+    """Whether the maximum pressure is that of the pressure spike of smooth surfaces.
+
+    The height of the spike depends on the grid.
+    """
+    return not result.rough and result.film.max_pressure > _SPIKE * result.conditions.max_pressure
 
 
 def roughness_text(result: AnyContact) -> str:
@@ -179,7 +186,7 @@ def cut_offs(result: AnyContact) -> dict[int, float]:
 def cuts_text(result: PointResult) -> str:
     """Minimum film and maximum field of a point contact."""
     field, limit = result.field, strength_limit(result)
-    film, strongest = with_unit(result.film.minimum_thickness, "m"), with_unit(field.max_strength, "V/m")
+    film, strongest = _film(result, result.film.minimum_thickness), with_unit(field.max_strength, "V/m")
     text = f"Minimum film {film}, maximum field {strongest}"
     if limit is None:
         return text

@@ -132,8 +132,8 @@ def film_change(result: Result, ax: Axes | None = None) -> Axes:
     change, heights = film.thickness - result.smooth.thickness, result.roughness.sum(axis=0)
     shown = (x >= _window(x)[0]) & (x <= _window(x)[1])
     factor, unit = unit_for(float(np.max(np.abs(np.stack([change, heights])[:, shown]))), "m", least=1.0)
-    ax.plot(x, -factor * heights, color="#9ccbe8", lw=1.0, label="if the roughness were not flattened")
-    ax.plot(x, factor * change, color=ORANGE, lw=0.8, label="film − film of smooth surfaces")
+    ax.plot(x, -factor * heights, color="#9ccbe8", lw=1.0, label="if not flattened")
+    ax.plot(x, factor * change, color=ORANGE, lw=0.8, label="rough − smooth film")
     ax.set_xlim(*_window(x))
     ax.set_ylabel(f"change of film [{unit}]")
     label_position(result, ax)
@@ -319,7 +319,7 @@ def field_profiles(result: Result, ax: Axes | None = None) -> Axes:
     factor, unit = unit_for(field.max_strength, "V/m")
     zone = in_half_widths(result, np.array(field.high_field_zone))
     width, length = unit_for(field.high_field_width, "m", least=1.0)
-    label = f"mid-film above 95 % of its maximum: {width * field.high_field_width:.3g} {length} wide"
+    label = f"above 95 % of maximum, {width * field.high_field_width:.3g} {length} wide"
     shaded = ax.axvspan(zone[0], zone[1], color=GREEN, alpha=0.25, lw=0.0, label=label)
     lines = _sections(ax, x, field.inner, factor * np.stack(_strengths(result)), rough=bool(result.rough))
     if result.smooth:
@@ -387,7 +387,7 @@ def field_deviation(result: Result, ax: Axes | None = None) -> Axes:
     values = 1e3 * (np.stack(_strengths(result)) / field.thin_gap_strength - 1.0)
     _sections(ax, x, on, values, rough=bool(result.rough))
     ax.axhline(0.0, color=GREY, lw=0.5, zorder=0.5)
-    ax.set(ylabel="field / thin-gap estimate − 1,\n" + r"$|E|\,h/V_{12} - 1$ [‰]", xlim=(x[0], x[-1]))
+    ax.set(ylabel="deviation of the field from $V_{12}/h$ [‰]", xlim=(x[0], x[-1]))
     label_position(result, ax)
     legend_above(ax, columns=3)
     inner = np.where(on, values, 0.0)
@@ -435,10 +435,10 @@ def roughness(result: Result, ax: Axes | None = None) -> Axes:
     for k, rq, color in ((1, statistics.rq_1, BLUE), (2, statistics.rq_2, ORANGE)):
         heights = result.roughness[k - 1]
         if np.any(heights):
-            label = f"surface {k}, Rq = {factor * rq:.3g} {unit} within $|x/b| \\leq 1$"
+            label = f"surface {k}, Rq = {factor * rq:.3g} {unit} in the contact"
             ax.plot(x, factor * heights, color=color, lw=0.7, label=label)
         if k in cut:
-            label = f"heights cut off here: truncate = {factor * cut[k]:.3g} {unit}"
+            label = f"heights cut off at ±{factor * cut[k]:.3g} {unit}"
             for end in (-cut[k], cut[k]):
                 ax.axhline(factor * end, color=color, lw=0.7, ls=":", label=label)
                 label = "_again"

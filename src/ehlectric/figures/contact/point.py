@@ -135,7 +135,7 @@ def pressure_map(result: PointResult, ax: Axes | None = None) -> Axes:
     factor, unit = unit_for(max(film.max_pressure, hertz), "Pa")
     nodes = (film.x, film.y)
     # The pressure spike is hardly wider than the grid, so that its nodes would look like a string of pearls.
-    spike = has_spike(result) and not result.rough
+    spike = has_spike(result)
     drawn = smoothed(film.pressure) if spike else film.pressure
     at, pressure = refined(nodes, factor * drawn, _in_metres(result, window))
     limits = (0.0, factor * max(float(np.max(drawn)), hertz))
@@ -255,7 +255,7 @@ def field_deviation(result: PointResult, axes: Sequence[Axes] | None = None) -> 
     apart = np.abs(first - second)[region if np.any(region) else ...]
     if axes is None and np.percentile(apart, 100.0 - _DEVIATIONS_BEYOND) < _ALIKE * ends[1]:
         panels = {"surface 1, and 2 alike": first, "mid-film": middle}
-    label = "field / thin-gap estimate − 1, " + r"$|E|\,h/V_{12} - 1$ [‰]"
+    label = "deviation of the field from $V_{12}/h$ [‰]"
     at = (field.x, field.y)
     return _compared(result, axes, at, panels, window=window, ends=ends, label=label, clipped=True)
 
