@@ -321,7 +321,9 @@ def legend_above(
         Further options of a legend of matplotlib.
     """
     shown_handles = ax.get_legend_handles_labels()[0] if handles is None else list(handles)
-    longest = max((len(str(handle.get_label())) for handle in shown_handles), default=0)
+    # Labels are among the options where an entry has several artists.
+    labels = options.get("labels") or [handle.get_label() for handle in shown_handles]
+    longest = max(map(len, map(str, labels)), default=0)
     room = _LEGEND_PART * figure_of(ax).get_figwidth() * 72.0
     letters = FontProperties(size=mpl.rcParams["legend.fontsize"]).get_size_in_points()
     columns = max(1, min(columns, int(room / (letters * (_LETTER * longest + _KEY)))))
