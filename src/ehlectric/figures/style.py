@@ -115,7 +115,7 @@ _AN_INCH, _FINDING, _BELOW = 14.0, 10.0, 8.5
 
 # Part of the width of a figure that a legend above its axes may take; width of a letter, and of the key at a
 # label, as multiples of the size of the letters.
-_LEGEND_PART, _LETTER, _KEY = 0.9, 0.5, 4.0
+_LEGEND_PART, _LETTER, _KEY = 0.9, 0.47, 3.6
 
 _turn = threading.RLock()
 _style: ContextVar[str] = ContextVar("style", default="screen")
