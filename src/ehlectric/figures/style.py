@@ -113,10 +113,6 @@ _ONE_COLUMN = 6.5
 # Characters of a title that fit into an inch, and sizes of its first line and of the others [pt].
 _AN_INCH, _FINDING, _BELOW = 14.0, 10.0, 8.5
 
-# Part of the width of a figure that a legend above its axes may take; width of a letter, and of the key at a
-# label, as multiples of the size of the letters.
-_LEGEND_PART, _LETTER, _KEY = 0.9, 0.5, 4.0
-
 _turn = threading.RLock()
 _style: ContextVar[str] = ContextVar("style", default="screen")
 
