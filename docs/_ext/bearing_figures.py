@@ -19,7 +19,10 @@ _SHOWN = ("breakdown_over_speed.png", "bearing_loads.png", "bearing_circuit.png"
 def _write(app: Sphinx) -> None:
     """Run the command as a user does, where the code or the example is newer than the figures."""
     root = Path(app.srcdir).parent
-    example, folder = root / "examples" / "bearing_6208.toml", Path(app.srcdir) / "_generated" / "bearing_6208"
+    example, folder = (
+        root / "examples" / "bearing_6208.toml",
+        Path(app.srcdir) / "_generated" / "bearing_6208",
+    )
     sources = [example, *Path(ehlectric.__file__).parent.rglob("*.py")]
     newest = max(path.stat().st_mtime for path in sources)
     if all((folder / name).exists() and (folder / name).stat().st_mtime > newest for name in _SHOWN):
