@@ -76,7 +76,7 @@ class Row:
 
     def __post_init__(self) -> None:
         if isinstance(self.value, int | float) and self.unit not in UNITS:
-            raise ValueError(f"{self.unit!r} is no unit of a row; takes one of {', '.join(UNITS)}")
+            raise ValueError(f"{self.unit!r} is no unit of a row; expected one of {', '.join(UNITS)}")
 
     @property
     def shown(self) -> str:

@@ -109,7 +109,7 @@ def drawing_of(drawings: Mapping[str, D], name: str) -> D:
     --------
     >>> drawing_of({"film.png": 1}, "field.png")
     Traceback (most recent call last):
-    ehlectric.errors.InputError: figure: got 'field.png', takes one of film.png
+    ehlectric.errors.InputError: figure: got 'field.png'; expected one of film.png
     """
     if name not in drawings:
         raise InputError("figure", got=shown(name), takes=f"one of {', '.join(drawings)}")

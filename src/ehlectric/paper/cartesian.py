@@ -72,7 +72,7 @@ class CartesianGrid:
         if nodes > MOST_NODES:
             raise ConvergenceError(
                 f"the paper's Cartesian grid would have {nodes:.2g} nodes, {rows} rows in the least gap, "
-                f"and takes at most {MOST_NODES:.0e}: narrow grid.field_range, or leave --solver paper out"
+                f"and has at most {MOST_NODES:.0e}: narrow grid.field_range, or leave --solver paper out"
             )
         y = np.arange(float(np.min(lower)), float(np.max(upper)) + dy, dy)
         margin = _ON_SURFACE * dy
