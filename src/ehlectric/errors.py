@@ -158,6 +158,7 @@ CODES: Mapping[str, Cause] = MappingProxyType(
     {
         # Contact, known before its film is computed
         "regime": Cause("The lubrication regime is outside the validity of most film formulas."),
+        "radius-large": Cause("A radius above 1 m was probably given in the wrong unit."),
         "ambient-pressure": Cause("The ambient pressure carries more than 1 % of the load."),
         "plastic-deformation": Cause("The Hertz pressure deforms bearing steel permanently."),
         "law-range": Cause("A law of the lubricant is not reliable at this Hertz pressure."),
@@ -201,6 +202,13 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "isothermal-film": Cause("The films are isothermal and fully flooded."),
         "temperature-unused": Cause("The films use a given viscosity, not bearing.temperature.", "note"),
         "temperature-low": Cause("The viscosity is extrapolated to below 0 °C."),
+        "speed-high": Cause("The speed is above that of ordinary bearings of this size."),
+        "temperature-extreme": Cause("Bearing steel or oil do not stand this temperature."),
+        "viscosity-high": Cause("The oil is so viscous that it hardly flows."),
+        "clearance-class": Cause("The clearance is that of a class, before the bearing is mounted."),
+        "viscosity-grade": Cause(
+            "The viscosity is the middle of a grade, which allows 10 % either way.", "note"
+        ),
         "clearance-taken-up": Cause("The films are not small compared with the clearance."),
         "shoulder-reached": Cause("A contact ellipse extends beyond the shoulder of its groove."),
         "touching": Cause("The lambda ratio is below 1: surfaces touch."),

@@ -160,14 +160,14 @@ def test_json_on_request(ehlectric, bearing_file, tmp_path):
         (
             'radial_clearance = "20 um"',
             'contact_angle = "15 deg"',
-            "bearing.radial_clearance: missing, a bearing of kind 'cylindrical roller' takes it",
+            "bearing.radial_clearance: missing; a bearing of kind 'cylindrical roller' needs it",
         ),
         (
             "elements = 14",
             "elements = 18",
             (
-                "bearing.elements: got 18; expected 3 to 17, the most of 0.011 m that a pitch circle of 0.06 m "
-                "holds"
+                "bearing.elements: got 18; expected 3 to 17, the most of 0.011 m that a pitch circle of "
+                "0.06 m holds"
             ),
         ),
         (

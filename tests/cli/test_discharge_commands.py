@@ -45,6 +45,6 @@ def test_wrong_discharge_is_one_line(ehlectric, case_file, tmp_path):
     done = ehlectric("run", case_file, "-o", "out")
     assert done.returncode == 2
     assert done.stderr.splitlines() == [
-        "error: discharge.length: missing, external_capacitance takes it: the length of the line contact"
+        "error: discharge.length: missing; external_capacitance needs it: the length of the line contact"
     ]
     assert not (tmp_path / "out").exists()

@@ -132,12 +132,12 @@ BAD = [
         ("steps = 12", "steps = 2"),
         "motion.steps: got 2, in each of which oil would travel 12 grid spacings; ",
     ),
-    ((ROUGH, ""), "motion: got it without roughness, which is what moves; expected a rough surface"),
+    ((ROUGH, ""), "motion: needs a rough surface: roughness is what moves"),
     (
         ("nodes = 65", 'nodes = 65\nwedge = "first-order"'),
         "grid.wedge: got 'first-order' beside motion; expected",
     ),
-    (("nodes = 65", "nodes = 65\nrefine = 0.1"), "grid.refine: got it beside motion, which takes one grid"),
+    (("nodes = 65", "nodes = 65\nrefine = 0.1"), "grid.refine: is not used with [motion]"),
     (("[lubricant]", "slide_to_roll_ratio = -2.0\n[lubricant]"), ALONE),
 ]
 
@@ -183,7 +183,8 @@ def test_other_commands_refuse_it(typed, tmp_path, case_file):
         'case = "case.toml"\n[vary]\ncontact.entrainment_speed = ["1 m/s", "2 m/s"]\n'
     )
     swept = typed("sweep", "sweep.toml", "-o", "out")
-    text = "error: case.motion: got it in a sweep, whose films are at rest; expected a case without it\n"
+    refused = "got [motion] in a sweep, whose films are stationary; expected a case without it"
+    text = f"error: case.motion: {refused}\n"
     assert (swept.exit_code, swept.stdout, swept.stderr) == (2, "", text)
     shown = typed("surface", case_file)
     assert (shown.exit_code, shown.stdout, shown.stderr.count("\n")) == (2, "", 1)

@@ -105,7 +105,7 @@ def test_not_converged_is_exit_3_with_all_files(ehlectric, point_file, tmp_path,
 BAD = [
     ('radius_y = "12 mm"', "", "contact.radius_y: missing"),
     ("nodes = 65", "nodes = 65\nside = 9.0", "grid.nodes: got 65 across 18 semi-axes"),
-    ('geometry = "point"', 'geometry = "line"', "got it in a line contact"),
+    ('geometry = "point"', 'geometry = "line"', "is not used by a line contact"),
 ]
 
 
@@ -118,5 +118,5 @@ def test_bad_case_is_one_line_and_nothing_is_written(ehlectric, point_file, tmp_
 
 def test_the_papers_solver_is_for_line_contacts(ehlectric, point_file, tmp_path):
     said = one_line(ehlectric("run", point_file, "-o", "out", "--solver", "paper"))
-    assert "contact.geometry: got 'point', the solver 'paper' takes 'line'" in said
+    assert "contact.geometry: got 'point'; the solver 'paper' needs 'line'" in said
     assert not (tmp_path / "out").exists()

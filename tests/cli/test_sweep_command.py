@@ -150,7 +150,7 @@ BAD = [
     (
         SWEEP,
         ["--workers", "2", "--scheduler", "a:1"],
-        "--workers: got it beside --scheduler; expected one",
+        "--workers: cannot be combined with --scheduler",
     ),
     (SWEEP, ["--scheduler", "nonsense"], "scheduler: got no answer from 'nonsense', missing port number"),
 ]
@@ -381,6 +381,6 @@ def test_a_script_without_a_main_guard_is_told_so(tmp_path, swept):
     )
     done = subprocess.run([sys.executable, script], cwd=tmp_path, capture_output=True, text=True, timeout=120)
     assert done.returncode == 1
-    assert 'a script takes this call below if __name__ == "__main__":' in done.stderr.splitlines()[-1]
+    assert 'in a script, make this call below if __name__ == "__main__":' in done.stderr.splitlines()[-1]
     # And no point is blamed for it.
     assert {point.status for point in read_sweep(tmp_path / "out").points} == {"open"}

@@ -20,8 +20,21 @@ from ehlectric.bearing.solution import (
     lubrication,
 )
 from ehlectric.cases.bearing import Bearing
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.clearance import clearance_range
 from ehlectric.discharge.verdict import breakdown_warning
 from ehlectric.errors import ResultWarning
+from ehlectric.lubricant.viscosity_index import GRADE_WIDTH
+
+# Speed factor n d_m, rotational speed times pitch diameter, above which a bearing needs a special design
+# [mm/min]. Catalogues state limiting speeds near half of it to all of it for oil lubrication.
+_MOST_SPEED = 1e6
+
+# Temperatures that bearing steel, stabilised for 200 degC at most, and ordinary oils stand [degC].
+_COLDEST, _HOTTEST = -40.0, 200.0
+
+# Viscosity above which an oil is near its pour point [Pa s].
+_MOST_VISCOUS = 10.0
 
 # Temperature below which the viscosity, extrapolated from 40 and 100 degC, may be far off [K].
 _COLD = 273.15
@@ -29,7 +42,13 @@ _COLD = 273.15
 
 def bearing_warnings(solution: BearingSolution) -> list[ResultWarning]:
     """Warnings that tell where the result of a bearing is unreliable, each once."""
-    warnings = [*film_warnings(solution), *voltage_warnings(solution), *_warnings_of_contacts(solution)]
+    inputs = input_warnings(solution.case, solution.conditions.lubricant.viscosity)
+    warnings = [
+        *inputs,
+        *film_warnings(solution),
+        *voltage_warnings(solution),
+        *_warnings_of_contacts(solution),
+    ]
     return list(dict.fromkeys(warnings))
 
 
@@ -63,6 +82,55 @@ def film_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
         )
         yield ResultWarning("temperature-low", text)
     yield from clearance_warnings(solution.conditions.geometry.clearance, solution.positions[0])
+
+
+def input_warnings(case: BearingCase, viscosity: float) -> Iterator[ResultWarning]:
+    """Warnings of inputs that a machine hardly has, and of inputs that stand for a range of values.
+
+    Parameters
+    ----------
+    case : BearingCase
+        Case of the bearing.
+    viscosity : float
+        Dynamic viscosity of the oil at the temperature of the bearing [Pa s].
+    """
+    bearing = case.bearing
+    rpm, celsius = bearing.inner_speed * 30.0 / math.pi, bearing.temperature - 273.15
+    factor = rpm * 1e3 * bearing.pitch_diameter
+    if factor > _MOST_SPEED:
+        yield ResultWarning(
+            "speed-high",
+            f"{rpm:.4g} rpm and a pitch diameter of {1e3 * bearing.pitch_diameter:.4g} mm: n d_m is "
+            f"{factor:.3g} mm/min, and ordinary oil-lubricated bearings run below {_MOST_SPEED:g}; is the "
+            "unit of bearing.inner_speed right?",
+        )
+    if not _COLDEST <= celsius <= _HOTTEST:
+        yield ResultWarning(
+            "temperature-extreme",
+            f"bearing.temperature is {celsius:.4g} °C: ordinary bearing steel and oils are for "
+            f"{_COLDEST:g} to {_HOTTEST:g} °C",
+        )
+    if viscosity > _MOST_VISCOUS:
+        yield ResultWarning(
+            "viscosity-high",
+            f"the oil has {viscosity:.3g} Pa s at {celsius:.4g} °C: above {_MOST_VISCOUS:g} Pa s it hardly "
+            "flows, and the contacts are not fully flooded",
+        )
+    if bearing.clearance_class is not None and bearing.bore is not None:
+        allowed = clearance_range(bearing.kind, bearing.clearance_class, bearing.bore)
+        low, high, middle = (1e6 * value for value in (allowed.least, allowed.most, allowed.middle))
+        yield ResultWarning(
+            "clearance-class",
+            f"clearance_class {bearing.clearance_class} is {low:.3g} to {high:.3g} um before mounting; "
+            f"computed with {middle:.3g} um, which fits and a warm inner ring make smaller",
+        )
+    oil = case.lubricant.temperature
+    if oil is not None and oil.iso_vg is not None:
+        low, high = (1e6 * oil.at_40() * (1.0 + part) for part in (-GRADE_WIDTH, GRADE_WIDTH))
+        yield ResultWarning(
+            "viscosity-grade",
+            f"ISO VG {oil.iso_vg} is {low:.4g} to {high:.4g} mm²/s at 40 °C; computed with the middle",
+        )
 
 
 def voltage_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:

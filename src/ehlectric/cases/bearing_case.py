@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Literal, Self
+from typing import Any, ClassVar, Literal, Self
 
 from pydantic import field_serializer, field_validator, model_validator
 
@@ -16,11 +16,17 @@ from ehlectric.cases.grid import Solver
 from ehlectric.cases.ranges import InputRange, ranges_of
 from ehlectric.cases.row import value_at
 from ehlectric.cases.table import Table, read_toml
+from ehlectric.cases.units import ROTATION
 from ehlectric.errors import InputError
 
 # Alternative keys, by table: a key that changes replaces its alternatives.
 _ALTERNATIVES: dict[str, Groups] = {
-    "lubricant": ((("viscosity",), ("temperature",)),),
+    "bearing": ((("radial_clearance",), ("clearance_class",)),),
+    "lubricant": (
+        (("viscosity",), ("temperature",)),
+        (("temperature.kinematic_viscosity_40",), ("temperature.iso_vg",)),
+        (("temperature.kinematic_viscosity_100",), ("temperature.viscosity_index",)),
+    ),
     "discharge": (STRENGTHS, TABLES),
 }
 
@@ -28,8 +34,21 @@ _ALTERNATIVES: dict[str, Groups] = {
 _NOT_OF_BEARINGS = ("length", "external_capacitance", "peak_current", "pit")
 
 
+# Advice for unknown keys that belong to another table, or have another name.
+_ADVICE = {
+    "lubricant.iso_vg": "it belongs to the table [lubricant.temperature]",
+    "lubricant.viscosity_index": "it belongs to the table [lubricant.temperature]",
+    "lubricant.density_15": "it belongs to the table [lubricant.temperature]",
+    "lubricant.viscosity_grade": "the viscosity grade is lubricant.temperature.iso_vg",
+    "lubricant.temperature.viscosity_grade": "the viscosity grade is lubricant.temperature.iso_vg",
+    "bearing.clearance": "give radial_clearance, or clearance_class such as 'C3' with bore",
+}
+
+
 class BearingCase(Table):
     """Rolling bearing in its machine: all inputs on which its capacitance and breakdown voltage depend."""
+
+    ADVICE: ClassVar = _ADVICE
 
     title: Title = ""
     contacts: Literal["solved", "formula"] = "solved"
@@ -54,13 +73,13 @@ class BearingCase(Table):
     def _check(self) -> Self:
         for key in _NOT_OF_BEARINGS:
             if getattr(self.discharge, key) is not None:
-                raise InputError(f"discharge.{key}", got="it for a bearing, which has no use for it")
+                raise InputError.worded(f"discharge.{key}", "is not used by a bearing")
         if self.bearing.film_factor == "inlet-shear":
             oil = self.lubricant.temperature
             if oil is None or oil.thermal_conductivity is None:
                 raise InputError.worded(
                     "lubricant.temperature.thermal_conductivity",
-                    "missing, film_factor 'inlet-shear' takes it",
+                    "missing; film_factor 'inlet-shear' needs it",
                 )
         table = self.to_dict() if self.ranges else {}
         for one in self.ranges or ():
@@ -94,7 +113,7 @@ class BearingCase(Table):
             raise InputError(
                 path, "is the file of a contact", takes="that of a bearing; ehlectric run solves it"
             )
-        return cls.from_dict(table)
+        return cls.from_written(table)
 
     def to_dict(self) -> dict[str, Any]:
         """Return all values that are set as nested tables, in SI units."""
@@ -104,7 +123,10 @@ class BearingCase(Table):
         """Return the case as TOML text, which ``from_toml`` reads back to an equal case."""
         import tomli_w
 
-        return tomli_w.dumps(self.to_dict())
+        table = self.to_dict()
+        # A rotational speed without a unit is refused in a file.
+        table["bearing"]["inner_speed"] = f"{self.bearing.inner_speed!r} {ROTATION}"
+        return tomli_w.dumps(table)
 
     def replace(self, changes: Mapping[str, Any]) -> Self:
         """Return a changed copy of the case.
@@ -137,6 +159,9 @@ class BearingCase(Table):
                 for key, ends in table["ranges"].items()
                 if key not in changes and _is_number(value_at(table, key))
             }
+        if table["bearing"].get("clearance_class") is not None and "bearing.radial_clearance" not in changes:
+            # It follows from the class, and anew where the class or the bore changes.
+            table["bearing"].pop("radial_clearance", None)
         return self.from_dict(table)
 
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 import unicodedata
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Any, Self
+from typing import Annotated, Any, ClassVar, Self
 
 from pydantic import AfterValidator, model_validator
 
@@ -55,6 +55,11 @@ class Case(Table):
     2.0
     """
 
+    ADVICE: ClassVar = {
+        f"lubricant.{key}": "a contact expects the viscosity at its temperature, lubricant.viscosity"
+        for key in ("temperature", "iso_vg", "viscosity_grade", "viscosity_index")
+    }
+
     title: Title = ""
     contact: Contact
     lubricant: Lubricant
@@ -81,10 +86,8 @@ class Case(Table):
         if self.contact.geometry != "point":
             for key in POINT_GRID_KEYS:
                 if getattr(self.grid, key) is not None:
-                    raise InputError(
-                        f"grid.{key}",
-                        got="it in a line contact, which has no use for it;",
-                        takes="it where contact.geometry is 'point'",
+                    raise InputError.worded(
+                        f"grid.{key}", "is not used by a line contact, only where contact.geometry is 'point'"
                     )
         check_geometry(self.roughness, self.contact.geometry)
         if self.discharge is not None:
@@ -96,15 +99,15 @@ class Case(Table):
         if self.motion is None:
             return
         if not self.roughness:
-            raise InputError(
-                "motion", got="it without roughness, which is what moves;", takes="a rough surface"
+            raise InputError.worded(
+                "motion", "needs a rough surface: roughness is what moves", takes="a rough surface"
             )
         if self.grid.wedge != "second-order":
             raise InputError("grid.wedge", got=f"{self.grid.wedge!r} beside motion", takes="'second-order'")
         if self.grid.refine is not None:
             raise InputError.worded(
                 "grid.refine",
-                "got it beside motion, which takes one grid; takes grid.nodes",
+                "is not used with [motion], which has a single grid; give grid.nodes",
                 takes="grid.nodes",
             )
 
@@ -133,7 +136,7 @@ class Case(Table):
                 path, "is the file of a bearing", takes="that of a contact; ehlectric bearing solves it"
             )
         find_files(table, Path(path).parent)
-        return cls.from_dict(table)
+        return cls.from_written(table)
 
     def to_dict(self) -> dict[str, Any]:
         """Return all values that are set as nested tables, in SI units."""

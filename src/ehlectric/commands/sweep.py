@@ -84,7 +84,7 @@ def _workers(text: str | None, scheduler: str | None) -> int | None:
     if text is None:
         return None
     if scheduler is not None:
-        raise InputError("--workers", got="it beside --scheduler", takes="one of the two")
+        raise InputError.worded("--workers", "cannot be combined with --scheduler")
     if not text.isdecimal() or not 1 <= int(text) <= _MOST_WORKERS:
         raise InputError("--workers", got=shown(text), takes=f"a whole number from 1 to {_MOST_WORKERS}")
     return int(text)

@@ -17,6 +17,9 @@ from ehlectric.formulas import film_point as point_formulas
 # Hertz pressure at which bearing steel deforms permanently in line contacts (ISO 76) [Pa].
 _LINE_PERMANENT = 4e9
 
+# Radius of contact above which a unit is probably wrong: the largest rolls and gears are near it [m].
+_LARGEST = 1.0
+
 # The film between rigid bodies builds up over a length of about 10 sqrt(2 R h). In half-widths of a line
 # contact, this length is the following number divided by Moes' M.
 _RIGID_INLET = 14.0
@@ -27,9 +30,17 @@ _POINT_PERMANENT = 4.2e9
 
 def line_case_warnings(setup: Case | Setup, conditions: Conditions) -> Iterator[ResultWarning]:
     """Warnings about the operating conditions of a line contact, known before it is solved."""
+    yield from radius_warnings("reduced_radius", conditions.reduced_radius)
     yield from regime_warnings(conditions)
     width = (setup.grid.outlet - setup.grid.inlet) / (0.5 * np.pi)
     yield from pressure_warnings(setup.lubricant, conditions.max_pressure, width, "line", _LINE_PERMANENT)
+
+
+def radius_warnings(key: str, radius: float) -> Iterator[ResultWarning]:
+    """Warning about a reduced radius [m], with its key, that no machine part has."""
+    if radius > _LARGEST:
+        text = f"{key} is {radius:.4g} m, more than machine parts have: is the unit of the radii right?"
+        yield ResultWarning("radius-large", text)
 
 
 def regime_warnings(conditions: Conditions) -> Iterator[ResultWarning]:
@@ -86,6 +97,7 @@ def pressure_warnings(
 
 def point_case_warnings(setup: Case | Setup, conditions: PointConditions) -> Iterator[ResultWarning]:
     """Warnings about the operating conditions of a point contact, known before it is solved."""
+    yield from radius_warnings("radius_x", conditions.radius_x)
     yield from point_regime_warnings(conditions)
     area = (setup.grid.outlet - setup.grid.inlet) * 2.0 * conditions.side
     domain = area / (2.0 * np.pi / 3.0)

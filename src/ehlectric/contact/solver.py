@@ -114,7 +114,9 @@ def solve(
     solvers.check(case)
     if case.motion is not None:
         raise InputError(
-            "motion", got="it where a film at rest is solved;", takes="run_motion, or a case without it"
+            "motion",
+            got="[motion] where a stationary film is solved",
+            takes="run_motion, or a case without it",
         )
     return _solved(
         check_case(case) if prepared is None else replace(prepared, case=case),

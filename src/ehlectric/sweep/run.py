@@ -72,7 +72,7 @@ def run_sweep(
     except LostError as error:
         if executor is not None:
             raise
-        raise LostError(f'{error}; a script takes this call below if __name__ == "__main__":') from None
+        raise LostError(f'{error}; in a script, make this call below if __name__ == "__main__":') from None
 
 
 def crew(executor: Executor | None, workers: int | None) -> AbstractContextManager[Crew]:

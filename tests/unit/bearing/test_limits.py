@@ -51,7 +51,7 @@ def test_a_load_is_more_than_the_weight_of_a_ball(radial, axial):
     """A steel ball of 11.906 mm: 7830 kg/m^3 pi D^3/6 9.807 m/s^2 = 0.0679 N."""
     text = refusal(BALLS, bearing__radial_load=radial, bearing__axial_load=axial)
     assert text.startswith("bearing.radial_load: got ")
-    assert "takes more than 0.068 N, the weight of an element" in text
+    assert "expected more than 0.068 N, the weight of an element" in text
 
 
 @pytest.mark.parametrize("load", [0.07, 1.0])

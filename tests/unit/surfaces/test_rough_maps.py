@@ -275,7 +275,7 @@ FOR_POINTS = [
 
 @pytest.mark.parametrize(("table", "key"), FOR_POINTS)
 def test_keys_of_point_contacts_are_refused_for_lines(table, key):
-    with pytest.raises(InputError, match=f"^roughness.{key}: got it for a line contact, which knows no y"):
+    with pytest.raises(InputError, match=f"^roughness.{key}: is not used by a line contact"):
         Case.from_dict({"contact": PAPER_CONTACT, "lubricant": {"base": "paper"}, "roughness": [table]})
     check_geometry([Roughness.from_dict(table)], "point")
 
@@ -283,9 +283,9 @@ def test_keys_of_point_contacts_are_refused_for_lines(table, key):
 def test_keys_of_line_contacts_are_refused_for_points():
     across = {"surface": 1, "file": "a", "direction": "y"}
     check_geometry([Roughness.from_dict(across)], "point")
-    with pytest.raises(ValueError, match=r"roughness\.assume_transverse: got it for a point contact"):
+    with pytest.raises(ValueError, match=r"roughness\.assume_transverse: is not used by a point contact"):
         check_geometry([Roughness.from_dict(across | {"assume_transverse": True})], "point")
-    with pytest.raises(InputError, match="orientation: got 30 deg for a surface that is alike in all"):
+    with pytest.raises(InputError, match="orientation: got 30 deg for an isotropic surface"):
         Roughness.from_dict(GAUSSIAN | {"orientation": "30 deg"})
     with pytest.raises(InputError, match="orientation: got '200 deg'; expected a number in deg"):
         Roughness.from_dict(RIDGES | {"orientation": "200 deg"})

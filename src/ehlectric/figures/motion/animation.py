@@ -81,7 +81,9 @@ def save_animation(
             try:
                 write(beside, _instants(drawn, run.frames, progress), fps)
             except (BrokenPipeError, subprocess.CalledProcessError):
-                raise InputError.worded(path, "cannot be written, ffmpeg failed; a .gif takes none") from None
+                raise InputError.worded(
+                    path, "cannot be written, ffmpeg failed; a .gif needs no ffmpeg"
+                ) from None
 
 
 def _instants(drawn: Frames, frames: int, progress: Progress) -> Iterator[Frames]:

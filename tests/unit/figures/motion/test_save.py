@@ -487,7 +487,9 @@ def test_ffmpeg_is_given_every_pixel_of_every_instant(tmp_path, monkeypatch):
 def test_ffmpeg_that_fails_is_said_in_one_line(tmp_path, monkeypatch):
     monkeypatch.setenv("PATH", program(tmp_path / "bin", "sys.exit(1 if len(sys.argv) > 2 else 0)"))
     path = tmp_path / "run.mp4"
-    with pytest.raises(InputError, match=r"run\.mp4: cannot be written, ffmpeg failed; a \.gif takes none$"):
+    with pytest.raises(
+        InputError, match=r"run\.mp4: cannot be written, ffmpeg failed; a \.gif needs no ffmpeg$"
+    ):
         save_animation(by_hand(frames=3), path, dpi=50)
     assert not path.exists()
     assert [file.name for file in tmp_path.iterdir()] == ["bin"]

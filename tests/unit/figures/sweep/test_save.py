@@ -339,7 +339,7 @@ def test_few_solved_points_are_shown_all_the_same(tmp_path, status):
 
 
 def test_figures_refuse_what_they_cannot_draw():
-    with pytest.raises(InputError, match="a map takes numbers"):
+    with pytest.raises(InputError, match="a map needs numbers"):
         value_map(grid({SPEED: SPEEDS, "lubricant.base": ("a", "b")}), SPEED, "lubricant.base", VALUE)
     with pytest.raises(InputError, match="no point of 5 is solved"):
         value_lines(grid({SPEED: SPEEDS}, status=lambda _: "failed"), SPEED, None, VALUE)
