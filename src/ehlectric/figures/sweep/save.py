@@ -123,11 +123,12 @@ def save_maps(
         As ``take`` raises it.
     """
     numeric = take(results, x, y, value, at).numeric
-    names = [name for name in map_files(value) if (y is not None and numeric) or name.startswith("lines_")]
+    pairs = zip(map_files(value), map_files(value, at), strict=True)
+    wanted = [pair for pair in pairs if (y is not None and numeric) or pair[0].startswith("lines_")]
     return [
         file
-        for name in names
-        for file in save_figure(figure(results, name, x=x, y=y, at=at), folder / name, formats)
+        for name, path in wanted
+        for file in save_figure(figure(results, name, x=x, y=y, at=at), folder / path, formats)
     ]
 
 
