@@ -34,11 +34,12 @@ def _kinds(solved: Sequence[Point]) -> Iterator[ResultWarning]:
     """One warning or note for each kind that solved points have, with their number; notes come last."""
     counts = Counter(code for point in solved for code in {warning.code for warning in point.warnings})
     for code, count in sorted(counts.items(), key=lambda kind: (CODES[kind[0]].severity == "note", -kind[1])):
-        note = CODES[code].severity == "note"
-        kind, own = ("note", "points-with-notes") if note else ("warning", "points-with-warnings")
-        meaning = CODES[code].meaning
-        text = f"{meaning[0].lower()}{meaning[1:].rstrip('.')}"
-        yield ResultWarning(own, f"{count} of {len(solved)} solved points have the {kind} {code}: {text}")
+        meaning, have = CODES[code].meaning, f"{count} of {len(solved)} solved points have the"
+        about = f"{code}: {meaning[0].lower()}{meaning[1:].rstrip('.')}"
+        if CODES[code].severity == "note":
+            yield ResultWarning("points-with-notes", f"{have} note {about}")
+        else:
+            yield ResultWarning("points-with-warnings", f"{have} warning {about}")
 
 
 def sensitivity_warnings(sensitivity: Sensitivity) -> Iterator[ResultWarning]:
