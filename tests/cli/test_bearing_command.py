@@ -112,8 +112,8 @@ def test_json_on_request(ehlectric, bearing_file, tmp_path):
             "elements = 14",
             "elements = 18",
             (
-                "bearing.elements: got 18; expected 3 to 17, the most of 0.011 m that a pitch circle of 0.06 m "
-                "holds"
+                "bearing.elements: got 18; expected 3 to 17, the most of 0.011 m that a pitch circle of "
+                "0.06 m holds"
             ),
         ),
         (
@@ -154,10 +154,8 @@ def test_a_bearing_is_not_taken_for_a_contact(ehlectric, bearing_file):
 def test_a_contact_is_not_taken_for_a_bearing(ehlectric, case_file):
     done = ehlectric("bearing", case_file)
     assert done.returncode == 2
-    assert done.stderr.splitlines() == [
-        f"error: {case_file}: is a case of a contact; expected a bearing file; solve it with: "
-        f"ehlectric run {case_file}"
-    ]
+    line = f"is a case of a contact; expected a bearing file; solve it with: ehlectric run {case_file}"
+    assert done.stderr.splitlines() == [f"error: {case_file}: {line}"]
 
 
 @pytest.mark.slow

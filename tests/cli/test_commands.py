@@ -274,7 +274,10 @@ def test_point_contacts_are_begun_and_checked(ehlectric, tmp_path):
         assert all(len(line.rstrip()) <= 80 for line in done.stdout.splitlines())
     wrong = ehlectric("init", "other.toml", "--geometry", "ball")
     assert wrong.returncode == 2
-    assert wrong.stderr == "error: --geometry: got 'ball'; expected line or point; other kinds are written with --kind\n"
+    assert (
+        wrong.stderr
+        == "error: --geometry: got 'ball'; expected line or point; other kinds are written with --kind\n"
+    )
 
 
 def test_check_of_a_point_contact_as_json(ehlectric):

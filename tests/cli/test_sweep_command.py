@@ -230,8 +230,7 @@ def test_a_sweep_that_is_stopped_says_what_is_saved(tmp_path, swept, number):
     assert (process.returncode, out) == (128 + number, "")
     count = len(saved(tmp_path / "out"))
     assert (
-        errors
-        == f"interrupted; {count} of 120 points are saved in out; the same command resumes the sweep\n"
+        errors == f"interrupted; {count} of 120 points are saved in out; the same command resumes the sweep\n"
     )
     assert gone(workers)
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == [".sweep.lock", "sweep.sqlite"]

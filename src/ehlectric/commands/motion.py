@@ -35,7 +35,7 @@ def tell_where_it_stops(folder: Path, show: Progress) -> Iterator[Progress]:
 
             # Read from the file: the progress may not have been called for the last instant yet.
             saved = saved_steps(folder / MOTION)
-            rest = "resumes it" if saved < steps else "sums them up"
+            rest = "resumes the run" if saved < steps else "sums them up"
             text = f"{saved} of {steps} steps are saved in {folder}; the same command {rest}"
             typer.echo(f"interrupted; {text}", err=True)
         raise
