@@ -218,6 +218,7 @@ def test_a_folder_never_has_two_results(ehlectric, files):
     kept = ["notes.txt", "map_of_berlin.png", "result.svg", "lines_0.png"]
     gone = ["film.svg", "map_film.minimum_thickness.png", "sensitivity.json", "sweep.csv", "motion_maps.pdf"]
     gone += ["lines_bearing.margin_at_bearing.temperature=70degC.pdf"]
+    gone += ["breakdown_over_speed_at_bearing.temperature=70degC.png"]
     for name in (*kept, *gone):
         (out / name).write_text("x")
     assert ehlectric("bearing", "bearing.toml", "-o", "out", "--no-plots", "-q").returncode == 0
@@ -259,6 +260,18 @@ def test_two_cuts_of_a_sweep_have_two_names(ehlectric, files):
     stem = "lines_film.minimum_thickness_at_contact.max_hertz_pressure"
     drawn = {path.name for path in (files / "out").glob("*.svg")}
     assert drawn == {f"{stem}=0.5GPa.svg", f"{stem}=1GPa.svg"}
+
+
+def test_two_cuts_over_the_speed_of_a_bearing_have_two_names(ehlectric, files):
+    """E19: its figures over speed too."""
+    text = 'case = "bearing.toml"\n[vary]\nbearing.inner_speed = ["1000 rpm", "6000 rpm"]\n'
+    (files / "sweep.toml").write_text(text + 'bearing.radial_load = ["1 kN", "2 kN"]\n')
+    assert ehlectric("sweep", "sweep.toml", "-o", "out", "--workers", 1, "-q").returncode == 0
+    words = ("map", "out", "--x", "bearing.inner_speed", "--at", "bearing.radial_load=2 kN")
+    assert ehlectric(*words).returncode == 0
+    names = ("lines_bearing.first_break", "capacitance_over_speed", "breakdown_over_speed")
+    drawn = {path.name for path in (files / "out").glob("*.png")}
+    assert drawn == {f"{name}_at_bearing.radial_load=2kN.png" for name in names}
 
 
 def test_kinds_of_warnings_of_a_sweep_are_counted(ehlectric, files):

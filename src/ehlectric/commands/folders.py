@@ -34,8 +34,11 @@ _FIGURES = (
     SENSITIVITY_FIGURE,
 )
 
-# Name of a map or of lines: the key of the value, and the values of the keys that are held.
-_MAP = re.compile(rf"(?:map|lines)_(?P<key>.+?)(?:_at_.*=.*)?\.(?:{'|'.join(FORMATS)})")
+# Name of a map or of lines: the key of the value, and the values of the keys that are held. Name of a figure
+# over speed with values of keys that are held.
+_FORMAT = rf"\.(?:{'|'.join(FORMATS)})"
+_MAP = re.compile(rf"(?:map|lines)_(?P<key>.+?)(?:_at_.*=.*)?{_FORMAT}")
+_SPEED = re.compile(rf"(?:capacitance|breakdown)_over_speed_at_.*=.*{_FORMAT}")
 
 
 def files_of_results(folder: str | Path, *, keep: tuple[str, ...] = ()) -> tuple[str, ...]:
@@ -71,7 +74,8 @@ def _maps(folder: Path) -> Iterator[str]:
 
     for path in sorted(folder.iterdir()) if folder.is_dir() else ():
         match = _MAP.fullmatch(path.name)
-        if match and any(key_of(keys, match["key"]) for keys in (*CONTACT_KEYS.values(), BEARING_KEYS)):
+        of_map = match and any(key_of(keys, match["key"]) for keys in (*CONTACT_KEYS.values(), BEARING_KEYS))
+        if of_map or _SPEED.fullmatch(path.name):
             yield path.name
 
 

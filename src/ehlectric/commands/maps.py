@@ -87,7 +87,7 @@ def draw_maps(
     with user_errors():
         held, look = _held(at or []), figure_options(formats, style)
 
-        from ehlectric.figures.names import SPEED_FIGURE_FILES, in_formats, map_files
+        from ehlectric.figures.names import SPEED_FIGURE_FILES, in_formats, map_files, of_cut
         from ehlectric.figures.style import style as styled
         from ehlectric.figures.sweep.save import save_maps, save_speeds
         from ehlectric.runtime.files import prepare
@@ -98,11 +98,13 @@ def draw_maps(
         results, forms = read_sweep(folder), look["formats"]
         value = value or breakdown_of(results.case).value
         taken = take(results, x, y, value, held)
-        names = in_formats((*map_files(value, held), *SPEED_FIGURE_FILES), forms)
+        names = in_formats(
+            (*map_files(value, held), *(of_cut(name, held) for name in SPEED_FIGURE_FILES)), forms
+        )
         target = prepare(output or folder, names)
         with styled(style):
             files = save_maps(results, x, y, value, target, at=held, formats=forms)
-            files += save_speeds(results, taken, target, forms)
+            files += save_speeds(results, taken, target, forms, at=held)
     if not quiet:
         from ehlectric.figures.sweep.points import held_text
 

@@ -75,9 +75,21 @@ def map_files(value: str, at: Mapping[str, str] | None = None) -> tuple[str, str
     >>> map_files("bearing.margin", {"bearing.temperature": "70 degC"})[0]
     'map_bearing.margin_at_bearing.temperature=70degC.png'
     """
-    cut = ",".join(f"{key}={_of_file_name(text)}" for key, text in sorted((at or {}).items()))
-    held = f"_at_{cut}" if cut else ""
-    return f"map_{value}{held}.png", f"lines_{value}{held}.png"
+    return of_cut(f"map_{value}.png", at), of_cut(f"lines_{value}.png", at)
+
+
+def of_cut(file: str, at: Mapping[str, str] | None = None) -> str:
+    """Name of a file of a figure of a cut through a sweep.
+
+    Examples
+    --------
+    >>> of_cut("breakdown_over_speed.png", {"bearing.temperature": "70 degC"})
+    'breakdown_over_speed_at_bearing.temperature=70degC.png'
+    """
+    if not at:
+        return file
+    cut = ",".join(f"{key}={_of_file_name(text)}" for key, text in sorted(at.items()))
+    return f"{_stem(file)}_at_{cut}.png"
 
 
 def _of_file_name(text: str) -> str:

@@ -133,7 +133,12 @@ def save_maps(
 
 
 def save_speeds(
-    results: SweepResults, taken: Slice, folder: Path, formats: Sequence[str] = ("png",)
+    results: SweepResults,
+    taken: Slice,
+    folder: Path,
+    formats: Sequence[str] = ("png",),
+    *,
+    at: Mapping[str, str] | None = None,
 ) -> list[Path]:
     """Draw capacitance and breakdown voltages of bearings over the speed, as files.
 
@@ -147,6 +152,8 @@ def save_speeds(
         Folder of the files; it must exist.
     formats : sequence of str
         Formats of the files, of "png", "svg" and "pdf".
+    at : mapping of str to str, optional
+        Values of the other varied keys, for the names of the files.
 
     Returns
     -------
@@ -162,4 +169,4 @@ def save_speeds(
     ]
     # The title of the case may name values that the sweep changes.
     title = ", ".join(filter(None, [results.title, held_text(results, taken).removeprefix("at ")]))
-    return save_speed_figures(points, folder, title, formats=formats) if points else []
+    return save_speed_figures(points, folder, title, formats=formats, at=at) if points else []
