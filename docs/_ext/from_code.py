@@ -7,6 +7,7 @@ ends the build.
 
 from __future__ import annotations
 
+import inspect
 import re
 import tomllib
 from collections.abc import Iterable, Iterator, Mapping
@@ -143,22 +144,28 @@ def _keys(table: str, model: type[validation.Table]) -> Iterator[list[str]]:
         yield [f"`{name}`", meanings[name], takes, _default(field)]
 
 
+def _word(argument: Any) -> str:
+    """Word that stands for an argument, as the command prints it."""
+    return argument.metavar or argument.name.upper()
+
+
 def _command(name: str, command: Any) -> Iterator[str]:
     """Usage, help, arguments and options of one command."""
     arguments = [p for p in command.params if p.param_type_name == "argument"]
     options = [p for p in command.params if p.param_type_name == "option"]
-    words = [p.name.upper() if p.required else f"[{p.name.upper()}]" for p in arguments]
+    options = [p for p in options if not p.hidden]
+    words = [_word(p) if p.required else f"[{_word(p)}]" for p in arguments]
     yield f"## ehlectric {name}\n"
     yield f"```text\nehlectric {name} {'[OPTIONS] ' if options else ''}{' '.join(words)}\n```\n"
     yield command.help.strip() + "\n"
+    examples = (command.epilog or "").partition("Examples:\n")[2]
+    yield f"```text\n{inspect.cleandoc(examples)}\n```\n"
     rows = []
     for p in [*arguments, *options]:
         written = (
-            ", ".join(f"`{o}`" for o in [*p.opts, *p.secondary_opts])
-            if p in options
-            else f"`{p.name.upper()}`"
+            ", ".join(f"`{o}`" for o in [*p.opts, *p.secondary_opts]) if p in options else f"`{_word(p)}`"
         )
-        default = "" if p.default is None or p.default is False or p.required else f"`{p.default}`"
+        default = "" if p.default in (None, False, "") or p.required else f"`{p.default}`"
         rows.append([written, getattr(p, "help", None) or "", "on" if p.default is True else default])
     yield _table(["argument or option", "what it does", "default"], rows)
 

@@ -199,7 +199,7 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "steps-halved": Cause("Some time steps had to be halved.", "note"),
         # Bearings
         "formula-contacts": Cause("The contacts of the bearing are computed by formulas."),
-        "isothermal-film": Cause("The films are isothermal and fully flooded."),
+        "isothermal-film": Cause("The films are isothermal and fully flooded.", "note"),
         "temperature-unused": Cause("The films use a given viscosity, not bearing.temperature.", "note"),
         "temperature-low": Cause("The viscosity is extrapolated to below 0 °C."),
         "speed-high": Cause("The speed is above that of ordinary bearings of this size."),
@@ -217,7 +217,8 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "weibull-voltage": Cause("Breakdown voltages are those at a probability of 63.2 %.", "note"),
         "speed-left-out": Cause("The figures over speed leave out a speed that cannot be computed."),
         # Sweeps
-        "points-with-warnings": Cause("Solved points of a sweep have warnings.", "note"),
+        "points-with-warnings": Cause("Solved points of a sweep have a warning of one kind."),
+        "points-with-notes": Cause("Solved points of a sweep have a note of one kind.", "note"),
         "points-not-usable": Cause("Solved points of a sweep have films that must not be used."),
         "points-of-another-version": Cause("Another version of the program solved points.", "note"),
         "rows-dropped": Cause("Rows of a Sobol design were left out of its sensitivity indices."),

@@ -266,7 +266,7 @@ def test_init_writes_a_case_that_solves(ehlectric, tmp_path):
     assert Case.from_toml(tmp_path / "new.toml").contact.entrainment_speed == 2.0
     again = ehlectric("init", "new.toml")
     assert again.returncode == 2
-    assert "is there already" in again.stderr
+    assert again.stderr == "error: new.toml: already exists; use --force to overwrite\n"
     assert ehlectric("init", "new.toml", "--force").returncode == 0
 
 
@@ -285,7 +285,10 @@ def test_point_contacts_are_begun_and_checked(ehlectric, tmp_path):
         assert all(len(line.rstrip()) <= 80 for line in done.stdout.splitlines())
     wrong = ehlectric("init", "other.toml", "--geometry", "ball")
     assert wrong.returncode == 2
-    assert wrong.stderr == "error: --geometry: got 'ball'; expected one of line, point\n"
+    assert (
+        wrong.stderr
+        == "error: --geometry: got 'ball'; expected line or point; other kinds are written with --kind\n"
+    )
 
 
 def test_check_of_a_point_contact_as_json(ehlectric):
@@ -357,13 +360,13 @@ def test_bad_case_is_one_line_and_nothing_is_written(ehlectric, case_file, tmp_p
 @pytest.mark.slow
 def test_files_that_cannot_be_used(ehlectric, case_file, tmp_path):
     assert "no such file" in one_line(ehlectric("run", "nowhere.toml"))
-    assert "is a directory" in one_line(ehlectric("run", tmp_path))
+    assert "is a folder; expected a TOML file" in one_line(ehlectric("run", tmp_path))
     (tmp_path / "taken").write_text("a file")
     assert "cannot be written to" in one_line(ehlectric("run", case_file, "-o", "taken"))
     assert "cannot be written to" in one_line(ehlectric("run", case_file, "-o", "taken/below"))
     assert "is not a NetCDF file" in one_line(ehlectric("plot", "taken"))
     assert "no such file" in one_line(ehlectric("plot", "nowhere.nc"))
-    assert "is a directory" in one_line(ehlectric("plot", tmp_path))
+    assert "has no result" in one_line(ehlectric("plot", tmp_path))
     assert "cannot be written to" in one_line(ehlectric("init", "taken/case.toml"))
     assert "cannot be used" in one_line(ehlectric("init", 300 * "x"))
     (tmp_path / "out" / "film.png").mkdir(parents=True)

@@ -73,7 +73,7 @@ def files(folder):
 def test_a_moving_case_is_solved_written_and_told(ehlectric, tmp_path, case_file):
     done = ehlectric("run", case_file, "-o", "out", "--no-plots")
     assert done.returncode == 0
-    assert done.stdout.splitlines()[-1] == "written: out/summary.json, out/motion.nc"
+    assert done.stdout.splitlines()[-1] == "  summary.json, motion.nc"
     assert files(tmp_path / "out") == ["motion.nc", "summary.json"]
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
     assert (summary["schema"], summary["converged"], summary["title"]) == ("ehlectric.motion/1", True, "Bump")
@@ -225,7 +225,16 @@ def test_a_folder_holds_one_result(typed, tmp_path, case_file):
     assert files(out) == sorted([*at_rest, "film.png"])
     assert typed("run", case_file, "-o", out, "--no-plots", "-q").exit_code == 0
     assert files(out) == ["motion.nc", "notes.txt", "summary.json"]
+    # The run may have taken hours: it is not replaced, and its files stay.
     (out / "motion_maps.png").write_text("of what moves")
+    refused = typed("run", still, "-o", out, "--no-plots", "-q")
+    assert refused.exit_code == 2
+    assert refused.stderr == (
+        f"error: {out}: has 12 saved steps of another case with moving roughness; expected another folder, "
+        "as with -o; or remove motion.nc from this one\n"
+    )
+    assert files(out) == ["motion.nc", "motion_maps.png", "notes.txt", "summary.json"]
+    (out / "motion.nc").unlink()
     assert typed("run", still, "-o", out, "--no-plots", "-q").exit_code == 0
     assert files(out) == at_rest
 
@@ -247,7 +256,7 @@ def test_a_step_that_is_not_solved(typed, tmp_path, monkeypatch, case_file):
         assert done.stderr.splitlines()[-1] == (
             "error: not converged: step 7 of 12: film not found at T = 1.3125"
         )
-        assert done.stdout.splitlines()[-1] == "written: out/summary.json, out/motion.nc"
+        assert done.stdout.splitlines()[-1] == "  summary.json, motion.nc"
         summary = json.loads((tmp_path / "out" / "summary.json").read_text())
         assert (summary["converged"], summary["motion"]["steps_done"]) == (False, 4)
         assert len(done_before) == steps
@@ -305,12 +314,12 @@ def test_a_run_that_is_stopped_says_what_is_saved_and_goes_on(tmp_path, number):
     steps, frames = found.sizes["step"] - 1, found.sizes["frame"]
     assert steps > 0
     assert errors == (
-        f"stopped; {steps} of {STEPS} steps are saved in out, the same command goes on with the others\n"
+        f"interrupted; {steps} of {STEPS} steps are saved in out; the same command resumes the run\n"
     )
     assert files(tmp_path / "out") == ["motion.nc"]
     again = begun(tmp_path, frames + 1)
     again.send_signal(number)
-    assert again.communicate(timeout=30)[1].startswith("stopped; ")
+    assert again.communicate(timeout=30)[1].startswith("interrupted; ")
     more = read_motion(tmp_path / "out")
     # Without a gap: each step once, in equal times.
     assert more.sizes["step"] - 1 > steps
@@ -327,9 +336,7 @@ def test_stopped_before_anything_is_kept(typed, monkeypatch, case_file):
     monkeypatch.setattr(motion_run, "_begin", stopping)
     done = typed("run", case_file, "-o", "out", "--no-plots", "-q")
     assert (done.exit_code, done.stdout) == (143, "")
-    assert done.stderr == (
-        "stopped; 0 of 12 steps are saved in out, the same command goes on with the others\n"
-    )
+    assert done.stderr == ("interrupted; 0 of 12 steps are saved in out; the same command resumes the run\n")
 
 
 @pytest.mark.slow

@@ -5,7 +5,8 @@ The functions that draw them stand in tables by these names; this module is impo
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import re
+from collections.abc import Iterable, Mapping, Sequence
 
 from ehlectric.errors import InputError, shown
 
@@ -54,15 +55,48 @@ SPEED_FIGURE_FILES = ("capacitance_over_speed.png", "breakdown_over_speed.png")
 SENSITIVITY_FIGURE = "sensitivity.png"
 
 
-def map_files(value: str) -> tuple[str, str]:
+def map_files(value: str, at: Mapping[str, str] | None = None) -> tuple[str, str]:
     """Names of the files of the map and of the lines of a value of a sweep.
+
+    Parameters
+    ----------
+    value : str
+        Dotted key of the summary.
+    at : mapping of str to str, optional
+        Values of the varied keys that are held, as texts: two cuts of a sweep have two names.
+
+    Returns
+    -------
+    tuple of str
+        Names of the PNG files.
 
     Examples
     --------
     >>> map_files("discharge.breakdown_voltage")
     ('map_discharge.breakdown_voltage.png', 'lines_discharge.breakdown_voltage.png')
+    >>> map_files("bearing.margin", {"bearing.temperature": "70 degC"})[0]
+    'map_bearing.margin_at_bearing.temperature=70degC.png'
     """
-    return f"map_{value}.png", f"lines_{value}.png"
+    return of_cut(f"map_{value}.png", at), of_cut(f"lines_{value}.png", at)
+
+
+def of_cut(file: str, at: Mapping[str, str] | None = None) -> str:
+    """Name of a file of a figure of a cut through a sweep.
+
+    Examples
+    --------
+    >>> of_cut("breakdown_over_speed.png", {"bearing.temperature": "70 degC"})
+    'breakdown_over_speed_at_bearing.temperature=70degC.png'
+    """
+    if not at:
+        return file
+    cut = ",".join(f"{key}={_of_file_name(text)}" for key, text in sorted(at.items()))
+    return f"{_stem(file)}_at_{cut}.png"
+
+
+def _of_file_name(text: str) -> str:
+    """Text without spaces and without characters that a file name cannot have everywhere."""
+    return re.sub(r"[^\w.+-]+", "-", "".join(text.split()), flags=re.ASCII)
 
 
 def in_formats(files: Iterable[str], formats: Sequence[str] = ("png",)) -> tuple[str, ...]:

@@ -86,6 +86,7 @@ def run(
     progress: Progress = silent,
     *,
     solvers: AbstractContextManager[Crew] | None = None,
+    others: Sequence[str] = (),
 ) -> RunOutcome[SweepResults]:
     """Solve a sweep, except the points that its folder already has, and write its tables.
 
@@ -100,6 +101,9 @@ def run(
     solvers : context manager of Crew, optional
         Crew that solves the points. It is entered when the sweep is known to have valid cases. By default,
         as many processes as there are cores.
+    others : sequence of str, optional
+        Names of other files in the folder that belong to an earlier result, such as figures. They are removed
+        before the points are solved.
 
     Returns
     -------
@@ -118,10 +122,10 @@ def run(
     planned = planned_points(sweep)
     with ExitStack() as crews:
         working = crews.enter_context(crew(None, None) if solvers is None else solvers)
-        folder = prepare(folder, (NAME, LOCK, *FILES))
+        folder = prepare(folder, (NAME, LOCK, *FILES, *others))
         with Store(folder) as store:
             store.begin(sweep, planned)
-            clear(folder, FILES)
+            clear(folder, (*FILES, *others))
             _solve(sweep, store, planned, working, progress)
             # The crew leaves before the tables are written: a cluster can be used for something else.
             crews.close()

@@ -6,7 +6,8 @@ from pathlib import Path
 import pytest
 
 from ehlectric import Case, InputError, Sweep, solve
-from ehlectric.commands.runs import check, run_motion
+from ehlectric.commands.meaning import check
+from ehlectric.commands.runs import run_motion
 from ehlectric.motion.contact import TransientContact
 from tests.helpers.moving_cases import LINE, POINT, moving
 

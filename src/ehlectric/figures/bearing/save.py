@@ -28,7 +28,7 @@ from ehlectric.figures.bearing.pitch import (
 )
 from ehlectric.figures.bearing.polar import film_around, load_around, new_polar
 from ehlectric.figures.bearing.speeds import breakdown_over_speed, breaks_anywhere, capacitance_over_speed
-from ehlectric.figures.names import in_formats
+from ehlectric.figures.names import in_formats, of_cut
 from ehlectric.figures.style import drawing_of, figure_of, name_over, new_panels, save_figure, style
 
 Draw = Callable[[BearingResult, Axes], Axes]
@@ -220,6 +220,7 @@ def save_speed_figures(
     *,
     own: Speed | None = None,
     formats: Sequence[str] = ("png",),
+    at: Mapping[str, str] | None = None,
 ) -> list[Path]:
     """Draw capacitance and, where there are any, breakdown voltages over the speed as files.
 
@@ -235,6 +236,8 @@ def save_speed_figures(
         Lines of the titles below the first ones, which state the findings.
     own : (float, dict), optional
         A bearing to mark beside them, such as one with solved contacts.
+    at : mapping of str to str, optional
+        Values of further varied keys of a sweep, for the names of the files.
 
     Returns
     -------
@@ -244,7 +247,8 @@ def save_speed_figures(
     return [
         file
         for name in _speed_drawings(points)
-        for file in save_figure(speed_figure(points, name, title, own=own), folder / name, formats)
+        for figure in (speed_figure(points, name, title, own=own),)
+        for file in save_figure(figure, folder / of_cut(name, at), formats)
     ]
 
 

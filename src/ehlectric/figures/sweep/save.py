@@ -124,16 +124,22 @@ def save_maps(
         As ``take`` raises it.
     """
     numeric = take(results, x, y, value, at).numeric
-    names = [name for name in map_files(value) if (y is not None and numeric) or name.startswith("lines_")]
+    pairs = zip(map_files(value), map_files(value, at), strict=True)
+    wanted = [pair for pair in pairs if (y is not None and numeric) or pair[0].startswith("lines_")]
     return [
         file
-        for name in names
-        for file in save_figure(figure(results, name, x=x, y=y, at=at), folder / name, formats)
+        for name, path in wanted
+        for file in save_figure(figure(results, name, x=x, y=y, at=at), folder / path, formats)
     ]
 
 
 def save_speeds(
-    results: SweepResults, taken: Slice, folder: Path, formats: Sequence[str] = ("png",)
+    results: SweepResults,
+    taken: Slice,
+    folder: Path,
+    formats: Sequence[str] = ("png",),
+    *,
+    at: Mapping[str, str] | None = None,
 ) -> list[Path]:
     """Draw capacitance and breakdown voltages of bearings over the speed, as files.
 
@@ -147,6 +153,8 @@ def save_speeds(
         Folder of the files; it must exist.
     formats : sequence of str
         Formats of the files, of "png", "svg" and "pdf".
+    at : mapping of str to str, optional
+        Values of the other varied keys, for the names of the files.
 
     Returns
     -------
@@ -162,4 +170,4 @@ def save_speeds(
     ]
     # The title of the case may name values that the sweep changes.
     title = ", ".join(filter(None, [results.title, held_text(results, taken).removeprefix("at ")]))
-    return save_speed_figures(points, folder, title, formats=formats) if points else []
+    return save_speed_figures(points, folder, title, formats=formats, at=at) if points else []
