@@ -312,35 +312,6 @@ def check(case: Case) -> Meaning:
     return Meaning(case.title, tuple(rows), summary, tuple(contact.warnings()))
 
 
-def load(path: str | Path) -> Result | PointResult | BearingResult:
-    """Load the result of a contact or of a bearing from its NetCDF file.
-
-    Parameters
-    ----------
-    path : str or Path
-        A result.nc or a bearing.nc.
-
-    Returns
-    -------
-    Result, PointResult or BearingResult
-        Result, equal to the one that was saved.
-
-    Raises
-    ------
-    InputError
-        Where the file cannot be read or is not a result.
-    """
-    from ehlectric.bearing import files as of_bearings
-    from ehlectric.contact import files as of_contacts
-    from ehlectric.runtime.netcdf import read_dataset
-
-    path = Path(path)
-    dataset = read_dataset(path)
-    if str(dataset.attrs.get("schema", "")).startswith(of_bearings.SCHEMA.partition("/")[0]):
-        return of_bearings.result_of(dataset, path)
-    return of_contacts.result_of(dataset, path)
-
-
 def load_and_draw(path: str | Path, folder: str | Path) -> tuple[tuple[Path, ...], tuple[ResultWarning, ...]]:
     """Draw the figures of a stored result again.
 
@@ -364,6 +335,7 @@ def load_and_draw(path: str | Path, folder: str | Path) -> tuple[tuple[Path, ...
         Where the file is not a result, or the folder cannot be used.
     """
     from ehlectric.bearing.result import BearingResult
+    from ehlectric.commands.results import load
     from ehlectric.motion.stored_run import MOTION, read_motion
     from ehlectric.runtime.stored_warnings import of_attributes
 

@@ -16,7 +16,9 @@ from ehlectric.sweep.engine import solve_point
 from ehlectric.sweep.plan import Outcome, plan
 from ehlectric.sweep.results import flat
 from ehlectric.sweep.store import NAME, Store
-from ehlectric.sweep.tables import columns_of, to_xarray, write_tables
+from ehlectric.sweep.columns import columns_of
+from ehlectric.sweep.columns import dataset_of as to_xarray
+from ehlectric.sweep.tables import write_tables
 from tests.helpers.sweeps import LOAD, NODES, PRESSURE, SPEED, sweep_over
 
 THICKNESS = "film.minimum_thickness"
