@@ -78,8 +78,11 @@ class SweepResults(Shown, SweepPoints):
         rows = [flat(point.summary) for point in self.points if point.solved and point.summary]
         if any(key in row for row in rows) or key_of(result_keys(self.case), key) is not None:
             return
-        known = dict.fromkeys([*numbers_of(self), *result_keys(self.case)])
-        raise InputError.unknown(key, nearest(key, known))
+        known = list(numbers_of(self)) or list(result_keys(self.case))
+        table = key.partition(".")[0] + "."
+        alike = [name for name in known if name.startswith(key) or name.endswith(f".{key}")]
+        within = [name for name in known if name.startswith(table)]
+        raise InputError.unknown(key, alike[0] if alike else nearest(key, within or known))
 
     def summary(self) -> dict[str, Any]:
         """Number of points of each status, and the design of the sweep.

@@ -1,4 +1,5 @@
 """Cases from keywords: every wrong input is an InputError, and keywords are the keys of the tables."""
+# ruff: noqa: E501
 
 import inspect
 import pickle
