@@ -99,12 +99,8 @@ class Result(ContactResult[Conditions, Film, Field]):
         Film over ``film.x``: pressure, thickness, density, status and error estimate, SI units.
     field : Field
         Electric field over ``field.x`` and across the film: potential, strength and capacitance, SI units.
-    converged : bool
-        Whether the film converged; if it did not, no number may be used.
     warnings : tuple of ResultWarning
         Warnings about unreliable results, each with a code and a severity.
-    discharge : Assessment or None
-        Breakdown voltage, capacitances and energies; None if the case has no table ``discharge``.
     roughness : ndarray, shape (2, nx)
         Roughness heights of both surfaces at the film's nodes, positive out of the body [m].
     smooth : Smooth or None
@@ -132,12 +128,8 @@ class PointResult(ContactResult[PointConditions, PointFilm, PointField]):
     field : PointField
         Electric field over ``field.x``, ``field.y`` and across the film: potential, strength and capacitance,
         SI units.
-    converged : bool
-        Whether the film converged; if it did not, no number may be used.
     warnings : tuple of ResultWarning
         Warnings about unreliable results, each with a code and a severity.
-    discharge : Assessment or None
-        Breakdown voltage, capacitances and energies; None if the case has no table ``discharge``.
     roughness : ndarray, shape (2, nx, ny)
         Roughness heights of both surfaces at the film's nodes, positive out of the body [m].
     smooth : Smooth or None

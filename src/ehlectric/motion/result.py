@@ -31,8 +31,6 @@ class MotionResult(Shown, MotionRun):
         Case of the run.
     conditions : Conditions or PointConditions
         Operating conditions of the case.
-    complete : bool
-        Whether all time steps of the run are solved.
     """
 
     @property

@@ -148,7 +148,7 @@ def test_plot_by_name(results):
     line = results["line"]
     for name in ("potential", "potential.png"):
         assert line.plot(name).axes[0].get_xlabel() == line.plot("potential").axes[0].get_xlabel()
-    with pytest.raises(InputError, match="figure: got 'fild.png'; expected one of film.png"):
+    with pytest.raises(InputError, match=r"figure: got 'fild.png'; expected one of film\.png"):
         line.plot("fild")
 
 

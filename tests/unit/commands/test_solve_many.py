@@ -85,7 +85,7 @@ def test_a_process_that_dies_costs_only_its_case(monkeypatch):
 
 @pytest.mark.parametrize("workers", [0, -1, 1.5, True, "2"])
 def test_workers_are_a_number(workers):
-    with pytest.raises(InputError, match="workers: got .*; expected a whole number of at least 1"):
+    with pytest.raises(InputError, match=r"workers: got .*; expected a whole number of at least 1"):
         next(solve_many(CASES, workers=workers))
 
 
