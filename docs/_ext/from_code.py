@@ -339,16 +339,34 @@ def _check_tests(app: Sphinx) -> None:
 
 _PUBLIC = """# API
 
-## Public names
-
-These are imported from `ehlectric` itself, and stay. A script needs no others.
+These names are imported from `ehlectric` itself, and are the stable public API. A script needs no others.
+[From Python](../guide/python.md) shows their use. Everything else is in the [internal modules](internals.md),
+which may change between versions.
 
 {}
-## Packages
+```{{toctree}}
+:hidden:
 
-Everything else is imported from the module it lives in. A package imports from those below it
-on this page, never from those above.
+internals
+```
 """
+_INTERNAL = """# Internal modules
+
+A script does not need these modules: [API](index.md) has the public names. They may change between versions.
+A package imports from those below it on this page, never from those above; [Architecture](../architecture.md)
+has the map.
+"""
+
+# Headings of the page of the public names, each with its names in the order of their use.
+_GROUPS = {
+    "Solve": ("solve", "solve_many", "solve_bearing", "solve_motion", "run_sweep", "run_motion"),
+    "Cases": ("Case", "LineCase", "PointCase", "BearingCase", "Sweep"),
+    "Results": ("Result", "PointResult", "BearingResult", "MotionResult", "SweepResults", "Solved"),
+    "Warnings and verdicts": ("ResultWarning", "Verdict"),
+    "Files": ("save", "load", "read_sweep", "read_motion"),
+    "Figures": ("figure", "figure_names", "save_figures"),
+    "Errors": ("InputError", "ConvergenceError", "LostError"),
+}
 
 
 def _autosummary(names: Iterable[str]) -> str:
@@ -356,18 +374,28 @@ def _autosummary(names: Iterable[str]) -> str:
     return f"```{{eval-rst}}\n.. autosummary::\n   :toctree: generated\n\n{rows}```\n"
 
 
-def _write_api(folder: Path) -> None:
-    """The page of the API: every module by its package, in the order of the import contract."""
-    project = tomllib.loads((folder.parents[1] / "pyproject.toml").read_text(encoding="utf-8"))
+def _public() -> str:
+    """The page of the public names; every one of them is in a group."""
+    grouped = [name for names in _GROUPS.values() for name in names]
+    public = {name for name in ehlectric.__all__ if name[:2] != "__"}
+    if len(grouped) != len(public) or set(grouped) != public:
+        raise ExtensionError(f"names without a group: {sorted(set(grouped) ^ public)}")
+    parts = []
+    for head, names in _GROUPS.items():
+        parts.append(f"## {head}\n\n{_autosummary(f'~ehlectric.{name}' for name in names)}")
+    return _PUBLIC.format("\n".join(parts))
+
+
+def _internal(root: Path) -> str:
+    """The page of all modules by their package, in the order of the import contract."""
+    project = tomllib.loads((root / "pyproject.toml").read_text(encoding="utf-8"))
     layers = project["tool"]["importlinter"]["contracts"][0]["layers"]
-    page = _PUBLIC.format(
-        _autosummary(f"~ehlectric.{name}" for name in ehlectric.__all__ if name[:2] != "__")
-    )
+    page = _INTERNAL
     for name in (part.strip() for layer in layers for part in layer.split("|")):
         package = Path(ehlectric.__file__).parent / name
         if not package.is_dir():
             continue
-        page += f"\n### {name}\n\n{import_module(f'ehlectric.{name}').__doc__}\n\n"
+        page += f"\n## {name}\n\n{import_module(f'ehlectric.{name}').__doc__}\n\n"
         paths = sorted(package.rglob("*.py"), key=lambda path: (len(path.parts), path))
         modules = [path.relative_to(package.parent).with_suffix("").parts for path in paths]
         page += _autosummary(
@@ -375,15 +403,33 @@ def _write_api(folder: Path) -> None:
             for module in modules
             if module != (name, "__init__")
         )
-    target = folder / "index.md"
-    if not target.exists() or target.read_text(encoding="utf-8") != page:
-        folder.mkdir(exist_ok=True)
-        target.write_text(page, encoding="utf-8")
+    return page
+
+
+def _write_api(folder: Path) -> None:
+    """Pages of the API: the public names, and the internal modules apart."""
+    for name, page in (("index", _public()), ("internals", _internal(folder.parents[1]))):
+        target = folder / f"{name}.md"
+        if not target.exists() or target.read_text(encoding="utf-8") != page:
+            folder.mkdir(exist_ok=True)
+            target.write_text(page, encoding="utf-8")
+
+
+def _shortened(*event: Any) -> tuple[str, str | None] | None:
+    """Signature without the values of default tables, which fill lines; the guide lists them."""
+    *_, signature, returned = event
+    if signature is None:
+        return None
+    return re.sub(r"=[A-Z]\w*\((?:[^()]|\([^()]*\))*\)", "=...", signature), returned
 
 
 def setup(app: Sphinx) -> dict[str, Any]:
     """Pages are written before Sphinx looks for them, tables before they are read."""
     _write_api(Path(app.srcdir) / "api")
+    for constructor in (ehlectric.Case.line, ehlectric.Case.point, ehlectric.BearingCase.of):
+        # Sphinx looks up defaults in the source, where the keys of a TypedDict are not.
+        del constructor.__func__.__signature__
+    app.connect("autodoc-process-signature", _shortened)
     app.connect("builder-inited", _write, priority=100)
     app.connect("builder-inited", _paper, priority=100)
     app.connect("builder-inited", _check_tests)

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, ClassVar, Literal, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self, Unpack
 
 from pydantic import field_serializer, field_validator, model_validator
 
@@ -13,11 +14,13 @@ from ehlectric.cases.case import Title
 from ehlectric.cases.changes import Groups, displace, set_keys
 from ehlectric.cases.discharge import STRENGTHS, TABLES
 from ehlectric.cases.grid import Solver
+from ehlectric.cases.keywords import BearingKeys, Keys, tables, takes
 from ehlectric.cases.ranges import InputRange, ranges_of
-from ehlectric.cases.row import value_at
+from ehlectric.cases.row import amount, value_at
 from ehlectric.cases.table import Table, read_toml
 from ehlectric.cases.units import ROTATION
 from ehlectric.errors import InputError
+from ehlectric.runtime.display import Tabled, headline
 
 # Alternative keys, by table: a key that changes replaces its alternatives.
 _ALTERNATIVES: dict[str, Groups] = {
@@ -45,8 +48,46 @@ _ADVICE = {
 }
 
 
-class BearingCase(Table):
-    """Rolling bearing in its machine: all inputs on which its capacitance and breakdown voltage depend."""
+class BearingCase(Tabled, Table):
+    """Rolling bearing in its machine: all inputs on which its capacitance and breakdown voltage depend.
+
+    A case is made from a file by ``from_toml``, from nested tables by ``from_dict`` or by keywords, and from
+    the keys of its bearing by ``BearingCase.of``. It is frozen; ``replace`` returns a changed copy. Numbers
+    are in SI units.
+
+    Parameters
+    ----------
+    bearing : Bearing or mapping
+        Geometry, load, speed, temperature and roughness.
+    lubricant : BearingLubricant or mapping
+        Laws of the oil, or ``base``, the name of a lubricant of the library.
+    title : str, optional
+        Title of tables and figures.
+    contacts : str, optional
+        "solved", or "formula" for contacts from film-thickness formulas.
+    discharge, motor, solver : mapping, optional
+        Further tables, as in a bearing file.
+
+    Raises
+    ------
+    InputError
+        If a key is unknown or missing, or a value is not allowed.
+    """
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            *,
+            bearing: Bearing | Keys,
+            lubricant: BearingLubricant | Keys,
+            title: str = ...,
+            contacts: str = ...,
+            discharge: BearingDischarge | Keys = ...,
+            motor: Motor | Keys | None = ...,
+            ranges: Mapping[str, Sequence[Any]] = ...,
+            solver: Solver | Keys = ...,
+        ) -> None: ...
 
     ADVICE: ClassVar = _ADVICE
 
@@ -88,6 +129,73 @@ class BearingCase(Table):
                     f"ranges.{one.key}", got="a range", takes=f"a number for {one.key} in the file too"
                 )
         return self
+
+    def headline(self) -> str:
+        """Title, bearing, loads and speed on one line."""
+        bearing = self.bearing
+        loads = [("radial", bearing.radial_load), ("axial", bearing.axial_load)]
+        return headline(
+            self.title,
+            bearing.base or bearing.kind,
+            *(f"{way} load {amount(load, 'N')}" for way, load in loads if load),
+            f"{bearing.inner_speed * 30.0 / math.pi:.4g} rpm",
+            f"{bearing.temperature - 273.15:.4g} degC",
+        )
+
+    @classmethod
+    @takes(BearingKeys)
+    def of(
+        cls,
+        *,
+        lubricant: BearingLubricant | Keys | str,
+        title: str = "",
+        contacts: Literal["solved", "formula"] = "solved",
+        discharge: BearingDischarge | Keys | None = None,
+        motor: Motor | Keys | None = None,
+        solver: Solver | Keys | None = None,
+        **bearing: Unpack[BearingKeys],
+    ) -> BearingCase:
+        """Make a bearing case from the keys of its table ``bearing``.
+
+        Parameters
+        ----------
+        lubricant : str, mapping or BearingLubricant
+            Name of a lubricant of the library, or its table.
+        title : str, optional
+            Title of tables and figures.
+        contacts : str, optional
+            "solved", or "formula" for contacts from film-thickness formulas.
+        discharge, motor, solver : optional
+            Further tables, as in a bearing file.
+        **bearing
+            Keys of the table ``bearing``: floats in SI units, texts with units, or quantities of pint; see
+            ``ehlectric.cases.keywords.BearingKeys``.
+
+        Returns
+        -------
+        BearingCase
+            Case of the bearing.
+
+        Raises
+        ------
+        InputError
+            If a key is unknown or missing, or a value is not allowed.
+
+        Examples
+        --------
+        >>> BearingCase.of(
+        ...     base="6208",
+        ...     radial_clearance="10 um",
+        ...     radial_load="1 kN",
+        ...     inner_speed="3000 rpm",
+        ...     temperature="70 degC",
+        ...     composite_rq="0.03 um",
+        ...     lubricant={"base": "paper", "viscosity": "20 mPa s"},
+        ... )
+        <BearingCase 6208, radial load 1 kN, 3000 rpm, 70 degC>
+        """
+        given = tables(lubricant=lubricant, discharge=discharge, motor=motor, solver=solver)
+        return BearingCase.from_dict({"title": title, "contacts": contacts, "bearing": bearing, **given})
 
     @classmethod
     def from_toml(cls, path: str | Path) -> Self:

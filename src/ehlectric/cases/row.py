@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Any
 
+from ehlectric.cases.quantity import unit_for
 from ehlectric.cases.result_key import Keys, key_of
 
 # SI unit of each unit that is shown, in the notation of pint, and the factor from the SI unit to the shown
@@ -158,3 +159,15 @@ def value_at(table: Mapping[str, Any], key: str) -> Any:
         else:
             return None
     return value
+
+
+def amount(value: float, unit: str) -> str:
+    """Value in a prefixed unit that suits it, with four digits.
+
+    Examples
+    --------
+    >>> amount(7.4e-7, "m"), amount(2.5e6, "V/m")
+    ('0.74 µm', '2.5 V/µm')
+    """
+    factor, prefixed = unit_for(abs(value), unit)
+    return f"{factor * value:.4g} {prefixed}"

@@ -95,7 +95,7 @@ def load_and_draw(
         If the file is not a result, the folder cannot be used, or a sweep varies too many keys for a map.
     """
     from ehlectric.bearing.result import BearingResult
-    from ehlectric.commands.runs import load
+    from ehlectric.commands.results import load
     from ehlectric.motion.stored_run import MOTION, read_motion
     from ehlectric.runtime.stored_warnings import of_attributes
     from ehlectric.sweep.store import NAME, read_sweep

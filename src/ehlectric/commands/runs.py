@@ -230,32 +230,3 @@ RUNS: Mapping[FileKind, Kind] = MappingProxyType(
         "sweep": Kind(read_sweep_file, run_sweep),
     }
 )
-
-
-def load(path: str | Path) -> Result | PointResult | BearingResult:
-    """Load the result of a contact or of a bearing from its NetCDF file.
-
-    Parameters
-    ----------
-    path : str or Path
-        A result.nc or a bearing.nc.
-
-    Returns
-    -------
-    Result, PointResult or BearingResult
-        Result, equal to the one that was saved.
-
-    Raises
-    ------
-    InputError
-        Where the file cannot be read or is not a result.
-    """
-    from ehlectric.bearing import files as of_bearings
-    from ehlectric.contact import files as of_contacts
-    from ehlectric.runtime.netcdf import read_dataset
-
-    path = Path(path)
-    dataset = read_dataset(path)
-    if str(dataset.attrs.get("schema", "")).startswith(of_bearings.SCHEMA.partition("/")[0]):
-        return of_bearings.result_of(dataset, path)
-    return of_contacts.result_of(dataset, path)

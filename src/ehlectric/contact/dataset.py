@@ -12,6 +12,8 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
 from ehlectric.contact.solution import Solution
+from ehlectric.film.line import Film
+from ehlectric.film.point import PointFilm
 from ehlectric.film.state import NewtonStep
 from ehlectric.runtime.files import plain
 from ehlectric.runtime.stored_warnings import as_attributes
@@ -222,6 +224,14 @@ def dataset_of(solution: Solution[Any, Any, Any], layout: Layout, summary: Mappi
         .set_coords(layout.coordinates)
         .copy(deep=True)
     )
+
+
+def film_columns(film: Film | PointFilm) -> dict[str, tuple[Array, str]]:
+    """Film node by node: columns of a table by name, each with its unit, empty for a dimensionless one."""
+    positions = np.meshgrid(*film.axes, indexing="ij")
+    columns = {name: (values.ravel(), "m") for name, values in zip("xy", positions, strict=False)}
+    columns |= {"pressure": (film.pressure.ravel(), "Pa"), "thickness": (film.thickness.ravel(), "m")}
+    return columns | {"density": (film.density.ravel(), "")}
 
 
 def smooth_of(dataset: xr.Dataset) -> dict[str, Array] | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Generic, TypeVar
@@ -19,14 +20,16 @@ from ehlectric.field.line import Field
 from ehlectric.field.point import PointField
 from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
+from ehlectric.runtime.display import Shown
+from ehlectric.runtime.values import Values
 
 ConditionsT = TypeVar("ConditionsT", bound=Conditions | PointConditions)
 FilmT = TypeVar("FilmT", bound=Film | PointFilm)
 FieldT = TypeVar("FieldT", bound=Field | PointField)
 
 
-@dataclass(frozen=True)
-class Smooth:
+@dataclass(frozen=True, eq=False, repr=False)
+class Smooth(Values):
     """Film and field of a rough contact that is solved with smooth surfaces, for comparison.
 
     Attributes
@@ -47,8 +50,8 @@ class Smooth:
         return float(np.min(self.thickness))
 
 
-@dataclass(frozen=True)
-class Solution(Generic[ConditionsT, FilmT, FieldT]):
+@dataclass(frozen=True, eq=False, repr=False)
+class Solution(Shown, Generic[ConditionsT, FilmT, FieldT]):
     """Film and field of one contact.
 
     Attributes
@@ -85,10 +88,10 @@ class Solution(Generic[ConditionsT, FilmT, FieldT]):
     warnings: tuple[ResultWarning, ...]
     film_solver: str
     field_solver: str
-    film_seconds: float
-    field_seconds: float
+    film_seconds: float = dataclasses.field(compare=False)
+    field_seconds: float = dataclasses.field(compare=False)
     version: str
-    date: str
+    date: str = dataclasses.field(compare=False)
 
     @property
     def converged(self) -> bool:

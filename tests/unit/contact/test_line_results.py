@@ -10,6 +10,7 @@ import pytest
 from threadpoolctl import ThreadpoolController
 
 from ehlectric import Case, ConvergenceError, InputError, load, save, solve
+from ehlectric.contact.solver import solve as solve_case
 from ehlectric.runtime.files import whole
 from tests.conftest import PAPER_CONTACT
 
@@ -284,7 +285,7 @@ def test_the_caller_may_ask_for_a_solution_or_nothing(paper_case):
 
 def test_progress_is_reported(paper_case):
     seen = []
-    solve(paper_case.replace({"grid.nodes": 801}), progress=lambda *step: seen.append(step))
+    solve_case(paper_case.replace({"grid.nodes": 801}), progress=lambda *step: seen.append(step))
     nodes, steps, residuals = zip(*seen, strict=True)
     assert nodes[-1] == 801
     assert steps[0] == 0

@@ -377,7 +377,7 @@ def test_a_film_before_the_motion_that_is_not_found(tmp_path):
 
 
 def test_roughness_that_is_not_solved_held_still_has_no_maps(tmp_path, monkeypatch):
-    from ehlectric import solve
+    from ehlectric.contact.solver import solve
     from ehlectric.motion import run as motion_run
 
     def never(case, **keys):
