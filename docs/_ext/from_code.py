@@ -7,6 +7,7 @@ ends the build.
 
 from __future__ import annotations
 
+import inspect
 import re
 import tomllib
 from collections.abc import Iterable, Iterator, Mapping
@@ -82,7 +83,7 @@ def _bounds(given: Quantity | Count) -> str:
 
 
 def _find(annotation: Any, metadata: Iterable[Any]) -> Any:
-    """The Quantity, Quantities, Count, literal texts or table behind an annotation."""
+    """The Quantity, Quantities, Count, literal strings or table behind an annotation."""
     for item in metadata:
         if isinstance(item, Quantity | Quantities | Count):
             return item
@@ -119,7 +120,7 @@ def _takes(name: str, found: Any, *, pair: bool) -> str:
         return f"{kind}{_bounds(found)}{unit}: {found.reason}"
     if isinstance(found, tuple):
         return ", ".join(f'`"{v}"`' if isinstance(v, str) else f"`{v}`" for v in found)
-    return "a table" if isinstance(found, type) else "text"
+    return "a table" if isinstance(found, type) else "a string"
 
 
 def _default(field: Any) -> str:
@@ -143,22 +144,28 @@ def _keys(table: str, model: type[validation.Table]) -> Iterator[list[str]]:
         yield [f"`{name}`", meanings[name], takes, _default(field)]
 
 
+def _word(argument: Any) -> str:
+    """Word that stands for an argument, as the command prints it."""
+    return argument.metavar or argument.name.upper()
+
+
 def _command(name: str, command: Any) -> Iterator[str]:
     """Usage, help, arguments and options of one command."""
     arguments = [p for p in command.params if p.param_type_name == "argument"]
     options = [p for p in command.params if p.param_type_name == "option"]
-    words = [p.name.upper() if p.required else f"[{p.name.upper()}]" for p in arguments]
+    options = [p for p in options if not p.hidden]
+    words = [_word(p) if p.required else f"[{_word(p)}]" for p in arguments]
     yield f"## ehlectric {name}\n"
     yield f"```text\nehlectric {name} {'[OPTIONS] ' if options else ''}{' '.join(words)}\n```\n"
     yield command.help.strip() + "\n"
+    examples = (command.epilog or "").partition("Examples:\n")[2]
+    yield f"```text\n{inspect.cleandoc(examples)}\n```\n"
     rows = []
     for p in [*arguments, *options]:
         written = (
-            ", ".join(f"`{o}`" for o in [*p.opts, *p.secondary_opts])
-            if p in options
-            else f"`{p.name.upper()}`"
+            ", ".join(f"`{o}`" for o in [*p.opts, *p.secondary_opts]) if p in options else f"`{_word(p)}`"
         )
-        default = "" if p.default is None or p.default is False or p.required else f"`{p.default}`"
+        default = "" if p.default in (None, False, "") or p.required else f"`{p.default}`"
         rows.append([written, getattr(p, "help", None) or "", "on" if p.default is True else default])
     yield _table(["argument or option", "what it does", "default"], rows)
 
@@ -166,14 +173,14 @@ def _command(name: str, command: Any) -> Iterator[str]:
 def _write(app: Sphinx) -> None:
     folder = Path(app.srcdir) / "_generated"
     folder.mkdir(exist_ok=True)
-    head = ["key", "what it is", "takes", "default"]
+    head = ["key", "meaning", "expected value", "default"]
     pages = {}
     for table, model in _TABLES.items():
         pages[f"keys_{table.replace('.', '_')}"] = "```{rst-class} keys\n```\n\n" + _table(
             head, _keys(table, model)
         )
     pages["generators"] = _table(
-        ["generator", "needs", "may have"],
+        ["generator", "required keys", "optional keys"],
         [
             [f'`"{name}"`', *(", ".join(f"`{key}`" for key in keys) or "–" for keys in rows)]
             for name, rows in roughness_inputs.GENERATORS.items()
@@ -282,7 +289,7 @@ def _paper(app: Sphinx) -> None:
 
 
 def _capacitances() -> str:
-    """Capacitance of the paper's eight contacts over that of plates, and what it is made of."""
+    """Capacitance of the paper's eight contacts as a ratio to parallel plates, and its parts."""
     rows = []
     for contact in CONTACTS:
         case = contact.case(discharge={})
@@ -303,13 +310,13 @@ def _capacitances() -> str:
                 *(f"{r:.3f}" for r in ratios),
             ]
         )
-    head = ["contact", "C [nF/m]", "C over plates", "fingers", "layers", "ε_r everywhere"]
-    head += ["pressure's part", "Hertz zone over uniform film"]
+    head = ["contact", "C [nF/m]", "C / plate value", "fingers", "layers", "constant ε_r"]
+    head += ["effect of pressure on ε_r", "Hertz zone / uniform film"]
     return _table(head, rows)
 
 
 def _uniform_film(result: Any) -> float:
-    """Capacitance of a film of h(0) under the Hertz pressure, over the Hertz zone [F/m].
+    """Capacitance of a film of h(0) under the Hertz pressure, in the Hertz zone [F/m].
 
     By the midpoint rule over t, with X = cos(t) and p = p_h sin(t).
     """

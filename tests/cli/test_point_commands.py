@@ -43,7 +43,7 @@ def test_run_writes_everything(ehlectric, point_file, tmp_path):
     assert done.returncode == 0, done.stderr
     assert names_in(tmp_path / "out") >= DATA
     assert names_in(tmp_path / "out") - DATA <= FIGURES
-    for text in ("minimum film", "semi-axis, across", "maximum field", "Hamrock-Dowson", "65 x 65", "pF"):
+    for text in ("minimum film", "semi-axis a across", "maximum field", "Hamrock-Dowson", "65 x 65", "pF"):
         assert text in done.stdout
     summary = json.loads((tmp_path / "out" / "summary.json").read_text(), parse_constant=pytest.fail)
     assert (summary["converged"], summary["status"], summary["title"]) == (True, "converged", "A ball")
@@ -105,7 +105,7 @@ def test_not_converged_is_exit_3_with_all_files(ehlectric, point_file, tmp_path,
 BAD = [
     ('radius_y = "12 mm"', "", "contact.radius_y: missing"),
     ("nodes = 65", "nodes = 65\nside = 9.0", "grid.nodes: got 65 across 18 semi-axes"),
-    ('geometry = "point"', 'geometry = "line"', "got it in a line contact"),
+    ('geometry = "point"', 'geometry = "line"', "is not used by a line contact"),
 ]
 
 
@@ -118,5 +118,5 @@ def test_bad_case_is_one_line_and_nothing_is_written(ehlectric, point_file, tmp_
 
 def test_the_papers_solver_is_for_line_contacts(ehlectric, point_file, tmp_path):
     said = one_line(ehlectric("run", point_file, "-o", "out", "--solver", "paper"))
-    assert "contact.geometry: got 'point', the solver 'paper' takes 'line'" in said
+    assert "contact.geometry: got 'point'; the solver 'paper' needs 'line'" in said
     assert not (tmp_path / "out").exists()

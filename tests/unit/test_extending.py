@@ -14,7 +14,7 @@ from ehlectric.cases import library
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.changes import flattened
 from ehlectric.cases.lubricant import effective_alpha, viscosity_law
-from ehlectric.commands.runs import check
+from ehlectric.commands.meaning import check
 from ehlectric.contact.kinds import KINDS, LINE
 from ehlectric.contact.problems import film_problem
 from ehlectric.contact.resolve import resolve
@@ -146,7 +146,7 @@ def test_toml_round_trip_keeps_the_parameters_in_order(tmp_path):
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"doubling_pressure": None}, "doubling_pressure: missing, viscosity_law 'doubling' takes it"),
+        ({"doubling_pressure": None}, "doubling_pressure: missing; viscosity_law 'doubling' needs it"),
         (
             {"doubling_pressure": "1 kPa"},
             "doubling_pressure: got '1 kPa'; expected a number in Pa",
@@ -197,7 +197,7 @@ def test_a_new_permittivity_law(monkeypatch):
     rho = np.interp(0.0, result.film.x, result.film.density)
     across = result.field.permittivity[np.argmin(np.abs(result.field.x))]
     assert across == pytest.approx(2.4 + 0.5 * (rho**2 - 1.0), rel=1e-3)
-    with pytest.raises(InputError, match=r"lubricant\.excess: missing, permittivity_law 'squared' takes it"):
+    with pytest.raises(InputError, match=r"lubricant\.excess: missing; permittivity_law 'squared' needs it"):
         case.replace({"lubricant": {"base": "paper", "permittivity_law": "squared"}})
 
 

@@ -132,7 +132,7 @@ def test_every_error_is_one_line_that_starts_with_its_key(
 @pytest.mark.parametrize(
     ("table", "value", "known"),
     [
-        ("title", 3, ("title", "3", "a text")),
+        ("title", 3, ("title", "3", "a string")),
         ("solver", 3, ("solver", "3", "a table")),
         ("contact", {"geometry": "ring"}, ("contact.geometry", "'ring'", "'line' or 'point'")),
         ("potential_2", 4, ("potential_2", None, "electric.potential_2")),

@@ -56,7 +56,7 @@ def check_formula(discharge: Discharge, lubricant: Lubricant) -> None:
         key = "weibull" if discharge.weibull is not None else "strength_table"
         raise InputError(
             f"discharge.{key}",
-            got="it with contacts by formula, which know no field;",
+            got="a strength that needs the field, with contacts by formula, which have none",
             takes="dielectric_strength, a table over temperature, or solved contacts",
         )
 

@@ -13,13 +13,15 @@ from ehlectric.cases.table import read_toml
 AnyCase = Case | BearingCase
 
 
-def case_of_dict(table: Mapping[str, Any]) -> AnyCase:
+def case_of_dict(table: Mapping[str, Any], *, written: bool = False) -> AnyCase:
     """Make a bearing case from tables with the key ``bearing``, else a case of a contact.
 
     Parameters
     ----------
     table : mapping
         Nested tables, as read from a TOML file.
+    written : bool
+        Whether a person wrote the tables, as ``Table.from_written`` reads them.
 
     Returns
     -------
@@ -31,7 +33,8 @@ def case_of_dict(table: Mapping[str, Any]) -> AnyCase:
     InputError
         If the tables are not valid; the message names the key, its value, and what is allowed.
     """
-    return (BearingCase if "bearing" in table else Case).from_dict(table)
+    model = BearingCase if "bearing" in table else Case
+    return model.from_written(table) if written else model.from_dict(table)
 
 
 def case_of_file(path: str | Path) -> AnyCase:
@@ -54,4 +57,4 @@ def case_of_file(path: str | Path) -> AnyCase:
     """
     table = read_toml(path)
     find_files(table, Path(path).parent)
-    return case_of_dict(table)
+    return case_of_dict(table, written=True)

@@ -9,17 +9,20 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import AfterValidator, BeforeValidator, model_validator
 
 from ehlectric.cases import library
+from ehlectric.cases.clearance import BORE, ClearanceClass, with_class, with_clearance
 from ehlectric.cases.discharge import Discharge
+from ehlectric.cases.grade import Grade
 from ehlectric.cases.lubricant import Lubricant, law_parameters, library_name, with_lubricant
 from ehlectric.cases.quantity import Count, Quantity
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError, shown
 from ehlectric.lubricant.temperature import Walther, density
 from ehlectric.lubricant.viscosity import VISCOSITY_LAWS
+from ehlectric.lubricant.viscosity_index import grade_middle, viscosity_at_100
 
 ROLLERS = "cylindrical roller"
 ANGULAR = "angular-contact ball"
-_Length = Annotated[float, Quantity("m", least=1e-4, most=10.0, reason="of a machine's bearing")]
+_Length = Annotated[float, BORE]
 _Groove = Annotated[float, Quantity("", above=0.5, most=1.0, reason="groove radius over ball diameter")]
 _Capacitance = Annotated[float, Quantity("F", above=0.0, most=1e-3, reason="of an electric machine")]
 _Viscosity = Annotated[float, Quantity("m**2/s", least=1e-7, most=1.0, reason="kinematic")]
@@ -29,6 +32,19 @@ _Load = Annotated[float, Quantity("N", least=0.0, most=1e8, reason="on the inner
 # Keys that only ball bearings have, and keys that only roller bearings have.
 _OF_BALLS = ("inner_groove", "outer_groove", "shoulder_height", "contact_angle")
 _OF_ROLLERS = ("roller_length", "profile")
+
+# Keys that each kind of bearing needs.
+_NEEDED = {
+    "deep-groove ball": ("inner_groove", "outer_groove", "shoulder_height", "radial_clearance"),
+    ANGULAR: ("inner_groove", "outer_groove", "shoulder_height", "contact_angle"),
+    ROLLERS: ("roller_length", "profile", "radial_clearance"),
+}
+
+# What a message says of a needed key that is missing, where a few words help.
+_CHOICES = {
+    "profile": "'none' or 'logarithmic'",
+    "radial_clearance": "the clearance in operation, or clearance_class with bore",
+}
 
 
 def _material(name: str) -> str:
@@ -49,12 +65,23 @@ def _film_factor(value: Any) -> float | str:
 _Material = Annotated[str, AfterValidator(_material)]
 
 
+def _bearing_name(base: Any) -> str:
+    """Name of a bearing of the library; the error for another name tells how to do without the library."""
+    try:
+        return library_name(base, library.bearing_names())
+    except InputError as error:
+        keys = "kind, elements, element_diameter, pitch_diameter and the other keys of the bearing"
+        text = f"{error.text}; or leave base out and give {keys}"
+        raise error.retold(error.key, text) from None
+
+
 class Bearing(Table):
     """Internal geometry, materials, load, speed and temperature of a rolling bearing."""
 
     base: str | None = None
     kind: Literal["deep-groove ball", "angular-contact ball", "cylindrical roller"]
     elements: Annotated[int, Count(3, 1000, "rolling elements of one row")]
+    bore: _Length | None = None
     element_diameter: _Length
     pitch_diameter: _Length
     inner_groove: _Groove | None = None
@@ -67,6 +94,7 @@ class Bearing(Table):
     radial_clearance: (
         Annotated[float, Quantity("m", least=-1e-3, most=1e-2, reason="full diametral play")] | None
     ) = None
+    clearance_class: ClearanceClass | None = None
     contact_angle: (
         Annotated[float, Quantity("rad", above=0.0, below=0.5 * math.pi, reason="free of load")] | None
     ) = None
@@ -85,10 +113,16 @@ class Bearing(Table):
     @classmethod
     def _from_base(cls, table: Any) -> Any:
         """Values of the bearing that ``base`` names in the library, replaced by those of the file."""
-        if not isinstance(table, Mapping) or table.get("base") is None:
+        if not isinstance(table, Mapping):
             return table
-        name = library_name(table["base"], library.bearing_names())
-        return {**library.bearing(name), **table}
+        table = with_class(table)
+        if table.get("base") is None:
+            return with_clearance(table)
+        name = _bearing_name(table["base"])
+        base = library.bearing(name)
+        if table.get("clearance_class") is not None:
+            base.pop("radial_clearance", None)
+        return with_clearance({**base, **table})
 
     @model_validator(mode="after")
     def _check(self) -> Self:
@@ -97,10 +131,8 @@ class Bearing(Table):
             raise InputError.missing("radial_load", "a load, radial or axial")
         ceramic = not library.solid(self.element_material)["conducting"]
         if self.element_capacitance is not None and not ceramic:
-            raise InputError(
-                "element_capacitance",
-                got="it for elements that conduct, whose capacitance is computed;",
-                takes="it for ceramic ones",
+            raise InputError.worded(
+                "element_capacitance", "is only for ceramic elements; that of conducting ones is computed"
             )
         if not library.solid(self.ring_material)["conducting"]:
             raise InputError("ring_material", got=shown(self.ring_material), takes="one that conducts")
@@ -108,17 +140,22 @@ class Bearing(Table):
 
     def _check_kind(self) -> None:
         rollers = self.kind == ROLLERS
-        needed = {
-            "deep-groove ball": ("inner_groove", "outer_groove", "shoulder_height", "radial_clearance"),
-            ANGULAR: ("inner_groove", "outer_groove", "shoulder_height", "contact_angle"),
-            ROLLERS: ("roller_length", "profile", "radial_clearance"),
-        }[self.kind]
+        needed = _NEEDED[self.kind]
         for key in needed:
             if getattr(self, key) is None:
-                raise InputError.worded(key, f"missing, a bearing of kind {self.kind!r} takes it")
-        for key in {*_OF_BALLS, *_OF_ROLLERS, "radial_clearance"} - set(needed):
-            if getattr(self, key) is not None:
-                raise InputError(key, got=f"it in a bearing of kind {self.kind!r}, which has no use for it")
+                choices = f": {_CHOICES[key]}" if key in _CHOICES else ""
+                text = f"missing; a bearing of kind {self.kind!r} needs it{choices}"
+                raise InputError.worded(key, text, takes=_CHOICES.get(key))
+        for key in (*_OF_BALLS, *_OF_ROLLERS, "radial_clearance", "clearance_class"):
+            of_kind = "radial_clearance" if key == "clearance_class" else key
+            if of_kind not in needed and getattr(self, key) is not None:
+                raise InputError.worded(key, f"is not used by a bearing of kind {self.kind!r}")
+        if self.bore is not None and self.bore >= self.pitch_diameter - self.element_diameter:
+            raise InputError(
+                "bore",
+                got=f"{self.bore:g} m",
+                takes=f"less than the inner raceway, {self.pitch_diameter - self.element_diameter:g} m",
+            )
         if rollers and self.axial_load:
             raise InputError(
                 "axial_load",
@@ -130,14 +167,69 @@ class Bearing(Table):
 class OilTemperature(Table):
     """Viscosity, density, thermal expansion and thermal conductivity of an oil over temperature."""
 
-    kinematic_viscosity_40: _Viscosity
-    kinematic_viscosity_100: _Viscosity
+    kinematic_viscosity_40: _Viscosity | None = None
+    iso_vg: Annotated[int, Grade()] | None = None
+    kinematic_viscosity_100: _Viscosity | None = None
+    viscosity_index: (
+        Annotated[
+            float,
+            Quantity("", least=0.0, most=400.0, reason="ASTM D2270; 95 to 100 is usual for mineral oils"),
+        ]
+        | None
+    ) = None
     density_15: Annotated[float, Quantity("kg/m**3", least=500.0, most=2000.0, reason="of an oil")]
     # D. Dowson and G. R. Higginson, Elasto-Hydrodynamic Lubrication, Pergamon, 1966, as later works quote it.
     expansion: Annotated[float, Quantity("1/K", least=1e-5, most=2e-3, reason="thermal, of an oil")] = 6.5e-4
     thermal_conductivity: (
         Annotated[float, Quantity("W/m/K", least=0.01, most=1.0, reason="of an oil")] | None
     ) = None
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        for keys, hint in (
+            (("kinematic_viscosity_40", "iso_vg"), ""),
+            (
+                ("kinematic_viscosity_100", "viscosity_index"),
+                "; an index of 95 to 100 is usual for mineral oils",
+            ),
+        ):
+            given = [key for key in keys if getattr(self, key) is not None]
+            if len(given) == 2:
+                raise InputError(
+                    keys[0],
+                    got=" and ".join((*keys, "")).removesuffix(" and ") + " together",
+                    takes="one of the two",
+                )
+            if not given:
+                raise InputError.missing(keys[0], f"either {keys[0]} or {keys[1]}{hint}")
+        self.at_100()
+        return self
+
+    def at_40(self) -> float:
+        """Kinematic viscosity at 40 degC [m^2/s]: the given one, or the middle of the ISO viscosity grade."""
+        if self.kinematic_viscosity_40 is not None:
+            return self.kinematic_viscosity_40
+        assert self.iso_vg is not None
+        return grade_middle(self.iso_vg)
+
+    def at_100(self) -> float:
+        """Kinematic viscosity at 100 degC [m^2/s]: the given one, or that of the viscosity index.
+
+        Raises
+        ------
+        InputError
+            If an oil with this index is too thin for ASTM D2270.
+        """
+        if self.kinematic_viscosity_100 is not None:
+            return self.kinematic_viscosity_100
+        assert self.viscosity_index is not None
+        try:
+            return viscosity_at_100(self.at_40(), self.viscosity_index)
+        except ValueError as error:
+            got = f"{self.viscosity_index:g} ({error})"
+            raise InputError(
+                "viscosity_index", got=got, takes="kinematic_viscosity_100 in its place"
+            ) from None
 
 
 class BearingLubricant(Lubricant):
@@ -167,7 +259,7 @@ class BearingLubricant(Lubricant):
     def _check(self) -> Self:
         if (self.viscosity is None) == (self.temperature is None):
             both = None if self.viscosity is None else "viscosity and temperature together"
-            raise InputError("viscosity", got=both, takes="either viscosity or temperature")
+            raise InputError("viscosity", got=both, takes="either viscosity or [lubricant.temperature]")
         return self
 
     def at(self, temperature: float) -> Lubricant:
@@ -204,7 +296,7 @@ class BearingLubricant(Lubricant):
     def walther(self) -> Walther:
         """Walther's law of kinematic viscosity over temperature, through the values at 40 and 100 degC."""
         assert self.temperature is not None
-        return Walther.of(self.temperature.kinematic_viscosity_40, self.temperature.kinematic_viscosity_100)
+        return Walther.of(self.temperature.at_40(), self.temperature.at_100())
 
     def _derived(self, viscosity: float) -> dict[str, float]:
         """Parameters of the viscosity law that the file lacks, computed from the viscosity [Pa s]."""

@@ -5,29 +5,48 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, Self, Unpack
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self, Unpack
 
-from pydantic import model_validator
+from pydantic import field_serializer, field_validator, model_validator
 
 from ehlectric.cases.bearing import Bearing, BearingDischarge, BearingLubricant, Motor
 from ehlectric.cases.case import Title
 from ehlectric.cases.changes import Groups, displace, set_keys
 from ehlectric.cases.discharge import STRENGTHS, TABLES
 from ehlectric.cases.grid import Solver
-from ehlectric.cases.keywords import BearingKeys, Keys, tables, takes
-from ehlectric.cases.row import amount
+from ehlectric.cases.keywords.constructors import tables, takes
+from ehlectric.cases.keywords.types import BearingKeys, Keys
+from ehlectric.cases.ranges import InputRange, ranges_of
+from ehlectric.cases.row import amount, value_at
 from ehlectric.cases.table import Table, read_toml
+from ehlectric.cases.units import ROTATION
 from ehlectric.errors import InputError
 from ehlectric.runtime.display import Tabled, headline
 
 # Alternative keys, by table: a key that changes replaces its alternatives.
 _ALTERNATIVES: dict[str, Groups] = {
-    "lubricant": ((("viscosity",), ("temperature",)),),
+    "bearing": ((("radial_clearance",), ("clearance_class",)),),
+    "lubricant": (
+        (("viscosity",), ("temperature",)),
+        (("temperature.kinematic_viscosity_40",), ("temperature.iso_vg",)),
+        (("temperature.kinematic_viscosity_100",), ("temperature.viscosity_index",)),
+    ),
     "discharge": (STRENGTHS, TABLES),
 }
 
 # Keys of [discharge] that a bearing file may not have.
 _NOT_OF_BEARINGS = ("length", "external_capacitance", "peak_current", "pit")
+
+
+# Advice for unknown keys that belong to another table, or have another name.
+_ADVICE = {
+    "lubricant.iso_vg": "it belongs to the table [lubricant.temperature]",
+    "lubricant.viscosity_index": "it belongs to the table [lubricant.temperature]",
+    "lubricant.density_15": "it belongs to the table [lubricant.temperature]",
+    "lubricant.viscosity_grade": "the viscosity grade is lubricant.temperature.iso_vg",
+    "lubricant.temperature.viscosity_grade": "the viscosity grade is lubricant.temperature.iso_vg",
+    "bearing.clearance": "give radial_clearance, or clearance_class such as 'C3' with bore",
+}
 
 
 class BearingCase(Tabled, Table):
@@ -47,7 +66,7 @@ class BearingCase(Tabled, Table):
         Title of tables and figures.
     contacts : str, optional
         "solved", or "formula" for contacts from film-thickness formulas.
-    discharge, motor, solver : mapping, optional
+    discharge, motor, solver, ranges : mapping, optional
         Further tables, as in a bearing file.
 
     Raises
@@ -68,7 +87,10 @@ class BearingCase(Tabled, Table):
             discharge: BearingDischarge | Keys = ...,
             motor: Motor | Keys | None = ...,
             solver: Solver | Keys = ...,
+            ranges: Keys | None = ...,
         ) -> None: ...
+
+    ADVICE: ClassVar = _ADVICE
 
     title: Title = ""
     contacts: Literal["solved", "formula"] = "solved"
@@ -77,18 +99,35 @@ class BearingCase(Tabled, Table):
     discharge: BearingDischarge = BearingDischarge()
     motor: Motor | None = None
     solver: Solver = Solver()
+    ranges: tuple[InputRange, ...] | None = None
+
+    @field_validator("ranges", mode="plain")
+    @classmethod
+    def _parsed(cls, tables: Any) -> tuple[InputRange, ...] | None:
+        """Ranges of inputs in SI units."""
+        return None if tables is None else ranges_of(tables, cls) or None
+
+    @field_serializer("ranges")
+    def _as_table(self, ranges: tuple[InputRange, ...] | None) -> dict[str, list[float]] | None:
+        return None if ranges is None else {one.key: [one.low, one.high] for one in ranges}
 
     @model_validator(mode="after")
     def _check(self) -> Self:
         for key in _NOT_OF_BEARINGS:
             if getattr(self.discharge, key) is not None:
-                raise InputError(f"discharge.{key}", got="it for a bearing, which has no use for it")
+                raise InputError.worded(f"discharge.{key}", "is not used by a bearing")
         if self.bearing.film_factor == "inlet-shear":
             oil = self.lubricant.temperature
             if oil is None or oil.thermal_conductivity is None:
                 raise InputError.worded(
                     "lubricant.temperature.thermal_conductivity",
-                    "missing, film_factor 'inlet-shear' takes it",
+                    "missing; film_factor 'inlet-shear' needs it",
+                )
+        table = self.to_dict() if self.ranges else {}
+        for one in self.ranges or ():
+            if not _is_number(value_at(table, one.key)):
+                raise InputError(
+                    f"ranges.{one.key}", got="a range", takes=f"a number for {one.key} in the file too"
                 )
         return self
 
@@ -115,6 +154,7 @@ class BearingCase(Tabled, Table):
         discharge: BearingDischarge | Keys | None = None,
         motor: Motor | Keys | None = None,
         solver: Solver | Keys | None = None,
+        ranges: Keys | None = None,
         **bearing: Unpack[BearingKeys],
     ) -> BearingCase:
         """Make a bearing case from the keys of its table ``bearing``.
@@ -127,11 +167,11 @@ class BearingCase(Tabled, Table):
             Title of tables and figures.
         contacts : str, optional
             "solved", or "formula" for contacts from film-thickness formulas.
-        discharge, motor, solver : optional
+        discharge, motor, solver, ranges : optional
             Further tables, as in a bearing file.
         **bearing
             Keys of the table ``bearing``: floats in SI units, texts with units, or quantities of pint; see
-            ``ehlectric.cases.keywords.BearingKeys``.
+            ``ehlectric.cases.keywords.types.BearingKeys``.
 
         Returns
         -------
@@ -156,7 +196,7 @@ class BearingCase(Tabled, Table):
         ... )
         <BearingCase 6208, radial load 1 kN, 3000 rpm, 70 degC>
         """
-        given = tables(lubricant=lubricant, discharge=discharge, motor=motor, solver=solver)
+        given = tables(lubricant=lubricant, discharge=discharge, motor=motor, solver=solver, ranges=ranges)
         return BearingCase.from_dict({"title": title, "contacts": contacts, "bearing": bearing, **given})
 
     @classmethod
@@ -183,7 +223,7 @@ class BearingCase(Tabled, Table):
             raise InputError(
                 path, "is the file of a contact", takes="that of a bearing; ehlectric run solves it"
             )
-        return cls.from_dict(table)
+        return cls.from_written(table)
 
     def to_dict(self) -> dict[str, Any]:
         """Return all values that are set as nested tables, in SI units."""
@@ -193,7 +233,10 @@ class BearingCase(Tabled, Table):
         """Return the case as TOML text, which ``from_toml`` reads back to an equal case."""
         import tomli_w
 
-        return tomli_w.dumps(self.to_dict())
+        table = self.to_dict()
+        # A rotational speed without a unit is refused in a file.
+        table["bearing"]["inner_speed"] = f"{self.bearing.inner_speed!r} {ROTATION}"
+        return tomli_w.dumps(table)
 
     def replace(self, changes: Mapping[str, Any]) -> Self:
         """Return a changed copy of the case.
@@ -202,7 +245,8 @@ class BearingCase(Tabled, Table):
         ----------
         changes : mapping
             New values by dotted key, as in ``{"bearing.radial_load": "1 kN"}``. A new key replaces its
-            alternative; a new ``lubricant.base`` replaces all values of the lubricant.
+            alternative; a new ``lubricant.base`` replaces all values of the lubricant. A range of a replaced
+            value is left out.
 
         Returns
         -------
@@ -219,4 +263,18 @@ class BearingCase(Tabled, Table):
             table["lubricant"] = {}
         displace(table, changes, _ALTERNATIVES)
         set_keys(table, changes)
+        if "ranges" in table and "ranges" not in changes:
+            table["ranges"] = {
+                key: ends
+                for key, ends in table["ranges"].items()
+                if key not in changes and _is_number(value_at(table, key))
+            }
+        if table["bearing"].get("clearance_class") is not None and "bearing.radial_clearance" not in changes:
+            # It follows from the class, and anew where the class or the bore changes.
+            table["bearing"].pop("radial_clearance", None)
         return self.from_dict(table)
+
+
+def _is_number(value: Any) -> bool:
+    """Whether the value of an input is a number, and not missing, a choice, a list or a table."""
+    return isinstance(value, int | float) and not isinstance(value, bool)

@@ -10,16 +10,16 @@ from __future__ import annotations
 import unicodedata
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Self, TypeVar, Unpack
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self, TypeVar, Unpack
 
 from pydantic import AfterValidator, model_validator
 
-from ehlectric.cases.alternatives import displace_alternatives, drop_geometry
-from ehlectric.cases.changes import flattened, set_keys
+from ehlectric.cases.changes import displace_alternatives, drop_geometry, flattened, set_keys
 from ehlectric.cases.contact import Contact
 from ehlectric.cases.discharge import Discharge
 from ehlectric.cases.grid import POINT_GRID_KEYS, Electric, Grid, Solver, point_grid
-from ehlectric.cases.keywords import Keys, LineKeys, PointKeys, tables, takes
+from ehlectric.cases.keywords.constructors import tables, takes
+from ehlectric.cases.keywords.types import Keys, LineKeys, PointKeys
 from ehlectric.cases.lubricant import Lubricant
 from ehlectric.cases.motion import Motion
 from ehlectric.cases.roughness import Roughness, check_geometry
@@ -101,6 +101,11 @@ class Case(Tabled, Table):
             solver: Solver | Keys = ...,
         ) -> None: ...
 
+    ADVICE: ClassVar = {
+        f"lubricant.{key}": "a contact expects the viscosity at its temperature, lubricant.viscosity"
+        for key in ("temperature", "iso_vg", "viscosity_grade", "viscosity_index")
+    }
+
     title: Title = ""
     contact: Contact
     lubricant: Lubricant
@@ -127,10 +132,8 @@ class Case(Tabled, Table):
         if self.contact.geometry != "point":
             for key in POINT_GRID_KEYS:
                 if getattr(self.grid, key) is not None:
-                    raise InputError(
-                        f"grid.{key}",
-                        got="it in a line contact, which has no use for it;",
-                        takes="it where contact.geometry is 'point'",
+                    raise InputError.worded(
+                        f"grid.{key}", "is not used by a line contact, only where contact.geometry is 'point'"
                     )
         check_geometry(self.roughness, self.contact.geometry)
         if self.discharge is not None:
@@ -142,15 +145,15 @@ class Case(Tabled, Table):
         if self.motion is None:
             return
         if not self.roughness:
-            raise InputError(
-                "motion", got="it without roughness, which is what moves;", takes="a rough surface"
+            raise InputError.worded(
+                "motion", "needs a rough surface: roughness is what moves", takes="a rough surface"
             )
         if self.grid.wedge != "second-order":
             raise InputError("grid.wedge", got=f"{self.grid.wedge!r} beside motion", takes="'second-order'")
         if self.grid.refine is not None:
             raise InputError.worded(
                 "grid.refine",
-                "got it beside motion, which takes one grid; takes grid.nodes",
+                "is not used with [motion], which has a single grid; give grid.nodes",
                 takes="grid.nodes",
             )
 
@@ -191,7 +194,7 @@ class Case(Tabled, Table):
             Further tables, as in a case file.
         **contact
             Keys of the table ``contact``: floats in SI units, texts with units, or quantities of pint; see
-            ``ehlectric.cases.keywords.LineKeys``.
+            ``ehlectric.cases.keywords.types.LineKeys``.
 
         Returns
         -------
@@ -245,7 +248,7 @@ class Case(Tabled, Table):
             Further tables, as in a case file.
         **contact
             Keys of the table ``contact``: floats in SI units, texts with units, or quantities of pint; see
-            ``ehlectric.cases.keywords.PointKeys``.
+            ``ehlectric.cases.keywords.types.PointKeys``.
 
         Returns
         -------
@@ -299,7 +302,7 @@ class Case(Tabled, Table):
                 path, "is the file of a bearing", takes="that of a contact; ehlectric bearing solves it"
             )
         find_files(table, Path(path).parent)
-        return cls.from_dict(table)
+        return cls.from_written(table)
 
     def to_dict(self) -> dict[str, Any]:
         """Return all values that are set as nested tables, in SI units."""
@@ -348,10 +351,7 @@ class Case(Tabled, Table):
 
 
 class LineCase(Case):
-    """Case of a stationary line contact, which type checkers tell from that of a point contact.
-
-    ``Case.line`` makes it; ``solve`` returns a ``Result``.
-    """
+    """Case of a stationary line contact, as ``Case.line`` makes it; ``solve`` returns a ``Result``."""
 
     @model_validator(mode="after")
     def _check_kind(self) -> Self:
@@ -359,10 +359,7 @@ class LineCase(Case):
 
 
 class PointCase(Case):
-    """Case of a stationary point contact, which type checkers tell from that of a line contact.
-
-    ``Case.point`` makes it; ``solve`` returns a ``PointResult``.
-    """
+    """Case of a stationary point contact, as ``Case.point`` makes it; ``solve`` returns a ``PointResult``."""
 
     @model_validator(mode="after")
     def _check_kind(self) -> Self:

@@ -119,16 +119,16 @@ class Contact(Table):
             if self.value(key) is not None:
                 radii, _, load, _ = CONTACT_ALTERNATIVES[self.geometry]
                 takes = " or ".join(" and ".join(row) for row in (load if "load" in key else radii))
-                raise InputError(
-                    key, got=f"it in a {self.geometry} contact, which has no use for it;", takes=takes
+                raise InputError.worded(
+                    key, f"is not used by a {self.geometry} contact; expected {takes}", takes=takes
                 )
         for name in _BODIES if self.geometry == "line" else ():
             body = getattr(self, name)
             keys = () if body is None else ("youngs_modulus", "poissons_ratio")
             missing = [key for key in keys if getattr(body, key) is None]
             if missing:
-                more = f"; missing too: {missing[1]}" if missing[1:] else ""
-                raise InputError.missing(f"{name}.{missing[0]}", f"a value{more}")
+                more = f"; also missing: {missing[1]}" if missing[1:] else ""
+                raise InputError.worded(f"{name}.{missing[0]}", f"required{more}", takes="a value")
 
     def _check_radii(self) -> None:
         names = ("radius_1", "radius_2", *ONLY["point"][3:])
@@ -142,10 +142,8 @@ class Contact(Table):
     def _check_speeds(self) -> None:
         if self.speed_1 is not None and self.speed_2 is not None:
             if self.slide_to_roll_ratio is not None:
-                raise InputError(
-                    "slide_to_roll_ratio",
-                    got="it beside speed_1 and speed_2, which fix it;",
-                    takes="one of the two",
+                raise InputError.worded(
+                    "slide_to_roll_ratio", "follows from speed_1 and speed_2; give either it or the speeds"
                 )
             if self.speed_1 + self.speed_2 <= 0.0:
                 raise InputError(

@@ -119,7 +119,7 @@ class Discharge(Table):
         if self.pit is not None and self.external_capacitance is None:
             raise InputError.worded(
                 "external_capacitance",
-                "missing, pit takes it: the spark discharges what is connected to the contact too, 0 "
+                "missing; pit needs it: a discharge also drains what is connected to the contact; 0 "
                 "where nothing is",
             )
         self._check_temperature()
@@ -132,12 +132,12 @@ class Discharge(Table):
                 raise InputError(
                     "temperature",
                     got=f"{self.temperature:g} K",
-                    takes="a strength_table over temperature too",
+                    takes="it only with a strength_table over temperature",
                 )
             return
         low, high = table.places[0], table.places[-1]
         if self.temperature is None:
-            raise InputError.worded("temperature", "missing, a strength_table over temperature takes it")
+            raise InputError.worded("temperature", "missing; a strength_table over temperature needs it")
         if not low <= self.temperature <= high:
             raise InputError(
                 "temperature",
@@ -160,13 +160,11 @@ class Discharge(Table):
         """
         if geometry == "point":
             if self.length is not None:
-                raise InputError(
-                    "discharge.length", got="it for a point contact, which has none;", takes="it for a line"
-                )
+                raise InputError.worded("discharge.length", "is not used: a point contact has no length")
         elif self.length is None:
             needing = [name for name in _OF_LENGTH if getattr(self, name) is not None]
             if needing:
                 raise InputError.worded(
                     "discharge.length",
-                    f"missing, {needing[0]} takes it: the length of the line contact",
+                    f"missing; {needing[0]} needs it: the length of the line contact",
                 )

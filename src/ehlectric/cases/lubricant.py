@@ -10,6 +10,7 @@ import numpy as np
 from pydantic import (
     AfterValidator,
     ConfigDict,
+    GetJsonSchemaHandler,
     ModelWrapValidatorHandler,
     SerializerFunctionWrapHandler,
     ValidationError,
@@ -17,7 +18,7 @@ from pydantic import (
     model_validator,
 )
 from pydantic.fields import FieldInfo
-from pydantic_core import InitErrorDetails
+from pydantic_core import CoreSchema, InitErrorDetails
 
 from ehlectric.cases import library
 from ehlectric.cases.quantity import Quantity
@@ -136,10 +137,12 @@ def library_name(base: Any, names: Sequence[str]) -> str:
     Raises
     ------
     InputError
-        If the base is not a text, or not a name of the library.
+        If the base is not a string, or not a name of the library.
     """
     if not isinstance(base, str):
-        raise InputError("base", got=shown(base), takes=f"a text, a name of the library: {', '.join(names)}")
+        raise InputError(
+            "base", got=shown(base), takes=f"a name of the library, as a string: {', '.join(names)}"
+        )
     if base not in names:
         raise InputError("base", got=shown(base), takes=f"a name of the library: {', '.join(names)}")
     return base
@@ -195,6 +198,18 @@ class Lubricant(Table):
                 if name in law_parameters():
                     return None
                 raise
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, core: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        """Schema with the names of the laws and with their parameters, which are not fields of the class."""
+        schema = super().__get_pydantic_json_schema__(core, handler)
+        for name, parameter in law_parameters().items():
+            if name not in schema["properties"]:
+                quantity = quantity_of(parameter)
+                schema["properties"][name] = quantity.__get_pydantic_json_schema__(core, handler)
+        for name, laws in LAWS.items():
+            schema["properties"][name]["enum"] = list(laws)
+        return schema | {"additionalProperties": False}
 
     def parameter(self, name: str) -> float | None:
         """Value of a parameter of a law in SI units; None if the case does not give it."""
@@ -256,7 +271,7 @@ class Lubricant(Table):
             if missing:
                 also = f" with {', '.join(missing[1:])}" if missing[1:] else ""
                 hint = law.hint(self.viscosity, values) if law.hint else ""
-                raise InputError.worded(missing[0], f"missing, {key} {name!r} takes it{also}{hint}")
+                raise InputError.worded(missing[0], f"missing; {key} {name!r} needs it{also}{hint}")
         return self
 
     @model_serializer(mode="wrap")

@@ -1,42 +1,29 @@
-"""Numbers and units in case files: conversion of texts to SI values, and checks of bounds."""
+"""Numbers and units in case files: conversion of strings to SI values, and checks of bounds."""
 
 from __future__ import annotations
 
 import math
 import numbers
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from pydantic import GetCoreSchemaHandler
+from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
 from pydantic_core import CoreSchema, core_schema
 
+from ehlectric.cases import units
 from ehlectric.errors import InputError, shown
-
-if TYPE_CHECKING:
-    import pint
-
 
 _PREFIXES = {1e9: "G", 1e6: "M", 1e3: "k", 1.0: "", 1e-3: "m", 1e-6: "µ", 1e-9: "n", 1e-12: "p"}
 
-# Products and quotients of named units with one-digit exponents. No quantity here needs other units, and pint
-# would compute for ever on nested exponents.
-_NAME = r"[A-Za-zµμΩ°]+(?:(?:\*\*|\^)?[-+]?[1-9]|²|³)?"
-_UNIT = re.compile(rf"(?:1?\s*/\s*)?{_NAME}(?:(?:\s*[*/·]\s*|\s+){_NAME})*")
-_EXPONENT = re.compile(r"(?<=[A-Za-zµμΩ°])(?:\*\*|\^)?([-+]?[1-9])")
-_ANGLE = re.compile("rad|rpm|rev|turn|deg")
 _NUMBER_AND_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*")
 
-# Frequent mistakes, by the SI unit of the quantity: unit of another quantity that users write, and advice.
-_HINTS = {
-    "Pa*s": ("m**2/s", "multiply a kinematic viscosity by the density"),
-    "m/s": ("1/s", "multiply a rotational speed, in rad/s, by the radius"),
-    "N/m": ("N", "divide a load by the length of the line"),
-}
+# Temperatures without a unit whose size is below this are meant in degC [K].
+_COLDEST_BARE = 200.0
 
-# Units of an absolute temperature, and the zero point of each unit [K].
-_ZEROS = {"K": 0.0, "degC": 273.15, "°C": 273.15}
+# Key of the context of a validation: whether a person wrote the tables into a file.
+WRITTEN = "written"
 
 
 def unit_for(largest: float, unit: str, *, least: float = 0.1) -> tuple[float, str]:
@@ -47,15 +34,8 @@ def unit_for(largest: float, unit: str, *, least: float = 0.1) -> tuple[float, s
     return 1.0 / size, "V/µm" if prefixed == "MV/m" else prefixed
 
 
-@cache
-def _registry() -> pint.UnitRegistry[float]:
-    import pint
-
-    return pint.UnitRegistry()
-
-
 def to_si(text: str, unit: str) -> float:
-    """Convert a text such as "1.57 MN/m" to a value in an SI unit.
+    """Convert a string such as "1.57 MN/m" to a value in an SI unit.
 
     Parameters
     ----------
@@ -72,58 +52,35 @@ def to_si(text: str, unit: str) -> float:
     Raises
     ------
     ValueError
-        If the text is not a number with a unit of the right dimension.
+        If the string is not a number with a unit of the right dimension; the message says why.
 
     Examples
     --------
     >>> to_si("22 1/GPa", "1/Pa")
     2.2e-08
     """
-    match = _NUMBER_AND_UNIT.fullmatch(text)
-    if match is None:
-        raise ValueError("it is not a number with a unit")
-    number, written = match.groups()
+    number, written = _split(text)
     if not written:
         raise ValueError("it has no unit")
     if unit == "K":
-        return _absolute(float(number), written)
-    # Fifteen digits remove the rounding error of factors such as 1e-3, which are not binary numbers.
-    return float(f"{float(number) * _factor(written, unit):.15g}")
+        return units.absolute(number, written)
+    ratio = units.factor(written, unit)
+    # Fifteen digits remove the rounding error of factors such as 1e-3, which are not binary numbers. A number
+    # in the SI unit itself stays as it is: it may have been written by ``to_toml``.
+    return number if ratio == 1.0 else float(f"{number * ratio:.15g}")
 
 
-def _absolute(number: float, written: str) -> float:
-    """Convert an absolute temperature to kelvin: 70 degC is 343.15 K, not a difference of 70 K."""
-    if written not in _ZEROS:
-        raise ValueError(f"{shown(written)} is not a unit of an absolute temperature: {', '.join(_ZEROS)}")
-    return float(f"{number + _ZEROS[written]:.15g}")
-
-
-def _factor(written: str, unit: str) -> float:
-    """Factor that converts a value from the unit ``written`` to ``unit``."""
-    import pint
-
-    if _UNIT.fullmatch(written) is None:
-        raise ValueError(f"{shown(written)} is not a unit")
-    if unit == "rad/s" and _ANGLE.search(written) is None:
-        # Angles are dimensionless in pint, which would convert 50 Hz to 50 rad/s.
-        raise ValueError(f"{written} is a frequency and leaves open what turns, takes rpm, rad/s or deg/s")
-    plain = _EXPONENT.sub(r"**\1", written).removeprefix("1").lstrip()
-    expression = f"1{plain}" if plain.startswith("/") else plain
-    try:
-        return float(_registry().Quantity(1.0, _registry().parse_units(expression)).to(unit).magnitude)
-    except pint.DimensionalityError:
-        other, hint = _HINTS.get(unit, ("", ""))
-        mistaken = other and _registry().Quantity(1.0, expression).check(other)
-        advice = f"; {hint}" if mistaken else ""
-        raise ValueError(f"{written} is not a unit of this quantity{advice}") from None
-    except pint.UndefinedUnitError:
-        raise ValueError(f"{written!r} is not a unit; capital and small letters count") from None
-    except pint.PintError:
-        raise ValueError(f"{written!r} is not a unit") from None
+def _split(text: str, otherwise: str = "it is not a number with a unit") -> tuple[float, str]:
+    """Number and unit in a text; raises ValueError, with advice or the given words, if it has none."""
+    match = _NUMBER_AND_UNIT.fullmatch(units.plain(text))
+    advice = units.comma_advice(text)
+    if match is None or advice:
+        raise ValueError(advice or otherwise)
+    return float(match[1]), match[2]
 
 
 def to_fraction(text: str) -> float:
-    """Convert a text in percent to a fraction.
+    """Convert a string in percent to a fraction.
 
     Parameters
     ----------
@@ -138,26 +95,26 @@ def to_fraction(text: str) -> float:
     Raises
     ------
     ValueError
-        If the text is not a number in percent. Other dimensionless units, such as rad, are refused.
+        If the string is not a number in percent. Other dimensionless units, such as rad, are refused.
 
     Examples
     --------
     >>> to_fraction("3 %")
     0.03
     """
-    match = _NUMBER_AND_UNIT.fullmatch(text)
-    if match is None or match[2] not in ("%", "percent"):
+    number, written = _split(text, "it is not a number in percent")
+    if written not in ("%", "percent"):
         raise ValueError("it is not a number in percent")
-    return float(f"{float(match[1]) / 100.0:.15g}")
+    return float(f"{number / 100.0:.15g}")
 
 
 def length_unit(text: str) -> str:
-    """Check that a text is a unit of length, and return it.
+    """Check that a string is a unit of length, and return it.
 
     Raises
     ------
     InputError
-        If the text is not a unit of length.
+        If the string is not a unit of length.
 
     Examples
     --------
@@ -171,9 +128,32 @@ def length_unit(text: str) -> str:
     return text
 
 
+def scalar(entry: object) -> object:
+    """Number in an array without dimensions; any other entry unchanged.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> scalar(np.array(2.5))
+    2.5
+    """
+    if not units.is_pint(entry) and getattr(entry, "ndim", None) == 0 and hasattr(entry, "item"):
+        return entry.item()
+    return entry
+
+
+def _with_context(parse: Callable[..., Any]) -> Callable[[Any, ValidationInfo], Any]:
+    """Validator that tells ``parse`` whether a person wrote the entry, from the context of the validation."""
+
+    def validate(entry: Any, info: ValidationInfo) -> Any:
+        return parse(entry, written=bool(info.context and info.context.get(WRITTEN)))
+
+    return validate
+
+
 @dataclass(frozen=True)
 class Quantity:
-    """Pydantic annotation of a physical quantity: number in SI units or text with unit, within bounds.
+    """Pydantic annotation of a physical quantity: number in SI units or string with its unit, within bounds.
 
     Attributes
     ----------
@@ -186,7 +166,7 @@ class Quantity:
     reason : str
         Reason for the bounds, or a description of the quantity, for messages.
     fraction : bool
-        Whether the value may be a text in percent.
+        Whether the value may be a string in percent.
     """
 
     unit: str
@@ -198,18 +178,48 @@ class Quantity:
     fraction: bool = False
 
     def __get_pydantic_core_schema__(self, _: Any, __: GetCoreSchemaHandler) -> CoreSchema:
-        return core_schema.no_info_plain_validator_function(self.parse)
+        return core_schema.with_info_plain_validator_function(_with_context(self.parse))
 
-    def parse(self, entry: object) -> float:
+    def __get_pydantic_json_schema__(self, _: CoreSchema, __: GetJsonSchemaHandler) -> dict[str, Any]:
+        keywords = {
+            "exclusiveMinimum": self.above,
+            "minimum": self.least,
+            "exclusiveMaximum": self.below,
+            "maximum": self.most,
+        }
+        bounds = {name: bound for name, bound in keywords.items() if math.isfinite(bound)}
+        number: dict[str, Any] = {"type": "number", **bounds}
+        if self.unit == units.ROTATION:
+            return {"type": "string", "description": self.takes}
+        if not self.unit and not self.fraction:
+            return number
+        # A string has the bounds too, but a schema cannot state them.
+        return {"anyOf": [number, {"type": "string"}], "description": self.takes}
+
+    def parse(self, entry: object, *, written: bool = False) -> float:
         """Convert an entry of a case to a value in SI units.
+
+        Parameters
+        ----------
+        entry : object
+            Number in SI units, string with its unit, quantity of pint, or array without dimensions.
+        written : bool
+            Whether a person wrote the entry into a file or a command. A rotational speed then needs its unit.
+
+        Returns
+        -------
+        float
+            Value in ``unit``.
 
         Raises
         ------
         InputError
             If the entry is not a number, has a wrong unit, or is out of bounds.
         """
+        item = scalar(entry)
+        self._check_bare(item, written=written)
         try:
-            value = self._number(entry)
+            value = self._number(item)
             if not math.isfinite(value):
                 raise ValueError("it is not finite")
             if not (self.above < value < self.below and self.least <= value <= self.most):
@@ -219,11 +229,34 @@ class Quantity:
             raise InputError(got=f"{shown(entry)}{why}", takes=self.takes) from None
         return value
 
+    def _check_bare(self, entry: object, *, written: bool) -> None:
+        """Refuse a number without a unit where its unit is not certain: 3000 may be rpm, 70 may be degC."""
+        if isinstance(entry, bool) or not isinstance(entry, numbers.Real):
+            return
+        # Tables that the program saved hold floats in SI units, never whole numbers.
+        typed = written or isinstance(entry, numbers.Integral)
+        if self.unit == units.ROTATION and typed:
+            rpm = float(entry) / units.RPM
+            raise InputError(
+                got=shown(entry),
+                takes=f"a string with its unit: '{entry} rpm' or '{entry} rad/s' (= {rpm:.0f} rpm)",
+            )
+        coldest = _COLDEST_BARE if typed else self.least
+        if self.unit == "K" and -_COLDEST_BARE < float(entry) < min(coldest, _COLDEST_BARE):
+            raise InputError(
+                got=shown(entry),
+                takes=f"a temperature with its unit, as '{entry} °C': a bare number would be in kelvin",
+            )
+
     def _number(self, entry: object) -> float:
         if isinstance(entry, str) and self.unit:
             return to_si(entry, self.unit)
         if isinstance(entry, str) and self.fraction:
             return to_fraction(entry)
+        if isinstance(entry, str) and (advice := units.comma_advice(entry)):
+            raise ValueError(advice)
+        if units.is_pint(entry):
+            return units.from_pint(entry, self.unit)
         if isinstance(entry, bool) or not isinstance(entry, numbers.Real):
             raise ValueError("it is not a number")
         try:
@@ -234,10 +267,13 @@ class Quantity:
     @property
     def takes(self) -> str:
         """Description of the values that are allowed, for messages."""
-        text = f"a number in {self.unit} or a text with its unit" if self.unit else "a number"
-        text += " or a text in percent" if self.fraction else ""
+        text = f"a number in {self.unit} or a string with its unit" if self.unit else "a number"
+        if self.unit == units.ROTATION:
+            text = "a string with its unit, as '3000 rpm'"
+        text += " or a string in percent" if self.fraction else ""
+        unit = f" {self.unit}" if self.unit == units.ROTATION else ""
         bounds = [
-            f"{word} {bound:g}"
+            f"{word} {bound:g}{unit}"
             for word, bound in (
                 ("above", self.above),
                 ("at least", self.least),
@@ -267,21 +303,38 @@ class Quantities:
     least: int = 1
 
     def __get_pydantic_core_schema__(self, _: Any, __: GetCoreSchemaHandler) -> CoreSchema:
-        return core_schema.no_info_plain_validator_function(self.parse)
+        return core_schema.with_info_plain_validator_function(_with_context(self.parse))
 
-    def parse(self, entry: object) -> tuple[float, ...]:
+    def __get_pydantic_json_schema__(self, core: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        each = self.each.__get_pydantic_json_schema__(core, handler)
+        return {"type": "array", "items": each, "minItems": self.least}
+
+    def parse(self, entry: object, *, written: bool = False) -> tuple[float, ...]:
         """Convert an entry of a case to values in SI units.
+
+        Parameters
+        ----------
+        entry : object
+            List, tuple or one-dimensional array of values as ``Quantity.parse`` accepts them.
+        written : bool
+            Whether a person wrote the entry into a file or a command.
+
+        Returns
+        -------
+        tuple of float
+            Values in the unit of ``each``.
 
         Raises
         ------
         InputError
             If the entry is not a list, is too short, or a value is not valid.
         """
-        if not isinstance(entry, list | tuple) or len(entry) < self.least:
+        row = getattr(entry, "ndim", None) == 1
+        if not (row or isinstance(entry, list | tuple)) or len(entry) < self.least:  # type: ignore[arg-type]
             raise InputError(
                 got=shown(entry), takes=f"a list of {self.least} or more, each {self.each.takes}"
             )
-        return tuple(self.each.parse(item) for item in entry)
+        return tuple(self.each.parse(item, written=written) for item in entry)  # type: ignore[attr-defined]
 
 
 @dataclass(frozen=True)
@@ -303,6 +356,14 @@ class Count:
     def __get_pydantic_core_schema__(self, _: Any, __: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.no_info_plain_validator_function(self.parse)
 
+    def __get_pydantic_json_schema__(self, _: CoreSchema, __: GetJsonSchemaHandler) -> dict[str, Any]:
+        return {
+            "type": "integer",
+            "minimum": self.least,
+            "maximum": self.most,
+            "description": self.reason,
+        }
+
     def parse(self, entry: object) -> int:
         """Check an entry of a case and return it as a whole number.
 
@@ -311,9 +372,10 @@ class Count:
         InputError
             If the entry is not a whole number or is out of bounds.
         """
-        whole = isinstance(entry, numbers.Integral) and not isinstance(entry, bool)
-        if not (whole and self.least <= int(entry) <= self.most):  # type: ignore[call-overload]
+        item = scalar(entry)
+        whole = isinstance(item, numbers.Integral) and not isinstance(item, bool)
+        if not (whole and self.least <= int(item) <= self.most):  # type: ignore[call-overload]
             raise InputError(
                 got=shown(entry), takes=f"a whole number from {self.least} to {self.most}: {self.reason}"
             )
-        return int(entry)  # type: ignore[call-overload, no-any-return]
+        return int(item)  # type: ignore[call-overload, no-any-return]

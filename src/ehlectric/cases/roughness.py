@@ -82,7 +82,7 @@ class Roughness(Table):
         allowed |= {"file", *_FILE_KEYS, *_STEPS} if self.generator is None else self._check_generator()
         for name in sorted(self._given() - allowed):
             what = f"the generator {self.generator!r}" if self.generator else "a file"
-            raise InputError(name, got=f"it with {what}, which has no use for it")
+            raise InputError.worded(name, f"is not used by {what}")
         return self
 
     def _given(self) -> set[str]:
@@ -99,7 +99,7 @@ class Roughness(Table):
         needed, optional = GENERATORS[self.generator]
         for name in needed:
             if getattr(self, name) is None:
-                raise InputError.worded(name, f"missing, the generator {self.generator!r} takes it")
+                raise InputError.worded(name, f"missing; the generator {self.generator!r} needs it")
         rolloff, shortest = self.rolloff_wavelength, self.shortest_wavelength
         if rolloff is not None and shortest is not None and shortest >= rolloff:
             raise InputError(
@@ -111,8 +111,8 @@ class Roughness(Table):
         if round_waves and self.orientation is not None:
             raise InputError(
                 "orientation",
-                got=f"{self.orientation:g} deg for a surface that is alike in all directions",
-                takes="correlation_length_y beside it",
+                got=f"{self.orientation:g} deg for an isotropic surface",
+                takes="correlation_length_y with it",
             )
         return {"generator", *needed, *optional, *(() if self.generator in SHAPES else _STEPS)}
 
@@ -132,9 +132,7 @@ class Roughness(Table):
         if geometry == "line":
             for name in _POINT_KEYS:
                 if name in self._given():
-                    raise InputError(
-                        name, got="it for a line contact, which knows no y;", takes="it for a point contact"
-                    )
+                    raise InputError.worded(name, "is not used by a line contact, only by a point contact")
             if self.direction == "y" and not self.assume_transverse:
                 raise InputError(
                     "direction",
@@ -143,10 +141,8 @@ class Roughness(Table):
                     takes="assume_transverse = true to use it so all the same",
                 )
         elif self.assume_transverse:
-            raise InputError(
-                "assume_transverse",
-                got="it for a point contact, which knows both directions;",
-                takes="it for a line contact",
+            raise InputError.worded(
+                "assume_transverse", "is not used by a point contact, only by a line contact"
             )
 
 

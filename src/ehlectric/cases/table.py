@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import difflib
+import re
 import tomllib
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from types import UnionType
-from typing import TYPE_CHECKING, Any, Self, Union, get_args, get_origin
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self, Union, get_args, get_origin
 
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import BaseModel, ConfigDict, GetJsonSchemaHandler, ValidationError
 from pydantic.fields import FieldInfo
-from pydantic_core import ErrorDetails
+from pydantic_core import CoreSchema, ErrorDetails
 
+from ehlectric.cases.quantity import WRITTEN
 from ehlectric.errors import InputError, shown
 from ehlectric.runtime.files import reading
 
@@ -24,6 +26,9 @@ class Table(BaseModel):
     """Frozen table of a case file; unknown keys are errors."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
+
+    # Advice for unknown dotted keys that users expect in this table or in a table within it.
+    ADVICE: ClassVar[Mapping[str, str]] = {}
 
     def __init__(self, /, **table: Any) -> None:
         try:
@@ -48,13 +53,24 @@ class Table(BaseModel):
         return [name for name in super().__dir__() if name not in _HIDDEN]
 
     @classmethod
+    def __get_pydantic_json_schema__(cls, core: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        """Schema for editors: of the docstring only the first sentence, and no key required beside a base."""
+        schema = dict(handler.resolve_ref_schema(handler(core)))
+        schema["description"] = (cls.__doc__ or "").partition("\n\n")[0]
+        if "base" in cls.model_fields:
+            schema.pop("required", None)
+        return schema
+
+    @classmethod
     def from_dict(cls, table: Mapping[str, Any]) -> Self:
         """Validate nested tables, as read from a TOML file, and make an instance from them.
 
         Parameters
         ----------
         table : mapping
-            Nested tables; numbers in SI units, or texts with a unit.
+            Nested tables. A value is a number in SI units, a string with its unit, or a quantity of pint. A
+            rotational speed is a string, a quantity, or a float in rad/s; a whole number is refused, because
+            it is nearly always meant in rpm.
 
         Returns
         -------
@@ -66,8 +82,35 @@ class Table(BaseModel):
         InputError
             If the tables are not valid; the message names the key, its value, and what is allowed.
         """
+        return cls._validated(table, written=False)
+
+    @classmethod
+    def from_written(cls, table: Mapping[str, Any]) -> Self:
+        """Make an instance from tables that a person wrote into a file.
+
+        It differs from ``from_dict`` in one rule: a rotational speed must have its unit.
+
+        Parameters
+        ----------
+        table : mapping
+            Nested tables, as read from a TOML file.
+
+        Returns
+        -------
+        Table
+            Instance of this class, with numbers in SI units.
+
+        Raises
+        ------
+        InputError
+            If the tables are not valid; the message names the key, its value, and what is allowed.
+        """
+        return cls._validated(table, written=True)
+
+    @classmethod
+    def _validated(cls, table: Mapping[str, Any], *, written: bool) -> Self:
         try:
-            return cls.model_validate(dict(table))
+            return cls.model_validate(dict(table), context={WRITTEN: written})
         except ValidationError as error:
             raise first_error(error, cls) from None
 
@@ -90,18 +133,43 @@ def read_toml(path: str | Path) -> dict[str, Any]:
     InputError
         If the file cannot be read or is not TOML.
     """
-    path = Path(path)
+    path, text = Path(path), ""
     try:
         with reading(path):
-            return tomllib.loads(path.read_text(encoding="utf-8-sig"))
+            text = path.read_text(encoding="utf-8-sig")
+            return tomllib.loads(text)
     except InputError:
         raise
     except UnicodeDecodeError:
         raise InputError(path, "is not a text file in UTF-8") from None
     except tomllib.TOMLDecodeError as error:
-        raise InputError(path, f"is not TOML, {error}") from None
+        raise InputError(path, f"is not TOML, {_syntax(str(error), text)}") from None
     except (ValueError, RecursionError):
         raise InputError(path, "is not TOML that can be read, some value is too long or too deep") from None
+
+
+# Place in the message of tomllib, and numbers in a line of TOML that stand without quotes.
+_PLACE = re.compile(r"\(at line (\d+), column \d+\)")
+_QUOTED = re.compile(r'"[^"]*"|\'[^\']*\'')
+_COMMA_NUMBER = re.compile(r"=\s*([-+]?\d+,\d+\b[^,\]#]*)")
+_UNIT_NUMBER = re.compile(r"[=\[,]\s*([-+]?\d[\d.]*(?:[eE][-+]?\d+)?\s*[A-Za-zµμ°%/][^,\]#]*)")
+
+
+def _syntax(message: str, text: str) -> str:
+    """Message of tomllib about a text, with the wrong line and, for a number, how to write it."""
+    place = _PLACE.search(message)
+    lines = text.splitlines()
+    if place is None or not (line := " ".join(lines[int(place[1]) - 1].split())):
+        return message
+    bare = _QUOTED.sub('""', line)
+    comma, unit = _COMMA_NUMBER.search(bare), _UNIT_NUMBER.search(bare)
+    if comma is not None:
+        value = comma[1].strip().replace(",", ".")
+        quoted = f'"{value}"' if re.search(r"[^\d.]", value) else value
+        return f"line {place[1]} is {shown(line)}: decimal comma, write {quoted}"
+    if unit is not None:
+        return f'line {place[1]} is {shown(line)}: a number with a unit stands in quotes, "{unit[1].strip()}"'
+    return f"{message}: {shown(line)}"
 
 
 def nearest(name: str, known: Iterable[str]) -> str:
@@ -120,7 +188,7 @@ def first_error(error: ValidationError, model: type[Table]) -> InputError:
         table = first["loc"][:-1]
         also = [other for other in others if other["type"] == "missing" and other["loc"][:-1] == table]
         if also:
-            more = "; missing too: " + ", ".join(str(other["loc"][-1]) for other in also)
+            more = "; also missing: " + ", ".join(str(other["loc"][-1]) for other in also)
         others = [other for other in others if other not in also]
     more += f" (and {len(others)} more)" if others else ""
     return wrong.retold(wrong.key, wrong.text + more)
@@ -132,9 +200,9 @@ def _error(detail: ErrorDetails, model: type[Table]) -> InputError:
     value = shown(detail["input"])
     match detail["type"]:
         case "extra_forbidden":
-            return InputError.unknown(key, nearest_key(key, model))
+            return _unknown(key, model)
         case "missing" if isinstance(detail["loc"][-1], str):
-            return InputError.missing(key, f"a {_kind(key, model)}")
+            return _missing(key, model)
         case "value_error":
             # The error of a quantity has no key, and the error of a table lacks the name of the table.
             wrong = detail["ctx"]["error"]
@@ -144,13 +212,34 @@ def _error(detail: ErrorDetails, model: type[Table]) -> InputError:
         case "model_type" | "model_attributes_type" | "dict_type":
             return InputError(key, got=value, takes="a table")
         case "string_type":
-            return InputError(key, got=value, takes="a text")
+            return InputError(key, got=value, takes="a string")
         case "missing" | "tuple_type" | "too_long" | "too_short":
             kind = (
                 f"tables, each headed [[{key}]]" if _kind(key, model) == "table" else "a list of two numbers"
             )
             return InputError(key, got=value, takes=kind)
     return InputError(key, got=f"{value}, {detail['msg']}")
+
+
+def _missing(key: str, model: type[Table]) -> InputError:
+    """Error of a required key: what is expected where a few words tell it, else that it is required."""
+    field = _fields(model).get(key)
+    if _kind(key, model) == "table" or (field and get_origin(field.annotation) is Mapping):
+        return InputError.missing(key, "a table")
+    choices = get_args(field.annotation) if field and get_origin(field.annotation) is Literal else ()
+    if choices:
+        return InputError.missing(key, f"one of {', '.join(map(repr, choices))}")
+    return InputError.worded(key, "required", takes="a value")
+
+
+def _unknown(key: str, model: type[Table]) -> InputError:
+    """Error of an unknown key: advice for a key that users look for, else the nearest known key."""
+    advice = model.ADVICE.get(key)
+    return (
+        InputError.worded(key, f"unknown key; {advice}")
+        if advice
+        else InputError.unknown(key, nearest_key(key, model))
+    )
 
 
 def _shown_key(key: str) -> str:
@@ -171,12 +260,19 @@ def nearest_key(key: str, model: type[Table]) -> str:
     return nearest(key, [name for name in known if name.rpartition(".")[0] == table] or known)
 
 
-def _keys(model: type[Table], prefix: str = "") -> Iterator[str]:
+def _keys(model: type[Table]) -> Iterator[str]:
+    yield from _fields(model)
+
+
+def _fields(model: type[Table], prefix: str = "") -> dict[str, FieldInfo]:
+    """Fields of a table and of the tables in it, by dotted key."""
+    fields: dict[str, FieldInfo] = {}
     for name, field in model.known_keys().items():
-        yield prefix + name
+        fields[prefix + name] = field
         inner = table_of(field.annotation)
         if inner is not None:
-            yield from _keys(inner, f"{prefix}{name}.")
+            fields |= _fields(inner, f"{prefix}{name}.")
+    return fields
 
 
 def _kind(key: str, model: type[Table]) -> str:

@@ -17,6 +17,9 @@ from ehlectric.formulas import film_point as point_formulas
 # Hertz pressure at which bearing steel deforms permanently in line contacts (ISO 76) [Pa].
 _LINE_PERMANENT = 4e9
 
+# Radius of contact above which a unit is probably wrong: the largest rolls and gears are near it [m].
+_LARGEST = 1.0
+
 # The film between rigid bodies builds up over a length of about 10 sqrt(2 R h). In half-widths of a line
 # contact, this length is the following number divided by Moes' M.
 _RIGID_INLET = 14.0
@@ -27,9 +30,17 @@ _POINT_PERMANENT = 4.2e9
 
 def line_case_warnings(setup: Case | Setup, conditions: Conditions) -> Iterator[ResultWarning]:
     """Warnings about the operating conditions of a line contact, known before it is solved."""
+    yield from radius_warnings("reduced_radius", conditions.reduced_radius)
     yield from regime_warnings(conditions)
     width = (setup.grid.outlet - setup.grid.inlet) / (0.5 * np.pi)
     yield from pressure_warnings(setup.lubricant, conditions.max_pressure, width, "line", _LINE_PERMANENT)
+
+
+def radius_warnings(key: str, radius: float) -> Iterator[ResultWarning]:
+    """Warning about a reduced radius [m], with its key, that no machine part has."""
+    if radius > _LARGEST:
+        text = f"{key} is {radius:.4g} m, more than machine parts have: is the unit of the radii right?"
+        yield ResultWarning("radius-large", text)
 
 
 def regime_warnings(conditions: Conditions) -> Iterator[ResultWarning]:
@@ -39,7 +50,9 @@ def regime_warnings(conditions: Conditions) -> Iterator[ResultWarning]:
         yield rigid_warning("half-width", "half-widths", _RIGID_INLET / conditions.contact.moes_m)
     elif regime != "piezoviscous-elastic":
         yield ResultWarning(
-            "regime", f"{regime} regime: the film formulas but Moes' are for piezoviscous-elastic contacts"
+            "regime",
+            f"the contact is in the {regime} regime, outside the range of all film formulas but that of "
+            "Moes; use the solved film",
         )
 
 
@@ -51,8 +64,9 @@ def rigid_warning(length: str, lengths: str, reach: float) -> ResultWarning:
     """
     return ResultWarning(
         "regime",
-        f"isoviscous-rigid regime: the bodies hardly deform, and {length} and Hertz pressure scale "
-        f"nothing; the film builds up over about {reach:.2g} {lengths}, which grid.inlet must hold",
+        f"the contact is in the isoviscous-rigid regime: the bodies hardly deform, and {length} and Hertz "
+        f"pressure are not meaningful scales; the film builds up over about {reach:.2g} {lengths}: check "
+        f"that grid.inlet is at most {-reach:.2g}",
     )
 
 
@@ -69,21 +83,21 @@ def pressure_warnings(
     if ambient_load > 0.01:
         yield ResultWarning(
             "ambient-pressure",
-            f"the ambient pressure carries {100 * ambient_load:.1f} % of the load over this domain; "
-            "lubricant.ambient_pressure = 0 leaves it out",
+            f"the ambient pressure carries {100 * ambient_load:.1f} % of the load on this domain; set "
+            "lubricant.ambient_pressure to 0 to leave it out",
         )
     if pressure > permanent:
         yield ResultWarning(
             "plastic-deformation",
-            f"the Hertz pressure is {pressure / 1e9:.3g} GPa: bearing steel deforms "
-            f"permanently above {permanent / 1e9:g} GPa in {kind} contacts, and the bodies are elastic here; "
-            "are load and radii right?",
+            f"the Hertz pressure is {pressure / 1e9:.3g} GPa, but bearing steel deforms permanently above "
+            f"{permanent / 1e9:g} GPa in {kind} contacts, and the model is elastic; check load and radii",
         )
     yield from law_warnings(lubricant, pressure)
 
 
 def point_case_warnings(setup: Case | Setup, conditions: PointConditions) -> Iterator[ResultWarning]:
     """Warnings about the operating conditions of a point contact, known before it is solved."""
+    yield from radius_warnings("radius_x", conditions.radius_x)
     yield from point_regime_warnings(conditions)
     area = (setup.grid.outlet - setup.grid.inlet) * 2.0 * conditions.side
     domain = area / (2.0 * np.pi / 3.0)
@@ -102,6 +116,6 @@ def point_regime_warnings(conditions: PointConditions) -> Iterator[ResultWarning
     elif regime == "isoviscous-elastic":
         yield ResultWarning(
             "regime",
-            f"{regime} regime: the film formulas but that of Nijenbanning, Venner and Moes are for "
-            "piezoviscous contacts",
+            f"the contact is in the {regime} regime, outside the range of all film formulas but that of "
+            "Nijenbanning, Venner and Moes; use the solved film",
         )

@@ -59,7 +59,7 @@ def on_nodes(*grid: str) -> Variables:
     return {
         "pressure": ("pressure", grid, "pressure", "Pa"),
         "thickness": ("thickness", grid, "film thickness", "m"),
-        "density": ("density", grid, "density over that at zero pressure", "1"),
+        "density": ("density", grid, "density / density at zero pressure", "1"),
         "deflection": ("deflection", grid, "gap opened by the pressure, up to a rigid displacement", "m"),
         "reynolds_residual": (
             "reynolds_residual",
@@ -80,7 +80,7 @@ def on_columns(*grid: str) -> Variables:
         "field_y": ("field_y", (*grid, "s"), "electric field along y", "V/m"),
         "strength": ("strength", (*grid, "s"), "electric field strength", "V/m"),
         "middle_strength": ("middle_strength", grid, "electric field strength at mid-film", "V/m"),
-        "thin_gap_strength": ("thin_gap_strength", grid, "voltage over film thickness", "V/m"),
+        "thin_gap_strength": ("thin_gap_strength", grid, "voltage / film thickness", "V/m"),
     }
 
 
@@ -107,7 +107,7 @@ LINE_LAYOUT = Layout(
         "capacitance_density": (
             "capacitance_density",
             ("x_field",),
-            "charge of a surface by voltage, length and width",
+            "capacitance per length and width",
             "F/m^2",
         ),
     },
@@ -130,7 +130,7 @@ POINT_LAYOUT = Layout(
         "capacitance_density": (
             "capacitance_density",
             ("x_field", "y_field"),
-            "charge of surface 2 by voltage and area",
+            "capacitance per area",
             "F/m^2",
         ),
     },

@@ -71,7 +71,7 @@ class ContactResult(Solution[ConditionsT, FilmT, FieldT]):
             f"maximum pressure {amount(film.max_pressure, 'Pa')}",
             f"maximum field {amount(self.field.max_strength, 'V/m')}",
             "converged" if self.converged else f"NOT CONVERGED ({film.status})",
-            verdict=getattr(self, "verdict", None),
+            verdict=self.verdict,
         )
 
     def formulas(self) -> Mapping[str, Thickness]:

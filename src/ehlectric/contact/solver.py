@@ -26,7 +26,7 @@ from ehlectric.contact.result_warnings import field_warnings, film_warnings
 from ehlectric.contact.results import RESULTS, PointResult, Result
 from ehlectric.contact.setup import Setup
 from ehlectric.contact.solution import Smooth
-from ehlectric.discharge.assessment import discharge_warnings
+from ehlectric.discharge.assessment import discharge_warnings, margin_warnings
 from ehlectric.errors import ConvergenceError, InputError
 from ehlectric.film.state import Progress
 from ehlectric.runtime.files import now
@@ -118,7 +118,9 @@ def solve(
     solvers.check(case)
     if case.motion is not None:
         raise InputError(
-            "motion", got="it where a film at rest is solved;", takes="run_motion, or a case without it"
+            "motion",
+            got="[motion] where a stationary film is solved",
+            takes="run_motion, or a case without it",
         )
     return _solved(
         check_case(case) if prepared is None else replace(prepared, case=case),
@@ -242,7 +244,7 @@ def _solved(
         film.residual,
     )
     if require_convergence and not film.converged:
-        raise ConvergenceError(f"film {film.status} at the residual {film.residual:.1e}")
+        raise ConvergenceError(f"film, {film.status} at a residual of {film.residual:.1e}")
     roughness = heights_of(rough, *film.axes)
     # The field of an unconverged film is for inspection only. Solvers other than OWN may not converge for it.
     field_solvers = solvers if film.converged else OWN
@@ -266,6 +268,7 @@ def _solved(
             *film_warnings(case, film),
             *kind.result_warnings(case, film, field),
             *discharge_warnings(case.discharge, film),
+            *margin_warnings(case.discharge, conditions.semi_axes, film, field),
             *field_warnings(field.max_strength),
         ),
         film_solver=solvers.name,

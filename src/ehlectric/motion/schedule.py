@@ -161,13 +161,13 @@ def schedule_of(case: Case, conditions: Conditions | PointConditions) -> Schedul
         grid spacing, or the time steps are too long.
     """
     if case.motion is None:
-        raise InputError.worded("motion", "missing, a case whose roughness moves takes it")
+        raise InputError.worded("motion", "missing; a case whose roughness moves needs it")
     schedule = _time_grid(case, conditions)
     if not schedule.moving_speeds:
         raise InputError(
             "motion",
-            got="roughness on surfaces at rest alone;",
-            takes="it on one that moves, or a case without motion",
+            got="roughness only on surfaces at rest",
+            takes="roughness on a surface that moves, or a case without motion",
         )
     if not np.isfinite(schedule.coincident):
         return schedule

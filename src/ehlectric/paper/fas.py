@@ -87,7 +87,7 @@ def solve_film(problem: FilmProblem, *, progress: Progress | None = None) -> Fil
     the finer grid.
     """
     if problem.geometry is not LINE:
-        raise ValueError("the paper's multigrid takes deflecting line contacts")
+        raise ValueError("the paper's multigrid needs deflecting line contacts")
     sizes = grid_sizes(problem.nodes)
     with one_blas_thread(), np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         grids = [equations_of(problem, n) for n in sizes]
@@ -132,7 +132,7 @@ def grid_sizes(nodes: int) -> list[int]:
     if sizes[-1] > LARGEST_COARSEST:
         raise InputError.worded(
             "grid.nodes",
-            f"got {nodes}, the paper's multigrid takes a number whose intervals can be halved "
+            f"got {nodes}; the paper's multigrid needs a number whose intervals can be halved "
             f"down to at most {LARGEST_COARSEST - 1}, such as 801, 1601 or 3201",
             got=nodes,
         )

@@ -13,7 +13,7 @@ def _check(case: Case) -> None:
     if case.contact.geometry != "line":
         raise InputError.worded(
             "contact.geometry",
-            f"got {case.contact.geometry!r}, the solver 'paper' takes 'line': its methods are "
+            f"got {case.contact.geometry!r}; the solver 'paper' needs 'line': its methods are "
             "those of line contacts",
             got=shown(case.contact.geometry),
             takes="'line'",

@@ -57,7 +57,7 @@ def run_all(
         if isinstance(error, BrokenProcessPool):
             raise RuntimeError(
                 "a process that solves contacts was killed or could not begin; a script that solves in "
-                'parallel takes its calls below if __name__ == "__main__":'
+                'parallel needs its calls below if __name__ == "__main__":'
             ) from None
         raise
     pool.shutdown()

@@ -38,6 +38,15 @@ FINEST, COARSEST = 1e-12, 1e-3
 _HIGHEST = 10.0
 
 
+# First bytes of a workbook and a name in it: Excel since 2007, OpenDocument, and older Excel files
+# with the name in UTF-16.
+_WORKBOOKS = (
+    (b"PK\x03\x04", b"xl/workbook."),
+    (b"PK\x03\x04", b"opendocument.spreadsheet"),
+    (b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1", "Workbook".encode("utf-16-le")),
+)
+
+
 @dataclass(frozen=True)
 class Surface:
     """Measured surface as read from a file. A profile is a surface with one row.
@@ -232,6 +241,8 @@ def read_surface(path: str | Path, *, x_unit: str | None = None, z_unit: str | N
     """
     path = Path(path)
     content = _content(path)
+    if any(content.startswith(magic) and mark in content for magic, mark in _WORKBOOKS):
+        raise InputError(path, "is a workbook of a spreadsheet program; save the sheet as CSV")
     suffix = path.suffix.lower()
     if suffix == ".x3p" or content.startswith(b"PK\x03\x04"):
         surface = _of_map(path, read_x3p(path, content), x_unit, z_unit)
@@ -251,10 +262,10 @@ def _content(path: Path) -> bytes:
         with reading(path):
             # Reading a pipe would wait for ever.
             if path.exists() and not (path.is_file() or path.is_dir()):
-                raise InputError(path, "is no regular file")
+                raise InputError(path, "is not a regular file")
             return path.read_bytes()
     except ValueError as error:
-        raise error if isinstance(error, InputError) else InputError(f"{path!r}", "is no path") from None
+        raise error if isinstance(error, InputError) else InputError(f"{path!r}", "is not a path") from None
 
 
 def _of_map(path: Path, heights: HeightMap, x_unit: str | None, z_unit: str | None) -> Surface:

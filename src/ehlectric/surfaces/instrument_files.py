@@ -76,7 +76,7 @@ def read_x3p(path: Path, content: bytes) -> HeightMap:
         description = _member(archive, "main.xml", _MOST_XML)
         root = ElementTree.fromstring(description)
     except _BROKEN:
-        raise InputError(path, "is no whole X3P file") from None
+        raise InputError(path, "is not a complete X3P file") from None
     _check_axes(path, root)
     columns, rows, layers = (_whole(path, root, f"MatrixDimension/Size{axis}") for axis in "XYZ")
     if layers != 1:
@@ -198,7 +198,7 @@ def read_al3d(path: Path, content: bytes) -> HeightMap:
         If the header is incomplete, or the file is shorter than its header states.
     """
     if not content.startswith(b"AliconaImaging"):
-        raise InputError(path, "is no AL3D file")
+        raise InputError(path, "is not an AL3D file")
     tags = _al3d_tags(content)
     try:
         columns, rows, offset = (int(tags[name]) for name in ("Cols", "Rows", "DepthImageOffset"))

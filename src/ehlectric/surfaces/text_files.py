@@ -26,6 +26,9 @@ _NUMBER = {
 }
 _SPACED_NUMBER = re.compile(r"[-+]?(?:[0-9]+[.,]?[0-9]+|[0-9]+\.?|\.[0-9]+)" + _EXPONENT)
 _WHOLE_PAIR = re.compile(r"\s*[-+]?[0-9]+,[0-9]+\s*")
+
+# Line with a single number.
+_SINGLE = re.compile(r"\s*[-+]?(?:[0-9]+[.,]?[0-9]*|[.,][0-9]+)(?:[eE][-+]?[0-9]+)?[;,]?\s*")
 _UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 _UNITS = dict.fromkeys(("m", "mm", "um", "nm")) | {"µm": "um", "μm": "um"}
 _UNIT_WORDS = {
@@ -133,7 +136,7 @@ def read_text(path: Path, content: bytes, x_unit: str | None, z_unit: str | None
     ]
     x, z = values[:, 0], values[:, 1] * factors[1]
     if max(np.max(np.abs(x)) * factors[0], np.max(np.abs(z), initial=0.0, where=~np.isnan(z))) > _FARTHEST:
-        raise InputError(path, f"holds lengths above {_FARTHEST:g} m; are x_unit and z_unit right?")
+        raise InputError(path, f"contains lengths above {_FARTHEST:g} m; are x_unit and z_unit right?")
     if width > 2:
         z = np.where(_valid(path, block), z, np.nan)
     digits = max(block.layout.decimals(row[0]) for row in block.rows)
@@ -149,7 +152,7 @@ def _decoded(path: Path, content: bytes) -> str:
             return content.decode(code)
         except UnicodeDecodeError:
             continue
-    raise InputError(path, "is no text in UTF-8, UTF-16 or Windows-1252")
+    raise InputError(path, "is not text in UTF-8, UTF-16 or Windows-1252")
 
 
 def _block(path: Path, text: str) -> _Block:
@@ -161,7 +164,7 @@ def _block(path: Path, text: str) -> _Block:
     first, _ = next(rows, (len(lines), ""))
     below = [(n, line) for n, line in enumerate(lines[first:], first + 1) if line.strip()]
     if not below:
-        raise InputError(path, "holds no two columns of numbers")
+        raise _no_columns(path, lines)
     if separator == "," and all(_WHOLE_PAIR.fullmatch(line) for _, line in below):
         raise InputError(
             path,
@@ -175,6 +178,14 @@ def _block(path: Path, text: str) -> _Block:
     fields = [layout.fields(line) for _, line in below]
     numbers = [number for number, _ in below]
     return _Block(layout, lines[:first], _rectangle(path, fields, numbers), numbers)
+
+
+def _no_columns(path: Path, lines: list[str]) -> InputError:
+    """Error of a file without two columns of numbers, which may have one column of heights."""
+    single = [line for line in lines if _SINGLE.fullmatch(line)]
+    if len(single) > 1:
+        return InputError(path, "contains one column of numbers", takes="two, position and height")
+    return InputError(path, "does not contain two columns of numbers", takes="position and height")
 
 
 def _separator(line: str) -> str | None:
@@ -215,7 +226,7 @@ def _values(path: Path, block: _Block) -> Array:
     infinite = np.any(np.isinf(values), axis=1)
     if np.any(infinite):
         raise InputError(
-            path, f"line {block.numbers[int(np.argmax(infinite))]} holds a number that is too large"
+            path, f"line {block.numbers[int(np.argmax(infinite))]} contains a number that is too large"
         )
     return values
 
@@ -287,7 +298,7 @@ def _unit_of(path: Path, name: str, given: str | None, stated: str | None) -> st
         raise InputError(name, got=f"{given!r}, but {path} states {stated!r}")
     unit = stated if given is None else given
     if unit is None:
-        raise InputError.worded(name, f"missing, {path} does not state the unit of its column without doubt")
+        raise InputError.worded(name, f"missing; {path} does not state the unit of its column unambiguously")
     return unit
 
 
@@ -315,9 +326,9 @@ def _spacing(path: Path, x: Array, step: float) -> tuple[float, tuple[ResultWarn
     if 0 < np.count_nonzero(long) <= 0.05 * steps.size:
         where = int(np.argmax(long))
         text = (
-            f"{path}: positions are written in steps of their spacing, and {np.count_nonzero(long)} of the "
-            f"{steps.size} distances are twice the others, the first behind point {where}: rounding, or "
-            "samples that are missing; all were taken as equally spaced"
+            f"{path}: {np.count_nonzero(long)} of the {steps.size} distances between positions are twice the "
+            f"others, the first after point {where}: positions are rounded, or samples are missing; all "
+            "points are treated as equally spaced, check the file"
         )
         return spacing, (ResultWarning("spacing-irregular", text),)
     return spacing, ()

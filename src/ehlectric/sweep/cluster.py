@@ -56,7 +56,7 @@ def cluster(address: str) -> Iterator[Crew]:
         from distributed import Client
     except ImportError:
         raise InputError(
-            "scheduler", "takes the package distributed; install it with: pip install 'ehlectric[cluster]'"
+            "scheduler", "needs the package distributed; install it with: pip install 'ehlectric[cluster]'"
         ) from None
     _silence()
     with warnings.catch_warnings():

@@ -15,7 +15,7 @@ from pydantic.fields import FieldInfo
 from ehlectric.cases.any_case import AnyCase, case_of_dict, case_of_file
 from ehlectric.cases.case import Case, Title, find_files
 from ehlectric.cases.input_keys import input_field, number_of
-from ehlectric.cases.quantity import Count, Quantity
+from ehlectric.cases.quantity import WRITTEN, Count, Quantity
 from ehlectric.cases.table import Table, nearest, read_toml
 from ehlectric.errors import InputError, shown
 from ehlectric.runtime.display import Tabled, headline
@@ -63,22 +63,27 @@ class Sweep(Tabled, Table):
         flat = _flattened(tables)
         if not flat:
             raise InputError(got="no key", takes="at least one key of the case with its values or its range")
-        return {key: _axis(key, value, design) for key, value in flat.items()}
+        written = bool(info.context and info.context.get(WRITTEN))
+        return {key: _axis(key, value, design, written=written) for key, value in flat.items()}
 
     @model_validator(mode="after")
     def _check(self) -> Self:
         if isinstance(self.case, Case) and self.case.motion is not None:
             raise InputError(
-                "case.motion", got="it in a sweep, whose films are at rest;", takes="a case without it"
+                "case.motion",
+                got="[motion] in a sweep, whose films are stationary",
+                takes="a case without it",
             )
         if self.design == "sobol":
             if self.samples is None:
-                raise InputError.worded("samples", "missing, a sobol design takes it: a power of two")
+                raise InputError.worded("samples", "missing; a sobol design needs it: a power of two")
             if self.samples & (self.samples - 1):
                 raise InputError("samples", got=self.samples, takes="a power of two, such as 64 or 1024")
         for name in ("samples", "seed") if self.design != "sobol" else ():
             if name in self.model_fields_set:
-                raise InputError(name, got=f"it in a {self.design} design, which has no use for it")
+                raise InputError.worded(
+                    name, f"is not used by a {self.design} design; only a sobol design needs it"
+                )
         lengths = {key: len(axis) for key, axis in self.axes.items()}
         if self.design == "paired" and len(set(lengths.values())) > 1:
             counts = ", ".join(f"{length} of {key}" for key, length in lengths.items())
@@ -114,7 +119,7 @@ class Sweep(Tabled, Table):
                 find_files(inner, folder)
         if isinstance(table.get("vary"), dict):
             _locate(table["vary"], folder)
-        return cls.from_dict(table)
+        return cls.from_written(table)
 
     @classmethod
     def from_dict(cls, table: Mapping[str, Any]) -> Self:
@@ -135,21 +140,28 @@ class Sweep(Tabled, Table):
         InputError
             If a key or value is invalid. The message is one line: the key, its value, and what is allowed.
         """
-        case = table.get("case")
-        try:
-            if isinstance(case, str | Path):
-                table = {**table, "case": case_of_file(case)}
-            elif isinstance(case, Mapping):
-                table = {**table, "case": case_of_dict(case)}
-            elif case is not None and not isinstance(case, AnyCase):
-                raise InputError("case", got=shown(case), takes="a table or the name of a file")
-        except InputError as error:
-            if error.key in ("case", str(case)):
-                raise
-            if isinstance(case, str | Path):
-                raise error.retold(str(case), str(error)) from None
-            raise error.under("case") from None
-        return super().from_dict(table)
+        return super().from_dict(_with_case(table, written=False))
+
+    @classmethod
+    def from_written(cls, table: Mapping[str, Any]) -> Self:
+        """Create a sweep from tables that a person wrote into a file; rotational speeds must have their unit.
+
+        Parameters
+        ----------
+        table : mapping
+            Tables of the sweep, as for ``from_dict``.
+
+        Returns
+        -------
+        Sweep
+            Sweep with its base case and its varied keys.
+
+        Raises
+        ------
+        InputError
+            If a key or value is invalid. The message is one line: the key, its value, and what is allowed.
+        """
+        return super().from_written(_with_case(table, written=True))
 
     def headline(self) -> str:
         """Title, number of points and varied keys on one line."""
@@ -182,6 +194,25 @@ class Sweep(Tabled, Table):
         return {"grid": sweep_design.grid, "paired": sweep_design.paired}[self.design](self.axes)
 
 
+def _with_case(table: Mapping[str, Any], *, written: bool) -> Mapping[str, Any]:
+    """Tables of a sweep with its base case in place of the tables or the file of the case."""
+    case = table.get("case")
+    try:
+        if isinstance(case, str | Path):
+            return {**table, "case": case_of_file(case)}
+        if isinstance(case, Mapping):
+            return {**table, "case": case_of_dict(case, written=written)}
+        if case is not None and not isinstance(case, AnyCase):
+            raise InputError("case", got=shown(case), takes="a table or the name of a file")
+    except InputError as error:
+        if error.key in ("case", str(case)):
+            raise
+        if isinstance(case, str | Path):
+            raise error.retold(str(case), str(error)) from None
+        raise error.under("case") from None
+    return table
+
+
 def _flattened(tables: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
     """Values and ranges by dotted key, from dotted keys and nested tables in any mixture."""
     flat: dict[str, Any] = {}
@@ -192,7 +223,7 @@ def _flattened(tables: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
             else {f"{prefix}{key}": value}
         )
         for name in inner.keys() & flat.keys():
-            raise InputError(name, got="it twice", takes="it once")
+            raise InputError.worded(name, "is given twice")
         flat |= inner
     return flat
 
@@ -207,13 +238,13 @@ def _locate(tables: dict[str, Any], folder: Path, prefix: str = "") -> None:
             tables[name] = [str((folder / v).absolute()) if isinstance(v, str) else v for v in value]
 
 
-def _axis(key: str, value: Any, design: str) -> tuple[Any, ...] | Range:
+def _axis(key: str, value: Any, design: str, *, written: bool) -> tuple[Any, ...] | Range:
     """Values of a varied key, in SI units, or its range in a sobol design."""
     if key.partition(".")[0] == "motion":
-        raise InputError(key, got="it in a sweep, whose films are at rest;", takes="other keys of the case")
+        raise InputError.worded(key, "cannot vary: the films of a sweep are stationary")
     field = input_field(key)
     if isinstance(value, Mapping):
-        return _range(key, value, number_of(field), design)
+        return _range(key, value, number_of(field), design, written=written)
     if isinstance(value, Range):
         value = {"from": value.start, "to": value.stop, "spacing": value.spacing}
         return _range(key, value, number_of(field), design)
@@ -221,7 +252,7 @@ def _axis(key: str, value: Any, design: str) -> tuple[Any, ...] | Range:
         raise InputError(key, got=shown(value), takes="a table with from and to in a sobol design")
     if isinstance(value, str) or not isinstance(value, Sequence) or len(value) == 0:
         raise InputError(key, got=shown(value), takes="a list of values or a table with from and to")
-    values = tuple(_values(key, field, value))
+    values = tuple(_values(key, field, value, written=written))
     texts = [json.dumps(value) for value in values]
     for k, text in enumerate(texts) if design == "grid" else ():
         if text in texts[:k]:
@@ -231,7 +262,7 @@ def _axis(key: str, value: Any, design: str) -> tuple[Any, ...] | Range:
     return values
 
 
-def _values(key: str, field: FieldInfo, values: Sequence[Any]) -> Iterator[Any]:
+def _values(key: str, field: FieldInfo, values: Sequence[Any], *, written: bool) -> Iterator[Any]:
     """Values of a varied key as a case stores them; numbers are in SI units."""
     table, _, leaf = key.rpartition(".")
     annotation = Annotated[field.annotation, *field.metadata] if field.metadata else field.annotation
@@ -239,27 +270,28 @@ def _values(key: str, field: FieldInfo, values: Sequence[Any]) -> Iterator[Any]:
     value_of: type[Table] = create_model("Value", __base__=Table, **keys)
     for value in values:
         try:
-            parsed = value_of.from_dict({leaf: value}).model_dump(mode="json")[leaf]
+            made = value_of.from_written({leaf: value}) if written else value_of.from_dict({leaf: value})
+            parsed = made.model_dump(mode="json")[leaf]
         except InputError as error:
             raise error.under(table) from None
         yield parsed
 
 
 def _range(
-    key: str, table: Mapping[str, Any], number: Quantity | Count | None, design: str
+    key: str, table: Mapping[str, Any], number: Quantity | Count | None, design: str, *, written: bool = False
 ) -> tuple[Any, ...] | Range:
     """Values of a varied key between two ends, in SI units, or its range in a sobol design."""
     if number is None:
-        raise InputError(key, got="a range", takes="a list of values: it is no number")
+        raise InputError(key, got="a range", takes="a list of values, because the key is not a number")
     for name in table:
         if name not in _RANGE_KEYS:
             near = nearest(str(name), _RANGE_KEYS)
             raise InputError.unknown(f"{key}.{name}", f"{key}.{near}")
-    over = _over(key, table, number)
+    over = _over(key, table, number, written=written)
     if design == "sobol":
         if "count" in table:
             raise InputError.worded(
-                f"{key}.count", "got it in a sobol design, which takes samples for all of its keys"
+                f"{key}.count", "is not used by a sobol design; samples gives the number for all keys"
             )
         return over
     count = table.get("count")
@@ -279,14 +311,17 @@ def _range(
     return rounded
 
 
-def _over(key: str, table: Mapping[str, Any], number: Quantity | Count) -> Range:
+def _over(key: str, table: Mapping[str, Any], number: Quantity | Count, *, written: bool) -> Range:
     """Range of a varied key: its ends in SI units, and its spacing."""
     ends = []
     for name in ("from", "to"):
         if name not in table:
             raise InputError.missing(f"{key}.{name}", _takes(number))
         try:
-            ends.append(number.parse(table[name]))
+            end = table[name]
+            ends.append(
+                number.parse(end, written=written) if isinstance(number, Quantity) else number.parse(end)
+            )
         except InputError as error:
             raise error.under(f"{key}.{name}") from None
     start, stop = ends

@@ -187,7 +187,7 @@ def sensitivity(results: SweepResults, value: str, *, resamples: int = 1000, see
     if results.design != "sobol":
         raise InputError.worded(
             "design",
-            f'got "{results.design}", sensitivity takes a sweep of the design "sobol"',
+            f'got "{results.design}"; sensitivity needs a sweep of the design "sobol"',
             got=results.design,
         )
     rows, inputs = results.samples, len(results.varied)
@@ -198,7 +198,7 @@ def sensitivity(results: SweepResults, value: str, *, resamples: int = 1000, see
     if used < _LEAST_ROWS:
         raise InputError.worded(
             value,
-            f"{used} of {rows} rows of the design are complete, sensitivity takes at least {_LEAST_ROWS}",
+            f"{used} of {rows} rows of the design are complete; sensitivity needs at least {_LEAST_ROWS}",
             got=used,
             takes=f"at least {_LEAST_ROWS}",
         )
@@ -207,7 +207,7 @@ def sensitivity(results: SweepResults, value: str, *, resamples: int = 1000, see
     if np.ptp(samples) <= _CONSTANT * np.max(np.abs(samples)) or not np.ptp(pages[:2, complete]):
         raise InputError.worded(
             value,
-            f"is {samples[0]:g} in all samples, sensitivity takes a value that varies",
+            f"is {samples[0]:g} in all samples; sensitivity needs a value that varies",
             takes="a value that varies",
         )
     a, b, mixed = pages[0, complete], pages[1, complete], pages[2:, complete]

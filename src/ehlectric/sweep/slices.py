@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -95,7 +96,7 @@ class Slice:
         if not self.numeric:
             raise InputError.worded(
                 "y",
-                f"got {shown(self.y)}, whose values are texts or lists, a map takes numbers",
+                f"got {shown(self.y)}, whose values are strings or lists; a map needs numbers",
                 got=shown(self.y),
                 takes="numbers",
             )
@@ -176,7 +177,7 @@ def take(
     if x == y:
         raise InputError("y", got=f"{shown(y)}, which is x;", takes="another key that varies")
     if not all(_is_number(point.inputs.get(x)) for point in results.points):
-        raise InputError("x", got=f"{shown(x)}, whose values are texts or lists", takes="a key of numbers")
+        raise InputError("x", got=f"{shown(x)}, whose values are strings or lists", takes="a key of numbers")
     values = numbers_of(results, value)
     fixed = {key: _fixed(results, key, text) for key, text in (at or {}).items()}
     for key in fixed:
@@ -327,8 +328,9 @@ def _requested(key: str, text: str) -> float:
         if number is None:
             raise InputError("at", got=f"{key}={text}", takes="a number")
         return number
+    whole = re.fullmatch(r"[-+]?\d+", text)
     try:
-        return kind.parse(text if number is None else number)
+        return kind.parse(text if number is None else int(text) if whole else number, written=True)
     except InputError as error:
         raise error.retold("at", f"{key}: {error}") from None
 

@@ -10,7 +10,8 @@ import pytest
 from ehlectric import BearingCase, Case, InputError, LineCase, PointCase
 from ehlectric.cases.bearing import Bearing
 from ehlectric.cases.contact import ONLY, Contact
-from ehlectric.cases.keywords import BearingKeys, LineKeys, PointKeys, keys_of
+from ehlectric.cases.keywords.constructors import keys_of
+from ehlectric.cases.keywords.types import BearingKeys, LineKeys, PointKeys
 
 LINE = {
     "reduced_radius": "14.1 mm",

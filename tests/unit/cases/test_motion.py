@@ -6,23 +6,24 @@ from pathlib import Path
 import pytest
 
 from ehlectric import Case, InputError, Sweep, solve
-from ehlectric.commands.runs import check, run_motion
+from ehlectric.commands.meaning import check
+from ehlectric.commands.runs import run_motion
 from ehlectric.motion.contact import TransientContact
 from tests.helpers.moving_cases import LINE, POINT, moving
 
 TAKES_PASSES = "expected a number, above 0 and at most 10000: lengths of the domain at the mean speed"
-TAKES_DURATION = "expected a number in s or a text with its unit, above 0 and at most 10000: of the motion"
-TAKES_RECORD = "takes a whole number from 2 to 100000: stored instants"
-EITHER = "takes either passes or duration"
+TAKES_DURATION = "expected a number in s or a string with its unit, above 0 and at most 10000: of the motion"
+TAKES_RECORD = "expected a whole number from 2 to 100000: stored instants"
+EITHER = "expected either passes or duration"
 
 # A folder that is never made.
 FOLDER = Path("no-folder-of-a-refused-case")
 
 # What is wrong with the table itself.
 BAD_TABLES = [
-    ({}, f"motion.passes: missing, {EITHER}"),
-    ({"steps": 100, "record": 10}, f"motion.passes: missing, {EITHER}"),
-    ({"passes": 1, "duration": "1 ms"}, f"motion.passes: got passes and duration together, {EITHER}"),
+    ({}, f"motion.passes: missing; {EITHER}"),
+    ({"steps": 100, "record": 10}, f"motion.passes: missing; {EITHER}"),
+    ({"passes": 1, "duration": "1 ms"}, f"motion.passes: got passes and duration together; {EITHER}"),
     ({"passes": 0}, f"motion.passes: got 0; {TAKES_PASSES}"),
     ({"passes": -1.0}, f"motion.passes: got -1.0; {TAKES_PASSES}"),
     ({"passes": 10001}, f"motion.passes: got 10001; {TAKES_PASSES}"),
@@ -44,24 +45,25 @@ BAD_TABLES = [
 
 # What is wrong with it in its case.
 BAD_CASES = [
-    ({"roughness": []}, "motion: got it without roughness, which is what moves; expected a rough surface"),
+    ({"roughness": []}, "motion: needs a rough surface: roughness is what moves"),
     (
         {"grid": {"wedge": "first-order"}},
         "grid.wedge: got 'first-order' beside motion; expected 'second-order'",
     ),
     (
         {"grid": {"refine": "3 %"}},
-        "grid.refine: got it beside motion, which takes one grid; expected grid.nodes",
+        "grid.refine: is not used with [motion], which has a single grid; give grid.nodes",
     ),
 ]
 
 # 64 intervals of the grid in one pass: seven steps are longer than the eight of them that a step may take.
 TOO_FEW = (
-    "motion.steps: got 7, in each of which oil would travel 9.14 grid spacings; expected at least 8, and 64 for "
-    "one spacing a step"
+    "motion.steps: got 7, in each of which oil would travel 9.14 grid spacings; expected at least 8, and 64 "
+    "for one spacing a step"
 )
 AT_REST = (
-    "motion: got roughness on surfaces at rest alone; expected it on one that moves, or a case without motion"
+    "motion: got roughness only on surfaces at rest; expected roughness on a surface that moves, or a case "
+    "without motion"
 )
 
 
@@ -96,7 +98,7 @@ def test_what_cannot_be_solved_is_refused_by_all_that_look(table, changes, messa
 
 
 def test_a_motion_that_is_none():
-    with pytest.raises(InputError, match=r"^motion: missing, a case whose roughness moves takes it$"):
+    with pytest.raises(InputError, match=r"^motion: missing; a case whose roughness moves needs it$"):
         TransientContact.of(moving(changes={"motion": None}))
 
 
@@ -110,11 +112,11 @@ def test_a_film_at_rest_is_not_that_of_a_moving_case(table):
 
 def test_sweeps_take_no_motion():
     case = moving()
-    text = "case.motion: got it in a sweep, whose films are at rest; expected a case without it"
+    text = "case.motion: got [motion] in a sweep, whose films are stationary; expected a case without it"
     with pytest.raises(InputError, match=f"^{re.escape(text)}$"):
         Sweep.from_dict({"case": case, "vary": {"contact.entrainment_speed": [1.0, 2.0]}})
     for key in ("motion.passes", "motion.duration", "motion.steps"):
-        text = f"vary.{key}: got it in a sweep, whose films are at rest; expected other keys of the case"
+        text = f"vary.{key}: cannot vary: the films of a sweep are stationary"
         with pytest.raises(InputError, match=f"^{re.escape(text)}$"):
             Sweep.from_dict({"case": case.replace(motion=None), "vary": {key: [1, 2]}})
 

@@ -8,8 +8,10 @@ import pytest
 
 import ehlectric
 from ehlectric import InputError, read_sweep
+from ehlectric.commands.drawing import load_and_draw
+from ehlectric.commands.kinds import kind_of_file
 from ehlectric.commands.results import load
-from ehlectric.commands.runs import RUNS, kind_of_file, load_and_draw, run, run_and_draw
+from ehlectric.commands.runs import RUNS, run, run_and_draw
 from ehlectric.runtime.outcome import RunOutcome
 from tests.helpers.places import EXAMPLES
 

@@ -229,11 +229,15 @@ WARNINGS = [
     ),
     (
         {"grid.nodes": 401, "contact.entrainment_speed": 0.5},
-        "% off or more on this grid",
+        "discretisation error of the film .*; do not use this film",
         "grid-far-too-coarse",
     ),
-    ({"grid.field_nodes": 50}, "grid.field_nodes is coarser than the film", "field-grid-too-coarse"),
-    ({"solver.max_iterations": 1}, "do not use this film, it is no solution: stalled", "not-converged"),
+    ({"grid.field_nodes": 50}, "grid.field_nodes is 50, but the film has", "field-grid-too-coarse"),
+    (
+        {"solver.max_iterations": 1},
+        "do not use this film: the iteration did not converge .stalled at",
+        "not-converged",
+    ),
     (
         {"lubricant.viscosity_law": "constant", "contact.load_per_length": 1e5},
         "isoviscous-elastic regime",

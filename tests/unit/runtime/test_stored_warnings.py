@@ -28,6 +28,7 @@ TEXTS = json.loads((EARLIER / "warnings.json").read_text(encoding="utf-8"))
 UNSTORED = {
     "speed-left-out",
     "points-with-warnings",
+    "points-with-notes",
     "points-not-usable",
     "points-of-another-version",
     "rows-dropped",

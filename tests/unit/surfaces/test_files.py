@@ -182,10 +182,10 @@ def test_files_that_are_cut_or_wrong(tmp_path):
     (tmp_path / "words.csv").write_text("nothing but words\n" * 20)
     al3d(tmp_path / "short.al3d", MAP, Rows="4000")
     for name, message in (
-        ("cut.x3p", "no whole X3P"),
-        ("no.x3p", "no whole X3P"),
+        ("cut.x3p", "not a complete X3P"),
+        ("no.x3p", "not a complete X3P"),
         ("binary.opd", "neither text, X3P nor AL3D|cannot be read by SurfaceTopography"),
-        ("words.csv", "no two columns"),
+        ("words.csv", "two columns of numbers"),
         ("short.al3d", "bytes long; expected 513000"),
         ("nowhere.csv", "no such file"),
     ):

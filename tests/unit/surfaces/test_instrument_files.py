@@ -73,9 +73,9 @@ WRONG_X3P = [
     ({"mask": b"\xff"}, "'bindata/valid.bin' has 1 bytes; expected 78"),
     ({"ValidPointsLink": "no.bin"}, "ValidPointsLink is 'no.bin', which cannot be read"),
     ({"PointDataLink": "no.bin"}, "PointDataLink is 'no.bin', which cannot be read"),
-    ({"encoding": "foo"}, "is no whole X3P"),
-    ({"encoding": "gbk"}, "is no whole X3P"),
-    ({"FeatureType": "S" * 11_000_000, "pack": zipfile.ZIP_DEFLATED}, "is no whole X3P"),
+    ({"encoding": "foo"}, "is not a complete X3P"),
+    ({"encoding": "gbk"}, "is not a complete X3P"),
+    ({"FeatureType": "S" * 11_000_000, "pack": zipfile.ZIP_DEFLATED}, "is not a complete X3P"),
 ]  # fmt: skip
 
 
@@ -91,7 +91,7 @@ def test_encrypted_and_text_that_begins_alike(tmp_path):
     content[content.find(b"PK\x03\x04") + 6] |= 1
     content[content.find(b"PK\x01\x02") + 8] |= 1
     (tmp_path / "a.x3p").write_bytes(content)
-    with pytest.raises(InputError, match="no whole X3P"):
+    with pytest.raises(InputError, match="not a complete X3P"):
         read_surface(tmp_path / "a.x3p")
     (tmp_path / "a.txt").write_text("PK 12\n" + "\n".join(f"{k};0" for k in range(20)))
     assert read_surface(tmp_path / "a.txt", x_unit="um", z_unit="nm").heights.shape == (1, 20)
@@ -131,11 +131,11 @@ def test_units_of_files_that_have_their_own(tmp_path, name):
 
 def test_pipes_are_not_waited_for(tmp_path):
     os.mkfifo(tmp_path / "pipe.csv")
-    with pytest.raises(InputError, match="is no regular file"):
+    with pytest.raises(InputError, match="is not a regular file"):
         read_surface(tmp_path / "pipe.csv")
     with pytest.raises(InputError, match="is a directory"):
         read_surface(tmp_path)
-    with pytest.raises(InputError, match="is no path"):
+    with pytest.raises(InputError, match="is not a path"):
         read_surface("a\0b")
 
 

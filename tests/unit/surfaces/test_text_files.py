@@ -36,7 +36,7 @@ def test_micro_sign_in_any_code(tmp_path, code):
 
 def test_no_text_of_any_kind(tmp_path):
     (tmp_path / "a.txt").write_bytes(b"\x81\x8d;\x90" * 100)
-    with pytest.raises(InputError, match="is no text in UTF-8, UTF-16 or Windows-1252"):
+    with pytest.raises(InputError, match="is not text in UTF-8, UTF-16 or Windows-1252"):
         read_surface(tmp_path / "a.txt")
 
 
@@ -66,7 +66,7 @@ DOUBTFUL = [
     ),
     ([], [f"{k},{k % 7},{k},5" for k in K], "has 4 columns; expected two"),
     ([], [*rows_of(";")[:-1], "99,50;1"], "mixes decimal points and decimal commas"),
-    ([], [*rows_of(";")[:-1], "1.234,5;1"], "holds no two columns|line 200 is"),
+    ([], [*rows_of(";")[:-1], "1.234,5;1"], "holds two columns of numbers|line 200 is"),
     (["x [um];y [um];z [nm]"], [f"{x};0.0;{z:.4f}" for x, z in zip(X, Z, strict=True)], "has 3 columns"),
     (["X;Y;invalid", "[um];[nm];[1/0]"], [line + ";0" for line in rows_of(";")], "has 3 columns"),
     (["x;y;is it", "valid;or;not"], [line + ";1" for line in rows_of(";")], "has 3 columns"),
@@ -77,7 +77,7 @@ DOUBTFUL = [
     ),
     (VALIDITY, [line + ";2" for line in rows_of(";")], "line 3 has the validity '2'; expected 0 or 1"),
     (VALIDITY, [*[line + ";1" for line in rows_of(";")[:-1]], "99.50;1;"], "has the validity ''; expected 0"),
-    ([], [*rows_of(";")[:-1], "1e999;1"], "line 200 holds a number that is too large"),
+    ([], [*rows_of(";")[:-1], "1e999;1"], "line 200 contains a number that is too large"),
     ([], [*rows_of(";")[:-1], "9e99;1"], "lengths above 10 m"),
 ]
 
@@ -160,7 +160,9 @@ def test_samples_that_may_be_missing(tmp_path):
     """Where positions are whole spacings, a gap looks like rounding: it is said; elsewhere it is refused."""
     whole = read_surface(positions(tmp_path / "a.txt", np.delete(np.arange(200), 100)))
     assert len(whole.warnings) == 1
-    assert "1 of the 198 distances are twice the others, the first behind point 99" in whole.warnings[0].text
+    assert "1 of the 198 distances between positions are twice the others, the first after point 99" in (
+        whole.warnings[0].text
+    )
     for step in (0.5, 10.0):
         with pytest.raises(InputError, match="spacing is not uniform"):
             read_surface(positions(tmp_path / "a.txt", step * np.delete(np.arange(200), 100)))

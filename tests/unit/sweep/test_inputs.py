@@ -214,7 +214,7 @@ BAD = [
     ),
     (
         {"grid.wedge": {"from": 1, "to": 2, "count": 2}},
-        r"^vary\.grid\.wedge: got a range; expected a list of values: it is no number",
+        r"^vary\.grid\.wedge: got a range; expected a list of values, because the key is not a number",
     ),
     ({"grid.field_range": {"from": 1, "to": 2, "count": 2}}, r"^vary\.grid\.field_range: got a range"),
     (
@@ -223,9 +223,12 @@ BAD = [
     ),
     (
         {"lubricant.viscosity_law": ["roeland"]},
-        r"^vary\.lubricant\.viscosity_law: got 'roeland', .* nearest is 'roelands'",
+        r"^vary\.lubricant\.viscosity_law: got 'roeland'; .* nearest is 'roelands'",
     ),
-    ({SPEED: [1], "contact": {"entrainment_speed": [2]}}, r"^vary\.contact\.entrainment_speed: got it twice"),
+    (
+        {SPEED: [1], "contact": {"entrainment_speed": [2]}},
+        r"^vary\.contact\.entrainment_speed: is given twice",
+    ),
     (
         {NODES: {"from": 101, "to": 10**5, "count": 10**4}, SPEED: {"from": 1, "to": 2, "count": 101}},
         r"^vary: got 1010000 points; expected at most 200000",
@@ -243,12 +246,12 @@ def test_bad_sweeps_are_refused_in_one_line(vary, message):
 BAD_KEYS = [
     ({"desing": "grid"}, r"^desing: unknown key; the nearest known one is design"),
     ({"design": "random"}, r"^design: got 'random'; expected 'grid', 'paired' or 'sobol'"),
-    ({"samples": 8}, r"^samples: got it in a grid design, which has no use for it"),
-    ({"seed": 8}, r"^seed: got it in a grid design, which has no use for it"),
+    ({"samples": 8}, r"^samples: is not used by a grid design"),
+    ({"seed": 8}, r"^seed: is not used by a grid design"),
     ({"design": "sobol"}, r"expected a table with from and to in a sobol design"),
     (
         {"design": "sobol", "vary": {SPEED: {"from": 1, "to": 2}}},
-        r"^samples: missing, a sobol design takes it",
+        r"^samples: missing; a sobol design needs it",
     ),
     (
         {"design": "sobol", "samples": 12, "vary": {SPEED: {"from": 1, "to": 2}}},
@@ -260,7 +263,7 @@ BAD_KEYS = [
     ),
     (
         {"design": "sobol", "samples": 8, "vary": {SPEED: {"from": 1, "to": 2, "count": 3}}},
-        r"\.count: got it in a sobol design",
+        r"\.count: is not used by a sobol design",
     ),
     (
         {"design": "sobol", "samples": 2**16, "vary": {key: {"from": 1, "to": 2} for key in (SPEED, LOAD)}},

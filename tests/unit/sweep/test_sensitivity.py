@@ -205,7 +205,7 @@ def test_refusals():
     results = sobol(ranges, 32, breakdown)
     value = "discharge.breakdown_voltage"
     refused = {
-        r'design: got "grid", sensitivity takes a sweep of the design "sobol"': (grid({SPEED: [1.0]}), value),
+        r'design: got "grid"; sensitivity needs a sweep of the design "sobol"': (grid({SPEED: [1.0]}), value),
         r"nearest is discharge\.breakdown_voltage": (results, "discharge.breakdown_volts"),
         r"15 of 32 rows of the design are complete": (without(results, range(17)), value),
         r"field\.voltage: is 5 in all samples": (results, "field.voltage"),

@@ -57,7 +57,7 @@ def test_texts_are_lines_and_no_map():
     taken = take(grid({SPEED: SPEEDS, "lubricant.base": oils}), SPEED, "lubricant.base", VALUE)
     assert [value for value, _ in taken.series()] == list(oils)
     assert all(list(taken.along[numbers]) == list(SPEEDS) for _, numbers in taken.series())
-    with pytest.raises(InputError, match="a map takes numbers"):
+    with pytest.raises(InputError, match="a map needs numbers"):
         taken.check_numeric()
     held = take(grid({SPEED: SPEEDS, "lubricant.base": oils}), SPEED, None, VALUE, {"lubricant.base": "gear"})
     assert held.at == {"lubricant.base": "gear"}

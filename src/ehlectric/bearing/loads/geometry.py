@@ -135,7 +135,7 @@ class BallBearing:
             if not 0.5 < getattr(self, key) <= 1.0:
                 raise InputError(key, got=f"{getattr(self, key):g}", takes="one above 0.5, up to 1")
         if (self.radial_clearance is None) == (self.contact_angle is None):
-            raise InputError("radial_clearance, contact_angle", "takes one of both")
+            raise InputError("radial_clearance, contact_angle", "give one of the two")
         if self.contact_angle is not None and not 0.0 < self.contact_angle < math.pi / 2.0:
             raise InputError(
                 "contact_angle", got=f"{self.contact_angle:g} rad", takes="one between 0 and 90 deg"

@@ -1,0 +1,203 @@
+"""Units of numbers: factors to SI units, and the spellings in which people print them."""
+
+from __future__ import annotations
+
+import math
+import re
+import sys
+from functools import cache
+from typing import TYPE_CHECKING, TypeGuard
+
+from ehlectric.errors import shown
+
+if TYPE_CHECKING:
+    import pint
+
+# Unit of a rotational speed, and its factor from revolutions per minute.
+ROTATION = "rad/s"
+RPM = math.pi / 30.0
+
+# Products and quotients of named units with one-digit exponents. No quantity here needs other units, and pint
+# would compute for ever on nested exponents.
+_NAME = r"[A-Za-zµμΩ°]+(?:(?:\*\*|\^)?[-+]?[1-9])?"
+_UNIT = re.compile(rf"(?:1?\s*/\s*)?{_NAME}(?:(?:\s*[*/·]\s*|\s+){_NAME})*")
+_EXPONENT = re.compile(r"(?<=[A-Za-zµμΩ°])(?:\*\*|\^)?([-+]?[1-9])")
+_ANGLE = re.compile("rad|rpm|rev|turn|deg")
+
+# Superscript exponents as in GPa⁻¹, and the minus sign that is no hyphen.
+_SUPERSCRIPT = re.compile("[⁺⁻]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+")
+_PLAIN = str.maketrans("⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "+-0123456789")
+
+# Revolutions per minute as catalogues and machines print them, in small letters and without spaces.
+_TURNS = ("rpm", "r/min", "rev/min", "u/min", "1/min", "/min", "min^-1", "min-1", "min**-1")
+
+# Frequent mistakes, by the SI unit of the quantity: unit of another quantity that users write, and advice.
+_HINTS = {
+    "Pa*s": ("m**2/s", "multiply a kinematic viscosity by the density"),
+    "m/s": ("1/s", "multiply a rotational speed, in rad/s, by the radius"),
+    "N/m": ("N", "divide a load by the length of the line"),
+}
+
+# Units of an absolute temperature, and the zero point of each unit [K].
+_ZEROS = {"K": 0.0, "degC": 273.15, "°C": 273.15, "C": 273.15}
+
+_COMMA = re.compile(r"\s*([-+]?\d+),(\d+)((?:[eE][-+]?\d+)?(?![,\d]).*)", re.DOTALL)
+
+
+@cache
+def registry() -> pint.UnitRegistry[float]:
+    """Registry of units, made when it is first needed, because importing pint takes a while."""
+    import pint
+
+    return pint.UnitRegistry()
+
+
+def plain(text: str) -> str:
+    """Text with its superscripts as exponents and with ordinary minus signs.
+
+    Examples
+    --------
+    >>> plain("22 GPa⁻¹")
+    '22 GPa^-1'
+    """
+    return _SUPERSCRIPT.sub(lambda found: "^" + found[0].translate(_PLAIN), text).replace(
+        "\N{MINUS SIGN}", "-"
+    )
+
+
+def comma_advice(text: str) -> str | None:
+    """Advice for a number with a decimal comma; None for other texts.
+
+    Examples
+    --------
+    >>> comma_advice("14,1 mm")
+    'decimal comma: write 14.1 mm'
+    >>> comma_advice("1,000 mm")
+    'decimal comma: write 1.000 mm, or 1000 mm if the comma separates thousands'
+    """
+    found = _COMMA.fullmatch(text)
+    if found is None:
+        return None
+    whole, part, rest = found.groups()
+    thousand = f", or {whole}{part}{rest} if the comma separates thousands" if len(part) == 3 else ""
+    return f"decimal comma: write {whole}.{part}{rest}{thousand}".rstrip()
+
+
+def factor(written: str, unit: str) -> float:
+    """Factor that converts a value from the unit ``written`` to the SI unit ``unit``.
+
+    Parameters
+    ----------
+    written : str
+        Unit that a user wrote, with superscripts replaced by ``plain``.
+    unit : str
+        SI unit of the quantity, as pint writes it.
+
+    Returns
+    -------
+    float
+        Factor, in ``unit`` per ``written``.
+
+    Raises
+    ------
+    ValueError
+        If the text is not a unit, or not one of this quantity; the message says why.
+
+    Examples
+    --------
+    >>> factor("1/GPa", "1/Pa")
+    1e-09
+    >>> round(factor("min^-1", "rad/s"), 6)
+    0.10472
+    """
+    import pint
+
+    if unit == ROTATION:
+        written = _rotation(written)
+    if _UNIT.fullmatch(written) is None:
+        raise ValueError(f"{shown(written)} is not a unit")
+    named = _EXPONENT.sub(r"**\1", written).removeprefix("1").lstrip()
+    expression = f"1{named}" if named.startswith("/") else named
+    try:
+        return float(registry().Quantity(1.0, registry().parse_units(expression)).to(unit).magnitude)
+    except pint.DimensionalityError:
+        other, hint = _HINTS.get(unit, ("", ""))
+        mistaken = other and registry().Quantity(1.0, expression).check(other)
+        advice = f"; {hint}" if mistaken else ""
+        raise ValueError(f"{written} is not a unit of this quantity{advice}") from None
+    except pint.UndefinedUnitError:
+        raise ValueError(f"{written!r} is not a unit; units are case-sensitive") from None
+    except pint.PintError:
+        raise ValueError(f"{written!r} is not a unit") from None
+
+
+def _rotation(written: str) -> str:
+    """Unit of a rotational speed as pint knows it.
+
+    Angles are dimensionless in pint, which would convert 50 Hz to 50 rad/s. A reciprocal minute counts
+    revolutions on every machine; hertz and reciprocal seconds are in use for both.
+    """
+    if written.replace(" ", "").lower() in _TURNS:
+        return "rpm"
+    if _UNIT.fullmatch(written) is not None and _ANGLE.search(written) is None:
+        raise ValueError(
+            f"{written} is a frequency, which may count turns or radians: write rpm, min^-1, rad/s or deg/s"
+        )
+    return written
+
+
+def absolute(number: float, written: str) -> float:
+    """Convert an absolute temperature to kelvin: 70 degC is 343.15 K, not a difference of 70 K.
+
+    Raises
+    ------
+    ValueError
+        If ``written`` is not a unit of an absolute temperature.
+    """
+    if written not in _ZEROS:
+        raise ValueError(f"{shown(written)} is not a unit of an absolute temperature: {', '.join(_ZEROS)}")
+    return float(f"{number + _ZEROS[written]:.15g}")
+
+
+def is_pint(entry: object) -> TypeGuard[pint.Quantity[float]]:
+    """Whether an entry is a quantity of pint."""
+    module = sys.modules.get("pint")
+    return module is not None and isinstance(entry, module.Quantity)
+
+
+def from_pint(entry: pint.Quantity[float], unit: str) -> float:
+    """Convert a quantity of pint, of any registry, to a value in an SI unit.
+
+    Parameters
+    ----------
+    entry : pint.Quantity
+        Quantity with a single number.
+    unit : str
+        SI unit of the quantity, as pint writes it; empty for a dimensionless quantity.
+
+    Returns
+    -------
+    float
+        Value in ``unit``.
+
+    Raises
+    ------
+    ValueError
+        If the quantity has another dimension, or leaves open what is meant.
+    """
+    import pint
+
+    written = str(entry.units)
+    if unit == "K" and "delta" in written:
+        raise ValueError(f"{written} is a difference of temperatures")
+    if not unit and written not in ("dimensionless", "percent"):
+        raise ValueError(f"{written} is a unit, and this number has none")
+    try:
+        value = float(entry.to(unit or "dimensionless").magnitude)
+    except pint.DimensionalityError:
+        raise ValueError(f"{written} is not a unit of this quantity") from None
+    except TypeError:
+        raise ValueError("it is not a single number") from None
+    if unit == ROTATION and _ANGLE.search(written) is None:
+        raise ValueError(f"{written} is a frequency, which may count turns or radians: use rpm or rad/s")
+    return float(f"{value:.15g}")
