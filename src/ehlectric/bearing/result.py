@@ -152,7 +152,7 @@ class BearingResult(Shown):
         frame.attrs["units"] = {str(name): units[str(name)] for name in numbers}
         return frame
 
-    def headline(self) -> str:
+    def _headline(self) -> str:
         """Title, speed, capacitance, first breakdown voltage and shaft voltage on one line."""
         voltage, shaft = self.breaks()["first_break"], self.shaft_voltage
         return headline(

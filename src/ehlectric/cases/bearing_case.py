@@ -131,7 +131,7 @@ class BearingCase(Tabled, Table):
                 )
         return self
 
-    def headline(self) -> str:
+    def _headline(self) -> str:
         """Title, bearing, loads and speed on one line."""
         bearing = self.bearing
         loads = [("radial", bearing.radial_load), ("axial", bearing.axial_load)]

@@ -161,7 +161,7 @@ class Case(Tabled, Table):
         # A LineCase is equal to a Case with the same values, as a result has once it is loaded.
         return self.__dict__ == other.__dict__ if isinstance(other, Case) else NotImplemented
 
-    def headline(self) -> str:
+    def _headline(self) -> str:
         """Title, geometry, load and speed on one line."""
         given = [(key, self.contact.value(key), unit) for key, unit in _SHOWN.items()]
         numbers = [f"{key} {amount(value, unit)}" for key, value, unit in given if value is not None]

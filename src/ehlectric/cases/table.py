@@ -18,8 +18,12 @@ from ehlectric.cases.quantity import WRITTEN
 from ehlectric.errors import InputError, shown
 from ehlectric.runtime.files import reading
 
-# Names of pydantic, many of them deprecated, which completion need not list.
-_HIDDEN = frozenset(name for name in dir(BaseModel) if not name.startswith("__"))
+# Names that completion need not list: those of pydantic, many of them deprecated, and internal ones.
+_HIDDEN = frozenset(name for name in dir(BaseModel) if not name.startswith("__")) | {
+    "ADVICE",
+    "from_written",
+    "known_keys",
+}
 
 
 class Table(BaseModel):

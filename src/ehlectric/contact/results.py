@@ -61,7 +61,7 @@ class ContactResult(Solution[ConditionsT, FilmT, FieldT]):
         frame.attrs["units"] = {name: unit for name, (_, unit) in columns.items()}
         return frame
 
-    def headline(self) -> str:
+    def _headline(self) -> str:
         """Title, minimum film, maximum pressure and maximum field on one line."""
         film = self.film
         return headline(

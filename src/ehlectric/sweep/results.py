@@ -133,7 +133,7 @@ class SweepResults(Shown, SweepPoints):
         frame.attrs["units"] = {key: unit for key, unit in units.items() if unit is not None}
         return frame
 
-    def headline(self) -> str:
+    def _headline(self) -> str:
         """Title, number of points, varied keys and status on one line."""
         counts = self.summary()
         others = [f"{counts[status]} {status}" for status in ("not converged", "failed", "open")]

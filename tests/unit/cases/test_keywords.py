@@ -5,6 +5,7 @@ import inspect
 import pickle
 import warnings
 
+import pint
 import pytest
 
 from ehlectric import BearingCase, Case, InputError, LineCase, PointCase
@@ -77,6 +78,14 @@ def test_a_bearing():
     assert case == BearingCase.from_dict({"bearing": DUTY, "lubricant": oil})
     assert case == BearingCase(bearing=DUTY, lubricant=oil)
     assert case.bearing.inner_speed == pytest.approx(314.159, rel=1e-5)
+
+
+def test_quantities_of_pint(line):
+    unit = pint.UnitRegistry()
+    given = {"reduced_radius": unit.Quantity(14.1, "mm"), "max_hertz_pressure": unit.Quantity(1.0, "GPa")}
+    assert Case.line(**(LINE | given), lubricant="paper") == line
+    with pytest.raises(InputError, match=r"contact\.reduced_radius"):
+        Case.line(**(LINE | {"reduced_radius": unit.Quantity(1.0, "N")}), lubricant="paper")
 
 
 @pytest.mark.parametrize(
