@@ -14,15 +14,15 @@ from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.row import value_at
 from ehlectric.discharge.verdict import Level, Verdict, ratio_text
 from ehlectric.sweep.labels import Scale, label_of
-from ehlectric.sweep.results import SweepResults
+from ehlectric.sweep.points import SweepPoints
 
 
-def sweep_verdict(results: SweepResults) -> Verdict | None:
+def sweep_verdict(results: SweepPoints) -> Verdict | None:
     """Verdict on a sweep from the margins of its points.
 
     Parameters
     ----------
-    results : SweepResults
+    results : SweepPoints
         Results of a sweep.
 
     Returns
@@ -54,7 +54,7 @@ def _have(count: int) -> str:
     return "point has" if count == 1 else "points have"
 
 
-def _margins(results: SweepResults) -> Array:
+def _margins(results: SweepPoints) -> Array:
     """Margin at every point; NaN where a point has none or its film must not be used."""
     table = "bearing" if isinstance(results.case, BearingCase) else "discharge"
     used = [(point.summary or {}) if point.solved and not point.doubtful else {} for point in results.points]
@@ -62,7 +62,7 @@ def _margins(results: SweepResults) -> Array:
     return np.array([math.nan if value is None else float(value) for value in values])
 
 
-def _why(results: SweepResults, margins: Array) -> str:
+def _why(results: SweepPoints, margins: Array) -> str:
     """Reasons why points have no margin, with their numbers."""
     counts: dict[str, int] = {}
     for point, margin in zip(results.points, margins, strict=True):
@@ -81,7 +81,7 @@ def _why(results: SweepResults, margins: Array) -> str:
     return ", ".join(f"{count} {reason}" for reason, count in counts.items())
 
 
-def _crossings(results: SweepResults, margins: Array) -> list[str]:
+def _crossings(results: SweepPoints, margins: Array) -> list[str]:
     """Sentences about the values of a single varied input at which the margin crosses 1."""
     if len(results.varied) != 1 or results.design == "sobol":
         return []

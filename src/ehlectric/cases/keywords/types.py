@@ -6,11 +6,8 @@ the case is made, by the same checks as those of a case file.
 
 from __future__ import annotations
 
-import inspect
-from collections.abc import Callable, Mapping, Sequence
-from typing import Any, Protocol, TypeAlias, TypedDict, TypeVar
-
-F = TypeVar("F", bound=Callable[..., Any])
+from collections.abc import Mapping
+from typing import Any, Protocol, TypeAlias, TypedDict
 
 
 class HasUnit(Protocol):
@@ -106,6 +103,8 @@ class BearingKeys(TypedDict, total=False):
         Number of rolling elements.
     element_diameter, pitch_diameter, inner_groove, outer_groove, roller_length : float, str or quantity
         Geometry [m].
+    bore, clearance_class : float, str or quantity
+        Bore [m] and class of the clearance by ISO 5753, such as "C3".
     radial_clearance, contact_angle, shoulder_height : float, str or quantity
         Clearance [m], free contact angle [rad], and height of the shoulder over the element diameter.
     element_capacitance : float, str or quantity
@@ -133,6 +132,8 @@ class BearingKeys(TypedDict, total=False):
     profile: str
     shoulder_height: Value
     radial_clearance: Value
+    bore: Value
+    clearance_class: str
     contact_angle: Value
     element_material: str
     ring_material: str
@@ -144,39 +145,3 @@ class BearingKeys(TypedDict, total=False):
     composite_rq: Value
     fill: str
     film_factor: float | str
-
-
-def takes(keys: type) -> Callable[[F], F]:
-    """Decorator that shows the keys of a ``TypedDict`` in the signature of a function of ``**keywords``.
-
-    Editors and ``help`` then list them by name.
-    """
-
-    def decorated(function: F) -> F:
-        signature = inspect.signature(function)
-        *first, _ = signature.parameters.values()
-        kind = inspect.Parameter.KEYWORD_ONLY
-        named = [inspect.Parameter(key, kind, default=None) for key in keys_of(keys)]
-        function.__signature__ = signature.replace(parameters=[*first, *named])  # type: ignore[attr-defined]
-        return function
-
-    return decorated
-
-
-def keys_of(keys: type) -> Sequence[str]:
-    """Names of the keys of a ``TypedDict``."""
-    return list(keys.__annotations__)
-
-
-def tables(**named: Any) -> dict[str, Any]:
-    """Tables of a case by name, without those that are None; the name of a lubricant becomes its table.
-
-    Examples
-    --------
-    >>> tables(lubricant="paper", discharge=None)
-    {'lubricant': {'base': 'paper'}}
-    """
-    given = {name: table for name, table in named.items() if table is not None}
-    if isinstance(given.get("lubricant"), str):
-        given["lubricant"] = {"base": given["lubricant"]}
-    return given
