@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
 from ehlectric.arrays import Array
+from ehlectric.bearing.margin.verdict import FORMULA_FACTOR
 from ehlectric.cases.any_case import AnyCase
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.row import value_at
-from ehlectric.discharge.verdict import Level, Verdict, ratio_text
+from ehlectric.discharge.verdict import DOUBTS, Level, Verdict, ratio_text
 from ehlectric.sweep.labels import Scale, label_of
 from ehlectric.sweep.points import SweepPoints
 
@@ -29,8 +31,9 @@ def sweep_verdict(results: SweepPoints) -> Verdict | None:
     -------
     Verdict or None
         Green where no margin is below 1, red where all are, else yellow. It is not green where points have no
-        margin: they are not solved or must not be used, or their surfaces touch. None where no point has a
-        margin.
+        margin: they are not solved or must not be used, or their surfaces touch. Nor is it green where the
+        margin of a point may be below 1, by the accuracy of formulas or by its warnings. None where no point
+        has a margin.
     """
     usable = _margins(results)
     known = usable[np.isfinite(usable)]
@@ -47,7 +50,27 @@ def sweep_verdict(results: SweepPoints) -> Verdict | None:
     if missing:
         sentences.append(f"{missing} more {_have(missing)} no margin, {_why(results, usable)}.")
     level: Level = "red" if below == known.size else "yellow" if below or missing else "green"
-    return Verdict(level, " ".join(sentences), lowest)
+    doubts = list(_doubts(results, usable))
+    if doubts and level == "green":
+        level = "yellow"
+    return Verdict(level, " ".join([*sentences, *doubts]), lowest)
+
+
+def _doubts(results: SweepResults, margins: Array) -> Iterator[str]:
+    """Sentences for which margins above 1 may be below it."""
+    above = [(point, margin) for point, margin in zip(results.points, margins, strict=True) if margin >= 1.0]
+    near = sum(
+        margin < FORMULA_FACTOR
+        for point, margin in above
+        if value_at(point.summary or {}, "bearing.contacts") == "formula"
+    )
+    if near:
+        yield f"At {near} of the other points the margin is within the 30 % that formulas may be off."
+    doubtful = sum(
+        bool({one.code for one in point.warnings} & {*DOUBTS, "partial-film"}) for point, _ in above
+    )
+    if doubtful:
+        yield f"At {doubtful} of the other points warnings say that the margin may be lower."
 
 
 def _have(count: int) -> str:
