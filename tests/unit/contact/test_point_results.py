@@ -348,4 +348,4 @@ def test_refinement_that_does_not_get_there_is_said(kind, monkeypatch):
     assert result.film.x.size == second
     (said,) = (text for text in map(str, result.warnings) if text.startswith("grid.refine"))
     assert f"0.01 % was not reached with {second} nodes" in said
-    assert "takes a grid that fits into" in said
+    assert "expected a grid that fits into" in said
