@@ -17,6 +17,7 @@ version = release = __version__
 
 extensions = [
     "architecture",
+    "bearing_figures",
     "from_code",
     "myst_parser",
     "numpydoc",

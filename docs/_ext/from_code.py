@@ -82,7 +82,7 @@ def _bounds(given: Quantity | Count) -> str:
 
 
 def _find(annotation: Any, metadata: Iterable[Any]) -> Any:
-    """The Quantity, Quantities, Count, literal texts or table behind an annotation."""
+    """The Quantity, Quantities, Count, literal strings or table behind an annotation."""
     for item in metadata:
         if isinstance(item, Quantity | Quantities | Count):
             return item
@@ -119,7 +119,7 @@ def _takes(name: str, found: Any, *, pair: bool) -> str:
         return f"{kind}{_bounds(found)}{unit}: {found.reason}"
     if isinstance(found, tuple):
         return ", ".join(f'`"{v}"`' if isinstance(v, str) else f"`{v}`" for v in found)
-    return "a table" if isinstance(found, type) else "text"
+    return "a table" if isinstance(found, type) else "a string"
 
 
 def _default(field: Any) -> str:
@@ -166,14 +166,14 @@ def _command(name: str, command: Any) -> Iterator[str]:
 def _write(app: Sphinx) -> None:
     folder = Path(app.srcdir) / "_generated"
     folder.mkdir(exist_ok=True)
-    head = ["key", "what it is", "takes", "default"]
+    head = ["key", "meaning", "expected value", "default"]
     pages = {}
     for table, model in _TABLES.items():
         pages[f"keys_{table.replace('.', '_')}"] = "```{rst-class} keys\n```\n\n" + _table(
             head, _keys(table, model)
         )
     pages["generators"] = _table(
-        ["generator", "needs", "may have"],
+        ["generator", "required keys", "optional keys"],
         [
             [f'`"{name}"`', *(", ".join(f"`{key}`" for key in keys) or "–" for keys in rows)]
             for name, rows in roughness_inputs.GENERATORS.items()
@@ -282,7 +282,7 @@ def _paper(app: Sphinx) -> None:
 
 
 def _capacitances() -> str:
-    """Capacitance of the paper's eight contacts over that of plates, and what it is made of."""
+    """Capacitance of the paper's eight contacts as a ratio to parallel plates, and its parts."""
     rows = []
     for contact in CONTACTS:
         case = contact.case(discharge={})
@@ -303,13 +303,13 @@ def _capacitances() -> str:
                 *(f"{r:.3f}" for r in ratios),
             ]
         )
-    head = ["contact", "C [nF/m]", "C over plates", "fingers", "layers", "ε_r everywhere"]
-    head += ["pressure's part", "Hertz zone over uniform film"]
+    head = ["contact", "C [nF/m]", "C / plate value", "fingers", "layers", "constant ε_r"]
+    head += ["effect of pressure on ε_r", "Hertz zone / uniform film"]
     return _table(head, rows)
 
 
 def _uniform_film(result: Any) -> float:
-    """Capacitance of a film of h(0) under the Hertz pressure, over the Hertz zone [F/m].
+    """Capacitance of a film of h(0) under the Hertz pressure, in the Hertz zone [F/m].
 
     By the midpoint rule over t, with X = cos(t) and p = p_h sin(t).
     """

@@ -13,7 +13,7 @@ from tests.cli.conftest import CASE
 from tests.helpers.commands import COMMAND
 from tests.helpers.places import EXAMPLES, SURFACES
 
-FIGURES = {"film.png", "potential.png", "field_strength.png", "field_profiles.png", "field_deviation.png"}
+FIGURES = {"film.png", "field_strength.png", "field_profiles.png", "field_deviation.png"}
 DATA = {"summary.json", "result.nc", "film.csv"}
 
 

@@ -22,7 +22,10 @@ def two_steps() -> Figure:
     texts = (
         "The films share the voltage:\n$s_i V$ on the inner film,\n$s_o V = (1 - s_i) V$ on the outer one",
         "One film conducts. The full voltage $V$\nis across the other film.\nNo path from ring to ring yet",
-        "Both films conduct:\ncurrent $i$ flows from ring to ring.\nIf the second film withstands less\nthan $V_1$, both fail at once: $V_2 = V_1$",
+        (
+            "Both films conduct:\ncurrent $i$ flows from ring to ring.\n"
+            "If the second film withstands less\nthan $V_1$, both fail at once: $V_2 = V_1$"
+        ),
     )
     for k, (ax, head, text) in enumerate(zip(axes, heads, texts, strict=True)):
         _element(ax)

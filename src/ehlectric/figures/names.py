@@ -13,10 +13,10 @@ from ehlectric.errors import InputError, shown
 FORMATS = ("png", "svg", "pdf")
 STYLES = ("screen", "journal")
 
-# Figures of contacts. The figure of the roughness is drawn of rough contacts only.
+# Figures of contacts. The roughness is drawn of rough contacts only, and the breakdown of contacts with a
+# dielectric strength only.
 FIGURE_FILES = (
     "film.png",
-    "potential.png",
     "field_strength.png",
     "field_profiles.png",
     "field_deviation.png",
@@ -29,10 +29,12 @@ POINT_FIGURE_FILES = (
     "field_sections.png",
     "cuts.png",
 )
-ROUGHNESS_FIGURE = "roughness.png"
+ROUGHNESS_FIGURE, BREAKDOWN_FIGURE = "roughness.png", "breakdown.png"
 
-# Figures of stationary contacts, line or point.
-ALL_FIGURES = tuple(dict.fromkeys((*FIGURE_FILES, *POINT_FIGURE_FILES, ROUGHNESS_FIGURE)))
+# Figures of stationary contacts, line or point. Earlier versions drew the potential of line contacts too.
+ALL_FIGURES = tuple(
+    dict.fromkeys((*FIGURE_FILES, *POINT_FIGURE_FILES, ROUGHNESS_FIGURE, BREAKDOWN_FIGURE, "potential.png"))
+)
 
 # Figures of transient contacts: over time, over position and time, and compared with stationary roughness.
 MOTION_FIGURE_FILES = ("motion_history.png", "motion_maps.png", "motion_beside_stationary.png")

@@ -13,12 +13,14 @@ from pathlib import Path
 from typing import Any, Protocol, TypeVar
 
 import matplotlib as mpl
+import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
 from matplotlib.text import Annotation
+from matplotlib.transforms import offset_copy
 
 from ehlectric.arrays import Array
 from ehlectric.cases.quantity import unit_for
@@ -32,6 +34,9 @@ D = TypeVar("D")
 # Colours that stay apart in print and for colour-blind readers (Okabe and Ito).
 BLUE, ORANGE, GREEN, GREY = "#0072b2", "#d55e00", "#009e73", "#555555"
 BODY, OIL = "#c9ced6", "#fff1cc"
+
+# Colour of values beyond the ends of a colour scale: grey, which no scale has.
+OUT_OF_RANGE = "#a3a8ad"
 
 # Text properties of the title of a figure whose result is not converged.
 NOT_CONVERGED: dict[str, Any] = {"color": "red", "weight": "bold"}
@@ -107,10 +112,6 @@ _ONE_COLUMN = 6.5
 
 # Characters of a title that fit into an inch, and sizes of its first line and of the others [pt].
 _AN_INCH, _FINDING, _BELOW = 14.0, 10.0, 8.5
-
-# Part of the width of a figure that a legend above its axes may take; width of a letter, and of the key at a
-# label, as multiples of the size of the letters.
-_LEGEND_PART, _LETTER, _KEY = 0.9, 0.5, 4.0
 
 _turn = threading.RLock()
 _style: ContextVar[str] = ContextVar("style", default="screen")
@@ -297,27 +298,57 @@ def drawing_of(drawings: Mapping[str, D], name: str) -> D:
     return drawings[file]
 
 
-def legend_above(ax: Axes, handles: Sequence[Artist] | None = None, columns: int = 2) -> None:
+def legend_above(
+    ax: Axes, handles: Sequence[Artist] | None = None, columns: int = 2, *, lift: float = 0.0, **options: Any
+) -> None:
     """Place a legend above the axes, of the given artists, or of all that have a label.
 
-    It has at most ``columns`` columns, and fewer where the longest label would not fit into the figure.
+    Parameters
+    ----------
+    ax : Axes
+        Axes of the legend.
+    handles : sequence of Artist, optional
+        Artists in the legend; all that have a label if omitted.
+    columns : int
+        Columns of the legend; fewer where the page is too narrow for them.
+    lift : float
+        Height of the legend above the axes [pt], which leaves room for an axis on top of them.
+    **options
+        Further options of a legend of matplotlib.
     """
-    shown_handles = ax.get_legend_handles_labels()[0] if handles is None else list(handles)
-    longest = max((len(str(handle.get_label())) for handle in shown_handles), default=0)
-    room = _LEGEND_PART * figure_of(ax).get_figwidth() * 72.0
-    letters = FontProperties(size=mpl.rcParams["legend.fontsize"]).get_size_in_points()
-    columns = max(1, min(columns, int(room / (letters * (_LETTER * longest + _KEY)))))
+    entries = ax.get_legend_handles_labels()[0] if handles is None else list(handles)
+    labels = options.get("labels") or [str(entry.get_label()) for entry in entries]
     ax.legend(
-        handles=shown_handles,
+        handles=entries,
         loc="lower left",
         bbox_to_anchor=(0.0, 1.0),
+        bbox_transform=offset_copy(ax.transAxes, figure_of(ax), y=lift, units="points"),
         borderaxespad=0.3,
         borderpad=0.2,
-        ncols=columns,
+        ncols=_fitting(labels, columns, 0.84 * 72.0 * figure_of(ax).get_figwidth() / _side_by_side(ax)),
         frameon=False,
         handlelength=2.2,
         columnspacing=1.4,
+        **options,
     )
+
+
+def _fitting(labels: Sequence[str], columns: int, room: float) -> int:
+    """Number of columns of a legend with these labels, at most ``columns``, that fit into ``room`` [pt]."""
+    size = FontProperties(size=mpl.rcParams["legend.fontsize"]).get_size_in_points()
+    for number in range(columns, 1, -1):
+        rows = -(-len(labels) // number)
+        of_columns = [labels[first : first + rows] for first in range(0, len(labels), rows)]
+        # A letter is about half as wide as its size; the handle and the space around it take eight letters.
+        if sum(0.52 * size * (8.0 + max(map(len, column))) for column in of_columns) <= room:
+            return number
+    return 1
+
+
+def _side_by_side(ax: Axes) -> int:
+    """Number of axes side by side in the figure of some axes."""
+    spec = ax.get_subplotspec()
+    return 1 if spec is None else int(spec.get_gridspec().ncols)
 
 
 def in_half_widths(result: OfContact, x: Array) -> Array:
@@ -329,3 +360,17 @@ def label_position(result: OfContact, ax: Axes, axis: str = "x") -> None:
     """Label the horizontal axis with x/b or y/b, and with the value of the half-width b."""
     factor, unit = unit_for(result.conditions.half_width, "m", least=1.0)
     ax.set_xlabel(f"${axis}/b$   ($b$ = {factor * result.conditions.half_width:.4g} {unit})")
+
+
+# Room that the axis of lengths above the axes takes [pt].
+LENGTH_AXIS = 27.0
+
+
+def length_axis(result: OfContact, ax: Axes, axis: str = "x") -> None:
+    """Add an axis above the axes with the position as a length, in micrometres or millimetres."""
+    b = result.conditions.half_width
+    factor, unit = unit_for(b * max(abs(end) for end in ax.get_xlim()), "m", least=1.0)
+    top = ax.secondary_xaxis(
+        "top", functions=(lambda x: np.asarray(x) * factor * b, lambda x: np.asarray(x) / (factor * b))
+    )
+    top.set_xlabel(f"${axis}$ [{unit}]", labelpad=3.0)

@@ -57,12 +57,8 @@ def _have(count: int) -> str:
 def _margins(results: SweepResults) -> Array:
     """Margin at every point; NaN where a point has none or its film must not be used."""
     table = "bearing" if isinstance(results.case, BearingCase) else "discharge"
-    values = [
-        ((point.summary or {}).get(table) or {}).get("margin")
-        if point.solved and not point.doubtful
-        else None
-        for point in results.points
-    ]
+    used = [(point.summary or {}) if point.solved and not point.doubtful else {} for point in results.points]
+    values = [value_at(summary, f"{table}.margin") for summary in used]
     return np.array([math.nan if value is None else float(value) for value in values])
 
 

@@ -86,12 +86,8 @@ def analyse_margin(solution: BearingSolution) -> MarginAnalysis:
     except InputError as error:
         return MarginAnalysis(margin, left_out=(f"margins at other inputs: {error}",))
     effects, left_out = effects_of(margins, margin)
-    speeds, interval = None, None
-    try:
-        speeds = speed_range(margins)
-        left_out += speeds.left_out
-    except InputError as error:
-        left_out += (f"critical speed: {error}",)
+    speeds, interval = speed_range(margins), None
+    left_out += speeds.left_out
     try:
         interval = margin_range(margins, margin, effects)
     except InputError as error:

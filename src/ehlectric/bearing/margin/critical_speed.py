@@ -7,7 +7,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
 
-import numpy as np
 from scipy.optimize import brentq
 
 from ehlectric.bearing.margin.formula_margins import FormulaMargins, FormulaPoint
@@ -19,7 +18,7 @@ LEAST, MOST = 0.1, 4.0
 
 # Speeds beside that of the case at which margins are computed, divided by it, and the tolerance of the
 # logarithm of the critical speed: 0.2 % of the speed.
-_PARTS, _TOLERANCE = (LEAST, 0.25, 0.6, 1.0, 2.0, MOST), 2e-3
+_PARTS, _TOLERANCE = (LEAST, 0.3, 2.0, MOST), 2e-3
 
 
 @dataclass(frozen=True)
@@ -61,50 +60,49 @@ def speed_range(margins: FormulaMargins) -> SpeedRange:
     SpeedRange
         Critical speed, from a tenth of the case's speed to four times this speed.
 
-    Raises
-    ------
-    InputError
-        Where no speed has a result.
-
     Notes
     -----
     The temperature is that of the case at all speeds. Where the margin crosses 1 more than once, the highest
     of these speeds counts: breakdown is expected somewhere below it.
     """
-    own = margins.case.bearing.inner_speed
-    known: dict[float, FormulaPoint] = {}
+    own = math.log(margins.case.bearing.inner_speed)
+    known = {own: margins.own}
     left_out = []
 
-    def at(speed: float) -> FormulaPoint:
-        if speed not in known:
-            known[speed] = margins.at({"bearing.inner_speed": speed})
-        return known[speed]
+    def at(log: float) -> FormulaPoint:
+        if log not in known:
+            known[log] = margins.at({"bearing.inner_speed": math.exp(log)})
+        return known[log]
 
-    speeds = []
     for part in _PARTS:
         try:
-            at(part * own)
+            at(own + math.log(part))
         except InputError as error:
-            left_out.append(f"speed {part * own * 30.0 / math.pi:.4g} rpm: {error}")
-        else:
-            speeds.append(part * own)
-    if not speeds:
-        raise InputError.worded(None, "; ".join(left_out))
-    touching = _crossing(speeds, lambda speed: at(speed).lambda_ratio - CONDUCTING)
+            speed = math.exp(own) * part * 30.0 / math.pi
+            left_out.append(f"speed {speed:.4g} rpm: {error}")
+    logs = sorted(known)
+    lowest, highest = logs[0], logs[-1]
+    touching = _crossing(logs, lambda log: at(log).lambda_ratio - CONDUCTING)
     if touching is not None:
         # At the crossing itself the surfaces may touch by rounding.
-        speeds = [touching * (1.0 + 2.0 * _TOLERANCE), *(speed for speed in speeds if speed > touching)]
-    insulated = [speed for speed in speeds if at(speed).margin > 0.0]
-    critical = _crossing(insulated, lambda speed: math.log(max(at(speed).margin, 1e-300)))
-    lowest, highest = min(known), max(known)
-    return SpeedRange(lowest, highest, critical, touching, at(highest).margin >= 1.0, tuple(left_out))
+        logs = [touching + _TOLERANCE, *(log for log in logs if log > touching + _TOLERANCE)]
+    # The surfaces may still touch by formula where the scaled lambda ratio is above 1.
+    logs = [log for log in logs if at(log).margin > 0.0]
+    critical = _crossing(logs, lambda log: math.log(at(log).margin))
+    return SpeedRange(
+        math.exp(lowest),
+        math.exp(highest),
+        None if critical is None else math.exp(critical),
+        None if touching is None else math.exp(touching),
+        at(highest).margin >= 1.0,
+        tuple(left_out),
+    )
 
 
-def _crossing(speeds: list[float], value: Callable[[float], float]) -> float | None:
-    """Highest speed at which a value rises from below 0 to above 0; None where there is none."""
-    for low, high in reversed(list(pairwise(speeds))):
+def _crossing(logs: list[float], value: Callable[[float], float]) -> float | None:
+    """Highest logarithm of a speed at which a value rises through 0; None where there is none."""
+    for low, high in reversed(list(pairwise(logs))):
         if value(low) < 0.0 <= value(high):
-            found: float = brentq(lambda log: value(float(np.exp(log))), math.log(low), math.log(high),
-                                  xtol=_TOLERANCE)  # fmt: skip
-            return math.exp(found)
+            found: float = brentq(value, low, high, xtol=_TOLERANCE)
+            return found
     return None

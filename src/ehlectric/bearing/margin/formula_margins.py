@@ -23,7 +23,7 @@ _NOT_BY_FORMULA = ("discharge.weibull.shape", "discharge.weibull.reference_area"
 
 @dataclass(frozen=True)
 class FormulaPoint:
-    """Margin and lambda ratio of a bearing by formula, before they are scaled.
+    """Margin and lambda ratio of a bearing.
 
     Attributes
     ----------
@@ -45,6 +45,8 @@ class FormulaMargins:
     ----------
     case : BearingCase
         Case of the bearing.
+    own : FormulaPoint
+        Margin and lambda ratio of the solution.
     margin_factor, lambda_factor : float
         Margin and lambda ratio of the solution divided by those by formula, dimensionless.
 
@@ -55,6 +57,7 @@ class FormulaMargins:
     """
 
     case: BearingCase
+    own: FormulaPoint
     margin_factor: float
     lambda_factor: float
 
@@ -71,10 +74,11 @@ class FormulaMargins:
         solved = None if breakdown is None else margin(breakdown.first_break, shaft_voltage(solution))
         if solved is None:
             raise InputError.worded(None, "the bearing has no margin")
-        own = _point(solution.case)
-        if own.margin == 0.0:
+        own, by_formula = FormulaPoint(solved, lambda_ratio(solution)), _point(solution.case)
+        if by_formula.margin == 0.0:
             raise InputError.worded(None, "by film formulas the surfaces touch already in the case itself")
-        return cls(solution.case, solved / own.margin, lambda_ratio(solution) / own.lambda_ratio)
+        ratios = own.margin / by_formula.margin, own.lambda_ratio / by_formula.lambda_ratio
+        return cls(solution.case, own, *ratios)
 
     def at(self, changes: Mapping[str, Any]) -> FormulaPoint:
         """Margin and lambda ratio with changed inputs, scaled to the solution.

@@ -50,9 +50,9 @@ def _zone(zone: BreakdownZone, half_width: float) -> Iterator[Row]:
     places = position if isinstance(position, tuple) else (position,)
     at = ", ".join(f"{place / half_width:.3g}" for place in places)
     axes = "x/b, y/b" if len(places) > 1 else "x/b"
-    yield Row("zone that breaks down first, at", at, note=axes)
+    yield Row("breakdown zone, position", at, note=axes)
     pits = f"published pits {MEAN_PIT * 1e6:g}, at most {LARGEST_PIT * 1e6:g}"
-    yield Row("  size of the zone that breaks down first", zone.zone_size, "µm", f", above 95 %; {pits}")
+    yield Row("breakdown zone, size", zone.zone_size, "µm", f", above 95 %; {pits}")
 
 
 def _capacitances(capacitances: Capacitances, unit: str) -> Iterator[Row]:
@@ -72,9 +72,8 @@ def _capacitances(capacitances: Capacitances, unit: str) -> Iterator[Row]:
         Row("", value, unit).shown
         for value in (capacitances.capacitance_layers, capacitances.capacitance_full)
     )
-    yield Row(
-        "  capacitance by filling of the outlet", f"{least} to {most}", unit, ", assumption: layers to full"
-    )
+    note = ", assumption: layers to full"
+    yield Row("  capacitance by outlet filling", f"{least} to {most}", unit, note)
 
 
 def _costs(costs: DischargeCosts) -> Iterator[Row]:

@@ -10,8 +10,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ehlectric.contact.results import PointResult, Result
+from ehlectric.figures.contact.findings import finding
 from ehlectric.figures.contact.line import figures_of
+from ehlectric.figures.contact.maps import fit_height
 from ehlectric.figures.contact.point import point_figures_of
+from ehlectric.figures.names import in_formats
 from ehlectric.figures.style import drawing_of, figure_of, name_over, save_figure, style
 
 
@@ -46,7 +49,10 @@ def figure(result: Result | PointResult, name: str) -> Figure:
     draw = drawing_of(drawings_of(result), name)
     with style():
         ax = draw(result)
-        _name(ax, result)
+        _name(ax, result, name)
+        # Only maps have axes of equal scale.
+        if ax.get_aspect() != "auto":
+            fit_height(figure_of(ax))
     return figure_of(ax)
 
 
@@ -74,7 +80,9 @@ def save_figures(result: Result | PointResult, folder: Path, formats: Sequence[s
     ]
 
 
-def _name(ax: Axes, result: Result | PointResult) -> None:
-    """Draw the title of a figure over all of its panels."""
+def _name(ax: Axes, result: Result | PointResult, name: str) -> None:
+    """Draw the title over all panels of a figure: the finding, and below it the title of the case."""
+    (file,) = in_formats([name])
     title = textwrap.shorten(result.case.title, 90, placeholder=" ...")
-    name_over(ax, title if result.converged else f"NOT CONVERGED\n{title}", converged=result.converged)
+    first = finding(result, file) if result.converged else "NOT CONVERGED"
+    name_over(ax, "\n".join(filter(None, [first, title])), converged=result.converged)

@@ -12,6 +12,7 @@ from ehlectric.errors import InputError, shown
 from ehlectric.figures.bearing.save import save_speed_figures
 from ehlectric.figures.names import SENSITIVITY_FIGURE, in_formats, map_files
 from ehlectric.figures.style import figure_of, new_panels, save_figure, style
+from ehlectric.figures.sweep import findings
 from ehlectric.figures.sweep.lines import value_lines
 from ehlectric.figures.sweep.maps import value_map
 from ehlectric.figures.sweep.points import held_text, name_figure
@@ -75,11 +76,11 @@ def figure(
         raise InputError("figure", got=shown(name), takes=allowed)
     if kind == "map" and y is None:
         raise InputError.missing("y", "a varied key, for a map")
-    text = held_text(results, take(results, x, y, key, at))
+    taken = take(results, x, y, key, at)
     with style():
         ax = new_panels(1, 1, _SIZES[kind])[0]
         FIGURES[kind](results, x, y, key, at=at, ax=ax)
-        name_figure(ax, results, text)
+        name_figure(ax, results, findings.of_slice(results, taken), held_text(results, taken))
     return figure_of(ax)
 
 
