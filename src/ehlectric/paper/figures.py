@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from ehlectric.arrays import Array
 from ehlectric.contact.results import Result
-from ehlectric.figures.contact import line as plot
+from ehlectric.figures.contact import line_maps as plot
 from ehlectric.figures.style import BODY, figure_of, new_panels
 from ehlectric.paper import schematics
 from ehlectric.paper.contacts import CONTACTS, PaperContact
