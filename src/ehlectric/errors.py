@@ -188,6 +188,7 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "field-grid-too-coarse": Cause("The grid of the field is coarser than that of the film."),
         "field-range-too-narrow": Cause("The largest field is at an edge of the field range."),
         "field-above-insulators": Cause("The largest field is above what any insulator withstands."),
+        "breakdown-expected": Cause("The margin is below 1: breakdown is expected."),
         "tunnelling": Cause("Electrons tunnel through a film as thin as this one."),
         "strength-table-exceeded": Cause("The film pressure leaves the range of discharge.strength_table."),
         # Transient contacts

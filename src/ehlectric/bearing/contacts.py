@@ -207,8 +207,12 @@ def _solution(
 
 
 def without_regime(warnings: Iterable[ResultWarning]) -> tuple[ResultWarning, ...]:
-    """Warnings without those about the regime, since the domain of a bearing's contact suits its regime."""
-    return tuple(warning for warning in warnings if warning.code != "regime")
+    """Warnings without those that are not about a contact of a bearing.
+
+    The domain of a contact suits its regime, and the voltage of a single contact is not that of the bearing.
+    """
+    left_out = ("regime", "breakdown-expected")
+    return tuple(warning for warning in warnings if warning.code not in left_out)
 
 
 @dataclass(frozen=True)

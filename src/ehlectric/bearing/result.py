@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
+from ehlectric.bearing.margin.analysis import MarginAnalysis, analyse_margin
+from ehlectric.bearing.margin.verdict import bearing_verdict
 from ehlectric.bearing.shaft_voltage import shaft_voltage
 from ehlectric.bearing.solution import BearingSolution, capacitance
 from ehlectric.bearing.summary import breaks, contact_rows, summary_of
 from ehlectric.bearing.warnings import bearing_warnings
 from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.discharge.verdict import Verdict
 from ehlectric.errors import ResultWarning
+from ehlectric.runtime.files import plain
 
 
 @dataclass(frozen=True)
@@ -80,6 +85,28 @@ class BearingResult:
         """Table of contacts, a row per element and ring, with the cage at its first position, SI units."""
         return contact_rows(self.solution)
 
+    @cached_property
+    def margin_analysis(self) -> MarginAnalysis:
+        """Critical speed, effects of the inputs on the margin, and its range from ``ranges``.
+
+        It solves some twenty bearings with contacts by formula when it is first asked for: a few seconds at
+        most, beside a minute for a bearing with solved contacts.
+        """
+        return analyse_margin(self.solution)
+
+    @cached_property
+    def verdict(self) -> Verdict:
+        """Verdict: whether breakdown is expected at the shaft voltage, and below which speed."""
+        return bearing_verdict(self.solution, self.margin_analysis)
+
     def summary(self) -> dict[str, Any]:
         """Results nested as in summary.json, SI units; None in place of NaN."""
-        return summary_of(self.solution)
+        verdict, analysis = self.verdict, self.margin_analysis
+        summary: dict[str, Any] = {}
+        for key, value in summary_of(self.solution).items():
+            if key == "mechanics":
+                summary["margin"] = plain({"level": verdict.level, **analysis.summary()})
+            summary[key] = value
+            if key == "warning_codes":
+                summary["verdict"] = verdict.text
+        return summary

@@ -7,8 +7,10 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
+from ehlectric.bearing.breakdown import breakdown_of
 from ehlectric.bearing.contacts import ContactSolution
 from ehlectric.bearing.limits import TAKEN, groove_ratio, shoulder_angle
+from ehlectric.bearing.shaft_voltage import shaft_voltage
 from ehlectric.bearing.solution import (
     BearingSolution,
     Position,
@@ -18,6 +20,7 @@ from ehlectric.bearing.solution import (
     lubrication,
 )
 from ehlectric.cases.bearing import Bearing
+from ehlectric.discharge.verdict import breakdown_warning
 from ehlectric.errors import ResultWarning
 
 # Temperature below which the viscosity, extrapolated from 40 and 100 degC, may be far off [K].
@@ -68,6 +71,10 @@ def voltage_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
             "the elements are ceramic: the capacitance is an upper bound, that of conducting ones, and "
             "no shaft voltage follows from it; bearing.element_capacitance gives one",
         )
+    breakdown, shaft = breakdown_of(solution), shaft_voltage(solution)
+    if breakdown is not None and shaft is not None and breakdown.first_break < shaft and solution.converged:
+        at = f"first breakdown at {breakdown.first_break:.3g} V"
+        yield breakdown_warning("shaft voltage", shaft, at, breakdown.first_break / shaft)
     if solution.case.discharge.weibull is not None and insulating(solution):
         text = "first break and through breakdown are voltages at a probability of 63.2 % (Weibull)"
         yield ResultWarning("weibull-voltage", text)

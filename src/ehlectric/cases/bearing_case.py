@@ -6,13 +6,15 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Literal, Self
 
-from pydantic import model_validator
+from pydantic import field_serializer, field_validator, model_validator
 
 from ehlectric.cases.bearing import Bearing, BearingDischarge, BearingLubricant, Motor
 from ehlectric.cases.case import Title
 from ehlectric.cases.changes import Groups, displace, set_keys
 from ehlectric.cases.discharge import STRENGTHS, TABLES
 from ehlectric.cases.grid import Solver
+from ehlectric.cases.ranges import InputRange, ranges_of
+from ehlectric.cases.row import value_at
 from ehlectric.cases.table import Table, read_toml
 from ehlectric.errors import InputError
 
@@ -36,6 +38,17 @@ class BearingCase(Table):
     discharge: BearingDischarge = BearingDischarge()
     motor: Motor | None = None
     solver: Solver = Solver()
+    ranges: tuple[InputRange, ...] | None = None
+
+    @field_validator("ranges", mode="plain")
+    @classmethod
+    def _parsed(cls, tables: Any) -> tuple[InputRange, ...] | None:
+        """Ranges of inputs in SI units."""
+        return None if tables is None else ranges_of(tables, cls) or None
+
+    @field_serializer("ranges")
+    def _as_table(self, ranges: tuple[InputRange, ...] | None) -> dict[str, list[float]] | None:
+        return None if ranges is None else {one.key: [one.low, one.high] for one in ranges}
 
     @model_validator(mode="after")
     def _check(self) -> Self:
@@ -48,6 +61,12 @@ class BearingCase(Table):
                 raise InputError.worded(
                     "lubricant.temperature.thermal_conductivity",
                     "missing, film_factor 'inlet-shear' takes it",
+                )
+        table = self.to_dict() if self.ranges else {}
+        for one in self.ranges or ():
+            if not _is_number(value_at(table, one.key)):
+                raise InputError(
+                    f"ranges.{one.key}", got="a range", takes=f"a number for {one.key} in the file too"
                 )
         return self
 
@@ -94,7 +113,8 @@ class BearingCase(Table):
         ----------
         changes : mapping
             New values by dotted key, as in ``{"bearing.radial_load": "1 kN"}``. A new key replaces its
-            alternative; a new ``lubricant.base`` replaces all values of the lubricant.
+            alternative; a new ``lubricant.base`` replaces all values of the lubricant. A range of a replaced
+            value is left out.
 
         Returns
         -------
@@ -111,4 +131,15 @@ class BearingCase(Table):
             table["lubricant"] = {}
         displace(table, changes, _ALTERNATIVES)
         set_keys(table, changes)
+        if "ranges" in table and "ranges" not in changes:
+            table["ranges"] = {
+                key: ends
+                for key, ends in table["ranges"].items()
+                if key not in changes and _is_number(value_at(table, key))
+            }
         return self.from_dict(table)
+
+
+def _is_number(value: Any) -> bool:
+    """Whether the value of an input is a number, and not missing, a choice, a list or a table."""
+    return isinstance(value, int | float) and not isinstance(value, bool)

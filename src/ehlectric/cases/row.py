@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
@@ -18,6 +19,9 @@ UNITS: Mapping[str, tuple[str, float]] = MappingProxyType(
         "MN/m": ("N/m", 1e-6),
         "GPa": ("Pa", 1e-9),
         "m/s": ("m/s", 1.0),
+        "rpm": ("rad/s", 30.0 / math.pi),
+        "deg": ("rad", 180.0 / math.pi),
+        "mPa s": ("Pa*s", 1e3),
         "mm": ("m", 1e3),
         "µm": ("m", 1e6),
         "nm": ("m", 1e9),

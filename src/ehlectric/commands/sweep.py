@@ -16,6 +16,7 @@ from ehlectric.commands.terminal import (
     NOT_CONVERGED,
     echo_files,
     print_rows,
+    print_verdict,
     refuse_failure,
     user_errors,
     warn,
@@ -67,10 +68,12 @@ def sweep(
             outcome = runs.RUNS["sweep"].run(asked, output, progress, **options)
     if not quiet:
         from ehlectric.commands.tables.sweep import sweep_rows
+        from ehlectric.sweep.verdict import sweep_verdict
 
         print_rows(sweep_rows(outcome.result))
         echo_files(outcome.files)
         warn(outcome.warnings)
+        print_verdict(sweep_verdict(outcome.result))
     elif outcome.converged:
         warn(_in_short(outcome.result))
     refuse_failure(outcome)

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from ehlectric.cases.row import Row
+    from ehlectric.discharge.verdict import Verdict
     from ehlectric.runtime.outcome import RunOutcome
 
 
@@ -81,7 +82,7 @@ def report(
     quiet: bool,
     as_json: bool,
 ) -> None:
-    """Print the tables and files of a run, its warnings, and why it failed.
+    """Print the tables and files of a run, its warnings, its verdict, and why it failed.
 
     Parameters
     ----------
@@ -107,6 +108,8 @@ def report(
         echo_files(outcome.files)
     if not quiet:
         warn(outcome.warnings)
+        if not as_json:
+            print_verdict(getattr(outcome.result, "verdict", None))
     refuse_failure(outcome)
 
 
@@ -131,6 +134,27 @@ def print_table(table: Table) -> None:
     console = Console(highlight=False)
     with console.capture() as captured:
         console.print(table)
+    typer.echo(captured.get(), nl=False)
+
+
+# Styles of the levels of a verdict, as rich names them.
+_STYLES = {"green": "bold green", "yellow": "bold yellow", "red": "bold red", "grey": "bold"}
+
+
+def print_verdict(verdict: Verdict | None) -> None:
+    """Print a verdict on stdout in the colour of its level; without colours where stdout is no terminal."""
+    if verdict is None:
+        return
+    from rich.console import Console
+    from rich.text import Text
+
+    console = Console(highlight=False)
+    if not console.is_terminal:
+        # A line that is read by a program is not wrapped.
+        typer.echo(verdict.text)
+        return
+    with console.capture() as captured:
+        console.print(Text(verdict.text, style=_STYLES[verdict.level]))
     typer.echo(captured.get(), nl=False)
 
 

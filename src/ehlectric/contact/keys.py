@@ -16,6 +16,10 @@ _ABOUT: Keys = {
     "warning_codes": ResultKey(
         "code of each warning, in the same order: programs decide by codes, as words may change"
     ),
+    "verdict": ResultKey(
+        "answer in sentences: whether breakdown is expected at the applied voltage, and what is assumed; "
+        "only with `[discharge]`"
+    ),
     "inputs": ResultKey("the case, its alternatives resolved"),
 }
 _GROUPS: Keys = {

@@ -13,6 +13,7 @@ from ehlectric.cases.case import Case
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.setup import Setup
 from ehlectric.discharge.assessment import Assessment, assess
+from ehlectric.discharge.verdict import Verdict, contact_verdict
 from ehlectric.errors import ResultWarning
 from ehlectric.field.line import Field
 from ehlectric.field.point import PointField
@@ -126,6 +127,21 @@ class Solution(Generic[ConditionsT, FilmT, FieldT]):
             return None
         return assess(
             self.case.discharge, self.case.lubricant, self.conditions.semi_axes, self.film, self.field
+        )
+
+    @property
+    def verdict(self) -> Verdict | None:
+        """Verdict: whether breakdown is expected; None if the case has no table ``discharge``."""
+        inputs, discharge = self.case.discharge, self.discharge
+        if inputs is None or discharge is None:
+            return None
+        return contact_verdict(
+            inputs,
+            discharge.breakdown,
+            self.field.voltage,
+            warnings=self.warnings,
+            error=self.film.discretisation_error,
+            flooded=self.conditions.film_factor == 1.0,
         )
 
     @cached_property

@@ -26,7 +26,7 @@ from ehlectric.contact.result_warnings import field_warnings, film_warnings
 from ehlectric.contact.results import RESULTS, PointResult, Result
 from ehlectric.contact.setup import Setup
 from ehlectric.contact.solution import Smooth
-from ehlectric.discharge.assessment import discharge_warnings
+from ehlectric.discharge.assessment import discharge_warnings, margin_warnings
 from ehlectric.errors import ConvergenceError, InputError
 from ehlectric.film.state import Progress
 from ehlectric.runtime.files import now
@@ -252,6 +252,7 @@ def _solved(
             *film_warnings(case, film),
             *kind.result_warnings(case, film, field),
             *discharge_warnings(case.discharge, film),
+            *margin_warnings(case.discharge, conditions.semi_axes, film, field),
             *field_warnings(field.max_strength),
         ),
         film_solver=solvers.name,

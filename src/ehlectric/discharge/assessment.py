@@ -18,6 +18,7 @@ from ehlectric.discharge.energy import DischargeCosts, discharge_costs
 from ehlectric.discharge.laws import SOURCES, TUNNELLING
 from ehlectric.discharge.leakage import Leakage, leakage
 from ehlectric.discharge.utilisation import FieldUtilisation
+from ehlectric.discharge.verdict import breakdown_warning
 from ehlectric.errors import ResultWarning
 from ehlectric.field.line import Field
 from ehlectric.field.point import PointField
@@ -145,6 +146,22 @@ def assess(
         ),
         leakage=leakage(discharge, lubricant.relative_permittivity),
     )
+
+
+def margin_warnings(
+    discharge: Discharge | None,
+    semi_axes: tuple[float, ...],
+    film: Film | PointFilm,
+    field: Field | PointField,
+) -> Iterator[ResultWarning]:
+    """Warning of a breakdown voltage below the applied voltage; none for a film that is no solution."""
+    if discharge is None or not film.converged:
+        return
+    size, utilisation = Size.of(semi_axes, discharge), FieldUtilisation.of(discharge, film, field)
+    found = breakdown(discharge, utilisation, field.voltage, size)
+    if found.margin is not None and found.margin < 1.0:
+        at = f"breakdown voltage {found.breakdown_voltage:.3g} V"
+        yield breakdown_warning("applied voltage", field.voltage, at, found.margin)
 
 
 def discharge_warnings(discharge: Discharge | None, film: Film | PointFilm) -> Iterator[ResultWarning]:

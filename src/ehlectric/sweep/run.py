@@ -20,6 +20,7 @@ from ehlectric.sweep.plan import Outcome, Planned, plan
 from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.store import LOCK, NAME, Store, read_sweep
 from ehlectric.sweep.tables import FILES, write_tables
+from ehlectric.sweep.verdict import sweep_verdict
 from ehlectric.sweep.warnings import sweep_warnings
 
 
@@ -103,7 +104,8 @@ def run(
     Returns
     -------
     RunOutcome
-        Its summary is the number of points of each status. It has a ``failure`` where no point is solved.
+        Its summary is the number of points of each status, and the verdict as text where points have a
+        margin. It has a ``failure`` where no point is solved.
 
     Raises
     ------
@@ -126,9 +128,12 @@ def run(
             results = read_sweep(folder)
             write_tables(results, folder)
     files = tuple(folder / name for name in FILES if (folder / name).exists())
-    counts: dict[str, int] = dict(Counter(str(point.status) for point in results.points))
-    failure = None if "solved" in counts else f"none of {len(results.points)} points was solved"
-    return RunOutcome(results, counts, files, tuple(sweep_warnings(results)), failure)
+    summary: dict[str, Any] = dict(Counter(str(point.status) for point in results.points))
+    failure = None if "solved" in summary else f"none of {len(results.points)} points was solved"
+    verdict = sweep_verdict(results)
+    if verdict is not None:
+        summary["verdict"] = verdict.text
+    return RunOutcome(results, summary, files, tuple(sweep_warnings(results)), failure)
 
 
 def planned_points(sweep: Sweep) -> list[Planned]:

@@ -7,7 +7,7 @@ from typing import Any
 
 from ehlectric.cases.case import Case
 from ehlectric.cases.row import Row
-from ehlectric.commands.tables.discharge import discharge_rows
+from ehlectric.commands.tables.discharge import discharge_rows, duty_rows
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.formulas.film_line import FORMULAS as LINE_FORMULAS
@@ -122,6 +122,7 @@ def _films(thickness: Thickness) -> Iterator[tuple[str, float]]:
 def _line_result(result: Result) -> Iterator[Row]:
     field, half_width = result.field, result.conditions.half_width
     yield from _status(result)
+    yield from duty_rows(result)
     yield from _line_conditions(result.conditions)
     yield from _film(result, Row("  at x/b", result.film.minimum_position / half_width))
     yield from _field(result, "  at x/b", f"{field.max_strength_position / half_width:.4g}")
@@ -138,6 +139,7 @@ def _line_result(result: Result) -> Iterator[Row]:
 def _point_result(result: PointResult) -> Iterator[Row]:
     field, film = result.field, result.film
     yield from _status(result)
+    yield from duty_rows(result)
     yield from _point_conditions(result.conditions)
     yield from _film(result, Row("  at x/b, y/b", _in_semi_axes(result, film.minimum_position)))
     nx, ny = film.thickness.shape

@@ -30,8 +30,8 @@ def table_of(rows: Iterable[Row], title: str = "") -> Table:
     from rich.text import Text
 
     table = Table(title=Text(title) if title else None, show_header=False, title_justify="left", box=None)
-    table.add_column(style="bold")
-    table.add_column(justify="right")
+    table.add_column(style="bold", no_wrap=True)
+    table.add_column(justify="right", no_wrap=True)
     table.add_column()
     for row in rows:
         table.add_row(row.name, row.shown, row.unit + row.note, style="red" if row.alarm else None)
