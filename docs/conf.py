@@ -17,9 +17,11 @@ version = release = __version__
 
 extensions = [
     "architecture",
+    "bearing_figures",
     "from_code",
     "myst_parser",
     "numpydoc",
+    "sketches",
     "sphinx.ext.autodoc",
     "sphinx.ext.autosummary",
     "sphinx.ext.mathjax",

@@ -7,6 +7,7 @@ ends the build.
 
 from __future__ import annotations
 
+import inspect
 import re
 import tomllib
 from collections.abc import Iterable, Iterator, Mapping
@@ -83,7 +84,7 @@ def _bounds(given: Quantity | Count) -> str:
 
 
 def _find(annotation: Any, metadata: Iterable[Any]) -> Any:
-    """The Quantity, Quantities, Count, literal texts or table behind an annotation."""
+    """The Quantity, Quantities, Count, literal strings or table behind an annotation."""
     for item in metadata:
         if isinstance(item, Quantity | Quantities | Count | Grade):
             return item
@@ -122,7 +123,7 @@ def _takes(name: str, found: Any, *, pair: bool) -> str:
         return f"{kind}{_bounds(found)}{unit}: {found.reason}"
     if isinstance(found, tuple):
         return ", ".join(f'`"{v}"`' if isinstance(v, str) else f"`{v}`" for v in found)
-    return "a table" if isinstance(found, type) else "text"
+    return "a table" if isinstance(found, type) else "a string"
 
 
 def _default(field: Any) -> str:
@@ -146,22 +147,28 @@ def _keys(table: str, model: type[validation.Table]) -> Iterator[list[str]]:
         yield [f"`{name}`", meanings[name], takes, _default(field)]
 
 
+def _word(argument: Any) -> str:
+    """Word that stands for an argument, as the command prints it."""
+    return argument.metavar or argument.name.upper()
+
+
 def _command(name: str, command: Any) -> Iterator[str]:
     """Usage, help, arguments and options of one command."""
     arguments = [p for p in command.params if p.param_type_name == "argument"]
     options = [p for p in command.params if p.param_type_name == "option"]
-    words = [p.name.upper() if p.required else f"[{p.name.upper()}]" for p in arguments]
+    options = [p for p in options if not p.hidden]
+    words = [_word(p) if p.required else f"[{_word(p)}]" for p in arguments]
     yield f"## ehlectric {name}\n"
     yield f"```text\nehlectric {name} {'[OPTIONS] ' if options else ''}{' '.join(words)}\n```\n"
     yield command.help.strip() + "\n"
+    examples = (command.epilog or "").partition("Examples:\n")[2]
+    yield f"```text\n{inspect.cleandoc(examples)}\n```\n"
     rows = []
     for p in [*arguments, *options]:
         written = (
-            ", ".join(f"`{o}`" for o in [*p.opts, *p.secondary_opts])
-            if p in options
-            else f"`{p.name.upper()}`"
+            ", ".join(f"`{o}`" for o in [*p.opts, *p.secondary_opts]) if p in options else f"`{_word(p)}`"
         )
-        default = "" if p.default is None or p.default is False or p.required else f"`{p.default}`"
+        default = "" if p.default in (None, False, "") or p.required else f"`{p.default}`"
         rows.append([written, getattr(p, "help", None) or "", "on" if p.default is True else default])
     yield _table(["argument or option", "what it does", "default"], rows)
 
@@ -169,14 +176,14 @@ def _command(name: str, command: Any) -> Iterator[str]:
 def _write(app: Sphinx) -> None:
     folder = Path(app.srcdir) / "_generated"
     folder.mkdir(exist_ok=True)
-    head = ["key", "what it is", "takes", "default"]
+    head = ["key", "meaning", "expected value", "default"]
     pages = {}
     for table, model in _TABLES.items():
         pages[f"keys_{table.replace('.', '_')}"] = "```{rst-class} keys\n```\n\n" + _table(
             head, _keys(table, model)
         )
     pages["generators"] = _table(
-        ["generator", "needs", "may have"],
+        ["generator", "required keys", "optional keys"],
         [
             [f'`"{name}"`', *(", ".join(f"`{key}`" for key in keys) or "–" for keys in rows)]
             for name, rows in roughness_inputs.GENERATORS.items()
@@ -285,7 +292,7 @@ def _paper(app: Sphinx) -> None:
 
 
 def _capacitances() -> str:
-    """Capacitance of the paper's eight contacts over that of plates, and what it is made of."""
+    """Capacitance of the paper's eight contacts as a ratio to parallel plates, and its parts."""
     rows = []
     for contact in CONTACTS:
         case = contact.case(discharge={})
@@ -306,13 +313,13 @@ def _capacitances() -> str:
                 *(f"{r:.3f}" for r in ratios),
             ]
         )
-    head = ["contact", "C [nF/m]", "C over plates", "fingers", "layers", "ε_r everywhere"]
-    head += ["pressure's part", "Hertz zone over uniform film"]
+    head = ["contact", "C [nF/m]", "C / plate value", "fingers", "layers", "constant ε_r"]
+    head += ["effect of pressure on ε_r", "Hertz zone / uniform film"]
     return _table(head, rows)
 
 
 def _uniform_film(result: Any) -> float:
-    """Capacitance of a film of h(0) under the Hertz pressure, over the Hertz zone [F/m].
+    """Capacitance of a film of h(0) under the Hertz pressure, in the Hertz zone [F/m].
 
     By the midpoint rule over t, with X = cos(t) and p = p_h sin(t).
     """
@@ -335,16 +342,34 @@ def _check_tests(app: Sphinx) -> None:
 
 _PUBLIC = """# API
 
-## Public names
-
-These are imported from `ehlectric` itself, and stay. A script needs no others.
+These names are imported from `ehlectric` itself, and are the stable public API. A script needs no others.
+[From Python](../guide/python.md) shows their use. Everything else is in the [internal modules](internals.md),
+which may change between versions.
 
 {}
-## Packages
+```{{toctree}}
+:hidden:
 
-Everything else is imported from the module it lives in. A package imports from those below it
-on this page, never from those above.
+internals
+```
 """
+_INTERNAL = """# Internal modules
+
+A script does not need these modules: [API](index.md) has the public names. They may change between versions.
+A package imports from those below it on this page, never from those above; [Architecture](../architecture.md)
+has the map.
+"""
+
+# Headings of the page of the public names, each with its names in the order of their use.
+_GROUPS = {
+    "Solve": ("solve", "solve_many", "solve_bearing", "solve_motion", "run_sweep", "run_motion"),
+    "Cases": ("Case", "LineCase", "PointCase", "BearingCase", "Sweep"),
+    "Results": ("Result", "PointResult", "BearingResult", "MotionResult", "SweepResults", "Solved"),
+    "Warnings and verdicts": ("ResultWarning", "Verdict"),
+    "Files": ("save", "load", "read_sweep", "read_motion"),
+    "Figures": ("figure", "figure_names", "save_figures"),
+    "Errors": ("InputError", "ConvergenceError", "LostError"),
+}
 
 
 def _autosummary(names: Iterable[str]) -> str:
@@ -352,18 +377,28 @@ def _autosummary(names: Iterable[str]) -> str:
     return f"```{{eval-rst}}\n.. autosummary::\n   :toctree: generated\n\n{rows}```\n"
 
 
-def _write_api(folder: Path) -> None:
-    """The page of the API: every module by its package, in the order of the import contract."""
-    project = tomllib.loads((folder.parents[1] / "pyproject.toml").read_text(encoding="utf-8"))
+def _public() -> str:
+    """The page of the public names; every one of them is in a group."""
+    grouped = [name for names in _GROUPS.values() for name in names]
+    public = {name for name in ehlectric.__all__ if name[:2] != "__"}
+    if len(grouped) != len(public) or set(grouped) != public:
+        raise ExtensionError(f"names without a group: {sorted(set(grouped) ^ public)}")
+    parts = []
+    for head, names in _GROUPS.items():
+        parts.append(f"## {head}\n\n{_autosummary(f'~ehlectric.{name}' for name in names)}")
+    return _PUBLIC.format("\n".join(parts))
+
+
+def _internal(root: Path) -> str:
+    """The page of all modules by their package, in the order of the import contract."""
+    project = tomllib.loads((root / "pyproject.toml").read_text(encoding="utf-8"))
     layers = project["tool"]["importlinter"]["contracts"][0]["layers"]
-    page = _PUBLIC.format(
-        _autosummary(f"~ehlectric.{name}" for name in ehlectric.__all__ if name[:2] != "__")
-    )
+    page = _INTERNAL
     for name in (part.strip() for layer in layers for part in layer.split("|")):
         package = Path(ehlectric.__file__).parent / name
         if not package.is_dir():
             continue
-        page += f"\n### {name}\n\n{import_module(f'ehlectric.{name}').__doc__}\n\n"
+        page += f"\n## {name}\n\n{import_module(f'ehlectric.{name}').__doc__}\n\n"
         paths = sorted(package.rglob("*.py"), key=lambda path: (len(path.parts), path))
         modules = [path.relative_to(package.parent).with_suffix("").parts for path in paths]
         page += _autosummary(
@@ -371,15 +406,33 @@ def _write_api(folder: Path) -> None:
             for module in modules
             if module != (name, "__init__")
         )
-    target = folder / "index.md"
-    if not target.exists() or target.read_text(encoding="utf-8") != page:
-        folder.mkdir(exist_ok=True)
-        target.write_text(page, encoding="utf-8")
+    return page
+
+
+def _write_api(folder: Path) -> None:
+    """Pages of the API: the public names, and the internal modules apart."""
+    for name, page in (("index", _public()), ("internals", _internal(folder.parents[1]))):
+        target = folder / f"{name}.md"
+        if not target.exists() or target.read_text(encoding="utf-8") != page:
+            folder.mkdir(exist_ok=True)
+            target.write_text(page, encoding="utf-8")
+
+
+def _shortened(*event: Any) -> tuple[str, str | None] | None:
+    """Signature without the values of default tables, which fill lines; the guide lists them."""
+    *_, signature, returned = event
+    if signature is None:
+        return None
+    return re.sub(r"=[A-Z]\w*\((?:[^()]|\([^()]*\))*\)", "=...", signature), returned
 
 
 def setup(app: Sphinx) -> dict[str, Any]:
     """Pages are written before Sphinx looks for them, tables before they are read."""
     _write_api(Path(app.srcdir) / "api")
+    for constructor in (ehlectric.Case.line, ehlectric.Case.point, ehlectric.BearingCase.of):
+        # Sphinx looks up defaults in the source, where the keys of a TypedDict are not.
+        del constructor.__func__.__signature__
+    app.connect("autodoc-process-signature", _shortened)
     app.connect("builder-inited", _write, priority=100)
     app.connect("builder-inited", _paper, priority=100)
     app.connect("builder-inited", _check_tests)

@@ -3,6 +3,7 @@
 import csv
 import json
 import math
+import re
 
 import pytest
 
@@ -43,16 +44,71 @@ def bearing_file(tmp_path):
     return path
 
 
+def by_formula(text):
+    """The file with contacts by formula."""
+    return 'contacts = "formula"\n' + text
+
+
+def test_a_bearing_that_breaks_down_says_so_last(ehlectric, bearing_file, tmp_path):
+    """A margin below one is a warning, and the last line is the answer."""
+    bearing_file.write_text(by_formula(ROLLERS.replace("15 V/um", "4 V/um")))
+    done = ehlectric("bearing", bearing_file, "-o", "out", "--no-plots")
+    assert done.returncode == 0, done.stderr
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text(), parse_constant=pytest.fail)
+    assert done.stdout.splitlines()[-1] == summary["verdict"]
+    assert summary["verdict"].startswith("Breakdown expected: shaft voltage ")
+    assert summary["margin"]["level"] == "red"
+    assert "breakdown-expected" in summary["warning_codes"]
+    assert "warning: breakdown is expected: shaft voltage " in done.stderr
+    margin = summary["bearing"]["margin"]
+    assert f"margin (first breakdown / shaft voltage) {margin:.4g}" in " ".join(done.stdout.split())
+    # Every input whose effect is in the file has a row with its range in printed units.
+    assert "margin at 3.2 to 4.8 V/µm" in done.stdout
+    assert "margin at 60 to 80 °C" in done.stdout
+    assert len(summary["margin"]["effects"]) == 4
+    again = ehlectric("bearing", bearing_file, "-o", "out", "--no-plots", "--json")
+    assert json.loads(again.stdout)["verdict"] == summary["verdict"]
+
+
+def test_a_bearing_without_a_strength_says_so(ehlectric, bearing_file):
+    bearing_file.write_text(by_formula(ROLLERS.replace('dielectric_strength = "15 V/um"\n', "")))
+    done = ehlectric("bearing", bearing_file, "-o", "out", "--no-plots")
+    assert done.returncode == 0, done.stderr
+    assert "dielectric strength none given: no breakdown voltage" in " ".join(done.stdout.split())
+    assert "no dielectric strength given, no breakdown voltage" in done.stdout.splitlines()[-1]
+
+
+def test_a_speed_in_rad_per_second_is_seen_at_once(ehlectric, bearing_file):
+    """The table has the speed in rpm, whatever the title says."""
+    text = ROLLERS.replace('"Rollers"', '"3000 rpm"').replace(
+        '"3000 rpm"\ntemperature', '"3000 rad/s"\ntemperature'
+    )
+    bearing_file.write_text(by_formula(text))
+    done = ehlectric("bearing", bearing_file, "-o", "out", "--no-plots")
+    assert done.returncode == 0, done.stderr
+    assert "speed of the inner ring 2.865e+04 rpm" in " ".join(done.stdout.split())
+    assert " at 28650 rpm, 70 °C" in done.stdout.splitlines()[-1]
+
+
 def test_a_bearing(ehlectric, bearing_file, tmp_path):
     done = ehlectric("bearing", bearing_file, "-o", "out")
     assert done.returncode == 0, done.stderr
-    for text in ("Rollers", "first break", "through breakdown", "shaft voltage", "lambda", "film factor"):
+    for text in (
+        "Rollers",
+        "first breakdown",
+        "ring-to-ring breakdown",
+        "shaft voltage",
+        "lambda",
+        "film factor",
+    ):
         assert text in done.stdout
-    assert "capacitive alone" in done.stdout
+    # The inputs that decide stand at the head of the totals, in the units of a catalogue.
+    for line in ("speed of the inner ring 3000 rpm", "radial load 3000 N", "temperature 70 °C"):
+        assert line in " ".join(done.stdout.split())
     assert "Traceback" not in done.stderr
     # All warnings are told, and that these voltages are upper bounds.
     summary = json.loads((tmp_path / "out" / "summary.json").read_text(), parse_constant=pytest.fail)
-    assert done.stderr.count("warning:") == len(summary["warnings"])
+    assert len(re.findall("^(?:warning|note): ", done.stderr, re.M)) == len(summary["warnings"])
     assert "voltages are upper bounds" in done.stderr
     assert summary["schema"] == "ehlectric.bearing/1"
     assert summary["converged"]
@@ -145,21 +201,19 @@ def test_a_missing_file_is_one_line(ehlectric, tmp_path):
     assert not (tmp_path / "out").exists()
 
 
-@pytest.mark.parametrize("command", ["run", "check"])
-def test_a_bearing_is_not_taken_for_a_contact(ehlectric, bearing_file, command):
+def test_a_bearing_is_not_taken_for_a_contact(ehlectric, bearing_file):
     """The line names the command that takes it, as that one does for the file of a contact."""
-    done = ehlectric(command, bearing_file)
+    done = ehlectric("run", bearing_file)
     assert done.returncode == 2
-    line = "is the file of a bearing; expected that of a contact; ehlectric bearing solves it"
+    line = f"is a bearing file; expected a case of a contact; solve it with: ehlectric bearing {bearing_file}"
     assert done.stderr.splitlines() == [f"error: {bearing_file}: {line}"]
 
 
 def test_a_contact_is_not_taken_for_a_bearing(ehlectric, case_file):
     done = ehlectric("bearing", case_file)
     assert done.returncode == 2
-    assert done.stderr.splitlines() == [
-        f"error: {case_file}: is the file of a contact; expected that of a bearing; ehlectric run solves it"
-    ]
+    line = f"is a case of a contact; expected a bearing file; solve it with: ehlectric run {case_file}"
+    assert done.stderr.splitlines() == [f"error: {case_file}: {line}"]
 
 
 @pytest.mark.slow

@@ -13,7 +13,7 @@ from tests.cli.conftest import CASE
 from tests.helpers.commands import COMMAND
 from tests.helpers.places import EXAMPLES, SURFACES
 
-FIGURES = {"film.png", "potential.png", "field_strength.png", "field_profiles.png", "field_deviation.png"}
+FIGURES = {"film.png", "field_strength.png", "field_profiles.png", "field_deviation.png"}
 DATA = {"summary.json", "result.nc", "film.csv"}
 
 
@@ -224,7 +224,14 @@ def test_surfaces_that_cannot_be_used(ehlectric, case_file, tmp_path):
 def test_check_says_what_a_case_means(ehlectric, case_file):
     done = ehlectric("check", case_file)
     assert done.returncode == 0
-    for text in ("Hertz pressure", "half-width", "Moes M", "Moes L", "piezoviscous-elastic", "lambda"):
+    for text in (
+        "Hertz pressure",
+        "half-width",
+        "M (Moes)",
+        "L (Moes)",
+        "piezoviscous-elastic",
+        "parameter Λ",
+    ):
         assert text in done.stdout
     summary = json.loads(ehlectric("check", case_file, "--json").stdout)
     assert summary["hertz"]["max_pressure"] == pytest.approx(1e9)
@@ -244,13 +251,13 @@ def test_check_says_what_is_doubtful_about_the_roughness(ehlectric, case_file, t
         "the asperity of surface 1, whose width is 1 µm",
         "does not resolve the profile of surface 2",
         "it was continued by extend = 'mirror'",
-        "1 of the 97 distances are twice the others",
+        "1 of the 97 distances between positions are twice the others",
     ):
         assert text in checked.stderr
     ran = ehlectric("run", case_file, "--no-plots")
     assert set(checked.stderr.splitlines()) <= set(ran.stderr.splitlines())
     shown = ehlectric("surface", "a.csv")
-    assert "warning: a.csv: positions are written in steps of their spacing" in shown.stderr
+    assert "warning: a.csv: 1 of the 97 distances between positions are twice the others" in shown.stderr
 
 
 def test_init_writes_a_case_that_solves(ehlectric, tmp_path):
@@ -259,7 +266,7 @@ def test_init_writes_a_case_that_solves(ehlectric, tmp_path):
     assert Case.from_toml(tmp_path / "new.toml").contact.entrainment_speed == 2.0
     again = ehlectric("init", "new.toml")
     assert again.returncode == 2
-    assert "is there already" in again.stderr
+    assert again.stderr == "error: new.toml: already exists; use --force to overwrite\n"
     assert ehlectric("init", "new.toml", "--force").returncode == 0
 
 
@@ -269,12 +276,19 @@ def test_point_contacts_are_begun_and_checked(ehlectric, tmp_path):
     for path in ("ball.toml", EXAMPLES / "ball_contact.toml", EXAMPLES / "ball_bearing.toml"):
         done = ehlectric("check", path)
         assert (done.returncode, done.stderr) == (0, "")
-        for text in ("semi-axis, across", "Hamrock-Dowson, central", "Chittenden et al., minimum"):
+        for text in (
+            "semi-axis a across entrainment",
+            "central film (Hamrock-Dowson)",
+            "minimum film (Chittenden et al.)",
+        ):
             assert text in done.stdout
         assert all(len(line.rstrip()) <= 80 for line in done.stdout.splitlines())
     wrong = ehlectric("init", "other.toml", "--geometry", "ball")
     assert wrong.returncode == 2
-    assert wrong.stderr == "error: --geometry: got 'ball'; expected one of line, point\n"
+    assert (
+        wrong.stderr
+        == "error: --geometry: got 'ball'; expected line or point; other kinds are written with --kind\n"
+    )
 
 
 def test_check_of_a_point_contact_as_json(ehlectric):
@@ -346,13 +360,13 @@ def test_bad_case_is_one_line_and_nothing_is_written(ehlectric, case_file, tmp_p
 @pytest.mark.slow
 def test_files_that_cannot_be_used(ehlectric, case_file, tmp_path):
     assert "no such file" in one_line(ehlectric("run", "nowhere.toml"))
-    assert "is a directory" in one_line(ehlectric("run", tmp_path))
+    assert "is a folder; expected a TOML file" in one_line(ehlectric("run", tmp_path))
     (tmp_path / "taken").write_text("a file")
     assert "cannot be written to" in one_line(ehlectric("run", case_file, "-o", "taken"))
     assert "cannot be written to" in one_line(ehlectric("run", case_file, "-o", "taken/below"))
     assert "is not a NetCDF file" in one_line(ehlectric("plot", "taken"))
     assert "no such file" in one_line(ehlectric("plot", "nowhere.nc"))
-    assert "is a directory" in one_line(ehlectric("plot", tmp_path))
+    assert "has no result" in one_line(ehlectric("plot", tmp_path))
     assert "cannot be written to" in one_line(ehlectric("init", "taken/case.toml"))
     assert "cannot be used" in one_line(ehlectric("init", 300 * "x"))
     (tmp_path / "out" / "film.png").mkdir(parents=True)

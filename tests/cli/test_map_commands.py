@@ -51,17 +51,19 @@ def command(monkeypatch, tmp_path):
 def test_map_writes_both_figures(command, tmp_path):
     done = command("map", "grid", "--x", SPEED, "--y", LOAD, "--value", VALUE, "--at", f"{POTENTIAL}=4 V")
     assert done.exit_code == 0, done.output
-    names = {f"map_{VALUE}.png", f"lines_{VALUE}.png"}
+    names = {f"{kind}_{VALUE}_at_{POTENTIAL}=4V.png" for kind in ("map", "lines")}
     assert {path.name for path in (tmp_path / "grid").iterdir()} == names
     assert "at potential of surface 2 = 4 V\n" in done.output
-    assert all(f"grid/{name}" in done.output for name in names)
+    assert all(name in done.output.partition("written to grid:")[2] for name in names)
 
 
 def test_map_without_y_is_lines_in_another_folder(command, tmp_path):
     held = ("--at", f"{POTENTIAL}=1", "--at", f"{LOAD}=1 MN/m")
     done = command("map", "grid", "--x", SPEED, "--value", "film.minimum_thickness", *held, "-o", "out", "-q")
     assert (done.exit_code, done.output) == (0, "")
-    assert [path.name for path in (tmp_path / "out").iterdir()] == ["lines_film.minimum_thickness.png"]
+    assert [path.name for path in (tmp_path / "out").iterdir()] == [
+        f"lines_film.minimum_thickness_at_{LOAD}=1MN-m,{POTENTIAL}=1.png"
+    ]
 
 
 @pytest.mark.parametrize(

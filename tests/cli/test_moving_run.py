@@ -3,6 +3,7 @@
 import json
 import os
 import random
+import re
 import signal
 import subprocess
 import time
@@ -72,24 +73,25 @@ def files(folder):
 def test_a_moving_case_is_solved_written_and_told(ehlectric, tmp_path, case_file):
     done = ehlectric("run", case_file, "-o", "out", "--no-plots")
     assert done.returncode == 0
-    assert done.stdout.splitlines()[-1] == "written: out/summary.json, out/motion.nc"
+    assert done.stdout.splitlines()[-1] == "  summary.json, motion.nc"
     assert files(tmp_path / "out") == ["motion.nc", "summary.json"]
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
     assert (summary["schema"], summary["converged"], summary["title"]) == ("ehlectric.motion/1", True, "Bump")
     assert done.stderr == "".join(f"warning: {text}\n" for text in summary["warnings"])
-    rows = {line[:26].strip(): line[26:].split() for line in done.stdout.splitlines()}
+    rows = dict(re.split(r" {2,}", line.strip()) for line in done.stdout.splitlines() if "  " in line.strip())
     dataset = read_motion(tmp_path / "out")
     assert dict(dataset.sizes) == {"x": 65, "step": 13, "frame": 4}
     told = {
-        "time": (summary["motion"]["duration"] * 1e3, ["ms", "in", "12", "steps"]),
-        "smallest film": (float(dataset["minimum_thickness"].min()) * 1e6, ["µm"]),
-        "largest pressure": (float(dataset["max_pressure"].max()) / 1e9, ["GPa"]),
-        "largest field": (float(dataset["max_strength"].max()) / 1e6, ["V/µm"]),
-        "voltage": (2.0, ["V"]),
+        "duration of the motion": (summary["motion"]["duration"] * 1e3, "ms, 12 time steps"),
+        "minimum film, moving roughness": (float(dataset["minimum_thickness"].min()) * 1e6, "µm at "),
+        "maximum pressure, moving roughness": (float(dataset["max_pressure"].max()) / 1e9, "GPa"),
+        "maximum field, moving roughness": (float(dataset["max_strength"].max()) / 1e6, "V/µm at "),
+        "voltage across the film": (2.0, "V"),
     }
     for name, (value, unit) in told.items():
-        assert float(rows[name][0]) == pytest.approx(value, rel=1e-3)
-        assert rows[name][1:] == unit
+        number, _, rest = rows[name].partition(" ")
+        assert float(number) == pytest.approx(value, rel=1e-3)
+        assert rest.startswith(unit)
 
 
 def test_options_of_what_is_printed(typed, tmp_path, case_file):
@@ -224,7 +226,16 @@ def test_a_folder_holds_one_result(typed, tmp_path, case_file):
     assert files(out) == sorted([*at_rest, "film.png"])
     assert typed("run", case_file, "-o", out, "--no-plots", "-q").exit_code == 0
     assert files(out) == ["motion.nc", "notes.txt", "summary.json"]
+    # The run may have taken hours: it is not replaced, and its files stay.
     (out / "motion_maps.png").write_text("of what moves")
+    refused = typed("run", still, "-o", out, "--no-plots", "-q")
+    assert refused.exit_code == 2
+    assert refused.stderr == (
+        f"error: {out}: has 12 saved steps of another case with moving roughness; expected another folder, "
+        "as with -o; or remove motion.nc from this one\n"
+    )
+    assert files(out) == ["motion.nc", "motion_maps.png", "notes.txt", "summary.json"]
+    (out / "motion.nc").unlink()
     assert typed("run", still, "-o", out, "--no-plots", "-q").exit_code == 0
     assert files(out) == at_rest
 
@@ -246,7 +257,7 @@ def test_a_step_that_is_not_solved(typed, tmp_path, monkeypatch, case_file):
         assert done.stderr.splitlines()[-1] == (
             "error: not converged: step 7 of 12: film not found at T = 1.3125"
         )
-        assert done.stdout.splitlines()[-1] == "written: out/summary.json, out/motion.nc"
+        assert done.stdout.splitlines()[-1] == "  summary.json, motion.nc"
         summary = json.loads((tmp_path / "out" / "summary.json").read_text())
         assert (summary["converged"], summary["motion"]["steps_done"]) == (False, 4)
         assert len(done_before) == steps
@@ -257,7 +268,7 @@ def test_a_film_before_the_motion_that_is_not_found(typed, tmp_path, case_file):
     case_file.write_text(CASE + "[solver]\nmax_iterations = 1\n")
     done = typed("run", case_file, "-o", "out", "--no-plots")
     assert (done.exit_code, done.stdout) == (3, "")
-    assert done.stderr.startswith("error: not converged: film before the motion ")
+    assert done.stderr.startswith("error: not converged: film before the motion, ")
     assert done.stderr.count("\n") == 1
     assert files(tmp_path / "out") == []
 
@@ -304,12 +315,12 @@ def test_a_run_that_is_stopped_says_what_is_saved_and_goes_on(tmp_path, number):
     steps, frames = found.sizes["step"] - 1, found.sizes["frame"]
     assert steps > 0
     assert errors == (
-        f"stopped; {steps} of {STEPS} steps are saved in out, the same command goes on with the others\n"
+        f"interrupted; {steps} of {STEPS} steps are saved in out; the same command resumes the run\n"
     )
     assert files(tmp_path / "out") == ["motion.nc"]
     again = begun(tmp_path, frames + 1)
     again.send_signal(number)
-    assert again.communicate(timeout=30)[1].startswith("stopped; ")
+    assert again.communicate(timeout=30)[1].startswith("interrupted; ")
     more = read_motion(tmp_path / "out")
     # Without a gap: each step once, in equal times.
     assert more.sizes["step"] - 1 > steps
@@ -326,9 +337,7 @@ def test_stopped_before_anything_is_kept(typed, monkeypatch, case_file):
     monkeypatch.setattr(motion_run, "_begin", stopping)
     done = typed("run", case_file, "-o", "out", "--no-plots", "-q")
     assert (done.exit_code, done.stdout) == (143, "")
-    assert done.stderr == (
-        "stopped; 0 of 12 steps are saved in out, the same command goes on with the others\n"
-    )
+    assert done.stderr == ("interrupted; 0 of 12 steps are saved in out; the same command resumes the run\n")
 
 
 @pytest.mark.slow
@@ -370,5 +379,5 @@ def test_check_says_what_moves_and_for_how_long(typed, case_file):
     assert (motion["speed_ratio_1"], motion["speed_ratio_2"]) == (1.0, 1.0)
     assert (motion["covered_from"], motion["coincident"]) == (None, None)
     told = typed("check", case_file).stdout
-    assert "ms in 12 steps" in told
-    assert "surface 1, rough" in told
+    assert "ms, 12 time steps" in told
+    assert "speed of rough surface 1" in told

@@ -9,12 +9,14 @@ import sqlite3
 import subprocess
 import sys
 import time
+from collections import Counter
 from pathlib import Path
 
 import pytest
 import xarray as xr
 
 from ehlectric import read_sweep
+from ehlectric.errors import CODES
 from tests.cli.conftest import CASE
 from tests.cli.test_reproduce import children, gone
 from tests.helpers.commands import COMMAND
@@ -52,14 +54,17 @@ def rows_of(folder):
         return list(csv.DictReader(file))
 
 
-def told_of(solved, warned, doubtful):
-    """What is said on stderr of solved points that have warnings, and of those not to be used."""
-    text = ""
-    if warned:
-        text += f"warning: {warned} of {solved} solved points have warnings, "
-        text += "which the column warnings of sweep.csv has\n"
+def told_of(rows, doubtful):
+    """What is said on stderr of the kinds of warnings of solved points, and of those not to be used."""
+    text, solved = "", [row for row in rows if row["status"] == "solved"]
+    counts = Counter(code for row in solved for code in row["warning_codes"].split("; ") if code)
+    for code, count in sorted(counts.items(), key=lambda kind: (CODES[kind[0]].severity == "note", -kind[1])):
+        kind = "note" if CODES[code].severity == "note" else "warning"
+        meaning = CODES[code].meaning
+        text += f"{kind}: {count} of {len(solved)} solved points have the {kind} {code}: "
+        text += meaning[0].lower() + meaning[1:].rstrip(".") + "\n"
     if doubtful:
-        text += f"warning: {doubtful} of {solved} solved points have a film that is not to be used, "
+        text += f"warning: {doubtful} of {len(solved)} solved points have a film that is not to be used, "
         text += "as their warnings say: maps and lines leave them out\n"
     return text
 
@@ -84,11 +89,10 @@ def test_a_sweep_is_solved_saved_and_told(ehlectric, tmp_path, swept):
     # 257 nodes are few: points have warnings, and they are told.
     warned = sum(row["warnings"] != "" for row in rows)
     doubtful = sum("do not use" in row["warnings"] for row in rows)
-    assert (done.returncode, done.stderr) == (0, told_of(4, warned, doubtful))
+    assert (done.returncode, done.stderr) == (0, told_of(rows, doubtful))
     assert 0 < warned <= 4
-    assert done.stdout.split()[:5] == ["solved", "4", "of", "4", "points"]
-    written = done.stdout.splitlines()[-1]
-    assert written == "written: out/sweep.csv, out/sweep.parquet, out/sweep.nc"
+    assert done.stdout.split()[:5] == ["points", "solved", "4", "of", "4"]
+    assert done.stdout.splitlines()[-2:] == ["written to out:", "  sweep.csv, sweep.parquet, sweep.nc"]
     assert [row["contact.entrainment_speed"] for row in rows] == ["1.0", "1.0", "2.0", "2.0"]
     with xr.open_dataset(tmp_path / "out" / "sweep.nc") as file:
         assert dict(file.sizes) == {"contact.entrainment_speed": 2, "contact.max_hertz_pressure": 2}
@@ -188,7 +192,7 @@ def test_a_scheduler_that_nobody_is(ehlectric, swept):
 
 def told(count):
     """What is said of a long sweep that is stopped."""
-    return f"{count} of 120 points are saved in out, the same command goes on with the others\n"
+    return f"{count} of 120 points are saved in out; the same command resumes the sweep\n"
 
 
 def begun(folder, *options, points=1, group=False):
@@ -226,8 +230,7 @@ def test_a_sweep_that_is_stopped_says_what_is_saved(tmp_path, swept, number):
     assert (process.returncode, out) == (128 + number, "")
     count = len(saved(tmp_path / "out"))
     assert (
-        errors
-        == f"stopped; {count} of 120 points are saved in out, the same command goes on with the others\n"
+        errors == f"interrupted; {count} of 120 points are saved in out; the same command resumes the sweep\n"
     )
     assert gone(workers)
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == [".sweep.lock", "sweep.sqlite"]
@@ -332,9 +335,9 @@ def test_a_scheduler_that_dies_loses_nothing(ehlectric, tmp_path, swept, cluster
     assert (process.returncode, out) == (3, "")
     rows = saved(tmp_path / "out")
     assert len(rows) >= 5
-    assert errors.startswith("error: those who solve are gone: ")
+    assert errors.startswith("error: the workers were lost: ")
     assert errors.endswith(
-        f"; {len(rows)} of 120 points are saved in out, the same command goes on with the others\n"
+        f"; {len(rows)} of 120 points are saved in out; the same command resumes the sweep\n"
     )
     assert errors.count("\n") == 1
     # Without the cluster, on this machine.

@@ -57,7 +57,7 @@ def pages(kind):
     """Figures of a contact by the names of their files."""
     saved = []
     with tempfile.TemporaryDirectory() as folder, pytest.MonkeyPatch.context() as patch:
-        patch.setattr(Figure, "savefig", lambda figure, _: saved.append(figure))
+        patch.setattr(Figure, "savefig", lambda figure, _, **__: saved.append(figure))
         files = figures.save_figures(result_of(kind), Path(folder))
     return dict(zip((path.name for path in files), saved, strict=True))
 

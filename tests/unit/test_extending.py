@@ -14,7 +14,7 @@ from ehlectric.cases import library
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.changes import flattened
 from ehlectric.cases.lubricant import effective_alpha, viscosity_law
-from ehlectric.commands.runs import check
+from ehlectric.commands.meaning import check
 from ehlectric.contact.kinds import KINDS, LINE
 from ehlectric.contact.problems import film_problem
 from ehlectric.contact.resolve import resolve

@@ -23,13 +23,14 @@ from ehlectric.cases.grid import Solver
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.contact.solver import solve_contact
 from ehlectric.errors import ResultWarning
+from ehlectric.runtime.values import Values
 
 # Number of one contact, or array with a number for each contact.
 N = TypeVar("N", float, Array)
 
 
-@dataclass(frozen=True)
-class ContactValues(Generic[N]):
+@dataclass(frozen=True, eq=False, repr=False)
+class ContactValues(Values, Generic[N]):
     """Quantities that change with the load, SI units: numbers of one contact or arrays of many.
 
     Attributes
@@ -69,8 +70,8 @@ class ContactValues(Generic[N]):
         return tuple(vars(self).values())
 
 
-@dataclass(frozen=True)
-class ContactSolution:
+@dataclass(frozen=True, eq=False, repr=False)
+class ContactSolution(Values):
     """Film, capacitances and voltages of one loaded contact, SI units.
 
     Attributes
@@ -207,12 +208,16 @@ def _solution(
 
 
 def without_regime(warnings: Iterable[ResultWarning]) -> tuple[ResultWarning, ...]:
-    """Warnings without those about the regime, since the domain of a bearing's contact suits its regime."""
-    return tuple(warning for warning in warnings if warning.code != "regime")
+    """Warnings without those that are not about a contact of a bearing.
+
+    The domain of a contact suits its regime, and the voltage of a single contact is not that of the bearing.
+    """
+    left_out = ("regime", "breakdown-expected")
+    return tuple(warning for warning in warnings if warning.code not in left_out)
 
 
-@dataclass(frozen=True)
-class ContactCurve:
+@dataclass(frozen=True, eq=False, repr=False)
+class ContactCurve(Values):
     """Quantities of a contact over its load, interpolated between solved loads.
 
     Attributes

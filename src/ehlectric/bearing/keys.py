@@ -16,6 +16,10 @@ _ABOUT: Keys = {
     "warning_codes": ResultKey(
         "code of each warning, in the same order: programs decide by codes, as words may change"
     ),
+    "verdict": ResultKey(
+        "answer in sentences: whether breakdown is expected at the shaft voltage, below which speed, and "
+        "what is assumed; points of sweeps have none"
+    ),
     "inputs": ResultKey("the bearing file, its base resolved"),
 }
 _LUBRICANT: Keys = {
@@ -64,15 +68,15 @@ _CAPACITANCES: Keys = {
         "ε0 ε_r A_H/h(0) of the dry contacts, in series and parallel; elements without load have none; null "
         "for ceramic elements",
         "F",
-        "capacitance of plates",
+        "capacitance of parallel plates",
     ),
     "capacitance_ratio": ResultKey(
-        "capacitance over capacitance_plate; null for ceramic elements", "", "capacitance over that of plates"
+        "capacitance / capacitance_plate; null for ceramic elements", "", "capacitance / parallel plates"
     ),
     "lambda_ratio": ResultKey(
-        "smallest film of all loaded contacts over composite_rq",
+        "minimum film of all loaded contacts / composite_rq",
         "",
-        "least film over roughness",
+        "minimum film / roughness",
         r"$\lambda$",
     ),
     "lubrication": ResultKey(
@@ -85,47 +89,49 @@ _CAPACITANCES: Keys = {
 }
 _VOLTAGES: Keys = {
     "first_break": ResultKey(
-        "bearing voltage at which the first contact breaks down, least over the positions; by a Weibull "
+        "bearing voltage at which the first contact breaks down, minimum over the positions; by a Weibull "
         "strength that at which one of all has with a probability of 63.2 %; null without a strength, for a "
         "conducting bearing and for ceramic elements",
         "V",
-        "bearing voltage of the first break",
+        "first breakdown voltage",
     ),
     "first_break_mean": ResultKey(
-        "mean of first_break over the positions", "V", "first break, mean over a pitch"
+        "mean of first_break over the positions", "V", "first breakdown voltage, mean over a pitch"
     ),
     "first_break_at": ResultKey(
         "contact that breaks down first, or by a Weibull strength the likeliest",
         "",
-        "contact that breaks first",
+        "contact of the first breakdown",
     ),
     "through_breakdown": ResultKey(
         "bearing voltage at which the first element breaks down through both contacts; by a Weibull strength "
         "each at its own 63.2 %",
         "V",
-        "bearing voltage of the through breakdown",
+        "ring-to-ring breakdown voltage",
     ),
     "through_breakdown_mean": ResultKey(
-        "mean of through_breakdown over the positions", "V", "through breakdown, mean over a pitch"
+        "mean of through_breakdown over the positions",
+        "V",
+        "ring-to-ring breakdown voltage, mean over a pitch",
     ),
     "margin": ResultKey(
-        "first_break over the shaft voltage; null without a motor", "", "first break over shaft voltage"
+        "first_break / shaft voltage; null without a motor", "", "margin (first breakdown / shaft voltage)"
     ),
     "through_margin": ResultKey(
-        "through_breakdown over the shaft voltage; null without a motor",
+        "through_breakdown / shaft voltage; null without a motor",
         "",
-        "through breakdown over shaft voltage",
+        "margin (ring-to-ring breakdown / shaft voltage)",
     ),
     "strength_per_volt": ResultKey(
-        "largest field strength of a contact over the bearing's voltage, over the positions; null for a "
+        "maximum field strength of a contact / bearing voltage, maximum over the positions; null for a "
         "conducting bearing and for ceramic elements",
         "1/m",
-        "largest field strength by bearing voltage",
+        "maximum field strength per volt on the bearing",
     ),
     "max_strength": ResultKey(
-        "largest field strength at the shaft voltage, before anything has broken down; null without a motor",
+        "maximum field strength at the shaft voltage, before anything has broken down; null without a motor",
         "V/m",
-        "largest field strength",
+        "maximum field strength",
     ),
     "bearing_voltage_ratio": ResultKey(
         "C_wr/(C_wr + C_rf + C_DE + C_NDE); null without a motor, for a conducting bearing, and for ceramic "
@@ -140,9 +146,9 @@ _VOLTAGES: Keys = {
     ),
     "relaxation_time": ResultKey("charge relaxation time ε0 ε_r/σ; null without a conductivity", "s"),
     "discretisation_error": ResultKey(
-        "largest estimate of a solved film's error; null where one is not known"
+        "maximum estimated error of the solved films; null where one is not known"
     ),
-    "interpolation_error": ResultKey("largest error at a load, were it left out of the interpolation"),
+    "interpolation_error": ResultKey("maximum error at a load that is left out of the interpolation"),
 }
 _MECHANICS: Keys = {
     "max_load": ResultKey("load of the most loaded contact with the outer ring", "N"),
@@ -153,22 +159,63 @@ _MECHANICS: Keys = {
     "moment": ResultKey("moment that holds the inner ring from tilting; null for rollers", "N*m"),
     "centrifugal_force": ResultKey("centrifugal force on each element", "N"),
     "gyroscopic_moment": ResultKey(
-        "largest gyroscopic moment of a ball; reported, its effect is left out; null for rollers", "N*m"
+        "maximum gyroscopic moment of a ball; reported, its effect is left out; null for rollers", "N*m"
     ),
     "cage_speed": ResultKey(
         "speed of the cage in pure rolling; of balls the mean of theirs, weighted with their load", "rad/s"
     ),
     "element_speed": ResultKey(
-        "largest speed of the elements about their own axes, seen from the cage, in pure rolling", "rad/s"
+        "maximum speed of the elements about their own axes, seen from the cage, in pure rolling", "rad/s"
     ),
-    "entrainment_speed": ResultKey("largest entrainment speed, without the film factor", "m/s"),
-    "entrainment_speed_inner": ResultKey("largest entrainment speed at the inner ring", "m/s"),
+    "entrainment_speed": ResultKey("maximum entrainment speed, without the film factor", "m/s"),
+    "entrainment_speed_inner": ResultKey("maximum entrainment speed at the inner ring", "m/s"),
     "entrainment_speed_outer": ResultKey(
-        "largest entrainment speed at the outer ring; equal to that of the inner one in pure rolling", "m/s"
+        "maximum entrainment speed at the outer ring; equal to that of the inner one in pure rolling", "m/s"
     ),
-    "residual": ResultKey(
-        "largest force that ring or element miss to balance, over the load and the centrifugal force together"
+    "residual": ResultKey("maximum unbalanced force on ring or element / (load + centrifugal force)"),
+}
+
+_MARGIN: Keys = {
+    "level": ResultKey(
+        'colour of the verdict: "green", "yellow" where the margin may lie on either side of 1 or surfaces '
+        'touch, "red", or "grey" where there is nothing to compare'
     ),
+    "critical_speed": ResultKey(
+        "speed of the inner ring at which the margin is 1, and below which breakdown is expected; by film "
+        "formulas that are scaled to `bearing.margin` at the speed of the file, at one temperature; null "
+        "where the margin does not cross 1 between `lowest_speed` and `highest_speed`",
+        "rad/s",
+        "critical speed",
+    ),
+    "touching_speed": ResultKey(
+        "speed of the inner ring below which the surfaces touch; null where they do not in that range",
+        "rad/s",
+        "speed below which surfaces touch",
+    ),
+    "lowest_speed": ResultKey("lower end of the speeds that were searched", "rad/s"),
+    "highest_speed": ResultKey("upper end of the speeds that were searched", "rad/s"),
+    "low": ResultKey(
+        "margin with all inputs of `[ranges]` at their unfavourable ends, 0 where the surfaces touch; null "
+        "without ranges",
+        "",
+        "margin, inputs at their unfavourable ends",
+    ),
+    "high": ResultKey(
+        "margin with all inputs of `[ranges]` at their favourable ends; null without ranges",
+        "",
+        "margin, inputs at their favourable ends",
+    ),
+    "effects": ResultKey("list of the effects of single inputs on the margin, the largest first"),
+    "left_out": ResultKey("list of what could not be computed, and why"),
+}
+
+EFFECT_KEYS: Keys = {
+    "key": ResultKey("dotted key of the input"),
+    "label": ResultKey("name of the input"),
+    "low_input": ResultKey("smaller value of the input, in the SI unit of its key"),
+    "high_input": ResultKey("larger value of the input, in the SI unit of its key"),
+    "low_margin": ResultKey("margin at `low_input`, 0 where the surfaces touch"),
+    "high_margin": ResultKey("margin at `high_input`, 0 where the surfaces touch"),
 }
 
 # Keys of a row of ``contacts``, which are also the columns of contacts.csv.
@@ -178,16 +225,16 @@ CONTACT_KEYS: Keys = {
     "position": ResultKey("angle of the element from the direction of the load", "rad"),
     "load": ResultKey("load of the contact", "N"),
     "contact_angle": ResultKey("contact angle; where there is no contact that of the narrowest place", "rad"),
-    "max_pressure": ResultKey("largest pressure of the dry contact; null without load", "Pa"),
+    "max_pressure": ResultKey("Hertz pressure of the dry contact; null without load", "Pa"),
     "semi_axis_x": ResultKey(
         "semi-axis of the dry contact along entrainment, of a roller its half-width; null without load", "m"
     ),
     "semi_axis_y": ResultKey(
         "semi-axis across entrainment, of a roller half of its length; null without load", "m"
     ),
-    "minimum_thickness": ResultKey("smallest film thickness, or the gap where there is no contact", "m"),
+    "minimum_thickness": ResultKey("minimum film thickness, or the gap where there is no contact", "m"),
     "central_thickness": ResultKey("central film thickness, or the gap where there is no contact", "m"),
-    "lambda_ratio": ResultKey("minimum_thickness over composite_rq"),
+    "lambda_ratio": ResultKey("minimum_thickness / composite_rq"),
     "capacitance": ResultKey(
         "capacitance of the contact, with `fill` around it; null for ceramic elements", "F"
     ),
@@ -195,8 +242,8 @@ CONTACT_KEYS: Keys = {
         "share of the bearing's voltage on the contact; null for ceramic elements and a conducting bearing"
     ),
     "strength_per_volt": ResultKey(
-        "largest field strength of the contact over the bearing's voltage; null for a conducting bearing and "
-        "for ceramic elements",
+        "maximum field strength of the contact / bearing voltage; null for a conducting bearing and for "
+        "ceramic elements",
         "1/m",
     ),
     "max_strength": ResultKey("that field strength at the shaft voltage; null without a motor", "V/m"),
@@ -213,10 +260,12 @@ BEARING_KEYS: Keys = {
     **under("lubricant", _LUBRICANT),
     **under("bearing", _CAPACITANCES),
     **under("bearing", _VOLTAGES),
+    **under("margin", _MARGIN),
+    **under("margin.effects", EFFECT_KEYS),
     **under("mechanics", _MECHANICS),
     "contacts": ResultKey(
         "list with each contact, the cage in its first position; contacts.csv has the same"
     ),
     **under("contacts", CONTACT_KEYS),
-    "seconds": ResultKey("time that the run took", "s"),
+    "seconds": ResultKey("computing time", "s"),
 }

@@ -2,19 +2,37 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
-from typing import Any
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
 
+from ehlectric.bearing.keys import BEARING_KEYS
+from ehlectric.bearing.margin.analysis import MarginAnalysis, analyse_margin
+from ehlectric.bearing.margin.verdict import bearing_verdict
 from ehlectric.bearing.shaft_voltage import shaft_voltage
 from ehlectric.bearing.solution import BearingSolution, capacitance
+from ehlectric.bearing.storage.dataset import dataset_of
 from ehlectric.bearing.summary import breaks, contact_rows, summary_of
 from ehlectric.bearing.warnings import bearing_warnings
 from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.result_key import key_of
+from ehlectric.cases.row import amount
+from ehlectric.discharge.verdict import Verdict
 from ehlectric.errors import ResultWarning
+from ehlectric.runtime.display import Shown, headline
+from ehlectric.runtime.files import plain
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
+
+# Columns of the table of contacts that are no numbers with a unit.
+_LABELS = ("element", "ring", "solved")
 
 
-@dataclass(frozen=True)
-class BearingResult:
+@dataclass(frozen=True, eq=False, repr=False)
+class BearingResult(Shown):
     """Result of a bearing: its solution, and the summary, contacts and warnings from it.
 
     Attributes
@@ -80,6 +98,76 @@ class BearingResult:
         """Table of contacts, a row per element and ring, with the cage at its first position, SI units."""
         return contact_rows(self.solution)
 
+    @cached_property
+    def margin_analysis(self) -> MarginAnalysis:
+        """Critical speed, effects of the inputs on the margin, and its range from ``ranges``.
+
+        It solves some twenty bearings with contacts by formula when it is first asked for: a few seconds at
+        most, beside a minute for a bearing with solved contacts.
+        """
+        return analyse_margin(self.solution)
+
+    @cached_property
+    def verdict(self) -> Verdict:
+        """Verdict: whether breakdown is expected at the shaft voltage, and below which speed."""
+        return bearing_verdict(self.solution, self.margin_analysis)
+
     def summary(self) -> dict[str, Any]:
         """Results nested as in summary.json, SI units; None in place of NaN."""
-        return summary_of(self.solution)
+        verdict, analysis = self.verdict, self.margin_analysis
+        summary: dict[str, Any] = {}
+        for key, value in summary_of(self.solution).items():
+            if key == "mechanics":
+                summary["margin"] = plain({"level": verdict.level, **analysis.summary()})
+            summary[key] = value
+            if key == "warning_codes":
+                summary["verdict"] = verdict.text
+        return summary
+
+    def to_xarray(self) -> xr.Dataset:
+        """Dataset of loads, films, capacitances and voltages over cage positions, rings and elements.
+
+        Returns
+        -------
+        xarray.Dataset
+            Variables in SI units, the same as bearing.nc; the case is an attribute, as TOML.
+        """
+        return dataset_of(self.solution)
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """Contacts as a table of pandas, a row per element and ring, with the cage at its first position.
+
+        Returns
+        -------
+        pandas.DataFrame
+            Columns as in contacts.csv, SI units, angles in radians; NaN where a contact has no value.
+            ``attrs["units"]`` has the unit of each column.
+        """
+        import pandas as pd
+
+        frame = pd.DataFrame(self.contacts())
+        units = contact_units()
+        numbers = [name for name in frame if name in units]
+        frame[numbers] = frame[numbers].astype(float)
+        frame.attrs["units"] = {str(name): units[str(name)] for name in numbers}
+        return frame
+
+    def headline(self) -> str:
+        """Title, speed, capacitance, first breakdown voltage and shaft voltage on one line."""
+        voltage, shaft = self.breaks()["first_break"], self.shaft_voltage
+        return headline(
+            self.case.title,
+            f"{self.case.bearing.inner_speed * 30.0 / math.pi:.4g} rpm",
+            f"capacitance {amount(self.capacitance(self.case.bearing.fill), 'F')}",
+            None if voltage is None else f"first breakdown {voltage:.4g} V",
+            None if shaft is None else f"shaft voltage {shaft:.4g} V",
+            "converged" if self.converged else "NOT CONVERGED",
+            verdict=getattr(self, "verdict", None),
+        )
+
+
+def contact_units() -> dict[str, str]:
+    """SI unit of each column of numbers of the table of contacts; empty for a dimensionless one."""
+    names = [name.partition(".")[2] for name in BEARING_KEYS if name.startswith("contacts.")]
+    found = {name: key_of(BEARING_KEYS, f"contacts.{name}") for name in names if name not in _LABELS}
+    return {name: key.unit for name, key in found.items() if key is not None}

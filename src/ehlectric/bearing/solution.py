@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -15,14 +15,15 @@ from ehlectric.bearing.kinds import kind_of
 from ehlectric.bearing.loads.totals import Equilibrium
 from ehlectric.bearing.ring_contacts import RingContacts
 from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.runtime.values import Values
 from ehlectric.version import __version__
 
 # Lambda ratios below which surfaces touch, and below which they touch at times.
 CONDUCTING, PARTIAL = 1.0, 3.0
 
 
-@dataclass(frozen=True)
-class RingState:
+@dataclass(frozen=True, eq=False, repr=False)
+class RingState(Values):
     """Contacts of all elements with one ring at one position of the cage.
 
     Attributes
@@ -115,8 +116,8 @@ def _unloaded(ring: RingContacts[Any], curve: ContactCurve, gap: Array) -> Conta
     )
 
 
-@dataclass(frozen=True)
-class Position:
+@dataclass(frozen=True, eq=False, repr=False)
+class Position(Values):
     """Bearing at one position of its cage.
 
     Attributes
@@ -150,8 +151,8 @@ class Position:
         )
 
 
-@dataclass(frozen=True)
-class BearingSolution:
+@dataclass(frozen=True, eq=False, repr=False)
+class BearingSolution(Values):
     """Solved bearing at several positions of its cage within one pitch of the elements.
 
     Attributes
@@ -179,7 +180,7 @@ class BearingSolution:
     inner_curve: ContactCurve
     outer_curve: ContactCurve
     positions: tuple[Position, ...]
-    seconds: float
+    seconds: float = field(compare=False)
     version: str = __version__
 
     @property

@@ -7,13 +7,15 @@ from typing import Any
 import numpy as np
 
 from ehlectric.bearing.by_formula import check_formula
-from ehlectric.bearing.solver import solve_bearing
+from ehlectric.bearing.margin.critical_speed import LEAST, MOST
+from ehlectric.bearing.solving.contacts_and_circuit import solution_of
+from ehlectric.bearing.summary import summary_of
 from ehlectric.cases.bearing import BearingDischarge
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.errors import InputError, ResultWarning
 
-# Smallest and largest speed over the speed of the case, and number of speeds in a geometric series.
-_LEAST, _MOST, COUNT = 0.1, 4.0, 9
+# Number of speeds in a geometric series.
+COUNT = 9
 
 
 def over_speed(
@@ -58,15 +60,15 @@ def over_speed(
     if changed is None:
         return [], left_out
     points = []
-    for part in np.geomspace(_LEAST, _MOST, count):
+    for part in np.geomspace(LEAST, MOST, count):
         speed = case.bearing.inner_speed * float(part)
         try:
-            result = solve_bearing(changed.replace({"bearing.inner_speed": speed}))
+            solution = solution_of(changed.replace({"bearing.inner_speed": speed}))
         except InputError as error:
-            text = f"over speed, {speed * 30.0 / np.pi:.4g} rpm: {error}"
+            text = f"figures over speed leave out {speed * 30.0 / np.pi:.4g} rpm: {error}"
             left_out.append(ResultWarning("speed-left-out", text))
         else:
-            points.append((speed, result.summary()))
+            points.append((speed, summary_of(solution)))
     return points, left_out
 
 
@@ -82,7 +84,7 @@ def _by_formula(case: BearingCase) -> tuple[BearingCase | None, list[ResultWarni
         try:
             check_formula(discharge.at(case.bearing.temperature), lubricant)
         except InputError as error:
-            left_out = [ResultWarning("speed-left-out", f"over speed: {error}")]
+            left_out = [ResultWarning("speed-left-out", f"figures over speed are incomplete: {error}")]
         else:
             changed = case.replace({"contacts": "formula"})
             return changed.model_copy(update={"discharge": discharge}), left_out

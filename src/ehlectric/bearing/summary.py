@@ -27,7 +27,10 @@ _VOLTAGES = tuple(field.name for field in dataclasses.fields(Breakdown))
 
 
 def summary_of(solution: BearingSolution) -> dict[str, Any]:
-    """Results of a bearing nested as in summary.json, SI units; None in place of NaN."""
+    """Results of a bearing nested as in summary.json, SI units; None in place of NaN.
+
+    The verdict and the analysis of the margin are left out, which solve further bearings.
+    """
     case, conditions, oil = solution.case, solution.conditions, solution.case.lubricant.temperature
     summary: dict[str, Any] = plain(
         {

@@ -7,8 +7,10 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
+from ehlectric.bearing.breakdown import breakdown_of
 from ehlectric.bearing.contacts import ContactSolution
 from ehlectric.bearing.limits import TAKEN, groove_ratio, shoulder_angle
+from ehlectric.bearing.shaft_voltage import shaft_voltage
 from ehlectric.bearing.solution import (
     BearingSolution,
     Position,
@@ -20,6 +22,7 @@ from ehlectric.bearing.solution import (
 from ehlectric.cases.bearing import Bearing
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.clearance import clearance_range
+from ehlectric.discharge.verdict import breakdown_warning
 from ehlectric.errors import ResultWarning
 from ehlectric.lubricant.viscosity_index import GRADE_WIDTH
 
@@ -52,19 +55,31 @@ def bearing_warnings(solution: BearingSolution) -> list[ResultWarning]:
 def film_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
     """Warnings of the films of a whole bearing: how they are computed, oil, temperature and clearance."""
     if solution.case.contacts == "formula":
-        text = "contacts by formula: films may be 30 % off, and fields are voltages over the minimum film"
+        text = (
+            "contacts by formula: film thicknesses may be wrong by 30 %, and fields are V/h_min; use "
+            'contacts = "solved" for design'
+        )
         yield ResultWarning("formula-contacts", text)
     if solution.conditions.film_factor == 1.0:
         factor = solution.case.bearing.film_factor
         name = factor if isinstance(factor, str) else f"{factor:g}"
-        text = f"film_factor {name}: the film is isothermal and fully flooded, voltages are upper bounds"
+        text = (
+            f"bearing.film_factor is {name}: the films are isothermal and fully flooded, so breakdown "
+            'voltages are upper bounds; "inlet-shear" or a number below 1 gives thinner films'
+        )
         yield ResultWarning("isothermal-film", text)
     if solution.case.lubricant.temperature is None:
-        text = "lubricant.viscosity is given: bearing.temperature has no part in the films"
+        text = (
+            "bearing.temperature is ignored for the films, because lubricant.viscosity is given; give the "
+            "viscosities at 40 and 100 °C instead to use it"
+        )
         yield ResultWarning("temperature-unused", text)
     elif solution.case.bearing.temperature < _COLD:
         cold = solution.case.bearing.temperature - 273.15
-        text = f"bearing.temperature is {cold:.3g} °C: the viscosity from 40 and 100 °C may be far off"
+        text = (
+            f"bearing.temperature is {cold:.3g} °C: the viscosity is extrapolated from 40 and 100 °C and may "
+            "be wrong by a large factor; give lubricant.viscosity at this temperature"
+        )
         yield ResultWarning("temperature-low", text)
     yield from clearance_warnings(solution.conditions.geometry.clearance, solution.positions[0])
 
@@ -123,21 +138,28 @@ def voltage_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
     state, ceramic = lubrication(solution), solution.conditions.ceramic
     touching = f"lambda is {lambda_ratio(solution):.2g}: surfaces"
     if state == "conducting":
-        text = f"{touching} touch and conduct, nothing breaks down, and no shaft voltage is stated"
+        text = (
+            f"{touching} touch and conduct, so there is no breakdown voltage and no shaft voltage; a higher "
+            "speed or viscosity separates them"
+        )
         yield ResultWarning("touching", text)
     elif state == "touching":
-        yield ResultWarning("touching", f"{touching} touch, and the elements insulate")
+        yield ResultWarning("touching", f"{touching} touch; only the ceramic elements insulate")
     elif state == "partial film":
-        text = f"{touching} may touch" + ("" if ceramic else ", voltages are upper bounds")
+        text = f"{touching} may touch" + ("" if ceramic else ", so breakdown voltages are upper bounds")
         yield ResultWarning("partial-film", text)
     if capacitance_is_bound(solution):
         yield ResultWarning(
             "capacitance-bound",
-            "the elements are ceramic: the capacitance is an upper bound, that of conducting ones, and "
-            "no shaft voltage follows from it; bearing.element_capacitance gives one",
+            "the elements are ceramic: the capacitance is an upper bound, computed as for conducting "
+            "elements, and no shaft voltage follows from it; give bearing.element_capacitance",
         )
+    breakdown, shaft = breakdown_of(solution), shaft_voltage(solution)
+    if breakdown is not None and shaft is not None and breakdown.first_break < shaft and solution.converged:
+        at = f"first breakdown at {breakdown.first_break:.3g} V"
+        yield breakdown_warning("shaft voltage", shaft, at, breakdown.first_break / shaft)
     if solution.case.discharge.weibull is not None and insulating(solution):
-        text = "first break and through breakdown are voltages at a probability of 63.2 % (Weibull)"
+        text = "first and ring-to-ring breakdown voltages are those at a probability of 63.2 % (Weibull)"
         yield ResultWarning("weibull-voltage", text)
 
 
@@ -175,9 +197,10 @@ def edge_warnings(bearing: Bearing, positions: Sequence[Position]) -> Iterator[R
         if load > 0.0:
             yield ResultWarning(
                 "shoulder-reached",
-                f"{name} ring: the contact with {load:.3g} N would reach {math.degrees(reached):.1f} deg up "
-                f"a groove that ends at {math.degrees(shoulder):.1f} deg: the shoulder cuts it off, and the "
-                "pressure on that edge is not in this",
+                f"{name} ring: the contact ellipse at {load:.3g} N would extend to "
+                f"{math.degrees(reached):.1f} deg, but the groove ends at {math.degrees(shoulder):.1f} deg: "
+                "the shoulder truncates the ellipse, and the pressure at this edge is not modelled; check "
+                "load and clearance",
             )
 
 
@@ -197,12 +220,13 @@ def clearance_warnings(clearance: float, position: Position) -> Iterator[ResultW
     beside = "a clearance of"
     if room <= 0.0:
         # Preloaded elements have no clearance: the films are compared with the elastic approach.
-        room, beside = float(at.inner_approach[most] + at.outer_approach[most]), "elements pressed in by"
+        room, beside = float(at.inner_approach[most] + at.outer_approach[most]), "an elastic approach of"
     if films > TAKEN * room:
         yield ResultWarning(
             "clearance-taken-up",
-            f"both films of the most loaded element are {1e6 * films:.2g} um, beside {beside} "
-            f"{1e6 * room:.2g} um: loads are those of dry contacts, which such films change",
+            f"both films of the most loaded element are {1e6 * films:.2g} µm together, compared with "
+            f"{beside} {1e6 * room:.2g} µm: the loads are computed for dry contacts, and such "
+            "films change them; treat loads and films as estimates",
         )
 
 

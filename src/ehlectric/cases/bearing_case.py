@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, ClassVar, Literal, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self, Unpack
 
-from pydantic import model_validator
+from pydantic import field_serializer, field_validator, model_validator
 
 from ehlectric.cases.bearing import Bearing, BearingDischarge, BearingLubricant, Motor
 from ehlectric.cases.case import Title
 from ehlectric.cases.changes import Groups, displace, set_keys
 from ehlectric.cases.discharge import STRENGTHS, TABLES
 from ehlectric.cases.grid import Solver
+from ehlectric.cases.keywords import BearingKeys, Keys, tables, takes
+from ehlectric.cases.ranges import InputRange, ranges_of
+from ehlectric.cases.row import amount, value_at
 from ehlectric.cases.table import Table, read_toml
 from ehlectric.cases.units import ROTATION
 from ehlectric.errors import InputError
+from ehlectric.runtime.display import Tabled, headline
 
 # Alternative keys, by table: a key that changes replaces its alternatives.
 _ALTERNATIVES: dict[str, Groups] = {
@@ -43,8 +48,46 @@ _ADVICE = {
 }
 
 
-class BearingCase(Table):
-    """Rolling bearing in its machine: all inputs on which its capacitance and breakdown voltage depend."""
+class BearingCase(Tabled, Table):
+    """Rolling bearing in its machine: all inputs on which its capacitance and breakdown voltage depend.
+
+    A case is made from a file by ``from_toml``, from nested tables by ``from_dict`` or by keywords, and from
+    the keys of its bearing by ``BearingCase.of``. It is frozen; ``replace`` returns a changed copy. Numbers
+    are in SI units.
+
+    Parameters
+    ----------
+    bearing : Bearing or mapping
+        Geometry, load, speed, temperature and roughness.
+    lubricant : BearingLubricant or mapping
+        Laws of the oil, or ``base``, the name of a lubricant of the library.
+    title : str, optional
+        Title of tables and figures.
+    contacts : str, optional
+        "solved", or "formula" for contacts from film-thickness formulas.
+    discharge, motor, solver : mapping, optional
+        Further tables, as in a bearing file.
+
+    Raises
+    ------
+    InputError
+        If a key is unknown or missing, or a value is not allowed.
+    """
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            *,
+            bearing: Bearing | Keys,
+            lubricant: BearingLubricant | Keys,
+            title: str = ...,
+            contacts: str = ...,
+            discharge: BearingDischarge | Keys = ...,
+            motor: Motor | Keys | None = ...,
+            ranges: Mapping[str, Sequence[Any]] = ...,
+            solver: Solver | Keys = ...,
+        ) -> None: ...
 
     ADVICE: ClassVar = _ADVICE
 
@@ -55,6 +98,17 @@ class BearingCase(Table):
     discharge: BearingDischarge = BearingDischarge()
     motor: Motor | None = None
     solver: Solver = Solver()
+    ranges: tuple[InputRange, ...] | None = None
+
+    @field_validator("ranges", mode="plain")
+    @classmethod
+    def _parsed(cls, tables: Any) -> tuple[InputRange, ...] | None:
+        """Ranges of inputs in SI units."""
+        return None if tables is None else ranges_of(tables, cls) or None
+
+    @field_serializer("ranges")
+    def _as_table(self, ranges: tuple[InputRange, ...] | None) -> dict[str, list[float]] | None:
+        return None if ranges is None else {one.key: [one.low, one.high] for one in ranges}
 
     @model_validator(mode="after")
     def _check(self) -> Self:
@@ -68,7 +122,80 @@ class BearingCase(Table):
                     "lubricant.temperature.thermal_conductivity",
                     "missing; film_factor 'inlet-shear' needs it",
                 )
+        table = self.to_dict() if self.ranges else {}
+        for one in self.ranges or ():
+            if not _is_number(value_at(table, one.key)):
+                raise InputError(
+                    f"ranges.{one.key}", got="a range", takes=f"a number for {one.key} in the file too"
+                )
         return self
+
+    def headline(self) -> str:
+        """Title, bearing, loads and speed on one line."""
+        bearing = self.bearing
+        loads = [("radial", bearing.radial_load), ("axial", bearing.axial_load)]
+        return headline(
+            self.title,
+            bearing.base or bearing.kind,
+            *(f"{way} load {amount(load, 'N')}" for way, load in loads if load),
+            f"{bearing.inner_speed * 30.0 / math.pi:.4g} rpm",
+            f"{bearing.temperature - 273.15:.4g} degC",
+        )
+
+    @classmethod
+    @takes(BearingKeys)
+    def of(
+        cls,
+        *,
+        lubricant: BearingLubricant | Keys | str,
+        title: str = "",
+        contacts: Literal["solved", "formula"] = "solved",
+        discharge: BearingDischarge | Keys | None = None,
+        motor: Motor | Keys | None = None,
+        solver: Solver | Keys | None = None,
+        **bearing: Unpack[BearingKeys],
+    ) -> BearingCase:
+        """Make a bearing case from the keys of its table ``bearing``.
+
+        Parameters
+        ----------
+        lubricant : str, mapping or BearingLubricant
+            Name of a lubricant of the library, or its table.
+        title : str, optional
+            Title of tables and figures.
+        contacts : str, optional
+            "solved", or "formula" for contacts from film-thickness formulas.
+        discharge, motor, solver : optional
+            Further tables, as in a bearing file.
+        **bearing
+            Keys of the table ``bearing``: floats in SI units, texts with units, or quantities of pint; see
+            ``ehlectric.cases.keywords.BearingKeys``.
+
+        Returns
+        -------
+        BearingCase
+            Case of the bearing.
+
+        Raises
+        ------
+        InputError
+            If a key is unknown or missing, or a value is not allowed.
+
+        Examples
+        --------
+        >>> BearingCase.of(
+        ...     base="6208",
+        ...     radial_clearance="10 um",
+        ...     radial_load="1 kN",
+        ...     inner_speed="3000 rpm",
+        ...     temperature="70 degC",
+        ...     composite_rq="0.03 um",
+        ...     lubricant={"base": "paper", "viscosity": "20 mPa s"},
+        ... )
+        <BearingCase 6208, radial load 1 kN, 3000 rpm, 70 degC>
+        """
+        given = tables(lubricant=lubricant, discharge=discharge, motor=motor, solver=solver)
+        return BearingCase.from_dict({"title": title, "contacts": contacts, "bearing": bearing, **given})
 
     @classmethod
     def from_toml(cls, path: str | Path) -> Self:
@@ -116,7 +243,8 @@ class BearingCase(Table):
         ----------
         changes : mapping
             New values by dotted key, as in ``{"bearing.radial_load": "1 kN"}``. A new key replaces its
-            alternative; a new ``lubricant.base`` replaces all values of the lubricant.
+            alternative; a new ``lubricant.base`` replaces all values of the lubricant. A range of a replaced
+            value is left out.
 
         Returns
         -------
@@ -133,7 +261,18 @@ class BearingCase(Table):
             table["lubricant"] = {}
         displace(table, changes, _ALTERNATIVES)
         set_keys(table, changes)
+        if "ranges" in table and "ranges" not in changes:
+            table["ranges"] = {
+                key: ends
+                for key, ends in table["ranges"].items()
+                if key not in changes and _is_number(value_at(table, key))
+            }
         if table["bearing"].get("clearance_class") is not None and "bearing.radial_clearance" not in changes:
             # It follows from the class, and anew where the class or the bore changes.
             table["bearing"].pop("radial_clearance", None)
         return self.from_dict(table)
+
+
+def _is_number(value: Any) -> bool:
+    """Whether the value of an input is a number, and not missing, a choice, a list or a table."""
+    return isinstance(value, int | float) and not isinstance(value, bool)

@@ -8,21 +8,25 @@ computes the operating conditions from them.
 from __future__ import annotations
 
 import unicodedata
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Annotated, Any, ClassVar, Self
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self, TypeVar, Unpack
 
 from pydantic import AfterValidator, model_validator
 
-from ehlectric.cases.changes import displace, drop, flattened, set_keys
-from ehlectric.cases.contact import CONTACT_ALTERNATIVES, ONLY, Contact
-from ehlectric.cases.discharge import STRENGTHS, TABLES, Discharge
+from ehlectric.cases.alternatives import displace_alternatives, drop_geometry
+from ehlectric.cases.changes import flattened, set_keys
+from ehlectric.cases.contact import Contact
+from ehlectric.cases.discharge import Discharge
 from ehlectric.cases.grid import POINT_GRID_KEYS, Electric, Grid, Solver, point_grid
+from ehlectric.cases.keywords import Keys, LineKeys, PointKeys, tables, takes
 from ehlectric.cases.lubricant import Lubricant
 from ehlectric.cases.motion import Motion
 from ehlectric.cases.roughness import Roughness, check_geometry
+from ehlectric.cases.row import amount
 from ehlectric.cases.table import Table, read_toml
 from ehlectric.errors import InputError, shown
+from ehlectric.runtime.display import Tabled, headline
 
 
 def _title(text: str) -> str:
@@ -35,22 +39,48 @@ def _title(text: str) -> str:
 Title = Annotated[str, AfterValidator(_title)]
 
 
-class Case(Table):
+# Units of the numbers in the representation of a case, by their key in the table ``contact``.
+_SHOWN = {"load_per_length": "N/m", "load": "N", "max_hertz_pressure": "Pa", "entrainment_speed": "m/s"}
+
+
+class Case(Tabled, Table):
     """Charged line or point contact: all inputs on which film and electric field depend.
+
+    A case is made from a file by ``from_toml``, from nested tables by ``from_dict`` or by keywords, and from
+    the keys of its contact by ``Case.line`` or ``Case.point``. It is frozen; ``replace`` returns a changed
+    copy. Numbers are in SI units.
+
+    Parameters
+    ----------
+    contact : Contact or mapping
+        Geometry, elasticity, load and speed.
+    lubricant : Lubricant or mapping
+        Laws of viscosity, density and permittivity, or ``base``, the name of a lubricant of the library.
+    title : str, optional
+        Title of tables and figures.
+    roughness : sequence of mapping, optional
+        Tables of the rough surfaces.
+    electric, discharge, motion, grid, solver : mapping, optional
+        Further tables, as in a case file.
+
+    Raises
+    ------
+    InputError
+        If a key is unknown or missing, or a value is not allowed.
 
     Examples
     --------
-    >>> case = Case.model_validate(
-    ...     {
-    ...         "contact": {
-    ...             "reduced_radius": "14.1 mm",
-    ...             "reduced_modulus": "226 GPa",
-    ...             "max_hertz_pressure": "1 GPa",
-    ...             "entrainment_speed": "4 m/s",
-    ...         },
-    ...         "lubricant": {"base": "paper"},
-    ...     }
+    >>> case = Case(
+    ...     contact={
+    ...         "reduced_radius": "14.1 mm",
+    ...         "reduced_modulus": "226 GPa",
+    ...         "max_hertz_pressure": "1 GPa",
+    ...         "entrainment_speed": "4 m/s",
+    ...     },
+    ...     lubricant={"base": "paper"},
     ... )
+    >>> case
+    <Case line contact, max_hertz_pressure 1 GPa, entrainment_speed 4 m/s>
     >>> case.replace({"contact.entrainment_speed": "2 m/s"}).contact.entrainment_speed
     2.0
     """
@@ -59,6 +89,21 @@ class Case(Table):
         f"lubricant.{key}": "a contact expects the viscosity at its temperature, lubricant.viscosity"
         for key in ("temperature", "iso_vg", "viscosity_grade", "viscosity_index")
     }
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            *,
+            contact: Contact | Keys,
+            lubricant: Lubricant | Keys,
+            title: str = ...,
+            roughness: Sequence[Roughness | Keys] = ...,
+            electric: Electric | Keys = ...,
+            discharge: Discharge | Keys | None = ...,
+            motion: Motion | Keys | None = ...,
+            grid: Grid | Keys = ...,
+            solver: Solver | Keys = ...,
+        ) -> None: ...
 
     title: Title = ""
     contact: Contact
@@ -110,6 +155,126 @@ class Case(Table):
                 "is not used with [motion], which has a single grid; give grid.nodes",
                 takes="grid.nodes",
             )
+
+    def __eq__(self, other: object) -> bool:
+        # A LineCase is equal to a Case with the same values, as a result has once it is loaded.
+        return self.__dict__ == other.__dict__ if isinstance(other, Case) else NotImplemented
+
+    def headline(self) -> str:
+        """Title, geometry, load and speed on one line."""
+        given = [(key, self.contact.value(key), unit) for key, unit in _SHOWN.items()]
+        numbers = [f"{key} {amount(value, unit)}" for key, value, unit in given if value is not None]
+        motion = None if self.motion is None else "moving roughness"
+        return headline(self.title, f"{self.contact.geometry} contact", *numbers, motion)
+
+    @classmethod
+    @takes(LineKeys)
+    def line(
+        cls,
+        *,
+        lubricant: Lubricant | Keys | str,
+        title: str = "",
+        roughness: Sequence[Roughness | Keys] = (),
+        electric: Electric | Keys | None = None,
+        discharge: Discharge | Keys | None = None,
+        grid: Grid | Keys | None = None,
+        solver: Solver | Keys | None = None,
+        **contact: Unpack[LineKeys],
+    ) -> LineCase:
+        """Make the case of a line contact from the keys of its table ``contact``.
+
+        Parameters
+        ----------
+        lubricant : str, mapping or Lubricant
+            Name of a lubricant of the library, or its table.
+        title : str, optional
+            Title of tables and figures.
+        roughness, electric, discharge, grid, solver : optional
+            Further tables, as in a case file.
+        **contact
+            Keys of the table ``contact``: floats in SI units, texts with units, or quantities of pint; see
+            ``ehlectric.cases.keywords.LineKeys``.
+
+        Returns
+        -------
+        LineCase
+            Case of a line contact, whose result is a ``Result``.
+
+        Raises
+        ------
+        InputError
+            If a key is unknown or missing, or a value is not allowed.
+
+        Examples
+        --------
+        >>> case = Case.line(
+        ...     reduced_radius="14.1 mm",
+        ...     reduced_modulus=226e9,
+        ...     max_hertz_pressure="1 GPa",
+        ...     entrainment_speed=4.0,
+        ...     lubricant="paper",
+        ... )
+        >>> case.contact.reduced_radius
+        0.0141
+        """
+        given = tables(lubricant=lubricant, electric=electric, discharge=discharge, grid=grid, solver=solver)
+        table = {"geometry": "line", **contact}
+        return LineCase.from_dict({"title": title, "contact": table, "roughness": roughness, **given})
+
+    @classmethod
+    @takes(PointKeys)
+    def point(
+        cls,
+        *,
+        lubricant: Lubricant | Keys | str,
+        title: str = "",
+        roughness: Sequence[Roughness | Keys] = (),
+        electric: Electric | Keys | None = None,
+        discharge: Discharge | Keys | None = None,
+        grid: Grid | Keys | None = None,
+        solver: Solver | Keys | None = None,
+        **contact: Unpack[PointKeys],
+    ) -> PointCase:
+        """Make the case of a point contact from the keys of its table ``contact``.
+
+        Parameters
+        ----------
+        lubricant : str, mapping or Lubricant
+            Name of a lubricant of the library, or its table.
+        title : str, optional
+            Title of tables and figures.
+        roughness, electric, discharge, grid, solver : optional
+            Further tables, as in a case file.
+        **contact
+            Keys of the table ``contact``: floats in SI units, texts with units, or quantities of pint; see
+            ``ehlectric.cases.keywords.PointKeys``.
+
+        Returns
+        -------
+        PointCase
+            Case of a point contact, whose result is a ``PointResult``.
+
+        Raises
+        ------
+        InputError
+            If a key is unknown or missing, or a value is not allowed.
+
+        Examples
+        --------
+        >>> ball = Case.point(
+        ...     radius_x="10 mm",
+        ...     radius_y="10 mm",
+        ...     reduced_modulus="226 GPa",
+        ...     load="20 N",
+        ...     entrainment_speed="2 m/s",
+        ...     lubricant="paper",
+        ... )
+        >>> ball
+        <PointCase point contact, load 20 N, entrainment_speed 2 m/s>
+        """
+        given = tables(lubricant=lubricant, electric=electric, discharge=discharge, grid=grid, solver=solver)
+        table = {"geometry": "point", **contact}
+        return PointCase.from_dict({"title": title, "contact": table, "roughness": roughness, **given})
 
     @classmethod
     def from_toml(cls, path: str | Path) -> Self:
@@ -178,10 +343,46 @@ class Case(Table):
         table = self.to_dict()
         geometry = flattened(flat).get("contact.geometry", self.contact.geometry)
         if geometry != self.contact.geometry:
-            _drop_geometry(table, self.contact.geometry)
-        _displace(table, flat, geometry)
+            drop_geometry(table, self.contact.geometry)
+        displace_alternatives(table, flat, geometry)
         set_keys(table, flat)
         return self.from_dict(table)
+
+
+class LineCase(Case):
+    """Case of a stationary line contact, which type checkers tell from that of a point contact.
+
+    ``Case.line`` makes it; ``solve`` returns a ``Result``.
+    """
+
+    @model_validator(mode="after")
+    def _check_kind(self) -> Self:
+        return _of_kind(self, "line")
+
+
+class PointCase(Case):
+    """Case of a stationary point contact, which type checkers tell from that of a line contact.
+
+    ``Case.point`` makes it; ``solve`` returns a ``PointResult``.
+    """
+
+    @model_validator(mode="after")
+    def _check_kind(self) -> Self:
+        return _of_kind(self, "point")
+
+
+C = TypeVar("C", bound=Case)
+
+
+def _of_kind(case: C, geometry: str) -> C:
+    """Case itself, if its contact has this geometry and does not move."""
+    name = type(case).__name__
+    if case.contact.geometry != geometry:
+        got = shown(case.contact.geometry)
+        raise InputError("contact.geometry", got=got, takes=f"{geometry!r} in a {name}")
+    if case.motion is not None:
+        raise InputError.worded("motion", f"is no table of a {name}; Case.from_dict takes it")
+    return case
 
 
 def find_files(table: dict[str, Any], folder: Path) -> None:
@@ -199,31 +400,3 @@ def _geometry(contact: Any) -> Any:
     if isinstance(contact, Mapping):
         return contact.get("geometry")
     return getattr(contact, "geometry", None)
-
-
-# Keys of a grid that stay if the geometry changes. Lengths and numbers of nodes are removed, because the
-# other geometry has other units of length and other defaults.
-_GRID_OF_ANY = ("wedge", "field_degree", "refine")
-
-
-def _drop_geometry(table: dict[str, Any], geometry: str) -> None:
-    """Remove the keys of a case that only contacts of this geometry have."""
-    for key in ONLY[geometry]:
-        drop(table["contact"], key)
-    drop(table, "discharge.length")
-    table["grid"] = {key: value for key, value in table["grid"].items() if key in _GRID_OF_ANY}
-
-
-def _displace(table: dict[str, Any], changes: Mapping[str, Any], geometry: object) -> None:
-    """Remove from the tables of a case the keys that the changes replace."""
-    if "lubricant.base" in changes:
-        table["lubricant"] = {}
-    alternatives = {
-        "contact": (
-            *CONTACT_ALTERNATIVES.get(str(geometry), ()),
-            (("slide_to_roll_ratio",), ("speed_1", "speed_2")),
-        ),
-        "discharge": (STRENGTHS, TABLES),
-        "motion": ((("passes",), ("duration",)),),
-    }
-    displace(table, changes, alternatives)

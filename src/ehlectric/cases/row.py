@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Any
 
+from ehlectric.cases.quantity import unit_for
 from ehlectric.cases.result_key import Keys, key_of
 
-# SI unit of each unit that is shown, as pint writes it, and the factor from the SI unit to the shown one.
+# SI unit of each unit that is shown, in the notation of pint, and the factor from the SI unit to the shown
+# unit.
 UNITS: Mapping[str, tuple[str, float]] = MappingProxyType(
     {
         "": ("", 1.0),
@@ -18,6 +21,10 @@ UNITS: Mapping[str, tuple[str, float]] = MappingProxyType(
         "MN/m": ("N/m", 1e-6),
         "GPa": ("Pa", 1e-9),
         "m/s": ("m/s", 1.0),
+        "rpm": ("rad/s", 30.0 / math.pi),
+        "deg": ("rad", 180.0 / math.pi),
+        "mPa s": ("Pa*s", 1e3),
+        "m": ("m", 1.0),
         "mm": ("m", 1e3),
         "µm": ("m", 1e6),
         "nm": ("m", 1e9),
@@ -38,33 +45,35 @@ UNITS: Mapping[str, tuple[str, float]] = MappingProxyType(
 
 @dataclass(frozen=True)
 class Row:
-    """One row of a table: a name, a value with its unit, and a note.
+    """Row of a table: a name, a value with its unit, and a note. A row with a name alone is a heading.
 
     Attributes
     ----------
     name : str
-        Name of the quantity. Two spaces in front of it say that it belongs to the row above.
+        Name of the quantity, which a reader understands without the other rows.
     value : float, str or None
-        Number in the SI unit of ``unit``, or a text; None where the row has a name and a note only.
+        Number in the SI unit of ``unit``, or a string; None for a row with a name and a note only.
     unit : str
-        Unit in which a number is shown, one of ``UNITS``, or the unit of a text.
+        Unit in which a number is shown, one of ``UNITS``, or the unit of a string.
     note : str
-        Text behind the unit, printed without a space between them.
+        Note that follows the unit, or the value if there is no unit.
     digits : str
         Format of the shown number.
     alarm : bool
-        Whether the row says that the numbers must not be used.
+        True if the row says that the numbers must not be used.
 
     Raises
     ------
     ValueError
-        Where ``UNITS`` does not have the unit of a number.
+        If the unit of a number is not in ``UNITS``.
 
     Examples
     --------
     >>> row = Row("Hertz pressure", 1.234567e9, "GPa")
     >>> row.shown, row.unit
     ('1.235', 'GPa')
+    >>> Row("minimum film thickness", 2e-7, "µm", ", at the outlet").text
+    '0.2 µm, at the outlet'
     """
 
     name: str
@@ -80,14 +89,27 @@ class Row:
 
     @property
     def shown(self) -> str:
-        """Value as text, in the shown unit."""
+        """Value as a string, in the shown unit."""
         if self.value is None or isinstance(self.value, str):
             return self.value or ""
         return format(self.value * UNITS[self.unit][1], self.digits)
 
+    @property
+    def text(self) -> str:
+        """Value, unit and note as one string."""
+        value = " ".join(filter(None, [self.shown, self.unit]))
+        if self.note.startswith((",", ";")):
+            return value + self.note
+        return " ".join(filter(None, [value, self.note.strip()]))
+
+    @property
+    def heading(self) -> bool:
+        """True if the row has a name only, which heads the rows that follow."""
+        return bool(self.name) and not self.text
+
 
 def rows_of(keys: Keys, summary: Mapping[str, Any], entries: Iterable[tuple[str, ...]]) -> Iterator[Row]:
-    """Rows of the numbers of a summary; those that are None are left out.
+    """Rows of the numbers of a summary, without the numbers that are None.
 
     Parameters
     ----------
@@ -101,7 +123,7 @@ def rows_of(keys: Keys, summary: Mapping[str, Any], entries: Iterable[tuple[str,
     Raises
     ------
     ValueError
-        Where the shown unit of a number is not a multiple of the SI unit of its key.
+        If the shown unit of a number is not a multiple of the SI unit of its key.
 
     Examples
     --------
@@ -121,7 +143,7 @@ def rows_of(keys: Keys, summary: Mapping[str, Any], entries: Iterable[tuple[str,
 
 
 def value_at(table: Mapping[str, Any], key: str) -> Any:
-    """Value of nested tables and lists at a dotted key; None where a table on the way is None or lacks it.
+    """Value at a dotted key of nested tables and lists; None if a table of the path is None or lacks its key.
 
     Examples
     --------
@@ -137,3 +159,15 @@ def value_at(table: Mapping[str, Any], key: str) -> Any:
         else:
             return None
     return value
+
+
+def amount(value: float, unit: str) -> str:
+    """Value in a prefixed unit that suits it, with four digits.
+
+    Examples
+    --------
+    >>> amount(7.4e-7, "m"), amount(2.5e6, "V/m")
+    ('0.74 µm', '2.5 V/µm')
+    """
+    factor, prefixed = unit_for(abs(value), unit)
+    return f"{factor * value:.4g} {prefixed}"

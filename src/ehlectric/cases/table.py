@@ -8,7 +8,7 @@ import tomllib
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from types import UnionType
-from typing import Any, ClassVar, Literal, Self, Union, get_args, get_origin
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self, Union, get_args, get_origin
 
 from pydantic import BaseModel, ConfigDict, GetJsonSchemaHandler, ValidationError
 from pydantic.fields import FieldInfo
@@ -17,6 +17,9 @@ from pydantic_core import CoreSchema, ErrorDetails
 from ehlectric.cases.quantity import WRITTEN
 from ehlectric.errors import InputError, shown
 from ehlectric.runtime.files import reading
+
+# Names of pydantic, many of them deprecated, which completion need not list.
+_HIDDEN = frozenset(name for name in dir(BaseModel) if not name.startswith("__"))
 
 
 class Table(BaseModel):
@@ -35,6 +38,28 @@ class Table(BaseModel):
         if "base" in cls.model_fields:
             schema.pop("required", None)
         return schema
+
+    def __init__(self, /, **table: Any) -> None:
+        try:
+            super().__init__(**table)
+        except ValidationError as error:
+            raise first_error(error, type(self)) from None
+
+    # Pydantic makes tables within tables without calling __init__, so that an error has its whole key.
+    __init__.__pydantic_base_init__ = True  # type: ignore[attr-defined]
+
+    if not TYPE_CHECKING:
+
+        def __setattr__(self, name: str, value: Any) -> None:
+            if not name.startswith("__"):
+                raise _frozen(name)
+            super().__setattr__(name, value)
+
+        def __delattr__(self, name: str) -> None:
+            raise _frozen(name)
+
+    def __dir__(self) -> list[str]:
+        return [name for name in super().__dir__() if name not in _HIDDEN]
 
     @classmethod
     def from_dict(cls, table: Mapping[str, Any]) -> Self:
@@ -93,6 +118,11 @@ class Table(BaseModel):
     def known_keys(cls) -> dict[str, FieldInfo]:
         """Keys of the table, each with its field (annotation and default)."""
         return dict(cls.model_fields)
+
+
+def _frozen(name: str) -> InputError:
+    """Error of an assignment to a key of a table."""
+    return InputError.worded(name, "cannot be assigned: a case is frozen; its replace returns a changed copy")
 
 
 def read_toml(path: str | Path) -> dict[str, Any]:

@@ -15,17 +15,63 @@ from ehlectric.commands.contact import plot, run
 from ehlectric.commands.maps import draw_maps, sensitivity
 from ehlectric.commands.motion import animate
 from ehlectric.commands.reproduce import reproduce
-from ehlectric.commands.surface import init, surface
+from ehlectric.commands.start import examples, init
+from ehlectric.commands.surface import surface
 from ehlectric.commands.sweep import sweep
 from ehlectric.commands.terminal import WRONG_INPUT
 from ehlectric.version import __version__
 
 SIGNALLED = 128  # plus the number of the signal, as in shells
+
+# Signals that end a command; Windows does not have all of them.
+_ENDING = tuple(getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name))
+
+_EXAMPLES = """\b
+Examples:
+  ehlectric init bearing.toml --kind bearing      write a bearing to start from
+  ehlectric check bearing.toml                    what it means, by formula, at once
+  ehlectric bearing bearing.toml -o results       solve it; does it spark?
+  ehlectric init case.toml                        a single contact
+  ehlectric run case.toml -o contact              solve it, with tables and figures
+  ehlectric COMMAND --help                        options of a command
+"""
+
+# Commands in the order in which a user needs them: name, function, line in the list, and examples.
+_COMMANDS = (
+    ("init", init, "Write a commented file to start from.", ("init bearing.toml --kind bearing",)),
+    ("examples", examples, "List or copy the examples.", ("examples", "examples bearing_6208 -o trial")),
+    ("check", check, "Check a file without solving it.", ("check bearing.toml", "check sweep.toml --json")),
+    ("run", run, "Solve a contact.", ("run case.toml -o results", "run case.toml --format pdf --format svg")),
+    ("bearing", bearing, "Solve a whole rolling bearing.", ("bearing bearing.toml --contacts formula",)),
+    ("sweep", sweep, "Solve a case over varied inputs.", ("sweep sweep.toml -o sweep --plots",)),
+    (
+        "map",
+        draw_maps,
+        "Draw a sweep as map and lines.",
+        (
+            "map sweep --x bearing.inner_speed",
+            'map sweep --x bearing.inner_speed --at "bearing.temperature=70 degC"',
+        ),
+    ),
+    ("sensitivity", sensitivity, "Rank the inputs of a Sobol design.", ("sensitivity uncertainty",)),
+    ("plot", plot, "Draw the figures of a result again.", ("plot results --style journal --format pdf",)),
+    ("animate", animate, "Animate a moving-roughness run.", ("animate results -o moving.gif",)),
+    (
+        "surface",
+        surface,
+        "Show a measured surface.",
+        ('surface profile.csv --form line --cutoff-long "80 um"',),
+    ),
+    ("reproduce", reproduce, "Reproduce the paper.", ("reproduce", "reproduce --figure 7")),
+)
+
 app = typer.Typer(
-    help="Film and electric field of lubricated contacts.",
-    no_args_is_help=True,
-    add_completion=False,
+    help="Film and electric field of lubricated contacts, and breakdown of the film in bearings.",
+    epilog=_EXAMPLES,
+    invoke_without_command=True,
+    rich_markup_mode=None,  # it would take [motion] in a help text for a style
     pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
 )
 
 
@@ -37,24 +83,18 @@ def _version(wanted: bool) -> None:
 
 @app.callback()
 def _main(
-    version: Annotated[
+    ctx: typer.Context,
+    _: Annotated[
         bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version.")
     ] = False,
 ) -> None:
-    pass
+    if ctx.invoked_subcommand is None:
+        typer.echo(ctx.get_help())
 
 
-app.command()(run)
-app.command()(check)
-app.command()(surface)
-app.command()(init)
-app.command()(plot)
-app.command()(reproduce)
-app.command()(bearing)
-app.command()(sweep)
-app.command("map")(draw_maps)
-app.command()(animate)
-app.command()(sensitivity)
+for _name, _function, _short, _lines in _COMMANDS:
+    _typed = "\n".join(f"  ehlectric {line}" for line in _lines)
+    app.command(_name, short_help=_short, epilog=f"\b\nExamples:\n{_typed}")(_function)
 
 
 def _stop(number: int, _: object) -> None:
@@ -65,7 +105,7 @@ def _stop(number: int, _: object) -> None:
 def _status() -> int:
     """Run the command and return its exit status; wrong arguments are told in one line."""
     try:
-        status = app(standalone_mode=False)
+        status = app(prog_name="ehlectric", standalone_mode=False)
         sys.stdout.flush()
     except (KeyboardInterrupt, typer.Abort):
         return SIGNALLED + signal.SIGINT
@@ -80,15 +120,14 @@ def _status() -> int:
         message = getattr(error, "format_message", None)
         if message is None:
             raise
-        # Without a command the help has been printed, and the error has no message.
-        typer.echo(f"error: {message() or 'no command; they are listed above'}", err=True)
+        typer.echo(f"error: {message()}", err=True)
         return WRONG_INPUT
     return int(status or 0)
 
 
 def main() -> None:
     """Entry point of the ``ehlectric`` command."""
-    for number in (signal.SIGTERM, signal.SIGHUP):
+    for number in _ENDING:
         signal.signal(number, _stop)
     for stream in (sys.stdout, sys.stderr):
         # A terminal without a micro sign must not end the run.

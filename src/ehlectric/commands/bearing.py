@@ -8,6 +8,17 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ehlectric.commands.options import (
+    Formats,
+    Json,
+    Output,
+    Plots,
+    Quiet,
+    Style,
+    figure_options,
+    file_argument,
+    one_of,
+)
 from ehlectric.commands.terminal import progress_bar, report, user_errors
 
 if TYPE_CHECKING:
@@ -17,29 +28,43 @@ if TYPE_CHECKING:
 
 
 def bearing(
-    bearing_file: Annotated[Path, typer.Argument(help="Bearing file, TOML.", show_default=False)],
-    output: Annotated[
-        Path, typer.Option("--output", "-o", metavar="DIR", help="Folder for the results.")
-    ] = Path("bearing"),
+    bearing_file: Annotated[Path, file_argument("FILE", "Bearing file, in TOML.", ".toml")],
+    output: Output = Path("bearing"),
     contacts: Annotated[
         str,
-        typer.Option(metavar="HOW", help="solved or formula, else as the file says.", show_default=False),
+        typer.Option(
+            metavar="HOW",
+            help="Solve the contacts (solved), or take films from a formula at once (formula). Without this "
+            "option the file decides.",
+            show_default=False,
+            autocompletion=one_of("solved", "formula"),
+        ),
     ] = "",
-    plots: Annotated[bool, typer.Option("--plots/--no-plots", help="Draw the figures.")] = True,
-    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No table, progress or warnings.")] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")] = False,
+    plots: Plots = True,
+    formats: Formats = None,
+    style: Style = "screen",
+    quiet: Quiet = False,
+    as_json: Json = False,
 ) -> None:
-    """Solve a whole rolling bearing; write summary.json, tables as CSV and figures.
+    """Solve a whole rolling bearing; write summary.json, bearing.nc, tables as CSV and figures.
 
-    Exit status 0: solved. 2: the input is wrong. 3: a contact is not converged, everything is written all the
-    same.
+    The folder then holds this result alone: files of an earlier result are removed, other files stay. A
+    folder with a sweep or with moving roughness is refused.
+
+    Exit status 0: solved. 2: the input is wrong. 3: a contact is not converged; all files are still written.
     """
     with user_errors():
-        from ehlectric.commands import runs
+        look = figure_options(formats, style)
 
+        from ehlectric.commands import runs
+        from ehlectric.commands.kinds import expect
+
+        expect(bearing_file, "bearing")
         case = runs.read_bearing(bearing_file)
         with progress_bar(shown=not quiet) as progress:
-            outcome = runs.run_and_draw("bearing", case, output, progress, draw=plots, contacts=contacts)
+            outcome = runs.run_and_draw(
+                "bearing", case, output, progress, draw=plots, contacts=contacts, **look
+            )
     report(outcome, _tables, quiet=quiet, as_json=as_json)
 
 

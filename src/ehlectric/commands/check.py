@@ -3,22 +3,41 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
+from typing import Annotated
 
 import typer
 
-from ehlectric.commands.options import CaseFile, Json, Quiet
-from ehlectric.commands.terminal import print_rows, user_errors, warn
+from ehlectric.commands.options import Json, Quiet, file_argument
+from ehlectric.commands.terminal import echo_verdict, print_rows, user_errors, warn
 
 
-def check(case_file: CaseFile, quiet: Quiet = False, as_json: Json = False) -> None:
-    """Validate a case and say what it means: Hertz contact, groups, regime, film formulas."""
+def check(
+    file: Annotated[
+        Path, file_argument("FILE", "Case, bearing or sweep file, in TOML; also one with [motion].", ".toml")
+    ],
+    quiet: Quiet = False,
+    as_json: Json = False,
+) -> None:
+    """Check a file of any kind without solving it, and print what it means.
+
+    Hertz contact, groups, regime and film formulas of a contact; with [discharge], an estimate of its
+    breakdown voltage. Loads, speeds, oil, films, capacitance and margin of a bearing by formula. Number of
+    points of a sweep, and its first point.
+
+    Exit status 0: the file can be solved. 2: the input is wrong.
+    """
     with user_errors():
         from ehlectric.commands import runs
+        from ehlectric.commands.kinds import expect
+        from ehlectric.commands.meaning import check as check_meaning
 
-        meaning = runs.check(runs.read_case(case_file))
+        kind = expect(file, "contact", "motion", "bearing", "sweep")
+        meaning = check_meaning(runs.RUNS[kind].read(file))
     if as_json:
         typer.echo(json.dumps(meaning.summary, indent=2))
     elif not quiet:
         print_rows(meaning.rows, meaning.title)
+        echo_verdict(meaning.summary)
     if not quiet:
         warn(meaning.warnings)

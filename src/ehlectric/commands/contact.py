@@ -3,13 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from ehlectric.commands.motion import tell_where_it_stops
-from ehlectric.commands.options import CaseFile, Json, Quiet
+from ehlectric.commands.options import (
+    CaseFile,
+    Formats,
+    Json,
+    Output,
+    Plots,
+    Quiet,
+    Style,
+    figure_options,
+    file_argument,
+    one_of,
+)
 from ehlectric.commands.terminal import (
     echo_files,
     progress_bar,
@@ -28,33 +40,47 @@ if TYPE_CHECKING:
 
 def run(
     case_file: CaseFile,
-    output: Annotated[
-        Path, typer.Option("--output", "-o", metavar="DIR", help="Folder for the results.")
-    ] = Path("results"),
-    plots: Annotated[bool, typer.Option("--plots/--no-plots", help="Draw the figures.")] = True,
+    output: Output = Path("results"),
+    plots: Plots = True,
+    formats: Formats = None,
+    style: Style = "screen",
     solver: Annotated[
-        str, typer.Option(metavar="NAME", help="ehlectric, or paper: its multigrid and over-relaxation.")
+        str,
+        typer.Option(
+            metavar="NAME",
+            help="Solve with ehlectric, or with paper, the multigrid and over-relaxation of the paper.",
+            autocompletion=one_of("ehlectric", "paper"),
+        ),
     ] = "ehlectric",
     quiet: Quiet = False,
     as_json: Json = False,
 ) -> None:
-    """Solve a case; write summary.json, result.nc, film.csv and figures.
+    """Solve a contact; write summary.json, result.nc, film.csv and figures.
 
-    With [motion]: summary.json, motion.nc as it goes, and figures. Stopped, the same command goes on.
+    A case with [motion] writes summary.json, motion.nc and figures. If it is interrupted, run the same
+    command to resume it.
 
-    Exit status 0: solved. 2: the input is wrong. 3: not converged, everything is written all the same.
+    The folder then holds this result alone: files of an earlier result are removed, other files stay. A
+    folder with a sweep, or with moving roughness of another case, is refused.
+
+    Exit status 0: solved. 2: the input is wrong. 3: not converged; all files are still written.
     """
     with user_errors():
-        from ehlectric.commands import runs
+        look = figure_options(formats, style)
 
+        from ehlectric.commands import runs
+        from ehlectric.commands.kinds import expect
+
+        kind = expect(case_file, "contact", "motion")
         case = runs.read_case(case_file)
-        if case.motion is None:
+        solve = partial(runs.run_and_draw, kind, case, output, draw=plots, solver=solver, **look)
+        if kind == "contact":
             with progress_line(shown=not quiet) as progress:
-                outcome = runs.run_and_draw("contact", case, output, progress, draw=plots, solver=solver)
+                outcome = solve(progress)
         else:
             with progress_bar(shown=not quiet) as bar, tell_where_it_stops(output, bar) as progress:
-                outcome = runs.run_and_draw("motion", case, output, progress, draw=plots, solver=solver)
-    tables = _tables if case.motion is None else _transient_tables
+                outcome = solve(progress)
+    tables = _tables if kind == "contact" else _transient_tables
     report(outcome, tables, quiet=quiet, as_json=as_json)
 
 
@@ -79,20 +105,36 @@ def _transient_tables(outcome: RunOutcome[object]) -> Iterator[Table]:
 
 
 def plot(
-    result_file: Annotated[
-        Path, typer.Argument(help="A result.nc, bearing.nc or motion.nc.", show_default=False)
+    result: Annotated[
+        Path,
+        file_argument(
+            "RESULT", "Folder of a result of any kind, or its result.nc, bearing.nc or motion.nc.", ".nc"
+        ),
     ],
     output: Annotated[
         Path | None,
-        typer.Option("--output", "-o", metavar="DIR", help="Folder, default that of the file."),
+        typer.Option(
+            "--output", "-o", metavar="DIR", help="Write the figures into this folder, not beside the result."
+        ),
     ] = None,
+    formats: Formats = None,
+    style: Style = "screen",
     quiet: Quiet = False,
 ) -> None:
-    """Draw the figures of a result again."""
-    with user_errors():
-        from ehlectric.commands.runs import load_and_draw
+    """Draw the figures of a result again.
 
-        files, warnings = load_and_draw(result_file, result_file.parent if output is None else output)
+    The result of a contact, of moving roughness, of a bearing or of a sweep. A sweep over one or two keys is
+    drawn as a map and lines, and a Sobol design as its sensitivity; for other sweeps use ehlectric map.
+    """
+    with user_errors():
+        look = figure_options(formats, style)
+
+        from ehlectric.commands.drawing import load_and_draw, stored_result
+        from ehlectric.commands.kinds import refuse_input
+
+        refuse_input(result)
+        file = stored_result(result)
+        files, warnings = load_and_draw(file, file.parent if output is None else output, **look)
     if not quiet:
         echo_files(files)
         warn(warnings)

@@ -8,52 +8,103 @@ from typing import Annotated
 
 import typer
 
+from ehlectric.commands.folders import SENSITIVITY
+from ehlectric.commands.options import Formats, Quiet, Style, figure_options, files_ending
 from ehlectric.commands.terminal import echo_files, print_rows, print_table, user_errors, warn
 from ehlectric.errors import InputError, shown
 
-SENSITIVITY = "sensitivity.json"
 
-SweepFolder = Annotated[Path, typer.Argument(metavar="DIR", help="Folder of a sweep.", show_default=False)]
-Value = Annotated[str, typer.Option(metavar="KEY", help="Key of summary.json, default a breakdown voltage.")]
-Output = Annotated[
-    Path | None, typer.Option("--output", "-o", metavar="DIR", help="Folder, default that of the sweep.")
+def _varied_keys(ctx: typer.Context, incomplete: str) -> list[str]:
+    """Varied keys of the sweep in the folder that is typed already, for the completion of a shell."""
+    from ehlectric.sweep.store import read_sweep
+
+    try:
+        results = read_sweep(ctx.params["folder"])
+    except (InputError, KeyError, TypeError):
+        return []
+    return [key for key in (*results.axes, *results.ranges) if key.startswith(incomplete)]
+
+
+SweepFolder = Annotated[
+    Path,
+    typer.Argument(
+        metavar="DIR",
+        help="Folder of a sweep, finished or not.",
+        show_default=False,
+        autocompletion=files_ending(),
+    ),
 ]
-Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No table or warnings.")]
+Value = Annotated[
+    str,
+    typer.Option(
+        metavar="KEY",
+        help="Draw this key of summary.json, such as film.minimum_thickness. Without it, the breakdown "
+        "voltage is drawn.",
+        show_default=False,
+    ),
+]
+OtherFolder = Annotated[
+    Path | None,
+    typer.Option("--output", "-o", metavar="DIR", help="Write into this folder, not into that of the sweep."),
+]
 
 
 def draw_maps(
     folder: SweepFolder,
-    x: Annotated[str, typer.Option(metavar="KEY", help="Varied key along the horizontal axis.")],
+    x: Annotated[
+        str,
+        typer.Option(
+            metavar="KEY", help="Draw this varied key along the horizontal axis.", autocompletion=_varied_keys
+        ),
+    ],
     y: Annotated[
         str | None,
-        typer.Option(metavar="KEY", help="Varied key along the vertical one; lines alone without."),
+        typer.Option(
+            metavar="KEY",
+            help="Draw this varied key along the vertical axis. Without it there are lines and no map.",
+            autocompletion=_varied_keys,
+        ),
     ] = None,
     value: Value = "",
     at: Annotated[
-        list[str] | None, typer.Option(metavar="KEY=VALUE", help="What is held where more vary; repeat it.")
+        list[str] | None,
+        typer.Option(
+            metavar="KEY=VALUE",
+            help='Hold a further varied key at a value, as in "bearing.temperature=70 degC". Repeat the '
+            "option for several keys. The cut is part of the names of the figures.",
+        ),
     ] = None,
-    output: Output = None,
+    output: OtherFolder = None,
+    formats: Formats = None,
+    style: Style = "screen",
     quiet: Quiet = False,
 ) -> None:
-    """Draw a value of a sweep as a map and as lines over varied keys, with the applied voltage drawn in.
+    """Draw a value of a sweep as a map and as lines over one or two varied keys.
 
-    Of bearings over their speed alone, capacitance and breakdown voltages too.
+    The applied voltage is marked. For a bearing that is swept over its speed only, the capacitance and the
+    breakdown voltage over the speed are drawn too.
     """
     with user_errors():
-        held = _held(at or [])
+        held, look = _held(at or []), figure_options(formats, style)
 
-        from ehlectric.figures.names import SPEED_FIGURE_FILES, map_files
+        from ehlectric.figures.names import SPEED_FIGURE_FILES, in_formats, map_files, of_cut
+        from ehlectric.figures.style import style as styled
         from ehlectric.figures.sweep.save import save_maps, save_speeds
         from ehlectric.runtime.files import prepare
         from ehlectric.sweep.breakdown_keys import breakdown_of
         from ehlectric.sweep.slices import take
         from ehlectric.sweep.store import read_sweep
 
-        results = read_sweep(folder)
+        results, forms = read_sweep(folder), look["formats"]
         value = value or breakdown_of(results.case).value
         taken = take(results, x, y, value, held)
-        target = prepare(output or folder, (*map_files(value), *SPEED_FIGURE_FILES))
-        files = save_maps(results, x, y, value, target, at=held) + save_speeds(results, taken, target)
+        names = in_formats(
+            (*map_files(value, held), *(of_cut(name, held) for name in SPEED_FIGURE_FILES)), forms
+        )
+        target = prepare(output or folder, names)
+        with styled(style):
+            files = save_maps(results, x, y, value, target, at=held, formats=forms)
+            files += save_speeds(results, taken, target, forms, at=held)
     if not quiet:
         from ehlectric.figures.sweep.points import held_text
 
@@ -62,10 +113,23 @@ def draw_maps(
         echo_files(files)
 
 
-def sensitivity(folder: SweepFolder, value: Value = "", output: Output = None, quiet: Quiet = False) -> None:
-    """Spread of a value over the ranges of a Sobol design, and the part of each input in it."""
+def sensitivity(
+    folder: SweepFolder,
+    value: Value = "",
+    output: OtherFolder = None,
+    formats: Formats = None,
+    style: Style = "screen",
+    quiet: Quiet = False,
+) -> None:
+    """Show which inputs of a Sobol design contribute most to the spread of a value.
+
+    Writes sensitivity.json with the spread and the Sobol indices, and a figure of both.
+    """
     with user_errors():
-        from ehlectric.figures.names import SENSITIVITY_FIGURE
+        look = figure_options(formats, style)
+
+        from ehlectric.figures.names import SENSITIVITY_FIGURE, in_formats
+        from ehlectric.figures.style import style as styled
         from ehlectric.figures.sweep.sensitivity import save_sensitivity
         from ehlectric.runtime.files import prepare, write_json
         from ehlectric.sweep.breakdown_keys import breakdown_of
@@ -74,10 +138,12 @@ def sensitivity(folder: SweepFolder, value: Value = "", output: Output = None, q
 
         results = read_sweep(folder)
         indices = sensitivity_of(results, value or breakdown_of(results.case).value)
-        target = prepare(output or folder, (SENSITIVITY, SENSITIVITY_FIGURE))
-        files = [target / SENSITIVITY, target / SENSITIVITY_FIGURE]
-        write_json(files[0], indices.to_dict())
-        save_sensitivity(results, indices, files[1])
+        names = in_formats([SENSITIVITY_FIGURE], look["formats"])
+        target = prepare(output or folder, (SENSITIVITY, *names))
+        write_json(target / SENSITIVITY, indices.to_dict())
+        with styled(style):
+            drawn = save_sensitivity(results, indices, target / SENSITIVITY_FIGURE, look["formats"])
+        files = [target / SENSITIVITY, *drawn]
     if not quiet:
         from ehlectric.commands.tables.sensitivity import indices_table, spread_rows
         from ehlectric.sweep.warnings import sensitivity_warnings

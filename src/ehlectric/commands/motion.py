@@ -9,6 +9,7 @@ from typing import Annotated
 
 import typer
 
+from ehlectric.commands.options import Quiet, files_ending
 from ehlectric.commands.terminal import progress_bar, user_errors
 from ehlectric.runtime.progress import Progress
 
@@ -34,21 +35,34 @@ def tell_where_it_stops(folder: Path, show: Progress) -> Iterator[Progress]:
 
             # Read from the file: the progress may not have been called for the last instant yet.
             saved = saved_steps(folder / MOTION)
-            rest = "goes on with the others" if saved < steps else "sums them up"
-            text = f"{saved} of {steps} steps are saved in {folder}, the same command {rest}"
-            typer.echo(f"stopped; {text}", err=True)
+            rest = "resumes the run" if saved < steps else "sums them up"
+            text = f"{saved} of {steps} steps are saved in {folder}; the same command {rest}"
+            typer.echo(f"interrupted; {text}", err=True)
         raise
 
 
 def animate(
-    folder: Annotated[Path, typer.Argument(metavar="DIR", help="Folder of a run.", show_default=False)],
+    folder: Annotated[
+        Path,
+        typer.Argument(
+            metavar="DIR",
+            help="Folder of a run with moving roughness.",
+            show_default=False,
+            autocompletion=files_ending(),
+        ),
+    ],
     output: Annotated[
-        Path, typer.Option("--output", "-o", metavar="FILE", help="GIF or MP4, by its suffix.")
+        Path,
+        typer.Option(
+            "--output", "-o", metavar="FILE", help="Write this file, a GIF or an MP4 by its suffix."
+        ),
     ] = Path("motion.gif"),
-    fps: Annotated[int, typer.Option(metavar="N", help="Pictures a second.", min=1, max=50)] = 25,
-    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No progress.")] = False,
+    fps: Annotated[
+        int, typer.Option(metavar="N", help="Show this number of pictures per second.", min=1, max=50)
+    ] = 25,
+    quiet: Quiet = False,
 ) -> None:
-    """Draw the recorded instants of a contact whose roughness moves as an animation."""
+    """Animate a moving-roughness run, as a GIF or MP4."""
     with user_errors():
         from ehlectric.figures.motion.animation import save_animation
         from ehlectric.motion.stored_run import read_motion

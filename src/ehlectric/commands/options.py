@@ -1,12 +1,110 @@
-"""Arguments and options that several commands share."""
+"""Arguments and options that several commands share, and what a shell completes them with."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, TypedDict
 
 import typer
 
-CaseFile = Annotated[Path, typer.Argument(help="Case file, TOML.", show_default=False)]
-Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No table, progress or warnings.")]
-Json = Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")]
+from ehlectric.errors import InputError, shown
+
+
+def files_ending(*suffixes: str) -> Callable[[str], list[str]]:
+    """Function that completes the name of a file with one of some suffixes, or of a folder on the way."""
+
+    def complete(incomplete: str) -> list[str]:
+        folder, slash, begun = incomplete.rpartition("/")
+        start = folder + slash
+        try:
+            entries = sorted(Path(start or ".").iterdir())
+        except OSError:
+            return []
+        found = [entry for entry in entries if entry.name.startswith(begun)]
+        if not begun:
+            found = [entry for entry in found if not entry.name.startswith(".")]
+        folders = [f"{start}{entry.name}/" for entry in found if entry.is_dir()]
+        return [f"{start}{entry.name}" for entry in found if entry.suffix in suffixes] + folders
+
+    return complete
+
+
+def one_of(*names: str) -> Callable[[str], list[str]]:
+    """Function that completes one of some names."""
+    return lambda incomplete: [name for name in names if name.startswith(incomplete)]
+
+
+def chosen(option: str, value: str, names: Sequence[str]) -> str:
+    """Value of an option that takes one of some names.
+
+    Raises
+    ------
+    InputError
+        If it is none of them.
+    """
+    if value not in names:
+        raise InputError(option, got=shown(value), takes=f"one of {', '.join(names)}")
+    return value
+
+
+def file_argument(metavar: str, help_text: str, *suffixes: str) -> typer.models.ArgumentInfo:
+    """Argument for a file, whose name the shell completes."""
+    argument: typer.models.ArgumentInfo = typer.Argument(
+        metavar=metavar, help=help_text, show_default=False, autocompletion=files_ending(*suffixes)
+    )
+    return argument
+
+
+CaseFile = Annotated[Path, file_argument("CASE", "Case file of a contact, in TOML.", ".toml")]
+Quiet = Annotated[
+    bool, typer.Option("--quiet", "-q", help="Print no tables, no progress and no warnings, only errors.")
+]
+Json = Annotated[bool, typer.Option("--json", help="Print the numbers as JSON in place of tables.")]
+Output = Annotated[
+    Path,
+    typer.Option(
+        "--output", "-o", metavar="DIR", help="Write the results into this folder; it is made if missing."
+    ),
+]
+Plots = Annotated[bool, typer.Option("--plots/--no-plots", help="Draw the figures, or leave them out.")]
+Formats = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--format",
+        metavar="FORMAT",
+        help="Write figures as png (the default), svg or pdf. Repeat the option for several formats.",
+        show_default=False,
+        autocompletion=one_of("png", "svg", "pdf"),
+    ),
+]
+Style = Annotated[
+    str,
+    typer.Option(
+        "--style",
+        metavar="STYLE",
+        help="Draw figures in the style screen, or journal for a column of a journal.",
+        autocompletion=one_of("screen", "journal"),
+    ),
+]
+
+
+class Look(TypedDict):
+    """Formats and style of figures, as functions that draw take them."""
+
+    formats: tuple[str, ...]
+    style: str
+
+
+def figure_options(formats: Sequence[str] | None, style: str) -> Look:
+    """Formats and style of figures, from the options of a command.
+
+    Raises
+    ------
+    InputError
+        If there is no such format or style.
+    """
+    from ehlectric.figures.names import FORMATS, STYLES
+
+    wanted = tuple(chosen("--format", name, FORMATS) for name in formats or ("png",))
+    return Look(formats=wanted, style=chosen("--style", style, STYLES))

@@ -7,20 +7,34 @@ from typing import Annotated
 
 import typer
 
-from ehlectric.commands.options import Quiet
-from ehlectric.commands.terminal import NOT_CONVERGED, progress_bar, user_errors
+from ehlectric.commands.options import Output, Quiet
+from ehlectric.commands.terminal import (
+    NOT_CONVERGED,
+    echo_files,
+    in_natural_order,
+    progress_bar,
+    user_errors,
+)
 from ehlectric.errors import InputError, shown
 
 
 def reproduce(
-    output: Annotated[
-        Path, typer.Option("--output", "-o", metavar="DIR", help="Folder for the results.")
-    ] = Path("reproduced"),
-    figure: Annotated[str | None, typer.Option(metavar="NUMBER", help="Only this figure, 2 to 11.")] = None,
-    table: Annotated[str | None, typer.Option(metavar="NUMBER", help="Only this table, 3.")] = None,
+    output: Output = Path("reproduced"),
+    figure: Annotated[
+        str | None,
+        typer.Option(
+            metavar="NUMBER", help="Make this figure only, 2 to 11; without it, all.", show_default=False
+        ),
+    ] = None,
+    table: Annotated[
+        str | None, typer.Option(metavar="NUMBER", help="Make this table only, 3.", show_default=False)
+    ] = None,
     quiet: Quiet = False,
 ) -> None:
-    """Solve the contacts of Morris, Leighton and Morris (2022); write tables, figures and a report."""
+    """Reproduce the paper: its contacts, tables and figures, with a report.
+
+    The paper is Morris, Leighton and Morris, Lubricants 10 (2022) 87. The report is reproduced/report.html.
+    """
     with user_errors():
         from ehlectric.paper.reproduce import reproduce as reproduced
 
@@ -31,8 +45,7 @@ def reproduce(
     if not quiet:
         for name, text in made.verdicts.items():
             typer.echo(f"{name.replace('_', ' ').capitalize()}: {text}")
-        for path in made.files:
-            typer.echo(f"written: {path}")
+        echo_files(in_natural_order(made.files))
     if not made.converged:
         typer.echo("error: not converged: some films of the study", err=True)
         raise typer.Exit(NOT_CONVERGED)

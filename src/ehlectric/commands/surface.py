@@ -1,44 +1,86 @@
-"""The commands surface and init."""
+"""The surface command."""
 
 from __future__ import annotations
 
 import json
-from importlib import resources
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from ehlectric.commands.options import Json, Quiet
-from ehlectric.commands.terminal import print_table, user_errors, warn
-from ehlectric.errors import InputError, shown
+from ehlectric.commands.options import Json, file_argument, one_of
+from ehlectric.commands.terminal import echo_files, print_table, user_errors, warn
 
-_TEMPLATES = {"line": "template.toml", "point": "template_point.toml"}
+_UNITS = "such as um or nm, for a file that does not state it"
+
+
+def _length(help_text: str) -> typer.models.OptionInfo:
+    """Option that takes a length with its unit."""
+    option: typer.models.OptionInfo = typer.Option(metavar="LENGTH", help=help_text, show_default=False)
+    return option
 
 
 def surface(
-    file: Annotated[Path, typer.Argument(help="File of an instrument.", show_default=False)],
-    x_unit: Annotated[str | None, typer.Option(help="Where the file does not say.")] = None,
-    z_unit: Annotated[str | None, typer.Option(help="Where the file does not say.")] = None,
-    line: Annotated[int | None, typer.Option(help="Line of a map, from 0; 0 if not given.")] = None,
-    along: Annotated[str, typer.Option(help="row or column.")] = "row",
+    file: Annotated[
+        Path,
+        file_argument(
+            "FILE",
+            "Heights of a surface: text, X3P, AL3D or another instrument's file.",
+            ".csv",
+            ".txt",
+            ".dat",
+            ".x3p",
+            ".al3d",
+        ),
+    ],
+    x_unit: Annotated[
+        str | None,
+        typer.Option(metavar="UNIT", help=f"Take positions in this unit, {_UNITS}.", show_default=False),
+    ] = None,
+    z_unit: Annotated[
+        str | None,
+        typer.Option(metavar="UNIT", help=f"Take heights in this unit, {_UNITS}.", show_default=False),
+    ] = None,
+    line: Annotated[
+        int | None,
+        typer.Option(
+            metavar="NUMBER",
+            help="Take this line of a map, counted from 0; without it, the first.",
+            show_default=False,
+        ),
+    ] = None,
+    along: Annotated[
+        str,
+        typer.Option(
+            metavar="HOW", help="Take a row or a column of a map.", autocompletion=one_of("row", "column")
+        ),
+    ] = "row",
     whole: Annotated[
-        bool, typer.Option("--map", help="The whole map, as point contacts use it, not one line of it.")
+        bool, typer.Option("--map", help="Take the whole map, as point contacts do, not one line of it.")
     ] = False,
-    form: Annotated[str, typer.Option(help="none, mean, line or parabola.")] = "none",
-    cutoff_long: Annotated[str | None, typer.Option(help="Removes longer waves.")] = None,
-    cutoff_short: Annotated[str | None, typer.Option(help="Removes shorter waves.")] = None,
-    trim: Annotated[str | None, typer.Option(help="Taken off each end.")] = None,
-    rescale_rq: Annotated[str | None, typer.Option(help="Rq to scale to.")] = None,
-    truncate: Annotated[str | None, typer.Option(help="Height to cut at.")] = None,
+    form: Annotated[
+        str,
+        typer.Option(
+            metavar="FORM",
+            help="Remove this form: none, mean, line or parabola.",
+            autocompletion=one_of("none", "mean", "line", "parabola"),
+        ),
+    ] = "none",
+    cutoff_long: Annotated[str | None, _length("Remove waves that are longer than this.")] = None,
+    cutoff_short: Annotated[str | None, _length("Remove waves that are shorter than this.")] = None,
+    trim: Annotated[str | None, _length("Cut this length off each end.")] = None,
+    rescale_rq: Annotated[str | None, _length("Scale the heights to this Rq.")] = None,
+    truncate: Annotated[str | None, _length("Limit heights to plus and minus this.")] = None,
     output: Annotated[
-        Path | None, typer.Option("--output", "-o", metavar="PNG", help="Draw the profile or map.")
+        Path | None,
+        typer.Option("--output", "-o", metavar="PNG", help="Draw the profile or map into this file."),
     ] = None,
     as_json: Json = False,
 ) -> None:
-    """Show what a file holds and what each step does to it: the keys of a case's roughness as options.
+    """Show the content of a surface file and the effect of each processing step, without solving.
 
-    Lengths carry their unit, as in --cutoff-long "80 um".
+    The options are the keys of a table [[roughness]] of a case. A length has its unit, as in --cutoff-long
+    "80 um".
     """
     table = {
         "x_unit": x_unit, "z_unit": z_unit, "line": line, "along": along, "form": form,
@@ -67,27 +109,4 @@ def surface(
         print_table(surface_table(described))
         warn(rough.warnings)
         if output is not None:
-            typer.echo(f"written: {output}")
-
-
-def init(
-    path: Annotated[Path, typer.Argument(help="File to write.")] = Path("case.toml"),
-    geometry: Annotated[str, typer.Option(metavar="NAME", help="Of the contact: line or point.")] = "line",
-    force: Annotated[bool, typer.Option("--force", help="Overwrite a file.")] = False,
-    quiet: Quiet = False,
-) -> None:
-    """Write a commented case to start from."""
-    with user_errors():
-        from ehlectric.runtime.files import prepare, refuse_special, whole
-
-        if geometry not in _TEMPLATES:
-            raise InputError("--geometry", got=shown(geometry), takes=f"one of {', '.join(_TEMPLATES)}")
-        refuse_special(path)
-        if path.exists() and not force:
-            raise InputError(path, "is there already", takes="a new file or --force")
-        prepare(path.parent)
-        template = resources.files("ehlectric.cases.library") / _TEMPLATES[geometry]
-        with whole(path) as beside:
-            beside.write_text(template.read_text(encoding="utf-8"), encoding="utf-8")
-    if not quiet:
-        typer.echo(f"written: {path}; solve it with: ehlectric run {path}")
+            echo_files([output])

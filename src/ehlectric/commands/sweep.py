@@ -12,15 +12,17 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ehlectric.commands.options import Formats, Look, Output, Style, figure_options, file_argument
 from ehlectric.commands.terminal import (
     NOT_CONVERGED,
     echo_files,
     print_rows,
+    print_verdict,
     refuse_failure,
     user_errors,
     warn,
 )
-from ehlectric.errors import InputError, LostError, shown
+from ehlectric.errors import InputError, LostError, ResultWarning, shown
 from ehlectric.runtime.progress import Progress, silent
 
 if TYPE_CHECKING:
@@ -35,45 +37,81 @@ _MOST_WORKERS = 1024
 
 
 def sweep(
-    sweep_file: Annotated[Path, typer.Argument(help="Sweep file, TOML.", show_default=False)],
-    output: Annotated[
-        Path, typer.Option("--output", "-o", metavar="DIR", help="Folder for the results.")
-    ] = Path("sweep"),
+    sweep_file: Annotated[Path, file_argument("FILE", "Sweep file, in TOML.", ".toml")],
+    output: Output = Path("sweep"),
     workers: Annotated[
         str | None,
-        typer.Option(metavar="N", help="Processes on this machine; as many as cores if not given."),
+        typer.Option(
+            metavar="N",
+            help="Solve in this number of processes; without it, in as many as there are cores.",
+            show_default=False,
+        ),
     ] = None,
     scheduler: Annotated[
-        str | None, typer.Option(metavar="ADDRESS", help="Of a Dask cluster that solves instead.")
+        str | None,
+        typer.Option(
+            metavar="ADDRESS",
+            help='Solve on the Dask cluster with this address, such as "tcp://10.0.0.1:8786".',
+            show_default=False,
+        ),
     ] = None,
+    formats: Formats = None,
+    style: Style = "screen",
+    plots: Annotated[
+        bool,
+        typer.Option(
+            "--plots",
+            help="Draw maps and lines over one or two varied keys, or the sensitivity. --format implies it.",
+        ),
+    ] = False,
     quiet: Annotated[
-        bool, typer.Option("--quiet", "-q", help="No table or progress; in one line what failed.")
+        bool,
+        typer.Option("--quiet", "-q", help="Print no table and no progress, only one line on what failed."),
     ] = False,
 ) -> None:
-    """Solve a case over varied inputs; write sweep.sqlite, sweep.csv, sweep.nc and sweep.parquet.
+    """Solve a case over varied inputs; write sweep.sqlite, sweep.csv and sweep.nc.
 
-    Each point is saved as it finishes: the same command again goes on where it was stopped.
+    With pyarrow installed, sweep.parquet is written too. Each point is saved as it finishes: if the sweep is
+    interrupted, run the same command to resume it. Figures come from ehlectric map and ehlectric
+    sensitivity, or from --plots.
 
-    Exit status 0: done, though some points may have failed, which is said. 2: the input is wrong. 3: no point
-    was solved, or the scheduler is gone.
+    Exit status 0: done; points that failed are counted. 2: the input is wrong. 3: no point was solved, or the
+    workers were lost.
     """
     with user_errors():
         options = {"workers": _workers(workers, scheduler), "scheduler": scheduler}
+        look = figure_options(formats, style)
 
         from ehlectric.commands import runs
+        from ehlectric.commands.kinds import expect
 
+        expect(sweep_file, "sweep")
         asked = runs.read_sweep_file(sweep_file)
         with _tell_where_it_stops(output) as begun, _shown(begun, quiet=quiet) as progress:
             outcome = runs.RUNS["sweep"].run(asked, output, progress, **options)
+        wanted = (plots or bool(formats)) and outcome.converged
+        drawn, told = _drawn(output, look) if wanted else ((), ())
     if not quiet:
         from ehlectric.commands.tables.sweep import sweep_rows
+        from ehlectric.sweep.verdict import sweep_verdict
 
         print_rows(sweep_rows(outcome.result))
-        echo_files(outcome.files)
-        warn(outcome.warnings)
+        echo_files((*outcome.files, *drawn))
+        warn((*outcome.warnings, *told))
+        print_verdict(sweep_verdict(outcome.result))
     elif outcome.converged:
         warn(_in_short(outcome.result))
     refuse_failure(outcome)
+
+
+def _drawn(folder: Path, look: Look) -> tuple[tuple[Path, ...], tuple[ResultWarning | str, ...]]:
+    """Figures of a sweep and their warnings; without figures, the reason as a warning."""
+    from ehlectric.commands.drawing import load_and_draw
+
+    try:
+        return load_and_draw(folder, folder, **look)
+    except InputError as error:
+        return (), (f"no figures: {error}",)
 
 
 def _workers(text: str | None, scheduler: str | None) -> int | None:
@@ -95,7 +133,7 @@ class _Begun:
 
 @contextmanager
 def _tell_where_it_stops(output: Path) -> Iterator[_Begun]:
-    """Context of a sweep; where it is stopped or loses its crew, one line tells how many points are saved."""
+    """Context of a sweep; if it is interrupted or loses its workers, one line tells how much is saved."""
     begun = _Begun()
 
     def tell(why: str) -> None:
@@ -103,17 +141,17 @@ def _tell_where_it_stops(output: Path) -> Iterator[_Begun]:
 
         # Read from the file: the progress may not have been called for the last points yet.
         saved, points = saved_points(output)
-        text = f"{saved} of {points} points are saved in {output}, the same command goes on with the others"
+        text = f"{saved} of {points} points are saved in {output}; the same command resumes the sweep"
         typer.echo(f"{why}; {text}", err=True)
 
     try:
         yield begun
     except LostError as error:
-        tell(f"error: those who solve are gone: {error}")
+        tell(f"error: the workers were lost: {error}")
         raise typer.Exit(NOT_CONVERGED) from None
     except (KeyboardInterrupt, SystemExit):
         if begun.yet:
-            tell("stopped")
+            tell("interrupted")
         raise
 
 

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+import re
 import sys
-from collections.abc import Callable, Iterable, Iterator
+import textwrap
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -18,11 +20,16 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from ehlectric.cases.row import Row
+    from ehlectric.discharge.verdict import Verdict
     from ehlectric.runtime.outcome import RunOutcome
 
 
+# Exit status.
 WRONG_INPUT = 2
 NOT_CONVERGED = 3
+
+# Width of lists of names [characters].
+_WIDTH = 90
 
 
 @contextmanager
@@ -81,7 +88,7 @@ def report(
     quiet: bool,
     as_json: bool,
 ) -> None:
-    """Print the tables and files of a run, its warnings, and why it failed.
+    """Print the tables and files of a run, its warnings, its verdict, and why it failed.
 
     Parameters
     ----------
@@ -104,10 +111,19 @@ def report(
     elif not quiet:
         for table in tables(outcome):
             print_table(table)
+        echo_verdict(outcome.summary)
         echo_files(outcome.files)
     if not quiet:
         warn(outcome.warnings)
+        if not as_json:
+            print_verdict(getattr(outcome.result, "verdict", None))
     refuse_failure(outcome)
+
+
+def echo_verdict(summary: Mapping[str, Any]) -> None:
+    """Print the verdict of a summary below its tables; nothing where it has none."""
+    if text := summary.get("verdict"):
+        typer.echo(text)
 
 
 def refuse_failure(outcome: RunOutcome[Any]) -> None:
@@ -134,12 +150,63 @@ def print_table(table: Table) -> None:
     typer.echo(captured.get(), nl=False)
 
 
+# Styles of the levels of a verdict, as rich names them.
+_STYLES = {"green": "bold green", "yellow": "bold yellow", "red": "bold red", "grey": "bold"}
+
+
+def print_verdict(verdict: Verdict | None) -> None:
+    """Print a verdict on stdout in the colour of its level; without colours where stdout is no terminal."""
+    if verdict is None:
+        return
+    from rich.console import Console
+    from rich.text import Text
+
+    console = Console(highlight=False)
+    if not console.is_terminal:
+        # A line that is read by a program is not wrapped.
+        typer.echo(verdict.text)
+        return
+    with console.capture() as captured:
+        console.print(Text(verdict.text, style=_STYLES[verdict.level]))
+    typer.echo(captured.get(), nl=False)
+
+
 def echo_files(files: Iterable[Path]) -> None:
-    """Print the files that were written, on one line."""
-    typer.echo("written: " + ", ".join(str(path) for path in files))
+    """Print the files that were written: a single path on one line, else the names below their folder.
+
+    Numbers in names are sorted by their value, within the order of their folders.
+    """
+    folders: dict[Path, list[str]] = {}
+    for path in files:
+        folders.setdefault(path.parent, []).append(path.name)
+    if sum(map(len, folders.values())) == 1:
+        ((folder, (name,)),) = folders.items()
+        typer.echo(f"written: {folder / name}")
+        return
+    for folder, names in folders.items():
+        typer.echo(f"written to {folder}:")
+        for line in textwrap.wrap(", ".join(names), _WIDTH, break_long_words=False, break_on_hyphens=False):
+            typer.echo(f"  {line}")
+
+
+def in_natural_order(files: Iterable[Path]) -> list[Path]:
+    """Files by name, with numbers in names by their value.
+
+    Examples
+    --------
+    >>> [path.name for path in in_natural_order([Path("figure_10.png"), Path("figure_2.png")])]
+    ['figure_2.png', 'figure_10.png']
+    """
+
+    def parts(path: Path) -> list[tuple[int, str]]:
+        found = re.findall(r"(\d+)|(\D+)", path.name)
+        return [(int(number), "") if number else (-1, text) for number, text in found]
+
+    return sorted(files, key=parts)
 
 
 def warn(texts: Iterable[str | ResultWarning]) -> None:
-    """Print warnings on stderr, one on each line."""
+    """Print warnings and notes on stderr, one on each line."""
     for text in texts:
-        typer.echo(f"warning: {text}", err=True)
+        note = isinstance(text, ResultWarning) and text.severity == "note"
+        typer.echo(f"{'note' if note else 'warning'}: {text}", err=True)

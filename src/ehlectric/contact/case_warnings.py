@@ -50,7 +50,9 @@ def regime_warnings(conditions: Conditions) -> Iterator[ResultWarning]:
         yield rigid_warning("half-width", "half-widths", _RIGID_INLET / conditions.contact.moes_m)
     elif regime != "piezoviscous-elastic":
         yield ResultWarning(
-            "regime", f"{regime} regime: the film formulas but Moes' are for piezoviscous-elastic contacts"
+            "regime",
+            f"the contact is in the {regime} regime, outside the range of all film formulas but that of "
+            "Moes; use the solved film",
         )
 
 
@@ -62,8 +64,9 @@ def rigid_warning(length: str, lengths: str, reach: float) -> ResultWarning:
     """
     return ResultWarning(
         "regime",
-        f"isoviscous-rigid regime: the bodies hardly deform, and {length} and Hertz pressure scale "
-        f"nothing; the film builds up over about {reach:.2g} {lengths}, which grid.inlet must hold",
+        f"the contact is in the isoviscous-rigid regime: the bodies hardly deform, and {length} and Hertz "
+        f"pressure are not meaningful scales; the film builds up over about {reach:.2g} {lengths}: check "
+        f"that grid.inlet is at most {-reach:.2g}",
     )
 
 
@@ -80,15 +83,14 @@ def pressure_warnings(
     if ambient_load > 0.01:
         yield ResultWarning(
             "ambient-pressure",
-            f"the ambient pressure carries {100 * ambient_load:.1f} % of the load over this domain; "
-            "lubricant.ambient_pressure = 0 leaves it out",
+            f"the ambient pressure carries {100 * ambient_load:.1f} % of the load on this domain; set "
+            "lubricant.ambient_pressure to 0 to leave it out",
         )
     if pressure > permanent:
         yield ResultWarning(
             "plastic-deformation",
-            f"the Hertz pressure is {pressure / 1e9:.3g} GPa: bearing steel deforms "
-            f"permanently above {permanent / 1e9:g} GPa in {kind} contacts, and the bodies are elastic here; "
-            "are load and radii right?",
+            f"the Hertz pressure is {pressure / 1e9:.3g} GPa, but bearing steel deforms permanently above "
+            f"{permanent / 1e9:g} GPa in {kind} contacts, and the model is elastic; check load and radii",
         )
     yield from law_warnings(lubricant, pressure)
 
@@ -114,6 +116,6 @@ def point_regime_warnings(conditions: PointConditions) -> Iterator[ResultWarning
     elif regime == "isoviscous-elastic":
         yield ResultWarning(
             "regime",
-            f"{regime} regime: the film formulas but that of Nijenbanning, Venner and Moes are for "
-            "piezoviscous contacts",
+            f"the contact is in the {regime} regime, outside the range of all film formulas but that of "
+            "Nijenbanning, Venner and Moes; use the solved film",
         )

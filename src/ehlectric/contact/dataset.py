@@ -12,6 +12,8 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
 from ehlectric.contact.solution import Solution
+from ehlectric.film.line import Film
+from ehlectric.film.point import PointFilm
 from ehlectric.film.state import NewtonStep
 from ehlectric.runtime.files import plain
 from ehlectric.runtime.stored_warnings import as_attributes
@@ -57,7 +59,7 @@ def on_nodes(*grid: str) -> Variables:
     return {
         "pressure": ("pressure", grid, "pressure", "Pa"),
         "thickness": ("thickness", grid, "film thickness", "m"),
-        "density": ("density", grid, "density over that at zero pressure", "1"),
+        "density": ("density", grid, "density / density at zero pressure", "1"),
         "deflection": ("deflection", grid, "gap opened by the pressure, up to a rigid displacement", "m"),
         "reynolds_residual": (
             "reynolds_residual",
@@ -78,7 +80,7 @@ def on_columns(*grid: str) -> Variables:
         "field_y": ("field_y", (*grid, "s"), "electric field along y", "V/m"),
         "strength": ("strength", (*grid, "s"), "electric field strength", "V/m"),
         "middle_strength": ("middle_strength", grid, "electric field strength at mid-film", "V/m"),
-        "thin_gap_strength": ("thin_gap_strength", grid, "voltage over film thickness", "V/m"),
+        "thin_gap_strength": ("thin_gap_strength", grid, "voltage / film thickness", "V/m"),
     }
 
 
@@ -105,7 +107,7 @@ LINE_LAYOUT = Layout(
         "capacitance_density": (
             "capacitance_density",
             ("x_field",),
-            "charge of a surface by voltage, length and width",
+            "capacitance per length and width",
             "F/m^2",
         ),
     },
@@ -128,7 +130,7 @@ POINT_LAYOUT = Layout(
         "capacitance_density": (
             "capacitance_density",
             ("x_field", "y_field"),
-            "charge of surface 2 by voltage and area",
+            "capacitance per area",
             "F/m^2",
         ),
     },
@@ -222,6 +224,14 @@ def dataset_of(solution: Solution[Any, Any, Any], layout: Layout, summary: Mappi
         .set_coords(layout.coordinates)
         .copy(deep=True)
     )
+
+
+def film_columns(film: Film | PointFilm) -> dict[str, tuple[Array, str]]:
+    """Film node by node: columns of a table by name, each with its unit, empty for a dimensionless one."""
+    positions = np.meshgrid(*film.axes, indexing="ij")
+    columns = {name: (values.ravel(), "m") for name, values in zip("xy", positions, strict=False)}
+    columns |= {"pressure": (film.pressure.ravel(), "Pa"), "thickness": (film.thickness.ravel(), "m")}
+    return columns | {"density": (film.density.ravel(), "")}
 
 
 def smooth_of(dataset: xr.Dataset) -> dict[str, Array] | None:

@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
-from ehlectric.contact.dataset import field_parts, film_parts, roughness_of, smooth_of
+from ehlectric.contact.dataset import field_parts, film_columns, film_parts, roughness_of, smooth_of
 from ehlectric.contact.kinds import KINDS
 from ehlectric.contact.problems import scales_of
 from ehlectric.contact.results import RESULTS, PointResult, Result
@@ -29,6 +28,9 @@ NETCDF = "result.nc"
 SUMMARY = "summary.json"
 FILM = "film.csv"
 FILES = (SUMMARY, NETCDF, FILM)
+
+# Heads of film.csv that differ from the name of the attribute.
+_CSV = {"density": "density ratio"}
 
 
 def save(result: Result | PointResult, folder: str | Path) -> list[Path]:
@@ -59,19 +61,11 @@ def save(result: Result | PointResult, folder: str | Path) -> list[Path]:
     with whole(files[1]) as path:
         result.to_xarray().to_netcdf(path, engine="h5netcdf")
     with whole(files[2]) as path:
-        columns, names = _film_columns(result)
-        header = ",".join([*names, "pressure [Pa]", "thickness [m]", "density ratio [-]"])
-        np.savetxt(path, columns, delimiter=",", header=header, comments="", fmt="%.12g")
+        columns = film_columns(result.film)
+        header = ",".join(f"{_CSV.get(name, name)} [{unit or '-'}]" for name, (_, unit) in columns.items())
+        values = np.column_stack([column for column, _ in columns.values()])
+        np.savetxt(path, values, delimiter=",", header=header, comments="", fmt="%.12g")
     return files
-
-
-def _film_columns(result: Result | PointResult) -> tuple[Array, list[str]]:
-    """Columns of film.csv, one row for each node, and the names of the columns of positions."""
-    film = result.film
-    names = [f"{name} [m]" for name in ("x", "y")[: len(film.axes)]]
-    positions = np.meshgrid(*film.axes, indexing="ij")
-    values = (film.pressure, film.thickness, film.density)
-    return np.column_stack([value.ravel() for value in (*positions, *values)]), names
 
 
 def load(path: str | Path) -> Result | PointResult:

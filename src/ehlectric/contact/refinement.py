@@ -68,7 +68,7 @@ def refined(setup: Setup, geometry: str, solved: Callable[[Setup], Film | PointF
     while target is not None and not _within(film, target):
         errors.append(film.discretisation_error)
         if len(errors) >= _UNKNOWN and not any(errors[-_UNKNOWN:]):
-            unknown = f"nothing is known of its error on {_UNKNOWN} grids in succession"
+            unknown = f"the error is unknown on {_UNKNOWN} grids in succession"
             warnings = (_not_reached(target, current.grid, unknown),)
             break
         try:
@@ -83,7 +83,7 @@ def refined(setup: Setup, geometry: str, solved: Callable[[Setup], Film | PointF
 
 
 def _not_reached(target: float, grid: Grid, reason: str) -> ResultWarning:
-    text = f"grid.refine: {100 * target:g} % was not reached with {grid.nodes} nodes; {reason}"
+    text = f"grid.refine: an error of {100 * target:g} % was not reached with {grid.nodes} nodes; {reason}"
     return ResultWarning("refine-not-reached", text)
 
 

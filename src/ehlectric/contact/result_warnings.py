@@ -18,7 +18,7 @@ from ehlectric.film.point import PointFilm
 # Field strength above which any insulator breaks down [V/m].
 _NO_INSULATOR = 1e9
 
-# Largest number of positions that the warning about touching surfaces lists.
+# Maximum number of positions that the warning about touching surfaces lists.
 _NAMED = 8
 
 # Relative loss of film thickness, caused by a domain that is too small, above which a point contact gets a
@@ -31,8 +31,8 @@ def film_warnings(setup: Case | Setup, film: Film | PointFilm) -> Iterator[Resul
     if not film.converged:
         yield ResultWarning(
             "not-converged",
-            f"do not use this film, it is no solution: {film.status} at the residual {film.residual:.1e}; "
-            "try more grid.nodes, a lower grid.inlet, or more solver.max_iterations",
+            f"do not use this film: the iteration did not converge ({film.status} at a residual of "
+            f"{film.residual:.1e}); try more grid.nodes, a lower grid.inlet, or more solver.max_iterations",
         )
     places = film.collapsed_positions / film.scales.length
     if len(places):
@@ -42,34 +42,37 @@ def film_warnings(setup: Case | Setup, film: Film | PointFilm) -> Iterator[Resul
             "surfaces-touch",
             f"the surfaces would touch at {where} = "
             + ", ".join(name if places.ndim == 1 else f"({name})" for name in named)
-            + (f" and {len(places) - _NAMED} more nodes" if len(places) > _NAMED else ""),
+            + (f" and {len(places) - _NAMED} more nodes" if len(places) > _NAMED else "")
+            + ": there is no full film there; lower the load or the roughness, or raise speed or viscosity",
         )
     if film.minimum_thickness < ATOM:
         yield ResultWarning(
             "thinner-than-atom",
-            "the film is thinner than an atom in places; the field is that of a gap of 0.1 nm there",
+            "the film is thinner than an atom in places: there is no full film there, and the field is that "
+            "of a gap of 0.1 nm",
         )
     error = film.discretisation_error
     if film.converged and error is None and setup.roughness:
         yield ResultWarning(
             "error-unknown",
-            "nothing is known of the discretisation error, as the roughness had to be raised in steps; "
-            "compare with more grid.nodes",
+            "the discretisation error of the film is unknown, because the roughness was raised in steps; "
+            "solve again with more grid.nodes and compare",
         )
     elif film.converged and error is None:
         yield ResultWarning(
             "coarser-grid-unsolved",
-            "do not use this film: the next coarser grid was not solved, so that nothing is known of its "
-            "discretisation error, which is large; take more grid.nodes",
+            "do not use this film: the next coarser grid was not solved, so the discretisation error is "
+            "unknown and probably large; use more grid.nodes",
         )
     elif error is not None and error > max(0.01, setup.grid.refine or 0.0):
-        code, advice = "grid-too-coarse", "take more grid.nodes"
+        code, advice = "grid-too-coarse", ""
         if error > 0.1:
-            code, advice = "grid-far-too-coarse", "do not use it"
-        yield ResultWarning(code, f"the film may be {100 * error:.2g} % off or more on this grid; {advice}")
+            code, advice = "grid-far-too-coarse", "do not use this film, "
+        text = f"the discretisation error of the film is estimated at {100 * error:.2g} % and may be larger"
+        yield ResultWarning(code, f"{text}; {advice}use more grid.nodes")
     if not film.cavitates:
         yield ResultWarning(
-            "outlet-too-short", "the film does not cavitate before the domain ends; raise grid.outlet"
+            "outlet-too-short", "the film does not cavitate before the end of the domain; raise grid.outlet"
         )
 
 
@@ -77,24 +80,24 @@ def line_result_warnings(setup: Case | Setup, film: Film, field: Field) -> Itera
     """Warnings about the inlet of a line contact and about the grid and range of its field."""
     deficit = film.inlet_deficit
     if deficit is not None and deficit > 0.01:
-        code, effect = "inlet-too-short", "the film is about that much off"
+        code, effect = "inlet-too-short", "the film is wrong by about as much"
         if deficit > 0.2:
             code, effect = "inlet-far-too-short", "do not use this film"
         yield ResultWarning(
             code,
-            f"the inlet is too short: {100 * deficit:.2g} % of the pressure is built up before "
-            f"it, {effect}; lower grid.inlet",
+            f"the inlet is too short: {100 * deficit:.2g} % of the pressure would build up upstream of it; "
+            f"{effect}, lower grid.inlet",
         )
     inside = int(np.count_nonzero((film.x >= field.x[0]) & (film.x <= field.x[-1])))
     if setup.grid.field_nodes is not None and setup.grid.field_nodes < inside:
         yield ResultWarning(
             "field-grid-too-coarse",
-            f"grid.field_nodes is coarser than the film, which has {inside} nodes in the field range: the "
-            "width of the high-field zone and the capacitance suffer",
+            f"grid.field_nodes is {setup.grid.field_nodes}, but the film has {inside} nodes in the field "
+            f"range: high-field zone and capacitance are less accurate; use at least {inside}",
         )
     if not np.any(field.inner & (field.x == field.max_strength_position)):
         yield ResultWarning(
-            "field-range-too-narrow", "the largest field is at an end of grid.field_range; widen it"
+            "field-range-too-narrow", "the maximum field is at an end of grid.field_range; widen this range"
         )
 
 
@@ -102,14 +105,14 @@ def point_result_warnings(setup: Case | Setup, film: PointFilm, field: PointFiel
     """Warnings about the domain of a point contact and about the grid and range of its field."""
     loss, before, beside = film.domain_loss, film.inlet_deficit, film.side_deficit
     if loss is not None and before is not None and beside is not None and loss > _LOSS:
-        code, effect = "domain-too-small", f"by about {100 * loss:.2g} %"
+        code, effect = "domain-too-small", ""
         if loss > 0.2:
-            code, effect = "domain-far-too-small", "do not use it"
+            code, effect = "domain-far-too-small", "do not use this film, "
         yield ResultWarning(
             code,
-            f"the domain is too small: {100 * before:.2g} % of the pressure is built up before "
-            f"it and {100 * beside:.2g} % would be at its sides, which makes the film too thin, "
-            f"{effect}; lower grid.inlet and raise grid.side",
+            f"the domain is too small: {100 * before:.2g} % of the pressure would build up upstream of it "
+            f"and {100 * beside:.2g} % is cut off at its sides, so the film is too thin by about "
+            f"{100 * loss:.2g} %; {effect}lower grid.inlet and raise grid.side",
         )
     for key, of_field, of_film in (("field_nodes", field.x, film.x), ("field_nodes_y", field.y, film.y)):
         inside = int(np.count_nonzero((of_film >= of_field[0]) & (of_film <= of_field[-1])))
@@ -117,22 +120,23 @@ def point_result_warnings(setup: Case | Setup, film: PointFilm, field: PointFiel
         if columns is not None and columns < inside:
             yield ResultWarning(
                 "field-grid-too-coarse",
-                f"grid.{key} is coarser than the film, which has {inside} nodes in the field range: the area "
-                "of the high-field zone and the capacitance suffer",
+                f"grid.{key} is {columns}, but the film has {inside} nodes in the field range: high-field "
+                f"zone and capacitance are less accurate; use at least {inside}",
             )
     x, y = field.max_strength_position
     if not field.inner[field.x == x][:, field.y == y].any():
         yield ResultWarning(
             "field-range-too-narrow",
-            "the largest field is at an edge of grid.field_range or grid.field_side; widen it",
+            "the maximum field is at an edge of grid.field_range or grid.field_side; widen this range",
         )
 
 
 def field_warnings(max_strength: float) -> Iterator[ResultWarning]:
-    """Warning about a largest field strength [V/m] that no insulator withstands."""
+    """Warning about a maximum field strength [V/m] that no insulator withstands."""
     if max_strength > _NO_INSULATOR:
         yield ResultWarning(
             "field-above-insulators",
-            f"the largest field is {max_strength / 1e6:.3g} V/µm: no insulator withstands more than "
-            f"some {_NO_INSULATOR / 1e6:g} V/µm, and the film breaks down long before",
+            f"the maximum field is {max_strength / 1e6:.3g} V/µm, but no insulator withstands more than "
+            f"about {_NO_INSULATOR / 1e6:g} V/µm: the film breaks down at a lower voltage; check the "
+            "potentials",
         )

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
+from ehlectric.cases.row import amount
 from ehlectric.contact.conditions import Conditions, PointConditions
-from ehlectric.contact.dataset import dataset_of
+from ehlectric.contact.dataset import dataset_of, film_columns
 from ehlectric.contact.kinds import KINDS
 from ehlectric.contact.solution import ConditionsT, FieldT, FilmT, Solution
 from ehlectric.contact.statistics import RoughnessStatistics
@@ -19,12 +20,14 @@ from ehlectric.field.zones import Zone, contact_zones
 from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
 from ehlectric.formulas.film_line import Thickness
+from ehlectric.runtime.display import headline
 
 if TYPE_CHECKING:
+    import pandas as pd
     import xarray as xr
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class ContactResult(Solution[ConditionsT, FilmT, FieldT]):
     """Film and field of one contact, with the summary and the dataset that files and figures use."""
 
@@ -42,6 +45,35 @@ class ContactResult(Solution[ConditionsT, FilmT, FieldT]):
         """Dataset of all arrays with their units; case, summary and solver history are attributes."""
         return dataset_of(self, KINDS[self.conditions.geometry].layout, summary_of(self))
 
+    def to_dataframe(self) -> pd.DataFrame:
+        """Film node by node as a table of pandas, the same as film.csv.
+
+        Returns
+        -------
+        pandas.DataFrame
+            Positions ``x`` (and ``y``), ``pressure``, ``thickness`` and ``density`` of every node in SI
+            units; ``attrs["units"]`` has the unit of each column.
+        """
+        import pandas as pd
+
+        columns = film_columns(self.film)
+        frame = pd.DataFrame({name: values for name, (values, _) in columns.items()})
+        frame.attrs["units"] = {name: unit for name, (_, unit) in columns.items()}
+        return frame
+
+    def headline(self) -> str:
+        """Title, minimum film, maximum pressure and maximum field on one line."""
+        film = self.film
+        return headline(
+            self.case.title,
+            f"{self.conditions.geometry} contact",
+            f"minimum film {amount(film.minimum_thickness, 'm')}",
+            f"maximum pressure {amount(film.max_pressure, 'Pa')}",
+            f"maximum field {amount(self.field.max_strength, 'V/m')}",
+            "converged" if self.converged else f"NOT CONVERGED ({film.status})",
+            verdict=getattr(self, "verdict", None),
+        )
+
     def formulas(self) -> Mapping[str, Thickness]:
         """Film thickness from each published formula [m], keyed by the name of the formula."""
         return formulas_of(self.conditions)
@@ -53,14 +85,60 @@ class ContactResult(Solution[ConditionsT, FilmT, FieldT]):
         return statistics
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Result(ContactResult[Conditions, Film, Field]):
-    """Film and field of one line contact; its attributes are listed under ``Solution``."""
+    """Film and field of one line contact, as ``solve`` returns it.
+
+    Attributes
+    ----------
+    case : Case
+        Case that was solved.
+    conditions : Conditions
+        Operating conditions: Hertz pressure, half-width and groups, SI units.
+    film : Film
+        Film over ``film.x``: pressure, thickness, density, status and error estimate, SI units.
+    field : Field
+        Electric field over ``field.x`` and across the film: potential, strength and capacitance, SI units.
+    warnings : tuple of ResultWarning
+        Warnings about unreliable results, each with a code and a severity.
+    roughness : ndarray, shape (2, nx)
+        Roughness heights of both surfaces at the film's nodes, positive out of the body [m].
+    smooth : Smooth or None
+        Same contact with smooth surfaces; None if the surfaces are smooth.
+    film_seconds, field_seconds : float
+        Time taken by the solvers of the film and of the field [s].
+    version, date : str
+        Version of the program, and date of the solution (ISO 8601).
+    """
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class PointResult(ContactResult[PointConditions, PointFilm, PointField]):
-    """Film and field of one point contact; its attributes are listed under ``Solution``."""
+    """Film and field of one point contact, as ``solve`` returns it.
+
+    Attributes
+    ----------
+    case : Case
+        Case that was solved.
+    conditions : PointConditions
+        Operating conditions: Hertz pressure, semi-axes and groups, SI units.
+    film : PointFilm
+        Film over ``film.x`` and ``film.y``: pressure, thickness, density, status and error estimate, SI
+        units; ``film.thickness[i, j]`` is the thickness at ``film.x[i]``, ``film.y[j]``.
+    field : PointField
+        Electric field over ``field.x``, ``field.y`` and across the film: potential, strength and capacitance,
+        SI units.
+    warnings : tuple of ResultWarning
+        Warnings about unreliable results, each with a code and a severity.
+    roughness : ndarray, shape (2, nx, ny)
+        Roughness heights of both surfaces at the film's nodes, positive out of the body [m].
+    smooth : Smooth or None
+        Same contact with smooth surfaces; None if the surfaces are smooth.
+    film_seconds, field_seconds : float
+        Time taken by the solvers of the film and of the field [s].
+    version, date : str
+        Version of the program, and date of the solution (ISO 8601).
+    """
 
     @property
     def zones(self) -> dict[str, Zone]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Generic, TypeVar
@@ -13,19 +14,22 @@ from ehlectric.cases.case import Case
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.setup import Setup
 from ehlectric.discharge.assessment import Assessment, assess
+from ehlectric.discharge.verdict import Verdict, contact_verdict
 from ehlectric.errors import ResultWarning
 from ehlectric.field.line import Field
 from ehlectric.field.point import PointField
 from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
+from ehlectric.runtime.display import Shown
+from ehlectric.runtime.values import Values
 
 ConditionsT = TypeVar("ConditionsT", bound=Conditions | PointConditions)
 FilmT = TypeVar("FilmT", bound=Film | PointFilm)
 FieldT = TypeVar("FieldT", bound=Field | PointField)
 
 
-@dataclass(frozen=True)
-class Smooth:
+@dataclass(frozen=True, eq=False, repr=False)
+class Smooth(Values):
     """Film and field of a rough contact that is solved with smooth surfaces, for comparison.
 
     Attributes
@@ -46,8 +50,8 @@ class Smooth:
         return float(np.min(self.thickness))
 
 
-@dataclass(frozen=True)
-class Solution(Generic[ConditionsT, FilmT, FieldT]):
+@dataclass(frozen=True, eq=False, repr=False)
+class Solution(Shown, Generic[ConditionsT, FilmT, FieldT]):
     """Film and field of one contact.
 
     Attributes
@@ -84,10 +88,10 @@ class Solution(Generic[ConditionsT, FilmT, FieldT]):
     warnings: tuple[ResultWarning, ...]
     film_solver: str
     field_solver: str
-    film_seconds: float
-    field_seconds: float
+    film_seconds: float = dataclasses.field(compare=False)
+    field_seconds: float = dataclasses.field(compare=False)
     version: str
-    date: str
+    date: str = dataclasses.field(compare=False)
 
     @property
     def converged(self) -> bool:
@@ -126,6 +130,21 @@ class Solution(Generic[ConditionsT, FilmT, FieldT]):
             return None
         return assess(
             self.case.discharge, self.case.lubricant, self.conditions.semi_axes, self.film, self.field
+        )
+
+    @property
+    def verdict(self) -> Verdict | None:
+        """Verdict: whether breakdown is expected; None if the case has no table ``discharge``."""
+        inputs, discharge = self.case.discharge, self.discharge
+        if inputs is None or discharge is None:
+            return None
+        return contact_verdict(
+            inputs,
+            discharge.breakdown,
+            self.field.voltage,
+            warnings=self.warnings,
+            error=self.film.discretisation_error,
+            flooded=self.conditions.film_factor == 1.0,
         )
 
     @cached_property

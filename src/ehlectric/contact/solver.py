@@ -26,16 +26,17 @@ from ehlectric.contact.result_warnings import field_warnings, film_warnings
 from ehlectric.contact.results import RESULTS, PointResult, Result
 from ehlectric.contact.setup import Setup
 from ehlectric.contact.solution import Smooth
-from ehlectric.discharge.assessment import discharge_warnings
+from ehlectric.discharge.assessment import discharge_warnings, margin_warnings
 from ehlectric.errors import ConvergenceError, InputError
 from ehlectric.film.state import Progress
 from ehlectric.runtime.files import now
+from ehlectric.runtime.log import LOGGER
 from ehlectric.surfaces.rough_maps import RoughMap
 from ehlectric.surfaces.rough_profiles import RoughSurface
 from ehlectric.version import __version__
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Solvers:
     """Solvers of the film and of the field of a contact.
 
@@ -53,6 +54,9 @@ class Solvers:
     film: Mapping[str, Callable[..., Any]]
     field: Mapping[str, Callable[..., Any]]
     check: Callable[[Case], object]
+
+    def __repr__(self) -> str:
+        return f"<Solvers {self.name!r}>"
 
 
 OWN = Solvers(
@@ -226,11 +230,21 @@ def _solved(
     films = refined(
         Setup.of(case),
         geometry,
-        lambda setup: solvers.film[geometry](kind.film_problem(setup, conditions, rough), progress=progress),
+        lambda setup: solvers.film[geometry](
+            kind.film_problem(setup, conditions, rough), progress=_logged(progress)
+        ),
     )
     film = films.film
+    LOGGER.info(
+        "%s contact: film %s on %s nodes in %.2g s, residual %.1e",
+        geometry,
+        film.status,
+        " x ".join(str(axis.size) for axis in film.axes),
+        films.seconds,
+        film.residual,
+    )
     if require_convergence and not film.converged:
-        raise ConvergenceError(f"film {film.status} at the residual {film.residual:.1e}")
+        raise ConvergenceError(f"film, {film.status} at a residual of {film.residual:.1e}")
     roughness = heights_of(rough, *film.axes)
     # The field of an unconverged film is for inspection only. Solvers other than OWN may not converge for it.
     field_solvers = solvers if film.converged else OWN
@@ -254,6 +268,7 @@ def _solved(
             *film_warnings(case, film),
             *kind.result_warnings(case, film, field),
             *discharge_warnings(case.discharge, film),
+            *margin_warnings(case.discharge, conditions.semi_axes, film, field),
             *field_warnings(field.max_strength),
         ),
         film_solver=solvers.name,
@@ -263,6 +278,17 @@ def _solved(
         version=__version__,
         date=now(),
     )
+
+
+def _logged(progress: Progress | None) -> Progress:
+    """Progress of a film that is also logged, at the level DEBUG."""
+
+    def step(nodes: int, number: int, residual: float) -> None:
+        LOGGER.debug("film on %d nodes along x: step %d, residual %.1e", nodes, number + 1, residual)
+        if progress is not None:
+            progress(nodes, number, residual)
+
+    return step
 
 
 def _smooth(contact: PreparedContact, columns: tuple[Array, ...], solvers: Solvers) -> Smooth | None:

@@ -18,6 +18,7 @@ from ehlectric.discharge.energy import DischargeCosts, discharge_costs
 from ehlectric.discharge.laws import SOURCES, TUNNELLING
 from ehlectric.discharge.leakage import Leakage, leakage
 from ehlectric.discharge.utilisation import FieldUtilisation
+from ehlectric.discharge.verdict import breakdown_warning
 from ehlectric.errors import ResultWarning
 from ehlectric.field.line import Field
 from ehlectric.field.point import PointField
@@ -147,6 +148,22 @@ def assess(
     )
 
 
+def margin_warnings(
+    discharge: Discharge | None,
+    semi_axes: tuple[float, ...],
+    film: Film | PointFilm,
+    field: Field | PointField,
+) -> Iterator[ResultWarning]:
+    """Warning of a breakdown voltage below the applied voltage; none for a film that is no solution."""
+    if discharge is None or not film.converged:
+        return
+    size, utilisation = Size.of(semi_axes, discharge), FieldUtilisation.of(discharge, film, field)
+    found = breakdown(discharge, utilisation, field.voltage, size)
+    if found.margin is not None and found.margin < 1.0:
+        at = f"breakdown voltage {found.breakdown_voltage:.3g} V"
+        yield breakdown_warning("applied voltage", field.voltage, at, found.margin)
+
+
 def discharge_warnings(discharge: Discharge | None, film: Film | PointFilm) -> Iterator[ResultWarning]:
     """Warnings about the assessment of a discharge; none if the case has no table ``discharge``."""
     if discharge is None:
@@ -154,8 +171,8 @@ def discharge_warnings(discharge: Discharge | None, film: Film | PointFilm) -> I
     if film.minimum_thickness < TUNNELLING:
         yield ResultWarning(
             "tunnelling",
-            f"the film is {film.minimum_thickness * 1e9:.2g} nm thin: below about {TUNNELLING * 1e9:g} nm "
-            "electrons tunnel through it, which is not in the model",
+            f"the minimum film is {film.minimum_thickness * 1e9:.2g} nm: below about {TUNNELLING * 1e9:g} nm "
+            "electrons tunnel through the film, which is not modelled; do not rely on the breakdown voltage",
         )
     table = discharge.strength_table
     if table is not None and table.over == "pressure":
@@ -164,6 +181,7 @@ def discharge_warnings(discharge: Discharge | None, film: Film | PointFilm) -> I
         if least < low or most > high:
             yield ResultWarning(
                 "strength-table-exceeded",
-                f"the pressure in the film, {least / 1e9:.3g} to {most / 1e9:.3g} GPa, leaves "
-                f"discharge.strength_table, {low / 1e9:.3g} to {high / 1e9:.3g} GPa, whose ends hold there",
+                f"the pressure in the film, {least / 1e9:.3g} to {most / 1e9:.3g} GPa, exceeds the range of "
+                f"discharge.strength_table, {low / 1e9:.3g} to {high / 1e9:.3g} GPa: its end values are used "
+                "outside; extend the table",
             )

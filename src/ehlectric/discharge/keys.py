@@ -37,9 +37,9 @@ _BREAKDOWN: Keys = {
         "breakdown voltage at 95 %",
     ),
     "margin": ResultKey(
-        "breakdown_voltage over the voltage of the case",
+        "breakdown_voltage / voltage of the case",
         "",
-        "breakdown voltage over applied voltage",
+        "margin (breakdown / applied voltage)",
         r"$V_\mathrm{b}/V_{12}$",
     ),
     "probability": ResultKey(
@@ -65,14 +65,12 @@ _ZONE: Keys = {
         "m**2",
         "area of the zone that breaks down first",
     ),
-    "zone_over_half_width": ResultKey(
-        "zone_size over the half-width b", "", "size of the zone over the half-width"
-    ),
+    "zone_over_half_width": ResultKey("zone_size / half-width b", "", "size of the zone / half-width"),
     "zone_over_largest_pit": ResultKey(
-        "zone_size over the largest published pit, 4 µm", "", "size of the zone over the largest pit"
+        "zone_size / largest published pit, 4 µm", "", "size of the zone / largest pit"
     ),
     "zone_over_mean_pit": ResultKey(
-        "zone_size over the mean published pit, 1.7 µm", "", "size of the zone over the mean pit"
+        "zone_size / mean published pit, 1.7 µm", "", "size of the zone / mean pit"
     ),
 }
 
@@ -98,11 +96,11 @@ def _capacitances(unit: str) -> Keys:
         "capacitance_plate": ResultKey(
             "capacitance of parallel plates, ε0 ε_r A_H/h(0) with ε_r at ambient pressure",
             unit,
-            "capacitance of a plate",
+            "capacitance of parallel plates",
             r"$\varepsilon_0 \varepsilon_\mathrm{r} A_\mathrm{H}/h(0)$",
         ),
         "capacitance_ratio": ResultKey(
-            "capacitance over capacitance_plate", "", "capacitance over that of a plate"
+            "capacitance / capacitance_plate", "", "capacitance / parallel plates"
         ),
         "capacitance_outlet_full": ResultKey(
             "capacitance of the outlet where oil alone fills the gap behind the exit",
@@ -126,7 +124,7 @@ def _capacitances(unit: str) -> Keys:
             'filling of the outlet that `capacitance` and the energies count with: "full", "fingers" or '
             '"layers"',
             "",
-            "what fills the outlet",
+            "filling of the outlet",
         ),
     }
 
@@ -150,7 +148,7 @@ _COSTS: Keys = {
     "pit_volume": ResultKey("volume that discharge_energy melts of one surface", "m**3", "volume of the pit"),
     "pit_diameter": ResultKey("diameter of a hemisphere of pit_volume", "m", "diameter of the pit"),
     "current_density": ResultKey(
-        "peak current over the area of the dry contact", "A/m**2", "apparent current density", "$J$"
+        "peak current / area of the dry contact", "A/m**2", "apparent current density", "$J$"
     ),
     "current_density_limits": ResultKey(
         "published limits of the current density", "A/m**2", "published limit of the current density"
@@ -162,9 +160,9 @@ _COSTS: Keys = {
         r"$\varepsilon/\sigma$",
     ),
     "corner_frequency": ResultKey(
-        "frequency above which the film is a capacitor",
+        "frequency above which the film is capacitive",
         "Hz",
-        "frequency above which it is a capacitor",
+        "frequency above which the film is capacitive",
         r"$f_\mathrm{c}$",
     ),
     "sources": ResultKey("sources and assumptions of the keys that need one, by the name of the key"),

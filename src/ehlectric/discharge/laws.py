@@ -12,7 +12,7 @@ from scipy.constants import epsilon_0
 
 from ehlectric.arrays import Array
 
-# Lateral size of the pits that discharges leave in bearings: the largest and the mean [m].
+# Lateral size of the pits that discharges leave in bearings: maximum and mean [m].
 LARGEST_PIT, MEAN_PIT = 4.0e-6, 1.7e-6
 
 # Film thickness below which electrons tunnel through the film in large numbers [m].
@@ -25,27 +25,30 @@ _PITS = "Plazenet et al., as quoted by Morris et al. (2022), doi:10.3390/lubrica
 
 # Sources and assumptions of those values of a summary that do not follow from case and solution alone.
 SOURCES = {
-    "zone_size": "assumption: where the strength is used to 95 % of the most",
+    "zone_size": "assumption: zone in which field / dielectric strength is at least 95 % of its maximum",
     "zone_area": "assumption: as zone_size",
     "zone_over_half_width": "assumption: as zone_size",
-    "zone_over_largest_pit": f"4 um: {_PITS}; assumption: as zone_size",
-    "zone_over_mean_pit": f"1.7 um: {_PITS}; assumption: as zone_size",
-    "capacitance": "of the domain of the film alone: that of a point contact grows with its logarithm",
-    "capacitance_plate": "assumption: the Hertz area h(0) apart, permittivity at ambient pressure",
+    "zone_over_largest_pit": f"4 µm: {_PITS}; assumption: as zone_size",
+    "zone_over_mean_pit": f"1.7 µm: {_PITS}; assumption: as zone_size",
+    "capacitance": "of the computed domain only; of a point contact it grows with the log of the domain size",
+    "capacitance_plate": (
+        "assumption: parallel plates of the Hertz area at the distance h(0), with the permittivity at "
+        "ambient pressure"
+    ),
     "capacitance_ratio": "assumption: as capacitance_plate",
-    "outlet": "assumption: what fills the gap behind the exit; its extremes stand beside it",
-    "capacitance_outlet_full": "assumption: oil alone behind the exit, also where its mass does not do",
-    "capacitance_outlet_fingers": "assumption: oil from wall to wall beside gas; its mass is conserved",
-    "capacitance_outlet_layers": "assumption: oil on the walls and gas between; its mass is conserved",
-    "discharge_energy": "assumption: all of the charge runs off in one spark",
-    "breakdown_energy": "assumption: all of the charge runs off in one spark",
-    "pit_volume": "assumption: the energy at the voltage of the case, efficiency and melting energy as given",
-    "pit_diameter": "assumption: a hemisphere",
+    "outlet": "assumption: filling of the gap behind the exit; the limiting cases are given, too",
+    "capacitance_outlet_full": "assumption: only oil behind the exit, even if there is not enough oil",
+    "capacitance_outlet_fingers": "assumption: oil from wall to wall beside gas; the oil mass is conserved",
+    "capacitance_outlet_layers": "assumption: oil on both walls with gas between; the oil mass is conserved",
+    "discharge_energy": "assumption: one spark discharges all of the charge",
+    "breakdown_energy": "assumption: one spark discharges all of the charge",
+    "pit_volume": "assumption: energy at the voltage of the case; efficiency and melting energy as given",
+    "pit_diameter": "assumption: hemispherical pit",
     "current_density_limits": (
         "0.1 to 0.3 A/mm^2: Lubricants 12 (2024) 148, doi:10.3390/lubricants12050148; 0.8 A/mm^2: Busse et "
         "al. (1997), as quoted by Morris et al. (2022), who print it in A/m^2"
     ),
-    "relaxation_time": "assumption: permittivity at ambient pressure, conductivity as given, at any pressure",
+    "relaxation_time": "assumption: permittivity at ambient pressure; the same conductivity at any pressure",
     "corner_frequency": "assumption: as relaxation_time",
 }
 

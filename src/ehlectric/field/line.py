@@ -22,7 +22,7 @@ from ehlectric.field.zones import HIGH_FIELD, interval_above, line_zone_areas, p
 from ehlectric.runtime.threads import one_blas_thread
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Field(GapField):
     """Electric potential and field strength in the gap of a line contact, in SI units.
 

@@ -24,7 +24,7 @@ from ehlectric.field.zones import (
 from ehlectric.runtime.threads import one_blas_thread
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class PointField(GapField):
     """Electric potential and field strength in the gap of a point contact, in SI units.
 

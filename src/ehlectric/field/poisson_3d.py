@@ -371,4 +371,4 @@ def conjugate_gradients(
         error, before = float(np.vdot(residual, correction)), error
         direction *= error / before
         direction += correction
-    raise ConvergenceError(f"the field's conjugate gradients did not converge in {MAX_ITERATIONS} iterations")
+    raise ConvergenceError(f"the electric field did not converge in {MAX_ITERATIONS} iterations")

@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from ehlectric.arrays import Array
+from ehlectric.runtime.values import Values
 
 
-class GapField:
+class GapField(Values):
     """Electric field in the gap between two walls, of a line or a point contact.
 
     Attributes

@@ -5,10 +5,19 @@ The functions that draw them stand in tables by these names; this module is impo
 
 from __future__ import annotations
 
-# Figures of contacts. The figure of the roughness is drawn of rough contacts only.
+import re
+from collections.abc import Iterable, Mapping, Sequence
+
+from ehlectric.errors import InputError, shown
+
+# Formats of the files, and styles of the figures.
+FORMATS = ("png", "svg", "pdf")
+STYLES = ("screen", "journal")
+
+# Figures of contacts. The roughness is drawn of rough contacts only, and the breakdown of contacts with a
+# dielectric strength only.
 FIGURE_FILES = (
     "film.png",
-    "potential.png",
     "field_strength.png",
     "field_profiles.png",
     "field_deviation.png",
@@ -21,10 +30,12 @@ POINT_FIGURE_FILES = (
     "field_sections.png",
     "cuts.png",
 )
-ROUGHNESS_FIGURE = "roughness.png"
+ROUGHNESS_FIGURE, BREAKDOWN_FIGURE = "roughness.png", "breakdown.png"
 
-# Figures of stationary contacts, line or point.
-ALL_FIGURES = tuple(dict.fromkeys((*FIGURE_FILES, *POINT_FIGURE_FILES, ROUGHNESS_FIGURE)))
+# Figures of stationary contacts, line or point. Earlier versions drew the potential of line contacts too.
+ALL_FIGURES = tuple(
+    dict.fromkeys((*FIGURE_FILES, *POINT_FIGURE_FILES, ROUGHNESS_FIGURE, BREAKDOWN_FIGURE, "potential.png"))
+)
 
 # Figures of transient contacts: over time, over position and time, and compared with stationary roughness.
 MOTION_FIGURE_FILES = ("motion_history.png", "motion_maps.png", "motion_beside_stationary.png")
@@ -44,12 +55,82 @@ SPEED_FIGURE_FILES = ("capacitance_over_speed.png", "breakdown_over_speed.png")
 SENSITIVITY_FIGURE = "sensitivity.png"
 
 
-def map_files(value: str) -> tuple[str, str]:
+def map_files(value: str, at: Mapping[str, str] | None = None) -> tuple[str, str]:
     """Names of the files of the map and of the lines of a value of a sweep.
+
+    Parameters
+    ----------
+    value : str
+        Dotted key of the summary.
+    at : mapping of str to str, optional
+        Values of the varied keys that are held, as texts: two cuts of a sweep have two names.
+
+    Returns
+    -------
+    tuple of str
+        Names of the PNG files.
 
     Examples
     --------
     >>> map_files("discharge.breakdown_voltage")
     ('map_discharge.breakdown_voltage.png', 'lines_discharge.breakdown_voltage.png')
+    >>> map_files("bearing.margin", {"bearing.temperature": "70 degC"})[0]
+    'map_bearing.margin_at_bearing.temperature=70degC.png'
     """
-    return f"map_{value}.png", f"lines_{value}.png"
+    return of_cut(f"map_{value}.png", at), of_cut(f"lines_{value}.png", at)
+
+
+def of_cut(file: str, at: Mapping[str, str] | None = None) -> str:
+    """Name of a file of a figure of a cut through a sweep.
+
+    Examples
+    --------
+    >>> of_cut("breakdown_over_speed.png", {"bearing.temperature": "70 degC"})
+    'breakdown_over_speed_at_bearing.temperature=70degC.png'
+    """
+    if not at:
+        return file
+    cut = ",".join(f"{key}={_of_file_name(text)}" for key, text in sorted(at.items()))
+    return f"{_stem(file)}_at_{cut}.png"
+
+
+def _of_file_name(text: str) -> str:
+    """Text without spaces and without characters that a file name cannot have everywhere."""
+    return re.sub(r"[^\w.+-]+", "-", "".join(text.split()), flags=re.ASCII)
+
+
+def in_formats(files: Iterable[str], formats: Sequence[str] = ("png",)) -> tuple[str, ...]:
+    """Names of the files of figures in some formats.
+
+    Parameters
+    ----------
+    files : iterable of str
+        Names, with or without the ending of a format.
+    formats : sequence of str
+        Formats, each of ``FORMATS``. A format that is given twice counts once.
+
+    Returns
+    -------
+    tuple of str
+        Names of the files, figure by figure.
+
+    Raises
+    ------
+    InputError
+        Where there is no format of this name.
+
+    Examples
+    --------
+    >>> in_formats(["film.png", "cuts"], ["png", "svg"])
+    ('film.png', 'film.svg', 'cuts.png', 'cuts.svg')
+    """
+    for name in formats:
+        if name not in FORMATS:
+            raise InputError("format", got=shown(name), takes=f"one of {', '.join(FORMATS)}")
+    return tuple(f"{_stem(file)}.{name}" for file in files for name in dict.fromkeys(formats))
+
+
+def _stem(file: str) -> str:
+    """Name of a file without the ending of a format; the key of a sweep in it may have points."""
+    stem, point, ending = file.rpartition(".")
+    return stem if point and ending in FORMATS else file

@@ -1,8 +1,8 @@
-"""Figures of any result: by name, and as PNG files."""
+"""Figures of any result: by name, and as files."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -16,6 +16,8 @@ from ehlectric.errors import ResultWarning
 from ehlectric.figures.bearing import save as bearing
 from ehlectric.figures.contact import save as contact
 from ehlectric.figures.motion import save as motion
+from ehlectric.figures.names import in_formats
+from ehlectric.figures.style import style as styled
 from ehlectric.figures.sweep import save as sweep
 from ehlectric.motion.stored_run import MotionRun
 from ehlectric.sweep.results import SweepResults
@@ -39,7 +41,7 @@ class Drawn:
     warnings: tuple[ResultWarning, ...] = ()
 
 
-def figure(result: AnyResult, name: str, **options: Any) -> Figure:
+def figure(result: AnyResult, name: str, *, style: str = "screen", **options: Any) -> Figure:
     """Figure of a result.
 
     Parameters
@@ -47,7 +49,11 @@ def figure(result: AnyResult, name: str, **options: Any) -> Figure:
     result : Result, PointResult, BearingResult, Dataset, MotionRun or SweepResults
         Result of a contact, bearing, transient contact or sweep.
     name : str
-        Name of its file, such as "film.png" of a line contact; ``figure_names`` lists the names.
+        Name of its file, such as "film.png" of a line contact, or "film" for short; ``figure_names`` lists
+        the names.
+    style : str
+        "screen", or "journal": as wide as one or two columns of a journal (84 or 174 mm), in small type,
+        without the title.
     **options
         Options of the figures of a sweep, such as ``x`` and ``y``: varied keys along the axes.
 
@@ -59,7 +65,7 @@ def figure(result: AnyResult, name: str, **options: Any) -> Figure:
     Raises
     ------
     InputError
-        Where the result has no figure of this name.
+        Where the result has no figure of this name, or there is no such style.
 
     Examples
     --------
@@ -70,7 +76,8 @@ def figure(result: AnyResult, name: str, **options: Any) -> Figure:
     >>> figure(solve(case), "film.png").axes[0].get_xlabel()[:5]
     '$x/b$'
     """
-    return _draws_of(result).figure(_opened(result), name, **options)
+    with styled(style):
+        return _draws_of(result).figure(_opened(result), name, **options)
 
 
 def figure_names(result: AnyResult) -> list[str]:
@@ -91,8 +98,10 @@ def figure_names(result: AnyResult) -> list[str]:
     return list(_draws_of(result).names(_opened(result)))
 
 
-def draw_figures(result: AnyResult, folder: str | Path) -> Drawn:
-    """Draw all figures of a result as PNG files.
+def draw_figures(
+    result: AnyResult, folder: str | Path, formats: Sequence[str] = ("png",), style: str = "screen"
+) -> Drawn:
+    """Draw all figures of a result as files.
 
     Parameters
     ----------
@@ -100,18 +109,32 @@ def draw_figures(result: AnyResult, folder: str | Path) -> Drawn:
         Result of a contact, bearing, transient contact or sweep.
     folder : str or Path
         Folder of the files; it must exist.
+    formats : sequence of str
+        Formats of the files, of "png", "svg" and "pdf".
+    style : str
+        "screen", or "journal": as wide as one or two columns of a journal (84 or 174 mm), in small type,
+        without the title, which the metadata of the files have in any style.
 
     Returns
     -------
     Drawn
         Files, and warnings about speeds that the figures of a bearing leave out. There are no figures of a
         sweep here: they need the keys of their axes.
+
+    Raises
+    ------
+    InputError
+        Where there is no such format or style.
     """
-    return _draws_of(result).save(result, Path(folder))
+    in_formats((), formats)
+    with styled(style):
+        return _draws_of(result).save(result, Path(folder), formats)
 
 
-def save_figures(result: AnyResult, folder: str | Path) -> list[Path]:
-    """Draw all figures of a result as PNG files.
+def save_figures(
+    result: AnyResult, folder: str | Path, formats: Sequence[str] = ("png",), style: str = "screen"
+) -> list[Path]:
+    """Draw all figures of a result as files.
 
     Parameters
     ----------
@@ -119,13 +142,23 @@ def save_figures(result: AnyResult, folder: str | Path) -> list[Path]:
         Result of a contact, bearing, transient contact or sweep.
     folder : str or Path
         Folder of the files; it must exist.
+    formats : sequence of str
+        Formats of the files, of "png", "svg" and "pdf".
+    style : str
+        "screen", or "journal": as wide as one or two columns of a journal (84 or 174 mm), in small type,
+        without the title, which the metadata of the files have in any style.
 
     Returns
     -------
     list of Path
         Files written.
+
+    Raises
+    ------
+    InputError
+        Where there is no such format or style.
     """
-    return list(draw_figures(result, folder).files)
+    return list(draw_figures(result, folder, formats, style).files)
 
 
 @dataclass(frozen=True)
@@ -134,22 +167,22 @@ class _Draws:
 
     figure: Callable[..., Figure]
     names: Callable[[Any], Any]
-    save: Callable[[Any, Path], Drawn]
+    save: Callable[[Any, Path, Sequence[str]], Drawn]
 
 
-def _save_contact(result: Result | PointResult, folder: Path) -> Drawn:
-    return Drawn(tuple(contact.save_figures(result, folder)))
+def _save_contact(result: Result | PointResult, folder: Path, formats: Sequence[str]) -> Drawn:
+    return Drawn(tuple(contact.save_figures(result, folder, formats)))
 
 
-def _save_bearing(result: BearingResult, folder: Path) -> Drawn:
-    files = bearing.save_bearing_figures(result, folder)
-    over_speed, left_out = bearing.save_over_speed(result, folder)
+def _save_bearing(result: BearingResult, folder: Path, formats: Sequence[str]) -> Drawn:
+    files = bearing.save_bearing_figures(result, folder, formats)
+    over_speed, left_out = bearing.save_over_speed(result, folder, formats)
     return Drawn((*files, *over_speed), tuple(left_out))
 
 
-def _save_motion(result: xr.Dataset | MotionRun, folder: Path) -> Drawn:
+def _save_motion(result: xr.Dataset | MotionRun, folder: Path, formats: Sequence[str]) -> Drawn:
     dataset = result.dataset if isinstance(result, MotionRun) else result
-    return Drawn(tuple(motion.save_motion_figures(dataset, folder)))
+    return Drawn(tuple(motion.save_motion_figures(dataset, folder, formats)))
 
 
 _CONTACT = _Draws(contact.figure, contact.drawings_of, _save_contact)
@@ -160,7 +193,7 @@ _DRAWS: dict[type, _Draws] = {
     BearingResult: _Draws(bearing.figure, bearing.bearing_figures_of, _save_bearing),
     xr.Dataset: _MOTION,
     MotionRun: _MOTION,
-    SweepResults: _Draws(sweep.figure, lambda _results: (), lambda _results, _folder: Drawn(())),
+    SweepResults: _Draws(sweep.figure, lambda _results: (), lambda _results, _folder, _formats: Drawn(())),
 }
 
 

@@ -2,13 +2,29 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
+from matplotlib import colormaps
 from matplotlib.axes import Axes
+from matplotlib.backend_bases import RendererBase
 from matplotlib.contour import ContourSet
 from matplotlib.patheffects import withStroke
+from matplotlib.text import Text
 
 from ehlectric.arrays import Array
-from ehlectric.figures.style import BODY
+from ehlectric.figures.style import BODY, OUT_OF_RANGE
+
+# Mark of a maximum: a ring that can be seen on any colour.
+MAXIMUM: dict[str, Any] = {
+    "ls": "none",
+    "marker": "o",
+    "ms": 5.0,
+    "mfc": "none",
+    "mec": "black",
+    "mew": 1.0,
+    "path_effects": [withStroke(linewidth=2.4, foreground="white")],
+}
 
 
 def draw_section(
@@ -20,6 +36,8 @@ def draw_section(
     limits: tuple[float, float],
     potentials: tuple[float, float],
     colours: str = "viridis",
+    under: bool = False,
+    units: tuple[float, float] | None = None,
 ) -> ContourSet:
     """Draw a section through the film, coloured by a value, with the bodies below and above it.
 
@@ -39,30 +57,32 @@ def draw_section(
         Potentials of surfaces 1 and 2 [V], written on the bodies.
     colours : str
         Name of the colour map.
+    under : bool
+        Whether values below the limits are grey instead.
+    units : tuple of float, optional
+        Lengths that the unit of each axis stands for [m]. With them, the section says how many times its
+        heights are enlarged.
 
     Returns
     -------
     ContourSet
         The filled contours, from which a colour bar can be made.
     """
-    along = np.broadcast_to(x[:, np.newaxis], heights.shape)
-    levels = np.linspace(*limits, 401)
-    # Without clipping, rounding may put the values at a wall outside the levels, and leave it without colour.
-    clipped = np.clip(values, *limits)
-    filled = ax.contourf(along, heights, clipped, levels, cmap=colours, antialiased=False)
-    for wall in (0, -1):
-        ax.plot(x, heights[:, wall], color="black", lw=0.8)
+    filled = _fill(ax, x, heights, values, limits=limits, colours=colours, under=under)
     ax.set_xlim(x[0], x[-1])
     _limit_height(ax, heights)
-    low, high = ax.get_ylim()
-    ax.fill_between(x, low, heights[:, 0], color=BODY, lw=0.0, zorder=0.5)
-    ax.fill_between(x, heights[:, -1], high, color=BODY, lw=0.0, zorder=0.5)
+    # The bodies go on beyond the axes, whose heights may be changed.
+    far = 10.0 * float(np.max(np.abs(ax.get_ylim())))
+    for wall, end in ((0, -far), (-1, far)):
+        body = ax.fill_between(x, end, heights[:, wall], color=BODY, lw=0.0, zorder=0.5)
+        body.sticky_edges.y[:] = []
     for surface, (height, where, volts) in enumerate(
         zip((0.04, 0.96), ("bottom", "top"), potentials, strict=True), 1
     ):
         text = f"surface {surface}, {volts:g} V".replace("-", "−")
+        # Beside the middle, so that an inset has room on the left.
         ax.text(
-            0.5,
+            0.62,
             height,
             text,
             transform=ax.transAxes,
@@ -71,6 +91,78 @@ def draw_section(
             fontsize=8.0,
             path_effects=[withStroke(linewidth=2.0, foreground=BODY)],
         )
+    if units is not None:
+        ax.add_artist(_Enlargement(ax, units))
+    return filled
+
+
+class _Enlargement(Text):
+    """Text that says how many times the heights of a section are enlarged, once the page is laid out."""
+
+    def __init__(self, ax: Axes, units: tuple[float, float]) -> None:
+        look: dict[str, Any] = {"fontsize": 7.5, "va": "bottom", "transform": ax.transAxes, "zorder": 5.0}
+        super().__init__(
+            0.015, 0.04, "", path_effects=[withStroke(linewidth=2.0, foreground="white")], **look
+        )
+        self._drawn_on, self._units = ax, units
+        self.set_in_layout(False)
+
+    def draw(self, renderer: RendererBase) -> None:
+        """Draw the text for the size that the axes have now."""
+        self.set_text(f"heights enlarged\n{_two_digits(self._times())} times")
+        super().draw(renderer)
+
+    def _times(self) -> float:
+        ax, (along, across) = self._drawn_on, self._units
+        (left, right), (low, high) = ax.get_xlim(), ax.get_ylim()
+        box = ax.get_window_extent()
+        return float(box.height / (abs(high - low) * across) / (box.width / (abs(right - left) * along)))
+
+
+def _two_digits(number: float) -> str:
+    """Number rounded to two digits, without an exponent."""
+    return f"{float(f'{number:.2g}'):g}"
+
+
+def section_inset(
+    ax: Axes,
+    x: Array,
+    heights: Array,
+    values: Array,
+    *,
+    limits: tuple[float, float],
+    colours: str = "viridis",
+    under: bool = False,
+) -> None:
+    """Draw a part of a section, as ``draw_section`` does, on small axes without labels."""
+    _fill(ax, x, heights, values, limits=limits, colours=colours, under=under)
+    ax.set_facecolor(BODY)
+    ax.tick_params(labelsize=7.0, labelleft=False, left=False, labelbottom=True)
+    ax.locator_params(axis="x", nbins=4)
+
+
+def _fill(
+    ax: Axes,
+    x: Array,
+    heights: Array,
+    values: Array,
+    *,
+    limits: tuple[float, float],
+    colours: str,
+    under: bool,
+) -> ContourSet:
+    """Fill the gap between two walls with the colours of values, and draw the walls."""
+    along = np.broadcast_to(x[:, np.newaxis], heights.shape)
+    levels = np.linspace(*limits, 401)
+    # Without clipping, rounding may put the values at a wall outside the levels, and leave it without colour.
+    clipped = np.minimum(values, limits[1]) if under else np.clip(values, *limits)
+    colour_map = colormaps[colours].with_extremes(under=OUT_OF_RANGE)
+    extend = "min" if under else "neither"
+    filled = ax.contourf(along, heights, clipped, levels, cmap=colour_map, extend=extend, antialiased=False)
+    # In SVG and PDF, 400 bands would be slow to open and have white seams.
+    filled.set_rasterized(True)
+    for wall in (0, -1):
+        ax.plot(x, heights[:, wall], color="black", lw=0.8)
     return filled
 
 

@@ -2,23 +2,31 @@
 
 from __future__ import annotations
 
+import textwrap
 import threading
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from contextvars import ContextVar
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol, TypeVar
 
 import matplotlib as mpl
+import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.font_manager import FontProperties
+from matplotlib.text import Annotation
+from matplotlib.transforms import offset_copy
 
 from ehlectric.arrays import Array
 from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.errors import InputError, shown
+from ehlectric.figures.names import STYLES, in_formats
 from ehlectric.runtime.files import whole
 
 D = TypeVar("D")
@@ -27,9 +35,43 @@ D = TypeVar("D")
 BLUE, ORANGE, GREEN, GREY = "#0072b2", "#d55e00", "#009e73", "#555555"
 BODY, OIL = "#c9ced6", "#fff1cc"
 
+# Colour of values beyond the ends of a colour scale: grey, which no scale has.
+OUT_OF_RANGE = "#a3a8ad"
+
 # Text properties of the title of a figure whose result is not converged.
 NOT_CONVERGED: dict[str, Any] = {"color": "red", "weight": "bold"}
-_STYLE: dict[str, Any] = {
+
+# Metadata of a file of each format. Without a date, two runs of a case write the same bytes.
+_WITHOUT_DATE: Mapping[str, dict[str, Any]] = {
+    "png": {},
+    "svg": {"Date": None},
+    "pdf": {"CreationDate": None},
+}
+
+
+@dataclass(frozen=True)
+class _Look:
+    """Look of figures: settings of matplotlib, and how large they are on the page.
+
+    Attributes
+    ----------
+    settings : dict
+        Settings of matplotlib.
+    titled : bool
+        Whether titles are drawn. They are in the metadata of the file in any case.
+    columns : tuple of float, optional
+        Widths of a figure in one column and across two columns of a page [inches]; as drawn if None.
+    height : float
+        Ratio of the height of a figure in one column to its height on the screen.
+    """
+
+    settings: Mapping[str, Any]
+    titled: bool = True
+    columns: tuple[float, float] | None = None
+    height: float = 1.0
+
+
+_SCREEN: dict[str, Any] = {
     "font.size": 9.0,
     "axes.labelsize": 9.0,
     "axes.titlesize": 9.0,
@@ -39,9 +81,40 @@ _STYLE: dict[str, Any] = {
     "hatch.linewidth": 0.6,
     "savefig.dpi": 300,
     "figure.constrained_layout.use": True,
+    # Fonts are embedded in PDF as TrueType, which keeps their text; in SVG, letters are drawn as paths, which
+    # look the same on machines without the font. The salt makes the names inside an SVG file repeatable.
+    "pdf.fonttype": 42,
+    "svg.fonttype": "path",
+    "svg.hashsalt": "ehlectric",
 }
+_JOURNAL: dict[str, Any] = _SCREEN | {
+    "font.size": 8.0,
+    "axes.labelsize": 8.0,
+    "axes.titlesize": 8.0,
+    "xtick.labelsize": 7.0,
+    "ytick.labelsize": 7.0,
+    "legend.fontsize": 7.0,
+    "lines.linewidth": 0.8,
+    "axes.linewidth": 0.5,
+    "xtick.major.width": 0.5,
+    "ytick.major.width": 0.5,
+    "hatch.linewidth": 0.4,
+    "savefig.dpi": 600,
+}
+_LOOKS: Mapping[str, _Look] = {
+    "screen": _Look(_SCREEN),
+    "journal": _Look(_JOURNAL, titled=False, columns=(84.0 / 25.4, 174.0 / 25.4), height=0.75),
+}
+assert tuple(_LOOKS) == STYLES
+
+# Width on the screen above which a figure takes two columns of a journal [inches].
+_ONE_COLUMN = 6.5
+
+# Characters of a title that fit into an inch, and sizes of its first line and of the others [pt].
+_AN_INCH, _FINDING, _BELOW = 14.0, 10.0, 8.5
 
 _turn = threading.RLock()
+_style: ContextVar[str] = ContextVar("style", default="screen")
 
 
 class OfContact(Protocol):
@@ -54,21 +127,67 @@ class OfContact(Protocol):
 
 
 @contextmanager
-def style() -> Iterator[None]:
-    """Context manager in which figures have the package's text sizes and line widths.
+def style(name: str | None = None) -> Iterator[None]:
+    """Context manager in which figures have the text sizes, line widths and page sizes of a style.
 
     The settings of matplotlib belong to the whole process and are restored at the end. Threads that draw
     take turns, so that none restores the settings of another.
+
+    Parameters
+    ----------
+    name : str, optional
+        Name of the style, "screen" or "journal"; the style of the context around this one if omitted, which
+        is "screen" outside of any.
+
+    Raises
+    ------
+    InputError
+        Where there is no style of this name.
     """
-    with _turn, mpl.rc_context(_STYLE), warnings.catch_warnings():  # type: ignore[arg-type]
+    name = _style.get() if name is None else name
+    if name not in _LOOKS:
+        raise InputError("style", got=shown(name), takes=f"one of {', '.join(_LOOKS)}")
+    with _turn, mpl.rc_context(_LOOKS[name].settings), warnings.catch_warnings():  # type: ignore[arg-type]
         # The title of a case may contain characters that the font lacks.
         warnings.filterwarnings("ignore", message="Glyph .* missing")
-        yield
+        token = _style.set(name)
+        try:
+            yield
+        finally:
+            _style.reset(token)
 
 
-def new_panels(rows: int, columns: int, size: tuple[float, float]) -> list[Axes]:
-    """Axes of a new figure of size (width, height) [inches], row by row."""
-    figure = Figure(figsize=size)
+def page_width(width: float) -> float:
+    """Width of a figure in the style that is in use, from its width on the screen [inches]."""
+    columns = _LOOKS[_style.get()].columns
+    return width if columns is None else columns[width > _ONE_COLUMN]
+
+
+def page_size(size: tuple[float, float]) -> tuple[float, float]:
+    """Width and height of a figure in the style that is in use, from those on the screen [inches]."""
+    width = page_width(size[0])
+    return width, size[1] * (_LOOKS[_style.get()].height if width < 0.75 * size[0] else 1.0)
+
+
+def new_panels(rows: int, columns: int, size: tuple[float, float], *, exact: bool = False) -> list[Axes]:
+    """Axes of a new figure, row by row.
+
+    Parameters
+    ----------
+    rows, columns : int
+        Rows and columns of the panels.
+    size : tuple of float
+        Width and height of the figure on the screen [inches]; in the style "journal" it is as wide as one or
+        two columns.
+    exact : bool
+        Whether the size is that of the figure in any style.
+
+    Returns
+    -------
+    list of Axes
+        Axes of the panels.
+    """
+    figure = Figure(figsize=size if exact else page_size(size))
     FigureCanvasAgg(figure)
     return list(figure.subplots(rows, columns, squeeze=False).ravel())
 
@@ -86,19 +205,81 @@ def figure_of(ax: Axes) -> Figure:
 
 
 def name_over(ax: Axes, text: str, *, converged: bool = True) -> None:
-    """Write a title over all panels of a figure, in bold red where the result is not converged."""
+    """Write a title over all panels of a figure: its first line, the finding, larger than the others.
+
+    In the style "journal" the title is not drawn, because a caption says it. The metadata of the file has it
+    in every style. Where the result is not converged, its first line is drawn in every style.
+
+    Parameters
+    ----------
+    ax : Axes
+        Axes of one of the panels.
+    text : str
+        Lines of the title. Long lines are broken.
+    converged : bool
+        Whether the result is converged. If it is not, the first line is bold and red.
+    """
+    figure = figure_of(ax)
+    figure.set_label(text.replace("\n", ". "))
+    first, *others = text.split("\n")
+    if not _LOOKS[_style.get()].titled:
+        if converged:
+            return
+        others = []
+    room = int(_AN_INCH * figure.get_figwidth())
+    finding = textwrap.wrap(first, room) or [""]
+    below = [part for line in others for part in textwrap.wrap(line, int(room * _FINDING / _BELOW))]
     how: dict[str, Any] = {} if converged else NOT_CONVERGED
-    figure_of(ax).suptitle(text, x=0.01, ha="left", size=9.0, parse_math=False, **how)
+    # Empty lines keep the room for the smaller ones, which are drawn beside them.
+    lines = "\n".join([*finding, *(" " for _ in below)])
+    title = figure.suptitle(lines, x=0.01, ha="left", size=_FINDING, parse_math=False, **how)
+    if below:
+        figure.add_artist(
+            Annotation(
+                "\n".join(below),
+                (0.0, 0.0),
+                xycoords=title,
+                va="bottom",
+                size=_BELOW,
+                color=GREY,
+                parse_math=False,
+            )
+        )
 
 
-def save_figure(figure: Figure, path: Path) -> None:
-    """Write a figure as a PNG file; an interrupted write leaves no partial file."""
-    with style(), whole(path) as beside:
-        figure.savefig(beside)
+def save_figure(figure: Figure, path: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
+    """Write a figure as a file of each format; an interrupted write leaves no partial file.
+
+    Parameters
+    ----------
+    figure : Figure
+        Figure to write.
+    path : Path
+        Path of the PNG file; the other files have its name with the ending of their format.
+    formats : sequence of str
+        Formats, of "png", "svg" and "pdf".
+
+    Returns
+    -------
+    list of Path
+        Files written. The title of the figure is in their metadata, and no date.
+
+    Raises
+    ------
+    InputError
+        Where there is no format of this name.
+    """
+    files = [path.parent / name for name in in_formats([path.name], formats)]
+    for file in files:
+        kind = file.suffix[1:]
+        metadata = _WITHOUT_DATE[kind] | {"Title": figure.get_label() or path.stem}
+        with style(), whole(file) as beside:
+            figure.savefig(beside, format=kind, metadata=metadata)
+    return files
 
 
 def drawing_of(drawings: Mapping[str, D], name: str) -> D:
-    """Entry of a table of drawings by its name.
+    """Entry of a table of drawings by its name, with or without the ending of a format.
 
     Raises
     ------
@@ -111,24 +292,63 @@ def drawing_of(drawings: Mapping[str, D], name: str) -> D:
     Traceback (most recent call last):
     ehlectric.errors.InputError: figure: got 'field.png'; expected one of film.png
     """
-    if name not in drawings:
+    (file,) = in_formats([name])
+    if file not in drawings:
         raise InputError("figure", got=shown(name), takes=f"one of {', '.join(drawings)}")
-    return drawings[name]
+    return drawings[file]
 
 
-def legend_above(ax: Axes, handles: Sequence[Artist] | None = None, columns: int = 2) -> None:
-    """Place a legend above the axes, of the given artists, or of all that have a label."""
+def legend_above(
+    ax: Axes, handles: Sequence[Artist] | None = None, columns: int = 2, *, lift: float = 0.0, **options: Any
+) -> None:
+    """Place a legend above the axes, of the given artists, or of all that have a label.
+
+    Parameters
+    ----------
+    ax : Axes
+        Axes of the legend.
+    handles : sequence of Artist, optional
+        Artists in the legend; all that have a label if omitted.
+    columns : int
+        Columns of the legend; fewer where the page is too narrow for them.
+    lift : float
+        Height of the legend above the axes [pt], which leaves room for an axis on top of them.
+    **options
+        Further options of a legend of matplotlib.
+    """
+    entries = ax.get_legend_handles_labels()[0] if handles is None else list(handles)
+    labels = options.get("labels") or [str(entry.get_label()) for entry in entries]
     ax.legend(
-        handles=ax.get_legend_handles_labels()[0] if handles is None else list(handles),
+        handles=entries,
         loc="lower left",
         bbox_to_anchor=(0.0, 1.0),
+        bbox_transform=offset_copy(ax.transAxes, figure_of(ax), y=lift, units="points"),
         borderaxespad=0.3,
         borderpad=0.2,
-        ncols=columns,
+        ncols=_fitting(labels, columns, 0.84 * 72.0 * figure_of(ax).get_figwidth() / _side_by_side(ax)),
         frameon=False,
         handlelength=2.2,
         columnspacing=1.4,
+        **options,
     )
+
+
+def _fitting(labels: Sequence[str], columns: int, room: float) -> int:
+    """Number of columns of a legend with these labels, at most ``columns``, that fit into ``room`` [pt]."""
+    size = FontProperties(size=mpl.rcParams["legend.fontsize"]).get_size_in_points()
+    for number in range(columns, 1, -1):
+        rows = -(-len(labels) // number)
+        of_columns = [labels[first : first + rows] for first in range(0, len(labels), rows)]
+        # A letter is about half as wide as its size; the handle and the space around it take eight letters.
+        if sum(0.52 * size * (8.0 + max(map(len, column))) for column in of_columns) <= room:
+            return number
+    return 1
+
+
+def _side_by_side(ax: Axes) -> int:
+    """Number of axes side by side in the figure of some axes."""
+    spec = ax.get_subplotspec()
+    return 1 if spec is None else int(spec.get_gridspec().ncols)
 
 
 def in_half_widths(result: OfContact, x: Array) -> Array:
@@ -140,3 +360,17 @@ def label_position(result: OfContact, ax: Axes, axis: str = "x") -> None:
     """Label the horizontal axis with x/b or y/b, and with the value of the half-width b."""
     factor, unit = unit_for(result.conditions.half_width, "m", least=1.0)
     ax.set_xlabel(f"${axis}/b$   ($b$ = {factor * result.conditions.half_width:.4g} {unit})")
+
+
+# Room that the axis of lengths above the axes takes [pt].
+LENGTH_AXIS = 27.0
+
+
+def length_axis(result: OfContact, ax: Axes, axis: str = "x") -> None:
+    """Add an axis above the axes with the position as a length, in micrometres or millimetres."""
+    b = result.conditions.half_width
+    factor, unit = unit_for(b * max(abs(end) for end in ax.get_xlim()), "m", least=1.0)
+    top = ax.secondary_xaxis(
+        "top", functions=(lambda x: np.asarray(x) * factor * b, lambda x: np.asarray(x) / (factor * b))
+    )
+    top.set_xlabel(f"${axis}$ [{unit}]", labelpad=3.0)

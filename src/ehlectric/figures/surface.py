@@ -87,8 +87,10 @@ def height_map(drawn: Map, ax: Axes | None = None) -> Axes:
     return ax
 
 
-def save_surface(steps: Sequence[tuple[str, Profile | Map]], path: Path) -> None:
-    """Write a PNG file of a profile or map, as read and after its last step."""
+def save_surface(
+    steps: Sequence[tuple[str, Profile | Map]], path: Path, formats: Sequence[str] = ("png",)
+) -> list[Path]:
+    """Write files of a profile or map, as read and after its last step, one file of each format."""
     with style():
         first_and_last = [steps[0], steps[-1]] if len(steps) > 1 else [steps[0]]
         of_map = isinstance(steps[0][1], Map)
@@ -101,4 +103,4 @@ def save_surface(steps: Sequence[tuple[str, Profile | Map]], path: Path) -> None
         for ax, (name, step) in zip(panels, first_and_last, strict=True):
             drawn = height_map(step, ax) if isinstance(step, Map) else profile(step, ax)
             drawn.set_title(name if step is steps[0][1] else "after the last step", loc="left")
-        save_figure(figure_of(panels[0]), path)
+        return save_figure(figure_of(panels[0]), path, formats)

@@ -13,7 +13,7 @@ from ehlectric.film.solution import COLLAPSED, FilmSolution, quiet_solution, sta
 from ehlectric.film.state import Progress
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Film(FilmSolution):
     """Lubricant film of a line contact in SI units, with its status and residuals.
 

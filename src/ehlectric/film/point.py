@@ -23,7 +23,7 @@ _RADII, _ANGLES = 64, 256
 _LOST = 0.4
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class PointFilm(FilmSolution):
     """Lubricant film of a point contact in SI units, with its status and residuals.
 

@@ -16,14 +16,15 @@ from ehlectric.film.mesh import Mesh, at_centre
 from ehlectric.film.problem import FilmProblem, Scales
 from ehlectric.film.state import GridSolution, NewtonStep, State, Status
 from ehlectric.runtime.threads import one_blas_thread
+from ehlectric.runtime.values import Values
 
 # A film that did not converge counts as collapsed where it is thinner than this fraction of its central
 # thickness.
 COLLAPSED = 1e-2
 
 
-@dataclass(frozen=True)
-class FilmSolution:
+@dataclass(frozen=True, eq=False, repr=False)
+class FilmSolution(Values):
     """Lubricant film of a line or a point contact in SI units, with its status and residuals.
 
     Nodal values have the shape (nx,) in a line contact and (nx, ny) in a point contact.

@@ -198,7 +198,8 @@ class UnsteadyFilm:
             return History(instant, history.now, effort)
         if not halvings:
             raise ConvergenceError(
-                f"film not found at T = {history.now.time + step:.6g}, the step halved {_MOST_HALVINGS} times"
+                f"film at T = {history.now.time + step:.6g}, although the time step was halved "
+                f"{_MOST_HALVINGS} times"
             )
         halved = replace(history, effort=effort + Effort(halvings=1))
         for _ in range(2):

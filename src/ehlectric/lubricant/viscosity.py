@@ -196,7 +196,9 @@ def _barus_warnings(
     """Warning about Barus' law at a high Hertz pressure ``max_pressure`` [Pa]."""
     if max_pressure > 0.5e9:
         yield ResultWarning(
-            "law-range", "Barus' law overstates the viscosity above some 0.5 GPa by orders of magnitude"
+            "law-range",
+            "the Hertz pressure is above 0.5 GPa, where Barus' law overestimates the viscosity by orders of "
+            'magnitude; use lubricant.viscosity_law = "roelands"',
         )
 
 
@@ -213,8 +215,8 @@ def _roelands_warnings(
     if abs(z / roelands_z - 1.0) > 0.1:
         yield ResultWarning(
             "roelands-z",
-            f"roelands_z is {roelands_z:g}; Roelands' own relation gives {z:.3g} for this "
-            "viscosity and pressure-viscosity coefficient",
+            f"lubricant.roelands_z is {roelands_z:g}, but Roelands' own relation gives {z:.3g} for this "
+            "viscosity and pressure-viscosity coefficient; check the three values",
         )
 
 

@@ -31,30 +31,30 @@ from ehlectric.version import __version__
 # maps at the recorded instants.
 _STEPS = {
     "time": ("time since the roughness began to enter", "s"),
-    "minimum_thickness": ("smallest film thickness", "m"),
-    "minimum_x": ("where the film is thinnest, along entrainment", "m"),
-    "minimum_y": ("where the film is thinnest, across entrainment", "m"),
-    "max_pressure": ("largest pressure", "Pa"),
-    "thin_gap_strength": ("voltage over the smallest film thickness", "V/m"),
+    "minimum_thickness": ("minimum film thickness", "m"),
+    "minimum_x": ("position of the minimum film thickness, along entrainment", "m"),
+    "minimum_y": ("position of the minimum film thickness, across entrainment", "m"),
+    "max_pressure": ("maximum pressure", "Pa"),
+    "thin_gap_strength": ("voltage / minimum film thickness", "V/m"),
     "newton_iterations": ("Newton steps of a time step", "1"),
     "krylov_iterations": ("GMRES iterations of a time step", "1"),
-    "halvings": ("how often a time step was halved", "1"),
+    "halvings": ("number of halvings of a time step", "1"),
 }
 _FRAMES = {
     "frame_time": ("time since the roughness began to enter", "s"),
     "frame_step": ("number of the time step", "1"),
-    "max_strength": ("largest field strength", "V/m"),
-    "max_strength_x": ("where the field is strongest, along entrainment", "m"),
-    "max_strength_y": ("where the field is strongest, across entrainment", "m"),
+    "max_strength": ("maximum field strength", "V/m"),
+    "max_strength_x": ("position of the maximum field strength, along entrainment", "m"),
+    "max_strength_y": ("position of the maximum field strength, across entrainment", "m"),
     "capacitance": ("capacitance within the field range", "F/m or F"),
 }
 _MAPS = {
     "pressure": ("pressure", "Pa"),
     "thickness": ("film thickness", "m"),
-    "strength": ("largest field strength across the film", "V/m"),
+    "strength": ("maximum field strength across the film", "V/m"),
     "roughness_1": ("roughness of surface 1, out of the body", "m"),
     "roughness_2": ("roughness of surface 2, out of the body", "m"),
-    "cavitated": ("pressure held at ambient", "1"),
+    "cavitated": ("cavitated: pressure at ambient", "1"),
 }
 # Variables that a line contact does not have.
 _OF_POINTS = ("minimum_y", "max_strength_y")
@@ -259,7 +259,7 @@ def _lay_out(
         _add(file, name, ("frame", *axes), about)
     for name, values in stationary.items():
         long_name, unit = _MAPS[name]
-        _add(file, f"stationary_{name}", axes, (f"{long_name}, the roughness held still", unit), values)
+        _add(file, f"stationary_{name}", axes, (f"{long_name}, stationary roughness", unit), values)
 
 
 def _add(

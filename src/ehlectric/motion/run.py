@@ -51,7 +51,7 @@ def run(
         resumed. A complete run without summary.json is summed up without being solved again. The files of any
         other result there are replaced.
     progress : callable, optional
-        Called with the number of steps done, the number of all steps, and what is being done.
+        Called with the number of solved steps, the number of all steps, and a message.
     others : sequence of str, optional
         Names of other files in the folder that belong to its result, such as figures. Those of an earlier
         result are removed.
@@ -89,7 +89,7 @@ def run(
 
 
 def run_motion(case: Case, folder: str | Path, *, again: bool = True, progress: Progress = silent) -> Path:
-    """Solve a contact with moving roughness, and write motion.nc while it is solved.
+    """Solve a contact with moving roughness, and write each recorded instant to motion.nc.
 
     Parameters
     ----------
@@ -99,9 +99,9 @@ def run_motion(case: Case, folder: str | Path, *, again: bool = True, progress: 
         Folder of motion.nc; made if it is not there. An unfinished run of the same case there is resumed from
         the last recorded instant; any other file of this name is replaced.
     again : bool
-        Whether a complete run of the same case is solved again.
+        True to solve a complete run of the same case again.
     progress : callable, optional
-        Called with the number of steps done, the number of all steps, and what is being done.
+        Called with the number of solved steps, the number of all steps, and a message.
 
     Returns
     -------
@@ -111,9 +111,9 @@ def run_motion(case: Case, folder: str | Path, *, again: bool = True, progress: 
     Raises
     ------
     InputError
-        Where the case or the folder cannot be used.
+        If the case or the folder cannot be used.
     ConvergenceError
-        Where a step is not solved; the file has the recorded instants before it.
+        If a time step does not converge; the file has the recorded instants before this step.
     """
     prepared = check_case(case)
     contact = TransientContact.of(case, prepared.rough)
@@ -133,12 +133,12 @@ def _solve(
     resumed = file.resumed()
     if resumed is None:
         path.unlink(missing_ok=True)
-        progress(0, contact.schedule.steps, "before the motion")
+        progress(0, contact.schedule.steps, "film before the motion")
         _begin(file, solver, prepared)
         resumed = file.resumed()
         assert resumed is not None
     done, history = resumed
-    progress(done, contact.schedule.steps, "in time")
+    progress(done, contact.schedule.steps, "time steps")
     started, rows = time.perf_counter(), list[Row]()
     recorded = set(contact.schedule.recorded.tolist())
     for step, latest in solver.run(history, done):
@@ -148,7 +148,7 @@ def _solve(
             since, started = started, time.perf_counter()
             file.append(Record(step, rows, snapshot, latest, started - since))
             rows = []
-            progress(step, contact.schedule.steps, "in time")
+            progress(step, contact.schedule.steps, "time steps")
 
 
 def _begin(file: MotionFile, solver: TransientSolver, prepared: PreparedContact) -> None:
@@ -203,10 +203,16 @@ def _warnings(contact: TransientContact, still: Result | PointResult) -> Iterato
     yield from kind.surface_warnings(travelled.roughness, contact.roughness.surfaces, domain, *spacings)
     yield from _unlike(contact, still)
     if not still.converged:
-        text = f"the same roughness held still is not solved: {still.film.status}"
+        text = (
+            f"the film with stationary roughness did not converge ({still.film.status}), so there is no "
+            "comparison with the moving roughness; try more grid.nodes"
+        )
         yield ResultWarning("stationary-not-converged", text)
     elif (error := still.film.discretisation_error) is not None and error > 0.01:
-        text = f"held still, the film may be {100.0 * error:.2g} % off on this grid, and moving about as much"
+        text = (
+            f"the discretisation error of the film with stationary roughness is estimated at "
+            f"{100.0 * error:.2g} %, and with moving roughness it is probably similar; use more grid.nodes"
+        )
         yield ResultWarning("stationary-error", text)
 
 
@@ -225,6 +231,6 @@ def _unlike(contact: TransientContact, still: Result | PointResult) -> Iterator[
     if part > _ALIKE:
         yield ResultWarning(
             "stationary-differs",
-            f"the roughness that moves is up to {100.0 * part:.2g} % of its height off that held still: form "
-            "and rescale_rq are of all that moves through the contact, which is longer",
+            f"the moving roughness differs from the stationary one by up to {100.0 * part:.2g} % of its "
+            "height: form and rescale_rq are applied to the longer profile that moves through the contact",
         )

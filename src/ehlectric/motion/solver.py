@@ -89,7 +89,7 @@ class TransientSolver:
         with quiet_solution():
             steady = nested_iteration(self.contact.problem, progress)[-1]
         if steady.status != "converged":
-            raise ConvergenceError(f"film before the motion {steady.status}")
+            raise ConvergenceError(f"film before the motion, {steady.status}")
         return self._film.start(steady, self.contact.schedule.step)
 
     def run(self, history: History, done: int = 0) -> Iterator[tuple[int, History]]:

@@ -6,7 +6,7 @@ import tomllib
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
@@ -19,6 +19,7 @@ from ehlectric.motion.field_history import FieldHistory, strength_between
 from ehlectric.motion.kinds import KINDS, AnyKind
 from ehlectric.motion.schedule import Schedule, schedule_of
 from ehlectric.runtime.netcdf import opened, read_dataset
+from ehlectric.runtime.values import Values
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -76,8 +77,8 @@ def saved_steps(path: Path) -> int:
         return 0
 
 
-@dataclass(frozen=True)
-class MotionRun:
+@dataclass(frozen=True, eq=False, repr=False)
+class MotionRun(Values):
     """Stored run of a contact with moving roughness, SI units.
 
     Attributes
@@ -95,7 +96,7 @@ class MotionRun:
     conditions: Conditions | PointConditions
 
     @classmethod
-    def of(cls, dataset: xr.Dataset) -> MotionRun:
+    def of(cls, dataset: xr.Dataset) -> Self:
         """Run from a dataset, without steps and instants that are not solved yet.
 
         Surface files are not read.

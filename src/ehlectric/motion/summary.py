@@ -81,8 +81,8 @@ def _halved(run: MotionRun) -> Iterator[ResultWarning]:
     if np.any(halvings):
         yield ResultWarning(
             "steps-halved",
-            f"{np.count_nonzero(halvings)} time steps had to be halved, {int(halvings.sum())} times in all; "
-            "more motion.steps or a finer grid may be worth while",
+            f"{np.count_nonzero(halvings)} time steps did not converge and were halved, "
+            f"{int(halvings.sum())} times in all; more motion.steps or more grid.nodes may help",
         )
 
 

@@ -71,8 +71,8 @@ class CartesianGrid:
         nodes = x.size * float(np.max(upper) - np.min(lower)) / dy
         if nodes > MOST_NODES:
             raise ConvergenceError(
-                f"the paper's Cartesian grid would have {nodes:.2g} nodes, {rows} rows in the least gap, "
-                f"and has at most {MOST_NODES:.0e}: narrow grid.field_range, or leave --solver paper out"
+                f"the paper's Cartesian grid would have {nodes:.2g} nodes, {rows} rows in the minimum gap; "
+                f"expected at most {MOST_NODES:.0e}: narrow grid.field_range, or leave out --solver paper"
             )
         y = np.arange(float(np.min(lower)), float(np.max(upper)) + dy, dy)
         margin = _ON_SURFACE * dy

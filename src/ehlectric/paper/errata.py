@@ -98,7 +98,7 @@ def _unconstrained(equations: FilmEquations, at: Iterate) -> Iterate:
         at = Iterate(at.pressure + change[:n], at.h00 + float(change[n]))
         if np.max(np.abs(change)) < 1e-10:
             return at
-    raise ConvergenceError("the film without cavitation was not solved")
+    raise ConvergenceError("film without cavitation")
 
 
 def _sign_of_c(_: Study) -> str:

@@ -89,9 +89,7 @@ def over_relax(equations: Stencil, start: Array, *, factor: float, tolerance: fl
             largest = max(largest, float(np.max(np.abs(residual), initial=0.0)))
         if largest <= tolerance * voltage:
             return Relaxed(v, sweep, factor)
-    raise ConvergenceError(
-        f"field stalled at the residual {largest / voltage:.1e} after {MOST_SWEEPS} sweeps"
-    )
+    raise ConvergenceError(f"field, residual {largest / voltage:.1e} after {MOST_SWEEPS} sweeps")
 
 
 def young_factor(grid: CartesianGrid) -> float:

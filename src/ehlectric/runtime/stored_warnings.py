@@ -42,6 +42,7 @@ _WORDS = (
     ("is coarser than the film, which has", "field-grid-too-coarse"),
     ("the largest field is at an e", "field-range-too-narrow"),
     ("no insulator withstands more", "field-above-insulators"),
+    ("breakdown is expected: ", "breakdown-expected"),
     ("electrons tunnel through it", "tunnelling"),
     ("leaves discharge.strength_table", "strength-table-exceeded"),
     ("of its height off that held still", "stationary-differs"),

@@ -11,7 +11,7 @@ PROFILE_STATISTICS: Keys = {
     "rku": ResultKey("kurtosis of the heights"),
     "correlation_length": ResultKey("distance at which the autocorrelation falls to 1/e", "m"),
     "rms_slope": ResultKey("root-mean-square slope"),
-    "largest_slope": ResultKey("largest slope"),
+    "largest_slope": ResultKey("maximum slope"),
 }
 MAP_STATISTICS: Keys = {
     "sq": ResultKey("root-mean-square height", "m"),
@@ -24,14 +24,14 @@ MAP_STATISTICS: Keys = {
         "distance at which the autocorrelation falls to 1/e, in the direction in which it falls fastest", "m"
     ),
     "rms_slope": ResultKey("root-mean-square gradient"),
-    "largest_slope": ResultKey("largest gradient"),
+    "largest_slope": ResultKey("maximum gradient"),
 }
 _SURFACE: Keys = {
     "surface": ResultKey("number of the surface, 1 or 2"),
     "source": ResultKey("instrument file of the surface; null for a generated one"),
-    "size": ResultKey("number of points that were read, of a map along both directions; null without a file"),
-    "voids": ResultKey("share of points without a value, of a map in the line that was used"),
-    "height_step": ResultKey("smallest difference of heights in the file; null where there is none", "m"),
+    "size": ResultKey("number of points in the file, of a map along both directions; null without a file"),
+    "voids": ResultKey("share of points without data; of one line of a map, that of the line"),
+    "height_step": ResultKey("minimum difference of heights in the file; null if there is none", "m"),
     "steps": ResultKey("statistics after every step of processing; empty for an exact shape"),
     "steps.step": ResultKey("name of the step"),
 }

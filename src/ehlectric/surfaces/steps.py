@@ -37,19 +37,20 @@ def step_warnings(
     ``steps`` has the surface after every processing step, ``voids`` the fraction of points without data.
     """
     if voids:
-        whose, how = "line", "by straight lines"
+        whose, how = "line", "linear"
         if isinstance(steps[0][1], Map):
-            whose, how = "map", "as a soap film hangs in them"
+            whose, how = "map", "harmonic"
         yield ResultWarning(
             "voids-filled",
-            f"{100 * voids:.2g} % of the {whose} of surface {table.surface} is void; "
-            f"voids within it were filled {how}",
+            f"{100 * voids:.2g} % of the {whose} of surface {table.surface} has no data; these voids were "
+            f"filled by {how} interpolation",
         )
     if table.truncate is not None:
         share = float(np.mean(np.abs(steps[-2][1].heights) > table.truncate))
         if share > _MOST_CUT:
             yield ResultWarning(
                 "heights-cut",
-                f"truncate cuts {100 * share:.2g} % of the points of surface {table.surface}, whose Rq is "
-                f"{rms(steps[-2][1].heights) * 1e9:.3g} nm before it: what is left is another surface",
+                f"truncate cuts {100 * share:.2g} % of the points of surface {table.surface}, whose Rq was "
+                f"{rms(steps[-2][1].heights) * 1e9:.3g} nm before: the truncated surface differs from the "
+                "measured one; raise truncate",
             )

@@ -326,9 +326,9 @@ def _spacing(path: Path, x: Array, step: float) -> tuple[float, tuple[ResultWarn
     if 0 < np.count_nonzero(long) <= 0.05 * steps.size:
         where = int(np.argmax(long))
         text = (
-            f"{path}: positions are written in steps of their spacing, and {np.count_nonzero(long)} of the "
-            f"{steps.size} distances are twice the others, the first behind point {where}: rounding, or "
-            "samples that are missing; all were taken as equally spaced"
+            f"{path}: {np.count_nonzero(long)} of the {steps.size} distances between positions are twice the "
+            f"others, the first after point {where}: positions are rounded, or samples are missing; all "
+            "points are treated as equally spaced, check the file"
         )
         return spacing, (ResultWarning("spacing-irregular", text),)
     return spacing, ()

@@ -16,7 +16,7 @@ from ehlectric.surfaces.profiles import statistics as profiles_statistics
 from ehlectric.surfaces.rough_maps import RoughMap
 from ehlectric.surfaces.rough_profiles import RoughSurface
 
-# Fewest grid spacings that resolve a correlation length, and a wavelength or the width of a feature.
+# Minimum number of grid spacings in a correlation length, and in a wavelength or the width of a feature.
 LEAST_IN_CORRELATION = 2.0
 LEAST_IN_SHAPE = 8.0
 
@@ -70,10 +70,10 @@ def _continued(table: Roughness, surface: RoughMap, domain: Domain) -> Iterator[
         axis = short[0]
         yield ResultWarning(
             "roughness-continued",
-            f"surface {surface.surface} is {surface.extent[axis] * 1e6:.4g} µm long along {'xy'[axis]} and "
+            f"surface {surface.surface} is {surface.extent[axis] * 1e6:.4g} µm long along {'xy'[axis]}, but "
             f"the domain needs {needed[axis] * 1e6:.4g} µm"
-            + (", and it is too short along y too" if len(short) == 2 else "")
-            + f": it was continued by extend = {table.extend!r}",
+            + (" (it is too short along y, too)" if len(short) == 2 else "")
+            + f": it was continued by extend = {table.extend!r}; use a larger map to avoid this",
         )
 
 
@@ -118,9 +118,9 @@ def _map_warnings(
         coarser = max(spacing)
         yield ResultWarning(
             "variance-missed",
-            f"the grid, {spacing[0] * 1e6:.3g} x {spacing[1] * 1e6:.3g} µm, misses {100 * missed:.2g} % of "
-            f"the variance of surface {surface.surface}, in waves shorter than two spacings; take more "
-            f"grid.nodes, or a cutoff_short of {4e6 * coarser:.3g} µm or more",
+            f"the grid spacing of {spacing[0] * 1e6:.3g} x {spacing[1] * 1e6:.3g} µm misses "
+            f"{100 * missed:.2g} % of the variance of surface {surface.surface}, in waves shorter than two "
+            f"spacings; use more grid.nodes, or a cutoff_short of at least {4e6 * coarser:.3g} µm",
         )
 
 
@@ -207,8 +207,9 @@ def profile_surface_warnings(
         if surface.extent < reach:
             yield ResultWarning(
                 "roughness-continued",
-                f"the profile of surface {surface.surface} is {surface.extent * 1e6:.4g} µm long and the "
-                f"domain needs {reach * 1e6:.4g} µm: it was continued by extend = {table.extend!r}",
+                f"the profile of surface {surface.surface} is {surface.extent * 1e6:.4g} µm long, but the "
+                f"domain needs {reach * 1e6:.4g} µm: it was continued by extend = {table.extend!r}; use a "
+                "longer profile to avoid this",
             )
         if surface.steps:
             yield from profile_warnings(surface.surface, surface.steps[-1][1], dx, ends)
@@ -223,8 +224,8 @@ def same_seeds(tables: Iterable[Roughness]) -> Iterator[ResultWarning]:
         if times > 1:
             yield ResultWarning(
                 "seed-repeated",
-                f"{times} rough surfaces have the seed {seed}: they are made of the same random numbers and "
-                "are not independent of each other",
+                f"{times} rough surfaces have the seed {seed}: their random numbers are the same, so they "
+                "are not independent; give each surface its own seed",
             )
 
 
@@ -236,14 +237,14 @@ def unresolved(dx: float, what: str, length: float) -> ResultWarning:
     dx : float
         Spacing of the nodes [m].
     what : str
-        Text that names the surface and the kind of the length.
+        Words that name the surface and the kind of the length.
     length : float
         Length that is not resolved [m].
     """
     return ResultWarning(
         "roughness-unresolved",
-        f"the grid, {dx * 1e6:.3g} µm, does not resolve {what} is {length * 1e6:.3g} µm: its error estimate "
-        "means nothing yet",
+        f"the grid spacing of {dx * 1e6:.3g} µm does not resolve {what} is {length * 1e6:.3g} µm: the error "
+        "estimate is not meaningful; use more grid.nodes",
     )
 
 
@@ -279,9 +280,9 @@ def profile_warnings(
     if missed > MOST_MISSED:
         yield ResultWarning(
             "variance-missed",
-            f"the grid, {dx * 1e6:.3g} µm, misses {100 * missed:.2g} % of the variance of surface "
-            f"{surface}, in waves shorter than two spacings; take more grid.nodes, or a cutoff_short "
-            f"of {4e6 * dx:.3g} µm or more",
+            f"the grid spacing of {dx * 1e6:.3g} µm misses {100 * missed:.2g} % of the variance of surface "
+            f"{surface}, in waves shorter than two spacings; use more grid.nodes, or a cutoff_short of at "
+            f"least {4e6 * dx:.3g} µm",
         )
 
 

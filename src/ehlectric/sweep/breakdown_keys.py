@@ -28,8 +28,6 @@ class Breakdown:
         Name of the breakdown voltage in figures.
     voltage_name : str
         Name of the applied voltage in figures.
-    whose : str
-        Short form of ``voltage_name``, as in "below the applied 30 V".
     """
 
     value: str
@@ -37,7 +35,6 @@ class Breakdown:
     voltage: str
     name: str = "breakdown voltage"
     voltage_name: str = "applied voltage"
-    whose: str = "applied"
 
     @property
     def keys(self) -> tuple[str, str]:
@@ -68,17 +65,15 @@ FIRST_BREAK = Breakdown(
     "bearing.first_break",
     "bearing.margin",
     "bearing.shaft_voltage",
-    "first break",
+    "first breakdown",
     "shaft voltage",
-    "shaft's",
 )
 THROUGH = Breakdown(
     "bearing.through_breakdown",
     "bearing.through_margin",
     "bearing.shaft_voltage",
-    "through breakdown",
+    "ring-to-ring breakdown",
     "shaft voltage",
-    "shaft's",
 )
 
 
@@ -95,8 +90,8 @@ def breakdown_of(case: AnyCase, value: str | None = None) -> Breakdown:
     Returns
     -------
     Breakdown
-        Breakdown of a contact. For a bearing, the first break of one of its contacts, except if ``value``
-        is a key of the through breakdown.
+        Breakdown of a contact. For a bearing, the first breakdown of one of its contacts, except if ``value``
+        is a key of the ring-to-ring breakdown.
     """
     if not isinstance(case, BearingCase):
         return CONTACT

@@ -5,7 +5,7 @@ from __future__ import annotations
 import multiprocessing
 import os
 import time
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import (
     FIRST_COMPLETED,
     BrokenExecutor,
@@ -15,7 +15,7 @@ from concurrent.futures import (
     ProcessPoolExecutor,
     wait,
 )
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from itertools import islice
 from typing import Any, TypeVar
@@ -23,6 +23,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from ehlectric.bearing.solver import solve_bearing
+from ehlectric.bearing.summary import summary_of
 from ehlectric.cases.any_case import case_of_dict
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.contact.solver import solve
@@ -33,6 +34,8 @@ from ehlectric.sweep.plan import Outcome
 from ehlectric.sweep.results import Status
 from ehlectric.version import __version__
 
+A = TypeVar("A")
+K = TypeVar("K")
 T = TypeVar("T")
 
 # Points in flight per process: one that is being solved, and one that waits, so that no process idles.
@@ -110,7 +113,8 @@ def _solved(table: Mapping[str, Any]) -> tuple[bool, dict[str, Any], str]:
     case = case_of_dict(table)
     if isinstance(case, BearingCase):
         bearing = solve_bearing(case, workers=1)
-        summary = bearing.summary()
+        # Without the analysis of the margin, which would solve twenty bearings for every point.
+        summary = summary_of(bearing.solution)
         del summary["contacts"]  # with columns for every contact, the table would be too wide
         return bearing.converged, summary, "a contact of the bearing is not converged"
     result = solve(case)
@@ -138,35 +142,79 @@ def run_points(
     ------
     LostError
         If the crew cannot be reached any more. All finished points have been passed to ``done`` before.
+    """
+    with closing(finished_tasks(tasks, crew, solve_point, _lost)) as batches:
+        for outcomes in batches:
+            done(outcomes)
+
+
+def _lost(reason: str) -> Outcome:
+    """Outcome of a point that was not solved because its process died; another try may succeed."""
+    return Outcome("failed", reason, again=True, date=now())
+
+
+def finished_tasks(
+    tasks: Iterable[tuple[K, A]], crew: Crew, call: Callable[[A], T], lost: Callable[[str], T]
+) -> Generator[list[tuple[K, T]], None, None]:
+    """Run a function on many values with a crew, and yield what is finished.
+
+    Parameters
+    ----------
+    tasks : iterable of (key, value)
+        Key of each task and the argument of ``call``. An item is read only when it is handed over.
+    crew : Crew
+        Processes or machines that run the tasks.
+    call : callable
+        Function of a value; it raises no exception.
+    lost : callable
+        Makes the outcome of a task whose process died twice, from the reason.
+
+    Yields
+    ------
+    list of (key, outcome)
+        Finished tasks. While none finishes, an empty list about every second.
+
+    Raises
+    ------
+    LostError
+        If the crew cannot be reached any more. All finished tasks have been yielded before.
 
     Notes
     -----
-    If a process dies, the points in flight are tried again one at a time. A point whose process dies again is
-    failed. If not even an empty call returns, the crew is lost.
+    If a process dies, the tasks in flight are tried again one at a time. A task whose process dies again is
+    lost. If not even an empty call returns, the crew is lost.
     """
-    remaining, flying = iter(tasks), dict[Future[Outcome], Task]()
+    remaining, flying = iter(tasks), dict[Future[T], tuple[K, A]]()
     try:
         while True:
-            suspects = _fill(flying, remaining, crew)
+            suspects = _fill(flying, remaining, crew, call)
             if not flying and not suspects:
                 return
-            finished = wait(flying, timeout=_PULSE, return_when=FIRST_COMPLETED).done
-            suspects += _take(flying, finished, done)
+            for waits_for_all in (False, True):
+                if waits_for_all and not suspects:
+                    continue
+                waiting = wait(flying) if waits_for_all else wait(flying, _PULSE, FIRST_COMPLETED)
+                outcomes, died, gone = _take(flying, waiting.done)
+                suspects += died
+                yield outcomes
+                if gone:
+                    raise LostError("points in flight were cancelled")
             if suspects:
-                suspects += _take(flying, wait(flying).done, done)
                 crew.renew()
-                for task in suspects:
-                    done([(task[0], _alone(task, crew))])
+                for key, value in suspects:
+                    yield [(key, _alone(value, crew, call, lost))]
     finally:
         for future in flying:
             future.cancel()
 
 
-def _fill(flying: dict[Future[Outcome], Task], remaining: Iterator[Task], crew: Crew) -> list[Task]:
-    """Hand the next points to the crew; returns the point that was refused because a process had died."""
+def _fill(
+    flying: dict[Future[T], tuple[K, A]], remaining: Iterator[tuple[K, A]], crew: Crew, call: Callable[[A], T]
+) -> list[tuple[K, A]]:
+    """Hand the next tasks to the crew; returns the task that was refused because a process had died."""
     for task in islice(remaining, max(0, crew.width() - len(flying))):
         try:
-            flying[crew.submit(solve_point, task[1])] = task
+            flying[crew.submit(call, task[1])] = task
         except BrokenExecutor:
             return [task]
         except Exception as error:  # raised by the executor
@@ -175,13 +223,11 @@ def _fill(flying: dict[Future[Outcome], Task], remaining: Iterator[Task], crew: 
 
 
 def _take(
-    flying: dict[Future[Outcome], Task],
-    finished: Iterable[Future[Outcome]],
-    done: Callable[[Sequence[tuple[str, Outcome]]], None],
-) -> list[Task]:
-    """Pass the outcomes of finished points to ``done``; returns the points whose process died."""
-    outcomes: list[tuple[str, Outcome]] = []
-    suspects: list[Task] = []
+    flying: dict[Future[T], tuple[K, A]], finished: Iterable[Future[T]]
+) -> tuple[list[tuple[K, T]], list[tuple[K, A]], bool]:
+    """Outcomes of finished tasks, the tasks whose process died, and whether any was cancelled."""
+    outcomes: list[tuple[K, T]] = []
+    suspects: list[tuple[K, A]] = []
     gone = False
     for future in finished:
         task = flying.pop(future)
@@ -189,19 +235,16 @@ def _take(
             outcomes.append((task[0], future.result()))
         except CancelledError:
             gone = True
-        except Exception:  # raised by the executor, because solve_point raises none
+        except Exception:  # raised by the executor, because the function raises none
             suspects.append(task)
-    done(outcomes)
-    if gone:
-        raise LostError("points in flight were cancelled")
-    return suspects
+    return outcomes, suspects, gone
 
 
-def _alone(task: Task, crew: Crew) -> Outcome:
-    """Outcome of a point solved with nothing else in flight, to find out whether it kills its process."""
+def _alone(value: A, crew: Crew, call: Callable[[A], T], lost: Callable[[str], T]) -> T:
+    """Outcome of a task run with nothing else in flight, to find out whether it kills its process."""
     _ask(crew)
     try:
-        outcome: Outcome = crew.submit(solve_point, task[1]).result()
+        outcome: T = crew.submit(call, value).result()
     except CancelledError:
         raise LostError("points in flight were cancelled") from None
     except Exception as error:  # raised by the executor
@@ -209,12 +252,11 @@ def _alone(task: Task, crew: Crew) -> Outcome:
         _ask(crew)
         kind = type(error).__name__
         killed = isinstance(error, BrokenExecutor) or kind == "KilledWorker"  # an error class of Dask
-        reason = (
+        return lost(
             f"its process was killed twice, as by a system out of memory ({kind})"
             if killed
             else " ".join(f"not taken by the executor: {kind}: {error}".split())[:1000]
         )
-        return Outcome("failed", reason, again=True, date=now())
     return outcome
 
 

@@ -18,6 +18,7 @@ from ehlectric.cases.input_keys import input_field, number_of
 from ehlectric.cases.quantity import WRITTEN, Count, Quantity
 from ehlectric.cases.table import Table, nearest, read_toml
 from ehlectric.errors import InputError, shown
+from ehlectric.runtime.display import Tabled, headline
 from ehlectric.sweep import design as sweep_design
 from ehlectric.sweep.results import Range
 
@@ -27,7 +28,7 @@ _RANGE_KEYS = ("from", "to", "count", "spacing")
 _SPACINGS = ("linear", "log")
 
 
-class Sweep(Table):
+class Sweep(Tabled, Table):
     """Sweep over many cases: a base case, and the keys of it that vary.
 
     ``vary`` maps dotted keys of the case to their values in SI units or, in a "sobol" design, to a ``Range``.
@@ -161,6 +162,11 @@ class Sweep(Table):
             If a key or value is invalid. The message is one line: the key, its value, and what is allowed.
         """
         return super().from_written(_with_case(table, written=True))
+
+    def headline(self) -> str:
+        """Title, number of points and varied keys on one line."""
+        title = self.title or self.case.title
+        return headline(title, f"{self.design} of {self.size} points over {', '.join(self.vary)}")
 
     @property
     def axes(self) -> dict[str, tuple[Any, ...]]:

@@ -11,6 +11,7 @@ from scipy.spatial import Delaunay, QhullError
 
 from ehlectric.arrays import Array, IntArray, Mask
 from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.input_keys import unit_of
 from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.slices import Slice
 
@@ -274,8 +275,11 @@ def spaced_log(results: SweepResults, key: str, values: Array) -> bool:
     -------
     bool
         In a "sobol" design, True if the range of the key has logarithmic spacing. In other designs, True if
-        the logarithms of the values are more evenly spaced than the values.
+        the logarithms of the values are more evenly spaced than the values. False for temperatures, which
+        figures show in °C.
     """
+    if unit_of(key) == "K":
+        return False
     if key in results.ranges:
         return results.ranges[key].spacing == "log"
     axis = np.unique(values)

@@ -59,17 +59,33 @@ class Scale:
         Factor from values in SI units to values in this unit.
     unit : str
         Unit as printed, such as "µm".
+    offset : float
+        Number added after the multiplication, for temperatures in °C.
     """
 
     factor: float
     unit: str
+    offset: float = 0.0
+
+    def of(self, values: Any) -> Any:
+        """Numbers of SI values in this unit.
+
+        Examples
+        --------
+        >>> round(CELSIUS.of(343.15), 9), Scale(1e6, "µm").of(2e-6)
+        (70.0, 2.0)
+        """
+        return self.factor * values + self.offset
 
     def text(self, value: Any) -> str:
         """Text of an SI value in this unit, with four digits; a text is returned unchanged."""
         if not isinstance(value, int | float):
             return str(value)
-        return f"{value * self.factor:.4g} {self.unit}".rstrip()
+        return f"{self.of(value):.4g} {self.unit}".rstrip()
 
+
+# Absolute temperatures in figures.
+CELSIUS = Scale(1.0, "°C", -273.15)
 
 # Other units without prefixes: limits of current density are published in A/mm^2, and shaft speeds in rpm.
 _OWN = {"A/m**2": Scale(1e-6, "A/mm²"), "rad/s": Scale(30.0 / np.pi, "rpm")}
@@ -140,11 +156,11 @@ def scale_for(largest: float, unit: str) -> Scale:
     Examples
     --------
     >>> scale_for(2.2e-8, "1/Pa")
-    Scale(factor=1000000000.0, unit='1/GPa')
+    Scale(factor=1000000000.0, unit='1/GPa', offset=0.0)
     >>> scale_for(3e-12, "m**2")
-    Scale(factor=1000000000000.0, unit='µm²')
+    Scale(factor=1000000000000.0, unit='µm²', offset=0.0)
     >>> scale_for(0.04, "Pa*s")
-    Scale(factor=1000.0, unit='mPa s')
+    Scale(factor=1000.0, unit='mPa s', offset=0.0)
     """
     if unit in _PLAIN:
         return Scale(1.0, unit)

@@ -1,97 +1,31 @@
-"""Results of a sweep: the points with their inputs, status, and summary or reason of failure."""
+"""Results of a sweep: values, tables and figures of its points."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Mapping
+from collections import Counter
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ehlectric.arrays import Array, Mask
-from ehlectric.cases.any_case import AnyCase
-from ehlectric.errors import ResultWarning
-from ehlectric.runtime.stored_warnings import warnings_of
+from ehlectric.arrays import Array
+from ehlectric.cases.result_key import key_of
+from ehlectric.cases.table import nearest
+from ehlectric.errors import InputError
+from ehlectric.runtime.display import Shown, headline
+from ehlectric.sweep.columns import columns_of, dataset_of, numbers_of, unit_of_column
+from ehlectric.sweep.labels import label_of, result_keys
+from ehlectric.sweep.points import Point, Range, Spacing, Status, SweepPoints, as_number, flat
 
-# "solved": converged; "not converged": the summary must not be used; "failed": no summary; "open": not tried
-# yet.
-Status = Literal["solved", "not converged", "failed", "open"]
-Spacing = Literal["linear", "log"]
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
 
-
-@dataclass(frozen=True)
-class Range:
-    """Range of an input between two values.
-
-    Attributes
-    ----------
-    start, stop : float
-        Ends of the range, in SI units.
-    spacing : str
-        "linear" if values are spaced evenly, or "log" if their logarithms are.
-    """
-
-    start: float
-    stop: float
-    spacing: Spacing = "linear"
+__all__ = ["Point", "Range", "Spacing", "Status", "SweepResults", "as_number", "flat"]
 
 
-@dataclass(frozen=True)
-class Point:
-    """One point of a sweep.
-
-    Attributes
-    ----------
-    number : int
-        Number of the point in the order of the design, from 0.
-    inputs : mapping
-        Values of the varied keys, by dotted key of the case, in SI units.
-    status : str
-        "solved", "not converged", "failed" or "open".
-    reason : str
-        Reason why the point is not solved; empty if it is solved or open.
-    summary : mapping or None
-        Nested tables, as in summary.json; None if the point failed or is open.
-    seconds : float
-        Time taken by the solution [s].
-    version : str
-        Version of ehlectric that solved the point.
-    """
-
-    number: int
-    inputs: Mapping[str, Any]
-    status: Status
-    reason: str = ""
-    summary: Mapping[str, Any] | None = None
-    seconds: float = 0.0
-    version: str = ""
-
-    @property
-    def solved(self) -> bool:
-        """Whether the point converged. Its numbers must still not be used if it is ``doubtful``."""
-        return self.status == "solved"
-
-    @property
-    def warnings(self) -> tuple[ResultWarning, ...]:
-        """Warnings of the summary; empty if the point has no summary."""
-        return warnings_of(self.summary or {})
-
-    @property
-    def doubtful(self) -> bool:
-        """Whether the point is solved, but has a severe warning: its film must not be used.
-
-        Examples
-        --------
-        >>> warned = {"warnings": ["the film may be 32 % off"], "warning_codes": ["grid-far-too-coarse"]}
-        >>> Point(0, {}, "solved", summary=warned).doubtful
-        True
-        """
-        return self.solved and any(warning.severity == "severe" for warning in self.warnings)
-
-
-@dataclass(frozen=True)
-class SweepResults:
+@dataclass(frozen=True, eq=False, repr=False)
+class SweepResults(Shown, SweepPoints):
     """Results of a sweep, complete or still in progress.
 
     Attributes
@@ -105,8 +39,7 @@ class SweepResults:
     ranges : mapping
         Range of each varied key of a "sobol" design, in the order of the input; empty for other designs.
     samples : int
-        Base samples n of a "sobol" design; 0 for other designs. The points are the n rows of A, then the n
-        rows of B. For each varied key k, the n rows of A follow with column k of B.
+        Base samples n of a "sobol" design; 0 for other designs.
     points : tuple of Point
         All points in the order of the design; in a "grid" the last varied key varies fastest.
     seed : int
@@ -114,25 +47,6 @@ class SweepResults:
     title : str
         Title of the sweep, for figures.
     """
-
-    case: AnyCase
-    design: str
-    axes: Mapping[str, tuple[Any, ...]]
-    ranges: Mapping[str, Range]
-    samples: int
-    points: tuple[Point, ...]
-    seed: int = 0
-    title: str = ""
-
-    @property
-    def varied(self) -> tuple[str, ...]:
-        """Dotted keys of the case that vary, in the order of the input."""
-        return tuple(self.ranges if self.design == "sobol" else self.axes)
-
-    @property
-    def doubtful(self) -> Mask:
-        """Mask of the points that are solved, but have a severe warning, shape (points,)."""
-        return np.array([point.doubtful for point in self.points], dtype=bool)
 
     def values(self, key: str) -> Array:
         """Value of a key of the summary at every point.
@@ -147,30 +61,81 @@ class SweepResults:
         ndarray, shape (points,)
             Values in SI units, doubtful points included; NaN where a point is not solved, or its summary has
             no number at this key.
+
+        Raises
+        ------
+        InputError
+            If ``key`` is neither a varied key nor a key of the summary; the message has the nearest key.
         """
+        if key in self.varied:
+            return np.array([as_number(point.inputs.get(key)) for point in self.points])
+        self._check(key)
         column = [flat(point.summary or {}).get(key) if point.solved else None for point in self.points]
         return np.array([as_number(value) for value in column])
 
+    def _check(self, key: str) -> None:
+        """Raise an InputError for a key that no summary has and that is not documented."""
+        rows = [flat(point.summary) for point in self.points if point.solved and point.summary]
+        if any(key in row for row in rows) or key_of(result_keys(self.case), key) is not None:
+            return
+        known = list(numbers_of(self)) or list(result_keys(self.case))
+        table = key.partition(".")[0] + "."
+        alike = [name for name in known if name.startswith(key) or name.endswith(f".{key}")]
+        within = [name for name in known if name.startswith(table)]
+        raise InputError.unknown(key, alike[0] if alike else nearest(key, within or known))
 
-def flat(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
-    """Values of nested tables by dotted key, in their order; items of lists are numbered from 0.
+    def summary(self) -> dict[str, Any]:
+        """Number of points of each status, and the design of the sweep.
 
-    Examples
-    --------
-    >>> flat({"film": {"minimum_thickness": 1e-7, "minimum_position": [0.0, 2e-4]}})
-    {'film.minimum_thickness': 1e-07, 'film.minimum_position.0': 0.0, 'film.minimum_position.1': 0.0002}
-    """
-    values: dict[str, Any] = {}
-    for name, value in table.items():
-        if isinstance(value, Mapping):
-            values |= flat(value, f"{prefix}{name}.")
-        elif isinstance(value, list | tuple) and value:
-            values |= flat({str(k): item for k, item in enumerate(value)}, f"{prefix}{name}.")
-        else:
-            values[prefix + name] = value
-    return values
+        Returns
+        -------
+        dict
+            ``title``, ``design``, ``varied``, ``points`` (number of all points), the numbers of points that
+            are ``solved``, ``not converged``, ``failed`` and ``open``, and the time ``seconds`` [s].
+        """
+        counts = Counter(point.status for point in self.points)
+        states: tuple[Status, ...] = ("solved", "not converged", "failed", "open")
+        return {
+            "title": self.title or self.case.title,
+            "design": self.design,
+            "varied": list(self.varied),
+            "points": len(self.points),
+            **{status: counts[status] for status in states},
+            "seconds": sum(point.seconds for point in self.points),
+        }
 
+    def to_xarray(self) -> xr.Dataset:
+        """Dataset of inputs and results, over the varied keys in a "grid" design, the same as sweep.nc."""
+        return dataset_of(self)
 
-def as_number(value: Any) -> float:
-    """Value as a float; NaN if it is not a number."""
-    return float(value) if isinstance(value, int | float) else math.nan
+    def to_dataframe(self) -> pd.DataFrame:
+        """Points as a table of pandas, a row for each.
+
+        Returns
+        -------
+        pandas.DataFrame
+            Columns by dotted key as in sweep.csv, SI units; NaN where a point is not solved.
+            ``attrs["units"]`` has the unit of each column of numbers.
+        """
+        import pandas as pd
+
+        columns = columns_of(self)
+        units = {key: unit_of_column(self, key) for key in columns}
+        frame = pd.DataFrame(columns)
+        frame.attrs["units"] = {key: unit for key, unit in units.items() if unit is not None}
+        return frame
+
+    def headline(self) -> str:
+        """Title, number of points, varied keys and status on one line."""
+        counts = self.summary()
+        others = [f"{counts[status]} {status}" for status in ("not converged", "failed", "open")]
+        return headline(
+            str(counts["title"]),
+            f"{self.design} of {len(self.points)} points over {', '.join(map(self._name, self.varied))}",
+            f"{counts['solved']} solved",
+            *(text for text in others if not text.startswith("0 ")),
+            verdict=getattr(self, "verdict", None),
+        )
+
+    def _name(self, key: str) -> str:
+        return label_of(key, self.case).name

@@ -20,6 +20,7 @@ from ehlectric.sweep.plan import Outcome, Planned, plan
 from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.store import LOCK, NAME, Store, read_sweep
 from ehlectric.sweep.tables import FILES, write_tables
+from ehlectric.sweep.verdict import sweep_verdict
 from ehlectric.sweep.warnings import sweep_warnings
 
 
@@ -31,7 +32,7 @@ def run_sweep(
     *,
     workers: int | None = None,
 ) -> SweepResults:
-    """Solve the points of a sweep that its folder does not have yet, and write its tables.
+    """Solve a sweep, except the points that its folder already has, and write its tables.
 
     Parameters
     ----------
@@ -43,7 +44,7 @@ def run_sweep(
         Executor of concurrent.futures that solves the points; it is not shut down here. By default, processes
         of this machine solve them.
     progress : callable, optional
-        Called with the number of points done, the number of all points, and a text.
+        Called with the number of solved points, the number of all points, and a message.
     workers : int, optional
         Number of processes of this machine; by default as many as there are cores.
 
@@ -85,8 +86,9 @@ def run(
     progress: Progress = silent,
     *,
     solvers: AbstractContextManager[Crew] | None = None,
+    others: Sequence[str] = (),
 ) -> RunOutcome[SweepResults]:
-    """Solve the points of a sweep that its folder does not have yet, and write its tables.
+    """Solve a sweep, except the points that its folder already has, and write its tables.
 
     Parameters
     ----------
@@ -95,15 +97,19 @@ def run(
     folder : str or Path
         Folder of sweep.sqlite and of the tables; it is made if it does not exist.
     progress : callable, optional
-        Called with the number of points done, the number of all points, and a text.
+        Called with the number of solved points, the number of all points, and a message.
     solvers : context manager of Crew, optional
         Crew that solves the points. It is entered when the sweep is known to have valid cases. By default,
         as many processes as there are cores.
+    others : sequence of str, optional
+        Names of other files in the folder that belong to an earlier result, such as figures. They are removed
+        before the points are solved.
 
     Returns
     -------
     RunOutcome
-        Its summary is the number of points of each status. It has a ``failure`` where no point is solved.
+        Its summary is the number of points of each status, and the verdict as text where points have a
+        margin. It has a ``failure`` where no point is solved.
 
     Raises
     ------
@@ -116,19 +122,22 @@ def run(
     planned = planned_points(sweep)
     with ExitStack() as crews:
         working = crews.enter_context(crew(None, None) if solvers is None else solvers)
-        folder = prepare(folder, (NAME, LOCK, *FILES))
+        folder = prepare(folder, (NAME, LOCK, *FILES, *others))
         with Store(folder) as store:
             store.begin(sweep, planned)
-            clear(folder, FILES)
+            clear(folder, (*FILES, *others))
             _solve(sweep, store, planned, working, progress)
             # The crew leaves before the tables are written: a cluster can be used for something else.
             crews.close()
             results = read_sweep(folder)
             write_tables(results, folder)
     files = tuple(folder / name for name in FILES if (folder / name).exists())
-    counts: dict[str, int] = dict(Counter(str(point.status) for point in results.points))
-    failure = None if "solved" in counts else f"none of {len(results.points)} points was solved"
-    return RunOutcome(results, counts, files, tuple(sweep_warnings(results)), failure)
+    summary: dict[str, Any] = dict(Counter(str(point.status) for point in results.points))
+    failure = None if "solved" in summary else f"none of {len(results.points)} points was solved"
+    verdict = sweep_verdict(results)
+    if verdict is not None:
+        summary["verdict"] = verdict.text
+    return RunOutcome(results, summary, files, tuple(sweep_warnings(results)), failure)
 
 
 def planned_points(sweep: Sweep) -> list[Planned]:

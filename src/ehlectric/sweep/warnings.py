@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
-from ehlectric.errors import ResultWarning
-from ehlectric.sweep.results import SweepResults
+from ehlectric.errors import CODES, ResultWarning
+from ehlectric.sweep.results import Point, SweepResults
 from ehlectric.sweep.sensitivity import Sensitivity
 from ehlectric.version import __version__
 
@@ -15,13 +15,10 @@ _WIDE = 0.1
 
 
 def sweep_warnings(results: SweepResults) -> Iterator[ResultWarning]:
-    """Warnings about solved points that have warnings of their own, and about points of other versions."""
+    """Kinds of warnings and notes that solved points have, and warnings about points of other versions."""
     solved = [point for point in results.points if point.solved]
-    warned, doubtful = sum(bool(point.warnings) for point in solved), sum(results.doubtful)
-    where = "which the column warnings of sweep.csv has"
-    if warned:
-        text = f"{warned} of {len(solved)} solved points have warnings, {where}"
-        yield ResultWarning("points-with-warnings", text)
+    doubtful = sum(results.doubtful)
+    yield from _kinds(solved)
     if doubtful:
         points = f"{doubtful} of {len(solved)} solved points have a film that is not to be used"
         text = f"{points}, as their warnings say: maps and lines leave them out"
@@ -31,6 +28,18 @@ def sweep_warnings(results: SweepResults) -> Iterator[ResultWarning]:
         kept = f"{count} points were solved by version {version} and are kept"
         text = f"{kept}; in a new folder {__version__} solves them"
         yield ResultWarning("points-of-another-version", text)
+
+
+def _kinds(solved: Sequence[Point]) -> Iterator[ResultWarning]:
+    """One warning or note for each kind that solved points have, with their number; notes come last."""
+    counts = Counter(code for point in solved for code in {warning.code for warning in point.warnings})
+    for code, count in sorted(counts.items(), key=lambda kind: (CODES[kind[0]].severity == "note", -kind[1])):
+        meaning, have = CODES[code].meaning, f"{count} of {len(solved)} solved points have the"
+        about = f"{code}: {meaning[0].lower()}{meaning[1:].rstrip('.')}"
+        if CODES[code].severity == "note":
+            yield ResultWarning("points-with-notes", f"{have} note {about}")
+        else:
+            yield ResultWarning("points-with-warnings", f"{have} warning {about}")
 
 
 def sensitivity_warnings(sensitivity: Sensitivity) -> Iterator[ResultWarning]:

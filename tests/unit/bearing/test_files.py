@@ -61,11 +61,16 @@ def test_the_other_files_are_the_summary_and_its_tables(result, tmp_path):
     assert summary == json.loads(json.dumps(result.summary()))
     with (tmp_path / CONTACTS).open(newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
-    assert [float(row["load"]) for row in rows] == [row["load"] for row in summary["contacts"]]
+    assert [float(row["load [N]"]) for row in rows] == [row["load"] for row in summary["contacts"]]
+    angles = [float(row["contact_angle [rad]"]) for row in rows]
+    assert angles == [row["contact_angle"] for row in summary["contacts"]]
+    assert {"element", "ring", "solved", "lambda_ratio [-]"} <= set(rows[0])
     with (tmp_path / IMPEDANCE).open(newline="", encoding="utf-8") as file:
         lines = list(csv.DictReader(file))
     impedance = impedance_of(result.solution)
-    np.testing.assert_allclose([float(row["magnitude"]) for row in lines], impedance.magnitude, rtol=1e-12)
+    np.testing.assert_allclose(
+        [float(row["magnitude [ohm]"]) for row in lines], impedance.magnitude, rtol=1e-12
+    )
 
 
 def changed(result, **values):

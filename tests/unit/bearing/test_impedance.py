@@ -8,7 +8,6 @@ from typer.testing import CliRunner
 from ehlectric.bearing.circuit import impedance
 from ehlectric.bearing.impedance import impedance_of, oil_relaxation_time
 from ehlectric.commands.app import app
-from ehlectric.figures.bearing import circuit as bearing_circuit_plot
 from tests.unit.figures.bearing.test_save import TABLE, by_hand
 
 
@@ -19,28 +18,25 @@ def result():
 
 def test_impedance_is_that_of_the_capacitance_where_all_is_oil(result):
     """Then every contact has the same time constant, and so has the bearing."""
-    frequency, magnitude = bearing_circuit_plot.impedance_magnitude(result).get_lines()[0].get_data()
+    found = impedance_of(result.solution)
     tau = oil_relaxation_time(result.solution)
-    z = impedance(result.capacitance("oil"), tau, frequency)
-    np.testing.assert_allclose(magnitude, np.abs(z), rtol=1e-9)
+    z = impedance(result.capacitance("oil"), tau, found.frequency)
+    np.testing.assert_allclose(found.magnitude, np.abs(z), rtol=1e-9)
     corner = 1.0 / (2.0 * np.pi * tau)
-    assert frequency[0] == pytest.approx(0.01 * corner, rel=1e-9)
-    assert frequency[-1] == pytest.approx(1e7, rel=1e-9)
-    ax = bearing_circuit_plot.impedance_phase(result)
-    curve, mark = ax.get_lines()
-    assert mark.get_xdata()[0] == pytest.approx(corner, rel=1e-12)
-    at_corner = np.interp(np.log(corner), np.log(curve.get_xdata()), curve.get_ydata())
+    assert found.corner == pytest.approx(corner, rel=1e-12)
+    assert found.frequency[0] == pytest.approx(0.01 * corner, rel=1e-9)
+    assert found.frequency[-1] == pytest.approx(1e7, rel=1e-9)
+    at_corner = np.interp(np.log(corner), np.log(found.frequency), found.phase)
     assert at_corner == pytest.approx(-45.0, abs=0.05)
 
 
 def test_air_does_not_leak():
     """High up the impedance is that of all capacitances, far down it is above what oil alone would have."""
     result = by_hand(bearing={"fill": "air"})
-    frequency, magnitude = bearing_circuit_plot.impedance_magnitude(result).get_lines()[0].get_data()
-    assert magnitude[-1] * 2.0 * np.pi * frequency[-1] * result.capacitance("air") == pytest.approx(
-        1.0, rel=1e-6
-    )
-    assert magnitude[0] > 1.1 * oil_relaxation_time(result.solution) / result.capacitance("oil")
+    found = impedance_of(result.solution)
+    high = found.magnitude[-1] * 2.0 * np.pi * found.frequency[-1] * result.capacitance("air")
+    assert high == pytest.approx(1.0, rel=1e-6)
+    assert found.magnitude[0] > 1.1 * oil_relaxation_time(result.solution) / result.capacitance("oil")
 
 
 def test_the_impedance_of_an_earlier_bearing_is_taken_away(monkeypatch, tmp_path):

@@ -106,15 +106,15 @@ def test_films_that_take_up_the_clearance_are_warned_of(temperature, warned):
     texts = about(result, "clearance")
     assert len(texts) == warned
     if warned:
-        assert f"{1e6 * films:.2g} um, beside a clearance of 10 um" in texts[0]
+        assert f"{1e6 * films:.2g} µm together, compared with a clearance of 10 µm" in texts[0]
 
 
 def test_films_of_preloaded_elements_stand_beside_their_approach():
     changes = {"bearing__radial_clearance": "-2 um", "bearing__radial_load": "1 kN"}
     changes |= {"bearing__axial_load": 0.0}
     thick = by_formula(BALLS, **VG_460, bearing__temperature="20 degC", **changes)
-    assert len(about(thick, "elements pressed in by")) == 1
-    assert not about(by_formula(BALLS, **changes), "pressed in by")
+    assert len(about(thick, "compared with an elastic approach of")) == 1
+    assert not about(by_formula(BALLS, **changes), "an elastic approach of")
 
 
 def test_the_shoulder_is_as_high_as_it_says():
@@ -137,7 +137,7 @@ def test_the_shoulder_is_as_high_as_it_says():
 def test_ellipses_over_the_shoulder_are_warned_of(changes, rings):
     """Angle and half of the ellipse over f D, from the rows, beside arccos(1 - H/f)."""
     result = by_formula(BALLS, **changes)
-    texts = about(result, "the shoulder cuts it off")
+    texts = about(result, "the shoulder truncates the ellipse")
     assert len(texts) == rings
     end = math.acos(1.0 - changes.get("bearing__shoulder_height", 0.2) / 0.52)
     rows = [row for row in result.contacts() if row["load"] > 0.0]

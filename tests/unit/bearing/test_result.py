@@ -193,8 +193,8 @@ BREAKS = (
     [
         (0.5, "conducting", "surfaces touch and conduct"),
         (0.99, "conducting", "surfaces touch and conduct"),
-        (1.01, "partial film", "surfaces may touch, voltages are upper bounds"),
-        (2.99, "partial film", "surfaces may touch, voltages are upper bounds"),
+        (1.01, "partial film", "surfaces may touch, so breakdown voltages are upper bounds"),
+        (2.99, "partial film", "surfaces may touch, so breakdown voltages are upper bounds"),
         (3.01, "full film", None),
     ],
 )
@@ -244,7 +244,9 @@ def test_ceramic_elements(rollers):
     ceramic = BearingResult(dataclasses.replace(solution, conditions=conditions))
     found = strict(ceramic.summary())
     assert {found["bearing"][key] for key in BREAKS} == {None}
-    bounds = [text for text in found["warnings"] if "upper bound, that of conducting ones" in text]
+    bounds = [
+        text for text in found["warnings"] if "upper bound, computed as for conducting elements" in text
+    ]
     assert len(bounds) == 1
     assert "no shaft voltage follows from it" in bounds[0]
     assert found["bearing"]["bearing_voltage_ratio"] is None
@@ -338,15 +340,18 @@ def test_what_some_contacts_share_names_their_loads(rollers):
 
 
 def test_film_factor_is_told(rollers):
-    assert any(text.startswith("film_factor none:") for text in map(str, rollers.warnings()))
+    assert any(text.startswith("bearing.film_factor is none:") for text in map(str, rollers.warnings()))
     assert rollers.summary()["bearing"]["film_factor"] == 1.0
     conditions = dataclasses.replace(rollers.solution.conditions, film_factor=0.7)
     lean = BearingResult(dataclasses.replace(rollers.solution, conditions=conditions))
-    assert not any(text.startswith("film_factor none:") for text in map(str, lean.warnings()))
+    assert not any(text.startswith("bearing.film_factor is none:") for text in map(str, lean.warnings()))
     assert lean.summary()["bearing"]["film_factor"] == 0.7
     # A one that is given is told as what it is.
     one = with_bearing(rollers, film_factor=1.0)
-    assert any(text.startswith("film_factor 1: the film is isothermal") for text in map(str, one.warnings()))
+    assert any(
+        text.startswith("bearing.film_factor is 1: the films are isothermal")
+        for text in map(str, one.warnings())
+    )
 
 
 def test_pure_axial_load_is_shared_equally(axial):
@@ -379,7 +384,7 @@ def test_a_doubt_about_the_oil_is_said_once():
     given = bearing_case(BALLS, contacts="formula", lubricant__pressure_viscosity_coefficient="10 1/GPa")
     told = [text for text in map(str, solve_bearing(given).warnings()) if "roelands_z" in text]
     assert len(told) == 1
-    assert told[0].startswith("roelands_z is 0.67")
+    assert told[0].startswith("lubricant.roelands_z is 0.67")
     barus = {"lubricant__viscosity_law": "barus", "lubricant__pressure_viscosity_coefficient": "18 1/GPa"}
     found = solve_bearing(bearing_case(BALLS, contacts="formula", **barus))
     told = [text for text in map(str, found.warnings()) if "Barus" in text]
@@ -390,7 +395,7 @@ def test_a_doubt_about_the_oil_is_said_once():
         f"{len(those)} {ring} contacts at {those[0]:.4g} to {those[-1]:.4g} N"
         for ring, those in zip(("inner", "outer"), heavy, strict=True)
     ]
-    assert told[0].startswith(", ".join(names) + ": Barus' law")
+    assert told[0].startswith(", ".join(names) + ": the Hertz pressure is above 0.5 GPa")
 
 
 @pytest.mark.slow

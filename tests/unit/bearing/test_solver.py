@@ -8,7 +8,8 @@ import pytest
 from ehlectric import InputError
 from ehlectric.bearing.preparation import LOADS, least_load
 from ehlectric.bearing.result import BearingResult
-from ehlectric.bearing.solver import POSITIONS, check_bearing, solve_bearing
+from ehlectric.bearing.solver import check_bearing, solve_bearing
+from ehlectric.bearing.solving.contacts_and_circuit import POSITIONS
 from ehlectric.contact.resolve import resolve, resolve_point
 from ehlectric.errors import MemoryLimitError
 from ehlectric.formulas.film_point import PointContact, chittenden

@@ -6,7 +6,8 @@ from pathlib import Path
 import pytest
 
 from ehlectric import Case, InputError, Sweep, solve
-from ehlectric.commands.runs import check, run_motion
+from ehlectric.commands.meaning import check
+from ehlectric.commands.runs import run_motion
 from ehlectric.motion.contact import TransientContact
 from tests.helpers.moving_cases import LINE, POINT, moving
 
@@ -103,7 +104,8 @@ def test_a_motion_that_is_none():
 
 @pytest.mark.parametrize("table", [LINE, POINT], ids=["line", "point"])
 def test_a_film_at_rest_is_not_that_of_a_moving_case(table):
-    text = "motion: got [motion] where a stationary film is solved; expected run_motion, or a case without it"
+    text = "motion: is a table of transient contacts; expected solve_motion(case), run_motion(case, folder), "
+    text += "or a case without it"
     with pytest.raises(InputError, match=f"^{re.escape(text)}$"):
         solve(moving(table))
 

@@ -231,7 +231,7 @@ WARNINGS = [
     (
         {"load": "5 mN"},
         {"ambient_pressure": 0.0},
-        "isoviscous-rigid regime: .* semi-axes, which grid.inlet must hold",
+        "isoviscous-rigid regime: .* semi-axes: check that grid.inlet is at most -",
     ),
     ({"max_hertz_pressure": "20 MPa", "load": None}, {}, "ambient pressure carries 8.6 % of the load"),
     ({"max_hertz_pressure": "4.3 GPa", "load": None}, {}, "permanently above 4.2 GPa in point contacts"),

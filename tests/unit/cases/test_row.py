@@ -51,11 +51,34 @@ def test_values_by_dotted_key():
     assert [value_at(table, key) for key in ("a.b.2", "a.b.x", "a.c", "n.b")] == [None] * 4
 
 
-def test_a_terminal_shows_name_value_unit_and_note():
-    table = table_of([Row("first", 1e-6, "µm", ", here"), Row("WRONG", note="x", alarm=True)], "Title [m]")
-    cells = [list(column.cells) for column in table.columns]
-    assert cells == [["first", "WRONG"], ["1", ""], ["µm, here", "x"]]
-    assert [row.style for row in table.rows] == [None, "red"]
+@pytest.mark.parametrize(
+    ("row", "text"),
+    [
+        (Row("minimum film", 1e-6, "µm", ", here"), "1 µm, here"),
+        (Row("minimum film", 1e-6, "µm", " at x/b = 1"), "1 µm at x/b = 1"),
+        (Row("residual", 1e-9, note="after 3 steps", digits=".1e"), "1.0e-09 after 3 steps"),
+        (Row("ratio", 0.5, note=", of all"), "0.5, of all"),
+        (Row("WRONG", note="x", alarm=True), "x"),
+        (Row("film"), ""),
+    ],
+)
+def test_value_unit_and_note_are_one_string(row, text):
+    assert row.text == text
+    assert row.heading == (text == "")
+
+
+def test_a_terminal_shows_names_values_and_headings():
+    rows = [
+        Row("first", 1e-6, "µm", ", here"),
+        Row("film"),
+        Row("h [m]", 2.0),
+        Row("WRONG", note="x", alarm=True),
+    ]
+    table = table_of(rows, "Title [m]")
+    cells = [[str(cell) for cell in column.cells] for column in table.columns]
+    assert cells == [["first", "film", "  h [m]", "  WRONG"], ["1 µm, here", "", "2", "x"]]
+    assert [row.style for row in table.rows] == [None, "bold", None, "red"]
+    assert [column.justify for column in table.columns] == ["left", "left"]
     assert str(table.title) == "Title [m]"
 
 

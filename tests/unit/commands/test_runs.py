@@ -8,7 +8,10 @@ import pytest
 
 import ehlectric
 from ehlectric import InputError, read_sweep
-from ehlectric.commands.runs import RUNS, kind_of_file, load, load_and_draw, run, run_and_draw
+from ehlectric.commands.drawing import load_and_draw
+from ehlectric.commands.kinds import kind_of_file
+from ehlectric.commands.results import load
+from ehlectric.commands.runs import RUNS, run, run_and_draw
 from ehlectric.runtime.outcome import RunOutcome
 from tests.helpers.places import EXAMPLES
 
@@ -182,9 +185,12 @@ def test_a_file_that_is_no_result_is_not_loaded(files, tmp_path):
         load(tmp_path / "no.nc")
     with pytest.raises(InputError, match=r"contact\.toml: is not a NetCDF file$"):
         load(files["contact"])
-    run(files["motion"], tmp_path / "out")
-    with pytest.raises(InputError, match=r"motion\.nc: is not a result of ehlectric, or damaged$"):
-        load(tmp_path / "out" / "motion.nc")
+    (tmp_path / "motion.nc").write_bytes(b"damaged")
+    with pytest.raises(InputError, match=r"motion\.nc: is no motion of ehlectric, or damaged$"):
+        load(tmp_path)
+    (tmp_path / "empty").mkdir()
+    with pytest.raises(InputError, match=r"empty: has no result; expected a folder with result\.nc, "):
+        load(tmp_path / "empty")
 
 
 def test_runs_need_no_terminal_and_no_figures():

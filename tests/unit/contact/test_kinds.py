@@ -15,6 +15,7 @@ from ehlectric.contact.conditions import line_conditions, point_conditions
 from ehlectric.contact.kinds import KINDS
 from ehlectric.contact.results import RESULTS
 from ehlectric.contact.solver import OWN, solve_contact
+from ehlectric.contact.solver import solve as solve_prepared
 from ehlectric.surfaces import rough_maps, rough_profiles
 from ehlectric.surfaces.files import read_surface
 from tests.helpers.places import DEKTAK
@@ -142,7 +143,7 @@ def test_prepared_surfaces_are_those_that_are_solved(geometry):
     """A contact whose surfaces were prepared for another case is solved with those."""
     case = case_of(geometry, roughness=[MADE])
     higher = check_case(case.replace({"roughness.1.amplitude": "10 nm"}))
-    plain, other = (solve(case, prepared=one, beside_smooth=False) for one in (None, higher))
+    plain, other = (solve_prepared(case, prepared=one, beside_smooth=False) for one in (None, higher))
     np.testing.assert_allclose(other.roughness, 2.0 * plain.roughness, rtol=1e-12)
 
 

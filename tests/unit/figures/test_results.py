@@ -1,9 +1,11 @@
 """Figures of any result by name: in the style of the package, with the settings of matplotlib as before."""
 
+import re
 import subprocess
 import sys
 import threading
 import warnings
+from xml.etree import ElementTree
 
 import matplotlib as mpl
 import pytest
@@ -17,7 +19,7 @@ from ehlectric.figures.contact.line import FIGURES
 from ehlectric.figures.contact.point import POINT_FIGURES
 from ehlectric.figures.motion import save as of_motions
 from ehlectric.figures.results import draw_figures, figure_names
-from ehlectric.figures.style import style
+from ehlectric.figures.style import name_over, new_panels, style
 from ehlectric.figures.sweep import save as of_sweeps
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.stored_run import MotionRun
@@ -25,6 +27,7 @@ from tests.conftest import PAPER_CONTACT
 from tests.helpers.bearings import BALLS, bearing_case
 from tests.helpers.moving_cases import moving
 from tests.helpers.sweep_models import LOAD, SPEED, breakdown, grid
+from tests.helpers.titles import title_of
 
 OIL = {"base": "paper"}
 ROUGH = {"surface": 1, "generator": "sinusoid", "amplitude": "5 nm", "wavelength": "100 um"}
@@ -52,11 +55,6 @@ def motion(tmp_path_factory):
     return read_motion(folder)
 
 
-def titles(drawn):
-    text = drawn.get_suptitle() + "".join(ax.get_title(loc="left") for ax in drawn.axes)
-    return text.splitlines()
-
-
 def test_names_are_those_of_the_tables_of_figures():
     assert tuple(FIGURES) == names.FIGURE_FILES
     assert tuple(POINT_FIGURES) == names.POINT_FIGURE_FILES
@@ -78,7 +76,7 @@ def test_figures_of_a_contact(kind, tmp_path):
     assert tuple(figure_names(result)) == expected
     drawn = figure(result, expected[0])
     assert isinstance(drawn, Figure)
-    assert titles(drawn)[0] == "By name"
+    assert "By name" in [*title_of(drawn), drawn.axes[0].get_title(loc="left")]
     with pytest.raises(InputError, match=rf"^figure: got 'roughness\.png'; expected one of {expected[0]}, "):
         figure(result, "roughness.png")
     files = save_figures(result, tmp_path)
@@ -97,7 +95,7 @@ def test_the_roughness_is_among_the_figures_of_a_rough_contact():
 
 def test_figures_of_a_bearing(bearing, tmp_path):
     assert tuple(figure_names(bearing)) == names.BEARING_FIGURE_FILES
-    assert len(figure(bearing, "bearing_circuit.png").axes) == 3
+    assert len(figure(bearing, "bearing_circuit.png").axes) == 2
     over_speed = figure(bearing, "capacitance_over_speed.png")
     assert over_speed.axes[0].get_xlabel().endswith("[rpm]")
     with pytest.raises(
@@ -167,3 +165,70 @@ def test_threads_that_draw_take_turns():
     thread.join()
     assert events == ["first", "second"]
     assert dict(mpl.rcParams) == before
+
+
+@pytest.fixture(scope="module")
+def line():
+    return contact("line")
+
+
+def test_files_of_each_format_are_whole_and_say_the_finding(line, tmp_path):
+    """The title is in the metadata, no date is, and the same figure gives the same bytes again."""
+    drawn = draw_figures(line, tmp_path, names.FORMATS)
+    assert [file.name for file in drawn.files] == list(names.in_formats(names.FIGURE_FILES, names.FORMATS))
+    png, svg, pdf = (tmp_path / name for name in names.in_formats(["film.png"], names.FORMATS))
+    title = figure(line, "film").get_label()
+    assert title.endswith("By name")
+    with Image.open(png) as image:
+        assert image.info["Title"] == title
+    root = ElementTree.parse(svg).getroot()
+    assert root.tag == "{http://www.w3.org/2000/svg}svg"
+    assert title in "".join(root.itertext())
+    assert pdf.read_bytes().startswith(b"%PDF")
+    assert b"/Type42" in pdf.read_bytes() or b"/FontFile2" in pdf.read_bytes()
+    again = tmp_path / "again"
+    again.mkdir()
+    draw_figures(line, again, names.FORMATS)
+    for file in (png, svg, pdf):
+        assert (again / file.name).read_bytes() == file.read_bytes()
+        assert b"Date" not in file.read_bytes()
+
+
+def test_a_journal_figure_is_a_column_wide_without_its_title(line, tmp_path):
+    save_figures(line, tmp_path, ("pdf", "png"), "journal")
+    box = re.search(rb"/MediaBox \[ 0 0 ([\d.]+) ([\d.]+) \]", (tmp_path / "film.pdf").read_bytes())
+    assert float(box[1]) / 72.0 * 25.4 == pytest.approx(84.0, abs=0.01)
+    with Image.open(tmp_path / "film.png") as image:
+        assert image.size[0] / image.info["dpi"][0] * 25.4 == pytest.approx(84.0, abs=0.1)
+    screen, journal = figure(line, "film.png"), figure(line, "film.png", style="journal")
+    assert journal.get_label() == screen.get_label()
+    assert title_of(screen)
+    assert not title_of(journal)
+    assert journal.axes[0].xaxis.label.get_size() == 8.0
+    wide = contact("point")
+    assert figure(wide, "cuts.png", style="journal").get_figwidth() * 25.4 == pytest.approx(174.0)
+
+
+def test_an_unconverged_figure_says_so_in_a_journal_too():
+    with style("journal"):
+        ax = new_panels(1, 1, (6.3, 3.4))[0]
+        name_over(ax, "NOT CONVERGED\nBy hand", converged=False)
+    assert title_of(ax.figure) == ["NOT CONVERGED"]
+    assert ax.figure._suptitle.get_color() == "red"
+
+
+def test_unknown_formats_and_styles_are_refused(line, tmp_path):
+    with pytest.raises(InputError, match=r"^format: got 'jpg'; expected one of png, svg, pdf$"):
+        save_figures(line, tmp_path, ("jpg",))
+    with pytest.raises(InputError, match=r"^style: got 'book'; expected one of screen, journal$"):
+        save_figures(line, tmp_path, style="book")
+    assert not list(tmp_path.iterdir())
+
+
+def test_long_titles_are_broken_and_none_of_their_lines_is_lost():
+    with style():
+        ax = new_panels(1, 1, (3.0, 2.0))[0]
+        name_over(ax, f"{'finding ' * 12}\n{'case ' * 20}")
+    assert " ".join(title_of(ax.figure)) == f"{'finding ' * 12}{'case ' * 20}".strip()
+    ax.figure.draw_without_rendering()
+    assert ax.figure._suptitle.get_window_extent().x1 < ax.figure.bbox.x1

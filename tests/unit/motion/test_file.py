@@ -39,7 +39,7 @@ def run(case, folder, until=None):
 
     def progress(done, of, text):
         told.append((done, of, text))
-        if until is not None and done >= until and text == "in time":
+        if until is not None and done >= until and text == "time steps":
             raise StoppedError
 
     with suppress(StoppedError):
@@ -48,10 +48,10 @@ def run(case, folder, until=None):
 
 
 def of_step(done, of=12):
-    return (done, of, "in time")
+    return (done, of, "time steps")
 
 
-ANEW = [(0, 12, "before the motion"), of_step(0), of_step(4), of_step(8), of_step(12)]
+ANEW = [(0, 12, "film before the motion"), of_step(0), of_step(4), of_step(8), of_step(12)]
 
 
 def same(one, other):
@@ -73,7 +73,7 @@ def written(tmp_path_factory):
 
     def progress(*what):
         told.append(what)
-        if what[2] == "in time":
+        if what[2] == "time steps":
             files[what[0]] = (folder / MOTION).read_bytes()
 
     run_motion(CASE, folder, progress=progress)
@@ -371,13 +371,13 @@ def test_a_step_that_is_not_solved_leaves_what_was_found(tmp_path, monkeypatch, 
 
 def test_a_film_before_the_motion_that_is_not_found(tmp_path):
     case = CASE.replace({"solver.max_iterations": 1})
-    with pytest.raises(ConvergenceError, match=r"^film before the motion "):
+    with pytest.raises(ConvergenceError, match=r"^film before the motion, "):
         run(case, tmp_path)
     assert not (tmp_path / MOTION).exists()
 
 
 def test_roughness_that_is_not_solved_held_still_has_no_maps(tmp_path, monkeypatch):
-    from ehlectric import solve
+    from ehlectric.contact.solver import solve
     from ehlectric.motion import run as motion_run
 
     def never(case, **keys):
@@ -390,13 +390,13 @@ def test_roughness_that_is_not_solved_held_still_has_no_maps(tmp_path, monkeypat
     assert part.attrs["stationary"] == "null"
     texts, codes = (json.loads(part.attrs[name]) for name in ("warnings", "warning_codes"))
     told = dict(zip(codes, texts, strict=True))["stationary-not-converged"]
-    assert told.startswith("the same roughness held still is not solved: ")
+    assert told.startswith("the film with stationary roughness did not converge (")
 
 
 def test_roughness_that_is_another_one_held_still_is_said(tmp_path):
     """Its Rq is of all that is made: three passes of it are another sample than one domain."""
     rough = {"surface": 1, "generator": "gaussian", "rq": 1e-9, "correlation_length": 6e-5, "seed": 1}
-    said = "of its height off that held still"
+    said = "the moving roughness differs from the stationary one"
     for extra, expected in (({}, False), ({"rescale_rq": 1e-9}, True)):
         case = moving(roughness=[rough | extra], motion={"passes": 3.0, "steps": 24, "record": 2})
         run(case, tmp_path, 0)

@@ -71,11 +71,11 @@ def test_the_steps_before_a_failure_are_summed_up(monkeypatch, tmp_path):
     outcome = run(CASE, tmp_path, lambda *what: told.append(what))
     assert outcome.failure == "not converged: step 7 of 12: film not found"
     assert (outcome.summary["converged"], outcome.summary["motion"]["steps_done"]) == (False, 4)
-    assert told[-1] == (4, 12, "in time")
+    assert told[-1] == (4, 12, "time steps")
 
 
 def test_without_a_film_before_the_motion_there_is_nothing_to_sum_up(tmp_path):
-    with pytest.raises(ConvergenceError, match=r"^film before the motion "):
+    with pytest.raises(ConvergenceError, match=r"^film before the motion, "):
         run(CASE.replace({"solver.max_iterations": 1}), tmp_path)
     assert not list(tmp_path.iterdir())
 

@@ -35,6 +35,7 @@ UNSTORED = {
     "viscosity-grade",
     "speed-left-out",
     "points-with-warnings",
+    "points-with-notes",
     "points-not-usable",
     "points-of-another-version",
     "rows-dropped",

@@ -162,8 +162,8 @@ def test_nothing_is_above_a_cut(extend):
     assert f"truncate cuts {100 * share:.2g} % of the points of surface 1" in said[0]
     # 200 and 296 points: the domain reaches 0.45 mm and 0.3 mm from the middle.
     assert said[1] == (
-        "surface 1 is 87.17 µm long along x and the domain needs 900 µm, and it is too short along y too: it "
-        f"was continued by extend = '{extend}'"
+        "surface 1 is 87.17 µm long along x, but the domain needs 900 µm (it is too short along y, too): it "
+        f"was continued by extend = '{extend}'; use a larger map to avoid this"
     )
 
 
@@ -181,7 +181,7 @@ def test_voids_are_filled_and_said(tmp_path):
     void = (51 + 160) / 2400
     assert surface.describe()["voids"] == pytest.approx(void)
     assert (
-        f"{100 * void:.2g} % of the map of surface 2 is void; voids within it were filled"
+        f"{100 * void:.2g} % of the map of surface 2 has no data; these voids were filled"
         in surface.warnings[0].text
     )
 
@@ -320,7 +320,7 @@ def test_shapes_finer_than_the_grid_are_said(table, message):
     else:
         assert len(said) == 1
         assert f"does not resolve {message}" in said[0] or message in said[0]
-        assert "its error estimate means nothing yet" in said[0]
+        assert "the error estimate is not meaningful" in said[0]
 
 
 @pytest.mark.parametrize("orientation", [0.0, 90.0, 30.0])
@@ -342,9 +342,9 @@ def test_variance_that_the_grid_misses_is_said():
     rough = SELF_AFFINE | {"hurst": 0.2, "rolloff_wavelength": "30 um", "shortest_wavelength": "2.5 um"}
     small = Domain(-2e-4, 2e-4, 2e-4)
     (said,) = texts_of(rough, domain=small)
-    assert "the grid, 2 x 2 µm, misses" in said
+    assert "the grid spacing of 2 x 2 µm misses" in said
     assert "of the variance of surface 1" in said
-    assert "cutoff_short of 8 µm or more" in said
+    assert "cutoff_short of at least 8 µm" in said
     # That cutoff does it.
     assert texts_of(rough | {"cutoff_short": "8 um"}, domain=small) == []
     assert texts_of(rough, dx=1e-6, dy=1e-6, domain=small) == []
@@ -360,7 +360,7 @@ def test_warnings_of_extended_profiles():
     for table, grid in ((across, (fine, coarse)), (along, (coarse, fine))):
         (said,) = texts_of(table, dx=grid[0], dy=grid[1])
         assert "was continued by extend = 'repeat'" in said
-    assert "µm long along y and the domain needs 600 µm" in said
+    assert "µm long along y, but the domain needs 600 µm" in said
 
 
 def test_one_seed_for_two_surfaces_is_said():

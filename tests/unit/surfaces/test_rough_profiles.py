@@ -130,7 +130,7 @@ def test_voids_of_the_line_that_is_used(tmp_path):
     (first, third) = surfaces_of({"surface": 1, "file": path}, {"surface": 2, "file": path, "line": 2})
     assert (first.describe()["voids"], first.warnings) == (0.0, ())
     assert third.describe()["voids"] == pytest.approx(3 / 31)
-    assert "9.7 % of the line of surface 2 is void" in third.warnings[0].text
+    assert "9.7 % of the line of surface 2 has no data" in third.warnings[0].text
     assert measured(case_of({"surface": 2, "file": path, "line": 2}).roughness[0]).warnings == third.warnings
 
 
@@ -158,7 +158,7 @@ def test_shapes_finer_than_the_grid_are_said(table, message):
         assert said == []
     else:
         assert len(said) == 1
-        assert f"does not resolve {message}: its error estimate means nothing yet" in said[0]
+        assert f"does not resolve {message}: the error estimate is not meaningful" in said[0]
 
 
 def test_variance_that_the_grid_misses_is_said():
@@ -170,7 +170,7 @@ def test_variance_that_the_grid_misses_is_said():
     rough = SELF_AFFINE | {"hurst": 0.3, "shortest_wavelength": "1 um"}
     (said,) = texts_of(rough, nodes=1601)
     assert "of the variance of surface 1" in said
-    assert "cutoff_short of 3.75 µm" in said
+    assert "cutoff_short of at least 3.75 µm" in said
     # That cutoff does it: nothing beyond is left.
     assert texts_of(rough | {"cutoff_short": "3.75 um"}, nodes=1601) == []
     assert texts_of(rough, nodes=12_801) == []

@@ -160,7 +160,9 @@ def test_samples_that_may_be_missing(tmp_path):
     """Where positions are whole spacings, a gap looks like rounding: it is said; elsewhere it is refused."""
     whole = read_surface(positions(tmp_path / "a.txt", np.delete(np.arange(200), 100)))
     assert len(whole.warnings) == 1
-    assert "1 of the 198 distances are twice the others, the first behind point 99" in whole.warnings[0].text
+    assert "1 of the 198 distances between positions are twice the others, the first after point 99" in (
+        whole.warnings[0].text
+    )
     for step in (0.5, 10.0):
         with pytest.raises(InputError, match="spacing is not uniform"):
             read_surface(positions(tmp_path / "a.txt", step * np.delete(np.arange(200), 100)))

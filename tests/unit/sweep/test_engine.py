@@ -11,12 +11,14 @@ import numpy as np
 import pytest
 
 from ehlectric import ConvergenceError, InputError, solve
+from ehlectric.bearing.speeds import over_speed
 from ehlectric.errors import LostError
 from ehlectric.runtime.workers import cores
 from ehlectric.sweep import engine as sweep_engine
 from ehlectric.sweep.engine import Crew, crew_of, processes, run_points, solve_point
 from ehlectric.sweep.plan import Outcome
 from ehlectric.version import __version__
+from tests.helpers.bearings import BALLS, bearing_case
 from tests.helpers.sweeps import CASE, DEADLY, NODES, SLOW, SPEED, solve_or_die
 
 
@@ -47,6 +49,23 @@ def with_deaths(crew):
     return replace(
         crew, submit=lambda call, *v: crew.submit(solve_or_die if call is solve_point else call, *v)
     )
+
+
+def test_points_of_bearings_do_not_pay_for_the_analysis_of_the_margin(monkeypatch):
+    """It would solve some fourteen bearings more for each point; the warning of a margin below 1 stays."""
+
+    def refuse(_solution):
+        raise AssertionError("the margin is analysed")
+
+    monkeypatch.setattr("ehlectric.bearing.result.analyse_margin", refuse)
+    case = bearing_case(BALLS, contacts="formula", discharge__dielectric_strength="1 V/um")
+    outcome = solve_point(case.to_dict())
+    assert outcome.status == "solved", outcome.reason
+    assert outcome.summary["bearing"]["margin"] < 1.0
+    assert "breakdown-expected" in outcome.summary["warning_codes"]
+    assert not {"verdict", "margin"} & outcome.summary.keys()
+    points, left_out = over_speed(case, count=2)
+    assert (len(points), left_out) == (2, [])
 
 
 def test_a_point_is_the_solution_of_its_case():

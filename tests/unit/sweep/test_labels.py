@@ -83,7 +83,7 @@ def test_every_entry_is_a_key_of_a_summary(summaries, kind):
     """
     keys = result_keys(case_of(kind))
     parts = {".".join(part for part in key.split(".") if not part.isdigit()) for key in summaries(kind)}
-    lists = {"discharge", "stationary", "beside_stationary", "contacts", "rough", "inputs"}
+    lists = {"discharge", "stationary", "beside_stationary", "contacts", "rough", "inputs", "margin.effects"}
     lists |= {"roughness.surfaces", "roughness.surfaces.steps", "rough.steps", "discharge.sources"}
     missing = {key for key in keys if "*" not in key} - parts - lists
     assert {key for key in missing if ".steps." not in key} == set()

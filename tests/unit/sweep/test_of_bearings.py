@@ -15,6 +15,7 @@ from ehlectric.commands.app import app
 from ehlectric.figures.names import SPEED_FIGURE_FILES
 from ehlectric.figures.sweep.lines import value_lines
 from ehlectric.figures.sweep.maps import value_map
+from ehlectric.figures.sweep.points import held_text
 from ehlectric.figures.sweep.save import save_speeds
 from ehlectric.sweep.breakdown_keys import CONTACT, FIRST_BREAK, THROUGH, breakdown_of
 from ehlectric.sweep.labels import label_of
@@ -23,6 +24,7 @@ from ehlectric.sweep.sensitivity import sensitivity
 from ehlectric.sweep.slices import take
 from tests.helpers.bearings import BALLS, bearing_case
 from tests.helpers.sweep_models import case, grid, points, sobol
+from tests.unit.figures.sweep.test_save import line_of_breakdown
 
 mpl.use("Agg")
 
@@ -74,7 +76,7 @@ def test_what_a_value_is_set_beside():
 
 @pytest.mark.parametrize(
     ("value", "part", "text"),
-    [("bearing.first_break", 1.0, "first break"), ("bearing.through_breakdown", 2.0, "through breakdown")],
+    [("bearing.first_break", 1.0, "break"), ("bearing.through_breakdown", 2.0, "break")],
 )
 def test_a_line_of_breakdown_voltages_has_that_of_the_shaft(value, part, text):
     ax = value_lines(over(), SPEED, None, value)
@@ -84,15 +86,43 @@ def test_a_line_of_breakdown_voltages_has_that_of_the_shaft(value, part, text):
     np.testing.assert_allclose(dots.get_xdata(), [1000.0, 2000.0, 4000.0], rtol=1e-12)
     np.testing.assert_allclose(dots.get_ydata(), part * np.array([2.0, 4.0, 8.0]), rtol=1e-12)
     assert "shaft voltage 3 V" in legend(ax)
-    assert "below the shaft's 3 V" in legend(ax)
+    assert "below shaft voltage 3 V" in legend(ax)
 
 
 def test_a_map_has_the_line_on_which_the_shaft_breaks_it_down():
     temperatures = {TEMPERATURE: (300.0, 330.0, 360.0)}
     ax = value_map(over(**temperatures), SPEED, TEMPERATURE, "bearing.margin")
-    assert "first break = shaft's 3 V" in legend(ax)
+    assert "first breakdown = shaft voltage 3 V" in legend(ax)
     ax = value_map(over(**temperatures), SPEED, TEMPERATURE, "bearing.capacitance")
     assert not any("shaft" in text for text in legend(ax))
+
+
+def test_temperatures_are_in_degrees_celsius():
+    """On the axis, in the legend of lines, and where one is held; the axis is never logarithmic."""
+    found = over(**{TEMPERATURE: (293.15, 343.15, 403.15)})
+    ax = value_map(found, SPEED, TEMPERATURE, "bearing.first_break")
+    assert ax.get_ylabel().endswith("[°C]")
+    dots = np.concatenate([line.get_xydata() for line in ax.lines if line.get_marker() == "o"])
+    np.testing.assert_allclose(sorted(set(np.round(dots[:, 1], 9))), [20.0, 70.0, 130.0])
+    assert ax.get_yscale() == "linear"
+    line = line_of_breakdown(ax)
+    # 2 V n/(1000 rpm) (330 K/T)^4 is 3 V at the speed of each temperature at which points are.
+    for celsius in (20.0, 70.0, 130.0):
+        rpm = 1500.0 * ((celsius + 273.15) / 330.0) ** 4
+        if 1000.0 < rpm < 4000.0:
+            assert np.min(np.hypot(line[:, 0] / rpm - 1.0, (line[:, 1] - celsius) / 100.0)) < 5e-3
+    lines = value_lines(found, SPEED, TEMPERATURE, "bearing.first_break")
+    (named,) = [child for child in lines.artists if hasattr(child, "get_title")]
+    assert [text.get_text() for text in named.get_texts()] == ["130", "70", "20"]
+    assert (
+        held_text(found, take(found, SPEED, None, "bearing.first_break", {TEMPERATURE: "343"}))
+        == "temperature = 70 °C"
+    )
+
+
+def test_words_that_are_held_are_read_as_words():
+    found = over(contacts=("formula",))
+    assert held_text(found, take(found, SPEED, None, "bearing.first_break")) == "contacts by formula"
 
 
 def test_without_a_motor_there_is_no_voltage_of_the_shaft():
@@ -157,7 +187,7 @@ def test_tables_have_texts_and_a_film_factor_beside_the_one_that_was_varied(tmp_
     swept = CliRunner().invoke(app, ["sweep", str(tmp_path / "sweep.toml"), "-o", str(out), "--workers", "1"])
     assert swept.exit_code == 0, swept.output
     with (out / "sweep.csv").open(newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
+        rows = [{key.partition(" [")[0]: value for key, value in row.items()} for row in csv.DictReader(file)]
     assert [row["bearing.film_factor"] for row in rows] == ["none"] * 2 + ["inlet-shear"] * 2 + ["0.5"] * 2
     factors = [float(row["lubricant.film_factor"]) for row in rows]
     assert factors[:2] == [1.0, 1.0]

@@ -12,11 +12,13 @@ import xarray as xr
 from pyarrow import parquet
 
 from ehlectric import read_sweep
+from ehlectric.sweep.columns import columns_of
+from ehlectric.sweep.columns import dataset_of as to_xarray
 from ehlectric.sweep.engine import solve_point
 from ehlectric.sweep.plan import Outcome, plan
 from ehlectric.sweep.results import flat
 from ehlectric.sweep.store import NAME, Store
-from ehlectric.sweep.tables import columns_of, to_xarray, write_tables
+from ehlectric.sweep.tables import write_tables
 from tests.helpers.sweeps import LOAD, NODES, PRESSURE, SPEED, sweep_over
 
 THICKNESS = "film.minimum_thickness"
@@ -46,7 +48,20 @@ def gridded(tmp_path_factory):
 
 def rows_of(folder):
     with (folder / "sweep.csv").open(encoding="utf-8", newline="") as file:
-        return list(csv.DictReader(file))
+        return [{key.partition(" [")[0]: value for key, value in row.items()} for row in csv.DictReader(file)]
+
+
+def test_heads_of_the_csv_have_units(gridded):
+    folder, results = gridded
+    heads = (folder / "sweep.csv").read_text(encoding="utf-8").splitlines()[0].split(",")
+    assert heads[:6] == ["number", "status", "reason", "warnings", "warning_codes", "seconds [s]"]
+    assert {f"{SPEED} [m/s]", f"{NODES} [-]", "grid.field_range", "film.max_pressure [Pa]"} <= set(heads)
+    assert {"film.discretisation_error [-]", "field.capacitance_per_length [F/m]"} <= set(heads)
+    frame = results.to_dataframe()
+    assert [head.partition(" [")[0] for head in heads] == list(frame)
+    assert frame.attrs["units"]["film.max_pressure"] == "Pa"
+    assert "grid.field_range" not in frame.attrs["units"]
+    np.testing.assert_array_equal(frame[THICKNESS].to_numpy(dtype=float), results.values(THICKNESS))
 
 
 def test_the_csv_is_the_database(gridded):

@@ -291,11 +291,9 @@ def _solve(model: _Model) -> tuple[_State, int]:
         if change <= _SETTLED:
             break
         if rounds == _MOST_ROUNDS:
-            raise ConvergenceError(
-                f"contact angles of the balls still change by {change:.1e} in their cosine"
-            )
+            raise ConvergenceError(f"contact angles of the balls, whose cosines still change by {change:.1e}")
     if state.residual > GOOD:
-        raise ConvergenceError(f"forces on ring and balls balance to {state.residual:.1e} of the load only")
+        raise ConvergenceError(f"forces on ring and balls, balanced only to {state.residual:.1e} of the load")
     return state, iterations
 
 

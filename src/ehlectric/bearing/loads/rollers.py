@@ -327,7 +327,7 @@ def roller_equilibrium(
     imbalance = outer_load - inner_load - outward
     residual = max(residual, float(np.max(np.abs(imbalance))) / scale)
     if residual > GOOD:
-        raise ConvergenceError(f"forces on ring and rollers balance to {residual:.1e} of the load only")
+        raise ConvergenceError(f"forces on ring and rollers, balanced only to {residual:.1e} of the load")
     return RollerEquilibrium(
         position=position,
         inner_load=inner_load,

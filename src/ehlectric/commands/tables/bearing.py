@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ehlectric.bearing.keys import BEARING_KEYS
+from ehlectric.bearing.margin.sensitivity import OF_TABLE
+from ehlectric.bearing.margin.verdict import rpm_text
+from ehlectric.cases.input_keys import unit_of
 from ehlectric.cases.row import Row, rows_of
+from ehlectric.discharge.verdict import ratio_text
+from ehlectric.sweep.labels import Scale, scale_for
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -71,7 +76,7 @@ def _number(value: float | None, factor: float, digits: str) -> str:
 
 
 def total_rows(summary: Mapping[str, Any]) -> list[Row]:
-    """Rows of the totals of a bearing.
+    """Rows of a bearing: the inputs that decide, its totals, and what moves its margin.
 
     Parameters
     ----------
@@ -83,27 +88,140 @@ def total_rows(summary: Mapping[str, Any]) -> list[Row]:
     list of Row
         Values in SI units.
     """
-    totals, factor = summary["bearing"], summary["inputs"]["bearing"]["film_factor"]
+    totals = summary["bearing"]
+    first = f", {totals['first_break_at']}" if totals["first_break_at"] else ""
     entries = (
-        ("capacitance", "bearing.capacitance", "pF", f", contacts {totals['contacts']}"),
-        ("  all in oil", "bearing.capacitance_oil", "pF"),
-        ("  air around the films", "bearing.capacitance_air", "pF"),
-        ("  over that of plates", "bearing.capacitance_ratio", ""),
-        ("least lambda", "bearing.lambda_ratio", "", totals["lubrication"]),
-        ("film factor", "bearing.film_factor", "", "" if isinstance(factor, float) else factor),
-        ("first break", "bearing.first_break", "V"),
-        ("  mean over a pitch", "bearing.first_break_mean", "V"),
-        ("through breakdown", "bearing.through_breakdown", "V"),
-        ("  mean over a pitch", "bearing.through_breakdown_mean", "V"),
-        ("largest field by volt", "bearing.strength_per_volt", "1/µm", ", of the bearing's voltage"),
-        ("  at the shaft voltage", "bearing.max_strength", "V/µm"),
-        ("bearing voltage ratio", "bearing.bearing_voltage_ratio", "%"),
-        ("shaft voltage", "bearing.shaft_voltage", "V", ", capacitive alone"),
-        ("first break over it", "bearing.margin", ""),
-        ("error of the film", "bearing.discretisation_error", "%"),
-        ("error of interpolation", "bearing.interpolation_error", "%"),
+        ("capacitance", "bearing.capacitance", "pF", f", contacts {_HOW[totals['contacts']]}"),
+        ("  capacitance, oil in all gaps", "bearing.capacitance_oil", "pF"),
+        ("  capacitance, air around the films", "bearing.capacitance_air", "pF"),
+        ("  capacitance / parallel plates", "bearing.capacitance_ratio", ""),
+        ("minimum lambda ratio", "bearing.lambda_ratio", "", totals["lubrication"]),
+        ("film factor", "bearing.film_factor", "", _film_factor(summary)),
+        ("shaft voltage", "bearing.shaft_voltage", "V", ", by the capacitive divider"),
+        ("  bearing voltage ratio", "bearing.bearing_voltage_ratio", "%", ", shaft / common-mode"),
+        ("first breakdown voltage", "bearing.first_break", "V", first),
+        ("  first breakdown, mean over positions", "bearing.first_break_mean", "V"),
+        ("ring-to-ring breakdown voltage", "bearing.through_breakdown", "V"),
+        ("  ring-to-ring, mean over positions", "bearing.through_breakdown_mean", "V"),
+        ("max field per volt on the bearing", "bearing.strength_per_volt", "1/µm"),
+        ("  max field at the shaft voltage", "bearing.max_strength", "V/µm"),
+        ("discretisation error of the films", "bearing.discretisation_error", "%"),
+        ("interpolation error over the load", "bearing.interpolation_error", "%"),
     )
-    rows = list(rows_of(BEARING_KEYS, summary, entries))
-    if totals["first_break_at"] is not None:
-        rows.append(Row("breaks first", note=totals["first_break_at"]))
-    return [*rows, Row("time", summary["seconds"], "s", digits=".3g")]
+    return [
+        *_inputs(summary),
+        *rows_of(BEARING_KEYS, summary, entries),
+        Row("time", summary["seconds"], "s", digits=".3g"),
+        *_margin(summary),
+    ]
+
+
+# How the contacts were obtained, in words.
+_HOW = {"solved": "solved", "formula": "by formula"}
+
+
+def _inputs(summary: Mapping[str, Any]) -> Iterator[Row]:
+    """Rows of the inputs that decide about breakdown."""
+    bearing, oil = summary["inputs"]["bearing"], summary["lubricant"]
+    celsius = f"{oil['temperature'] - 273.15:.4g}"
+    over_temperature = "temperature" in summary["inputs"]["lubricant"]
+    yield Row("speed of the inner ring", bearing["inner_speed"], "rpm")
+    for name in ("radial", "axial"):
+        if bearing[f"{name}_load"]:
+            yield Row(f"{name} load", bearing[f"{name}_load"], "N")
+    yield Row("temperature", celsius, "°C", "" if over_temperature else ", without effect on the viscosity")
+    yield Row(f"viscosity at {celsius} °C" if over_temperature else "viscosity", oil["viscosity"], "mPa s")
+    if bearing.get("radial_clearance") is not None:
+        yield Row("radial clearance", bearing["radial_clearance"], "µm")
+    if bearing.get("contact_angle") is not None:
+        yield Row("free contact angle", bearing["contact_angle"], "deg")
+    yield _strength(summary["inputs"].get("discharge", {}))
+
+
+def _strength(discharge: Mapping[str, Any]) -> Row:
+    """Row of the dielectric strength."""
+    name = "dielectric strength"
+    if "dielectric_strength" in discharge:
+        return Row(name, discharge["dielectric_strength"], "V/µm", ", an assumption of the file")
+    if "weibull" in discharge:
+        law = discharge["weibull"]
+        return Row(f"{name}, Weibull scale", law["scale"], "V/µm", f", shape {law['shape']:g}")
+    if "strength_table" in discharge:
+        table = discharge["strength_table"]
+        low, high = (f"{end / 1e6:.4g}" for end in (min(table["strength"]), max(table["strength"])))
+        over = "pressure" if "pressure" in table else "temperature"
+        return Row(name, f"{low} to {high}", "V/µm", f", table over {over}")
+    return Row(name, "none", note="given: no breakdown voltage")
+
+
+def _film_factor(summary: Mapping[str, Any]) -> str:
+    """Note on the film factor of a bearing."""
+    if summary["bearing"]["film_factor"] == 1.0:
+        return "(isothermal, fully flooded)"
+    given = summary["inputs"]["bearing"]["film_factor"]
+    return "(heating by shear in the inlet)" if given == "inlet-shear" else "(given)"
+
+
+def _margin(summary: Mapping[str, Any]) -> Iterator[Row]:
+    """Rows of the margin, the critical speed, and the effects of the inputs, the largest first."""
+    margin, analysis = summary["bearing"]["margin"], summary.get("margin")
+    if margin is None:
+        return
+    yield Row("margin (first breakdown / shaft voltage)", margin, alarm=margin < 1.0)
+    through = summary["bearing"]["through_margin"]
+    yield Row("  margin (ring-to-ring / shaft voltage)", through)
+    if analysis is None:
+        return
+    if analysis["low"] is not None:
+        yield Row("  margin within the stated ranges", _between(analysis["low"], analysis["high"]))
+    if analysis["critical_speed"] is not None:
+        note = "rpm, breakdown expected below; scaled film formulas"
+        yield Row("critical speed", rpm_text(analysis["critical_speed"]), note=note)
+    elif analysis["lowest_speed"] is not None:
+        low, high = (rpm_text(analysis[f"{name}_speed"]) for name in ("lowest", "highest"))
+        yield Row("critical speed", "none", note=f"from {low} to {high} rpm")
+    if analysis["touching_speed"] is not None:
+        yield Row("surfaces touch below", rpm_text(analysis["touching_speed"]), note="rpm")
+    for effect in analysis["effects"]:
+        margins = _between(effect["low_margin"], effect["high_margin"])
+        yield Row(f"  margin at {input_range(effect)}", margins, note=effect["label"])
+    for text in analysis["left_out"]:
+        yield Row("  not computed", note=text)
+
+
+def _between(low: float, high: float) -> str:
+    """Two margins as text, in this order."""
+    return f"{ratio_text(low)} to {ratio_text(high)}"
+
+
+def input_range(effect: Mapping[str, Any]) -> str:
+    """Range of the input of an effect as text, in the unit that is printed.
+
+    Parameters
+    ----------
+    effect : mapping
+        Effect as in ``margin.effects`` of a summary.
+
+    Examples
+    --------
+    >>> input_range({"key": "bearing.temperature", "low_input": 333.15, "high_input": 353.15})
+    '60 to 80 °C'
+    >>> input_range({"key": "discharge.dielectric_strength", "low_input": 12e6, "high_input": 18e6})
+    '12 to 18 V/µm'
+    """
+    ends, unit = (effect["low_input"], effect["high_input"]), unit_of(effect["key"])
+    if effect["key"] == OF_TABLE:
+        unit = ""
+    if unit == "K":
+        return "{:.4g} to {:.4g} °C".format(*(end - 273.15 for end in ends))
+    scale = _SCALES.get(unit) or scale_for(max(map(abs, ends)), unit)
+    low, high = (f"{end * scale.factor:.4g}" for end in ends)
+    return f"{low} to {high} {scale.unit}".rstrip()
+
+
+# Units that are printed for lengths and strengths of bearings, whatever their size.
+_SCALES = {
+    "rad": Scale(180.0 / math.pi, "deg"),
+    "V/m": Scale(1e-6, "V/µm"),
+    "N": Scale(1.0, "N"),
+}

@@ -18,9 +18,12 @@ from ehlectric.formulas.film_point import regime as point_regime
 
 _FORMULAS: Mapping[str, Mapping[str, Formula[Any]]] = {"line": LINE_FORMULAS, "point": POINT_FORMULAS}
 
+# Names of the film thicknesses that formulas give, by their attribute.
+_FILMS = {"minimum_thickness": "minimum film", "central_thickness": "central film"}
+
 
 def case_rows(case: Case, conditions: Conditions | PointConditions) -> list[Row]:
-    """Rows of a contact before it is solved: its conditions, its groups, and what the formulas predict.
+    """Rows of a contact before it is solved: its conditions, dry contact, and film thicknesses by formulas.
 
     Parameters
     ----------
@@ -34,11 +37,106 @@ def case_rows(case: Case, conditions: Conditions | PointConditions) -> list[Row]
     list of Row
         Values in SI units.
     """
-    return list(_CASES[conditions.geometry](case, conditions))
+    formulas = _FORMULAS[conditions.geometry]
+    thicknesses = {name: formula(conditions.contact) for name, formula in formulas.items()}
+    rows = [*condition_rows(conditions, case.electric.voltage), *_dry_contact(conditions)]
+    rows += [Row("film thickness by published formulas")]
+    rows += [Row(name, value, "µm") for _, name, value in _by_formula(formulas, thicknesses)]
+    rows += [Row("usual difference from a solved film", "up to 40 %")]
+    rows += [Row("numerical model"), *_GRIDS[conditions.geometry](case, conditions)]
+    return [*rows, Row("dimensionless velocity parameter Λ", conditions.velocity_parameter)]
+
+
+def condition_rows(conditions: Conditions | PointConditions, voltage: float) -> Iterator[Row]:
+    """Rows of the operating conditions that decide film and field.
+
+    Parameters
+    ----------
+    conditions : Conditions or PointConditions
+        Resolved conditions of a case.
+    voltage : float
+        Voltage across the film [V].
+
+    Yields
+    ------
+    Row
+        Load, speeds, viscosity, radii, modulus and voltage, values in SI units.
+    """
+    yield Row("operating conditions")
+    if isinstance(conditions, PointConditions):
+        yield Row("load", conditions.load, "N")
+    else:
+        yield Row("load per length", conditions.load_per_length, "MN/m")
+    yield Row("entrainment speed", conditions.entrainment_speed, "m/s")
+    yield Row("slide-to-roll ratio", conditions.slide_to_roll_ratio, note=_surface_speeds(conditions))
+    yield Row("viscosity at ambient pressure", conditions.viscosity, "mPa s")
+    if isinstance(conditions, PointConditions):
+        yield _length("reduced radius along entrainment", conditions.radius_x)
+        yield _length("reduced radius across entrainment", conditions.radius_y)
+    else:
+        yield _length("reduced radius", conditions.reduced_radius)
+    yield Row("reduced elastic modulus E'", conditions.reduced_modulus, "GPa")
+    yield Row("voltage across the film", voltage, "V")
+
+
+def _surface_speeds(conditions: Conditions | PointConditions) -> str:
+    """Note with the speeds of both surfaces."""
+    mean, half = conditions.entrainment_speed, 0.5 * conditions.slide_to_roll_ratio
+    if half == 0.0:
+        return ", pure rolling"
+    return f", surfaces at {mean * (1.0 + half):.4g} and {mean * (1.0 - half):.4g} m/s"
+
+
+def _length(name: str, value: float) -> Row:
+    """Row of a radius in mm, or in m from 1 m."""
+    return Row(name, value, "m" if value >= 1.0 else "mm")
+
+
+def _dry_contact(conditions: Conditions | PointConditions) -> Iterator[Row]:
+    """Rows of the dry contact and its groups, in the tables of a case and of its solution."""
+    yield Row("dry contact (Hertz)")
+    yield Row("Hertz pressure", conditions.max_pressure, "GPa")
+    if isinstance(conditions, PointConditions):
+        yield Row("semi-axis b along entrainment", conditions.semi_axis_x, "µm")
+        yield Row("semi-axis a across entrainment", conditions.semi_axis_y, "µm")
+        yield Row("axis ratio a/b", conditions.ratio)
+        regime = point_regime(conditions.contact)
+    else:
+        yield Row("half-width b", conditions.half_width, "µm")
+        regime = line_regime(conditions.contact)
+    yield Row("load parameter M (Moes)", conditions.contact.moes_m)
+    yield Row("material parameter L (Moes)", conditions.contact.moes_l)
+    yield Row("lubrication regime", regime)
+
+
+def _line_grid(case: Case, _: Conditions) -> Iterator[Row]:
+    yield Row("grid of the film", str(case.grid.nodes), note="nodes")
+    yield _wedge(case)
+
+
+def _point_grid(case: Case, conditions: PointConditions) -> Iterator[Row]:
+    yield Row("grid of the film", f"{case.grid.nodes} x {case.grid.nodes_across}", note="nodes")
+    yield Row("half-width of the domain across", conditions.side, note="semi-axes a")
+    yield _wedge(case)
+
+
+def _wedge(case: Case) -> Row:
+    return Row("discretisation of the wedge term", case.grid.wedge)
+
+
+def _by_formula(
+    formulas: Mapping[str, Formula[Any]], thicknesses: Mapping[str, Thickness]
+) -> Iterator[tuple[str, str, float]]:
+    """Attribute, name and value [m] of each film thickness that formulas give, minimum thicknesses first."""
+    for key, film in _FILMS.items():
+        for name, thickness in thicknesses.items():
+            value = getattr(thickness, key)
+            if value is not None:
+                yield key, f"{film} ({formulas[name].name})", value
 
 
 def result_rows(result: Result | PointResult) -> list[Row]:
-    """Rows of a solved contact: key figures of film, field and discharge, beside the film formulas.
+    """Rows of a solved contact: its conditions, film, field and discharge, and the film by formulas.
 
     Parameters
     ----------
@@ -50,113 +148,9 @@ def result_rows(result: Result | PointResult) -> list[Row]:
     list of Row
         Values in SI units.
     """
-    return list(_RESULTS[result.conditions.geometry](result))
-
-
-def _line_case(case: Case, conditions: Conditions) -> Iterator[Row]:
-    yield Row("reduced radius", conditions.reduced_radius, "mm")
-    yield Row("reduced modulus", conditions.reduced_modulus, "GPa")
-    yield Row("load per length", conditions.load_per_length, "MN/m")
-    yield from _speeds(conditions)
-    yield from _line_conditions(conditions)
-    yield Row("velocity parameter lambda", conditions.velocity_parameter)
-    yield from _expected(case, conditions)
-    yield Row("grid", str(case.grid.nodes), note=f"nodes, {case.grid.wedge} wedge")
-
-
-def _point_case(case: Case, conditions: PointConditions) -> Iterator[Row]:
-    yield Row("reduced radius, along", conditions.radius_x, "mm")
-    yield Row("reduced radius, across", conditions.radius_y, "mm")
-    yield Row("reduced modulus", conditions.reduced_modulus, "GPa")
-    yield Row("load", conditions.load, "N")
-    yield from _speeds(conditions)
-    yield from _point_conditions(conditions)
-    yield Row("velocity parameter lambda", conditions.velocity_parameter)
-    yield from _expected(case, conditions)
-    grid = case.grid
-    yield Row("grid", f"{grid.nodes} x {grid.nodes_across}", note=f"nodes, {grid.wedge} wedge")
-    yield Row("  sides", conditions.side, note="semi-axes across")
-
-
-def _speeds(conditions: Conditions | PointConditions) -> Iterator[Row]:
-    yield Row("entrainment speed", conditions.entrainment_speed, "m/s")
-    yield Row("slide-to-roll ratio", conditions.slide_to_roll_ratio)
-
-
-def _line_conditions(conditions: Conditions) -> Iterator[Row]:
-    """Rows of the dry contact and its groups, in the tables of a case and of its solution."""
-    yield Row("Hertz pressure", conditions.max_pressure, "GPa")
-    yield Row("half-width", conditions.half_width, "µm")
-    yield Row("Moes M", conditions.contact.moes_m)
-    yield Row("Moes L", conditions.contact.moes_l)
-    yield Row("regime", line_regime(conditions.contact))
-
-
-def _point_conditions(conditions: PointConditions) -> Iterator[Row]:
-    """Rows of the dry contact and its groups, in the tables of a case and of its solution."""
-    yield Row("Hertz pressure", conditions.max_pressure, "GPa")
-    yield Row("semi-axis, along", conditions.semi_axis_x, "µm")
-    yield Row("semi-axis, across", conditions.semi_axis_y, "µm")
-    yield Row("  across over along", conditions.ratio)
-    yield Row("Moes M", conditions.contact.moes_m)
-    yield Row("Moes L", conditions.contact.moes_l)
-    yield Row("regime", point_regime(conditions.contact))
-
-
-def _expected(case: Case, conditions: Conditions | PointConditions) -> Iterator[Row]:
-    """Rows of the voltage, and of the film thicknesses of the formulas."""
-    yield Row("voltage", case.electric.voltage, "V")
-    formulas = _FORMULAS[conditions.geometry]
-    for name, formula in formulas.items():
-        for film, value in _films(formula(conditions.contact)):
-            yield Row(f"{formulas[name].name}, {film}", value, "µm")
-
-
-def _films(thickness: Thickness) -> Iterator[tuple[str, float]]:
-    """Film thicknesses that a formula gives [m], with their names, such as "minimum"."""
-    for key, value in vars(thickness).items():
-        if value is not None:
-            yield key.removesuffix("_thickness"), value
-
-
-def _line_result(result: Result) -> Iterator[Row]:
-    field, half_width = result.field, result.conditions.half_width
-    yield from _status(result)
-    yield from _line_conditions(result.conditions)
-    yield from _film(result, Row("  at x/b", result.film.minimum_position / half_width))
-    yield from _field(result, "  at x/b", f"{field.max_strength_position / half_width:.4g}")
-    yield Row("width above 95 %", field.high_field_width, "µm")
-    yield Row("capacitance, field range", field.capacitance, "nF/m")
-    yield from _thin_gap(result)
-    if result.rough:
-        yield Row("field solved on", str(field.x.size), note="columns")
-        yield from _roughness(result)
-    yield from discharge_rows(result)
-    yield from _formulas(result)
-
-
-def _point_result(result: PointResult) -> Iterator[Row]:
-    field, film = result.field, result.film
-    yield from _status(result)
-    yield from _point_conditions(result.conditions)
-    yield from _film(result, Row("  at x/b, y/b", _in_semi_axes(result, film.minimum_position)))
-    nx, ny = film.thickness.shape
-    yield Row("grid", f"{nx} x {ny}", note="nodes")
-    yield from _field(result, "  at x/b, y/b", _in_semi_axes(result, field.max_strength_position))
-    yield Row("area above 95 %", field.high_field_area, "µm²")
-    yield Row("capacitance, field range", field.capacitance, "pF")
-    for name, capacitance in result.capacitance_by_zone.items():
-        yield Row(f"  {name}", capacitance, "pF")
-    yield from _thin_gap(result)
-    if result.rough:
-        yield from _roughness(result)
-    yield from discharge_rows(result)
-    yield from _formulas(result)
-
-
-def _in_semi_axes(result: PointResult, position: tuple[float, float]) -> str:
-    """Position over the semi-axis along entrainment, as text."""
-    return ", ".join(f"{at / result.conditions.semi_axis_x:.3g}" for at in position)
+    rows = [*_status(result), *condition_rows(result.conditions, result.field.voltage)]
+    rows += [*_dry_contact(result.conditions), *_film(result), *_roughness(result), *_field(result)]
+    return [*rows, *discharge_rows(result), *_formulas(result)]
 
 
 def _status(result: Result | PointResult) -> Iterator[Row]:
@@ -165,62 +159,96 @@ def _status(result: Result | PointResult) -> Iterator[Row]:
         yield Row("NOT CONVERGED", note=f"{result.film.status}: do not use these numbers", alarm=True)
 
 
-def _film(result: Result | PointResult, minimum_at: Row) -> Iterator[Row]:
+def _film(result: Result | PointResult) -> Iterator[Row]:
     film = result.film
-    yield Row("minimum film", film.minimum_thickness, "µm")
-    yield minimum_at
-    yield Row("central film", film.central_thickness, "µm")
-    yield Row("mean film, Hertz zone", film.mean_thickness, "µm")
+    zone = "Hertz zone" if isinstance(result, Result) else "Hertz ellipse"
+    yield Row("film")
+    at = _at(result, film.minimum_position)
+    yield Row("minimum film thickness h_min", film.minimum_thickness, "µm", at)
+    yield Row("central film thickness", film.central_thickness, "µm")
+    yield Row("mean film thickness", film.mean_thickness, "µm", f", in the {zone}")
     yield Row("maximum pressure", film.max_pressure, "GPa")
-    error = film.discretisation_error
-    if error is None:
-        yield Row("discretisation error", "unknown")
-    else:
-        yield Row("discretisation error", error, "%", digits=".2g")
+    nodes = " x ".join(str(count) for count in film.thickness.shape)
+    name, grid, error = "discretisation error of the film", f", {nodes} nodes", film.discretisation_error
+    yield Row(name, "unknown", note=grid) if error is None else Row(name, error, "%", grid, digits=".2g")
     steps = "V-cycles" if result.film_solver == "paper" else "Newton steps"
-    yield Row("residual", film.residual, note=f"{film.newton_iterations} {steps}", digits=".1e")
-    yield Row("load residual", film.load_residual, digits=".1e")
+    after = f"after {film.newton_iterations} {steps}"
+    yield Row("residual of the film equations", film.residual, note=after, digits=".1e")
+    yield Row("residual of the load balance", film.load_residual, digits=".1e")
 
 
-def _field(result: Result | PointResult, place: str, maximum_at: str) -> Iterator[Row]:
-    field = result.field
-    yield Row("voltage", field.voltage, "V")
-    yield Row("maximum field", field.max_strength, "V/µm")
-    yield Row(place, maximum_at, note=field.max_strength_wall if result.rough else "")
-    yield Row("  times h_min/V12", result.max_dimensionless, digits=".4f")
-
-
-def _thin_gap(result: Result | PointResult) -> Iterator[Row]:
-    """Row of the difference between the largest field and the voltage over the minimum film."""
-    if result.thin_gap_error is not None:
-        yield Row("V12/h_min below it by", result.thin_gap_error, "%", digits=".2g")
+def _at(result: Result | PointResult, position: float | tuple[float, float]) -> str:
+    """Note with a position in half-widths, or in semi-axes b of a point contact."""
+    if isinstance(position, tuple):
+        x, y = (place / result.conditions.half_width for place in position)
+        return f" at x/b, y/b = {x:.3g}, {y:.3g}"
+    return f" at x/b = {position / result.conditions.half_width:.4g}"
 
 
 def _roughness(result: Result | PointResult) -> Iterator[Row]:
+    """Rows of the roughness within the Hertz zone; none for smooth surfaces."""
+    if not result.rough:
+        return
     roughness = result.roughness_statistics
+    yield Row("roughness")
     for k, rq in ((1, roughness.rq_1), (2, roughness.rq_2)):
-        yield Row(f"Rq of surface {k}, Hertz zone", rq, "nm", digits=".3g")
+        yield Row(f"Rq of surface {k}", rq, "nm", ", in the Hertz zone", digits=".3g")
     if roughness.lambda_ratio is not None:
-        yield Row("lambda ratio", roughness.lambda_ratio, note="minimum film over Rq of both", digits=".3g")
+        about = ", minimum film / combined Rq"
+        yield Row("lambda ratio", roughness.lambda_ratio, note=about, digits=".3g")
     if roughness.lambda_ratio_smooth is not None:
-        yield Row("  of the smooth film", roughness.lambda_ratio_smooth, digits=".3g")
+        about = ", smooth film / combined Rq"
+        yield Row("lambda ratio of the smooth film", roughness.lambda_ratio_smooth, note=about, digits=".3g")
     if result.smooth:
-        yield Row("minimum film, smooth", result.smooth.minimum_thickness, "µm")
+        yield Row("minimum film with smooth surfaces", result.smooth.minimum_thickness, "µm")
+
+
+def _field(result: Result | PointResult) -> Iterator[Row]:
+    field = result.field
+    at = _at(result, field.max_strength_position)
+    if result.rough:
+        at += f", {field.max_strength_wall}"
+    yield Row("electric field")
+    yield Row("maximum field", field.max_strength, "V/µm", at)
+    name = "maximum field / parallel-plate field"
+    yield Row(name, result.max_dimensionless, note="(parallel plates: V/h_min)", digits=".4f")
+    if result.thin_gap_error is not None:
+        yield Row("error of the estimate V/h_min", result.thin_gap_error, "%", digits=".2g")
+    if isinstance(result, Result):
+        yield from _line_field(result)
+    else:
+        yield from _point_field(result)
+
+
+def _line_field(result: Result) -> Iterator[Row]:
+    field = result.field
+    yield Row("width of the high-field zone", field.high_field_width, "µm", ", above 95 % of maximum")
+    yield Row("capacitance per length", field.capacitance, "nF/m", ", over the field range")
+    if result.rough:
+        yield Row("grid of the field", str(field.x.size), note="columns")
+
+
+def _point_field(result: PointResult) -> Iterator[Row]:
+    field = result.field
+    yield Row("area of the high-field zone", field.high_field_area, "µm²", ", above 95 % of maximum")
+    yield Row("capacitance", field.capacitance, "pF", ", over the field range")
+    for zone, capacitance in result.capacitance_by_zone.items():
+        yield Row(f"capacitance of the {_ZONES.get(zone, zone)}", capacitance, "pF")
 
 
 def _formulas(result: Result | PointResult) -> Iterator[Row]:
     """Rows of the film formulas, each with its difference from the solved film, and of the time."""
+    yield Row("film thickness by published formulas")
     formulas = _FORMULAS[result.conditions.geometry]
-    about = "difference from the solved film, up to 40 % is usual" if result.converged else ""
-    yield Row("film formulas", note=about)
-    for name, thickness in result.formulas().items():
-        for film, value in _films(thickness):
-            difference = 100.0 * (value / getattr(result.film, f"{film}_thickness") - 1.0)
-            beside = f", {difference:+.0f} %" if result.converged else ""
-            yield Row(f"  {formulas[name].name}, {film}", value, "µm", beside)
-    yield Row("time", result.film_seconds + result.field_seconds, "s", digits=".2g")
+    for key, name, value in _by_formula(formulas, result.formulas()):
+        difference = 100.0 * (value / getattr(result.film, key) - 1.0)
+        beside = f", {difference:+.0f} % vs. solved film" if result.converged else ""
+        yield Row(name, value, "µm", beside)
+    yield Row("usual difference from a solved film", "up to 40 %")
+    yield Row("run")
+    yield Row("computing time", result.film_seconds + result.field_seconds, "s", digits=".2g")
 
 
-# Rows by the geometry of the contact: before it is solved, and of its solution.
-_CASES: Mapping[str, Callable[..., Iterator[Row]]] = {"line": _line_case, "point": _point_case}
-_RESULTS: Mapping[str, Callable[..., Iterator[Row]]] = {"line": _line_result, "point": _point_result}
+# Names of the zones of a point contact, and rows of the grid by the geometry of the contact.
+_ZONES = {"hertz": "Hertz ellipse"}
+_GRIDS: Mapping[str, Callable[..., Iterator[Row]]] = {"line": _line_grid, "point": _point_grid}

@@ -22,60 +22,66 @@ def discharge_rows(result: Result | PointResult) -> Iterator[Row]:
     if discharge is None:
         return
     yield Row("discharge")
-    yield from _breakdown(discharge.breakdown)
     yield from _zone(discharge.zone, result.conditions.half_width)
     yield from _capacitances(discharge.capacitances, _CAPACITANCE[result.conditions.geometry])
     yield from _costs(discharge.costs)
     yield from _leakage(discharge.leakage)
+    yield from _breakdown(discharge.breakdown, result.field.voltage)
 
 
-def _breakdown(breakdown: Breakdown) -> Iterator[Row]:
+def _breakdown(breakdown: Breakdown, applied: float) -> Iterator[Row]:
     voltage, strength = breakdown.breakdown_voltage, breakdown.dielectric_strength
     if voltage is None or breakdown.margin is None or breakdown.probability is None:
+        yield Row("dielectric strength", "none", note="given: no breakdown voltage")
         return
-    condition = "63.2 %" if strength is None else f"{strength / 1e6:.4g} V/µm"
+    condition = "63.2 % probability" if strength is None else f"{strength / 1e6:.4g} V/µm"
+    yield Row("applied voltage", applied, "V")
     yield Row("breakdown voltage", voltage, "V", f", at {condition}")
     low, high = breakdown.breakdown_voltage_low, breakdown.breakdown_voltage_high
     if low is not None and high is not None:
-        yield Row("  5 to 95 %", f"{low:.4g} to {high:.4g}", "V")
-    yield Row("  over the voltage", breakdown.margin)
-    yield Row("  probability of breakdown", breakdown.probability, note="at the voltage", digits=".3g")
+        yield Row("  breakdown voltage, 5 to 95 %", f"{low:.4g} to {high:.4g}", "V")
+    yield Row("margin (breakdown / applied)", breakdown.margin, alarm=breakdown.margin < 1.0)
+    note = "at the applied voltage"
+    yield Row("  probability of breakdown", breakdown.probability, note=note, digits=".3g")
 
 
 def _zone(zone: BreakdownZone, half_width: float) -> Iterator[Row]:
     position = zone.zone_position
     places = position if isinstance(position, tuple) else (position,)
     at = ", ".join(f"{place / half_width:.3g}" for place in places)
-    yield Row("zone that breaks first, at", at, note="x/b, y/b" if len(places) > 1 else "x/b")
+    axes = "x/b, y/b" if len(places) > 1 else "x/b"
+    yield Row("breakdown zone, position", at, note=axes)
     pits = f"published pits {MEAN_PIT * 1e6:g}, at most {LARGEST_PIT * 1e6:g}"
-    yield Row("  across", zone.zone_size, "µm", f", above 95 %; {pits}")
+    yield Row("breakdown zone, size", zone.zone_size, "µm", f", above 95 %; {pits}")
 
 
 def _capacitances(capacitances: Capacitances, unit: str) -> Iterator[Row]:
-    yield Row("capacitance, whole film", capacitances.capacitance, unit)
-    yield Row("  over that of plates", capacitances.capacitance_ratio)
+    yield Row("capacitance of the whole film", capacitances.capacitance, unit)
+    yield Row("  capacitance / parallel plates", capacitances.capacitance_ratio)
     zones = {
-        "hertz": capacitances.capacitance_hertz,
+        "Hertz zone": capacitances.capacitance_hertz,
         "inlet": capacitances.capacitance_inlet,
         "outlet": capacitances.capacitance_outlet,
         "sides": capacitances.capacitance_sides,
     }
     for zone, value in zones.items():
         if value is not None:
-            yield Row(f"  {zone}", value, unit, f", {capacitances.outlet}" if zone == "outlet" else "")
+            filling = f", filling: {capacitances.outlet}" if zone == "outlet" else ""
+            yield Row(f"  capacitance of the {zone}", value, unit, filling)
     least, most = (
         Row("", value, unit).shown
         for value in (capacitances.capacitance_layers, capacitances.capacitance_full)
     )
-    yield Row("  whole, by outlet", f"{least} to {most}", unit, ", assumption: layers to full")
+    note = ", assumption: layers to full"
+    yield Row("  capacitance by outlet filling", f"{least} to {most}", unit, note)
 
 
 def _costs(costs: DischargeCosts) -> Iterator[Row]:
     rows = (
-        ("energy of the contact", costs.contact_energy, "nJ"),
+        ("energy stored in the contact", costs.contact_energy, "nJ"),
         ("energy of a discharge", costs.discharge_energy, "nJ"),
-        ("  at the breakdown voltage", costs.breakdown_energy, "nJ"),
-        ("pit it melts", costs.pit_diameter, "µm", "; assumption: a hemisphere"),
+        ("  energy at the breakdown voltage", costs.breakdown_energy, "nJ"),
+        ("diameter of the pit it melts", costs.pit_diameter, "µm", "; assumption: a hemisphere"),
     )
     yield from (Row(name, value, *unit) for name, value, *unit in rows if value is not None)
     if costs.current_density is not None and costs.current_density_limits is not None:
@@ -87,5 +93,6 @@ def _costs(costs: DischargeCosts) -> Iterator[Row]:
 
 def _leakage(leakage: Leakage) -> Iterator[Row]:
     if leakage.relaxation_time is not None and leakage.corner_frequency is not None:
-        yield Row("relaxation time", leakage.relaxation_time, "s", ", at ambient pressure", digits=".3g")
-        yield Row("  a capacitor above", leakage.corner_frequency, "Hz", digits=".3g")
+        note = ", at ambient pressure"
+        yield Row("charge relaxation time of the oil", leakage.relaxation_time, "s", note, digits=".3g")
+        yield Row("  film is capacitive above", leakage.corner_frequency, "Hz", digits=".3g")

@@ -1,4 +1,4 @@
-"""Rows of data as tables of the terminal."""
+"""Tables of the terminal, made from rows of data."""
 
 from __future__ import annotations
 
@@ -12,27 +12,33 @@ if TYPE_CHECKING:
 
 
 def table_of(rows: Iterable[Row], title: str = "") -> Table:
-    """Table of rows for the terminal: names, values, and units with notes, without lines.
+    """Table of rows for the terminal: names, and beside them values with units and notes.
 
     Parameters
     ----------
     rows : iterable of Row
-        Rows, values in SI units. Alarms are red.
+        Rows, values in SI units. Headings are bold, with the rows below them indented. Alarms are red.
     title : str, optional
         Title above the table.
 
     Returns
     -------
     rich.table.Table
-        Values in their shown units.
+        Two columns, both aligned to the left; values in their shown units.
     """
     from rich.table import Table
     from rich.text import Text
 
     table = Table(title=Text(title) if title else None, show_header=False, title_justify="left", box=None)
-    table.add_column(style="bold")
-    table.add_column(justify="right")
+    table.add_column(no_wrap=True)
     table.add_column()
+    indent = ""
     for row in rows:
-        table.add_row(row.name, row.shown, row.unit + row.note, style="red" if row.alarm else None)
+        if row.heading:
+            table.add_row(row.name, "", style="bold")
+            indent = "  "
+        else:
+            # Text keeps rich from reading brackets as a style.
+            cells = Text(indent + row.name), Text(row.text)
+            table.add_row(*cells, style="red" if row.alarm else None)
     return table

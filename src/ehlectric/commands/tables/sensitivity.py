@@ -17,26 +17,30 @@ if TYPE_CHECKING:
 
 
 def spread_rows(results: SweepResults, sensitivity: Sensitivity) -> list[Row]:
-    """Rows of the spread of a value over its samples, as texts in a unit that fits all of them."""
+    """Rows of the spread of a value over its samples, all in one unit."""
     label, spread = label_of(sensitivity.value, results.case), sensitivity.spread
     scale = label.scaled(np.array([spread.minimum, spread.maximum]))
-    values = {"mean": spread.mean, "standard deviation": spread.standard_deviation, "least": spread.minimum}
-    values |= {f"{100.0 * q:g} %": at for q, at in spread.quantiles.items()} | {"largest": spread.maximum}
-    rows = [Row(label.name, str(spread.samples), note="samples")]
-    rows += [Row(f"  {name}", f"{scale.factor * value:.4g}", scale.unit) for name, value in values.items()]
+    values = {"mean": spread.mean, "standard deviation": spread.standard_deviation}
+    values |= {"minimum": spread.minimum, "maximum": spread.maximum}
+    values |= {f"{100.0 * q:g} % quantile": at for q, at in spread.quantiles.items()}
+    rows = [Row("samples", str(spread.samples))]
+    for name, value in values.items():
+        rows.append(Row(f"{label.name}, {name}", f"{scale.factor * value:.4g}", scale.unit))
     share = sensitivity.share_below_voltage
     if share is not None:
         voltage = breakdown_of(results.case, sensitivity.value).voltage_name
-        rows.append(Row(f"  below the {voltage}", share, "%", " of samples", digits=".3g"))
+        rows.append(Row(f"samples below the {voltage}", share, "%", digits=".3g"))
     return rows
 
 
 def indices_table(results: SweepResults, sensitivity: Sensitivity) -> Table:
-    """Table of the sensitivity indices of the varied inputs, the largest total index first."""
+    """Table of the sensitivity indices of the varied inputs, sorted by decreasing total index."""
     from rich.table import Table
+    from rich.text import Text
 
-    table = Table(title=None, box=None, padding=(0, 2, 0, 0))
-    table.add_column("part of the variance")
+    title = f"Sobol indices: share of the variance of the {label_of(sensitivity.value, results.case).name}"
+    table = Table(title=Text(title), title_justify="left", box=None, padding=(0, 2, 0, 0))
+    table.add_column("input")
     for head in ("first order", "95 % interval", "total", "95 % interval"):
         table.add_column(head, justify="right", no_wrap=True)
     for index in sorted(sensitivity.indices, key=lambda one: -one.total):

@@ -13,7 +13,7 @@ _PROFILE_COLUMNS = (
     ("Ra\n[nm]", "ra", "height"),
     ("Rsk", "rsk", ".2f"),
     ("Rku", "rku", ".1f"),
-    ("corr.\n[µm]", "correlation_length", "length"),
+    ("corr.\nlength\n[µm]", "correlation_length", "length"),
     ("max.\nslope", "largest_slope", ".2g"),
 )
 _MAP_COLUMNS = (
@@ -21,8 +21,8 @@ _MAP_COLUMNS = (
     ("Sa\n[nm]", "sa", "height"),
     ("Ssk", "ssk", ".2f"),
     ("Sku", "sku", ".1f"),
-    ("corr.\nx [µm]", "correlation_length_x", "length"),
-    ("corr.\ny [µm]", "correlation_length_y", "length"),
+    ("corr.\nlength\nx [µm]", "correlation_length_x", "length"),
+    ("corr.\nlength\ny [µm]", "correlation_length_y", "length"),
     ("max.\nslope", "largest_slope", ".2g"),
 )
 
@@ -31,14 +31,14 @@ def surface_table(surface: dict[str, Any]) -> Table:
     """Table of a profile or map: its source and size, and its statistics after every processing step."""
     first = surface["steps"][0]
     of_map = "sq" in first
-    size = "made" if surface["size"] is None else " x ".join(str(n) for n in surface["size"]) + " points"
-    void = "" if surface["voids"] is None else f", {100 * surface['voids']:.2g} % void"
-    if surface["height_step"] is not None:
-        void += f", heights in steps of {surface['height_step'] * 1e9:.2g} nm"
-    source = f"{surface['source']}: " if surface["source"] else ""
     axes = ("spacing_x", "spacing_y") if of_map else ("spacing",)
     spacing = " x ".join(f"{first[axis] * 1e6:.6g}" for axis in axes)
-    title = f"surface {surface['surface']}, {source}{size}, spacing {spacing} µm{void}"
+    parts = [*filter(None, [_size(surface["size"])]), f"spacing {spacing} µm"]
+    if surface["voids"]:
+        parts.append(f"{100 * surface['voids']:.2g} % voids")
+    if surface["height_step"] is not None:
+        parts.append(f"height resolution {surface['height_step'] * 1e9:.2g} nm")
+    title = f"surface {surface['surface']}: {surface['source'] or 'generated'}\n{', '.join(parts)}"
     table = Table(title=Text(title), title_justify="left", box=None, padding=(0, 1, 0, 0))
     table.add_column("step", no_wrap=True)
     columns = _MAP_COLUMNS if of_map else _PROFILE_COLUMNS
@@ -50,8 +50,15 @@ def surface_table(surface: dict[str, Any]) -> Table:
     return table
 
 
+def _size(size: list[int] | None) -> str:
+    """Number of points that were read, of a map along both directions."""
+    if size is None:
+        return ""
+    return " x ".join(str(count) for count in size if count > 1 or len(size) == 1) + " points"
+
+
 def _statistic(value: float, how: str) -> str:
-    """Number of a statistic as text, heights in nm and lengths in µm."""
+    """Number of a statistic as a string, heights in nm and lengths in µm."""
     match how:
         case "height":
             return f"{value * 1e9:.{1 if value < 1e-6 else 0}f}"

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator
 from ehlectric.cases.row import Row
 from ehlectric.sweep.results import SweepResults
 
-# Largest number of reasons that are shown; sweep.csv has all of them.
+# Maximum number of reasons that are shown; sweep.csv has all of them.
 _REASONS = 5
 
 # Numbers, in which reasons of the same kind differ.
@@ -26,15 +26,18 @@ def sweep_rows(results: SweepResults) -> list[Row]:
     Returns
     -------
     list of Row
-        Rows without a name are reasons, with the number of their points.
+        A row for each status, followed by rows for the most frequent reasons of the points with this status.
     """
     rows = []
     for status in ("solved", "not converged", "failed"):
         reasons = [point.reason for point in results.points if point.status == status]
-        of_all = f"of {len(results.points)} points" if status == "solved" else ""
-        rows.append(Row(status, str(len(reasons)), note=of_all))
-        rows += [Row("", str(count), note=reason) for count, reason in _grouped(reasons)]
+        rows.append(Row(f"points {status}", str(len(reasons)), note=f"of {len(results.points)}"))
+        rows += [Row(f"  reason, {_points(count)}", reason) for count, reason in _grouped(reasons)]
     return rows
+
+
+def _points(count: int) -> str:
+    return "1 point" if count == 1 else f"{count} points"
 
 
 def _grouped(reasons: Iterable[str]) -> Iterator[tuple[int, str]]:
@@ -44,6 +47,6 @@ def _grouped(reasons: Iterable[str]) -> Iterator[tuple[int, str]]:
         groups.setdefault(_NUMBER.sub("", reason), []).append(reason)
     ordered = sorted(groups.values(), key=len, reverse=True)
     for group in ordered[:_REASONS]:
-        yield len(group), group[0] if len(set(group)) == 1 else f"such as: {group[0]}"
+        yield len(group), group[0] if len(set(group)) == 1 else f"for example {group[0]}"
     if others := sum(map(len, ordered[_REASONS:])):
-        yield others, "for other reasons, which are in sweep.csv"
+        yield others, "other reasons, see sweep.csv"

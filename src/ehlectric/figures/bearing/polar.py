@@ -14,12 +14,12 @@ from matplotlib.patheffects import withStroke
 from matplotlib.projections.polar import PolarAxes
 from matplotlib.ticker import FixedLocator, NullLocator
 
-from ehlectric.arrays import Array
+from ehlectric.arrays import Array, Mask
 from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solution import CONDUCTING, PARTIAL, RingState
 from ehlectric.cases.quantity import unit_for
 from ehlectric.figures.axes import is_wide, round_numbers
-from ehlectric.figures.style import BLUE, GREY, ORANGE
+from ehlectric.figures.style import BLUE, GREY, ORANGE, page_size
 
 # Name of each ring, with colour, line width and size of markers. The loads of both rings are nearly equal, so
 # the line of the inner ring is drawn last, over the wider line of the outer ring.
@@ -36,8 +36,8 @@ _MOST_TICKS = 7
 
 
 def new_polar(columns: int, size: tuple[float, float]) -> list[Axes]:
-    """Polar axes side by side in a new figure, whose size is in inches."""
-    figure = Figure(figsize=size)
+    """Polar axes side by side in a new figure, whose size on the screen is in inches."""
+    figure = Figure(figsize=page_size(size))
     FigureCanvasAgg(figure)
     return list(figure.subplots(1, columns, squeeze=False, subplot_kw={"projection": "polar"}).ravel())
 
@@ -64,7 +64,7 @@ def load_around(result: BearingResult, ax: Axes | None = None) -> Axes:
     factor, unit = unit_for(largest, "N", least=1.0)
     for k, ring in reversed(list(enumerate(_RINGS))):
         races = [pair[k] for pair in states]
-        _ring(result, ax, ring, races, [factor * race.load for race in races], at_rest="not loaded")
+        _ring(result, ax, ring, races, [factor * race.load for race in races], at_rest="unloaded")
     _radius(ax, np.array([0.0, factor * largest]), _between(result), log=False)
     ax.set_title(f"contact load [{unit}]")
     _legend_below(ax)
@@ -72,7 +72,7 @@ def load_around(result: BearingResult, ax: Axes | None = None) -> Axes:
 
 
 def film_around(result: BearingResult, ax: Axes | None = None) -> Axes:
-    """Draw the minimum film thickness of both contacts of the elements around the shaft.
+    """Draw the minimum film thickness of the loaded contacts of the elements around the shaft.
 
     Parameters
     ----------
@@ -84,19 +84,16 @@ def film_around(result: BearingResult, ax: Axes | None = None) -> Axes:
     Returns
     -------
     Axes
-        Polar axes on which the radial load points down. Dotted lines and hollow markers show the gaps of
-        unloaded contacts. Circles show the film thicknesses at lambda ratios of 1, below which surfaces
-        touch, and 3. The radius is logarithmic if films differ widely.
+        Polar axes on which the radial load points down. Sectors in which a ring does not load the elements
+        are shaded: there is a gap in place of a film, which the legend states. Circles show the film
+        thicknesses at lambda
+        ratios of 1, below which surfaces touch, and 3. The radius is logarithmic if films differ widely.
     """
     ax = _polar_or_new(result, ax)
     states = [(position.inner, position.outer) for position in result.solution.positions]
     rq = result.solution.case.bearing.composite_rq
-    films = np.concatenate([race.values.minimum_thickness for pair in states for race in pair])
-    # The unit suits the films of loaded contacts: gaps of unloaded ones may be much smaller or much larger.
-    thinnest = min(
-        float(np.min(race.values.minimum_thickness[race.solved])) for pair in states for race in pair
-    )
-    factor, unit = unit_for(thinnest, "m")
+    films = np.concatenate([race.values.minimum_thickness[race.solved] for pair in states for race in pair])
+    factor, unit = unit_for(float(films.min()), "m")
     # Circles far below the films are left out, because they would leave little room for the films.
     ratios = [ratio for ratio in (CONDUCTING, PARTIAL) if films.min() < _FAR * ratio * rq]
     everything = factor * np.concatenate([films, rq * np.array(ratios)])
@@ -107,12 +104,40 @@ def film_around(result: BearingResult, ax: Axes | None = None) -> Axes:
         ax.plot(angles, np.full_like(angles, factor * ratio * rq), color=GREY, lw=0.9, ls=line, label=label)
     for k, ring in reversed(list(enumerate(_RINGS))):
         races = [pair[k] for pair in states]
-        values = [factor * race.values.minimum_thickness for race in races]
-        _ring(result, ax, ring, races, values, at_rest="not loaded: gap")
+        values = [np.where(race.solved, factor * race.values.minimum_thickness, np.nan) for race in races]
+        _ring(result, ax, ring, races, values)
     _radius(ax, everything, _between(result), log=is_wide(everything))
+    for k, ring in enumerate(_RINGS):
+        _unloaded(result, ax, ring, [pair[k] for pair in states])
     ax.set_title(f"minimum film $h_\\mathrm{{min}}$ [{unit}]")
     _legend_below(ax)
     return ax
+
+
+def _unloaded(
+    result: BearingResult, ax: Axes, ring: tuple[str, str, float, float], races: Sequence[RingState]
+) -> None:
+    """Shade the sector in which no element is loaded by a ring, and name it in the legend with the gap."""
+    name, color, *_ = ring
+    angle, loaded = _around(result, [race.solved for race in races])
+    if np.all(loaded):
+        return
+    gaps = np.concatenate([race.values.minimum_thickness[~race.solved] for race in races])
+    factor, unit = unit_for(float(gaps.max()), "m")
+    low, high = ax.get_ylim()
+    edges = 0.5 * (angle + np.append(angle[1:], angle[0] + 2.0 * np.pi))
+    before = np.append(edges[-1] - 2.0 * np.pi, edges[:-1])
+    for begin, end in zip(before[~loaded], edges[~loaded], strict=True):
+        ax.fill_between([begin, end], low, high, color=color, alpha=0.10, lw=0.0, zorder=0.5)
+    text = f"{name} unloaded: gap to {factor * gaps.max():.2g} {unit}"
+    ax.fill_between([], [], [], color=color, alpha=0.10, lw=0.0, label=text)
+
+
+def _around(result: BearingResult, values: Sequence[Array | Mask]) -> tuple[Array, Any]:
+    """Angles of all elements at all positions of the cage from 0 to 2 pi, and values in their order."""
+    angles = np.mod(np.concatenate([p.equilibrium.position for p in result.solution.positions]), 2.0 * np.pi)
+    order = np.argsort(angles, kind="stable")
+    return angles[order], np.concatenate(values)[order]
 
 
 def _polar_or_new(result: BearingResult, ax: Axes | None) -> PolarAxes:
@@ -134,24 +159,25 @@ def _ring(
     races: Sequence[RingState],
     values: Sequence[Array],
     *,
-    at_rest: str,
+    at_rest: str = "",
 ) -> None:
-    """Draw the contacts with one ring: lines over all positions of the cage, markers at the first one."""
+    """Draw the contacts with one ring: lines over all positions of the cage, markers at the first one.
+
+    Contacts without load have hollow markers called ``at_rest``, and a dotted line.
+    """
     name, color, width, size = ring
-    angles = [position.equilibrium.position for position in result.solution.positions]
-    order = np.argsort(np.concatenate(angles))
-    order = np.append(order, order[0])
-    angle = np.concatenate(angles)[order]
-    angle[-1] += 2.0 * np.pi
-    along, loaded = np.concatenate(values)[order], np.concatenate([race.solved for race in races])[order]
+    angle, along = _around(result, values)
+    _, loaded = _around(result, [race.solved for race in races])
+    angle, along = np.append(angle, angle[0] + 2.0 * np.pi), np.append(along, along[0])
+    loaded = np.append(loaded, loaded[0])
     ax.plot(angle, np.where(loaded, along, np.nan), color=color, lw=width)
     ax.plot(angle, np.where(loaded, np.nan, along), color=color, lw=width, ls=":")
     marks: dict[str, Any] = {"ls": "none", "marker": "o", "ms": size, "color": color, "clip_on": False}
-    on = races[0].solved
-    ax.plot(angles[0][on], values[0][on], label=f"{name} contact", zorder=4.0, **marks)
-    if not np.all(on):
+    on, at = races[0].solved, result.solution.positions[0].equilibrium.position
+    ax.plot(at[on], values[0][on], label=f"{name} contact", zorder=4.0, **marks)
+    if at_rest and not np.all(on):
         hollow = marks | {"mfc": "white", "label": f"{name}, {at_rest}", "zorder": 4.0}
-        ax.plot(angles[0][~on], values[0][~on], **hollow)
+        ax.plot(at[~on], values[0][~on], **hollow)
 
 
 def _between(result: BearingResult) -> float:
@@ -186,7 +212,7 @@ def _radius(ax: Axes, values: Array, at: float, *, log: bool) -> None:
     # Labels of an axis would lie below the lines: these texts lie above them.
     edge = [withStroke(linewidth=2.4, foreground="white")]
     for tick in ticks:
-        where: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": 7.5, "zorder": 6.0}
+        where: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": "small", "zorder": 6.0}
         ax.text(at, tick, f"{tick:g}", path_effects=edge, **where)
 
 

@@ -1,38 +1,34 @@
-"""Figures of bearings: by name, and as PNG files."""
+"""Figures of bearings: by name, and as files."""
 
 from __future__ import annotations
 
-import textwrap
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ehlectric.bearing.impedance import impedance_of
 from ehlectric.bearing.result import BearingResult
-from ehlectric.bearing.solution import insulating, lambda_ratio, lubrication
+from ehlectric.bearing.solution import insulating
 from ehlectric.bearing.speeds import over_speed
 from ehlectric.errors import ResultWarning
-from ehlectric.figures.bearing.circuit import (
+from ehlectric.figures.bearing import findings
+from ehlectric.figures.bearing.circuit import breakdown_voltages, contact_capacitances
+from ehlectric.figures.bearing.curves import Curves, Speed, Speeds, curves_of
+from ehlectric.figures.bearing.impedance import impedance_magnitude, impedance_phase, phase_varies
+from ehlectric.figures.bearing.pitch import (
+    LEAST_VARIATION,
     breakdown_over_pitch,
-    breakdown_voltages,
     capacitance_over_pitch,
-    contact_capacitances,
-    impedance_magnitude,
-    impedance_phase,
-    voltage_shares,
+    capacitances,
+    first_breakdowns,
+    variation,
 )
 from ehlectric.figures.bearing.polar import film_around, load_around, new_polar
-from ehlectric.figures.bearing.speeds import (
-    Speed,
-    Speeds,
-    breakdown_over_speed,
-    breaks_anywhere,
-    capacitance_over_speed,
-    how_found,
-)
+from ehlectric.figures.bearing.speeds import breakdown_over_speed, breaks_anywhere, capacitance_over_speed
+from ehlectric.figures.names import in_formats, of_cut
 from ehlectric.figures.style import drawing_of, figure_of, name_over, new_panels, save_figure, style
 
 Draw = Callable[[BearingResult, Axes], Axes]
@@ -49,20 +45,27 @@ def _loads(_result: BearingResult) -> tuple[Draw, ...]:
 def _circuit(result: BearingResult) -> tuple[Draw, ...]:
     if result.solution.conditions.ceramic:
         return ()
-    shares = (voltage_shares,) if insulating(result.solution) else ()
-    return (contact_capacitances, *shares, *((breakdown_voltages,) if _breaks(result) else ()))
+    return (contact_capacitances, *((breakdown_voltages,) if _breaks(result) else ()))
 
 
 def _pitch(result: BearingResult) -> tuple[Draw, ...]:
+    """Panels of the quantities that vary by more than a per cent over a pitch."""
     if result.solution.conditions.ceramic:
         return ()
-    return (capacitance_over_pitch, *((breakdown_over_pitch,) if _breaks(result) else ()))
+    varied: list[Draw] = []
+    if max(variation(capacitances(result, fill)) for fill in ("oil", "air")) > LEAST_VARIATION:
+        varied.append(capacitance_over_pitch)
+    if _breaks(result) and variation(first_breakdowns(result)) > LEAST_VARIATION:
+        varied.append(breakdown_over_pitch)
+    return tuple(varied)
 
 
 def _impedance(result: BearingResult) -> tuple[Draw, ...]:
     if result.solution.conditions.ceramic or not insulating(result.solution):
         return ()
-    return () if impedance_of(result.solution) is None else (impedance_magnitude, impedance_phase)
+    if impedance_of(result.solution) is None:
+        return ()
+    return (impedance_magnitude, *((impedance_phase,) if phase_varies(result) else ()))
 
 
 def _breaks(result: BearingResult) -> bool:
@@ -77,19 +80,36 @@ FIGURES: Mapping[str, Callable[[BearingResult], tuple[Draw, ...]]] = {
     "bearing_impedance.png": _impedance,
 }
 
+# First lines of the titles of the figures.
+FINDINGS: Mapping[str, Callable[[BearingResult], str]] = {
+    "bearing_loads.png": findings.loads,
+    "bearing_circuit.png": findings.circuit,
+    "bearing_pitch.png": findings.pitch,
+    "bearing_impedance.png": findings.impedance,
+}
+
+
+@dataclass(frozen=True)
+class _OverSpeed:
+    """Functions that draw a figure over speed, and give the first line of its title."""
+
+    draw: Callable[..., Axes]
+    finding: Callable[[Curves, Speed | None], str]
+
+
 # Figures over the speed of the shaft.
-SPEED_FIGURES: Mapping[str, Callable[..., Axes]] = {
-    "capacitance_over_speed.png": capacitance_over_speed,
-    "breakdown_over_speed.png": breakdown_over_speed,
+SPEED_FIGURES: Mapping[str, _OverSpeed] = {
+    "capacitance_over_speed.png": _OverSpeed(capacitance_over_speed, findings.capacitance_over_speed),
+    "breakdown_over_speed.png": _OverSpeed(breakdown_over_speed, findings.breakdown_over_speed),
 }
 
 
 def bearing_figures_of(result: BearingResult) -> dict[str, tuple[Draw, ...]]:
     """Panels of the figures of a bearing, by the names of their files.
 
-    Figures with nothing to show are left out. There is no circuit of ceramic elements, no voltage where
-    surfaces touch, no breakdown without a dielectric strength, and no impedance without a conductivity or
-    where surfaces touch.
+    Figures with nothing to show are left out. There is no circuit of ceramic elements, no breakdown without a
+    dielectric strength or where surfaces touch, and no impedance without a conductivity or where surfaces
+    touch. What varies by less than a per cent over a pitch of the cage is not drawn over it.
     """
     panels = {name: panels_of(result) for name, panels_of in FIGURES.items()}
     return {name: draws for name, draws in panels.items() if draws}
@@ -117,11 +137,13 @@ def figure(result: BearingResult, name: str) -> Figure:
         Where the bearing has no figure of this name.
     """
     drawings = bearing_figures_of(result)
+    (name,) = in_formats([name])
     if name in SPEED_FIGURES:
         points, _ = over_speed(result.case)
-        return speed_figure(points, name, result.case.title, own=_own_speed(result))
+        return speed_figure(points, name, _lines_over_speed(result), own=_own_speed(result))
     panels = drawing_of(drawings | dict.fromkeys(SPEED_FIGURES, ()), name)
-    title = _title(result, voltages=breakdown_voltages in panels or breakdown_over_pitch in panels)
+    voltages = breakdown_voltages in panels or breakdown_over_pitch in panels
+    title = "\n".join([FINDINGS[name](result), *findings.case_lines(result, voltages=voltages)])
     polar = panels[0] is load_around
     with style():
         axes = new_polar(len(panels), _POLAR_SIZE) if polar else _stack(len(panels))
@@ -142,7 +164,7 @@ def speed_figure(points: Speeds, name: str, title: str = "", *, own: Speed | Non
     name : str
         Name of its file, such as "capacitance_over_speed.png".
     title : str, optional
-        First line of the title.
+        Lines of the title below its first one, which states the finding.
     own : (float, dict), optional
         A bearing to mark beside them, such as one with solved contacts.
 
@@ -156,16 +178,19 @@ def speed_figure(points: Speeds, name: str, title: str = "", *, own: Speed | Non
     InputError
         Where there is no figure of this name, or the bearing has no breakdown voltage at any speed.
     """
-    draw = drawing_of(_speed_drawings(points), name)
-    title = textwrap.shorten(title, 70, placeholder=" ...")
-    title = f"{title}\ncontacts {how_found(points)}".lstrip()
+    drawing = drawing_of(_speed_drawings(points), name)
+    curves = curves_of(points, own)
+    lines = [drawing.finding(curves, own), title, findings.curves_line(points, curves, own)]
+    title = "\n".join(filter(None, lines))
     with style():
-        ax = draw(points, new_panels(1, 1, _SPEED_SIZE)[0], own=own)
+        ax = drawing.draw(points, new_panels(1, 1, _SPEED_SIZE)[0], own=own)
         return _named(ax, title, converged=all(summary["converged"] for _, summary in points))
 
 
-def save_bearing_figures(result: BearingResult, folder: Path) -> list[Path]:
-    """Draw the figures of a bearing at its own speed as PNG files.
+def save_bearing_figures(
+    result: BearingResult, folder: Path, formats: Sequence[str] = ("png",)
+) -> list[Path]:
+    """Draw the figures of a bearing at its own speed as files.
 
     Parameters
     ----------
@@ -173,22 +198,31 @@ def save_bearing_figures(result: BearingResult, folder: Path) -> list[Path]:
         Result of the bearing.
     folder : Path
         Folder of the files; it must exist.
+    formats : sequence of str
+        Formats of the files, of "png", "svg" and "pdf".
 
     Returns
     -------
     list of Path
         Files written: those of ``bearing_figures_of``.
     """
-    files = [folder / name for name in bearing_figures_of(result)]
-    for file in files:
-        save_figure(figure(result, file.name), file)
-    return files
+    return [
+        file
+        for name in bearing_figures_of(result)
+        for file in save_figure(figure(result, name), folder / name, formats)
+    ]
 
 
 def save_speed_figures(
-    points: Speeds, folder: Path, title: str = "", *, own: Speed | None = None
+    points: Speeds,
+    folder: Path,
+    title: str = "",
+    *,
+    own: Speed | None = None,
+    formats: Sequence[str] = ("png",),
+    at: Mapping[str, str] | None = None,
 ) -> list[Path]:
-    """Draw capacitance and, where there are any, breakdown voltages over the speed as PNG files.
+    """Draw capacitance and, where there are any, breakdown voltages over the speed as files.
 
     Parameters
     ----------
@@ -196,24 +230,32 @@ def save_speed_figures(
         Speed of the inner ring [rad/s], and the summary at this speed.
     folder : Path
         Folder of the files; it must exist.
+    formats : sequence of str
+        Formats of the files, of "png", "svg" and "pdf".
     title : str, optional
-        First line of the titles.
+        Lines of the titles below the first ones, which state the findings.
     own : (float, dict), optional
         A bearing to mark beside them, such as one with solved contacts.
+    at : mapping of str to str, optional
+        Values of further varied keys of a sweep, for the names of the files.
 
     Returns
     -------
     list of Path
         Files written.
     """
-    files = [folder / name for name in _speed_drawings(points)]
-    for file in files:
-        save_figure(speed_figure(points, file.name, title, own=own), file)
-    return files
+    return [
+        file
+        for name in _speed_drawings(points)
+        for figure in (speed_figure(points, name, title, own=own),)
+        for file in save_figure(figure, folder / of_cut(name, at), formats)
+    ]
 
 
-def save_over_speed(result: BearingResult, folder: Path) -> tuple[list[Path], list[ResultWarning]]:
-    """Solve a bearing by formula at speeds around its own, and draw it over speed as PNG files.
+def save_over_speed(
+    result: BearingResult, folder: Path, formats: Sequence[str] = ("png",)
+) -> tuple[list[Path], list[ResultWarning]]:
+    """Solve a bearing by formula at speeds around its own, and draw it over speed as files.
 
     Parameters
     ----------
@@ -221,6 +263,8 @@ def save_over_speed(result: BearingResult, folder: Path) -> tuple[list[Path], li
         Result of the bearing at its own speed.
     folder : Path
         Folder of the files; it must exist.
+    formats : sequence of str
+        Formats of the files, of "png", "svg" and "pdf".
 
     Returns
     -------
@@ -230,19 +274,27 @@ def save_over_speed(result: BearingResult, folder: Path) -> tuple[list[Path], li
         Speeds that are left out, and why.
     """
     points, left_out = over_speed(result.case)
-    files = save_speed_figures(points, folder, result.case.title, own=_own_speed(result)) if points else []
-    return files, left_out
+    if not points:
+        return [], left_out
+    own = _own_speed(result)
+    title = _lines_over_speed(result)
+    return save_speed_figures(points, folder, title, own=own, formats=formats), left_out
 
 
-def _speed_drawings(points: Speeds) -> dict[str, Callable[..., Axes]]:
-    """Functions that draw a bearing over speed, by the names of their files; no empty figures."""
+def _speed_drawings(points: Speeds) -> dict[str, _OverSpeed]:
+    """Figures of a bearing over speed, by the names of their files; no empty figures."""
     empty = set() if breaks_anywhere(points) else {breakdown_over_speed}
-    return {name: draw for name, draw in SPEED_FIGURES.items() if draw not in empty}
+    return {name: drawing for name, drawing in SPEED_FIGURES.items() if drawing.draw not in empty}
 
 
 def _own_speed(result: BearingResult) -> Speed:
     """Speed of the inner ring of a bearing [rad/s], and its summary."""
     return result.case.bearing.inner_speed, result.summary()
+
+
+def _lines_over_speed(result: BearingResult) -> str:
+    """Lines about the case in the title of a figure over speed."""
+    return findings.case_lines(result, voltages=_breaks(result))[0]
 
 
 def _stack(panels: int) -> list[Axes]:
@@ -264,20 +316,3 @@ def _named(ax: Axes, title: str, *, converged: bool) -> Figure:
     if text:
         name_over(ax, text, converged=converged)
     return figure_of(ax)
-
-
-def _title(result: BearingResult, *, voltages: bool) -> str:
-    """Title of a bearing: title of its case, loads, speed, temperature, and how its film is computed."""
-    bearing, factor = result.solution.case.bearing, result.solution.conditions.film_factor
-    loads = ((bearing.radial_load, "radial"), (bearing.axial_load, "axial"))
-    parts = [f"{load:.4g} N {way}" for load, way in loads if load]
-    parts += [f"{bearing.inner_speed * 30.0 / np.pi:.4g} rpm", f"{bearing.temperature - 273.15:.4g} °C"]
-    isothermal = factor == 1.0
-    film = "isothermal film" if isothermal else f"film factor {factor:.3g}"
-    film += f", least λ {lambda_ratio(result.solution):.2g}"
-    if lubrication(result.solution) in ("conducting", "touching"):
-        film += ": surfaces touch"
-    elif voltages and (isothermal or lubrication(result.solution) == "partial film"):
-        film += ": voltages are upper bounds"
-    title = textwrap.shorten(result.solution.case.title, 70, placeholder=" ...")
-    return "\n".join(filter(None, [title, ", ".join(parts), film]))

@@ -2,21 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.patheffects import withStroke
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.cases.quantity import unit_for
 from ehlectric.figures.axes import is_wide, scale_axis
-from ehlectric.figures.bearing.circuit import FIRST, SHAFT, THROUGH
+from ehlectric.figures.bearing.curves import (
+    RPM,
+    Curves,
+    Speed,
+    Speeds,
+    critical_speed_of,
+    curves_of,
+    nearly_equal,
+)
+from ehlectric.figures.bearing.looks import FIRST, SHAFT, THROUGH, label_ends, volts
 from ehlectric.figures.style import BLUE, GREY, ORANGE, axes_or_new, legend_above
 
-# Speed of the inner ring [rad/s] with the summary of the bearing at this speed.
-Speed = tuple[float, dict[str, Any]]
-Speeds = Sequence[Speed]
+_STAR: dict[str, Any] = {"ls": "none", "marker": "*", "ms": 12.0, "color": "black", "mec": "white"}
 
 
 def capacitance_over_speed(points: Speeds, ax: Axes | None = None, *, own: Speed | None = None) -> Axes:
@@ -29,7 +36,7 @@ def capacitance_over_speed(points: Speeds, ax: Axes | None = None, *, own: Speed
     ax : Axes, optional
         Axes to draw on; axes of a new figure if omitted.
     own : (float, dict), optional
-        Speed and summary of a bearing to mark with a star, for example one with solved contacts.
+        Speed and summary of the bearing itself: it is marked with a star, and the curves are scaled to it.
 
     Returns
     -------
@@ -37,30 +44,37 @@ def capacitance_over_speed(points: Speeds, ax: Axes | None = None, *, own: Speed
         Axes whose scales are logarithmic if the values differ by more than a factor of 20.
     """
     ax = axes_or_new(ax)
-    speed = _speed(points, ax)
-    values, oil, air = (_of(points, key) for key in ("capacitance", "capacitance_oil", "capacitance_air"))
+    curves = curves_of(points, own)
+    speed = _speed_axis(curves, ax)
+    oil, air = curves["capacitance_oil"], curves["capacitance_air"]
     factor, unit = unit_for(float(np.nanmax(oil)), "F", least=1.0)
-    label = "from air to oil around the films"
-    ax.fill_between(speed, factor * air, factor * oil, color=BLUE, alpha=0.15, lw=0.0, label=label)
-    ax.plot(speed, factor * oil, color=BLUE, lw=0.7)
-    ax.plot(speed, factor * air, color=BLUE, lw=0.7)
+    ax.fill_between(speed, factor * air, factor * oil, color=BLUE, alpha=0.15, lw=0.0)
     fills = {str(summary["inputs"]["bearing"]["fill"]) for _, summary in points}
-    fill = f", {fills.pop()} around the films" if len(fills) == 1 else ""
-    label = f"capacitance of the bearing{fill}"
-    ax.plot(speed, factor * values, color="black", lw=1.4, marker="o", ms=4.0, label=label)
-    marked = _mark(ax, own, ("capacitance",), factor)
-    everything = np.append(factor * np.concatenate([oil, air, values]), marked)
+    used = fills.pop() if len(fills) == 1 else ""
+    ends = []
+    for fill, values in (("oil", oil), ("air", air)):
+        look: dict[str, Any] = {"lw": 1.4, "marker": "o", "ms": 4.0} if fill == used else {"lw": 0.7}
+        ax.plot(speed, factor * values, color=BLUE, label=f"{fill} around the films", **look)
+        ends.append((float(factor * values[-1]), f"{fill} around\nthe films", BLUE))
+    if not used:
+        look = {"lw": 1.4, "marker": "o", "ms": 4.0}
+        ax.plot(
+            speed, factor * curves["capacitance"], color="black", label="capacitance of the bearing", **look
+        )
+    if own is not None:
+        ax.plot([own[0] * RPM], [factor * own[1]["bearing"]["capacitance"]], zorder=6.0, **_STAR)
+    everything = factor * np.concatenate([oil, air, curves["capacitance"]])
     log = is_wide(everything)
     scale_axis(ax.yaxis, f"capacitance [{unit}]", values=everything, log=log)
     if not log:
         ax.set_ylim(0.0, 1.1 * float(np.nanmax(everything)))
+    label_ends(ax, ends)
     _lubrication(points, ax, speed)
-    legend_above(ax)
     return ax
 
 
 def breakdown_over_speed(points: Speeds, ax: Axes | None = None, *, own: Speed | None = None) -> Axes:
-    """Draw first break and through breakdown of a bearing over its speed, with the shaft voltage.
+    """Draw first and ring-to-ring breakdown of a bearing over its speed, with the shaft voltage.
 
     Parameters
     ----------
@@ -69,70 +83,135 @@ def breakdown_over_speed(points: Speeds, ax: Axes | None = None, *, own: Speed |
     ax : Axes, optional
         Axes to draw on; axes of a new figure if omitted.
     own : (float, dict), optional
-        Speed and summary of a bearing to mark with a star, for example one with solved contacts.
+        Speed and summary of the bearing itself: its margin is marked, and the curves are scaled to it.
 
     Returns
     -------
     Axes
-        Axes with a shaded area between first break and shaft voltage, where the shaft voltage is higher.
+        Axes in which the area is shaded where the shaft voltage is above the first breakdown, and the speed
+        is marked below which it is. Curves between the speeds are powers of the speed.
     """
     ax = axes_or_new(ax)
-    speed = _speed(points, ax)
-    first, through = _of(points, "first_break"), _of(points, "through_breakdown")
-    shaft = _of(points, "shaft_voltage")
-    ax.plot(speed, through, marker="o", ms=6.0, label="through breakdown", **THROUGH)
-    ax.plot(speed, first, marker="o", ms=3.5, label="first break", **FIRST)
-    if np.any(np.isfinite(shaft)):
-        ax.plot(speed, shaft, label="shaft voltage", **SHAFT)
-        over: Mask = shaft > first
-        if np.any(over):
-            label = "shaft voltage above first break"
-            look: dict[str, Any] = {"color": ORANGE, "alpha": 0.2, "lw": 0.0, "label": label}
-            ax.fill_between(speed, first, shaft, where=list(over), interpolate=True, **look)
-    marked = _mark(ax, own, ("through_breakdown", "first_break"), 1.0)
-    everything = np.concatenate([first, through, shaft, marked])
+    curves = curves_of(points, own)
+    speed = _speed_axis(curves, ax)
+    first, through, shaft = (curves[key] for key in ("first_break", "through_breakdown", "shaft_voltage"))
+    one = nearly_equal(first, through)
+    names = [("first and ring-to-ring\nbreakdown" if one else "first\nbreakdown", "first_break", FIRST)]
+    names += [] if one else [("ring-to-ring\nbreakdown", "through_breakdown", THROUGH)]
+    names += [("shaft\nvoltage", "shaft_voltage", SHAFT)]
+    everything = np.concatenate([first, through, shaft])
     log = is_wide(everything)
     scale_axis(ax.yaxis, "bearing voltage [V]", values=everything, log=log)
     if not log:
         ax.set_ylim(0.0, 1.1 * float(np.nanmax(everything)))
+    ends = []
+    for text, key, look in reversed(names):
+        values = curves[key]
+        known = np.flatnonzero(np.isfinite(values))
+        if known.size:
+            at, between = curves.between(key)
+            ax.plot(at * RPM, between, label=text.replace("\n", " "), **look)
+            ax.plot(speed, values, ls="none", marker="o", ms=3.5, color=look["color"])
+            ends.append((float(values[known[-1]]), text, look["color"]))
+    _danger(curves, ax)
+    _critical(curves, ax)
+    _own_margin(own, ax)
+    label_ends(ax, ends)
     _lubrication(points, ax, speed)
-    legend_above(ax)
     return ax
 
 
-def breaks_anywhere(points: Speeds) -> bool:
-    """Whether there is a breakdown voltage at any speed."""
-    return bool(np.any(np.isfinite(_of(points, "first_break"))))
+def _danger(curves: Curves, ax: Axes) -> None:
+    """Shade the area between first breakdown and shaft voltage where the shaft voltage is higher."""
+    speed, first = curves.between("first_break")
+    _, shaft = curves.between("shaft_voltage")
+    over: Mask = shaft > first
+    if not np.any(over):
+        return
+    look: dict[str, Any] = {"color": ORANGE, "alpha": 0.2, "lw": 0.0, "label": "breakdown expected"}
+    ax.fill_between(speed * RPM, first, shaft, where=list(over), interpolate=True, **look)
+    low, high = float(speed[over][0]) * RPM, float(speed[over][-1]) * RPM
+    ax.axvspan(low, high, color=ORANGE, alpha=0.06, lw=0.0, zorder=0.0)
+    ax.text(
+        (low * high) ** 0.5 if ax.get_xscale() == "log" else 0.5 * (low + high),
+        0.97,
+        "breakdown\nexpected",
+        transform=ax.get_xaxis_transform(),
+        ha="center",
+        va="top",
+        color=ORANGE,
+        fontsize="small",
+    )
 
 
-def _mark(ax: Axes, own: Speed | None, keys: Sequence[str], factor: float) -> Array:
-    """Draw a star at each value of a single bearing, and return these values."""
-    if own is None:
-        return np.empty(0)
-    values = factor * np.concatenate([_of([own], key) for key in keys])
-    look: dict[str, Any] = {"ls": "none", "marker": "*", "ms": 11.0, "color": "black", "mec": "white"}
-    label = f"at its own speed, contacts {how_found([own])}"
-    ax.plot(np.full(values.size, own[0] * 30.0 / np.pi), values, zorder=6.0, label=label, **look)
-    return values
+def _critical(curves: Curves, ax: Axes) -> None:
+    """Mark the speed below which breakdown is expected, and write it at its line."""
+    critical = critical_speed_of(curves)
+    if critical is None:
+        return
+    rpm = critical * RPM
+    ax.axvline(rpm, color=ORANGE, lw=1.0, ls=":")
+    ax.plot(
+        [rpm],
+        [curves.at("shaft_voltage", critical)],
+        ls="none",
+        marker="o",
+        ms=7.0,
+        mfc="white",
+        mec=ORANGE,
+        mew=1.6,
+        zorder=5.5,
+    )
+    ax.text(
+        rpm,
+        0.03,
+        f" {rpm_text(critical)}",
+        transform=ax.get_xaxis_transform(),
+        color=ORANGE,
+        va="bottom",
+        fontsize="small",
+    )
 
 
-def how_found(points: Speeds) -> str:
-    """Text: how films and fields were obtained, "solved" or "by formula"."""
-    names = {"solved": "solved", "formula": "by formula"}
-    return " or ".join(sorted({names[summary["bearing"]["contacts"]] for _, summary in points}))
+def rpm_text(speed: float) -> str:
+    """Text: speed [rad/s] in rpm with three digits, as an interpolated speed deserves.
+
+    Examples
+    --------
+    >>> rpm_text(144.9)
+    '1380 rpm'
+    """
+    return f"{float(f'{speed * RPM:.3g}'):g} rpm"
 
 
-def _of(points: Speeds, key: str) -> Array:
-    """Values of a key of the bearing in the order of the speeds, NaN in place of None."""
-    values = [summary["bearing"][key] for _, summary in sorted(points, key=lambda point: point[0])]
-    return np.array([np.nan if value is None else value for value in values], dtype=float)
+def _own_margin(own: Speed | None, ax: Axes) -> None:
+    """Mark the breakdown voltage of the bearing itself, and write its margin beside an arrow."""
+    if own is None or (first := own[1]["bearing"]["first_break"]) is None:
+        return
+    rpm, shaft = own[0] * RPM, own[1]["bearing"]["shaft_voltage"]
+    ax.plot([rpm], [first], zorder=6.0, **_STAR)
+    if shaft is None:
+        ax.annotate(f"{volts(first)} ", (rpm, first), ha="right", va="bottom", fontsize="small")
+        return
+    arrow = {"arrowstyle": "<->", "color": GREY, "lw": 0.9, "shrinkA": 0.0, "shrinkB": 2.0}
+    ax.annotate("", (rpm, first), (rpm, shaft), arrowprops=arrow)
+    middle = (first * shaft) ** 0.5 if ax.get_yscale() == "log" else 0.5 * (first + shaft)
+    ax.annotate(
+        f"margin {first / shaft:.3g}",
+        (rpm, middle),
+        (6.0, 0.0),
+        textcoords="offset points",
+        va="center",
+        fontsize="small",
+        zorder=6.0,
+        path_effects=[withStroke(linewidth=2.0, foreground="white")],
+    )
 
 
-def _speed(points: Speeds, ax: Axes) -> Array:
-    """Speeds in ascending order [rpm], for which the axis is scaled."""
-    speed = np.array(sorted(speed for speed, _ in points)) * 30.0 / np.pi
-    log = is_wide(speed)
-    scale_axis(ax.xaxis, "speed of the inner ring [rpm]", values=np.round(speed, 6), log=log)
+def _speed_axis(curves: Curves, ax: Axes) -> Array:
+    """Scale the axis of speeds, and return them in ascending order [rpm]."""
+    speed: Array = curves.speed * RPM
+    scale_axis(ax.xaxis, "speed of the inner ring [rpm]", values=np.round(speed, 6), log=is_wide(speed))
     return speed
 
 
@@ -143,9 +222,17 @@ def _lubrication(points: Speeds, ax: Axes, speed: Array) -> None:
         (("conducting", "touching"), r"$\lambda$ < 1: surfaces touch", {"color": ORANGE, "marker": "X"}),
         (("partial film",), r"$\lambda$ from 1 to 3: surfaces may touch", {"color": GREY, "marker": "^"}),
     )
+    handles = []
     for names, label, look in kinds:
         on = np.array([state in names for state in states])
         if np.any(on):
             edge = ax.get_xaxis_transform()
             marks: dict[str, Any] = {"ls": "none", "ms": 6.0, "clip_on": False, "zorder": 5.0, "label": label}
-            ax.plot(speed[on], np.zeros(np.sum(on)), transform=edge, **look, **marks)
+            handles += ax.plot(speed[on], np.zeros(np.sum(on)), transform=edge, **look, **marks)
+    if handles:
+        legend_above(ax, handles)
+
+
+def breaks_anywhere(points: Speeds) -> bool:
+    """Whether there is a breakdown voltage at any speed."""
+    return any(summary["bearing"]["first_break"] is not None for _, summary in points)

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.legend_handler import HandlerTuple
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
@@ -15,6 +16,8 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.results import PointResult
 from ehlectric.field.point import PointField
+from ehlectric.figures.contact.breakdown import limit_line
+from ehlectric.figures.contact.findings import strength_limit
 from ehlectric.figures.contact.maps import film_unit, film_window, round_levels
 from ehlectric.figures.section import draw_section
 from ehlectric.figures.style import (
@@ -28,7 +31,7 @@ from ehlectric.figures.style import (
     new_panels,
 )
 
-# Colour and dashes of the cut through the centre, and of the cut through the minimum film or largest field.
+# Colour and dashes of the cut through the centre, and of the cut through the minimum film or maximum field.
 _LOOKS = ((BLUE, "-"), (ORANGE, (0, (4.0, 1.2))))
 
 
@@ -143,7 +146,7 @@ def film_cut(result: PointResult, ax: Axes | None = None, *, along: str = "x") -
 
 
 def field_cut(result: PointResult, ax: Axes | None = None, *, along: str = "x") -> Axes:
-    """Draw the field strength at mid-film on two cuts, through the centre and through the largest field.
+    """Draw the field strength at mid-film on two cuts, through the centre and through the maximum field.
 
     Parameters
     ----------
@@ -164,16 +167,30 @@ def field_cut(result: PointResult, ax: Axes | None = None, *, along: str = "x") 
     factor, unit = unit_for(field.max_strength, "V/m")
     places = ((0.0, 0.0), field.max_strength_position)
     at = (field.x if along == "x" else field.y) / result.conditions.semi_axis_x
-    for place, (color, line) in zip(places, _LOOKS, strict=True):
+    lines, bands = [], []
+    for name, place, (color, line) in zip(("centre", "maximum field"), places, _LOOKS, strict=True):
         cut = Cut.near(along, place, field.x, field.y)
         away = cut.away(field)
-        ax.plot(at[away], factor * cut.of(field.thin_gap_strength)[away], color=color, lw=4.0, alpha=0.25)
-        (last,) = ax.plot(at[away], factor * cut.of(field.middle_strength)[away], color=color, ls=line)
-    last.set_label(f"largest field, {cut.name(result)}")
-    band = Line2D([], [], color=GREY, lw=4.0, alpha=0.4, label="$V_{12}/h$, behind the lines")
-    legend_above(ax, [last, band], 1)
+        thin = factor * cut.of(field.thin_gap_strength)[away]
+        bands += ax.plot(at[away], thin, color=color, lw=4.0, alpha=0.25)
+        label = f"{name}, {cut.name(result)}"
+        lines += ax.plot(
+            at[away], factor * cut.of(field.middle_strength)[away], color=color, ls=line, label=label
+        )
+    entries = {line: str(line.get_label()) for line in lines}
+    top, limit = factor * field.max_strength, strength_limit(result)
+    if limit is not None:
+        cut = Cut.near(along, field.max_strength_position, field.x, field.y)
+        top = max(top, limit_line(ax, at, factor * cut.of(limit), top, unit))
+    legend_above(
+        ax,
+        [*entries, tuple(bands)],  # type: ignore[list-item]
+        1,
+        labels=[*entries.values(), "thin-gap estimates $V_{12}/h$"],
+        handler_map={tuple: HandlerTuple(ndivide=None)},
+    )
     ax.set_ylabel(f"mid-film field $|E|$ [{unit}]")
-    ax.set_ylim(0.0, 1.08 * factor * field.max_strength)
+    ax.set_ylim(0.0, 1.08 * top)
     return ax
 
 
@@ -199,7 +216,7 @@ def _film_lines(result: PointResult, ax: Axes, along: str, values: Array) -> lis
     """Draw values (nx, ny) at the film's nodes on the cuts through the centre and the minimum film."""
     lines: list[Line2D] = []
     for cut, name, (color, line) in zip(
-        _film_cuts(result, along), ("centre", "least film"), _LOOKS, strict=True
+        _film_cuts(result, along), ("centre", "minimum film"), _LOOKS, strict=True
     ):
         label = f"{name}, {cut.name(result)}"
         lines += ax.plot(_axis(result, along), cut.of(values), color=color, ls=line, label=label)
@@ -234,7 +251,7 @@ def cuts(result: PointResult, axes: Sequence[Axes] | None = None) -> Axes:
 
 
 def field_section(result: PointResult, ax: Axes | None = None, *, along: str = "x") -> Axes:
-    """Draw a section of the film through the largest field: field strength as colours, and equipotentials.
+    """Draw a section of the film through the maximum field: field strength as colours, and equipotentials.
 
     Parameters
     ----------
@@ -265,6 +282,7 @@ def field_section(result: PointResult, ax: Axes | None = None, *, along: str = "
         strength_factor * cut.of(field.strength)[away],
         limits=(0.0, strength_factor * field.max_strength),
         potentials=(electric.potential_1, electric.potential_2),
+        units=(result.conditions.semi_axis_x, 1.0 / factor),
     )
     low, high = sorted((electric.potential_1, electric.potential_2))
     ax.contour(
@@ -279,7 +297,8 @@ def field_section(result: PointResult, ax: Axes | None = None, *, along: str = "
     )
     ax.set_ylabel(f"height $z$ [{unit}]")
     label_position(result, ax, along)
-    ax.set_title(cut.name(result), loc="right")
+    way = "along" if along == "x" else "across"
+    ax.set_title(f"section {way} entrainment at {cut.name(result)}", loc="right")
     bar = figure_of(ax).colorbar(filled, ax=ax, label=f"$|E|$ [{strength_unit}]", pad=0.02)
     ticks = round_levels(0.0, strength_factor * field.max_strength, 6)
     bar.set_ticks(list(ticks[ticks <= strength_factor * field.max_strength]))
@@ -301,9 +320,9 @@ def _levelled(result: PointResult, cut: Cut) -> Array:
 
 
 def field_sections(result: PointResult, axes: Sequence[Axes] | None = None) -> Axes:
-    """Draw two sections of the film through the largest field, along entrainment and across it.
+    """Draw two sections of the film through the maximum field, along entrainment and across it.
 
-    The colours show the field strength.
+    The colours show the field strength. Both sections have the same scale of heights.
 
     Parameters
     ----------
@@ -320,4 +339,8 @@ def field_sections(result: PointResult, axes: Sequence[Axes] | None = None) -> A
     axes = new_panels(2, 1, (6.3, 5.6)) if axes is None else axes
     for ax, along in zip(axes, "xy", strict=True):
         field_section(result, ax, along=along)
+    highest = max(ax.get_ylim()[1] for ax in axes)
+    lowest = min(ax.get_ylim()[0] for ax in axes)
+    for ax in axes:
+        ax.set_ylim(lowest, highest)
     return axes[0]

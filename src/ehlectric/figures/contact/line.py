@@ -6,22 +6,30 @@ from collections.abc import Callable
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
-from ehlectric.arrays import Array
+from ehlectric.arrays import Array, Mask
 from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.results import Result
+from ehlectric.figures.contact.breakdown import breakdown_figures_of, limit_line
+from ehlectric.figures.contact.findings import cut_offs, strength_limit
+from ehlectric.figures.contact.maps import round_levels
 from ehlectric.figures.names import ROUGHNESS_FIGURE
-from ehlectric.figures.section import draw_section
+from ehlectric.figures.section import MAXIMUM, draw_section, section_inset
 from ehlectric.figures.style import (
     BLUE,
     GREEN,
     GREY,
+    LENGTH_AXIS,
     ORANGE,
     axes_or_new,
     figure_of,
     in_half_widths,
     label_position,
+    legend_above,
+    length_axis,
+    new_panels,
 )
 from ehlectric.formulas.hertz_line import line_pressure
 
@@ -39,7 +47,8 @@ def pressure_and_film(result: Result, ax: Axes | None = None) -> Axes:
     Returns
     -------
     Axes
-        Axes of the pressure; the film thickness is on a twin of them, with an axis on the right.
+        Axes of the pressure; the film thickness is on a twin of them, with an axis on the right. Both axes
+        have their ticks at the same heights. The minimum film is marked.
     """
     ax = axes_or_new(ax)
     film, conditions = result.film, result.conditions
@@ -49,10 +58,9 @@ def pressure_and_film(result: Result, ax: Axes | None = None) -> Axes:
     hertz = conditions.max_pressure * line_pressure(x)
     lines = ax.plot(x, factor * hertz, color=GREY, ls="--", lw=0.8, label="Hertz pressure")
     lines += ax.plot(x, factor * film.pressure, color=BLUE, label="pressure")
-    ax.set_xlim(max(x[0], -2.0), min(x[-1], 1.5))
+    ax.set_xlim(*_window(x))
     label_position(result, ax)
     ax.set_ylabel(f"pressure $p$ [{unit}]", color=BLUE)
-    ax.set_ylim(0.0, 1.6 * factor * largest)
     twin = ax.twinx()
     to_pressure = factor
     factor, unit = unit_for(film.central_thickness, "m")
@@ -61,14 +69,102 @@ def pressure_and_film(result: Result, ax: Axes | None = None) -> Axes:
         ax.plot(x, to_pressure * result.smooth.pressure, color="black", lw=0.9, ls=":")
         smooth = factor * result.smooth.thickness
         lines += twin.plot(x, smooth, color="black", lw=0.9, ls=":", label="both, smooth surfaces")
-    minimum, position = factor * film.minimum_thickness, film.minimum_position / conditions.half_width
-    ax.set_title(rf"$h_\mathrm{{min}}$ = {minimum:.3g} {unit} at $x/b$ = {position:.3f}", loc="right")
     twin.set_ylabel(f"film thickness $h$ [{unit}]", color=ORANGE)
-    twin.set_ylim(0.0, 5.0 * factor * film.central_thickness)
-    # Every contact leaves room for the legend above the Hertz pressure, between the flanks of the film.
-    centre = (0.0 - ax.get_xlim()[0]) / (ax.get_xlim()[1] - ax.get_xlim()[0])
-    ax.legend(handles=lines, loc="center", bbox_to_anchor=(centre, 0.82), frameon=False)
+    _align(ax, twin, to_pressure * largest, factor * film.central_thickness)
+    minimum, position = factor * film.minimum_thickness, film.minimum_position / conditions.half_width
+    lines += twin.plot(
+        position,
+        minimum,
+        ls="none",
+        marker="o",
+        ms=4.0,
+        mfc="white",
+        color=ORANGE,
+        label=f"minimum film, {minimum:.3g} {unit}",
+    )
+    length_axis(result, ax)
+    legend_above(ax, lines, 4 if len(lines) < 5 else 3, lift=LENGTH_AXIS)
     return ax
+
+
+def _window(x: Array) -> tuple[float, float]:
+    """Range of x/b around the contact that figures of the film show, within the domain."""
+    return max(float(x[0]), -2.0), min(float(x[-1]), 1.5)
+
+
+def _align(ax: Axes, twin: Axes, pressure: float, film: float) -> None:
+    """Give two axes from 0 as many ticks, at the same heights, and a grid through them.
+
+    The film in the centre lies in the lowest quarter, so that its flanks leave the contact on both sides of
+    the pressure.
+    """
+    ticks = np.asarray(MaxNLocator(6, steps=[1, 2, 2.5, 5, 10]).tick_values(0.0, 1.04 * pressure))
+    intervals = ticks.size - 1
+    steps = np.array([1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 10.0])
+    least = 4.0 * film / intervals
+    decade = 10.0 ** np.floor(np.log10(least))
+    step = decade * float(steps[np.searchsorted(steps, least / decade * (1.0 - 1e-9))])
+    for axes, values in ((ax, ticks), (twin, step * np.arange(intervals + 1))):
+        axes.set_ylim(0.0, values[-1])
+        axes.set_yticks(values)
+    ax.grid(axis="y", lw=0.4, color="0.88")
+    ax.set_axisbelow(True)
+
+
+def film_change(result: Result, ax: Axes | None = None) -> Axes:
+    """Draw the change that the roughness makes to the film: rough film minus smooth film over x/b.
+
+    Parameters
+    ----------
+    result : Result
+        Result of a rough line contact that was also solved with smooth surfaces.
+    ax : Axes, optional
+        Axes to draw on; axes of a new figure if omitted.
+
+    Returns
+    -------
+    Axes
+        Axes with the change of the film, and the change that undeformed roughness would make to it.
+    """
+    ax = axes_or_new(ax)
+    assert result.smooth is not None
+    film, x = result.film, in_half_widths(result, result.film.x)
+    change, heights = film.thickness - result.smooth.thickness, result.roughness.sum(axis=0)
+    shown = (x >= _window(x)[0]) & (x <= _window(x)[1])
+    factor, unit = unit_for(float(np.max(np.abs(np.stack([change, heights])[:, shown]))), "m", least=1.0)
+    ax.plot(x, -factor * heights, color="#9ccbe8", lw=1.0, label="if not flattened")
+    ax.plot(x, factor * change, color=ORANGE, lw=0.8, label="rough − smooth film")
+    ax.set_xlim(*_window(x))
+    ax.set_ylabel(f"change of film [{unit}]")
+    label_position(result, ax)
+    legend_above(ax, columns=2)
+    return ax
+
+
+def film(result: Result, ax: Axes | None = None) -> Axes:
+    """Draw pressure and film; below them, the change by roughness where the smooth contact was solved too.
+
+    Parameters
+    ----------
+    result : Result
+        Result of a line contact.
+    ax : Axes, optional
+        Axes to draw pressure and film on; axes of a new figure, with both panels, if omitted.
+
+    Returns
+    -------
+    Axes
+        Axes of the pressure.
+    """
+    if ax is not None or result.smooth is None:
+        return pressure_and_film(result, ax)
+    above, below = new_panels(2, 1, (6.3, 5.2))
+    gridspec = above.get_gridspec()
+    assert gridspec is not None
+    gridspec.set_height_ratios([3.0, 2.0])
+    pressure_and_film(result, above)
+    film_change(result, below)
+    return above
 
 
 def potential(result: Result, ax: Axes | None = None) -> Axes:
@@ -97,7 +193,7 @@ def potential(result: Result, ax: Axes | None = None) -> Axes:
 
 
 def field_strength(result: Result, ax: Axes | None = None, *, largest: float | None = None) -> Axes:
-    """Draw a map of the dimensionless field strength in the film, abs(E) h_min/V12.
+    """Draw a map of the field strength in the film, with an inset around its maximum, which is marked.
 
     Parameters
     ----------
@@ -106,27 +202,59 @@ def field_strength(result: Result, ax: Axes | None = None, *, largest: float | N
     ax : Axes, optional
         Axes to draw on; axes of a new figure if omitted.
     largest : float, optional
-        Value of abs(E) h_min/V12 at the end of the colour scale; its maximum in the film if omitted.
+        Draws the dimensionless field strength abs(E) h_min/V12 instead, from 0 to this value, without inset.
 
     Returns
     -------
     Axes
-        Axes with the map, and a colour bar beside them.
+        Axes with the map, and a colour bar beside them. The colours span the field strengths inside the
+        Hertz zone; smaller ones are grey.
 
     Notes
     -----
-    Drawn as Figures 5 and 6 of Morris et al. (2022), doi:10.3390/lubricants10050087.
+    The dimensionless field strength is drawn as Figures 5 and 6 of Morris et al. (2022),
+    doi:10.3390/lubricants10050087.
     """
     field = result.field
+    if largest is not None:
+        return _dimensionless(result, ax, largest)
+    factor, unit = unit_for(field.max_strength, "V/m")
+    inside = np.abs(field.x) <= result.conditions.half_width
+    low = float(np.min(field.strength[inside])) if np.any(inside) else 0.0
+    levels = round_levels(factor * low, factor * field.max_strength, 8)
+    limits = (float(levels[0]), factor * field.max_strength)
+    strength = factor * field.strength
+    label = f"field strength $|E|$ [{unit}]"
+    ax = _map(result, strength, ax, label=label, limits=limits, ticks=levels[levels <= limits[1]], under=True)
+    _zoom(result, ax, strength, limits)
+    return ax
+
+
+def _dimensionless(result: Result, ax: Axes | None, largest: float) -> Axes:
+    """Draw a map of abs(E) h_min/V12 from 0 to ``largest``."""
     scale = result.strength_scale
+    nice = np.asarray(MaxNLocator(6).tick_values(0.0, largest))
+    ticks = nice[(nice >= 0.0) & (nice <= largest)]
     label = r"field strength $|E|\,h_\mathrm{min}/V_{12}$"
-    limits = (0.0, largest or float(scale * np.max(field.strength)))
-    nice = np.asarray(MaxNLocator(6).tick_values(*limits))
-    ticks = nice[(nice >= limits[0]) & (nice <= limits[1])]
-    ax = _map(result, scale * field.strength, ax, label=label, limits=limits, ticks=ticks)
+    ax = _map(result, scale * result.field.strength, ax, label=label, limits=(0.0, largest), ticks=ticks)
     factor, unit = unit_for(1.0 / scale, "V/m")
     ax.set_title(rf"$V_{{12}}/h_\mathrm{{min}}$ = {factor / scale:.3g} {unit}", loc="right")
     return ax
+
+
+def _zoom(result: Result, ax: Axes, values: Array, limits: tuple[float, float]) -> None:
+    """Mark the maximum of the field, and draw its surroundings enlarged on the upper body."""
+    x, y = _mesh(result)
+    k, j = np.unravel_index(np.argmax(values), values.shape)
+    height = float(np.max(y[k]) - np.min(y[k]))
+    half = 0.06 if not result.rough else 0.03
+    inset = ax.inset_axes((0.03, 0.68, 0.37, 0.29))
+    section_inset(inset, x[:, 0], y, values, limits=limits, under=True)
+    inset.set_xlim(x[k, 0] - half, x[k, 0] + half)
+    inset.set_ylim(np.min(y[k]) - 0.35 * height, np.max(y[k]) + 0.35 * height)
+    ax.indicate_inset_zoom(inset, edgecolor="black", lw=0.6)
+    for axes in (ax, inset):
+        axes.plot(x[k, 0], y[k, j], **MAXIMUM)
 
 
 def _mesh(result: Result) -> tuple[Array, Array]:
@@ -145,14 +273,21 @@ def _map(
     label: str,
     limits: tuple[float, float],
     ticks: Array,
+    under: bool = False,
 ) -> Axes:
-    """Draw a map of values (nx, ns) in the film, with its axis labels and colour bar."""
+    """Draw a map of values (nx, ns) in the film, with its axis labels and colour bar.
+
+    Values below the limits are grey where ``under`` is set.
+    """
     ax = axes_or_new(ax)
     x, y = _mesh(result)
-    _, unit = unit_for(result.film.central_thickness, "m")
     electric = result.case.electric
     potentials = (electric.potential_1, electric.potential_2)
-    filled = draw_section(ax, x[:, 0], y, values, limits=limits, potentials=potentials)
+    factor, unit = unit_for(result.film.central_thickness, "m")
+    units = (result.conditions.half_width, 1.0 / factor)
+    filled = draw_section(
+        ax, x[:, 0], y, values, limits=limits, potentials=potentials, under=under, units=units
+    )
     ax.set_ylabel(f"height $y$ [{unit}]")
     label_position(result, ax)
     bar = figure_of(ax).colorbar(filled, ax=ax, label=label, pad=0.02)
@@ -175,7 +310,8 @@ def field_profiles(result: Result, ax: Axes | None = None) -> Axes:
     Returns
     -------
     Axes
-        Axes with the field strength in V/m, prefixed, on the left, and abs(E) h_min/V12 on the right.
+        Axes with the field strength in V/m, prefixed, on the left, and abs(E) h_min/V12 on the right. The
+        dielectric strength is a line, if the case has one.
     """
     ax = axes_or_new(ax)
     field = result.field
@@ -183,27 +319,49 @@ def field_profiles(result: Result, ax: Axes | None = None) -> Axes:
     factor, unit = unit_for(field.max_strength, "V/m")
     zone = in_half_widths(result, np.array(field.high_field_zone))
     width, length = unit_for(field.high_field_width, "m", least=1.0)
-    label = f"mid-film above 95 % of its maximum: {width * field.high_field_width:.3g} {length} wide"
-    ax.axvspan(zone[0], zone[1], color=GREEN, alpha=0.25, lw=0.0, label=label)
-    thin = 0.4 if result.rough else 1.0
-    # Within some gap heights of the end faces of the field domain, the faces disturb the field.
-    on = field.inner
-    ax.plot(x[on], factor * field.strength[on, 0], color=BLUE, lw=2.4 * thin, label="surface 1")
-    ax.plot(x[on], factor * field.strength[on, -1], color=ORANGE, ls="--", lw=1.6 * thin, label="surface 2")
-    ax.plot(x[on], factor * field.middle_strength[on], color="black", lw=0.8, label="mid-film")
+    label = f"above 95 % of maximum, {width * field.high_field_width:.3g} {length} wide"
+    shaded = ax.axvspan(zone[0], zone[1], color=GREEN, alpha=0.25, lw=0.0, label=label)
+    lines = _sections(ax, x, field.inner, factor * np.stack(_strengths(result)), rough=bool(result.rough))
     if result.smooth:
         smooth = factor * result.smooth.middle_strength
-        ax.plot(x, smooth, color=GREY, lw=1.2, ls=":", label="mid-film, smooth surfaces")
+        lines += ax.plot(x, smooth, color=GREY, lw=1.2, ls=":", label="mid-film, smooth surfaces")
     ax.set(ylabel=rf"field strength $|E|$ [{unit}]", xlim=(x[0], x[-1]))
     label_position(result, ax)
-    ax.set_ylim(0.0, 1.08 * factor * field.max_strength)
+    top = factor * field.max_strength
+    limit = strength_limit(result)
+    if limit is not None:
+        top = max(top, limit_line(ax, x, factor * limit, top, unit))
+    ax.set_ylim(0.0, 1.08 * top)
     scale = result.strength_scale / factor
     right = ax.secondary_yaxis(
         "right", functions=(lambda e: np.asarray(e) * scale, lambda e: np.asarray(e) / scale)
     )
-    right.set_ylabel(r"$|E|\,h_\mathrm{min}/V_{12}$")
-    ax.legend(loc="lower center", frameon=False)
+    right.set_ylabel(r"dimensionless, $|E|\,h_\mathrm{min}/V_{12}$")
+    ax.legend(handles=[*lines, shaded], loc="lower center", frameon=False)
     return ax
+
+
+def _strengths(result: Result) -> tuple[Array, Array, Array]:
+    """Field strength on both walls and at mid-film [V/m], each (nx,)."""
+    field = result.field
+    return field.strength[:, 0], field.strength[:, -1], field.middle_strength
+
+
+def _sections(ax: Axes, x: Array, on: Mask, values: Array, *, rough: bool) -> list[Line2D]:
+    """Draw values (3, nx) on both walls and at mid-film over x/b, where the mask is True.
+
+    Close to the end faces of the field domain, the faces disturb the field.
+    """
+    # Lines that coincide are drawn one in the other, so that all of them can be seen.
+    looks = (
+        ("surface 1", BLUE, "-", 1.8 if rough else 2.4),
+        ("surface 2", ORANGE, "-" if rough else "--", 1.0 if rough else 1.6),
+        ("mid-film", "black", "-", 0.4 if rough else 0.8),
+    )
+    lines: list[Line2D] = []
+    for (label, color, dashes, width), along in zip(looks, values, strict=True):
+        lines += ax.plot(x[on], along[on], color=color, ls=dashes, lw=width, label=label)
+    return lines
 
 
 def field_deviation(result: Result, ax: Axes | None = None) -> Axes:
@@ -219,32 +377,43 @@ def field_deviation(result: Result, ax: Axes | None = None) -> Axes:
     Returns
     -------
     Axes
-        Axes with the deviations in per mille of V12/h, on both walls and at mid-film. The ends of the field
-        domain are left out: within some gap heights, the end faces disturb the field.
+        Axes with the deviations in per mille of V12/h, on both walls and at mid-film, and an inset around the
+        largest of them. The ends of the field domain are left out: within some gap heights, the end faces
+        disturb the field.
     """
     ax = axes_or_new(ax)
     field = result.field
-    x = in_half_widths(result, field.x)
-    sections = (
-        ("surface 1", field.strength[:, 0], BLUE, "-", 2.4),
-        ("surface 2", field.strength[:, -1], ORANGE, "--", 1.6),
-        ("mid-film", field.middle_strength, "black", "-", 0.8),
-    )
-    thin = 0.4 if result.rough else 1.0
-    for label, strength, color, line, width in sections:
-        deviation = 1e3 * (strength / field.thin_gap_strength - 1.0)
-        ax.plot(x[field.inner], deviation[field.inner], color=color, ls=line, lw=thin * width, label=label)
-    ax.set(ylabel=r"$|E|\,h/V_{12} - 1$ [‰]", xlim=(x[0], x[-1]))
+    x, on = in_half_widths(result, field.x), field.inner
+    values = 1e3 * (np.stack(_strengths(result)) / field.thin_gap_strength - 1.0)
+    _sections(ax, x, on, values, rough=bool(result.rough))
+    ax.axhline(0.0, color=GREY, lw=0.5, zorder=0.5)
+    ax.set(ylabel="deviation of the field from $V_{12}/h$ [‰]", xlim=(x[0], x[-1]))
     label_position(result, ax)
-    ax.margins(y=0.1)
-    ax.legend(loc="best", frameon=False)
+    legend_above(ax, columns=3)
+    inner = np.where(on, values, 0.0)
+    _, k = np.unravel_index(np.argmax(np.abs(inner)), inner.shape)
+    low, high = float(inner.min()), float(inner.max())
+    # Room for the inset on the side of zero that has the larger deviations, away from the largest one.
+    side, end = (-1.0, low) if -low > high else (1.0, high)
+    margin = 0.1 * (high - low) or 1.0
+    ax.set_ylim(min(low, side * 0.4 * abs(end)) - margin, max(high, side * 0.4 * abs(end)) + margin)
+    left = 0.1 if x[k] > 0.0 else 0.45
+    inset = ax.inset_axes((left, 0.08 if side < 0.0 else 0.58, 0.45, 0.34))
+    _sections(inset, x, on, values, rough=bool(result.rough))
+    inset.set_xlim(x[k] - 0.03, x[k] + 0.03)
+    inset.set_ylim(low - margin, high + margin)
+    inset.tick_params(labelsize=7.0)
+    inset.locator_params(nbins=4)
+    inset.axhline(0.0, color=GREY, lw=0.5, zorder=0.5)
+    ax.indicate_inset_zoom(inset, edgecolor=GREY, lw=0.6)
     return ax
 
 
 def roughness(result: Result, ax: Axes | None = None) -> Axes:
     """Draw the roughness of both surfaces over x/b, as the film solver uses it.
 
-    Peaks, which make the film thinner, point up for both surfaces.
+    Peaks, which make the film thinner, point up for both surfaces. Where the case cuts off the heights, both
+    ends are drawn.
 
     Parameters
     ----------
@@ -262,23 +431,28 @@ def roughness(result: Result, ax: Axes | None = None) -> Axes:
     x = in_half_widths(result, result.film.x)
     factor, unit = unit_for(float(np.max(np.abs(result.roughness))), "m", least=1.0)
     statistics = result.roughness_statistics
+    cut = cut_offs(result)
     for k, rq, color in ((1, statistics.rq_1, BLUE), (2, statistics.rq_2, ORANGE)):
         heights = result.roughness[k - 1]
         if np.any(heights):
-            label = f"surface {k}, Rq = {factor * rq:.3g} {unit} within $|x/b| \\leq 1$"
+            label = f"surface {k}, Rq = {factor * rq:.3g} {unit} in the contact"
             ax.plot(x, factor * heights, color=color, lw=0.7, label=label)
-    ax.set_xlim(max(x[0], -2.0), min(x[-1], 1.5))
+        if k in cut:
+            label = f"heights cut off at ±{factor * cut[k]:.3g} {unit}"
+            for end in (-cut[k], cut[k]):
+                ax.axhline(factor * end, color=color, lw=0.7, ls=":", label=label)
+                label = "_again"
+    ax.set_xlim(*_window(x))
     label_position(result, ax)
+    length_axis(result, ax)
+    ax.margins(y=0.08)
     ax.set_ylabel(f"height [{unit}]")
-    low, high = ax.get_ylim()
-    ax.set_ylim(low, high + 0.25 * (high - low))
-    ax.legend(loc="upper left", frameon=False, ncols=2)
+    legend_above(ax, lift=LENGTH_AXIS)
     return ax
 
 
 FIGURES: dict[str, Callable[..., Axes]] = {
-    "film.png": pressure_and_film,
-    "potential.png": potential,
+    "film.png": film,
     "field_strength.png": field_strength,
     "field_profiles.png": field_profiles,
     "field_deviation.png": field_deviation,
@@ -287,4 +461,5 @@ FIGURES: dict[str, Callable[..., Axes]] = {
 
 def figures_of(result: Result) -> dict[str, Callable[..., Axes]]:
     """Functions that draw the figures of a line contact, by file name."""
-    return FIGURES | ({ROUGHNESS_FIGURE: roughness} if np.any(result.roughness) else {})
+    rough = {ROUGHNESS_FIGURE: roughness} if np.any(result.roughness) else {}
+    return FIGURES | rough | breakdown_figures_of(result)

@@ -11,6 +11,8 @@ from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import QuadMesh
 from matplotlib.colorbar import Colorbar
+from matplotlib.colors import Colormap
+from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Ellipse
 from matplotlib.ticker import MaxNLocator
@@ -20,7 +22,7 @@ from ehlectric.arrays import Array
 from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.conditions import PointConditions
 from ehlectric.contact.results import PointResult
-from ehlectric.figures.style import figure_of, label_position, new_panels
+from ehlectric.figures.style import figure_of, label_position, new_panels, page_width
 
 # Ratio a/b of the semi-axes, a across and b along entrainment, above which a contact is drawn turned: its
 # long axis lies along the page, and entrainment points down.
@@ -40,6 +42,9 @@ _WIDTH, _FURTHER, _WIDE = 5.8, 1.6, 7.2
 # Room around the maps: beside them for labels and a colour bar; above and below them for title and labels,
 # for each row of a legend, and for a colour bar [inches].
 _BESIDE, _ABOVE, _ROW, _BAR = 1.6, 0.85, 0.2, 0.45
+
+# Empty edge above and below the maps [inches].
+_EDGE = 0.06
 
 # Range of x/b of the maps of the film, before and behind the Hertz ellipse, as for the line contact.
 _BEFORE, _BEHIND = -2.0, 1.5
@@ -100,11 +105,12 @@ def map_panels(
     shape, _ = _shape(result, number, window)
     more = _ABOVE + _ROW * rows
     if on_low_page(result, number, window):
-        high = number * ((_WIDE - 0.7) * shape + 0.3)
-        panels = new_panels(number, 1, (_WIDE, high + more + _BAR))
+        wide = page_width(_WIDE)
+        high = number * ((wide - 0.7) * shape + 0.3)
+        panels = new_panels(number, 1, (wide, high + more + _BAR), exact=True)
     else:
-        wide = _WIDTH + _FURTHER * (number - 1)
-        panels = new_panels(1, number, (wide, (wide - _BESIDE) / number * shape + more))
+        wide = page_width(_WIDTH + _FURTHER * (number - 1))
+        panels = new_panels(1, number, (wide, (wide - _BESIDE) / number * shape + more), exact=True)
     # Axes of equal scale shrink; this layout makes the colour bars as high as the shrunk axes.
     figure_of(panels[0]).set_layout_engine("compressed")
     return panels
@@ -141,7 +147,7 @@ def draw_map(
     position: tuple[Array, Array],
     values: Array,
     *,
-    colours: str,
+    colours: str | Colormap,
     limits: Range,
     window: tuple[Range, Range],
     number: int = 1,
@@ -161,8 +167,8 @@ def draw_map(
         Positions x, shape (nx,), and y, shape (ny,), of the nodes [m].
     values : ndarray, shape (nx, ny)
         Values at the nodes.
-    colours : str
-        Name of the colour map.
+    colours : str or Colormap
+        Colour map, or its name.
     limits : tuple of float
         Values at the two ends of the colour scale.
     window : tuple of tuple of float
@@ -250,7 +256,7 @@ def colour_bar(
     """
     place: dict[str, Any] = {"pad": 0.02}
     if on_low_page(result, len(axes), window):
-        place = {"location": "bottom", "aspect": 60, "pad": 0.03}
+        place = {"location": "bottom", "aspect": 60, "pad": 0.03, "shrink": 0.8}
     # Ticks are set here: those that matplotlib chooses change with the height of the bar, after the layout
     # has made room for their labels.
     first, last = mappable.get_clim()
@@ -302,6 +308,42 @@ def mark(result: OfPointContact, ax: Axes, at: Array, label: str) -> Line2D:
         label=label,
     )
     return line
+
+
+def say(result: OfPointContact, ax: Axes, at: Array, text: str) -> None:
+    """Write a text beside each of the positions ``at``, the rows x, y [m] of shape (n, 2).
+
+    Where entrainment points down, the text is below the marks, on the side of the outlet, and close marks
+    share one text.
+    """
+    places = np.column_stack(_on_page(result, *(at / result.conditions.semi_axis_x).T))
+    down, (left, right) = turned(result), ax.get_xlim()
+    if down and np.ptp(places[:, 0]) < 0.2 * (right - left):
+        places = np.mean(places, axis=0, keepdims=True)
+    for x, y in places:
+        beyond = x > left + 0.7 * (right - left)
+        ax.annotate(
+            text,
+            (x, y),
+            (0.0, -11.0) if down else (-7.0 if beyond else 7.0, 0.0),
+            textcoords="offset points",
+            ha="center" if down else "right" if beyond else "left",
+            va="top" if down else "center",
+            fontsize=8.0,
+            path_effects=_outlined("black", 2.0),
+        )
+
+
+def fit_height(figure: Figure) -> None:
+    """Make a figure of maps as high as what is drawn on it.
+
+    Axes of equal scale need less height than the page has where a legend or a colour bar takes width.
+    """
+    figure.draw_without_rendering()
+    needed = figure.get_tightbbox()
+    height = float(needed.height) + 2.0 * _EDGE
+    if height < figure.get_figheight():
+        figure.set_figheight(height)
 
 
 def extreme_positions(x: Array, y: Array, values: Array) -> Array:

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
+from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
@@ -14,7 +15,9 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.results import PointResult
 from ehlectric.field.zones import HIGH_FIELD
+from ehlectric.figures.contact.breakdown import breakdown_figures_of
 from ehlectric.figures.contact.cuts import cuts, field_sections
+from ehlectric.figures.contact.findings import has_spike
 from ehlectric.figures.contact.maps import (
     Range,
     colour_bar,
@@ -32,9 +35,11 @@ from ehlectric.figures.contact.maps import (
     on_page,
     panel_name,
     round_levels,
+    say,
 )
+from ehlectric.figures.contact.refined import refined, smoothed
 from ehlectric.figures.names import ROUGHNESS_FIGURE
-from ehlectric.figures.style import GREY, legend_above
+from ehlectric.figures.style import GREY, OUT_OF_RANGE, legend_above
 
 SECTIONS = ("surface 1", "mid-film", "surface 2")
 
@@ -45,13 +50,16 @@ _THICKER = 2.0
 # the thin-gap estimate and of heights of the roughness.
 _DEVIATIONS_BEYOND, _HEIGHTS_BEYOND = 0.5, 0.1
 
-# Part of the largest pressure above which no lines are drawn: at the pressure ridge they would be too dense.
-_BELOW_RIDGE = 0.75
+# Part of the range of the colours by which the deviations of two walls may differ to share a map.
+_ALIKE = 0.05
+
+# Part of the Hertz pressure above which no lines are drawn: at the pressure ridge they would be too dense.
+_BELOW_RIDGE = 0.95
 _CAVITATED = "#e3e6ea"
 
 
 def film_map(result: PointResult, ax: Axes | None = None) -> Axes:
-    """Draw a map of the film thickness with lines of equal thickness, as in an interferogram.
+    """Draw a map of the film thickness with lines of equal thickness, and mark the minimum.
 
     Parameters
     ----------
@@ -63,20 +71,22 @@ def film_map(result: PointResult, ax: Axes | None = None) -> Axes:
     Returns
     -------
     Axes
-        Axes with the map. The colour bar covers the films inside the Hertz ellipse; around it the film is
-        thicker than the end of the bar. Rough films have no lines of equal thickness.
+        Axes with the map. The colours cover the films inside the Hertz ellipse; the thicker film around it is
+        grey. Rough films have no lines of equal thickness.
     """
     film, window = result.film, film_window(result)
     ax = map_panels(result, 1, window, rows=1)[0] if ax is None else ax
     factor, unit = film_unit(result)
-    thickness = factor * film.thickness
     inside = result.zones["hertz"](film.x[:, np.newaxis], film.y)
-    highest = float(np.percentile(thickness[inside], 100.0 - _THICKER))
-    levels = round_levels(factor * film.minimum_thickness, highest, 12)
+    highest = factor * float(np.percentile(film.thickness[inside], 100.0 - _THICKER))
+    number = 6 if on_low_page(result, 1, window) else 10
+    levels = round_levels(factor * film.minimum_thickness, highest, number)
     limits = (float(levels[0]), float(levels[-1]))
-    at = (film.x, film.y)
-    mesh = draw_map(result, ax, at, thickness, colours="viridis", limits=limits, window=window)
-    label = f"film thickness $h$ [{unit}]"
+    nodes = (film.x, film.y)
+    at, thickness = refined(nodes, factor * film.thickness, _in_metres(result, window))
+    colours = colormaps["viridis"].with_extremes(over=OUT_OF_RANGE)
+    mesh = draw_map(result, ax, at, thickness, colours=colours, limits=limits, window=window)
+    label = f"film thickness $h$ [{unit}], thicker: grey"
     bar = colour_bar(result, mesh, [ax], label, window=window, ticks=levels, extend="max")
     ellipse = hertz_ellipse(result, ax)
     if not result.rough:
@@ -84,11 +94,23 @@ def film_map(result: PointResult, ax: Axes | None = None) -> Axes:
         # Around the ellipse the gap widens so fast that the lines would merge to a black band.
         lines.set_clip_path(ellipse)
         bar.add_lines(lines)
-    minimum = f"minimum, {factor * film.minimum_thickness:.3g} {unit}"
-    lowest = mark(result, ax, extreme_positions(*at, -film.thickness), minimum)
+    lowest = mark(result, ax, extreme_positions(*nodes, -film.thickness), "minimum film")
+    say(
+        result,
+        ax,
+        extreme_positions(*nodes, -film.thickness),
+        f"{factor * film.minimum_thickness:.3g} {unit}",
+    )
     legend_above(ax, [legend_line(ellipse), lowest])
     entrainment(result, ax)
     return ax
+
+
+def _in_metres(result: PointResult, window: tuple[Range, Range]) -> tuple[Range, Range]:
+    """Ranges of x and y [m] of ranges of x/b and y/b."""
+    b = result.conditions.semi_axis_x
+    (left, right), (low, high) = window
+    return (b * left, b * right), (b * low, b * high)
 
 
 def pressure_map(result: PointResult, ax: Axes | None = None) -> Axes:
@@ -104,25 +126,32 @@ def pressure_map(result: PointResult, ax: Axes | None = None) -> Axes:
     Returns
     -------
     Axes
-        Axes with the map, and a colour bar beside them.
+        Axes with the map, and a colour bar beside them. Where the pressure spike is the maximum, the colours
+        are smoothed over one spacing of the nodes; the marked value is not.
     """
     film, window = result.film, film_window(result)
     ax = map_panels(result, 1, window, rows=1)[0] if ax is None else ax
-    factor, unit = unit_for(film.max_pressure, "Pa")
-    pressure = factor * film.pressure
-    at = (film.x, film.y)
-    limits = (0.0, factor * film.max_pressure)
+    hertz = result.conditions.max_pressure
+    factor, unit = unit_for(max(film.max_pressure, hertz), "Pa")
+    nodes = (film.x, film.y)
+    # The pressure spike is hardly wider than the grid, so that its nodes would look like a string of pearls.
+    spike = has_spike(result)
+    drawn = smoothed(film.pressure) if spike else film.pressure
+    at, pressure = refined(nodes, factor * drawn, _in_metres(result, window))
+    limits = (0.0, factor * max(float(np.max(drawn)), hertz))
+    pressure = np.clip(pressure, *limits)
     mesh = draw_map(result, ax, at, pressure, colours="magma", limits=limits, window=window)
     levels = round_levels(*limits, 10)
     bar = colour_bar(result, mesh, [ax], f"pressure $p$ [{unit}]", window=window, ticks=levels)
     if not result.rough:
-        inner = levels[(levels > 0.0) & (levels < _BELOW_RIDGE * limits[1])]
+        inner = levels[(levels > 0.0) & (levels < _BELOW_RIDGE * factor * hertz)]
         bar.add_lines(
             ax.contour(*on_page(result, *at), pressure, inner, colors="white", linewidths=0.4, alpha=0.6)
         )
     cavitated = _cavitated(result, ax)
-    highest = f"maximum, {factor * film.max_pressure:.3g} {unit}"
-    peak = mark(result, ax, extreme_positions(*at, film.pressure), highest)
+    position = extreme_positions(*nodes, film.pressure)
+    peak = mark(result, ax, position, "maximum on this grid" if spike else "maximum")
+    say(result, ax, position, f"{factor * film.max_pressure:.3g} {unit}")
     legend_above(ax, [legend_line(hertz_ellipse(result, ax, "white")), peak, cavitated], 3)
     entrainment(result, ax, ink="white")
     return ax
@@ -131,14 +160,16 @@ def pressure_map(result: PointResult, ax: Axes | None = None) -> Axes:
 def _cavitated(result: PointResult, ax: Axes) -> Patch:
     """Hatch the cavitated region, where the pressure is ambient, and return its legend entry.
 
-    The boundary nodes of the domain are at ambient pressure in any case. They are hatched where the node
-    beside them, one row inside, cavitates.
+    The edge of the region is drawn without the steps of the grid, less than a node away from them. The
+    boundary nodes of the domain are at ambient pressure in any case. They are hatched where the node beside
+    them, one row inside, cavitates.
     """
     film = result.film
-    cavitated = np.pad(film.cavitated[1:-1, 1:-1], 1, mode="edge").astype(float)
+    cavitated = np.pad(film.cavitated[1:-1, 1:-1], 1, mode="edge")
     if np.any(cavitated):
-        where = on_page(result, film.x, film.y)
-        area = ax.contourf(*where, cavitated, [0.5, 1.5], colors=[_CAVITATED], hatches=["////"])
+        window = _in_metres(result, film_window(result))
+        at, share = refined((film.x, film.y), smoothed(cavitated.astype(float)), window)
+        area = ax.contourf(*on_page(result, *at), share, [0.5, 1.5], colors=[_CAVITATED], hatches=["////"])
         area.set(edgecolor=GREY, linewidth=0.0)
     return Patch(label="cavitated", hatch="////", facecolor=_CAVITATED, edgecolor=GREY, linewidth=0.0)
 
@@ -161,26 +192,25 @@ def field_map(result: PointResult, ax: Axes | None = None, *, section: str = "mi
         Axes with the map and its colour bar, which ends at the largest field of all three sections.
     """
     field, window = result.field, field_window(result)
-    columns = 3 if on_low_page(result, 1, window) else 2
-    ax = map_panels(result, 1, window, rows=4 - columns)[0] if ax is None else ax
+    ax = map_panels(result, 1, window, rows=1)[0] if ax is None else ax
     factor, unit = unit_for(field.max_strength, "V/m")
     strength = _strength(result, section)
     at = (field.x, field.y)
     limits = (0.0, factor * field.max_strength)
     mesh = draw_map(result, ax, at, factor * strength, colours="inferno", limits=limits, window=window)
-    label = rf"$|E|$, {section} [{unit}]"
+    label = rf"field strength $|E|$, {section} [{unit}]"
     colour_bar(result, mesh, [ax], label, window=window, ticks=round_levels(*limits, 8))
     level = HIGH_FIELD * float(np.max(strength))
     if np.min(strength) < level:
         ax.contour(*on_page(result, *at), strength, [level], colors="#00e5ff", linewidths=0.9)
+    where = f", {field.max_strength_wall}" if result.rough else ""
     handles = [
         legend_line(hertz_ellipse(result, ax, "white")),
         Line2D([], [], color="#00b8d4", lw=0.9, label=f"{100.0 * HIGH_FIELD:g} % of the maximum"),
+        mark(result, ax, _largest(result), f"maximum{where}"),
     ]
-    where = f", {field.max_strength_wall}" if result.rough else ""
-    largest = f"largest, {factor * field.max_strength:.3g} {unit}{where}"
-    handles.append(mark(result, ax, _largest(result), largest))
-    legend_above(ax, handles, columns)
+    say(result, ax, _largest(result), f"{factor * field.max_strength:.3g} {unit}")
+    legend_above(ax, handles, 3)
     entrainment(result, ax, ink="white")
     return ax
 
@@ -199,9 +229,9 @@ def _largest(result: PointResult) -> Array:
 
 
 def field_deviation(result: PointResult, axes: Sequence[Axes] | None = None) -> Axes:
-    """Draw three maps of the deviation of the field strength from the thin-gap estimate V12/h.
+    """Draw maps of the deviation of the field strength from the thin-gap estimate V12/h.
 
-    The maps are of both walls and of mid-film.
+    The maps are of both walls and of mid-film; one map serves both walls where they are alike.
 
     Parameters
     ----------
@@ -213,14 +243,19 @@ def field_deviation(result: PointResult, axes: Sequence[Axes] | None = None) -> 
     Returns
     -------
     Axes
-        The first axes. The deviations are in per mille of V12/h, and shown inside the Hertz ellipse only:
-        near the side faces of the field domain, the faces disturb the field.
+        The first axes. The deviations are in per mille of V12/h, with zero in white, and shown inside the
+        Hertz ellipse only: near the side faces of the field domain, the faces disturb the field.
     """
     field, window = result.field, field_window(result)
     panels = {name: 1e3 * (_strength(result, name) / field.thin_gap_strength - 1.0) for name in SECTIONS}
     inside = result.zones["hertz"](field.x[:, np.newaxis], field.y)
-    ends = _ends(panels, field.inner & inside, _DEVIATIONS_BEYOND)
-    label = r"$|E|\,h/V_{12} - 1$ [‰]"
+    region = field.inner & inside
+    ends = _ends(panels, region, _DEVIATIONS_BEYOND)
+    first, middle, second = panels.values()
+    apart = np.abs(first - second)[region if np.any(region) else ...]
+    if axes is None and np.percentile(apart, 100.0 - _DEVIATIONS_BEYOND) < _ALIKE * ends[1]:
+        panels = {"surface 1, and 2 alike": first, "mid-film": middle}
+    label = "deviation of the field from $V_{12}/h$ [‰]"
     at = (field.x, field.y)
     return _compared(result, axes, at, panels, window=window, ends=ends, label=label, clipped=True)
 
@@ -259,14 +294,15 @@ def roughness(result: PointResult, axes: Sequence[Axes] | None = None) -> Axes:
 
 
 def _ends(panels: Mapping[str, Array], region: Mask, beyond: float) -> Range:
-    """Ends of the colours of several maps, so that ``beyond`` per cent of the nodes lie beyond either end.
+    """Ends of the colours of several maps, equally far from zero.
 
-    Nodes of ``region`` count, or all nodes if it is empty.
+    ``beyond`` per cent of the nodes lie beyond either end. Nodes of ``region`` count, or all nodes if it is
+    empty.
     """
     region = region if np.any(region) else np.ones_like(region)
     values = np.concatenate([panel[region] for panel in panels.values()])
-    low, high = np.percentile(values, [beyond, 100.0 - beyond])
-    return float(low), float(high)
+    end = float(np.max(np.abs(np.percentile(values, [beyond, 100.0 - beyond]))))
+    return -end, end
 
 
 def _compared(
@@ -283,7 +319,7 @@ def _compared(
     """Draw maps with the same colours and one colour bar, inside the Hertz ellipse only if ``clipped``."""
     number = len(panels)
     axes = map_panels(result, number, window) if axes is None else axes
-    look: dict[str, Any] = {"colours": "viridis", "limits": ends, "window": window, "number": number}
+    look: dict[str, Any] = {"colours": "RdBu_r", "limits": ends, "window": window, "number": number}
     for ax, (name, values) in zip(axes, panels.items(), strict=True):
         mesh = draw_map(result, ax, position, values, **look)
         ellipse = hertz_ellipse(result, ax)
@@ -307,4 +343,5 @@ POINT_FIGURES: dict[str, Callable[..., Axes]] = {
 
 def point_figures_of(result: PointResult) -> dict[str, Callable[..., Axes]]:
     """Functions that draw the figures of a point contact, by file name."""
-    return POINT_FIGURES | ({ROUGHNESS_FIGURE: roughness} if np.any(result.roughness) else {})
+    rough = {ROUGHNESS_FIGURE: roughness} if np.any(result.roughness) else {}
+    return POINT_FIGURES | rough | breakdown_figures_of(result)

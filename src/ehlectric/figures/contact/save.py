@@ -1,18 +1,21 @@
-"""Figures of stationary contacts: by name, and as PNG files."""
+"""Figures of stationary contacts: by name, and as files."""
 
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ehlectric.contact.results import PointResult, Result
+from ehlectric.figures.contact.findings import finding
 from ehlectric.figures.contact.line import figures_of
+from ehlectric.figures.contact.maps import fit_height
 from ehlectric.figures.contact.point import point_figures_of
-from ehlectric.figures.style import NOT_CONVERGED, drawing_of, figure_of, name_over, save_figure, style
+from ehlectric.figures.names import in_formats
+from ehlectric.figures.style import drawing_of, figure_of, name_over, save_figure, style
 
 
 def drawings_of(result: Result | PointResult) -> dict[str, Callable[..., Axes]]:
@@ -46,12 +49,15 @@ def figure(result: Result | PointResult, name: str) -> Figure:
     draw = drawing_of(drawings_of(result), name)
     with style():
         ax = draw(result)
-        _name(ax, result)
+        _name(ax, result, name)
+        # Only maps have axes of equal scale.
+        if ax.get_aspect() != "auto":
+            fit_height(figure_of(ax))
     return figure_of(ax)
 
 
-def save_figures(result: Result | PointResult, folder: Path) -> list[Path]:
-    """Draw all figures of a contact as PNG files.
+def save_figures(result: Result | PointResult, folder: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
+    """Draw all figures of a contact as files.
 
     Parameters
     ----------
@@ -59,24 +65,24 @@ def save_figures(result: Result | PointResult, folder: Path) -> list[Path]:
         Result of the contact.
     folder : Path
         Folder of the files; it must exist.
+    formats : sequence of str
+        Formats of the files, of "png", "svg" and "pdf".
 
     Returns
     -------
     list of Path
         Files written.
     """
-    files = [folder / name for name in drawings_of(result)]
-    for file in files:
-        save_figure(figure(result, file.name), file)
-    return files
+    return [
+        file
+        for name in drawings_of(result)
+        for file in save_figure(figure(result, name), folder / name, formats)
+    ]
 
 
-def _name(ax: Axes, result: Result | PointResult) -> None:
-    """Draw the title of a figure: over the axes of a line contact, over all panels of a point contact."""
-    converged = result.converged
-    title = textwrap.shorten(result.case.title, 45, placeholder=" ...")
-    text = title if converged else "NOT CONVERGED"
-    if isinstance(result, PointResult):
-        name_over(ax, text, converged=converged)
-    else:
-        ax.set_title(text, loc="left", parse_math=False, **({} if converged else NOT_CONVERGED))
+def _name(ax: Axes, result: Result | PointResult, name: str) -> None:
+    """Draw the title over all panels of a figure: the finding, and below it the title of the case."""
+    (file,) = in_formats([name])
+    title = textwrap.shorten(result.case.title, 90, placeholder=" ...")
+    first = finding(result, file) if result.converged else "NOT CONVERGED"
+    name_over(ax, "\n".join(filter(None, [first, title])), converged=result.converged)

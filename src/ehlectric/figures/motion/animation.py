@@ -41,7 +41,7 @@ def save_animation(
     path: str | Path,
     *,
     fps: float = 25.0,
-    dpi: int = 110,
+    dpi: int = 130,
     progress: Progress = silent,
 ) -> None:
     """Draw the recorded instants of a transient run as an animation.
@@ -55,7 +55,7 @@ def save_animation(
     fps : float
         Frames per second, from 0.1 to 50; each frame shows one recorded instant.
     dpi : int
-        Pixels per inch; the figure of a line contact is 6.3 by 7.2 inches.
+        Pixels per inch; the figure of a line contact is 5.2 by 6.6 inches.
     progress : callable, optional
         Called with the number of frames drawn, the number of all frames, and a text.
 

@@ -24,9 +24,6 @@ from ehlectric.figures.motion.panels import (
 from ehlectric.figures.style import BLUE, GREY, ORANGE, axes_or_new, legend_above
 from ehlectric.motion.stored_run import MotionRun, coincident_frame
 
-# Largest distance at which roughness counts as being at its position in the case [half-widths].
-_SAME_PLACE = 1e-6
-
 
 def film_beside(run: MotionRun, ax: Axes | None = None) -> Axes:
     """Draw the film thickness with moving and with stationary roughness, and before the motion.
@@ -34,7 +31,7 @@ def film_beside(run: MotionRun, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     run : MotionRun
-        Run with an instant at which the surfaces are at their positions in the case.
+        Run with a recorded instant of largest difference.
     ax : Axes, optional
         Axes to draw on; axes of a new figure if omitted.
 
@@ -43,7 +40,7 @@ def film_beside(run: MotionRun, ax: Axes | None = None) -> Axes:
     Axes
         Axes whose range fits the film in the Hertz zone; outside the zone the film is thicker.
     """
-    ax, lines = _three(run, ax, "thickness", film_unit(run), ("film thickness $h$", "least", np.nanmin))
+    ax, lines = _three(run, ax, "thickness", film_unit(run), ("film thickness $h$", "min.", np.nanmin))
     ax.set_ylim(*fitted(*(in_contact(run, line) for line in lines)))
     return ax
 
@@ -54,7 +51,7 @@ def pressure_beside(run: MotionRun, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     run : MotionRun
-        Run with an instant at which the surfaces are at their positions in the case.
+        Run with a recorded instant of largest difference.
     ax : Axes, optional
         Axes to draw on; axes of a new figure if omitted.
 
@@ -64,7 +61,7 @@ def pressure_beside(run: MotionRun, ax: Axes | None = None) -> Axes:
         Axes whose range begins at zero pressure.
     """
     unit = unit_for(max(_extremes(run, "pressure", np.nanmax)), "Pa")
-    ax, lines = _three(run, ax, "pressure", unit, ("pressure $p$", "largest", np.nanmax))
+    ax, lines = _three(run, ax, "pressure", unit, ("pressure $p$", "max.", np.nanmax))
     ax.set_ylim(0.0, 1.06 * max(float(np.max(line)) for line in lines))
     return ax
 
@@ -75,7 +72,7 @@ def field_beside(run: MotionRun, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     run : MotionRun
-        Run with an instant at which the surfaces are at their positions in the case.
+        Run with a recorded instant of largest difference.
     ax : Axes, optional
         Axes to draw on; axes of a new figure if omitted.
 
@@ -84,12 +81,19 @@ def field_beside(run: MotionRun, ax: Axes | None = None) -> Axes:
     Axes
         Axes whose range fits the field in the Hertz zone; outside the zone the field is smaller.
     """
-    ax, lines = _three(run, ax, "strength", field_unit(run), ("field $|E|$", "largest", np.nanmax))
+    ax, lines = _three(run, ax, "strength", field_unit(run), ("field $|E|$", "max.", np.nanmax))
     ax.set_ylim(*fitted(*(in_contact(run, line) for line in lines)))
     return ax
 
 
-def roughness_at(run: MotionRun, frame: int, ax: Axes | None = None, *, unit: Unit | None = None) -> Axes:
+def roughness_at(
+    run: MotionRun,
+    frame: int,
+    ax: Axes | None = None,
+    *,
+    unit: Unit | None = None,
+    stationary: int | None = None,
+) -> Axes:
     """Draw the heights of the rough surfaces along entrainment at a recorded instant.
 
     Parameters
@@ -102,6 +106,8 @@ def roughness_at(run: MotionRun, frame: int, ax: Axes | None = None, *, unit: Un
         Axes to draw on; axes of a new figure if omitted.
     unit : (float, str), optional
         Factor and unit of the heights; by default they suit the heights at this instant.
+    stationary : int, optional
+        Number of the instant at which the surfaces are where stationary roughness is, to draw them too.
 
     Returns
     -------
@@ -114,30 +120,50 @@ def roughness_at(run: MotionRun, frame: int, ax: Axes | None = None, *, unit: Un
     for k, colour, style in ((1, "black", "-"), (2, GREY, "--")):
         if k in heights:
             ax.plot(run.x, factor * heights[k], color=colour, ls=style, lw=0.8, label=f"surface {k}")
+            if stationary is not None:
+                still, label = run.along(f"roughness_{k}", stationary), f"surface {k}, stationary"
+                ax.plot(run.x, factor * still, color=ORANGE, ls=style, lw=0.8, alpha=0.8, label=label)
     ax.set(xlim=shown_range(run), ylabel=f"roughness [{name}]")
     along_label(run, ax)
     legend_above(ax)
     return ax
 
 
-def coincidence_text(run: MotionRun) -> str:
-    """Text: time of the drawn instant, and how far the surfaces are then from their positions in the case."""
-    frame = coincident_frame(run)
+def compared_frame(run: MotionRun) -> int | None:
+    """Recorded instant whose minimum film differs most from that of stationary roughness.
+
+    Instants before the roughness fills the contact do not count, unless the run ends before.
+
+    Returns
+    -------
+    int or None
+        Number of the instant; None without a film of stationary roughness, and where the run does not reach
+        the instant at which the surfaces are at their positions in the case.
+    """
+    if coincident_frame(run) is None:
+        return None
+    still = float(np.min(run.values("stationary_thickness")))
+    nodes = tuple(range(1, run.dataset["thickness"].ndim))
+    films = np.min(run.values("thickness"), axis=nodes)
+    counted = np.flatnonzero(run.frame_time >= run.field_history.settled_from)
+    counted = counted if counted.size else np.arange(run.frames)
+    return int(counted[np.argmax(np.abs(films[counted] - still))])
+
+
+def instant_text(run: MotionRun) -> str:
+    """Text: time of the drawn instant, and that stationary roughness is at its position in the case."""
+    frame = compared_frame(run)
     assert frame is not None
     factor, unit = time_unit(run)
-    text = f"at t = {factor * run.frame_time[frame]:.4g} {unit}"
-    speed = max((abs(speed) for speed in run.speeds.values()), default=0.0)
-    late = speed * (run.frame_time[frame] - run.moment("coincident"))
-    if abs(late) <= _SAME_PLACE * run.conditions.half_width:
-        return f"{text}, when the roughness lies as it is held still"
-    factor, unit = unit_for(abs(late), "m", least=1.0)
-    how = "past" if late > 0.0 else "short of"
-    return f"{text}, the roughness {factor * abs(late):.3g} {unit} {how} where it is held still"
+    return (
+        f"at t = {factor * run.frame_time[frame]:.4g} {unit}, where the minimum films differ most; "
+        "stationary roughness is at its position in the case"
+    )
 
 
 def _extremes(run: MotionRun, name: str, of: Callable[[Array], Any]) -> list[float]:
     """Extreme of a variable over all nodes: with moving and stationary roughness, and before the motion."""
-    frame = coincident_frame(run)
+    frame = compared_frame(run)
     maps = [run.dataset[name].isel(frame=frame), run.dataset[f"stationary_{name}"]]
     maps.append(run.dataset[name].isel(frame=0))
     return [float(of(values.values)) for values in maps]
@@ -156,11 +182,11 @@ def _three(
     computes this value.
     """
     ax, (factor, suffix), (label, kind, extreme) = axes_or_new(ax), unit, texts
-    lines = [run.along(name, coincident_frame(run)), run.along(f"stationary_{name}"), run.along(name, 0)]
+    lines = [run.along(name, compared_frame(run)), run.along(f"stationary_{name}"), run.along(name, 0)]
     looks = (
         ("moving", f"{kind} ", BLUE, "-"),
-        ("held still", "", ORANGE, "--"),
-        ("before the motion", "", "black", ":"),
+        ("stationary", f"{kind} ", ORANGE, "--"),
+        ("before the motion", f"{kind} ", "black", ":"),
     )
     drawn = [factor * line for line in lines]
     extremes = _extremes(run, name, extreme)

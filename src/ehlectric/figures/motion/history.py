@@ -7,10 +7,18 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 from ehlectric.arrays import Array
+from ehlectric.figures.motion.findings import always_near_maximum
 from ehlectric.figures.motion.panels import field_unit, film_unit, fitted, time_unit
 from ehlectric.figures.style import BLUE, GREEN, GREY, ORANGE, axes_or_new, legend_above
 from ehlectric.motion.field_history import NEAR_MAXIMUM, intervals_above
 from ehlectric.motion.stored_run import MotionRun
+
+# The film has changed where it differs from that before the motion by more than this part of its range; the
+# time before is left out if it is longer than this part of the run.
+_CHANGE, _WAITING = 0.02, 0.15
+
+# Distance that counts as another place [half-widths].
+_MOVED = 0.02
 
 
 def least_film(run: MotionRun, ax: Axes | None = None) -> Axes:
@@ -37,9 +45,9 @@ def least_film(run: MotionRun, ax: Axes | None = None) -> Axes:
     shown = [thickness]
     if "stationary_thickness" in run.dataset:
         still = factor * float(np.min(run.values("stationary_thickness")))
-        ax.axhline(still, color=ORANGE, lw=0.9, ls="--", label=f"held still, {still:.3g} {unit}")
+        ax.axhline(still, color=ORANGE, lw=0.9, ls="--", label=f"stationary roughness, {still:.3g} {unit}")
         shown.append(np.array([still]))
-    ax.set(ylabel=rf"least film $h_\mathrm{{min}}$ [{unit}]", ylim=fitted(*shown))
+    ax.set(ylabel=rf"minimum film $h_\mathrm{{min}}$ [{unit}]", ylim=fitted(*shown))
     _over_time(run, ax)
     legend_above(ax)
     return ax
@@ -59,7 +67,7 @@ def largest_field(run: MotionRun, ax: Axes | None = None) -> Axes:
     -------
     Axes
         Axes over time, with the voltage divided by the minimum film thickness at every step. Times at which
-        the field is above 90 % of its maximum are shaded (see ``FieldHistory``).
+        the field is above 90 % of its maximum are shaded (see ``FieldHistory``), unless they are all times.
     """
     ax = axes_or_new(ax)
     factor, unit = field_unit(run)
@@ -73,13 +81,15 @@ def largest_field(run: MotionRun, ax: Axes | None = None) -> Axes:
         _times(run, "frame_time"), strength, color=BLUE, ls="none", marker="o", ms=size, mew=0.0
     )
     dots.set_label(f"solved at {run.frames} instants")
-    handles, shown = [dots, thin, _high(run, ax)], [strength, estimate]
+    handles, shown = [dots, thin], [strength, estimate]
+    if not always_near_maximum(run):
+        handles.append(_high(run, ax))
     if "stationary_strength" in run.dataset:
         still = factor * float(np.nanmax(run.values("stationary_strength")))
-        label = f"held still, {still:.3g} {unit}"
+        label = f"stationary roughness, {still:.3g} {unit}"
         handles.append(ax.axhline(still, color=ORANGE, lw=0.9, ls="--", label=label))
         shown.append(np.array([still]))
-    ax.set(ylabel=rf"largest field $|E|$ [{unit}]", ylim=fitted(*shown))
+    ax.set(ylabel=rf"maximum field $|E|$ [{unit}]", ylim=fitted(*shown))
     _over_time(run, ax)
     legend_above(ax, handles)
     return ax
@@ -96,7 +106,7 @@ def _high(run: MotionRun, ax: Axes) -> Line2D:
     whole = ax.get_xaxis_transform()
     ax.broken_barh(bars, (0.0, 1.0), transform=whole, color=GREEN, alpha=0.25, lw=0.0, zorder=0.5)
     settled, share = history.settled_from, 100.0 * history.share_near_maximum
-    text = f"{100.0 * NEAR_MAXIMUM:g} % of the largest: above it {share:.0f} % of the time"
+    text = f"{100.0 * NEAR_MAXIMUM:g} % of the maximum: above it {share:.0f} % of the time"
     text += f" from {in_time * settled:.3g} {unit} on" if settled else ""
     return ax.axhline(factor * level, color=GREEN, lw=0.9, ls="--", label=text)
 
@@ -122,18 +132,38 @@ def places(run: MotionRun, ax: Axes | None = None) -> Axes:
     least = run.values("minimum_x") / b
     ax.plot(time, least, color=GREY, ls="none", marker="o", ms=1.0, mew=0.0)
     largest = run.values("max_strength_x") / b
-    ax.plot(frames, largest, color=BLUE, ls="none", marker="o", ms=2.4, mew=0.0, label="largest field")
+    ax.plot(frames, largest, color=BLUE, ls="none", marker="o", ms=2.4, mew=0.0, label="maximum field")
     # A dotted line stands for the dots in the legend, where they would be too small.
-    ax.plot([], [], color=GREY, ls=":", label="least film, every step")
+    ax.plot([], [], color=GREY, ls=":", label="minimum film, every step")
     name, shown = "$x/b$", [least, largest]
     if "max_strength_y" in run.dataset:
         across = np.abs(run.values("max_strength_y")) / b
-        ax.plot(frames, across, color=ORANGE, ls="none", marker="x", ms=3.0, label="largest field, $|y|/b$")
+        ax.plot(frames, across, color=ORANGE, ls="none", marker="x", ms=3.0, label="maximum field, $|y|/b$")
         name, shown = "$x/b$, $|y|/b$", [*shown, across]
     ax.set(ylabel=f"place {name}", ylim=fitted(*shown, least=0.5))
     legend_above(ax, columns=3)
     _over_time(run, ax)
     return ax
+
+
+def waiting_time(run: MotionRun) -> float:
+    """Time in which the roughness approaches and the minimum film does not change [s]; 0 if it is short.
+
+    A twentieth of the run is left of it, so that the film before the motion is seen.
+    """
+    time, film = run.values("time"), run.values("minimum_thickness")
+    changed = np.flatnonzero(np.abs(film - film[0]) > _CHANGE * np.ptp(film))
+    if not changed.size:
+        return 0.0
+    waited = float(time[changed[0]]) - 0.05 * float(time[-1])
+    return waited if waited > _WAITING * float(time[-1]) else 0.0
+
+
+def places_vary(run: MotionRun) -> bool:
+    """Whether the place of the maximum field or the minimum film varies by a fiftieth of the half-width."""
+    b = run.conditions.half_width
+    names = [name for name in ("minimum_x", "max_strength_x", "max_strength_y") if name in run.dataset]
+    return any(float(np.ptp(run.values(name))) > _MOVED * b for name in names)
 
 
 def _times(run: MotionRun, name: str) -> Array:
@@ -144,7 +174,10 @@ def _times(run: MotionRun, name: str) -> Array:
 def _over_time(run: MotionRun, ax: Axes) -> None:
     """Label the axis of time, and mark the time from which the roughness fills the contact."""
     factor, unit = time_unit(run)
-    ax.set(xlabel=f"time $t$ [{unit}]", xlim=(0.0, factor * float(run.values("time")[-1]) or 1.0))
+    start = waiting_time(run)
+    left_out = f", film unchanged before {factor * start:.3g} {unit}" if start else ""
+    end = factor * float(run.values("time")[-1]) or 1.0
+    ax.set(xlabel=f"time $t$ [{unit}]{left_out}", xlim=(factor * start, end))
     if settled := run.field_history.settled_from:
         covered = factor * settled
         label = f"contact covered from {covered:.3g} {unit} on"

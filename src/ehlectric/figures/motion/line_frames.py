@@ -9,6 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 
 from ehlectric.arrays import Array
 from ehlectric.cases.quantity import unit_for
@@ -28,7 +30,7 @@ from ehlectric.figures.style import BLUE, BODY, OIL, ORANGE, figure_of, new_pane
 from ehlectric.motion.stored_run import MotionRun
 
 # Size of a frame [inches].
-_SIZE = (6.3, 7.2)
+_SIZE = (5.2, 6.6)
 
 
 @dataclass(frozen=True)
@@ -78,6 +80,13 @@ def line_frames(run: MotionRun) -> Frames:
         ax.set_xlim(*shown_range(run))
     share_below(axes)
     name_run(axes[0], run)
+    handles = [
+        Patch(facecolor=OIL, label="oil"),
+        Patch(facecolor=BODY, label="steel"),
+        Line2D([], [], color="black", lw=0.9, ls=":", label="before the motion"),
+        Line2D([], [], color=ORANGE, ls="none", marker="o", ms=4.0, label="maximum"),
+    ]
+    figure_of(axes[0]).legend(handles=handles, loc="outside lower left", ncols=4, frameon=False)
 
     def show(frame: int) -> None:
         for part in parts:
@@ -125,7 +134,7 @@ def _field(run: MotionRun, ax: Axes) -> Callable[[int], None]:
     def show(frame: int) -> None:
         curve(frame)
         dot.set_data([at[frame]], [largest[frame]])
-        ax.set_title(f"largest {largest[frame]:#.3g} {unit}", loc="right", color=ORANGE)
+        ax.set_title(f"maximum {largest[frame]:#.3g} {unit}", loc="right", color=ORANGE)
 
     return show
 

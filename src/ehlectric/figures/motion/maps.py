@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from matplotlib import colormaps
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
@@ -15,7 +16,7 @@ from ehlectric.arrays import Array
 from ehlectric.cases.quantity import unit_for
 from ehlectric.figures.contact.maps import round_levels
 from ehlectric.figures.motion.panels import along_label, field_unit, film_unit, in_contact, time_unit
-from ehlectric.figures.style import BODY, axes_or_new, figure_of, new_panels
+from ehlectric.figures.style import BODY, OUT_OF_RANGE, axes_or_new, figure_of, new_panels
 from ehlectric.motion.stored_run import MotionRun
 
 # The maps show x from -1.5 to 1.5 [half-widths]: beyond it the field is not solved, or hardly changes.
@@ -42,7 +43,7 @@ def film_map(run: MotionRun, ax: Axes | None = None) -> Axes:
     Returns
     -------
     Axes
-        Axes with a colour bar that fits the Hertz zone; thicker films, as in the inlet, lie beyond its end.
+        Axes with a colour bar that fits the Hertz zone; thicker films, as in the inlet, are grey.
     """
     factor, unit = film_unit(run)
     values = factor * run.along("thickness")
@@ -87,7 +88,8 @@ def field_map(run: MotionRun, ax: Axes | None = None) -> Axes:
     Returns
     -------
     Axes
-        Axes with a colour bar that fits the Hertz zone; grey where the field was not solved.
+        Axes with a colour bar that fits the Hertz zone; weaker fields are grey, and light grey where the
+        field was not solved.
     """
     factor, unit = field_unit(run)
     values = factor * run.along("strength")
@@ -142,7 +144,7 @@ def _map(
         factor * run.frame_time,
         np.ma.masked_invalid(values[:, shown]),
         shading="nearest",
-        cmap=colours,
+        cmap=colormaps[colours].with_extremes(under=OUT_OF_RANGE, over=OUT_OF_RANGE),
         vmin=limits[0],
         vmax=limits[1],
         rasterized=True,
@@ -185,6 +187,7 @@ def _handles(run: MotionRun) -> list[Artist]:
     strength = run.along("strength", 0)[np.abs(run.x) <= _REACH]
     if not np.all(np.isfinite(strength)):
         handles.append(Patch(facecolor=BODY, label="field not solved"))
+    handles.append(Patch(facecolor=OUT_OF_RANGE, label="outside the colour bar"))
     return handles
 
 
@@ -193,6 +196,5 @@ def sampling_text(run: MotionRun) -> str:
     apart = float(np.max(np.diff(run.frame_time)))
     fastest = max(run.conditions.entrainment_speed, *(abs(speed) for speed in run.speeds.values()))
     factor, unit = unit_for(fastest * apart, "m", least=1.0)
-    return (
-        f"{run.frames} instants, {factor * fastest * apart:.3g} {unit} of travel at most from one to the next"
-    )
+    travel = f"{factor * fastest * apart:.3g} {unit}"
+    return f"{run.frames} recorded instants, at most {travel} of travel between two of them"

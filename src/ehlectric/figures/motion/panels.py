@@ -93,10 +93,25 @@ def speed_text(run: MotionRun) -> str:
     return f"surface 1 at {first} m/s, surface 2 at {second} m/s, {what}"
 
 
-def name_run(ax: Axes, run: MotionRun, more: str = "") -> None:
-    """Draw a title with the title of the case and the speeds; it is red if the run is not complete."""
+def name_run(ax: Axes, run: MotionRun, finding: str = "", more: str = "") -> None:
+    """Draw a title: what the figure shows, the title of the case, the speeds, and ``more``.
+
+    Of a run that is not complete, it begins with the time at which the run ends, in red.
+    """
     title = textwrap.shorten(str(run.dataset.attrs.get("title", "")), 70, placeholder=" ...")
+    lines = [finding, title, speed_text(run), more]
     if not run.complete:
         factor, unit = time_unit(run)
-        title = f"NOT COMPLETE, ends at {factor * run.values('time')[-1]:.4g} {unit}\n{title}".rstrip()
-    name_over(ax, "\n".join(filter(None, [title, speed_text(run), more])), converged=run.complete)
+        lines = [f"NOT COMPLETE, ends at {factor * run.values('time')[-1]:.4g} {unit}", *lines]
+    name_over(ax, "\n".join(filter(None, lines)), converged=run.complete)
+
+
+def in_unit(value: float, unit: Unit) -> str:
+    """Text: an SI value with three digits in a unit.
+
+    Examples
+    --------
+    >>> in_unit(6.918e-7, (1e6, "µm"))
+    '0.692 µm'
+    """
+    return f"{unit[0] * value:.3g} {unit[1]}"

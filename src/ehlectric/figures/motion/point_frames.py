@@ -130,7 +130,7 @@ def _field(contact: _Contact, ax: Axes) -> Callable[[int], None]:
         place = at[frame] / contact.conditions.half_width
         x, y = place[::-1] if turned(contact) else place
         cross.set_data([x], [y])
-        ax.set_title(f"largest (×) {unit[0] * largest[frame]:#.3g} {unit[1]}", loc="right")
+        ax.set_title(f"maximum (×) {unit[0] * largest[frame]:#.3g} {unit[1]}", loc="right")
 
     return show
 

@@ -1,4 +1,4 @@
-"""Figures of transient contacts: by name, and as PNG files."""
+"""Figures of transient contacts: by name, and as files."""
 
 from __future__ import annotations
 
@@ -9,14 +9,16 @@ from typing import TYPE_CHECKING
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from ehlectric.figures.motion import findings
 from ehlectric.figures.motion.beside import (
-    coincidence_text,
+    compared_frame,
     field_beside,
     film_beside,
+    instant_text,
     pressure_beside,
     roughness_at,
 )
-from ehlectric.figures.motion.history import largest_field, least_film, places
+from ehlectric.figures.motion.history import largest_field, least_film, places, places_vary
 from ehlectric.figures.motion.maps import map_figure, sampling_text
 from ehlectric.figures.motion.panels import name_run, share_below
 from ehlectric.figures.style import drawing_of, figure_of, new_panels, save_figure, style
@@ -31,7 +33,7 @@ _WIDTH, _HEIGHT, _TITLE = 7.2, 2.1, 0.75
 
 
 def history(run: MotionRun) -> Axes:
-    """Draw smallest film thickness, largest field strength and their places over time.
+    """Draw minimum film thickness, maximum field strength and their places over time.
 
     Parameters
     ----------
@@ -41,13 +43,14 @@ def history(run: MotionRun) -> Axes:
     Returns
     -------
     Axes
-        The first of three panels.
+        The first of three panels, or of two where the places do not change.
     """
-    axes = _stack(3)
-    for draw, ax in zip((least_film, largest_field, places), axes, strict=True):
+    panels = (least_film, largest_field, *((places,) if places_vary(run) else ()))
+    axes = _stack(len(panels))
+    for draw, ax in zip(panels, axes, strict=True):
         draw(run, ax)
     share_below(axes)
-    name_run(axes[0], run)
+    name_run(axes[0], run, findings.of_history(run), findings.field_line(run))
     return axes[0]
 
 
@@ -65,18 +68,18 @@ def maps(run: MotionRun) -> Axes:
         The first of three panels.
     """
     ax = map_figure(run)
-    name_run(ax, run, sampling_text(run))
+    name_run(ax, run, findings.of_maps(run), sampling_text(run))
     return ax
 
 
 def beside_stationary(run: MotionRun) -> Axes:
-    """Compare moving with stationary roughness at the instant at which the surfaces lie alike.
+    """Compare moving with stationary roughness at the instant of the largest difference in minimum film.
 
     Parameters
     ----------
     run : MotionRun
-        A run with an instant at which the surfaces lie where the case puts them, and with the film and field
-        of the same roughness stationary.
+        A run that reaches the instant at which the surfaces are at their positions in the case, with film and
+        field of stationary roughness.
 
     Returns
     -------
@@ -86,11 +89,11 @@ def beside_stationary(run: MotionRun) -> Axes:
     axes = _stack(4)
     for draw, ax in zip((film_beside, pressure_beside, field_beside), axes[:3], strict=True):
         draw(run, ax)
-    frame = coincident_frame(run)
+    frame = compared_frame(run)
     assert frame is not None
-    roughness_at(run, frame, axes[3])
+    roughness_at(run, frame, axes[3], stationary=coincident_frame(run))
     share_below(axes)
-    name_run(axes[0], run, coincidence_text(run))
+    name_run(axes[0], run, findings.of_comparison(run, frame), instant_text(run))
     return axes[0]
 
 
@@ -137,8 +140,8 @@ def figure(run: MotionRun, name: str) -> Figure:
         return figure_of(draw(run))
 
 
-def save_motion_figures(dataset: xr.Dataset, folder: Path) -> list[Path]:
-    """Draw all figures of a transient run as PNG files.
+def save_motion_figures(dataset: xr.Dataset, folder: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
+    """Draw all figures of a transient run as files.
 
     Parameters
     ----------
@@ -146,11 +149,13 @@ def save_motion_figures(dataset: xr.Dataset, folder: Path) -> list[Path]:
         A run, complete or not, as ``read_motion`` gives it.
     folder : Path
         Folder of the files; it must exist.
+    formats : sequence of str
+        Formats of the files, of "png", "svg" and "pdf".
 
     Returns
     -------
     list of Path
-        Files written: those of ``drawings_of``.
+        Files written: those of ``drawings_of``, in each format.
 
     Raises
     ------
@@ -158,10 +163,9 @@ def save_motion_figures(dataset: xr.Dataset, folder: Path) -> list[Path]:
         Where the dataset is not a run of moving roughness.
     """
     run = MotionRun.of(dataset)
-    files = [folder / name for name in drawings_of(run)]
-    for file in files:
-        save_figure(figure(run, file.name), file)
-    return files
+    return [
+        file for name in drawings_of(run) for file in save_figure(figure(run, name), folder / name, formats)
+    ]
 
 
 def _stack(panels: int) -> Sequence[Axes]:

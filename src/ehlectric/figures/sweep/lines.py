@@ -4,38 +4,45 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
-from matplotlib.colors import Normalize
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from ehlectric.arrays import Array, IntArray
 from ehlectric.figures.axes import (
     DARK_COLOURS,
-    by_logarithm,
     colour_bar,
     is_wide,
     levels_of,
-    norm_of,
     round_numbers,
     scale_axis,
 )
-from ehlectric.figures.style import BLUE, GREEN, GREY, ORANGE, axes_or_new, legend_above
-from ehlectric.figures.sweep.points import dot_size, kind_handles, kinds, labelled, mark, voltage_text
-from ehlectric.sweep.interpolation import applied_at, curve_of, spaced_log
+from ehlectric.figures.style import GREY, axes_or_new, legend_above
+from ehlectric.figures.sweep.paths import (
+    NAMED,
+    LinePath,
+    SeriesLine,
+    colours_between,
+    joined,
+    lines_of,
+)
+from ehlectric.figures.sweep.points import (
+    dot_size,
+    kind_handles,
+    kinds,
+    labelled,
+    mark,
+    mark_warned,
+    voltage_text,
+)
+from ehlectric.sweep.interpolation import spaced_log
 from ehlectric.sweep.labels import Scale
 from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.slices import Slice, take
-
-_TEXTS = (BLUE, ORANGE, GREEN, "#cc79a7", "#e69f00", "#56b4e9", "black", GREY)
-
-# Largest number of lines named in a legend; more lines have a colour bar instead.
-_NAMED = 8
 
 # Points without a value are marked in a strip below the values. As fractions of the height of the axes: the
 # smallest height of the strip, the height of one mark if several have nearly the same x, and the largest
@@ -45,47 +52,11 @@ _STRIP, _ROW, _MOST = 0.09, 0.035, 0.28
 # Number of crosses that fit side by side into the width of the axes.
 _COLUMNS = 50
 
+# A line with at most so many points is drawn thin [pt].
+_SPARSE, _THIN = 6, 0.7
+
 # The vertical axis of positive values begins at zero if the smallest is below this part of the largest.
 _FROM_ZERO = 0.5
-
-
-@dataclass(frozen=True)
-class _Line:
-    """One line: a value of the second key, the numbers of its points by increasing x, and its colour."""
-
-    value: Any
-    numbers: IntArray
-    colour: Any
-
-
-@dataclass(frozen=True)
-class _Path:
-    """Interpolation between the points of the lines of a slice, the same as in a map over the same axes."""
-
-    results: SweepResults
-    selection: Slice
-    log_x: bool
-    log_y: bool
-
-    def values(self, line: _Line) -> tuple[Array, Array]:
-        """Values of x along a line and the drawn values there, both in SI units."""
-        if self.selection.value != self.selection.breakdown.margin:
-            return self._curve(self.selection.values, line)
-        places, breaks = self._curve(self.selection.margin * self.selection.voltage, line)
-        return places, breaks / self.voltages(line)[1]
-
-    def voltages(self, line: _Line) -> tuple[Array, Array]:
-        """Values of x along a line, in SI units, and the applied voltage there [V]."""
-        places, voltage = self._curve(self.selection.voltage, line)
-        applied = applied_at(self.results, self.selection, places, line.value)
-        return places, voltage if applied is None else np.where(np.isfinite(voltage), applied, np.nan)
-
-    def _curve(self, values: Array, line: _Line) -> tuple[Array, Array]:
-        along, heights = self.selection.along[line.numbers], values[line.numbers]
-        if line.numbers.size < 2:
-            return along, heights
-        log = by_logarithm(values, log_axis=self.log_x or self.log_y)
-        return curve_of(along, heights, log_x=self.log_x, log=log)
 
 
 def value_lines(
@@ -131,26 +102,33 @@ def value_lines(
     name_x, scale_x = labelled(results, x, selection.along)
     needed = _needed_values(selection)
     name, scale = labelled(results, value, needed)
-    along = scale_x.factor * selection.along
+    along = scale_x.of(selection.along)
     log_y = y is not None and selection.numeric and spaced_log(results, y, np.array(selection.across))
-    lines = _lines(selection, log=log_y)
-    joined = _joined(selection, lines)
+    lines = lines_of(selection, log=log_y)
+    together = joined(selection, lines)
     solved = kinds(selection).get("solved", np.zeros(along.size, dtype=bool))
-    path = _Path(results, selection, spaced_log(results, x, selection.along), log_y)
+    path = LinePath(results, selection, spaced_log(results, x, selection.along), log_y)
     for line in lines:
-        heights = scale.factor * selection.values[line.numbers]
-        if joined:
+        heights = scale.of(selection.values[line.numbers])
+        if together:
             places, between = path.values(line)
-            ax.plot(scale_x.factor * places, scale.factor * between, color=line.colour)
+            # Between few points the line is an assumption: thin, with the points standing out.
+            width = _THIN if line.numbers.size <= _SPARSE else None
+            ax.plot(scale_x.of(places), scale.of(between), color=line.colour, lw=width)
         dots = solved[line.numbers]
-        look = {"color": line.colour, "ms": dot_size(selection, 3.5)}
+        size = 4.5 if line.numbers.size <= _SPARSE else 3.5
+        look = {"color": line.colour, "ms": dot_size(selection, size)}
         mark(ax, "solved", along[line.numbers[dots]], heights[dots], **look)
     scale_axis(ax.xaxis, name_x.axis(scale_x), values=along, log=path.log_x)
-    scale_axis(ax.yaxis, name.axis(scale), values=scale.factor * needed, log=is_wide(selection.values))
+    scale_axis(ax.yaxis, name.axis(scale), values=scale.of(needed), log=is_wide(selection.values))
     ax.margins(x=0.03)
     own = {} if y is None else {"color": GREY}  # the marks on the axes have the colours of their lines
-    handles: list[Artist] = [*kind_handles(selection, **own), *_applied(path, ax, (scale_x, scale), lines)]
-    _limit_values(ax, scale.factor * needed)
+    handles: list[Artist] = [*kind_handles(selection, **own)]
+    handles += [
+        *mark_warned(ax, selection, along, scale.of(selection.values)),
+        *_applied(path, ax, (scale_x, scale), lines),
+    ]
+    _limit_values(ax, scale.of(needed))
     _strip(selection, ax, lines, along)
     if y is not None:
         _name_lines(results, selection, ax, lines, log=log_y)
@@ -167,35 +145,7 @@ def _needed_values(selection: Slice) -> Array:
     return selection.values
 
 
-def _lines(selection: Slice, *, log: bool) -> list[_Line]:
-    """Lines of a slice with their colours.
-
-    Colours go from dark to light with a number; for texts they come from a list of distinct ones.
-    """
-    series = selection.series()
-    if selection.y is None:
-        return [_Line(None, numbers, BLUE) for _, numbers in series]
-    if not selection.numeric:
-        return [_Line(value, n, _TEXTS[k % len(_TEXTS)]) for k, (value, n) in enumerate(series)]
-    if len(series) <= _NAMED:
-        places = np.linspace(0.0, 1.0, len(series))
-    else:
-        values = np.array([value for value, _ in series])
-        places = np.asarray(_norm(values, log=log)(values))
-    return [_Line(value, n, DARK_COLOURS(place)) for (value, n), place in zip(series, places, strict=True)]
-
-
-def _joined(selection: Slice, lines: list[_Line]) -> bool:
-    """Whether points are joined by lines: those of a line differ in x only, and some line has two of them."""
-    return not selection.free and max(line.numbers.size for line in lines) > 1
-
-
-def _norm(values: Array, *, log: bool) -> Normalize:
-    """Normalisation of colours of many lines, from the smallest value of the second key to the largest."""
-    return norm_of(np.array([values.min(), values.max()]), log=log)
-
-
-def _applied(path: _Path, ax: Axes, scales: tuple[Scale, Scale], lines: list[_Line]) -> list[Artist]:
+def _applied(path: LinePath, ax: Axes, scales: tuple[Scale, Scale], lines: list[SeriesLine]) -> list[Artist]:
     """Draw the value that corresponds to the applied voltage, and return its legend entries."""
     selection, (scale_x, scale) = path.selection, scales
     volts = selection.voltage[np.isfinite(selection.voltage)]
@@ -207,23 +157,23 @@ def _applied(path: _Path, ax: Axes, scales: tuple[Scale, Scale], lines: list[_Li
         return [Line2D([], [], ls="none", label=f"at the {text}")]
     if selection.value == selection.breakdown.margin:
         # A margin of 1 is where breakdown voltage and applied voltage are equal.
-        level, text = scale.factor, f"{about.name} = {about.whose} {applied}"
+        level, text = scale.of(1.0), f"margin 1: {about.name} = {about.voltage_name} {applied}"
     elif np.ptp(volts) <= 1e-9 * volts[0]:
-        level = scale.factor * float(volts[0])
-    elif not _joined(selection, lines):
-        ax.axhspan(scale.factor * volts.min(), scale.factor * volts.max(), color=GREY, alpha=0.15, lw=0.0)
+        level = scale.of(float(volts[0]))
+    elif not joined(selection, lines):
+        ax.axhspan(scale.of(volts.min()), scale.of(volts.max()), color=GREY, alpha=0.15, lw=0.0)
         return [Patch(facecolor=GREY, alpha=0.15, label=text)]
     else:
         # The applied voltage differs from point to point: it is drawn along each line, in its colour, and no
         # range below it is shaded.
         for line in lines:
             places, voltages = path.voltages(line)
-            ax.plot(scale_x.factor * places, scale.factor * voltages, color=line.colour, ls="--", lw=0.9)
+            ax.plot(scale_x.of(places), scale.of(voltages), color=line.colour, ls="--", lw=0.9)
         return [Line2D([], [], color=GREY, ls="--", lw=0.9, label=text)]
     ax.axhline(level, color="black", ls="--", lw=1.2, zorder=3.0)
     floor = 1e-3 * level if ax.get_yscale() == "log" else min(0.0, ax.get_ylim()[0])
     ax.axhspan(floor, level, color=GREY, alpha=0.15, lw=0.0)
-    below = Patch(facecolor=GREY, alpha=0.15, label=f"below the {about.whose} {applied}")
+    below = Patch(facecolor=GREY, alpha=0.15, label=f"below {about.voltage_name} {applied}")
     return [Line2D([], [], color="black", ls="--", lw=1.2, label=text), below]
 
 
@@ -241,7 +191,7 @@ def _limit_values(ax: Axes, values: Array) -> None:
         ax.set_ylim(low - room, high + room)
 
 
-def _strip(selection: Slice, ax: Axes, lines: list[_Line], along: Array) -> None:
+def _strip(selection: Slice, ax: Axes, lines: list[SeriesLine], along: Array) -> None:
     """Draw a strip below the values that marks the points without one, stacked if x is nearly equal."""
     missing = {kind: mask for kind, mask in kinds(selection).items() if kind != "solved"}
     if not missing:
@@ -284,16 +234,18 @@ def _columns(ax: Axes, along: Array) -> IntArray:
     return np.asarray(np.floor(_COLUMNS * across), dtype=np.intp)
 
 
-def _name_lines(results: SweepResults, selection: Slice, ax: Axes, lines: list[_Line], *, log: bool) -> None:
-    """Name the lines beside the axes by their value of the second key: in a legend or by a colour bar."""
+def _name_lines(
+    results: SweepResults, selection: Slice, ax: Axes, lines: list[SeriesLine], *, log: bool
+) -> None:
+    """Name the lines beside the axes by their second key: in a legend or by a colour bar."""
     assert selection.y is not None
     numbers = np.array([line.value for line in lines]) if selection.numeric else np.empty(0)
     label, scale = labelled(results, selection.y, numbers)
-    if selection.numeric and len(lines) > _NAMED:
-        scaled = scale.factor * numbers
+    if selection.numeric and len(lines) > NAMED:
+        scaled = scale.of(numbers)
         levels = round_numbers(scaled.min(), scaled.max()) if log else levels_of(scaled, log=False)
         inside = levels[(levels >= scaled.min()) & (levels <= scaled.max())]
-        colour_bar(ax, _norm(scaled, log=log), label.axis(scale), inside, DARK_COLOURS)
+        colour_bar(ax, colours_between(scaled, log=log), label.axis(scale), inside, DARK_COLOURS)
         return
     handles = [
         Line2D([], [], color=line.colour, marker="o", ms=3.5, label=_line_name(line.value, scale))
@@ -314,4 +266,4 @@ def _name_lines(results: SweepResults, selection: Slice, ax: Axes, lines: list[_
 
 
 def _line_name(value: Any, scale: Scale) -> str:
-    return f"{scale.factor * value:.4g}" if isinstance(value, int | float) else str(value)
+    return f"{scale.of(value):.4g}" if isinstance(value, int | float) else str(value)

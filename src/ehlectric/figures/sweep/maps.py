@@ -7,8 +7,10 @@ from dataclasses import dataclass
 from typing import Any, cast
 
 import numpy as np
+from matplotlib import colormaps
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
+from matplotlib.colors import Colormap, Normalize
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.patheffects import AbstractPathEffect, withStroke
@@ -17,12 +19,24 @@ from matplotlib.tri import Triangulation
 from ehlectric.arrays import Array, Mask
 from ehlectric.figures.axes import COLOURS, by_logarithm, colour_bar, is_wide, levels_of, norm_of, scale_axis
 from ehlectric.figures.style import axes_or_new, legend_above
-from ehlectric.figures.sweep.points import dot_size, kind_handles, kinds, labelled, mark, voltage_text
+from ehlectric.figures.sweep.points import (
+    dot_size,
+    kind_handles,
+    kinds,
+    labelled,
+    mark,
+    mark_warned,
+    voltage_text,
+)
 from ehlectric.sweep.interpolation import Surface, applied_at, spaced_log, surface_of
+from ehlectric.sweep.labels import Scale
 from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.slices import Slice, take
 
 _BREAKS = "////"
+
+# Colours of values on both sides of zero.
+DIVERGING = colormaps["RdBu_r"]
 
 
 def value_map(
@@ -69,7 +83,7 @@ def value_map(
     across = np.array(selection.across)
     logs = {"log_x": spaced_log(results, x, selection.along), "log_y": spaced_log(results, y, across)}
     (name_x, scale_x), (name_y, scale_y) = labelled(results, x, selection.along), labelled(results, y, across)
-    along, up = scale_x.factor * selection.along, scale_y.factor * across
+    along, up = scale_x.of(selection.along), scale_y.of(across)
     scale_axis(ax.xaxis, name_x.axis(scale_x), values=along, log=logs["log_x"])
     scale_axis(ax.yaxis, name_y.axis(scale_y), values=up, log=logs["log_y"])
     surface = surface_of(selection, **logs)
@@ -77,12 +91,13 @@ def value_map(
     if surface is None:
         handles += _scatter(results, selection, ax, along, up)
     else:
-        between = _Between(results, selection, surface, any(logs.values()), (scale_x.factor, scale_y.factor))
+        between = _Between(results, selection, surface, any(logs.values()), (scale_x, scale_y))
         handles += _fill(between, ax)
         for kind, mask in kinds(selection).items():
             # The white edge keeps the dots visible on dark colours and on hatches.
             look = {"ms": dot_size(selection, 3.4), "mec": "white", "mew": 0.4} if kind == "solved" else {}
             mark(ax, kind, along[mask], up[mask], **look)
+    handles += mark_warned(ax, selection, along, up)
     ax.use_sticky_edges = False  # leaves room between the outer points and the frame
     ax.margins(0.03)
     legend_above(ax, handles)
@@ -103,15 +118,15 @@ class _Between:
         Nodes and triangles between its points.
     log_axis : bool
         Whether one of the axes is logarithmic.
-    factors : tuple of float
-        Factors from SI units to the units of the horizontal and the vertical axis.
+    scales : tuple of Scale
+        Units of the horizontal and the vertical axis.
     """
 
     results: SweepResults
     selection: Slice
     surface: Surface
     log_axis: bool
-    factors: tuple[float, float]
+    scales: tuple[Scale, Scale]
 
     def values(self) -> tuple[Array, Mask]:
         """Drawn values at the nodes, in SI units, and mask of the triangles with values throughout."""
@@ -138,7 +153,7 @@ class _Between:
 
     def triangles(self, whole: Mask) -> Triangulation:
         """Triangles with values throughout, in the units of the axes."""
-        x, y = self.factors[0] * self.surface.x, self.factors[1] * self.surface.y
+        x, y = self.scales[0].of(self.surface.x), self.scales[1].of(self.surface.y)
         return Triangulation(x, y, self.surface.triangles, mask=~whole)
 
 
@@ -149,26 +164,41 @@ def _fill(between: _Between, ax: Axes) -> list[Artist]:
     """
     selection = between.selection
     label, scale = labelled(between.results, selection.value, selection.values)
-    values = scale.factor * selection.values
+    values = scale.of(selection.values)
     log = is_wide(values)
     levels = levels_of(values, log=log)
-    norm = norm_of(levels, log=log)
+    norm, colours = colours_of(levels, log=log)
     nodes, whole = between.values()
     handles: list[Artist] = []
     if np.any(whole):
-        drawn = between.triangles(whole), scale.factor * nodes
+        drawn = between.triangles(whole), scale.of(nodes)
         # A value equal to the last level, such as a probability of 1, would be outside the colour scale.
         bounds = [*levels[:-1], levels[-1] + 1e-9 * (levels[-1] - levels[0])]
-        ax.tricontourf(*drawn, levels=bounds, norm=norm, cmap=COLOURS)
+        ax.tricontourf(*drawn, levels=bounds, norm=norm, cmap=colours)
         ax.tricontour(*drawn, levels=levels, colors="white", linewidths=0.4, linestyles="-")
         handles += _breakdown(between, ax)
     alone = between.surface.alone(selection.values)
     if np.any(alone):
-        at = between.factors[0] * selection.along, between.factors[1] * np.array(selection.across)
-        look = {"c": values, "cmap": COLOURS, "norm": norm, "s": 40.0}
+        at = between.scales[0].of(selection.along), between.scales[1].of(np.array(selection.across))
+        look = {"c": values, "cmap": colours, "norm": norm, "s": 40.0}
         handles += _dots(selection, ax, at, alone, look, beside=bool(np.any(whole)))
-    colour_bar(ax, norm, label.axis(scale), levels)
+    colour_bar(ax, norm, label.axis(scale), levels, colours)
     return handles
+
+
+def colours_of(levels: Array, *, log: bool) -> tuple[Normalize, Colormap]:
+    """Normalisation and colour map of levels: with white at zero where there are values on both sides of it.
+
+    Examples
+    --------
+    >>> norm, colours = colours_of(np.array([-1.0, 0.0, 3.0]), log=False)
+    >>> norm.vmin, norm.vmax, colours.name
+    (-3.0, 3.0, 'RdBu_r')
+    """
+    if levels[0] < 0.0 < levels[-1]:
+        reach = float(np.max(np.abs(levels)))
+        return Normalize(-reach, reach), DIVERGING
+    return norm_of(levels, log=log), COLOURS
 
 
 def _breakdown(between: _Between, ax: Axes) -> list[Artist]:
@@ -184,20 +214,22 @@ def _breakdown(between: _Between, ax: Axes) -> list[Artist]:
     shown = margin[between.surface.triangles[whole]]
     least, most = float(np.min(shown)), float(np.max(shown))
     about, volts = between.selection.breakdown, voltage_text(between.selection)
-    whose = f"the {about.whose} {volts}"
+    applied = f"{about.voltage_name} {volts}"
     if least >= 1.0:
         where = " where filled" * bool(np.any(between.surface.alone(between.selection.margin)))
-        return [Line2D([], [], ls="none", label=f"{about.name} above {whose}{where}")]
+        return [Line2D([], [], ls="none", label=f"{about.name} above {applied}{where}")]
     drawn = between.triangles(whole), margin
     ax.tricontourf(*drawn, levels=[min(0.5 * least, 0.5), 1.0], colors="none", hatches=[_BREAKS])
     hatched = Patch(facecolor="none", edgecolor="black", hatch=_BREAKS, lw=0.0)
     if most <= 1.0:
-        hatched.set_label(f"{about.name} below {whose}")
+        hatched.set_label(f"{about.name} below {applied}")
         return [hatched]
     line = ax.tricontour(*drawn, levels=[1.0], colors="black", linewidths=1.8)
     line.set_path_effects([cast("AbstractPathEffect", withStroke(linewidth=3.2, foreground="white"))])
-    hatched.set_label(f"below {whose}")
-    return [Line2D([], [], color="black", lw=1.8, label=f"{about.name} = {about.whose} {volts}"), hatched]
+    for text in ax.clabel(line, fmt={1.0: "margin 1"}, fontsize="small", inline=False):
+        text.set_path_effects([withStroke(linewidth=3.0, foreground="white")])
+    hatched.set_label(f"below {applied}")
+    return [Line2D([], [], color="black", lw=1.8, label=f"{about.name} = {applied}"), hatched]
 
 
 def _dots(
@@ -231,10 +263,10 @@ def _dots(
     parts = {"": (some, "o")}
     if selection.of_discharge and np.any(np.isfinite(selection.margin[some])):
         low, about = some & (selection.margin < 1.0), selection.breakdown
-        whose = f"the {about.whose} {voltage_text(selection)}"
+        applied = f"{about.voltage_name} {voltage_text(selection)}"
         parts = {
-            f"{'alone,' if beside else about.name} above {whose}": (some & ~low, "o"),
-            f"{'alone, ' if beside else ''}below {whose}": (low, "v"),
+            f"{'alone,' if beside else about.name} above {applied}": (some & ~low, "o"),
+            f"{'alone, ' if beside else ''}below {applied}": (low, "v"),
         }
     for part, shape in parts.values():
         own = {**look, "c": look["c"][part], "marker": shape}
@@ -250,13 +282,13 @@ def _dots(
 def _scatter(results: SweepResults, selection: Slice, ax: Axes, along: Array, up: Array) -> list[Artist]:
     """Draw the points as dots coloured by their value, without interpolation; returns the legend entries."""
     label, scale = labelled(results, selection.value, selection.values)
-    values = scale.factor * selection.values
+    values = scale.of(selection.values)
     masks = kinds(selection)
     for kind in masks.keys() - {"solved"}:
         mark(ax, kind, along[masks[kind]], up[masks[kind]])
     log = is_wide(values)
     levels = levels_of(values, log=log)
-    norm = norm_of(levels, log=log)
-    colour_bar(ax, norm, label.axis(scale), levels)
-    look = {"c": values, "cmap": COLOURS, "norm": norm, "s": 26.0}
+    norm, colours = colours_of(levels, log=log)
+    colour_bar(ax, norm, label.axis(scale), levels, colours)
+    look = {"c": values, "cmap": colours, "norm": norm, "s": 26.0}
     return _dots(selection, ax, (along, up), masks["solved"], look)

@@ -13,19 +13,23 @@ from matplotlib.patheffects import withStroke
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.figures.style import GREY, ORANGE, name_over
-from ehlectric.sweep.labels import Label, Scale, label_of
+from ehlectric.sweep.labels import CELSIUS, Label, Scale, label_of
 from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.slices import Slice
 
 # Marker of a point by its kind, in figures and in their legends.
 _MARKS: dict[str, dict[str, Any]] = {
     "solved": {"marker": "o", "ms": 2.6, "color": "black", "mew": 0.0},
+    "with a warning": {"marker": "o", "ms": 8.0, "color": ORANGE, "mfc": "none", "mew": 1.1},
     "without this value": {"marker": "s", "ms": 4.0, "color": GREY, "mfc": "none", "mew": 0.8},
     "do not use": {"marker": "D", "ms": 4.2, "color": ORANGE, "mfc": "none", "mew": 1.2},
     "not converged": {"marker": "+", "ms": 7.0, "color": "black", "mew": 1.3},
     "failed": {"marker": "x", "ms": 5.5, "color": ORANGE, "mew": 1.6},
     "not tried yet": {"marker": "o", "ms": 4.0, "color": GREY, "mfc": "none", "mew": 0.8},
 }
+
+# Names of kinds in legends, where they differ from the kind.
+_NAMES = {"solved": "points", "do not use": "must not be used"}
 
 
 def kinds(selection: Slice) -> dict[str, Mask]:
@@ -40,6 +44,30 @@ def kinds(selection: Slice) -> dict[str, Mask]:
         "not tried yet": selection.of("open"),
     }
     return {kind: mask for kind, mask in masks.items() if np.any(mask)}
+
+
+def warned(selection: Slice) -> Mask:
+    """Mask of the points with a value that have a warning that not all points have, shape (points,).
+
+    A warning of all points, such as that of an isothermal film, tells no point from another.
+    """
+    codes = [
+        {warning.code for warning in point.warnings if warning.severity == "warning"}
+        for point in selection.points
+    ]
+    drawn = selection.of("solved") & np.isfinite(selection.values)
+    of_all = set.intersection(*(own for own, known in zip(codes, drawn, strict=True) if known))
+    return np.asarray(drawn & np.array([bool(own - of_all) for own in codes]))
+
+
+def mark_warned(ax: Axes, selection: Slice, x: Array, y: Array) -> list[Line2D]:
+    """Draw a ring around each point that has a warning, and return the legend entry of the rings."""
+    some = warned(selection)
+    if not np.any(some):
+        return []
+    mark(ax, "with a warning", x[some], y[some])
+    label = f"{np.sum(some)} of them with a warning"
+    return [Line2D([], [], ls="none", label=label, **_MARKS["with a warning"])]
 
 
 def dot_size(selection: Slice, largest: float) -> float:
@@ -57,15 +85,15 @@ def mark(ax: Axes, kind: str, x: Array, y: Array, **look: Any) -> None:
 def kind_handles(selection: Slice, **look: Any) -> list[Line2D]:
     """Legend entries with the number of points of each kind."""
     return [
-        Line2D([], [], ls="none", label=f"{np.sum(mask)} {kind}", **(_MARKS[kind] | look))
+        Line2D([], [], ls="none", label=f"{np.sum(mask)} {_NAMES.get(kind, kind)}", **(_MARKS[kind] | look))
         for kind, mask in kinds(selection).items()
     ]
 
 
 def labelled(results: SweepResults, key: str, values: Array) -> tuple[Label, Scale]:
-    """Name, symbol and SI unit of a key, and the prefixed unit that suits the values."""
+    """Name, symbol and SI unit of a key, and the unit that suits the values; °C for temperatures."""
     label = label_of(key, results.case)
-    return label, label.scaled(values)
+    return label, CELSIUS if label.unit == "K" else label.scaled(values)
 
 
 def voltage_text(selection: Slice) -> str:
@@ -78,25 +106,34 @@ def range_text(values: Array, unit: str) -> str:
 
     Examples
     --------
-    >>> range_text(np.array([2.0, 2.0]), "V"), range_text(np.array([2.0, 30.0]), "V")
-    ('2 V', '2 to 30 V')
+    >>> range_text(np.array([2.0, 2.0]), "V"), range_text(np.array([2.214, 30.0]), "V")
+    ('2 V', '2.2 to 30 V')
     """
     low, high = float(values.min()), float(values.max())
-    return f"{low:.4g} {unit}" if high - low <= 1e-9 * high else f"{low:.4g} to {high:.4g} {unit}"
+    texts = [f"{value:.2g}" if value < 10.0 else f"{value:.3g}" for value in (low, high)]
+    return f"{low:.4g} {unit}" if high - low <= 1e-9 * high else f"{' to '.join(texts)} {unit}"
 
 
-def name_figure(ax: Axes, results: SweepResults, more: str) -> None:
-    """Write the title of a figure: the title of the sweep, and ``more`` below it."""
+def name_figure(ax: Axes, results: SweepResults, finding: str, more: str) -> None:
+    """Write the title of a figure: what it shows, and below it the title of the sweep and ``more``."""
     title = textwrap.shorten(results.title, 70, placeholder=" ...")
-    text = "\n".join(filter(None, [title, textwrap.fill(more, 100)]))
-    if text:
-        name_over(ax, text)
+    name_over(ax, "\n".join(filter(None, [finding, title, more])))
+
+
+# Texts of values that are words.
+_STATES = {
+    "contacts": {"formula": "contacts by formula", "solved": "contacts solved"},
+    "bearing.film_factor": {"none": "isothermal, fully flooded film", "inlet-shear": "film with inlet shear"},
+}
 
 
 def held_text(results: SweepResults, selection: Slice) -> str:
     """Text of the keys with a fixed value, and of the varied keys that the figure neither shows nor fixes."""
     texts = []
     for key, value in selection.at.items():
+        if str(value) in _STATES.get(key, {}):
+            texts.append(_STATES[key][str(value)])
+            continue
         numbers = np.array([value]) if isinstance(value, int | float) else np.empty(0)
         label, scale = labelled(results, key, numbers)
         texts.append(f"{label.name} = {scale.text(value)}")

@@ -1,8 +1,8 @@
-"""Figures of sweeps: by name, and as PNG files."""
+"""Figures of sweeps: by name, and as files."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from matplotlib.axes import Axes
@@ -10,8 +10,9 @@ from matplotlib.figure import Figure
 
 from ehlectric.errors import InputError, shown
 from ehlectric.figures.bearing.save import save_speed_figures
-from ehlectric.figures.names import SENSITIVITY_FIGURE, map_files
+from ehlectric.figures.names import SENSITIVITY_FIGURE, in_formats, map_files
 from ehlectric.figures.style import figure_of, new_panels, save_figure, style
+from ehlectric.figures.sweep import findings
 from ehlectric.figures.sweep.lines import value_lines
 from ehlectric.figures.sweep.maps import value_map
 from ehlectric.figures.sweep.points import held_text, name_figure
@@ -65,6 +66,7 @@ def figure(
     InputError
         Where there is no figure of this name, or as ``take`` and ``sensitivity`` raise it.
     """
+    (name,) = in_formats([name])
     if name == SENSITIVITY_FIGURE:
         indices = sensitivity(results, value or breakdown_of(results.case).value)
         return sensitivity_figure(results, indices)
@@ -74,11 +76,11 @@ def figure(
         raise InputError("figure", got=shown(name), takes=allowed)
     if kind == "map" and y is None:
         raise InputError.missing("y", "a varied key, for a map")
-    text = held_text(results, take(results, x, y, key, at))
+    taken = take(results, x, y, key, at)
     with style():
         ax = new_panels(1, 1, _SIZES[kind])[0]
         FIGURES[kind](results, x, y, key, at=at, ax=ax)
-        name_figure(ax, results, text)
+        name_figure(ax, results, findings.of_slice(results, taken), held_text(results, taken))
     return figure_of(ax)
 
 
@@ -90,8 +92,9 @@ def save_maps(
     folder: Path,
     *,
     at: Mapping[str, str] | None = None,
+    formats: Sequence[str] = ("png",),
 ) -> list[Path]:
-    """Draw a value of a sweep as a map and as lines, as PNG files.
+    """Draw a value of a sweep as a map and as lines, as files.
 
     Parameters
     ----------
@@ -107,6 +110,8 @@ def save_maps(
         Folder of the files; it must exist.
     at : mapping of str to str, optional
         Values of the other varied keys.
+    formats : sequence of str
+        Formats of the files, of "png", "svg" and "pdf".
 
     Returns
     -------
@@ -119,15 +124,24 @@ def save_maps(
         As ``take`` raises it.
     """
     numeric = take(results, x, y, value, at).numeric
-    names = [name for name in map_files(value) if (y is not None and numeric) or name.startswith("lines_")]
-    files = [folder / name for name in names]
-    for file in files:
-        save_figure(figure(results, file.name, x=x, y=y, at=at), file)
-    return files
+    pairs = zip(map_files(value), map_files(value, at), strict=True)
+    wanted = [pair for pair in pairs if (y is not None and numeric) or pair[0].startswith("lines_")]
+    return [
+        file
+        for name, path in wanted
+        for file in save_figure(figure(results, name, x=x, y=y, at=at), folder / path, formats)
+    ]
 
 
-def save_speeds(results: SweepResults, taken: Slice, folder: Path) -> list[Path]:
-    """Draw capacitance and breakdown voltages of bearings over the speed, as PNG files.
+def save_speeds(
+    results: SweepResults,
+    taken: Slice,
+    folder: Path,
+    formats: Sequence[str] = ("png",),
+    *,
+    at: Mapping[str, str] | None = None,
+) -> list[Path]:
+    """Draw capacitance and breakdown voltages of bearings over the speed, as files.
 
     Parameters
     ----------
@@ -137,6 +151,10 @@ def save_speeds(results: SweepResults, taken: Slice, folder: Path) -> list[Path]
         Points to draw. Points that are not solved or must not be used are left out.
     folder : Path
         Folder of the files; it must exist.
+    formats : sequence of str
+        Formats of the files, of "png", "svg" and "pdf".
+    at : mapping of str to str, optional
+        Values of the other varied keys, for the names of the files.
 
     Returns
     -------
@@ -152,4 +170,4 @@ def save_speeds(results: SweepResults, taken: Slice, folder: Path) -> list[Path]
     ]
     # The title of the case may name values that the sweep changes.
     title = ", ".join(filter(None, [results.title, held_text(results, taken).removeprefix("at ")]))
-    return save_speed_figures(points, folder, title) if points else []
+    return save_speed_figures(points, folder, title, formats=formats, at=at) if points else []

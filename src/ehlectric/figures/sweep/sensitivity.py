@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.artist import Artist
@@ -22,15 +24,20 @@ from ehlectric.figures.style import (
     save_figure,
     style,
 )
+from ehlectric.figures.sweep import findings
 from ehlectric.figures.sweep.points import labelled, name_figure, range_text
 from ehlectric.sweep.breakdown_keys import breakdown_of
-from ehlectric.sweep.labels import label_of
+from ehlectric.sweep.labels import Scale, label_of
 from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.sensitivity import LEVEL, Sensitivity
 from ehlectric.sweep.slices import numbers_of
 
 # Probabilities marked in the distribution.
 _MARKED = (0.05, 0.5, 0.95)
+
+# An index is drawn as 0 if its interval contains 0 or it is below _ZERO, and if the interval is within
+# _NOTHING of 0.
+_ZERO, _NOTHING = 0.01, 0.05
 
 
 def distribution(results: SweepResults, analysis: Sensitivity, ax: Axes | None = None) -> Axes:
@@ -56,8 +63,8 @@ def distribution(results: SweepResults, analysis: Sensitivity, ax: Axes | None =
     samples = np.sort(_drawn(results, analysis.value))
     label, scale = labelled(results, analysis.value, samples)
     shares = np.arange(1, samples.size + 1) / samples.size
-    ax.step(scale.factor * samples, shares, where="post", color=BLUE)
-    marked = [scale.factor * analysis.spread.quantiles[q] for q in _MARKED]
+    ax.step(scale.of(samples), shares, where="post", color=BLUE)
+    marked = [scale.of(analysis.spread.quantiles[q]) for q in _MARKED]
     ax.vlines(marked, 0.0, _MARKED, color=BLUE, lw=0.8, ls=":")
     (dots,) = ax.plot(marked, _MARKED, ls="none", marker="o", ms=4.0, color=BLUE)
     text = ", ".join(f"{100.0 * q:g}" for q in _MARKED) + " %: "
@@ -65,7 +72,7 @@ def distribution(results: SweepResults, analysis: Sensitivity, ax: Axes | None =
     dots.set_label(f"{text} {scale.unit}".rstrip())
     handles: list[Artist] = [dots]
     if analysis.share_below_voltage is not None:
-        handles.append(_applied(results, analysis, ax, scale.factor))
+        handles.append(_applied(results, analysis, ax, scale))
     ax.set(xlabel=label.axis(scale), ylabel=f"share of {samples.size} samples below", ylim=(0.0, 1.04))
     legend_above(ax, handles, columns=1)
     return ax
@@ -77,18 +84,16 @@ def _drawn(results: SweepResults, value: str) -> Array:
     return np.asarray(values[np.isfinite(values)])
 
 
-def _applied(results: SweepResults, analysis: Sensitivity, ax: Axes, factor: float) -> Line2D:
-    """Draw the applied voltage or its range, labelled with the part of the samples below it."""
+def _applied(results: SweepResults, analysis: Sensitivity, ax: Axes, scale: Scale) -> Line2D:
+    """Draw the applied voltage or its range; the title says which part of the samples is below it."""
     about = breakdown_of(results.case, analysis.value)
     volts = results.values(about.voltage)[: 2 * results.samples]
     volts = volts[np.isfinite(volts)]
-    ends = factor * np.array([volts.min(), volts.max()]) if analysis.value == about.value else np.ones(2)
-    assert analysis.share_below_voltage is not None
-    share = f"{100.0 * analysis.share_below_voltage:.3g} % of the samples"
+    ends = scale.of(np.array([volts.min(), volts.max()])) if analysis.value == about.value else np.ones(2)
     line = ax.axvline(ends[0], color=ORANGE, lw=1.4, ls="--")
     if ends[1] > ends[0]:
         ax.axvspan(*ends, color=ORANGE, alpha=0.2, lw=0.0)
-    line.set_label(f"{about.voltage_name} {range_text(volts, 'V')}, above {share}")
+    line.set_label(f"{about.voltage_name} {range_text(volts, 'V')}")
     return line
 
 
@@ -119,7 +124,13 @@ def parts(results: SweepResults, analysis: Sensitivity, ax: Axes | None = None) 
         ax.barh(rows + shift, middle, height=0.36, color=colour, label=kind.replace("_", " "))
         # With few rows, the estimate may lie outside its bootstrap interval.
         reach = np.maximum([middle - ends[0], ends[1] - middle], 0.0)
-        ax.errorbar(middle, rows + shift, xerr=reach, fmt="none", ecolor="black", elinewidth=0.9, capsize=2.5)
+        # Beside a bar of no length, its interval would look like a stray mark.
+        none = (np.abs(middle) < _ZERO) | ((ends[0] <= 0.0) & (ends[1] >= 0.0))
+        drawn = ~none | (np.max(np.abs([middle, *ends]), axis=0) > _NOTHING)
+        look: dict[str, Any] = {"fmt": "none", "ecolor": "black", "elinewidth": 0.9, "capsize": 2.5}
+        ax.errorbar(middle[drawn], (rows + shift)[drawn], xerr=reach[:, drawn], **look)
+        for row in np.flatnonzero(~drawn):
+            ax.text(0.01, rows[row] + shift, "0", va="center", fontsize="small", color=colour)
     ax.axvline(0.0, color="black", lw=0.7)
     ax.set_yticks(rows, labels=[label_of(i.key, results.case).name for i in ordered])
     highest = max(1.0, *(max(i.total_interval[1], i.first_order_interval[1]) for i in ordered))
@@ -155,11 +166,14 @@ def sensitivity_figure(results: SweepResults, analysis: Sensitivity) -> Figure:
         dropped = (
             f"{analysis.dropped} of {analysis.rows} rows dropped: not solved" if analysis.dropped else ""
         )
-        doubtful = f'{analysis.doubtful} of {analysis.used} used rows have points that say "do not use"'
-        name_figure(left, results, ", ".join(filter(None, [dropped, doubtful if analysis.doubtful else ""])))
+        doubtful = f"{analysis.doubtful} of {analysis.used} used rows have points that must not be used"
+        more = ", ".join(filter(None, [dropped, doubtful if analysis.doubtful else ""]))
+        name_figure(left, results, findings.of_sensitivity(results, analysis), more)
     return figure_of(left)
 
 
-def save_sensitivity(results: SweepResults, analysis: Sensitivity, path: Path) -> None:
-    """Write a PNG file with the distribution of a value beside the sensitivity indices."""
-    save_figure(sensitivity_figure(results, analysis), path)
+def save_sensitivity(
+    results: SweepResults, analysis: Sensitivity, path: Path, formats: Sequence[str] = ("png",)
+) -> list[Path]:
+    """Write the distribution of a value beside the sensitivity indices, as a file of each format."""
+    return save_figure(sensitivity_figure(results, analysis), path, formats)

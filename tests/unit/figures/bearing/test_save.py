@@ -16,11 +16,22 @@ from ehlectric.bearing.solution import BearingSolution, Position, ring_state
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.commands.app import app
 from ehlectric.figures.bearing import circuit as bearing_circuit_plot
+from ehlectric.figures.bearing import impedance as bearing_impedance_plot
+from ehlectric.figures.bearing import pitch as bearing_pitch_plot
 from ehlectric.figures.bearing import polar as bearing_polar
 from ehlectric.figures.bearing import speeds as bearing_speed_plot
-from ehlectric.figures.bearing.save import bearing_figures_of, save_bearing_figures, save_speed_figures
+from ehlectric.figures.bearing.curves import RPM, critical_speed_of, curves_of
+from ehlectric.figures.bearing.save import (
+    bearing_figures_of,
+    figure,
+    save_bearing_figures,
+    save_speed_figures,
+    speed_figure,
+)
 from ehlectric.figures.names import BEARING_FIGURE_FILES, SPEED_FIGURE_FILES
+from ehlectric.figures.style import BLUE
 from tests.helpers.bearings import contact_solution
+from tests.helpers.titles import title_of
 
 LOADS, CIRCUIT, PITCH, IMPEDANCE = BEARING_FIGURE_FILES
 
@@ -53,12 +64,11 @@ OF_BEARING = (
     bearing_polar.load_around,
     bearing_polar.film_around,
     bearing_circuit_plot.contact_capacitances,
-    bearing_circuit_plot.voltage_shares,
     bearing_circuit_plot.breakdown_voltages,
-    bearing_circuit_plot.impedance_magnitude,
-    bearing_circuit_plot.impedance_phase,
-    bearing_circuit_plot.capacitance_over_pitch,
-    bearing_circuit_plot.breakdown_over_pitch,
+    bearing_impedance_plot.impedance_magnitude,
+    bearing_impedance_plot.impedance_phase,
+    bearing_pitch_plot.capacitance_over_pitch,
+    bearing_pitch_plot.breakdown_over_pitch,
 )
 OVER_SPEED = (bearing_speed_plot.capacitance_over_speed, bearing_speed_plot.breakdown_over_speed)
 
@@ -147,6 +157,11 @@ def points():
     ]
 
 
+def said(drawn):
+    """Whole title of a figure, also where its lines are broken."""
+    return " ".join(title_of(drawn))
+
+
 def line(ax, start):
     """The only line whose label starts so."""
     (found,) = [line for line in ax.get_lines() if line.get_label().startswith(start)]
@@ -173,7 +188,7 @@ def test_load_points_down_and_elements_without_load_are_hollow(result):
     at = result.solution.positions[0].equilibrium
     free = at.inner_load == 0.0
     assert 0 < np.sum(free) < 9
-    hollow = line(ax, "inner, not loaded")
+    hollow = line(ax, "inner, unloaded")
     np.testing.assert_array_equal(hollow.get_xdata(), at.position[free])
     assert hollow.get_markerfacecolor() == "white"
     loads = line(ax, "outer contact").get_ydata()
@@ -182,11 +197,25 @@ def test_load_points_down_and_elements_without_load_are_hollow(result):
     assert ax.get_rorigin() < 0.0 == ax.get_rmin()
 
 
-def test_film_shows_gaps_and_the_lambdas_that_are_near(result):
+def test_film_shades_the_sector_without_load_and_shows_the_lambdas_that_are_near(result):
+    """The gap there, of micrometres, is not on the scale of the films; the legend states it."""
     ax = bearing_polar.film_around(result)
-    inner = result.solution.positions[0].inner
-    gaps = line(ax, "inner, not loaded: gap").get_ydata()
-    np.testing.assert_allclose(gaps, 1e6 * inner.gap[~inner.solved], rtol=1e-12)
+    races = [position.inner for position in result.solution.positions]
+    gap = 1e6 * max(race.gap[~race.solved].max() for race in races)
+    legend = [text.get_text() for text in ax.get_legend().get_texts()]
+    assert f"inner unloaded: gap to {gap:.2g} µm" in legend
+    assert not [text for text in legend if text.startswith("outer unloaded")]
+    films = np.concatenate([race.values.minimum_thickness[race.solved] for race in races])
+    drawn = np.concatenate([found.get_ydata() for found in ax.get_lines() if found.get_color() == BLUE])
+    assert np.nanmax(drawn) == pytest.approx(1e6 * films.max(), rel=1e-12)
+    assert ax.get_ylim()[1] < gap
+    # The sector has all angles at which the inner ring is unloaded, and none at which it loads an element.
+    angles = np.concatenate([position.equilibrium.position for position in result.solution.positions])
+    free = ~np.concatenate([race.solved for race in races])
+    shaded = [np.mod(c.get_paths()[0].vertices[:, 0], 2.0 * np.pi) for c in ax.collections if c.get_paths()]
+    ends = [(part.min(), part.max()) for part in shaded if len(part)]
+    for angle, unloaded in zip(np.mod(angles, 2.0 * np.pi), free, strict=True):
+        assert any(low <= angle <= high for low, high in ends) == unloaded
     # 0.2 um is lambda 6.7 of 0.03 um: a circle at lambda 3, 0.09 um, none at 1.
     np.testing.assert_allclose(line(ax, r"$\lambda$ = 3").get_ydata(), 0.09, rtol=1e-12)
     assert not [found for found in ax.get_lines() if found.get_label() == r"$\lambda$ = 1"]
@@ -211,35 +240,74 @@ def test_voltages_of_contacts_are_those_of_the_bearing(result):
     np.testing.assert_allclose(outer, expected[1::2], rtol=1e-12)
     circuit = result.solution.circuits("oil")[0]
     assert min(*inner, *outer) == pytest.approx(circuit.first_break, rel=1e-12)
-    assert line(ax, "first break").get_ydata()[0] == result.breaks()["first_break"]
+    assert line(ax, "first").get_ydata()[0] == result.breaks()["first_break"]
     assert line(ax, "shaft voltage").get_ydata()[0] == result.shaft_voltage
+    # The numbers of the lines stand beside the axes, at their heights.
+    beside = "\n".join(text.get_text() for text in ax.texts)
+    assert f"{result.breaks()['first_break']:#.3g} V" in beside
+    assert f"shaft voltage\n{result.shaft_voltage:#.3g} V" in beside
 
 
-def test_bars_are_capacitances_and_shares(result):
+@pytest.mark.parametrize(("apart", "lines"), [(1.0, 1), (1.3, 2)])
+def test_breakdowns_that_coincide_are_one_line_with_both_names(result, monkeypatch, apart, lines):
+    found = result.breaks()
+    changed = found | {"through_breakdown": apart * found["first_break"]}
+    monkeypatch.setattr(BearingResult, "breaks", lambda _: changed)
+    ax = bearing_circuit_plot.breakdown_voltages(result)
+    names = {line.get_label() for line in ax.get_lines() if line.get_label().endswith("breakdown")}
+    one, two = {"first and ring-to-ring breakdown"}, {"first breakdown", "ring-to-ring breakdown"}
+    assert names == (one if lines == 1 else two)
+
+
+def test_bars_are_capacitances(result):
     circuit = result.solution.circuits("oil")[0]
     heights = [bar.get_height() for bar in bearing_circuit_plot.contact_capacitances(result).patches]
     np.testing.assert_allclose(heights, 1e12 * np.concatenate([circuit.inner, circuit.outer]), rtol=1e-12)
-    tops = [bar.get_y() + bar.get_height() for bar in bearing_circuit_plot.voltage_shares(result).patches[9:]]
-    np.testing.assert_allclose(tops, 100.0, rtol=1e-12)
 
 
 def test_a_pitch_ends_as_it_begins(result):
-    ax = bearing_circuit_plot.capacitance_over_pitch(result)
+    ax = bearing_pitch_plot.capacitance_over_pitch(result)
     for fill in ("oil", "air"):
-        angles, values = line(ax, fill).get_data()
+        found = line(ax, fill)
+        angles, values = found.get_data()
         assert (angles[0], angles[-1]) == (0.0, pytest.approx(40.0))
         assert values[-1] == values[0]
-        assert np.mean(values[:-1]) == pytest.approx(1e12 * result.capacitance(fill), rel=1e-12)
+        assert np.mean(values[:-1]) == pytest.approx(0.0, abs=1e-9)
+        own = [circuit.capacitance for circuit in result.solution.circuits(fill)]
+        assert values[0] == pytest.approx(100.0 * (own[0] / np.mean(own) - 1.0), rel=1e-9)
+        assert found.get_label().endswith(f"mean {1e12 * result.capacitance(fill):.4g} pF")
+
+
+def test_a_panel_over_a_pitch_is_drawn_where_its_quantity_varies(monkeypatch):
+    """At one position nothing varies, and there is no figure; at 2 % there is."""
+    bearing = by_hand(positions=2)
+    for capacitance, first, panels in (
+        (0.005, 0.005, ()),
+        (0.02, 0.005, (bearing_pitch_plot.capacitance_over_pitch,)),
+        (0.005, 0.02, (bearing_pitch_plot.breakdown_over_pitch,)),
+    ):
+        swing = np.array([-0.5, 0.5])
+        of_all = {
+            "capacitances": 1e-10 * (1.0 + capacitance * swing),
+            "first_breakdowns": 5.0 + 5.0 * first * swing,
+        }
+        for name, values in of_all.items():
+            monkeypatch.setattr(f"ehlectric.figures.bearing.save.{name}", lambda *_, v=values: v)
+        assert bearing_figures_of(bearing).get(PITCH, ()) == panels
+    monkeypatch.undo()
+    assert PITCH not in bearing_figures_of(by_hand(positions=1))
 
 
 @pytest.mark.parametrize(
     ("changes", "figures", "panels"),
     [
-        ({}, (LOADS, CIRCUIT, PITCH, IMPEDANCE), (2, 3, 2, 2)),
-        ({"motor": None}, (LOADS, CIRCUIT, PITCH, IMPEDANCE), (2, 3, 2, 2)),
-        ({"discharge": None}, (LOADS, CIRCUIT, PITCH), (2, 2, 1)),
-        ({"film": 0.02e-6}, (LOADS, CIRCUIT, PITCH), (2, 1, 1)),
+        ({}, (LOADS, CIRCUIT, IMPEDANCE), (2, 2, 1)),
+        ({"motor": None}, (LOADS, CIRCUIT, IMPEDANCE), (2, 2, 1)),
+        ({"discharge": None}, (LOADS, CIRCUIT), (2, 1)),
+        ({"film": 0.02e-6}, (LOADS, CIRCUIT), (2, 1)),
         ({"bearing": {"element_material": "silicon-nitride"}}, (LOADS,), (2,)),
+        # A conductive oil: its corner at 7.5 kHz is in the range, and the phase is no number there.
+        ({"discharge": {"conductivity": "1 uS/m"}}, (LOADS, CIRCUIT, IMPEDANCE), (2, 2, 2)),
     ],
 )
 def test_what_has_no_meaning_is_not_drawn(changes, figures, panels):
@@ -249,13 +317,14 @@ def test_what_has_no_meaning_is_not_drawn(changes, figures, panels):
 
 
 def test_a_bearing_without_motor_has_no_shaft_voltage():
-    ax = bearing_circuit_plot.breakdown_over_pitch(by_hand(positions=1, motor=None))
+    ax = bearing_pitch_plot.breakdown_over_pitch(by_hand(positions=1, motor=None))
     assert not [found for found in ax.get_lines() if found.get_label().startswith("shaft")]
 
 
 def test_figures_are_saved(result, tmp_path):
     files = save_bearing_figures(result, tmp_path)
-    assert [file.name for file in files] == list(BEARING_FIGURE_FILES)
+    assert [file.name for file in files] == list(bearing_figures_of(result))
+    assert LOADS in [file.name for file in files]
     assert sorted(tmp_path.iterdir()) == sorted(files)
     assert all(file.read_bytes().startswith(b"\x89PNG") for file in files)
 
@@ -265,7 +334,7 @@ def test_the_command_draws_unless_told_not_to(result, monkeypatch, tmp_path):
     file = tmp_path / "bearing.toml"
     file.write_text(tomli_w.dumps(TABLE), encoding="utf-8")
     monkeypatch.setattr("ehlectric.bearing.files.solve_bearing", lambda *_args, **_kwargs: result)
-    drawn = *BEARING_FIGURE_FILES, *SPEED_FIGURE_FILES
+    drawn = *bearing_figures_of(result), *SPEED_FIGURE_FILES
     for option, figures in (("--plots", drawn), ("--no-plots", ())):
         done = CliRunner().invoke(app, ["bearing", str(file), "-o", str(tmp_path / "out"), "-q", option])
         assert done.exit_code == 0, done.output
@@ -276,24 +345,72 @@ def test_the_command_draws_unless_told_not_to(result, monkeypatch, tmp_path):
 @pytest.mark.parametrize(
     ("changes", "text"),
     [
-        ({}, "isothermal film, least λ 6.7: voltages are upper bounds"),
-        ({"film": 0.02e-6}, "isothermal film, least λ 0.67: surfaces touch"),
-        ({"bearing": {"film_factor": 0.6}}, "film factor 0.6, least λ 6.7"),
-        ({"bearing": {"radial_load": 0.0, "axial_load": "500 N"}}, "500 N axial, 3000 rpm, 70 °C"),
+        ({}, "isothermal, fully flooded film, minimum λ 6.7, contacts solved: voltages are upper bounds"),
+        (
+            {"film": 0.02e-6},
+            "isothermal, fully flooded film, minimum λ 0.67, contacts solved: surfaces touch",
+        ),
+        ({"bearing": {"film_factor": 0.6}}, "film factor 0.6, minimum λ 6.7, contacts solved"),
     ],
 )
-def test_titles_say_the_duty_and_what_the_film_is_worth(changes, text, monkeypatch, tmp_path):
+def test_titles_say_what_the_film_is_worth(changes, text):
     """0.2 um of film at 900 N, about the most loaded ball here, over 0.03 um of roughness."""
-    named = []
-    monkeypatch.setattr(Figure, "suptitle", lambda _self, text, **_: named.append(text))
-    monkeypatch.setattr(Figure, "savefig", lambda *_args, **_kwargs: None)
-    save_bearing_figures(by_hand(positions=1, **changes), tmp_path)
-    assert named
+    found = by_hand(positions=1, **changes)
+    titles = {name: said(figure(found, name)) for name in bearing_figures_of(found)}
     plain = text.removesuffix(": voltages are upper bounds")
-    assert all(name.startswith("By hand\n") and plain in name for name in named)
-    # Circuit and pitch, the second and third figure of four, show voltages of breakdown; the others do not.
-    bounds = "upper bounds" in text or "axial" in text
-    assert [k for k, name in enumerate(named) if "upper bounds" in name] == ([1, 2] if bounds else [])
+    assert all(title.endswith((text, plain)) for title in titles.values())
+    # The circuit shows voltages of breakdown; the others do not.
+    bounds = [name for name, title in titles.items() if title.endswith("upper bounds")]
+    assert bounds == ([CIRCUIT] if "upper bounds" in text else [])
+
+
+@pytest.mark.parametrize(
+    ("title", "line"),
+    [
+        ("By hand", "By hand, 1800 N radial, 3000 rpm, 70 °C"),
+        ("6208, 3000 rpm, 70 °C", "6208, 3000 rpm, 70 °C, 1800 N radial"),
+    ],
+)
+def test_titles_say_the_duty_once(title, line):
+    found = by_hand(positions=1)
+    solution = replace(found.solution, case=found.case.replace({"title": title}))
+    assert title_of(figure(BearingResult(solution), LOADS))[1] == line
+
+
+def test_titles_say_the_finding(result):
+    most = max(result.contacts(), key=lambda row: row["load"])
+    thinnest = 1e6 * min(row["minimum_thickness"] for row in result.contacts())
+    text = said(figure(result, LOADS))
+    assert text.startswith(
+        f"Most loaded contact: {most['ring']}, element {most['element']}, {most['load']:.3g} N; "
+    )
+    assert f"minimum film {thinnest:.3g} µm (λ {thinnest / 0.03:.2g}) By hand" in text
+    found, shaft = result.breaks(), result.shaft_voltage
+    assert said(figure(result, CIRCUIT)).startswith(
+        f"No breakdown expected: margin {found['first_break'] / shaft:.3g} "
+        f"(first breakdown {found['first_break']:#.3g} V / shaft voltage {shaft:#.3g} V)"
+    )
+    below = by_hand(motor={"common_mode_voltage": "3 kV"})
+    assert said(figure(below, CIRCUIT)).startswith("Breakdown expected: margin 0.")
+    alone = by_hand(motor=None)
+    assert said(figure(alone, CIRCUIT)).startswith(f"First breakdown at {found['first_break']:#.3g} V: ")
+    # Far above its corner the bearing is a capacitor, of 1/(2 pi f C).
+    capacitance = result.capacitance("oil")
+    text = said(figure(result, IMPEDANCE))
+    assert text.startswith(f"A capacitor of {1e12 * capacitance:.3g} pF above 7.49 Hz: |Z| = ")
+    assert f"{1e-3 / (2.0 * np.pi * 2e4 * capacitance):.3g} kΩ at 20 kHz" in text
+
+
+def test_impedance_is_drawn_where_an_inverter_works(result):
+    ax = bearing_impedance_plot.impedance_magnitude(result)
+    assert ax.get_xlim() == (1e3, pytest.approx(1e7))
+    (band,) = ax.patches
+    assert (band.get_x(), band.get_x() + band.get_width()) == bearing_impedance_plot.INVERTER
+    wet = by_hand(discharge={"conductivity": "1 uS/m"})
+    ax = bearing_impedance_plot.impedance_magnitude(wet)
+    corner = next(found for found in ax.get_lines() if found.get_linestyle() == "--").get_xdata()[0]
+    assert ax.get_xlim()[0] == pytest.approx(0.1 * corner)
+    assert "7.49 kHz" in "".join(text.get_text() for text in ax.texts)
 
 
 def test_radii_are_named_where_no_mark_is():
@@ -308,69 +425,127 @@ def test_radii_are_named_where_no_mark_is():
 
 def test_a_bearings_capacitance_over_its_contacts_is_that_of_the_position_shown(result):
     """Not the mean over a pitch, which the summary has."""
-    title = bearing_circuit_plot.contact_capacitances(result).get_title(loc="right")
+    (text,) = bearing_circuit_plot.contact_capacitances(result).texts
     here, mean = result.solution.circuits("oil")[0].capacitance, result.capacitance("oil")
     assert f"{1e12 * here:.4g}" != f"{1e12 * mean:.4g}"
-    assert title == f"bearing, cage as here: {1e12 * here:.4g} pF, oil fill"
+    assert text.get_text() == f"whole bearing, oil fill: {1e12 * here:.4g} pF"
 
 
-def test_a_bearing_that_did_not_converge_says_so(result, monkeypatch, tmp_path):
-    named = []
-    monkeypatch.setattr(Figure, "suptitle", lambda _self, text, **_: named.append(text))
-    monkeypatch.setattr(Figure, "savefig", lambda *_args, **_kwargs: None)
+def test_a_bearing_that_did_not_converge_says_so(result):
     curve = result.solution.inner_curve
     failed = replace(curve, solutions=(replace(curve.solutions[0], converged=False), *curve.solutions[1:]))
-    save_bearing_figures(BearingResult(replace(result.solution, inner_curve=failed)), tmp_path)
-    assert len(named) == 4
-    assert all(text.startswith("NOT CONVERGED") for text in named)
+    found = BearingResult(replace(result.solution, inner_curve=failed))
+    for name in bearing_figures_of(found):
+        drawn = figure(found, name)
+        assert title_of(drawn)[0] == "NOT CONVERGED"
+        assert drawn._suptitle.get_color() == "red"
 
 
 @pytest.mark.parametrize("draw", OVER_SPEED)
 def test_speeds_are_in_rpm_and_in_order(points, draw):
     ax = draw(points)
     assert "rpm" in ax.get_xlabel()
-    for found in ax.get_lines():
-        if found.get_transform() is ax.transData or len(found.get_xdata()) == 4:
-            np.testing.assert_allclose(found.get_xdata(), [500.0, 1000.0, 3000.0, 6000.0], rtol=1e-12)
+    dots = [found for found in ax.get_lines() if found.get_marker() == "o" and len(found.get_xdata()) > 1]
+    assert dots
+    for found in dots:
+        np.testing.assert_allclose(found.get_xdata(), [500.0, 1000.0, 3000.0, 6000.0], rtol=1e-12)
 
 
 def test_capacitance_over_speed_has_its_bounds(points):
     ax = bearing_speed_plot.capacitance_over_speed(points)
-    np.testing.assert_allclose(
-        line(ax, "capacitance of the bearing, oil").get_ydata(), [600.0, 400.0, 230.0, 160.0]
-    )
+    np.testing.assert_allclose(line(ax, "oil").get_ydata(), [600.0, 400.0, 230.0, 160.0])
+    np.testing.assert_allclose(line(ax, "air").get_ydata(), [540.0, 360.0, 207.0, 144.0])
+    assert line(ax, "oil").get_linewidth() > line(ax, "air").get_linewidth()
     (band,) = ax.collections
     up = band.get_paths()[0].vertices[:, 1]
     heights = up.min(), up.max()
     np.testing.assert_allclose(heights, [0.9 * 160.0, 600.0])
 
 
+# Between 1000 and 3000 rpm the margin is a power of the speed: 2.5/3.7 and 5.6/4.0 are the ends.
+CROSSING = 1000.0 * 3.0 ** (np.log(3.7 / 2.5) / np.log((5.6 / 4.0) / (2.5 / 3.7)))
+
+
+def test_the_crossing_is_marked_named_and_in_the_title(points):
+    assert 1000.0 < CROSSING < 3000.0
+    assert RPM * critical_speed_of(curves_of(points)) == pytest.approx(CROSSING, rel=1e-12)
+    drawn = speed_figure(points, SPEED_FIGURE_FILES[1], "By hand")
+    (ax,) = drawn.axes
+    (mark,) = [found for found in ax.get_lines() if found.get_markerfacecolor() == "white"]
+    (at,), (height,) = mark.get_data()
+    assert at == pytest.approx(CROSSING, rel=1e-12)
+    # Both drawn curves pass through it.
+    for name in ("first", "shaft"):
+        x, y = line(ax, name).get_data()
+        known = np.isfinite(y)
+        on_curve = np.exp(np.interp(np.log(at), np.log(x[known]), np.log(y[known])))
+        assert on_curve == pytest.approx(height, rel=1e-4)
+    named = f"{float(f'{CROSSING:.3g}'):g} rpm"
+    assert named in [text.get_text().strip() for text in ax.texts]
+    assert title_of(drawn) == [
+        f"Breakdown expected below about {named}",
+        "By hand",
+        "curves: contacts by formula",
+    ]
+
+
+def test_a_critical_speed_of_the_summary_is_that_of_the_figure(points):
+    own = at_speed(3000.0, 2.3e-10, 5.6, 4.0)
+    own[1]["margin"] = {"critical_speed": 1234.0 / RPM}
+    drawn = speed_figure(points, SPEED_FIGURE_FILES[1], own=own)
+    assert said(drawn).startswith("Breakdown expected below about 1230 rpm (margin 1.4 at 3000 rpm)")
+    (mark,) = [found for found in drawn.axes[0].get_lines() if found.get_markerfacecolor() == "white"]
+    assert mark.get_xdata()[0] == pytest.approx(1234.0)
+
+
+@pytest.mark.parametrize(
+    ("voltages", "text"),
+    [
+        ([(2.0, 1.0), (4.0, 1.0)], "No breakdown expected from 1000 rpm to 2000 rpm"),
+        ([(2.0, 5.0), (4.0, 5.0)], "Breakdown expected at all speeds from 1000 rpm to 2000 rpm"),
+        ([(2.0, 1.0), (4.0, 5.0)], "Breakdown expected above 1000 rpm"),
+        ([(2.0, None), (4.0, None)], "First breakdown from 2.00 V at 1000 rpm to 4.00 V at 2000 rpm"),
+        ([(6.0, 5.0), (4.0, 5.0), (10.0, 5.0)], "Breakdown expected at some speeds below about 2210 rpm"),
+    ],
+)
+def test_titles_say_at_which_speeds_breakdown_is_expected(voltages, text):
+    """In the last row the margin is 0.8 at 2000 rpm and 2 at 3000 rpm: 2000 1.5^(ln 1.25/ln 2.5) rpm."""
+    some = [at_speed(1000.0 * (k + 1), 2e-10, *pair) for k, pair in enumerate(voltages)]
+    assert title_of(speed_figure(some, SPEED_FIGURE_FILES[1]))[0] == text
+
+
 def test_breakdown_over_speed_shades_where_the_shaft_has_more(points):
     ax = bearing_speed_plot.breakdown_over_speed(points)
-    np.testing.assert_array_equal(line(ax, "first").get_ydata(), [np.nan, 2.5, 5.6, 9.0])
+    first = line(ax, "first").get_ydata()
+    np.testing.assert_allclose([first[0], *first[-1:]], [np.nan, 9.0])
+    dots = next(f for f in ax.get_lines() if f.get_marker() == "o" and f.get_color() == "black")
+    np.testing.assert_array_equal(dots.get_ydata(), [np.nan, 2.5, 5.6, 9.0])
     (band,) = ax.collections
-    # Shaft 3.7 to 4.0 V and first break 2.5 to 5.6 V meet at (3.7 - 2.5)/(3.1 - 0.3) of 2000 rpm.
     across = band.get_paths()[0].vertices[:, 0]
-    ends = across.min(), across.max()
-    np.testing.assert_allclose(ends, [1000.0, 1000.0 + 2000.0 * 1.2 / 2.8])
+    np.testing.assert_allclose((across.min(), across.max()), [1000.0, CROSSING], rtol=2e-3)
     assert list(line(ax, r"$\lambda$ < 1").get_xdata()) == pytest.approx([500.0])
     assert list(line(ax, r"$\lambda$ from 1 to 3").get_xdata()) == pytest.approx([1000.0])
 
 
-@pytest.mark.parametrize(
-    ("draw", "heights"),
-    [(OVER_SPEED[0], [180.0]), (OVER_SPEED[1], [9.0, 8.0])],
-    ids=["capacitance", "breaks"],
-)
-def test_a_bearing_by_itself_is_marked_on_the_axes_of_the_others(points, draw, heights):
-    own = at_speed(2000.0, 1.8e-10, 8.0, 5.0)
-    own[1]["bearing"] |= {"through_breakdown": 9.0, "contacts": "solved"}
-    plain, ax = draw(points), draw(points, own=own)
-    star = line(ax, "at its own speed, contacts solved")
-    np.testing.assert_allclose(star.get_xdata(), 2000.0, rtol=1e-12)
-    np.testing.assert_allclose(star.get_ydata(), heights, rtol=1e-12)
-    assert ax.get_yscale() == plain.get_yscale() == "linear"
-    assert ax.get_ylim() == plain.get_ylim()
+def test_curves_are_scaled_to_a_bearing_of_solved_contacts(points):
+    """5.6 V by formula and 5.0 V solved at 3000 rpm: the curve has 5.0 V there, and keeps its shape."""
+    own = at_speed(3000.0, 1.8e-10, 5.0, 5.0)
+    own[1]["bearing"] |= {"contacts": "solved", "through_breakdown": 5.0}
+    curves = curves_of(points, own)
+    np.testing.assert_allclose(curves["first_break"], np.array([np.nan, 2.5, 5.6, 9.0]) * 5.0 / 5.6)
+    np.testing.assert_allclose(curves["shaft_voltage"], np.array([3.5, 3.7, 4.0, 4.2]) * 5.0 / 4.0)
+    for name, key, height in zip(
+        SPEED_FIGURE_FILES, ("capacitance", "first_break"), (180.0, 5.0), strict=True
+    ):
+        drawn = speed_figure(points, name, own=own)
+        (star,) = [found for found in drawn.axes[0].get_lines() if found.get_marker() == "*"]
+        np.testing.assert_allclose(star.get_data(), [[3000.0], [height]], rtol=1e-12)
+        assert key in curves.values
+        assert said(drawn).endswith(
+            "curves: contacts by formula, scaled by 0.783 and 0.893 to the solved contacts at 3000 rpm (star)"
+        )
+    assert "margin 1" in [text.get_text() for text in drawn.axes[0].texts]
+    assert RPM * critical_speed_of(curves) == pytest.approx(3000.0, rel=1e-9)
 
 
 def test_figures_over_speed_are_saved(points, tmp_path):

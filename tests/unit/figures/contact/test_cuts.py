@@ -67,7 +67,7 @@ def test_lines_are_named_by_where_they_are(result, kind):
         _, centre, least = (text.get_text() for text in ax.get_legend().get_texts())
         assert centre == f"centre, ${axis}/b$ = 0"
         name, number = least.replace("−", "-").split(" = ")
-        assert name == f"least film, ${axis}/b$"
+        assert name == f"minimum film, ${axis}/b$"
         assert float(number) == pytest.approx(position / b, rel=6e-3, abs=1e-12)
 
 

@@ -8,6 +8,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 import xarray as xr
+from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 from PIL import Image
 
@@ -24,6 +25,7 @@ from ehlectric.figures.motion.save import beside_stationary, history, maps, save
 from ehlectric.figures.names import MOTION_FIGURE_FILES
 from ehlectric.motion.field_history import intervals_above
 from ehlectric.motion.stored_run import MotionRun
+from tests.helpers.titles import title_of
 
 HISTORY, MAPS, BESIDE = MOTION_FIGURE_FILES
 VOLTS, MEAN, SLIDE, STEPS = 2.0, 4.0, 0.5, 200
@@ -181,7 +183,7 @@ def test_history_says_how_long_the_field_is_high():
     bound = (0.4 / 0.9 - 0.5) / 0.1
     share = 100.0 * (0.5 - np.arcsin(-bound) / np.pi)
     ax = motion_history.largest_field(MotionRun.of(by_hand()))
-    text = line(ax, "90 % of the largest").get_label()
+    text = line(ax, "90 % of the maximum").get_label()
     assert f"above it {share:.0f} % of the time from {1e3 * END / 2.0:.3g} ms on" in text
     (bars,) = ax.collections
     ends = np.array([path.vertices[:, 0] for path in bars.get_paths()])
@@ -193,11 +195,11 @@ def test_history_says_how_long_the_field_is_high():
 def test_history_has_the_film_before_and_held_still(run):
     ax = motion_history.least_film(run)
     assert line(ax, "before the motion").get_ydata()[0] == pytest.approx(0.5)
-    assert line(ax, "held still").get_ydata()[0] == pytest.approx(0.7)
+    assert line(ax, "stationary").get_ydata()[0] == pytest.approx(0.7)
     assert line(ax, "contact covered").get_xdata()[0] == pytest.approx(1e3 * END / 2.0)
     # Half of 1.1 V/h before the motion, in V/um.
     ax = motion_history.largest_field(run)
-    assert line(ax, "held still").get_ydata()[0] == pytest.approx(0.5 * 1.1 * VOLTS / 0.5)
+    assert line(ax, "stationary").get_ydata()[0] == pytest.approx(0.5 * 1.1 * VOLTS / 0.5)
     ax = motion_history.least_film(run)
     bare = motion_history.least_film(MotionRun.of(by_hand(still=False, covered_from=np.nan)))
     assert len(bare.get_lines()) == len(ax.get_lines()) - 2
@@ -205,9 +207,9 @@ def test_history_has_the_film_before_and_held_still(run):
 
 def test_places_are_in_half_widths(run, ball):
     ax = motion_history.places(run)
-    np.testing.assert_allclose(line(ax, "largest field").get_ydata(), 0.5)
+    np.testing.assert_allclose(line(ax, "maximum field").get_ydata(), 0.5)
     ax = motion_history.places(ball)
-    np.testing.assert_allclose(line(ax, "largest field, $|y|/b$").get_ydata(), 0.75)
+    np.testing.assert_allclose(line(ax, "maximum field, $|y|/b$").get_ydata(), 0.75)
 
 
 def test_maps_have_time_upwards_and_the_film_of_the_contact_in_colours(run):
@@ -263,36 +265,103 @@ def test_point_contacts_are_mapped_on_their_middle_line(ball):
     assert "$y$ = 0" in motion_maps.film_map(ball).get_xlabel()
 
 
-def test_moving_lies_beside_held_still(run):
+def test_moving_lies_beside_stationary_where_their_films_differ_most(run):
+    """The film swings by 0.1 um around 0.5 um, and the stationary one is 0.7 um: 0.4 um differs most."""
+    frame = motion_beside.compared_frame(run)
+    least = 1e6 * run.along("thickness")[frame].min()
+    assert least == pytest.approx(0.4, rel=1e-6)
+    assert run.frame_time[frame] >= run.field_history.settled_from
     ax = motion_beside.film_beside(run)
-    frame = int(np.argmin(np.abs(run.frame_time - END / 4.0)))
     np.testing.assert_allclose(line(ax, "moving").get_ydata(), 1e6 * run.along("thickness")[frame])
-    still = line(ax, "held still")
+    still = line(ax, "stationary")
     np.testing.assert_allclose(still.get_ydata(), 1e6 * (run.along("thickness")[0] + 0.2e-6))
-    assert still.get_label() == "held still, 0.7 µm"
+    assert still.get_label() == "stationary, min. 0.7 µm"
     field = motion_beside.field_beside(run)
-    assert line(field, "held still").get_label() == "held still, 2.2 V/µm"
+    assert line(field, "stationary").get_label() == "stationary, max. 2.2 V/µm"
+    title = " ".join(title_of(beside_stationary(run).get_figure()))
+    # 0.4 um is 43 % less than 0.7 um.
+    assert title.startswith(
+        "Minimum film 0.4 µm moving, 43 % thinner than with stationary roughness (0.7 µm)"
+    )
+    assert f"at t = {1e3 * run.frame_time[frame]:.4g} ms, where the minimum films differ most" in title
 
 
-def test_what_is_not_quite_in_place_says_so(run):
-    assert motion_beside.coincidence_text(run).endswith("when the roughness lies as it is held still")
-    # A fortieth of the run lies between two instants; 0.3 of that at 5 m/s.
-    early = MotionRun.of(by_hand(coincident=END / 4.0 + 0.3 * END / 40.0))
-    short = 0.3 * END / 40.0 * 5.0 * 1e6
-    assert motion_beside.coincidence_text(early).endswith(f"{short:.3g} µm short of where it is held still")
-
-
-def test_roughness_below_is_that_of_the_instant():
+def test_roughness_below_is_that_of_the_instant_and_of_stationary_surfaces():
     run = MotionRun.of(by_hand(coincident=END / 2.0))
     lowest = beside_stationary(run).get_figure().axes[3]
-    frame = int(np.argmin(np.abs(run.frame_time - END / 2.0)))
-    np.testing.assert_allclose(line(lowest, "surface 1").get_ydata(), 1e9 * run.along("roughness_1")[frame])
-    assert np.ptp(line(lowest, "surface 1").get_ydata()) == pytest.approx(100.0, rel=0.01)
+    frame, there = motion_beside.compared_frame(run), int(np.argmin(np.abs(run.frame_time - END / 2.0)))
+    for name, at in (("surface 1", frame), ("surface 1, stationary", there)):
+        (found,) = [of for of in lowest.get_lines() if of.get_label() == name]
+        np.testing.assert_allclose(found.get_ydata(), 1e9 * run.along("roughness_1")[at])
+        assert np.ptp(found.get_ydata()) == pytest.approx(100.0, rel=0.01)
+
+
+@pytest.mark.parametrize(("still", "text"), [(0.4, "as thick as with"), (0.3, "33 % thicker than with")])
+def test_history_titles_the_film_beside_stationary_roughness(still, text):
+    dataset = by_hand()
+    dataset["stationary_thickness"] = dataset["stationary_thickness"] + 1e-6 * (still - 0.7)
+    title = " ".join(title_of(history(MotionRun.of(dataset)).get_figure()))
+    assert title.startswith(f"Minimum film 0.4 µm, {text} stationary roughness ({still:g} µm)")
+
+
+def test_history_leaves_out_the_time_in_which_nothing_happens(run):
+    """The film changes from a third of the run on; a twentieth of the run is shown before."""
+    ax = motion_history.least_film(run)
+    low, high = ax.get_xlim()
+    assert low == pytest.approx(1e3 * (END / 3.0 - END / 20.0), abs=2e3 * END / STEPS)
+    assert high == pytest.approx(1e3 * END)
+    assert ax.get_xlabel().endswith(f"film unchanged before {low:.3g} ms")
+    dataset = by_hand()
+    time = dataset["time"].values
+    dataset["minimum_thickness"] = ("step", 0.5e-6 + 0.1e-6 * np.sin(20.0 * np.pi * time / END))
+    assert motion_history.least_film(MotionRun.of(dataset)).get_xlim()[0] == 0.0
+
+
+def test_what_is_one_number_is_no_panel_but_said(run):
+    """The places of this run do not change; a field that stays near its maximum is not shaded."""
+    assert not motion_history.places_vary(run)
+    assert len(history(run).get_figure().axes) == 2
+    dataset = by_hand()
+    moved = dataset["max_strength_x"].values + 0.05 * HALF_WIDTH * np.arange(41) / 40.0
+    dataset["max_strength_x"] = ("frame", moved)
+    assert len(history(MotionRun.of(dataset)).get_figure().axes) == 3
+    calm = by_hand()
+    swing = 0.01e-6 * np.sin(20.0 * np.pi * calm["time"].values / END)
+    calm["minimum_thickness"] = ("step", 0.5e-6 + swing)
+    calm["thin_gap_strength"] = ("step", VOLTS / (0.5e-6 + swing))
+    calm["max_strength"] = ("frame", 1.1 * VOLTS / (0.5e-6 + swing)[calm["frame_step"].values])
+    calm_run = MotionRun.of(calm)
+    ax = motion_history.largest_field(calm_run)
+    assert not [found for found in ax.get_lines() if "90 %" in found.get_label()]
+    assert not ax.collections
+    level = 0.9 * 1e-6 * calm_run.field_history.strength[calm_run.values("time") >= END / 2.0].max()
+    assert f"above 90 % of its largest value ({level:.3g} V/µm)" in " ".join(
+        title_of(history(calm_run).get_figure())
+    )
+
+
+def test_maps_say_the_extremes_and_are_grey_beyond_their_colours(run):
+    title = " ".join(title_of(maps(run).get_figure()))
+    at = 1e3 * run.values("time")[np.argmin(run.values("minimum_thickness"))]
+    assert title.startswith(f"Minimum film 0.4 µm at t = {at:.3g} ms, maximum field 5.5 V/µm at t = ")
+    colours = mesh_of(motion_maps.film_map(run)).get_cmap()
+    np.testing.assert_allclose(colours(2.0), to_rgba(drawing.OUT_OF_RANGE))
+    np.testing.assert_allclose(colours(-1.0), to_rgba(drawing.OUT_OF_RANGE))
+
+
+def test_frames_name_their_colours(run):
+    (legend,) = line_frames(run).figure.legends
+    assert [text.get_text() for text in legend.get_texts()] == [
+        "oil",
+        "steel",
+        "before the motion",
+        "maximum",
+    ]
 
 
 @pytest.mark.parametrize("contact", [CONTACT, BALL])
 def test_figures_are_written(contact, tmp_path, monkeypatch):
-    monkeypatch.setitem(drawing._STYLE, "savefig.dpi", 60)
+    monkeypatch.setitem(drawing._SCREEN, "savefig.dpi", 60)
     files = save_motion_figures(by_hand(contact=contact), tmp_path)
     assert [file.name for file in files] == [HISTORY, MAPS, BESIDE]
     assert sorted(tmp_path.iterdir()) == sorted(files)
@@ -311,7 +380,7 @@ def test_figures_are_written(contact, tmp_path, monkeypatch):
     ],
 )
 def test_figures_with_nothing_to_show_are_left_out(changes, left, tmp_path, monkeypatch):
-    monkeypatch.setattr("ehlectric.figures.motion.save.save_figure", lambda *_: None)
+    monkeypatch.setattr("ehlectric.figures.motion.save.save_figure", lambda _, path, *__: [path])
     assert [file.name for file in save_motion_figures(by_hand(**changes), tmp_path)] == left
 
 
@@ -411,8 +480,8 @@ def test_ffmpeg_is_given_every_pixel_of_every_instant(tmp_path, monkeypatch):
     monkeypatch.setenv("PATH", program(tmp_path / "bin", copy))
     path = tmp_path / "run.mp4"
     save_animation(by_hand(frames=3), path, dpi=50)
-    # 6.3 by 7.2 inches, of 50 pixels each, made even as its codec takes them; red, green, blue and opacity.
-    assert path.stat().st_size == 3 * 314 * 360 * 4
+    # 5.2 by 6.6 inches, of 50 pixels each, made even as its codec takes them; red, green, blue and opacity.
+    assert path.stat().st_size == 3 * 260 * 330 * 4
 
 
 def test_ffmpeg_that_fails_is_said_in_one_line(tmp_path, monkeypatch):

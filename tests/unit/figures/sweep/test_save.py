@@ -1,5 +1,7 @@
 """Figures of sweeps: what they show where points failed, where the film breaks down, and their units."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from matplotlib.collections import PathCollection
@@ -8,14 +10,17 @@ from matplotlib.figure import Figure
 from matplotlib.tri import TriContourSet
 
 from ehlectric import InputError
+from ehlectric.errors import ResultWarning
 from ehlectric.figures.axes import levels_of, round_numbers
 from ehlectric.figures.sweep.lines import value_lines
 from ehlectric.figures.sweep.maps import value_map
-from ehlectric.figures.sweep.save import save_maps
-from ehlectric.figures.sweep.sensitivity import distribution, parts, save_sensitivity
+from ehlectric.figures.sweep.save import figure, save_maps
+from ehlectric.figures.sweep.sensitivity import distribution, parts, save_sensitivity, sensitivity_figure
+from ehlectric.runtime.stored_warnings import texts_and_codes
 from ehlectric.sweep.results import Range
 from ehlectric.sweep.sensitivity import sensitivity
 from tests.helpers.sweep_models import LOAD, POTENTIAL, SPEED, breakdown, doubtful_where, grid, paired, sobol
+from tests.helpers.titles import title_of
 
 VALUE = "discharge.breakdown_voltage"
 SPEEDS, LOADS = (0.5, 1.0, 2.0, 4.0, 8.0), (2e5, 5e5, 1e6, 2e6)
@@ -50,7 +55,7 @@ def test_map_has_units_and_marks_every_point():
     assert (ax.get_xscale(), ax.get_yscale()) == ("log", "log")
     bar = ax.figure.axes[1]
     assert bar.get_ylabel() == r"breakdown voltage $V_\mathrm{b}$ [V]"
-    assert legend(ax)[:3] == ["18 solved", "1 not converged", "1 failed"]
+    assert legend(ax)[:3] == ["18 points", "1 not converged", "1 failed"]
     assert marks(ax, "o").shape == (18, 2)
     np.testing.assert_allclose(marks(ax, "x"), [[1.0, 0.5]])
     np.testing.assert_allclose(marks(ax, "+"), [[4.0, 1.0]])
@@ -82,7 +87,7 @@ def test_a_film_that_is_not_to_be_used_is_a_hole_with_its_mark():
 
     results = grid({SPEED: SPEEDS, LOAD: LOADS}, doubtful_where(wrong))
     ax = value_map(results, SPEED, LOAD, VALUE)
-    assert legend(ax)[:2] == ["19 solved", "1 do not use"]
+    assert legend(ax)[:2] == ["19 points", "1 must not be used"]
     np.testing.assert_allclose(marks(ax, "D"), [[1.0, 0.5]])
     assert not filled(ax, 1.0, 0.5)
     assert not filled(ax, 1.9, 0.9)
@@ -118,14 +123,14 @@ def test_line_of_breakdown_is_where_it_is():
         x, y = line_of_breakdown(ax).T
         np.testing.assert_allclose(x, 4.0 * (0.5 * y**0.1) ** (1.0 / 0.7), rtol=2e-3)
         assert (y.min(), y.max()) == pytest.approx((0.2, 2.0))
-        assert legend(ax)[1:] == ["breakdown voltage = applied 5 V", "below the applied 5 V"]
+        assert legend(ax)[1:] == ["breakdown voltage = applied voltage 5 V", "below applied voltage 5 V"]
 
 
 def test_voltage_of_every_point_counts():
     """Where the voltage varies, V = V_2 + 1 V, so does the line: V_b(u) = V; for V_2 = 1 V, u is 0.4 m/s."""
     speeds = list(np.geomspace(0.5, 8.0, 60))
     ax = value_map(grid({SPEED: speeds, POTENTIAL: (1.0, 2.0, 4.0, 8.0)}), SPEED, POTENTIAL, VALUE)
-    assert "breakdown voltage = applied 2 to 9 V" in legend(ax)
+    assert "breakdown voltage = applied voltage 2 to 9 V" in legend(ax)
     on_nodes = [
         (x, y) for x, y in line_of_breakdown(ax) if any(abs(y - v) < 1e-9 for v in (1.0, 2.0, 4.0, 8.0))
     ]
@@ -137,8 +142,8 @@ def test_voltage_of_every_point_counts():
 @pytest.mark.parametrize(
     ("potential", "text"),
     [
-        (0.01, "breakdown voltage above the applied 1.01 V"),
-        (99.0, "breakdown voltage below the applied 100 V"),
+        (0.01, "breakdown voltage above applied voltage 1.01 V"),
+        (99.0, "breakdown voltage below applied voltage 100 V"),
     ],
 )
 def test_map_without_the_line_says_on_which_side_it_is(potential, text):
@@ -148,7 +153,7 @@ def test_map_without_the_line_says_on_which_side_it_is(potential, text):
 
 def test_film_has_no_line_of_breakdown():
     ax = value_map(grid({SPEED: SPEEDS, LOAD: LOADS}), SPEED, LOAD, "film.minimum_thickness")
-    assert legend(ax) == ["20 solved"]
+    assert legend(ax) == ["20 points"]
     assert ax.figure.axes[1].get_ylabel() == r"minimum film thickness $h_\mathrm{min}$ [µm]"
 
 
@@ -229,8 +234,8 @@ def test_lines_end_where_points_are_not_solved():
         assert bottom + (top - bottom) * sign.get_ydata()[0] < 0.0
     assert ax.get_yticklabels()[0].get_text() == "no value"
     assert legend(ax) == [
-        *("18 solved", "1 not converged", "1 failed"),
-        *("applied voltage 5 V", "below the applied 5 V"),
+        *("18 points", "1 not converged", "1 failed"),
+        *("applied voltage 5 V", "below applied voltage 5 V"),
     ]
 
 
@@ -246,7 +251,10 @@ def test_applied_voltage_is_a_level_or_a_line_for_each():
     np.testing.assert_allclose(dashed, [[2.0] * 5, [5.0] * 5])
     assert legend(ax)[-1] == "applied voltage 2 to 5 V"
     margin = value_lines(grid({POTENTIAL: (1.0, 2.0, 4.0)}), POTENTIAL, None, "discharge.margin")
-    assert legend(margin)[1:] == ["breakdown voltage = applied 2 to 5 V", "below the applied 2 to 5 V"]
+    assert legend(margin)[1:] == [
+        "margin 1: breakdown voltage = applied voltage 2 to 5 V",
+        "below applied voltage 2 to 5 V",
+    ]
 
 
 def test_points_without_lines_have_no_line_of_voltage_either():
@@ -325,7 +333,7 @@ def test_few_solved_points_are_shown_all_the_same(tmp_path, status):
     np.testing.assert_allclose(shown, np.sort(values[np.isfinite(values)]))
     # One point of 3.8 V or six of 2.5 to 7.2 V, at 5 V: those below have a mark of their own, and it is said.
     low = values < 5.0
-    told = [text for text in legend(ax) if "below the applied 5 V" in text]
+    told = [text for text in legend(ax) if "below applied voltage 5 V" in text]
     assert (len(told), sum(len(c.get_array()) for c in alone[1:])) == (1, np.sum(low))
     assert len(save_maps(results, SPEED, LOAD, VALUE, tmp_path)) == 2
 
@@ -355,7 +363,13 @@ def test_distribution_has_its_quantiles_and_the_voltage(uncertain):
     (voltage,) = [line for line in ax.lines if line.get_ls() == "--"]
     assert list(voltage.get_xdata()) == [5.0, 5.0]
     share = np.mean(curve.get_xdata() < 5.0)
-    assert legend(ax)[1] == f"applied voltage 5 V, above {100 * share:.3g} % of the samples"
+    assert legend(ax)[1] == "applied voltage 5 V"
+    drawn = sensitivity_figure(results, found)
+    most = max(found.indices, key=lambda index: index.total)
+    assert title_of(drawn)[0] == (
+        f"Entrainment speed has {100 * most.total:.0f} % of the variance; "
+        f"{100 * share:.3g} % of the samples are below the applied voltage"
+    )
 
 
 def test_bars_are_the_indices_with_their_intervals(uncertain):
@@ -385,3 +399,80 @@ def test_line_of_breakdown_is_a_level_of_the_colours():
     np.testing.assert_allclose(
         path.vertices[np.argsort(path.vertices[:, 1])], line[np.argsort(line[:, 1])], rtol=1e-9
     )
+
+
+def test_points_with_a_warning_that_not_all_have_are_ringed():
+    """A warning of all points tells none apart, and a note is no warning."""
+
+    def warned(inputs):
+        codes = ["regime", "heights-cut"] if inputs[SPEED] > 3.0 else ["regime", "voids-filled"]
+        return texts_and_codes([ResultWarning(code, code) for code in codes]) | breakdown(inputs)
+
+    results = grid({SPEED: SPEEDS, LOAD: LOADS}, warned)
+    for draw in (value_map, value_lines):
+        ax = draw(results, SPEED, LOAD, VALUE)
+        (rings,) = [line for line in ax.lines if line.get_markersize() == 8.0]
+        assert sorted(set(rings.get_xdata())) == [4.0, 8.0]
+        assert "8 of them with a warning" in legend(ax)
+        assert "20 points" in legend(ax)
+    plain = value_map(grid({SPEED: SPEEDS, LOAD: LOADS}), SPEED, LOAD, VALUE)
+    assert not [text for text in legend(plain) if "warning" in text]
+
+
+def test_titles_say_where_breakdown_is_expected():
+    """The margin is 1 at u = 4 (0.5 (w/(1 MN/m))^0.1)^(1/0.7) m/s."""
+    results = grid({SPEED: SPEEDS, LOAD: LOADS})
+    ends = [4.0 * (0.5 * load**0.1) ** (1.0 / 0.7) for load in (0.2, 2.0)]
+    text = f"Breakdown expected below {ends[0]:.3g} to {ends[1]:.3g} m/s, depending on load per length"
+    for name in (f"map_{VALUE}.png", f"lines_{VALUE}.png", "lines_discharge.margin.png"):
+        title = " ".join(title_of(figure(results, name, x=SPEED, y=LOAD)))
+        assert title.startswith(f"{text} (applied voltage 5 V)")
+    one = figure(grid({SPEED: SPEEDS}), f"lines_{VALUE}.png", x=SPEED)
+    assert (
+        title_of(one)[0] == f"Breakdown expected below {4.0 * 0.5 ** (1 / 0.7):.3g} m/s (applied voltage 5 V)"
+    )
+    fast = figure(grid({SPEED: (4.0, 8.0)}), f"lines_{VALUE}.png", x=SPEED)
+    assert (
+        title_of(fast)[0] == "No breakdown expected at all 2 points: minimum margin 2 (applied voltage 5 V)"
+    )
+    slow = figure(grid({SPEED: (0.5, 1.0)}), f"lines_{VALUE}.png", x=SPEED)
+    margin = 2.0 * (1.0 / 4.0) ** 0.7
+    assert title_of(slow)[0].startswith(f"Breakdown expected at all 2 points: maximum margin {margin:.3g} ")
+    film = figure(grid({SPEED: (4.0, 8.0)}), "lines_film.minimum_thickness.png", x=SPEED)
+    thick = 10.0 / 15.0 * 2.0**0.7
+    assert title_of(film)[0] == f"Minimum film thickness: {10 / 15:.3g} to {thick:.3g} µm"
+
+
+def test_lines_of_few_points_are_thin_and_their_points_stand_out():
+    for speeds, few in ((SPEEDS, True), (tuple(np.geomspace(0.5, 8.0, 12)), False)):
+        ax = value_lines(grid({SPEED: speeds}), SPEED, None, VALUE)
+        (curve,) = [line for line in ax.lines if line.get_ls() == "-" and len(line.get_xdata()) > len(speeds)]
+        (dots,) = [line for line in ax.lines if line.get_marker() == "o" and len(line.get_xdata()) > 1]
+        assert (curve.get_linewidth() < 1.0) is few
+        assert (dots.get_markersize() > 4.0) is few
+
+
+def test_values_on_both_sides_of_zero_have_white_at_zero():
+    def model(inputs):
+        return {"film": {"minimum_thickness": inputs[SPEED] - 2.0}}
+
+    ax = value_map(grid({SPEED: SPEEDS, LOAD: LOADS}, model), SPEED, LOAD, "film.minimum_thickness")
+    colours = ax.collections[0]
+    assert colours.get_cmap().name == "RdBu_r"
+    assert colours.norm.vmin == -colours.norm.vmax
+    np.testing.assert_allclose(colours.get_cmap()(colours.norm(0.0))[:3], 0.97, atol=0.02)
+
+
+def test_an_index_of_nothing_has_no_interval(uncertain):
+    results, found = uncertain
+    tiny = [
+        replace(
+            i, total=0.001, first_order=-0.01, total_interval=(0.0, 0.002), first_order_interval=(-0.04, 0.02)
+        )
+        if i.key == LOAD
+        else i
+        for i in found.indices
+    ]
+    ax = parts(results, replace(found, indices=tuple(tiny)))
+    assert [text.get_text() for text in ax.texts] == ["0", "0"]
+    assert sum(len(c.get_paths()) for c in ax.collections) == 2

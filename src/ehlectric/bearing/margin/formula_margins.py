@@ -1,0 +1,133 @@
+"""Margins of a bearing at changed inputs, by film formulas scaled to the margin of its solution."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from ehlectric.bearing.breakdown import breakdown_of
+from ehlectric.bearing.shaft_voltage import margin, shaft_voltage
+from ehlectric.bearing.solution import BearingSolution, insulating, lambda_ratio
+from ehlectric.bearing.solving.contacts_and_circuit import solution_of
+from ehlectric.cases.bearing import BearingDischarge
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.errors import InputError
+
+# Number of positions of the cage: fewer than in a solution, because only ratios of margins are used.
+_POSITIONS = 2
+
+# Inputs of strength laws that contacts by formula replace by a constant strength.
+_NOT_BY_FORMULA = ("discharge.weibull.shape", "discharge.weibull.reference_area")
+
+
+@dataclass(frozen=True)
+class FormulaPoint:
+    """Margin and lambda ratio of a bearing.
+
+    Attributes
+    ----------
+    margin : float
+        First breakdown / shaft voltage, dimensionless; 0 where the surfaces touch and conduct.
+    lambda_ratio : float
+        Minimum film thickness / composite roughness, dimensionless.
+    """
+
+    margin: float
+    lambda_ratio: float
+
+
+@dataclass(frozen=True)
+class FormulaMargins:
+    """Margins of one bearing at changed inputs.
+
+    Attributes
+    ----------
+    case : BearingCase
+        Case of the bearing.
+    own : FormulaPoint
+        Margin and lambda ratio of the solution.
+    margin_factor, lambda_factor : float
+        Margin and lambda ratio of the solution divided by those by formula, dimensionless.
+
+    Notes
+    -----
+    A Weibull law and a strength table over pressure need the field in the whole film, which formulas do not
+    have. A constant strength replaces them here: it cancels in the ratio of two margins of the same strength.
+    """
+
+    case: BearingCase
+    own: FormulaPoint
+    margin_factor: float
+    lambda_factor: float
+
+    @classmethod
+    def of(cls, solution: BearingSolution) -> FormulaMargins:
+        """Margins by formula, scaled to those of a solution.
+
+        Raises
+        ------
+        InputError
+            Where the solution has no margin, or the formulas have none for the same inputs.
+        """
+        breakdown = breakdown_of(solution)
+        solved = None if breakdown is None else margin(breakdown.first_break, shaft_voltage(solution))
+        if solved is None:
+            raise InputError.worded(None, "the bearing has no margin")
+        own, by_formula = FormulaPoint(solved, lambda_ratio(solution)), _point(solution.case)
+        if by_formula.margin == 0.0:
+            raise InputError.worded(None, "by film formulas the surfaces touch already in the case itself")
+        ratios = own.margin / by_formula.margin, own.lambda_ratio / by_formula.lambda_ratio
+        return cls(solution.case, own, *ratios)
+
+    def at(self, changes: Mapping[str, Any]) -> FormulaPoint:
+        """Margin and lambda ratio with changed inputs, scaled to the solution.
+
+        Parameters
+        ----------
+        changes : mapping
+            New values by dotted key of the case, SI units.
+
+        Returns
+        -------
+        FormulaPoint
+            Scaled values; the margin is 0 where the surfaces touch.
+
+        Raises
+        ------
+        InputError
+            Where the changed inputs make no valid case, or one that formulas cannot compute.
+        """
+        for key in changes:
+            if key in _NOT_BY_FORMULA:
+                raise InputError.worded(key, "has an effect that contacts by formula do not have")
+        point = _point(self.case.replace(changes))
+        ratio = self.lambda_factor * point.lambda_ratio
+        return FormulaPoint(self.margin_factor * point.margin, ratio)
+
+
+def _point(case: BearingCase) -> FormulaPoint:
+    """Margin and lambda ratio of a case by formula."""
+    solution = solution_of(_by_formula(case), positions=_POSITIONS)
+    ratio, breakdown = lambda_ratio(solution), breakdown_of(solution)
+    if not insulating(solution):
+        return FormulaPoint(0.0, ratio)
+    value = None if breakdown is None else margin(breakdown.first_break, shaft_voltage(solution))
+    if value is None:
+        raise InputError.worded(None, "the bearing has no margin")
+    return FormulaPoint(value, ratio)
+
+
+def _by_formula(case: BearingCase) -> BearingCase:
+    """Case with contacts by formula, and with a strength for which they have a breakdown voltage."""
+    discharge, constant = case.discharge, None
+    if discharge.weibull is not None:
+        constant = discharge.weibull.scale
+    elif discharge.strength_table is not None and discharge.strength_table.over == "pressure":
+        constant = discharge.strength_table.strength[0]
+    changes: dict[str, Any] = {"contacts": "formula"}
+    if constant is not None:
+        changes["discharge"] = BearingDischarge(
+            dielectric_strength=constant, conductivity=discharge.conductivity
+        )
+    return case.model_copy(update=changes)

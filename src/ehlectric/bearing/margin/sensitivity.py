@@ -1,0 +1,174 @@
+"""Effect of single inputs on the margin of a bearing."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from ehlectric.bearing.margin.formula_margins import FormulaMargins
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.input_keys import INPUT_NAMES
+from ehlectric.cases.row import value_at
+from ehlectric.errors import InputError
+
+# Changes of the inputs, either way: dielectric strength and load relative to their value, temperature [K],
+# clearance [m] and free contact angle [rad], and these two relative to their value where they are small.
+# Engineering judgement: what is seldom known better in a machine.
+STRENGTH, LOAD, TEMPERATURE, CLEARANCE, ANGLE, RELATIVE = 0.2, 0.2, 10.0, 5e-6, math.radians(5.0), 0.5
+
+# Inputs that scale a dielectric strength, and the list of strengths of a table, which a factor scales. Every
+# breakdown voltage is proportional to the strength.
+_STRENGTHS = ("discharge.dielectric_strength", "discharge.weibull.scale")
+OF_TABLE = "discharge.strength_table.strength"
+
+
+@dataclass(frozen=True)
+class Effect:
+    """Effect of one input on the margin, all others as in the case.
+
+    Attributes
+    ----------
+    key : str
+        Dotted key of the input; for the load that of the larger component, where both change together.
+    label : str
+        Name of the input.
+    low_input, high_input : float
+        Smaller and larger value of the input, SI units.
+    low_margin, high_margin : float
+        Margin at these values, dimensionless; 0 where the surfaces touch.
+    """
+
+    key: str
+    label: str
+    low_input: float
+    high_input: float
+    low_margin: float
+    high_margin: float
+
+    @property
+    def size(self) -> float:
+        """Size of the effect: logarithm of the ratio of both margins; infinite where one of them is 0."""
+        low, high = sorted((self.low_margin, self.high_margin))
+        return math.inf if low <= 0.0 else math.log(high / low)
+
+
+@dataclass(frozen=True)
+class _Change:
+    """Two values of an input, and the changes of the case that make them."""
+
+    key: str
+    label: str
+    ends: tuple[float, float]
+    factor_of_load: bool = False
+
+    def changes(self, case: BearingCase, end: float) -> dict[str, Any]:
+        if not self.factor_of_load:
+            return {self.key: end}
+        bearing, factor = case.bearing, end / value_at(case.to_dict(), self.key)
+        loads = {"bearing.radial_load": bearing.radial_load, "bearing.axial_load": bearing.axial_load}
+        return {key: factor * load for key, load in loads.items() if load}
+
+
+def effects_of(margins: FormulaMargins, margin: float) -> tuple[tuple[Effect, ...], tuple[str, ...]]:
+    """Effects of strength, temperature, clearance and load, and of all inputs that have a range.
+
+    Parameters
+    ----------
+    margins : FormulaMargins
+        Margins of the bearing at changed inputs.
+    margin : float
+        Margin of the bearing, dimensionless.
+
+    Returns
+    -------
+    effects : tuple of Effect
+        The largest effect first. A range of the file replaces the change that is made without it.
+    left_out : tuple of str
+        Inputs whose effect has no result, and why.
+    """
+    case, effects, left_out = margins.case, [], []
+    ranges = {one.key: (one.low, one.high) for one in case.ranges or ()}
+    table = case.to_dict()
+    if _temperature_is_unused(case):
+        left_out.append("temperature: without effect, because lubricant.viscosity is given")
+    for change in _changes(case, table, ranges):
+        try:
+            low, high = (_margin(margins, margin, table, change, end) for end in change.ends)
+        except InputError as error:
+            left_out.append(f"{change.label}: {error}")
+        else:
+            effects.append(Effect(change.key, change.label, *change.ends, low, high))
+    effects.sort(key=lambda effect: -effect.size)
+    return tuple(effects), tuple(left_out)
+
+
+def _margin(
+    margins: FormulaMargins, margin: float, table: Mapping[str, Any], change: _Change, end: float
+) -> float:
+    """Margin with one changed input."""
+    if change.key == OF_TABLE:
+        return margin * end
+    if change.key in _STRENGTHS:
+        return margin * end / float(value_at(table, change.key))
+    return margins.at(change.changes(margins.case, end)).margin
+
+
+def _temperature_is_unused(case: BearingCase) -> bool:
+    """Whether the temperature has no effect: neither the viscosity nor the strength depends on it."""
+    strengths = case.discharge.strength_table
+    over_temperature = strengths is not None and strengths.over == "temperature"
+    return case.lubricant.temperature is None and not over_temperature
+
+
+def _changes(
+    case: BearingCase, table: Mapping[str, Any], ranges: Mapping[str, tuple[float, float]]
+) -> Iterator[_Change]:
+    """Changes of the inputs that the case has; a range takes the place of the change without it."""
+    standard = {change.key: change for change in _standard(case, table)}
+    for key in dict.fromkeys([*standard, *ranges]):
+        if key in ranges:
+            yield _Change(key, INPUT_NAMES.get(key, (key, ""))[0], ranges[key])
+        else:
+            yield standard[key]
+
+
+def _standard(case: BearingCase, table: Mapping[str, Any]) -> Iterator[_Change]:
+    """Changes of strength, temperature, clearance or contact angle, and load."""
+    bearing = case.bearing
+    for key in _STRENGTHS:
+        strength = value_at(table, key)
+        if strength is not None:
+            yield _Change(key, INPUT_NAMES[key][0], _part(strength, STRENGTH))
+    if case.discharge.strength_table is not None:
+        yield _Change(OF_TABLE, "factor on the dielectric strength", _part(1.0, STRENGTH))
+    if not _temperature_is_unused(case):
+        yield _Change("bearing.temperature", "temperature", _around(bearing.temperature, TEMPERATURE))
+    if bearing.radial_clearance is not None:
+        ends = _around(bearing.radial_clearance, CLEARANCE)
+        yield _Change("bearing.radial_clearance", "radial clearance", ends)
+    if bearing.contact_angle is not None:
+        yield _Change("bearing.contact_angle", "free contact angle", _around(bearing.contact_angle, ANGLE))
+    radial = bearing.radial_load >= bearing.axial_load
+    load = bearing.radial_load if radial else bearing.axial_load
+    both = min(bearing.radial_load, bearing.axial_load) > 0.0
+    name = "radial load" if radial else "axial load"
+    yield _Change(
+        f"bearing.{'radial' if radial else 'axial'}_load",
+        f"{name} ({'axial' if radial else 'radial'} in proportion)" if both else name,
+        _part(load, LOAD),
+        factor_of_load=both,
+    )
+
+
+def _part(value: float, part: float) -> tuple[float, float]:
+    """Value less and plus a part of it."""
+    return (1.0 - part) * value, (1.0 + part) * value
+
+
+def _around(value: float, step: float) -> tuple[float, float]:
+    """Value less and plus a step, or half of the value where a positive value would not stay positive."""
+    if 0.0 < value <= step:
+        step = RELATIVE * value
+    return value - step, value + step

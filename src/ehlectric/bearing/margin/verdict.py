@@ -1,0 +1,195 @@
+"""Verdict on a bearing: whether breakdown is expected at its shaft voltage, and below which speed."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from ehlectric.bearing.breakdown import Breakdown, breakdown_of
+from ehlectric.bearing.margin.analysis import MarginAnalysis
+from ehlectric.bearing.margin.critical_speed import SpeedRange
+from ehlectric.bearing.shaft_voltage import shaft_voltage
+from ehlectric.bearing.solution import BearingSolution, lambda_ratio, lubrication
+from ehlectric.bearing.warnings import bearing_warnings
+from ehlectric.discharge.verdict import (
+    UNLIKELY,
+    Verdict,
+    assumption_of,
+    doubts_of,
+    lead_of,
+    level_of,
+    ratio_text,
+    unusable,
+    weibull_part,
+)
+
+# Factor by which films from formulas, and margins with them, may be off either way.
+FORMULA_FACTOR = 1.3
+
+
+def bearing_verdict(solution: BearingSolution, analysis: MarginAnalysis) -> Verdict:
+    """Verdict on a solved bearing.
+
+    Parameters
+    ----------
+    solution : BearingSolution
+        Solved bearing.
+    analysis : MarginAnalysis
+        Analysis of its margin.
+
+    Returns
+    -------
+    Verdict
+        Grey where the numbers must not be used, for ceramic elements, and without a strength or a shaft
+        voltage. Yellow where surfaces touch or may touch, and where the margin may lie on either side of 1.
+
+    Notes
+    -----
+    The margin may lie anywhere between its values at the ends of the stated ranges. Estimated errors of
+    solved films widen this interval, and a factor of 1.3 either way for contacts by formula. With a Weibull
+    law its lower end is that at a probability of 5 %.
+    """
+    refused = unusable(bearing_warnings(solution))
+    if refused or not solution.converged:
+        return Verdict("grey", refused or "No verdict: a contact of the bearing is not converged.")
+    state = lubrication(solution)
+    if solution.conditions.ceramic:
+        touching = (
+            f" Surfaces touch (lambda ratio {lambda_ratio(solution):.2g})." if state == "touching" else ""
+        )
+        return Verdict(
+            "grey",
+            "No verdict: the ceramic elements insulate, and their own breakdown is not computed." + touching,
+        )
+    if state == "conducting":
+        return Verdict(
+            "yellow",
+            f"Surfaces touch {_at(solution)} (lambda ratio {lambda_ratio(solution):.2g}): the bearing "
+            "conducts and has no breakdown voltage. This is no protection: current passes, and contacts that "
+            "open may spark.",
+        )
+    breakdown, shaft = breakdown_of(solution), shaft_voltage(solution)
+    if breakdown is None:
+        known = "" if shaft is None else f" The shaft voltage is {shaft:.3g} V {_at(solution)}."
+        return Verdict("grey", f"No verdict: no dielectric strength given, no breakdown voltage.{known}")
+    first = f"first breakdown at {breakdown.first_break:.3g} V"
+    if shaft is None:
+        return Verdict(
+            "grey",
+            f"No verdict: {first} {_at(solution)}, but no shaft voltage is known without [motor]. "
+            + _assumptions(solution),
+        )
+    return _judged(solution, analysis, breakdown, shaft)
+
+
+def _judged(
+    solution: BearingSolution, analysis: MarginAnalysis, breakdown: Breakdown, shaft: float
+) -> Verdict:
+    """Verdict on a bearing with a margin."""
+    margin = breakdown.first_break / shaft
+    low, high = _possible(solution, analysis, margin)
+    level = level_of(low, high)
+    doubts = list(_doubts(solution, analysis, margin))
+    if doubts and level == "green":
+        level = "yellow"
+    reasons = [*doubts, *(_widths(solution) if level == "yellow" else ())]
+    interval = ""
+    if analysis.low is not None and analysis.high is not None:
+        interval = (
+            f", {ratio_text(analysis.low)} to {ratio_text(analysis.high)} within the stated ranges of inputs"
+        )
+    text = (
+        f"{lead_of(level, margin)}: shaft voltage {shaft:.3g} V, first breakdown at "
+        f"{breakdown.first_break:.3g} V (margin {ratio_text(margin)}{interval}) {_at(solution)}."
+    )
+    speeds = list(_speeds(analysis.speeds))
+    return Verdict(level, " ".join([text, *speeds, *reasons, _assumptions(solution)]), margin)
+
+
+def _possible(solution: BearingSolution, analysis: MarginAnalysis, margin: float) -> tuple[float, float]:
+    """Smallest and largest margin that are possible."""
+    low = margin if analysis.low is None else analysis.low
+    high = margin if analysis.high is None else analysis.high
+    if solution.case.contacts == "formula":
+        low, high = low / FORMULA_FACTOR, high * FORMULA_FACTOR
+    else:
+        off = film_error(solution)
+        low, high = low * (1.0 - off), high * (1.0 + off)
+    weibull = solution.case.discharge.weibull
+    return low if weibull is None else low * weibull_part(weibull.shape, UNLIKELY), high
+
+
+def film_error(solution: BearingSolution) -> float:
+    """Largest estimated error of the films and of their interpolation over the load, relative, at most 1."""
+    errors = [contact.error or 0.0 for curve in solution.curves for contact in curve.solutions]
+    return min(1.0, max(errors) + max(curve.interpolation_error for curve in solution.curves))
+
+
+def _doubts(solution: BearingSolution, analysis: MarginAnalysis, margin: float) -> Iterator[str]:
+    """Sentences for which the margin may be lower than it is computed to be."""
+    if lubrication(solution) == "partial film":
+        yield f"Surfaces may touch (lambda ratio {lambda_ratio(solution):.2g}): voltages are upper bounds."
+    if solution.case.ranges and analysis.low is None:
+        yield "The range of the margin could not be computed from the stated ranges of inputs."
+    if analysis.low == 0.0:
+        yield "At the unfavourable ends of the stated ranges the surfaces touch."
+    weibull = solution.case.discharge.weibull
+    if weibull is not None:
+        unlikely = margin * weibull_part(weibull.shape, UNLIKELY)
+        text = f"The margin is for a probability of 63.2 %; at 5 % it is {ratio_text(unlikely)}."
+        if unlikely < 1.0:
+            yield text
+    yield from doubts_of(bearing_warnings(solution))
+
+
+def _widths(solution: BearingSolution) -> Iterator[str]:
+    """Sentences about the accuracy of the films, for a margin on which it decides."""
+    if solution.case.contacts == "formula":
+        yield "Films by formula may be 30 % off: solved contacts decide."
+    elif film_error(solution) > 0.0:
+        yield f"Films may be {100.0 * film_error(solution):.2g} % off."
+
+
+def _speeds(speeds: SpeedRange | None) -> Iterator[str]:
+    """Sentences about the speeds at which breakdown is expected."""
+    if speeds is None:
+        return
+    if speeds.critical is not None:
+        yield f"Below about {rpm_text(speeds.critical)} rpm breakdown is expected."
+    else:
+        lowest = max(speeds.lowest, speeds.touching or 0.0)
+        says, highest = "No breakdown" if speeds.above else "Breakdown", rpm_text(speeds.highest)
+        yield f"{says} is expected at all speeds from {rpm_text(lowest)} to {highest} rpm."
+    if speeds.touching is not None:
+        yield f"Below about {rpm_text(speeds.touching)} rpm the surfaces touch and conduct."
+
+
+def rpm_text(speed: float) -> str:
+    """Speed [rad/s] as text in revolutions per minute, rounded to three digits.
+
+    Examples
+    --------
+    >>> rpm_text(144.38)
+    '1380'
+    """
+    return f"{float(f'{speed * 30.0 / math.pi:.3g}'):.10g}"
+
+
+def _at(solution: BearingSolution) -> str:
+    """Speed and temperature of a bearing as text."""
+    bearing = solution.case.bearing
+    speed, temperature = bearing.inner_speed * 30.0 / math.pi, bearing.temperature - 273.15
+    return f"at {float(f'{speed:.4g}'):g} rpm, {float(f'{temperature:.3g}'):g} °C"
+
+
+def _assumptions(solution: BearingSolution) -> str:
+    """Sentence about the assumptions behind the breakdown voltage."""
+    case, bound = solution.case, ""
+    if solution.conditions.film_factor == 1.0:
+        bound = "Upper bound: isothermal, fully flooded film; "
+    elif case.bearing.film_factor == "inlet-shear":
+        bound = "Upper bound: fully flooded film with inlet shear heating; "
+    stated = {one.key: (one.low, one.high) for one in case.ranges or ()}
+    clause = assumption_of(case.discharge, stated.get("discharge.dielectric_strength"))
+    text = f"{bound}{clause}."
+    return text[0].upper() + text[1:]

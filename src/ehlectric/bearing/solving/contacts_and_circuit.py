@@ -1,0 +1,112 @@
+"""Solution of a prepared bearing: its contacts over their load, and all elements at positions of the cage."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from functools import partial
+
+from ehlectric.bearing.contacts import ContactCurve, ContactSolution
+from ehlectric.bearing.kinds import kind_of
+from ehlectric.bearing.loads.totals import Equilibrium
+from ehlectric.bearing.preparation import PreparedBearing, loads_to_solve, prepare_bearing
+from ehlectric.bearing.solution import BearingSolution, Position, ring_state
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.runtime.progress import Progress, silent
+from ehlectric.runtime.workers import cores, run_all
+
+# Number of positions of the cage over one pitch of the elements.
+POSITIONS = 8
+
+
+def solution_of(
+    case: BearingCase,
+    *,
+    positions: int = POSITIONS,
+    progress: Progress | None = None,
+    workers: int | None = None,
+) -> BearingSolution:
+    """Solve a whole rolling bearing: loads, films, fields and the electrical circuit.
+
+    Parameters
+    ----------
+    case : BearingCase
+        Bearing file.
+    positions : int
+        Number of positions of the cage over one pitch of the elements.
+    progress : callable, optional
+        Called with the number of solved contacts, the number of all contacts, and a text.
+    workers : int, optional
+        Number of processes; the number of cores if not given.
+
+    Returns
+    -------
+    BearingSolution
+        Solution from which results, warnings and summaries are made.
+
+    Raises
+    ------
+    InputError
+        Where the bearing cannot carry its load, or a contact cannot be solved.
+    """
+    started = time.perf_counter()
+    prepared = prepare_bearing(case, positions)
+    tasks = [_tasks(case, prepared, inner=inner) for inner in (True, False)]
+    processes = 1 if case.contacts == "formula" else workers or cores()
+    solutions = _solved([*tasks[0], *tasks[1]], progress or silent, processes)
+    first = len(tasks[0])
+    curves = ContactCurve(tuple(solutions[:first])), ContactCurve(tuple(solutions[first:]))
+    return BearingSolution(
+        case=case,
+        conditions=prepared.conditions,
+        inner=prepared.inner,
+        outer=prepared.outer,
+        inner_curve=curves[0],
+        outer_curve=curves[1],
+        positions=tuple(_position(prepared, curves, at) for at in prepared.equilibria),
+        seconds=time.perf_counter() - started,
+    )
+
+
+def _tasks(
+    case: BearingCase, prepared: PreparedBearing, *, inner: bool
+) -> list[Callable[[], ContactSolution]]:
+    """Functions that solve the contacts with one ring, by increasing load."""
+    ring = prepared.inner if inner else prepared.outer
+    kind = kind_of(ring)
+    contacts = [kind.contact(ring, load) for load in loads_to_solve(prepared, ring)]
+    if case.contacts == "formula":
+        return [partial(kind.by_formula, contact) for contact in contacts]
+    return [partial(kind.solve, contact, case.solver) for contact in contacts]
+
+
+def _position(
+    prepared: PreparedBearing, curves: tuple[ContactCurve, ContactCurve], at: Equilibrium
+) -> Position:
+    """Contacts of all elements at an equilibrium."""
+    weibull = prepared.conditions.discharge.weibull
+    inner, outer = (
+        ring_state(ring, curve, load=loads.load, gap=loads.gap)
+        for ring, curve in zip(prepared.rings, curves, strict=True)
+        for loads in (at.ring(inner=ring.inner),)
+    )
+    return Position(at, inner, outer, None if weibull is None else weibull.shape)
+
+
+def _solved(
+    tasks: Sequence[Callable[[], ContactSolution]], progress: Progress, workers: int
+) -> list[ContactSolution]:
+    """Contacts in the order of their tasks; the heaviest, which take longest, are solved first."""
+    solutions: dict[int, ContactSolution] = {}
+
+    def done(number: int, solution: ContactSolution) -> None:
+        solutions[len(tasks) - 1 - number] = solution
+        progress(len(solutions), len(tasks), f"contact with {solution.load:.4g} N")
+
+    progress(0, len(tasks), "contacts")
+    if workers == 1 or len(tasks) == 1:
+        for number, task in enumerate(reversed(tasks)):
+            done(number, task())
+    else:
+        run_all(list(reversed(tasks)), done, processes=workers)
+    return [solutions[k] for k in range(len(tasks))]

@@ -1,0 +1,182 @@
+"""Keywords of the constructors of cases, with their types for editors and type checkers.
+
+A value is a float in SI units, a text with a unit, or a quantity of pint. Every other value is refused when
+the case is made, by the same checks as those of a case file.
+"""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, Protocol, TypeAlias, TypedDict, TypeVar
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+
+class HasUnit(Protocol):
+    """Number with a unit, such as a quantity of pint."""
+
+    @property
+    def magnitude(self) -> Any:
+        """Number in the unit of the quantity."""
+        ...
+
+    def to(self, other: Any = None, /) -> Any:
+        """Quantity in another unit."""
+        ...
+
+
+# Value of a key: a float in SI units, a text with a unit, or a quantity.
+Value: TypeAlias = float | str | HasUnit
+
+# Tables by key, as in a case file.
+Keys: TypeAlias = Mapping[str, Any]
+
+
+class LineKeys(TypedDict, total=False):
+    """Keys of the table ``contact`` of a line contact; the units of floats are in brackets.
+
+    Attributes
+    ----------
+    reduced_radius, radius_1, radius_2 : float, str or quantity
+        Reduced radius, or radii of both bodies, negative for a concave one [m].
+    reduced_modulus : float, str or quantity
+        Reduced modulus E' with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2 [Pa].
+    body_1, body_2 : mapping
+        ``youngs_modulus`` [Pa] and ``poissons_ratio`` of both bodies, in place of the reduced modulus.
+    load_per_length, max_hertz_pressure : float, str or quantity
+        Load per length [N/m] or Hertz pressure [Pa].
+    entrainment_speed, slide_to_roll_ratio, speed_1, speed_2 : float, str or quantity
+        Mean speed of the surfaces [m/s] with the slide-to-roll ratio, or the speeds of both [m/s].
+    """
+
+    reduced_radius: Value
+    radius_1: Value
+    radius_2: Value
+    reduced_modulus: Value
+    body_1: Keys
+    body_2: Keys
+    load_per_length: Value
+    max_hertz_pressure: Value
+    entrainment_speed: Value
+    slide_to_roll_ratio: Value
+    speed_1: Value
+    speed_2: Value
+
+
+class PointKeys(TypedDict, total=False):
+    """Keys of the table ``contact`` of a point contact; the units of floats are in brackets.
+
+    Attributes
+    ----------
+    radius_x, radius_y : float, str or quantity
+        Reduced radii along and across entrainment [m].
+    reduced_modulus : float, str or quantity
+        Reduced modulus E' with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2 [Pa].
+    body_1, body_2 : mapping
+        ``youngs_modulus`` [Pa] and ``poissons_ratio``, or ``radius_x`` and ``radius_y`` [m], of both bodies,
+        in place of the reduced values.
+    load, max_hertz_pressure : float, str or quantity
+        Load [N] or Hertz pressure [Pa].
+    entrainment_speed, slide_to_roll_ratio, speed_1, speed_2 : float, str or quantity
+        Mean speed of the surfaces [m/s] with the slide-to-roll ratio, or the speeds of both [m/s].
+    """
+
+    radius_x: Value
+    radius_y: Value
+    reduced_modulus: Value
+    body_1: Keys
+    body_2: Keys
+    load: Value
+    max_hertz_pressure: Value
+    entrainment_speed: Value
+    slide_to_roll_ratio: Value
+    speed_1: Value
+    speed_2: Value
+
+
+class BearingKeys(TypedDict, total=False):
+    """Keys of the table ``bearing``; the units of floats are in brackets.
+
+    Attributes
+    ----------
+    base, kind, profile, element_material, ring_material, fill : str
+        Names: bearing of the library, kind of the bearing, profile of rollers, materials, "oil" or "air".
+    elements : int
+        Number of rolling elements.
+    element_diameter, pitch_diameter, inner_groove, outer_groove, roller_length : float, str or quantity
+        Geometry [m].
+    radial_clearance, contact_angle, shoulder_height : float, str or quantity
+        Clearance [m], free contact angle [rad], and height of the shoulder over the element diameter.
+    element_capacitance : float, str or quantity
+        Capacitance of a ceramic element [F].
+    radial_load, axial_load : float, str or quantity
+        Loads [N].
+    inner_speed : float, str or quantity
+        Rotational speed of the inner ring [rad/s]; write "3000 rpm" for revolutions per minute.
+    temperature : float, str or quantity
+        Absolute temperature of the oil [K]; write "70 degC" for degrees Celsius.
+    composite_rq : float, str or quantity
+        Rq of both surfaces together [m].
+    film_factor : float or str
+        Factor on the isothermal, fully flooded film, "none" or "inlet-shear".
+    """
+
+    base: str
+    kind: str
+    elements: int
+    element_diameter: Value
+    pitch_diameter: Value
+    inner_groove: Value
+    outer_groove: Value
+    roller_length: Value
+    profile: str
+    shoulder_height: Value
+    radial_clearance: Value
+    contact_angle: Value
+    element_material: str
+    ring_material: str
+    element_capacitance: Value
+    radial_load: Value
+    axial_load: Value
+    inner_speed: Value
+    temperature: Value
+    composite_rq: Value
+    fill: str
+    film_factor: float | str
+
+
+def takes(keys: type) -> Callable[[F], F]:
+    """Decorator that shows the keys of a ``TypedDict`` in the signature of a function of ``**keywords``.
+
+    Editors and ``help`` then list them by name.
+    """
+
+    def decorated(function: F) -> F:
+        signature = inspect.signature(function)
+        *first, _ = signature.parameters.values()
+        kind = inspect.Parameter.KEYWORD_ONLY
+        named = [inspect.Parameter(key, kind, default=None) for key in keys_of(keys)]
+        function.__signature__ = signature.replace(parameters=[*first, *named])  # type: ignore[attr-defined]
+        return function
+
+    return decorated
+
+
+def keys_of(keys: type) -> Sequence[str]:
+    """Names of the keys of a ``TypedDict``."""
+    return list(keys.__annotations__)
+
+
+def tables(**named: Any) -> dict[str, Any]:
+    """Tables of a case by name, without those that are None; the name of a lubricant becomes its table.
+
+    Examples
+    --------
+    >>> tables(lubricant="paper", discharge=None)
+    {'lubricant': {'base': 'paper'}}
+    """
+    given = {name: table for name, table in named.items() if table is not None}
+    if isinstance(given.get("lubricant"), str):
+        given["lubricant"] = {"base": given["lubricant"]}
+    return given

@@ -1,0 +1,322 @@
+"""Meaning of a file before it is solved: dry contact, films and voltages by formula, size of a sweep.
+
+Nothing here solves a film, so that the answer is there at once. Films by formula, and what follows from
+them, may be far from the solution; every row and every table that has them says so.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import singledispatch
+from itertools import islice
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.case import Case
+from ehlectric.cases.row import Row
+from ehlectric.errors import InputError, ResultWarning
+from ehlectric.sweep.inputs import Sweep
+
+if TYPE_CHECKING:
+    from ehlectric.bearing.result import BearingResult
+    from ehlectric.contact.conditions import Conditions, PointConditions
+    from ehlectric.sweep.plan import Planned
+
+# Largest number of points of a sweep that are checked one by one.
+_MOST_CHECKED = 2000
+
+# Statement above the rows that follow from film formulas.
+_BY_FORMULA = "films may be 30 % off, and all that follows"
+
+
+@dataclass(frozen=True)
+class Meaning:
+    """Meaning of a file before it is solved.
+
+    Attributes
+    ----------
+    title : str
+        Title of the case.
+    rows : tuple of Row
+        Rows of a table: dry contact, films by formula and what follows from them.
+    summary : dict
+        The same numbers as nested tables, SI units.
+    warnings : tuple of ResultWarning
+        Warnings about the case and its surfaces.
+    """
+
+    title: str
+    rows: tuple[Row, ...]
+    summary: dict[str, Any]
+    warnings: tuple[ResultWarning, ...]
+
+
+@singledispatch
+def check(case: Case | BearingCase | Sweep) -> Meaning:
+    """Meaning of a case or of a sweep, at once: dry contact, groups, and what film formulas predict.
+
+    Parameters
+    ----------
+    case : Case, BearingCase or Sweep
+        Case of a contact, with or without motion; a bearing; or a sweep, of which the first point is checked.
+
+    Returns
+    -------
+    Meaning
+        Rows of a table, the same numbers as nested tables, and warnings.
+
+    Raises
+    ------
+    InputError
+        If the values contradict each other, a surface cannot be used, the grid fits into no memory or no
+        point of a sweep is a valid case.
+
+    Examples
+    --------
+    >>> from ehlectric import Case
+    >>> contact = {"geometry": "point", "radius_x": 0.01, "radius_y": 0.01, "load": "20 N"}
+    >>> contact |= {"reduced_modulus": "226 GPa", "entrainment_speed": 2.0}
+    >>> meaning = check(Case.from_dict({"contact": contact, "lubricant": {"base": "paper"}}))
+    >>> round(meaning.summary["hertz"]["max_pressure"] / 1e9, 3)
+    0.791
+    """
+    raise TypeError(f"{type(case).__name__} is no case")
+
+
+@check.register
+def _check_contact(case: Case) -> Meaning:
+    from ehlectric.commands.tables.contact import case_rows
+    from ehlectric.commands.tables.motion import schedule_rows
+    from ehlectric.contact.check import check_case
+    from ehlectric.contact.summary import case_summary
+    from ehlectric.motion.contact import TransientContact
+
+    contact = check_case(case)
+    rows, summary = case_rows(case, contact.conditions), case_summary(case, contact.conditions)
+    estimate = _breakdown_by_formula(case, contact.conditions)
+    if estimate is not None:
+        summary["breakdown_by_formula"] = estimate
+        rows += _breakdown_rows(estimate)
+    if case.motion is not None:
+        schedule = TransientContact.of(case, contact.rough).schedule
+        summary["motion"] = schedule.described()
+        rows += schedule_rows(schedule, contact.conditions.entrainment_speed)
+    return Meaning(case.title, tuple(rows), summary, tuple(contact.warnings()))
+
+
+def _breakdown_by_formula(
+    case: Case, conditions: Conditions | PointConditions
+) -> dict[str, str | float | None] | None:
+    """Breakdown voltage of the minimum film of a formula; None without a strength that is known beforehand.
+
+    A strength over pressure and a Weibull law need the field in the whole film. The formulas are those from
+    which a bearing by formula has its films.
+    """
+    from ehlectric.discharge.utilisation import dielectric_strength
+    from ehlectric.formulas.film_line import FORMULAS as LINE_FORMULAS
+    from ehlectric.formulas.film_point import FORMULAS as POINT_FORMULAS
+
+    discharge = case.discharge
+    if discharge is None or not discharge.has_strength:
+        return None
+    if discharge.strength_table is not None and discharge.strength_table.over == "pressure":
+        return None
+    line = conditions.geometry == "line"
+    formulas: Mapping[str, Any] = LINE_FORMULAS if line else POINT_FORMULAS
+    formula = formulas["pan_hamrock" if line else "chittenden"]
+    film = formula(conditions.contact).minimum_thickness
+    strength = float(dielectric_strength(discharge, np.zeros(())))
+    applied = abs(case.electric.voltage)
+    return {
+        "formula": formula.name,
+        "minimum_thickness": film,
+        "dielectric_strength": strength,
+        "breakdown_voltage": strength * film,
+        "applied_voltage": applied,
+        "margin": strength * film / applied if applied else None,
+    }
+
+
+def _breakdown_rows(estimate: Mapping[str, Any]) -> Iterator[Row]:
+    yield Row("breakdown voltage", estimate["breakdown_voltage"], "V", f", by formula: {estimate['formula']}")
+    if estimate["margin"] is not None:
+        yield Row("  margin", estimate["margin"], note="breakdown / applied, up to 40 % off")
+
+
+@check.register
+def _check_bearing(case: BearingCase) -> Meaning:
+    from ehlectric.bearing.solver import check_bearing
+
+    check_bearing(case)
+    judged, reason = _by_formula(case)
+    if judged is None:
+        return _without_films(case, reason)
+    result = _solved_by_formula(judged)
+    summary = {**result.summary(), "by_formula": True}
+    rows = [*_echo(summary), *_dry(summary), Row("by formula:", note=_BY_FORMULA), *_totals(summary)]
+    if reason:
+        rows.append(Row("breakdown", note=reason))
+    return Meaning(case.title, tuple(rows), summary, tuple(result.warnings()))
+
+
+def _by_formula(case: BearingCase) -> tuple[BearingCase | None, str]:
+    """Case with contacts by formula, and what the formulas leave out; None where they give nothing."""
+    from ehlectric.bearing.by_formula import check_formula
+    from ehlectric.bearing.preparation import resolve_bearing
+
+    conditions = resolve_bearing(case)
+    formula = case.replace({"contacts": "formula"})
+    try:
+        check_formula(conditions.discharge, conditions.lubricant)
+    except InputError as error:
+        if (error.key or "").startswith("discharge"):
+            bare = case.discharge.model_copy(update={"weibull": None, "strength_table": None})
+            return formula.model_copy(update={"discharge": bare}), "needs solved contacts for this strength"
+        return None, "film formulas need a piezoviscous oil; ehlectric bearing solves the contacts"
+    return formula, ""
+
+
+def _solved_by_formula(case: BearingCase) -> BearingResult:
+    from ehlectric.bearing.solver import solve_bearing
+
+    return solve_bearing(case, workers=1)
+
+
+def _without_films(case: BearingCase, reason: str) -> Meaning:
+    """Meaning of a bearing whose contacts no formula describes: its inputs alone."""
+    from ehlectric.bearing.preparation import resolve_bearing
+
+    oil = resolve_bearing(case).lubricant
+    summary = {
+        "inputs": case.to_dict(),
+        "lubricant": {"temperature": case.bearing.temperature, "viscosity": oil.viscosity},
+        "by_formula": False,
+    }
+    rows = (*_echo(summary), Row("films and voltages", note=reason))
+    return Meaning(case.title, rows, summary, ())
+
+
+def _echo(summary: Mapping[str, Any]) -> Iterator[Row]:
+    """Rows of the inputs that decide, as an engineer states them."""
+    bearing, oil = summary["inputs"]["bearing"], summary["lubricant"]
+    for name in ("radial", "axial"):
+        if bearing.get(f"{name}_load"):
+            yield Row(f"{name} load", bearing[f"{name}_load"], "N")
+    for ring in ("inner", "outer"):
+        if bearing.get(f"{ring}_speed"):
+            rpm = bearing[f"{ring}_speed"] * 30.0 / math.pi
+            yield Row(f"speed of the {ring} ring", f"{rpm:.5g}", "rpm")
+    yield Row("temperature", f"{bearing['temperature'] - 273.15:.4g}", "°C")
+    yield Row("  viscosity", f"{1e3 * oil['viscosity']:.4g}", "mPa s", ", at this temperature")
+    if oil.get("pressure_viscosity_coefficient"):
+        alpha = f"{1e9 * oil['pressure_viscosity_coefficient']:.4g}"
+        yield Row("  pressure-viscosity coefficient", alpha, "1/GPa")
+
+
+def _dry(summary: Mapping[str, Any]) -> Iterator[Row]:
+    """Rows of the most loaded dry contact with each ring, and of the speeds."""
+    for ring in ("inner", "outer"):
+        contacts = [row for row in summary["contacts"] if row["ring"] == ring]
+        most = max(contacts, key=lambda row: float(row["load"]))
+        yield Row(f"most loaded contact, {ring} ring", most["load"], "N")
+        yield Row("  Hertz pressure", most["max_pressure"], "GPa")
+        yield Row("  minimum film, by formula", most["minimum_thickness"], "µm")
+        speed = summary["mechanics"][f"entrainment_speed_{ring}"]
+        yield Row("  entrainment speed", speed, "m/s")
+
+
+def _totals(summary: Mapping[str, Any]) -> Iterator[Row]:
+    """Rows of the totals of the bearing, as its command prints them, without the time."""
+    from ehlectric.commands.tables.bearing import total_rows
+
+    return (row for row in total_rows(summary) if row.name != "time")
+
+
+@check.register
+def _check_sweep(sweep: Sweep) -> Meaning:
+    from ehlectric.sweep.plan import plan
+
+    started = time.perf_counter()
+    planned = list(islice(plan(sweep), _MOST_CHECKED))
+    first = next((point for point in planned if point.key is not None), None)
+    if first is None:
+        raise InputError("vary", f"no point is a case; of the first, {planned[0].refused}")
+    each = (time.perf_counter() - started) / len(planned)
+    begun = time.perf_counter()
+    meaning = check(sweep.case.replace(first.inputs))
+    seconds = time.perf_counter() - begun + each
+    described = _described(sweep, planned, first)
+    rows = (*_sweep_rows(sweep, described, seconds), Row("first point:"), *meaning.rows)
+    summary = {"sweep": described, "first_point": meaning.summary}
+    return replace(meaning, title=sweep.title or meaning.title, rows=rows, summary=summary)
+
+
+def _described(sweep: Sweep, planned: list[Planned], first: Planned) -> dict[str, Any]:
+    """Size and inputs of a sweep as a table, and how many of its points are refused."""
+    refused = [point.refused for point in planned if point.key is None]
+    return {
+        "points": sweep.size,
+        "design": sweep.design,
+        "inputs": {key: _values(value) for key, value in sweep.vary.items()},
+        "points_checked": len(planned),
+        "points_refused": len(refused),
+        "reason": refused[0] if refused else None,
+        "first_point": {"number": first.number, "inputs": dict(first.inputs)},
+    }
+
+
+def _values(value: Any) -> dict[str, Any]:
+    """Values of a varied key: the ends of its range, or the number of values with first and last."""
+    if isinstance(value, tuple):
+        return {"values": len(value), "first": value[0], "last": value[-1]}
+    return {"from": value.start, "to": value.stop, "spacing": value.spacing}
+
+
+def _sweep_rows(sweep: Sweep, described: Mapping[str, Any], seconds: float) -> Iterator[Row]:
+    from ehlectric.runtime.workers import cores
+
+    yield Row("points", str(sweep.size), note=f"{sweep.design} design")
+    for key, value in described["inputs"].items():
+        yield Row(f"  {key}", *_shown(key, value, sweep))
+    if described["points_refused"]:
+        refused = f"of {described['points_checked']} checked points are no valid case: {described['reason']}"
+        yield Row("  refused", str(described["points_refused"]), note=refused, alarm=True)
+    if isinstance(sweep.case, BearingCase) and sweep.case.contacts == "formula":
+        whole = sweep.size * seconds / cores()
+        yield Row("time, estimated", whole, "s", f", by formula on {cores()} cores", digits=".2g")
+    else:
+        command = "bearing" if isinstance(sweep.case, BearingCase) else "run"
+        note = f"that of {sweep.size} times ehlectric {command}, divided by {cores()} cores"
+        yield Row("time", note=note)
+
+
+def _shown(key: str, value: Mapping[str, Any], sweep: Sweep) -> tuple[str, str, str]:
+    """Value, unit and note of the row of a varied key."""
+    ends = [value["from"], value["to"]] if "from" in value else [value["first"], value["last"]]
+    texts, unit = _in_units(key, ends, sweep)
+    if "from" in value:
+        note = ", spaced by logarithms" if value["spacing"] == "log" else ""
+    else:
+        note = f" in {value['values']} values" if value["values"] > 1 else ""
+    return " to ".join(dict.fromkeys(texts)), unit, note
+
+
+def _in_units(key: str, values: list[Any], sweep: Sweep) -> tuple[list[str], str]:
+    """Values as texts in the unit that an engineer uses; other values than numbers as they are."""
+    from ehlectric.cases.input_keys import unit_of
+    from ehlectric.sweep.labels import label_of
+
+    unit = unit_of(key)
+    if not all(isinstance(value, float) for value in values):
+        return [str(value) for value in values], ""
+    if unit == "K":
+        return [f"{value - 273.15:.4g}" for value in values], "°C"
+    if unit == "rad/s":
+        return [f"{value * 30.0 / math.pi:.4g}" for value in values], "rpm"
+    scale = label_of(key, sweep.case).scaled(np.array(values))
+    return [f"{scale.factor * value:.4g}" for value in values], scale.unit

@@ -1,0 +1,198 @@
+"""The commands init and examples, which write files to start from."""
+
+from __future__ import annotations
+
+import shutil
+import tomllib
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from types import MappingProxyType
+from typing import Annotated
+
+import typer
+
+from ehlectric.commands.options import Quiet, one_of
+from ehlectric.commands.terminal import echo_files, user_errors
+from ehlectric.errors import InputError, shown
+from ehlectric.runtime.files import prepare, refuse_special, whole
+
+_HERE = Path(__file__).parent
+
+# File of each kind of template. Kinds that an example shows in full have it as their template.
+TEMPLATES: Mapping[str, str] = MappingProxyType(
+    {
+        "line": "templates/line.toml",
+        "point": "templates/point.toml",
+        "rough": "templates/rough.toml",
+        "moving": "examples/moving_roughness.toml",
+        "discharge": "examples/discharge.toml",
+        "bearing": "examples/bearing_6208.toml",
+        "sweep": "templates/sweep.toml",
+        "uncertainty": "templates/uncertainty.toml",
+    }
+)
+_GEOMETRIES = ("line", "point")
+
+# Folder of the examples that holds the surfaces of rough contacts.
+_SURFACES = "surfaces"
+
+
+def examples_folder() -> Path:
+    """Folder of the examples: in an installed package beside this module, else that of the repository.
+
+    Raises
+    ------
+    InputError
+        If neither exists, as in a package that was copied without its data.
+    """
+    for folder in (_HERE / "examples", *(parent / "examples" for parent in _HERE.parents[2:3])):
+        if (folder / "line_contact.toml").is_file():
+            return folder
+    raise InputError("examples", "are not part of this installation", takes="one by pip, or the repository")
+
+
+def template(kind: str) -> Path:
+    """File of a template.
+
+    Parameters
+    ----------
+    kind : str
+        Kind of the file, one of ``TEMPLATES``.
+
+    Raises
+    ------
+    InputError
+        If there is no such kind.
+    """
+    if kind not in TEMPLATES:
+        raise InputError("--kind", got=shown(kind), takes=f"one of {', '.join(TEMPLATES)}")
+    folder, _, name = TEMPLATES[kind].partition("/")
+    return (examples_folder() if folder == "examples" else _HERE / folder) / name
+
+
+def init(
+    path: Annotated[Path, typer.Argument(metavar="FILE", help="Write this file.")] = Path("case.toml"),
+    kind: Annotated[
+        str,
+        typer.Option(
+            metavar="KIND",
+            help=f"Write a file of this kind: {', '.join(TEMPLATES)}.",
+            autocompletion=one_of(*TEMPLATES),
+        ),
+    ] = "line",
+    geometry: Annotated[str, typer.Option(hidden=True)] = "",
+    force: Annotated[bool, typer.Option("--force", help="Overwrite the file if it exists.")] = False,
+    quiet: Quiet = False,
+) -> None:
+    """Write a commented file of any kind to start from.
+
+    The file can be solved as it is. Its comments explain every key, and mark what is an assumption.
+    """
+    with user_errors():
+        if geometry and geometry not in _GEOMETRIES:
+            takes = f"{' or '.join(_GEOMETRIES)}; other kinds are written with --kind"
+            raise InputError("--geometry", got=shown(geometry), takes=takes)
+        source = template(geometry or kind)
+        refuse_special(path)
+        if path.exists() and not force:
+            raise InputError(path, "already exists; use --force to overwrite")
+        prepare(path.parent)
+        _copy(source, path)
+        command = _command(path)
+    if not quiet:
+        typer.echo(f"written: {path}")
+        typer.echo(f"  check it with: ehlectric check {path}")
+        typer.echo(f"  solve it with: ehlectric {command} {path}")
+
+
+def examples(
+    names: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="NAME",
+            help="Copy these examples; without a name, all are listed or copied.",
+            show_default=False,
+            autocompletion=lambda incomplete: [n for n in _names() if n.startswith(incomplete)],
+        ),
+    ] = None,
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "--output", "-o", metavar="DIR", help="Copy into this folder; by default, into this one."
+        ),
+    ] = None,
+    force: Annotated[bool, typer.Option("--force", help="Overwrite files that exist.")] = False,
+    quiet: Quiet = False,
+) -> None:
+    """List the examples, or copy them with the surfaces and cases that they need.
+
+    Without arguments, the examples are listed. With names or with --output they are copied.
+    """
+    with user_errors():
+        if not names and output is None:
+            for name in _names():
+                typer.echo(f"{name:18}  {_about(name)}")
+            typer.echo("copy all with: ehlectric examples -o DIR; one with: ehlectric examples NAME")
+            return
+        wanted = [_known(name) for name in names] if names else _names()
+        files = list(dict.fromkeys(file for name in wanted for file in _needed(f"{name}.toml")))
+        target = output or Path()
+        for file in files:
+            refuse_special(target / file)
+            if (target / file).exists() and not force:
+                raise InputError(target / file, "already exists; use --force to overwrite")
+        for file in files:
+            prepare((target / file).parent)
+            _copy(examples_folder() / file, target / file)
+    if not quiet:
+        echo_files(target / file for file in files)
+
+
+def _names() -> list[str]:
+    """Names of the examples, without the suffix of their files."""
+    return sorted(path.stem for path in examples_folder().glob("*.toml"))
+
+
+def _known(name: str) -> str:
+    """Name of an example, also where its suffix was typed.
+
+    Raises
+    ------
+    InputError
+        If there is no such example.
+    """
+    stem = name.removesuffix(".toml")
+    if stem not in _names():
+        raise InputError("examples", got=shown(name), takes=f"one of {', '.join(_names())}")
+    return stem
+
+
+def _about(name: str) -> str:
+    """One line about an example: its title."""
+    table = tomllib.loads((examples_folder() / f"{name}.toml").read_text(encoding="utf-8"))
+    return str(table.get("title", ""))
+
+
+def _needed(file: str) -> Iterator[str]:
+    """File of an example and the files that it names, relative to the folder of the examples."""
+    yield file
+    table = tomllib.loads((examples_folder() / file).read_text(encoding="utf-8"))
+    if isinstance(table.get("case"), str):
+        yield from _needed(table["case"])
+    for surface in table.get("roughness", ()):
+        if "file" in surface:
+            yield surface["file"]
+            yield f"{_SURFACES}/README.md"  # licence of the measured surfaces
+
+
+def _copy(source: Path, target: Path) -> None:
+    with whole(target) as beside:
+        shutil.copyfile(source, beside)
+
+
+def _command(path: Path) -> str:
+    """Command that solves a file."""
+    from ehlectric.commands.kinds import kind_of_file
+
+    kind = kind_of_file(path)
+    return kind if kind in ("bearing", "sweep") else "run"

@@ -1,0 +1,126 @@
+"""Tables of results and cases as HTML, which notebooks show."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from html import escape
+from typing import Any
+
+import numpy as np
+
+from ehlectric.bearing.result import BearingResult
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.case import Case
+from ehlectric.cases.changes import flattened
+from ehlectric.cases.row import Row
+from ehlectric.commands.tables.bearing import total_rows
+from ehlectric.commands.tables.contact import result_rows
+from ehlectric.commands.tables.motion import run_rows
+from ehlectric.commands.tables.sweep import sweep_rows
+from ehlectric.contact.results import ContactResult
+from ehlectric.errors import ResultWarning
+from ehlectric.motion.result import MotionResult
+from ehlectric.sweep.inputs import Sweep
+from ehlectric.sweep.labels import label_of
+from ehlectric.sweep.points import Range
+from ehlectric.sweep.results import SweepResults
+from ehlectric.sweep.warnings import sweep_warnings
+
+_COLOURS = {"green": "#009e73", "yellow": "#e69f00", "red": "#d55e00", "grey": "#777777"}
+
+# Largest number of values of a varied key that are listed.
+_LISTED = 6
+
+
+def html_of(shown: Any) -> str:
+    """Table of a result or a case as HTML.
+
+    Parameters
+    ----------
+    shown : Result, PointResult, BearingResult, MotionResult, SweepResults, Case, BearingCase or Sweep
+        Result or case.
+
+    Returns
+    -------
+    str
+        Title, verdict if there is one, the rows that the command prints, and warnings.
+    """
+    rows_of = next(rows for kind, rows in _ROWS.items() if isinstance(shown, kind))
+    title = getattr(shown, "title", "") or getattr(getattr(shown, "case", None), "title", "")
+    parts = [
+        f"<p><b>{escape(type(shown).__name__)}</b>{f': {escape(title)}' if title else ''}</p>",
+        _verdict(getattr(shown, "verdict", None)),
+        "<table>",
+        *map(_row, rows_of(shown)),
+        "</table>",
+        *(f"<p>warning: {escape(str(warning))}</p>" for warning in _warnings(shown)),
+    ]
+    return "<div>" + "".join(parts) + "</div>"
+
+
+def _verdict(verdict: Any) -> str:
+    """Sentences of a verdict with a dot of its colour; empty without one."""
+    if verdict is None:
+        return ""
+    dot = f'<span style="color:{_COLOURS[verdict.level]}">&#9679;</span>'
+    return f"<p>{dot} {escape(verdict.text)}</p>"
+
+
+def _row(row: Row) -> str:
+    style = ' style="color:#d55e00"' if row.alarm else ""
+    name = escape(row.name).replace("  ", "&emsp;")
+    value, rest = escape(row.shown), escape(f"{row.unit}{row.note}")
+    return (
+        f'<tr{style}><td style="text-align:left">{name}</td><td style="text-align:right">{value}</td>'
+        f'<td style="text-align:left">{rest}</td></tr>'
+    )
+
+
+def _warnings(shown: Any) -> Iterable[ResultWarning]:
+    """Warnings of a result; none of a case."""
+    if isinstance(shown, SweepResults):
+        return sweep_warnings(shown)
+    warnings = getattr(shown, "warnings", ())
+    return warnings() if callable(warnings) else warnings
+
+
+def input_rows(case: Case | BearingCase) -> Iterator[Row]:
+    """Rows of the inputs of a case that are given, without defaults."""
+    given = flattened(case.model_dump(mode="json", exclude_none=True, exclude_unset=True))
+    for key, value in given.items():
+        if key != "title":
+            yield _input(case, key, value)
+
+
+def _input(case: Case | BearingCase, key: str, value: Any) -> Row:
+    """Row of an input: its name, and its value in a unit that suits it."""
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return Row(key, value if isinstance(value, str) else json.dumps(value))
+    scale = label_of(key, case).scaled(np.array([float(value)]))
+    return Row(key, f"{value * scale.factor:.6g}", scale.unit)
+
+
+def _sweep_rows(sweep: Sweep) -> Iterator[Row]:
+    """Rows of a sweep: its design, and the values or the range of each varied key."""
+    yield Row("design", sweep.design, note=f"{sweep.size} points")
+    for key, values in sweep.vary.items():
+        if isinstance(values, Range):
+            yield Row(key, f"{values.start:g} to {values.stop:g}", note=f"SI units, {values.spacing}")
+        else:
+            texts = [f"{value:g}" if isinstance(value, float) else str(value) for value in values]
+            listed = ", ".join(texts[:_LISTED])
+            more = f", ... ({len(values)} values)" if len(values) > _LISTED else ""
+            yield Row(key, listed + more, note="SI units")
+
+
+# Rows by the class of what is shown.
+_ROWS: Mapping[type, Callable[[Any], Iterable[Row]]] = {
+    ContactResult: result_rows,
+    BearingResult: lambda result: total_rows(result.summary()),
+    MotionResult: lambda result: run_rows(result.summary()),
+    SweepResults: sweep_rows,
+    Case: input_rows,
+    BearingCase: input_rows,
+    Sweep: _sweep_rows,
+}

@@ -1,0 +1,155 @@
+"""Curves of a bearing over its speed: interpolated between speeds, scaled to the bearing itself, crossing."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from ehlectric.arrays import Array
+
+# Speed of the inner ring [rad/s] with the summary of the bearing at this speed.
+Speed = tuple[float, dict[str, Any]]
+Speeds = Sequence[Speed]
+
+# Factor from rad/s to revolutions per minute.
+RPM = 30.0 / np.pi
+
+# Number of nodes of a curve between two speeds.
+_PARTS = 32
+
+_KEYS = (
+    "capacitance",
+    "capacitance_oil",
+    "capacitance_air",
+    "first_break",
+    "through_breakdown",
+    "shaft_voltage",
+)
+
+
+@dataclass(frozen=True)
+class Curves:
+    """Values of a bearing over its speed.
+
+    Attributes
+    ----------
+    speed : ndarray, shape (n,)
+        Speeds of the inner ring in ascending order [rad/s].
+    values : mapping of str to ndarray
+        Values at the speeds by their keys of the table "bearing", SI units, shape (n,); NaN where there is
+        none.
+    scaled : mapping of str to float
+        Factors by which the values were multiplied to agree with the bearing itself; 1 where none is known.
+    critical : float, optional
+        Speed of the summary of the bearing itself below which breakdown is expected [rad/s].
+    """
+
+    speed: Array
+    values: Mapping[str, Array]
+    scaled: Mapping[str, float]
+    critical: float | None = None
+
+    def __getitem__(self, key: str) -> Array:
+        return self.values[key]
+
+    def at(self, key: str, speed: float | Array) -> Any:
+        """Value at a speed [rad/s]: a power of the speed between two speeds; NaN beside a missing value."""
+        known = self.values[key]
+        return np.exp(np.interp(np.log(speed), np.log(self.speed), np.log(known)))
+
+    def between(self, key: str) -> tuple[Array, Array]:
+        """Speeds [rad/s] and values at nodes between them; NaN between two speeds that lack one value."""
+        log = np.log(self.speed)
+        cells = [np.linspace(a, b, _PARTS, endpoint=False) for a, b in pairwise(log)]
+        nodes = np.exp(np.append(np.concatenate([np.empty(0), *cells]), log[-1]))
+        nodes[::_PARTS] = self.speed
+        return nodes, np.asarray(self.at(key, nodes))
+
+
+def curves_of(points: Speeds, own: Speed | None = None) -> Curves:
+    """Curves through the values at several speeds, scaled to the values of the bearing itself.
+
+    Films by formula may be some per cent off. Their change with speed is more accurate, so each curve is
+    multiplied by the ratio of the value of the bearing itself to the curve at its speed.
+
+    Parameters
+    ----------
+    points : sequence of (float, dict)
+        Speeds of the inner ring [rad/s] with their summaries.
+    own : (float, dict), optional
+        Speed and summary of the bearing itself.
+
+    Returns
+    -------
+    Curves
+        Curves of capacitances and voltages.
+    """
+    ordered = sorted(points, key=lambda point: point[0])
+    speed = np.array([at for at, _ in ordered])
+    plain = Curves(speed, {key: _column(ordered, key) for key in _KEYS}, dict.fromkeys(_KEYS, 1.0))
+    if own is None:
+        return plain
+    factors = {key: _factor(plain, key, own) for key in _KEYS}
+    critical = (own[1].get("margin") or {}).get("critical_speed")
+    return Curves(speed, {key: factors[key] * plain[key] for key in _KEYS}, factors, critical)
+
+
+def _column(ordered: Speeds, key: str) -> Array:
+    """Values of a key of the table "bearing" at the speeds, NaN in place of None."""
+    values = [summary["bearing"][key] for _, summary in ordered]
+    return np.array([np.nan if value is None else value for value in values], dtype=float)
+
+
+def _factor(curves: Curves, key: str, own: Speed) -> float:
+    """Ratio of a value of the bearing itself to the curve at its speed; 1 where one of them is missing."""
+    value = own[1]["bearing"].get(key)
+    inside = curves.speed[0] <= own[0] <= curves.speed[-1]
+    ratio = value / float(curves.at(key, own[0])) if value is not None and inside else 1.0
+    return ratio if np.isfinite(ratio) else 1.0
+
+
+def critical_speed_of(curves: Curves) -> float | None:
+    """Speed below which the shaft voltage is above the first breakdown [rad/s].
+
+    It is that of the summary of the bearing itself or, where this has none, the highest speed at which the
+    curves cross, by interpolation of their logarithms over the logarithm of the speed.
+
+    Parameters
+    ----------
+    curves : Curves
+        Curves of a bearing over its speed.
+
+    Returns
+    -------
+    float or None
+        None where the first breakdown is on one side of the shaft voltage at all speeds.
+
+    Examples
+    --------
+    A margin of 0.5 at 10 rad/s and of 2 at 40 rad/s, which grows with the speed to the power of 1:
+
+    >>> shaft, first = np.array([1.0, 1.0]), np.array([0.5, 2.0])
+    >>> values = {"first_break": first, "shaft_voltage": shaft}
+    >>> round(critical_speed_of(Curves(np.array([10.0, 40.0]), values, {})), 6)
+    20.0
+    """
+    if curves.critical is not None:
+        return curves.critical
+    margin = np.log(curves["first_break"] / curves["shaft_voltage"])
+    below = np.flatnonzero((margin[:-1] < 0.0) & (margin[1:] >= 0.0))
+    if not below.size:
+        return None
+    k = below[-1]
+    part = -margin[k] / (margin[k + 1] - margin[k])
+    low, high = np.log(curves.speed[k : k + 2])
+    return float(np.exp(low + part * (high - low)))
+
+
+def nearly_equal(one: Array, other: Array) -> bool:
+    """Whether two curves differ by less than a per cent wherever both are known."""
+    known = np.isfinite(one) & np.isfinite(other)
+    return bool(np.all(np.abs(other[known] - one[known]) < 0.01 * one[known]))

@@ -1,0 +1,101 @@
+"""Default figure of each kind of result: the figure that tells most about it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from ehlectric.bearing.result import BearingResult
+from ehlectric.contact.results import PointResult, Result
+from ehlectric.errors import InputError
+from ehlectric.figures.names import SENSITIVITY_FIGURE, map_files
+from ehlectric.figures.results import figure_names
+from ehlectric.motion.result import MotionResult
+from ehlectric.sweep.breakdown_keys import breakdown_of
+from ehlectric.sweep.results import SweepResults
+from ehlectric.sweep.slices import known_values
+
+# Name of a figure, and options to draw it with.
+_Default = tuple[str, dict[str, Any]]
+
+# Value of a sweep without breakdown voltages, by the kind of its case.
+_VALUES = ("film.minimum_thickness", "bearing.capacitance")
+
+
+def default_figure(result: Any, **options: Any) -> _Default:
+    """Name and options of the figure that tells most about a result.
+
+    Parameters
+    ----------
+    result : Result, PointResult, BearingResult, MotionResult or SweepResults
+        Result.
+    **options
+        Options of a sweep that are given: ``value``, ``x`` and ``y`` are not chosen then.
+
+    Returns
+    -------
+    name : str
+        Name of the figure.
+    options : dict
+        Options of ``figure``; empty for results other than sweeps.
+    """
+    choose = next(choice for kind, choice in _CHOICES.items() if isinstance(result, kind))
+    return choose(result, options)
+
+
+def _of_line(result: Result, _options: Mapping[str, Any]) -> _Default:
+    return ("field_profiles.png" if result.discharge is not None else "film.png"), {}
+
+
+def _of_point(result: PointResult, _options: Mapping[str, Any]) -> _Default:
+    return ("field_map.png" if result.discharge is not None else "film_map.png"), {}
+
+
+def _of_bearing(result: BearingResult, _options: Mapping[str, Any]) -> _Default:
+    """Breakdown over speed where there is a breakdown voltage, else the loads."""
+    if result.breaks()["first_break"] is not None:
+        return "breakdown_over_speed.png", {}
+    return figure_names(result)[0], {}
+
+
+def _of_motion(_result: MotionResult, _options: Mapping[str, Any]) -> _Default:
+    return "motion_history.png", {}
+
+
+def _of_sweep(results: SweepResults, options: Mapping[str, Any]) -> _Default:
+    """Sensitivity of a Sobol design, lines over one varied key, or a map over two."""
+    if results.design == "sobol":
+        return SENSITIVITY_FIGURE, {}
+    value = options.get("value") or _value_of(results)
+    keys = [options["x"]] if options.get("x") else []
+    keys += [key for key in _numeric(results) if key not in (*keys, options.get("y"))]
+    if not keys:
+        raise InputError("x", "no varied key has numbers;", takes="a figure by its name")
+    over = {"x": keys[0]} | ({"y": options.get("y") or keys[1]} if options.get("y") or keys[1:] else {})
+    files = map_files(value)
+    return files[0 if "y" in over and results.design == "grid" else 1], over | {"value": value}
+
+
+def _value_of(results: SweepResults) -> str:
+    """Breakdown voltage, where there is one, else the film or the capacitance."""
+    known, breakdown = known_values(results), breakdown_of(results.case).value
+    for value in (breakdown, *_VALUES, *known):
+        if value in known:
+            return value
+    raise InputError(f"no point of {len(results.points)} is solved, there is nothing to show")
+
+
+def _numeric(results: SweepResults) -> list[str]:
+    """Varied keys with numbers that differ."""
+    columns = {key: {repr(point.inputs[key]) for point in results.points} for key in results.varied}
+    first = results.points[0].inputs
+    return [key for key, values in columns.items() if len(values) > 1 and isinstance(first[key], int | float)]
+
+
+_CHOICES: Mapping[type, Callable[[Any, Mapping[str, Any]], _Default]] = {
+    Result: _of_line,
+    PointResult: _of_point,
+    BearingResult: _of_bearing,
+    MotionResult: _of_motion,
+    SweepResults: _of_sweep,
+}

@@ -1,0 +1,78 @@
+"""Result of a contact with moving roughness, as ``solve_motion`` and ``load`` return it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ehlectric.cases.row import amount
+from ehlectric.errors import ResultWarning
+from ehlectric.motion.stored_run import MotionRun
+from ehlectric.motion.summary import summary_of
+from ehlectric.runtime.display import Shown, headline
+from ehlectric.runtime.stored_warnings import warnings_of
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class MotionResult(Shown, MotionRun):
+    """Run of a contact with moving roughness, with its summary, tables and figures.
+
+    Attributes
+    ----------
+    dataset : xarray.Dataset
+        Values at the solved time steps and recorded instants, SI units.
+    case : Case
+        Case of the run.
+    conditions : Conditions or PointConditions
+        Operating conditions of the case.
+    """
+
+    @property
+    def converged(self) -> bool:
+        """Whether all time steps of the run are solved."""
+        return self.complete
+
+    @property
+    def warnings(self) -> tuple[ResultWarning, ...]:
+        """Warnings about unreliable results, each with a code and a severity."""
+        return warnings_of(self.summary())
+
+    def summary(self) -> dict[str, Any]:
+        """Key figures in SI units, as nested tables with the keys of summary.json."""
+        return summary_of(self.dataset)
+
+    def to_xarray(self) -> xr.Dataset:
+        """Dataset of all values with their units, the same as motion.nc."""
+        return self.dataset
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """Time steps as a table of pandas.
+
+        Returns
+        -------
+        pandas.DataFrame
+            A row for each time step with its time, minimum film, field estimate and residuals, SI units;
+            ``attrs["units"]`` has the unit of each column.
+        """
+        names = [str(name) for name, values in self.dataset.variables.items() if values.dims == ("step",)]
+        frame = self.dataset[names].to_dataframe()
+        frame.attrs["units"] = {name: self.dataset[name].attrs.get("units", "") for name in names}
+        return frame
+
+    def headline(self) -> str:
+        """Title, time steps, minimum film and maximum field on one line."""
+        steps = self.dataset.sizes["step"] - 1
+        return headline(
+            self.case.title,
+            f"{self.case.contact.geometry} contact with moving roughness",
+            f"{steps} time steps to {amount(float(self.values('time')[-1]), 's')}",
+            f"minimum film {amount(float(np.min(self.values('minimum_thickness'))), 'm')}",
+            f"maximum field {amount(float(np.max(self.values('max_strength'))), 'V/m')}",
+            "complete" if self.complete else "NOT COMPLETE",
+        )

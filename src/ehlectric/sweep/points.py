@@ -1,0 +1,160 @@
+"""Points of a sweep: their inputs, status, and summary or reason of failure."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+
+from ehlectric.arrays import Mask
+from ehlectric.cases.any_case import AnyCase
+from ehlectric.errors import ResultWarning
+from ehlectric.runtime.stored_warnings import warnings_of
+from ehlectric.runtime.values import Values
+
+# "solved": converged; "not converged": the summary must not be used; "failed": no summary; "open": not tried
+# yet.
+Status = Literal["solved", "not converged", "failed", "open"]
+Spacing = Literal["linear", "log"]
+
+
+@dataclass(frozen=True)
+class Range:
+    """Range of an input between two values.
+
+    Attributes
+    ----------
+    start, stop : float
+        Ends of the range, in SI units.
+    spacing : str
+        "linear" if values are spaced evenly, or "log" if their logarithms are.
+    """
+
+    start: float
+    stop: float
+    spacing: Spacing = "linear"
+
+
+@dataclass(frozen=True)
+class Point:
+    """One point of a sweep.
+
+    Attributes
+    ----------
+    number : int
+        Number of the point in the order of the design, from 0.
+    inputs : mapping
+        Values of the varied keys, by dotted key of the case, in SI units.
+    status : str
+        "solved", "not converged", "failed" or "open".
+    reason : str
+        Reason why the point is not solved; empty if it is solved or open.
+    summary : mapping or None
+        Nested tables, as in summary.json; None if the point failed or is open.
+    seconds : float
+        Time taken by the solution [s].
+    version : str
+        Version of ehlectric that solved the point.
+    """
+
+    number: int
+    inputs: Mapping[str, Any]
+    status: Status
+    reason: str = ""
+    summary: Mapping[str, Any] | None = None
+    seconds: float = 0.0
+    version: str = ""
+
+    @property
+    def solved(self) -> bool:
+        """Whether the point converged. Its numbers must still not be used if it is ``doubtful``."""
+        return self.status == "solved"
+
+    @property
+    def warnings(self) -> tuple[ResultWarning, ...]:
+        """Warnings of the summary; empty if the point has no summary."""
+        return warnings_of(self.summary or {})
+
+    @property
+    def doubtful(self) -> bool:
+        """Whether the point is solved, but has a severe warning: its film must not be used.
+
+        Examples
+        --------
+        >>> warned = {"warnings": ["the film may be 32 % off"], "warning_codes": ["grid-far-too-coarse"]}
+        >>> Point(0, {}, "solved", summary=warned).doubtful
+        True
+        """
+        return self.solved and any(warning.severity == "severe" for warning in self.warnings)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class SweepPoints(Values):
+    """All points of a sweep, complete or still in progress.
+
+    Attributes
+    ----------
+    case : Case or BearingCase
+        Base case of the sweep.
+    design : str
+        "grid", "paired" or "sobol".
+    axes : mapping
+        Values of each varied key in the order of the input, in SI units; empty for a "sobol" design.
+    ranges : mapping
+        Range of each varied key of a "sobol" design, in the order of the input; empty for other designs.
+    samples : int
+        Base samples n of a "sobol" design; 0 for other designs. The points are the n rows of A, then the n
+        rows of B. For each varied key k, the n rows of A follow with column k of B.
+    points : tuple of Point
+        All points in the order of the design; in a "grid" the last varied key varies fastest.
+    seed : int
+        Seed of the random numbers of a "sobol" design.
+    title : str
+        Title of the sweep, for figures.
+    """
+
+    case: AnyCase
+    design: str
+    axes: Mapping[str, tuple[Any, ...]]
+    ranges: Mapping[str, Range]
+    samples: int
+    points: tuple[Point, ...]
+    seed: int = 0
+    title: str = ""
+
+    @property
+    def varied(self) -> tuple[str, ...]:
+        """Dotted keys of the case that vary, in the order of the input."""
+        return tuple(self.ranges if self.design == "sobol" else self.axes)
+
+    @property
+    def doubtful(self) -> Mask:
+        """Mask of the points that are solved, but have a severe warning, shape (points,)."""
+        return np.array([point.doubtful for point in self.points], dtype=bool)
+
+
+def flat(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
+    """Values of nested tables by dotted key, in their order; items of lists are numbered from 0.
+
+    Examples
+    --------
+    >>> flat({"film": {"minimum_thickness": 1e-7, "minimum_position": [0.0, 2e-4]}})
+    {'film.minimum_thickness': 1e-07, 'film.minimum_position.0': 0.0, 'film.minimum_position.1': 0.0002}
+    """
+    values: dict[str, Any] = {}
+    for name, value in table.items():
+        if isinstance(value, Mapping):
+            values |= flat(value, f"{prefix}{name}.")
+        elif isinstance(value, list | tuple) and value:
+            values |= flat({str(k): item for k, item in enumerate(value)}, f"{prefix}{name}.")
+        else:
+            values[prefix + name] = value
+    return values
+
+
+def as_number(value: Any) -> float:
+    """Value as a float; NaN if it is not a number."""
+    return float(value) if isinstance(value, int | float) else math.nan

@@ -1,0 +1,134 @@
+"""Verdict on a sweep: at how many of its points breakdown is expected, and at which value that begins."""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from ehlectric.arrays import Array
+from ehlectric.cases.any_case import AnyCase
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.row import value_at
+from ehlectric.discharge.verdict import Level, Verdict, ratio_text
+from ehlectric.sweep.labels import Scale, label_of
+from ehlectric.sweep.results import SweepResults
+
+
+def sweep_verdict(results: SweepResults) -> Verdict | None:
+    """Verdict on a sweep from the margins of its points.
+
+    Parameters
+    ----------
+    results : SweepResults
+        Results of a sweep.
+
+    Returns
+    -------
+    Verdict or None
+        Green where no margin is below 1, red where all are, else yellow. It is not green where points have no
+        margin: they are not solved or must not be used, or their surfaces touch. None where no point has a
+        margin.
+    """
+    usable = _margins(results)
+    known = usable[np.isfinite(usable)]
+    if not known.size:
+        return None
+    below, missing = int(np.sum(known < 1.0)), usable.size - known.size
+    lowest, highest = float(np.min(known)), float(np.max(known))
+    count = str(below) if below else "none"
+    span = f"{ratio_text(lowest)} to {ratio_text(highest)}"
+    sentences = [
+        f"Breakdown is expected at {count} of {known.size} points: the margin is {span}.",
+        *_crossings(results, usable),
+    ]
+    if missing:
+        sentences.append(f"{missing} more {_have(missing)} no margin, {_why(results, usable)}.")
+    level: Level = "red" if below == known.size else "yellow" if below or missing else "green"
+    return Verdict(level, " ".join(sentences), lowest)
+
+
+def _have(count: int) -> str:
+    return "point has" if count == 1 else "points have"
+
+
+def _margins(results: SweepResults) -> Array:
+    """Margin at every point; NaN where a point has none or its film must not be used."""
+    table = "bearing" if isinstance(results.case, BearingCase) else "discharge"
+    used = [(point.summary or {}) if point.solved and not point.doubtful else {} for point in results.points]
+    values = [value_at(summary, f"{table}.margin") for summary in used]
+    return np.array([math.nan if value is None else float(value) for value in values])
+
+
+def _why(results: SweepResults, margins: Array) -> str:
+    """Reasons why points have no margin, with their numbers."""
+    counts: dict[str, int] = {}
+    for point, margin in zip(results.points, margins, strict=True):
+        if math.isfinite(margin):
+            continue
+        state = value_at(point.summary or {}, "bearing.lubrication")
+        if not point.solved:
+            reason = "not solved"
+        elif point.doubtful:
+            reason = "solved, but not to be used"
+        else:
+            reason = "surfaces touch" if state == "conducting" else "no breakdown voltage or no voltage"
+        counts[reason] = counts.get(reason, 0) + 1
+    if len(counts) == 1:
+        return next(iter(counts))
+    return ", ".join(f"{count} {reason}" for reason, count in counts.items())
+
+
+def _crossings(results: SweepResults, margins: Array) -> list[str]:
+    """Sentences about the values of a single varied input at which the margin crosses 1."""
+    if len(results.varied) != 1 or results.design == "sobol":
+        return []
+    key = results.varied[0]
+    inputs = [point.inputs[key] for point in results.points]
+    if not all(isinstance(value, int | float) and not isinstance(value, bool) for value in inputs):
+        return []
+    rows = sorted(
+        (float(value), float(margin))
+        for value, margin in zip(inputs, margins, strict=True)
+        if math.isfinite(margin)
+    )
+    return [
+        f"The margin falls below 1 {'below' if low[1] < high[1] else 'above'} about "
+        f"{value_text(key, crossing(low, high), results.case)}."
+        for low, high in pairwise(rows)
+        if (low[1] < 1.0) != (high[1] < 1.0)
+    ]
+
+
+def crossing(low: tuple[float, float], high: tuple[float, float]) -> float:
+    """Input at which the margin is 1 between two points, interpolated in the logarithm of the margin.
+
+    Parameters
+    ----------
+    low, high : tuple of float
+        Input and margin at both points. The logarithm of the input is used where both inputs are above 0.
+
+    Examples
+    --------
+    A margin in proportion to the speed:
+
+    >>> round(crossing((100.0, 0.5), (400.0, 2.0)), 9)
+    200.0
+    """
+    logarithmic = low[0] > 0.0
+    ends = (math.log(low[0]), math.log(high[0])) if logarithmic else (low[0], high[0])
+    part = -math.log(low[1]) / (math.log(high[1]) - math.log(low[1]))
+    found = ends[0] + part * (ends[1] - ends[0])
+    return math.exp(found) if logarithmic else found
+
+
+def value_text(key: str, value: Any, case: AnyCase) -> str:
+    """Value of an input in the unit that is printed, with three digits; temperatures in degrees Celsius."""
+    label = label_of(key, case)
+    if label.unit == "K":
+        return f"{value - 273.15:.3g} °C"
+    scale = Scale(180.0 / math.pi, "deg") if label.unit == "rad" else label.scaled(np.array([value]))
+    shown = float(f"{value * scale.factor:.3g}")
+    return f"{shown:g} {scale.unit}".rstrip()

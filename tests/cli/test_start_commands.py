@@ -1,0 +1,235 @@
+"""The commands that one begins with: init, examples, help, completion, and a start without POSIX."""
+
+import ast
+import os
+import subprocess
+import sys
+import tomllib
+
+import pytest
+
+from ehlectric.commands.kinds import kind_of_file
+from ehlectric.commands.meaning import check
+from ehlectric.commands.options import files_ending
+from ehlectric.commands.runs import RUNS
+from ehlectric.commands.start import TEMPLATES
+from tests.cli.conftest import CASE
+from tests.helpers.places import EXAMPLES, ROOT
+
+KINDS = {"moving": "motion", "bearing": "bearing", "sweep": "sweep", "uncertainty": "sweep"}
+
+
+@pytest.mark.parametrize("kind", TEMPLATES)
+def test_a_template_of_each_kind_is_written_and_means_something(ehlectric, tmp_path, kind):
+    """In a folder of its own: it needs no other file."""
+    done = ehlectric("init", "new.toml", "--kind", kind)
+    assert done.returncode == 0, done.stderr
+    found = kind_of_file(tmp_path / "new.toml")
+    assert found == KINDS.get(kind, "contact")
+    command = {"bearing": "bearing", "sweep": "sweep"}.get(found, "run")
+    assert done.stdout == (
+        "written: new.toml\n  check it with: ehlectric check new.toml\n"
+        f"  solve it with: ehlectric {command} new.toml\n"
+    )
+    meaning = check(RUNS[found].read(tmp_path / "new.toml"))
+    assert meaning.rows
+    text = (tmp_path / "new.toml").read_text(encoding="utf-8")
+    assert text.startswith("# ")
+    # What is not published is marked; a line and a point have assumptions in their alternatives.
+    assert "assumption" in text
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", TEMPLATES)
+def test_a_template_of_each_kind_is_solved_as_it_is(ehlectric, tmp_path, kind):
+    assert ehlectric("init", "new.toml", "--kind", kind, "-q").returncode == 0
+    found = kind_of_file(tmp_path / "new.toml")
+    command = {"bearing": "bearing", "sweep": "sweep"}.get(found, "run")
+    options = ["--no-plots"] if command != "sweep" else []
+    # The contacts of the bearing take a minute: they are solved in a test of the example.
+    options += ["--contacts", "formula"] if command == "bearing" else []
+    done = ehlectric(command, "new.toml", "-o", "out", *options)
+    assert done.returncode == 0, done.stderr
+
+
+def test_templates_that_are_examples_are_these():
+    """One source: a kind that an example shows in full has no second file."""
+    for kind, file in TEMPLATES.items():
+        folder, _, name = file.partition("/")
+        places = {"examples": ROOT / "examples", "templates": ROOT / "src/ehlectric/commands/templates"}
+        assert (places[folder] / name).is_file(), kind
+    own = {path.name for path in (ROOT / "src/ehlectric/commands/templates").iterdir()}
+    assert own == {file.partition("/")[2] for file in TEMPLATES.values() if file.startswith("templates/")}
+
+
+def test_the_examples_are_in_the_wheel():
+    """Where the command looks for them in an installed package."""
+    table = tomllib.loads((ROOT / "pyproject.toml").read_text())
+    included = table["tool"]["hatch"]["build"]["targets"]["wheel"]["force-include"]
+    assert included == {"examples": "ehlectric/commands/examples"}
+
+
+def test_examples_are_listed_and_copied_with_what_they_need(ehlectric, tmp_path):
+    listed = ehlectric("examples")
+    assert listed.returncode == 0
+    names = sorted(path.stem for path in EXAMPLES.glob("*.toml"))
+    assert [text.split()[0] for text in listed.stdout.splitlines()[:-1]] == names
+    assert ehlectric("examples", "sweep", "-o", "one").returncode == 0
+    # A sweep needs its case.
+    assert sorted(path.name for path in (tmp_path / "one").iterdir()) == ["discharge.toml", "sweep.toml"]
+    assert ehlectric("examples", "rough_contact.toml").returncode == 0
+    assert (tmp_path / "surfaces" / "dektak-1.csv").is_file()
+    assert ehlectric("check", "rough_contact.toml").returncode == 0
+    again = ehlectric("examples", "rough_contact")
+    assert again.stderr == "error: rough_contact.toml: already exists; use --force to overwrite\n"
+    assert ehlectric("examples", "-o", "all", "-q").returncode == 0
+    for path in EXAMPLES.glob("*.toml"):
+        assert (tmp_path / "all" / path.name).read_bytes() == path.read_bytes()
+
+
+ORDER = [
+    "init", "examples", "check", "run", "bearing", "sweep", "map", "sensitivity", "plot", "animate",
+    "surface", "reproduce",
+]  # fmt: skip
+
+
+def test_help_is_in_the_order_of_use(ehlectric):
+    done = ehlectric()
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout == ehlectric("--help").stdout
+    commands = done.stdout.partition("Commands:\n")[2].partition("\n\n")[0]
+    assert [text.split()[0] for text in commands.splitlines()] == ORDER
+
+
+@pytest.mark.parametrize("command", ORDER)
+def test_help_has_what_it_says_and_no_types_of_python(ehlectric, command):
+    text = ehlectric(command, "--help").stdout
+    assert "<bool>" not in text
+    assert f"ehlectric {command} " in text
+    assert "Examples:\n    ehlectric " in text
+    # Every option is explained in a whole sentence.
+    for option in text.partition("Options:\n")[2].partition("\n\n")[0].split("\n  -"):
+        words = option.partition("  [default")[0].split()
+        assert words[-1].endswith((".", "]")), option
+
+
+@pytest.mark.parametrize(("command", "word"), [("run", "[motion]"), ("check", "[discharge]")])
+def test_tables_in_brackets_stand_in_the_help(ehlectric, command, word):
+    assert word in ehlectric(command, "--help").stdout
+
+
+def test_a_shell_is_completed():
+    """As bash asks: commands, and keys of an option that takes one of some names."""
+
+    def completed(line):
+        words = line.split(" ")
+        environment = {
+            "_EHLECTRIC_COMPLETE": "complete_bash", "COMP_WORDS": line, "COMP_CWORD": str(len(words) - 1),
+        }  # fmt: skip
+        program = [sys.executable, "-c", "from ehlectric.commands.app import main; main()"]
+        done = subprocess.run(program, env=os.environ | environment, capture_output=True, text=True)
+        return done.stdout.split()
+
+    assert completed("ehlectric se") == ["sensitivity"]
+    assert completed("ehlectric init --kind b") == ["bearing"]
+    assert completed("ehlectric run --format ") == ["png", "svg", "pdf"]
+
+
+def test_names_of_files_are_completed(tmp_path, monkeypatch):
+    (tmp_path / "cases" / "more.d").mkdir(parents=True)
+    for name in ("a.toml", "cases/b.toml", "cases/c.csv", ".hidden.toml"):
+        (tmp_path / name).write_text("")
+    monkeypatch.chdir(tmp_path)
+    complete = files_ending(".toml")
+    assert complete("") == ["a.toml", "cases/"]
+    assert complete("cases/") == ["cases/b.toml", "cases/more.d/"]
+    assert complete("ca") == ["cases/"]
+    assert complete("none/") == []
+
+
+def test_varied_keys_of_a_sweep_are_completed(ehlectric, tmp_path, case_file, monkeypatch):
+    from typer import Context
+    from typer.main import get_command
+
+    from ehlectric.commands.app import app
+    from ehlectric.commands.maps import _varied_keys
+
+    case_file.write_text(CASE.replace("801", "65"))
+    (tmp_path / "sweep.toml").write_text(
+        'case = "case.toml"\n[vary]\ncontact.entrainment_speed = ["1 m/s", "2 m/s"]\n'
+    )
+    assert ehlectric("sweep", "sweep.toml", "-o", "out", "--workers", 1, "-q").returncode == 0
+    monkeypatch.chdir(tmp_path)
+    context = Context(get_command(app))
+    context.params["folder"] = "out"
+    assert _varied_keys(context, "contact.") == ["contact.entrainment_speed"]
+    assert _varied_keys(context, "bearing.") == []
+    context.params["folder"] = "none"
+    assert _varied_keys(context, "") == []
+
+
+# What Windows lacks of the modules that are used here, and modules that it lacks altogether.
+WITHOUT_POSIX = """
+import os, signal, sys
+lacking = {
+    signal: ("SIGHUP", "SIGKILL", "SIGALRM", "SIGUSR1", "SIGCHLD", "SIGQUIT", "pthread_sigmask", "setitimer"),
+    os: ("sysconf", "sched_getaffinity", "fork", "killpg", "setsid", "mkfifo", "nice", "statvfs"),
+}
+for module, names in lacking.items():
+    for name in names:
+        if hasattr(module, name):
+            delattr(module, name)
+for name in ("fcntl", "resource", "termios", "pwd", "grp", "tty", "pty"):
+    sys.modules[name] = None
+from ehlectric.commands.app import main
+sys.argv = ["ehlectric", *sys.argv[1:]]
+main()
+"""
+
+
+@pytest.mark.parametrize(
+    "words",
+    [("--version",), ("check", "case.toml"), ("run", "case.toml", "-o", "out", "--no-plots")],
+    ids=["version", "check", "run"],
+)
+def test_the_command_starts_where_posix_is_not(tmp_path, case_file, words):
+    """SIGHUP and its like are taken away, as on Windows."""
+    case_file.write_text(CASE.replace("801", "257"))
+    program = [sys.executable, "-c", WITHOUT_POSIX, *words]
+    done = subprocess.run(program, cwd=tmp_path, capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, done.stderr
+    assert "Traceback" not in done.stderr
+
+
+# Names that Windows lacks, by module; ``getattr`` and ``hasattr`` take them as texts.
+LACKING = {
+    "signal": {"SIGHUP", "SIGKILL", "SIGALRM", "SIGUSR1", "SIGCHLD", "SIGQUIT", "setitimer", "alarm"},
+    "os": {
+        "fork",
+        "getuid",
+        "geteuid",
+        "killpg",
+        "mkfifo",
+        "nice",
+        "sched_getaffinity",
+        "setsid",
+        "statvfs",
+        "sysconf",
+        "uname",
+    },
+}
+# Within a try that takes an AttributeError.
+GUARDED = {("memory.py", "sysconf")}
+
+
+def test_no_name_that_windows_lacks_is_used_unguarded():
+    found = set()
+    for path in (ROOT / "src").rglob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            of_module = isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name)
+            if of_module and node.attr in LACKING.get(node.value.id, ()):
+                found.add((path.name, node.attr))
+            if isinstance(node, ast.Import | ast.ImportFrom):
+                names = {alias.name for alias in node.names} | {getattr(node, "module", None)}
+                assert not names & {"fcntl", "resource", "termios", "pwd", "grp", "pty", "tty"}, path
+    assert found == GUARDED

@@ -1,0 +1,11 @@
+"""Titles of figures as a reader sees them."""
+
+from matplotlib.figure import Figure
+from matplotlib.text import Annotation
+
+
+def title_of(figure: Figure) -> list[str]:
+    """Lines of the title over all panels: the finding, then the smaller lines below it."""
+    first = [line for line in figure.get_suptitle().split("\n") if line.strip()]
+    below = [artist.get_text() for artist in figure.get_children() if isinstance(artist, Annotation)]
+    return first + [line for text in below for line in text.split("\n")]

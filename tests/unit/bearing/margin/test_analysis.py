@@ -1,0 +1,250 @@
+"""Critical speed, effects and range of the margin of bearings, from limits and by solving again."""
+
+import dataclasses
+import math
+
+import pytest
+
+from ehlectric.bearing.files import load, save
+from ehlectric.bearing.margin.formula_margins import FormulaMargins
+from ehlectric.bearing.margin.sensitivity import OF_TABLE, Effect
+from ehlectric.bearing.solver import solve_bearing
+from ehlectric.errors import InputError
+from tests.helpers.bearings import BALLS, ROLLERS, bearing_case
+
+FORMULA = {"contacts": "formula"}
+ANGULAR = {
+    "bearing__kind": "angular-contact ball",
+    "bearing__radial_clearance": None,
+    "bearing__contact_angle": "25 deg",
+    "bearing__axial_load": "2 kN",
+}
+STRENGTH, TEMPERATURE = "discharge.dielectric_strength", "bearing.temperature"
+
+
+def solved(tables=BALLS, **changes):
+    return solve_bearing(bearing_case(tables, **(FORMULA | changes)), workers=1)
+
+
+@pytest.fixture(scope="module")
+def balls():
+    return solved()
+
+
+@pytest.fixture(scope="module")
+def rollers():
+    return solved(ROLLERS)
+
+
+def margin_at(result, **changes):
+    """Margin of the same bearing solved again, by formula."""
+    found = solve_bearing(result.case.replace(changes), workers=1).breaks()["margin"]
+    assert found is not None
+    return found
+
+
+def effect(result, key):
+    (found,) = (one for one in result.margin_analysis.effects if one.key == key)
+    return found
+
+
+@pytest.mark.parametrize("name", ["balls", "rollers"])
+def test_the_margin_at_the_critical_speed_is_one(request, name):
+    """Solved again at that speed at eight positions of the cage, where the analysis has two."""
+    result = request.getfixturevalue(name)
+    critical = result.margin_analysis.critical_speed
+    assert margin_at(result, **{"bearing.inner_speed": critical}) == pytest.approx(1.0, abs=1e-2)
+    assert margin_at(result, **{"bearing.inner_speed": 0.95 * critical}) < 1.0
+    assert margin_at(result, **{"bearing.inner_speed": 1.05 * critical}) > 1.0
+
+
+def test_the_critical_speed_does_not_depend_on_the_speed_of_the_file(balls):
+    """From below, where the margin is less than 1, it is the same speed."""
+    slower = solved(bearing__inner_speed="1000 rpm")
+    assert slower.breaks()["margin"] < 1.0 < balls.breaks()["margin"]
+    own, other = (result.margin_analysis.critical_speed for result in (balls, slower))
+    assert other == pytest.approx(own, rel=5e-3)
+
+
+def test_films_are_scaled_to_those_of_the_solution(balls):
+    """Solved films that are 20 % thinner have a critical speed that is higher by about 0.8^(-1/0.67)."""
+    states = [
+        dataclasses.replace(
+            position,
+            **{
+                name: dataclasses.replace(
+                    ring,
+                    values=dataclasses.replace(
+                        ring.values, breakdown_voltage=0.8 * ring.values.breakdown_voltage
+                    ),
+                )
+                for name, ring in (("inner", position.inner), ("outer", position.outer))
+            },
+        )
+        for position in balls.solution.positions
+    ]
+    thin = type(balls)(dataclasses.replace(balls.solution, positions=tuple(states)))
+    assert thin.breaks()["margin"] == pytest.approx(0.8 * balls.breaks()["margin"], rel=1e-12)
+    ratio = thin.margin_analysis.critical_speed / balls.margin_analysis.critical_speed
+    # The shaft voltage rises a little with speed, too: the margin has a smaller exponent than the film.
+    assert 0.8 ** (-1.0 / 0.67) < ratio < 0.8 ** (-1.0 / 0.5)
+
+
+def test_without_a_crossing_there_is_no_critical_speed():
+    """Far above and far below: 300 V/um is beyond any oil, and 1 V/um is less than a gas withstands."""
+    safe, broken = (solved(discharge__dielectric_strength=f"{e} V/um") for e in (300, 1))
+    for result, above in ((safe, True), (broken, False)):
+        speeds = result.margin_analysis.speeds
+        assert speeds.critical is None
+        assert speeds.above is above
+    own = safe.case.bearing.inner_speed
+    assert safe.margin_analysis.speeds.lowest == pytest.approx(0.1 * own)
+    assert safe.margin_analysis.speeds.highest == pytest.approx(4.0 * own)
+    assert "No breakdown is expected at all speeds from 300 to 12000 rpm." in safe.verdict.text
+    assert "Breakdown is expected at all speeds from 300 to 12000 rpm." in broken.verdict.text
+
+
+def test_surfaces_that_touch_at_low_speed_are_said():
+    """At the touching speed lambda is 1; just above it the margin is that of a film of one roughness."""
+    rough = solved(bearing__composite_rq="0.1 um", discharge__dielectric_strength="100 V/um")
+    speeds = rough.margin_analysis.speeds
+    assert speeds.critical is None
+    at = {"bearing.inner_speed": speeds.touching}
+    found = solve_bearing(rough.case.replace(at), workers=1).summary()["bearing"]["lambda_ratio"]
+    assert found == pytest.approx(1.0, abs=5e-3)
+    assert "the surfaces touch and conduct" in rough.verdict.text
+    assert f"{0.1 * 3000:.0f} to" not in rough.verdict.text
+
+
+def test_the_margin_is_proportional_to_the_strength(balls):
+    found = effect(balls, STRENGTH)
+    margin = balls.breaks()["margin"]
+    assert (found.low_input, found.high_input) == (pytest.approx(12e6), pytest.approx(18e6))
+    assert (found.low_margin, found.high_margin) == (pytest.approx(0.8 * margin), pytest.approx(1.2 * margin))
+    assert margin_at(balls, **{STRENGTH: 30e6}) == pytest.approx(2.0 * margin, rel=1e-9)
+
+
+def test_effects_are_those_of_bearings_solved_again(balls):
+    """Two positions of the cage in place of eight hardly matter, because only ratios of margins are used."""
+    found = effect(balls, TEMPERATURE)
+    for end, margin in ((found.low_input, found.low_margin), (found.high_input, found.high_margin)):
+        assert margin_at(balls, **{TEMPERATURE: end}) == pytest.approx(margin, rel=2e-3)
+    assert found.low_input == pytest.approx(333.15)
+    # A warmer oil is thinner, and so is its film.
+    assert found.high_margin < balls.breaks()["margin"] < found.low_margin
+
+
+def test_the_load_acts_on_the_film_and_on_the_shaft_voltage(balls):
+    """A load makes the film thinner, and the capacitance larger, which takes voltage from the shaft.
+
+    Coupled to the winding by far more than its bearings hold, the shaft has all of the voltage, and only the
+    film counts.
+    """
+    found = effect(balls, "bearing.radial_load")
+    assert found.low_input == pytest.approx(1440.0)
+    both = {"bearing.radial_load": 1440.0, "bearing.axial_load": 240.0}
+    assert margin_at(balls, **both) == pytest.approx(found.low_margin, rel=2e-3)
+    stiff = solved(motor__winding_rotor_capacitance="1 mF")
+    alone = effect(stiff, "bearing.radial_load")
+    assert alone.low_margin > stiff.breaks()["margin"] > alone.high_margin
+    assert found.label == "radial load (axial in proportion)"
+
+
+def test_effects_are_sorted_by_size(balls):
+    sizes = [abs(math.log(one.high_margin / one.low_margin)) for one in balls.margin_analysis.effects]
+    assert len(sizes) == 4
+    assert sizes == sorted(sizes, reverse=True)
+    touching = Effect("bearing.temperature", "temperature", 330.0, 350.0, 1.2, 0.0)
+    assert touching.size == math.inf
+
+
+def test_inputs_of_each_kind_of_bearing(rollers):
+    """Rollers and balls have a clearance, angular-contact bearings a contact angle in its place."""
+    keys = {one.key for one in rollers.margin_analysis.effects}
+    assert keys == {STRENGTH, TEMPERATURE, "bearing.radial_clearance", "bearing.radial_load"}
+    found = effect(solved(**ANGULAR), "bearing.contact_angle")
+    assert (math.degrees(found.low_input), math.degrees(found.high_input)) == pytest.approx((20.0, 30.0))
+
+
+def test_a_small_clearance_stays_positive():
+    found = effect(solved(bearing__radial_clearance="4 um"), "bearing.radial_clearance")
+    assert (found.low_input, found.high_input) == (pytest.approx(2e-6), pytest.approx(6e-6))
+
+
+def test_a_temperature_without_effect_is_said():
+    oil = {"base": "paper", "viscosity": "12 mPa s"}
+    analysis = solved(lubricant=oil).margin_analysis
+    assert TEMPERATURE not in {one.key for one in analysis.effects}
+    assert any("temperature" in text and "viscosity" in text for text in analysis.left_out)
+    assert analysis.critical_speed is not None
+
+
+def test_a_strength_over_temperature_counts_and_its_ends_are_said():
+    """At 10 K more the table ends: this effect has no result, and that is said."""
+    table = {"temperature": ["20 degC", "75 degC"], "strength": ["20 V/um", "14.5 V/um"]}
+    result = solved(discharge={"strength_table": table})
+    analysis = result.margin_analysis
+    assert any(
+        text.startswith("temperature: bearing.temperature: got 353.15 K") for text in analysis.left_out
+    )
+    assert effect(result, OF_TABLE).high_margin == pytest.approx(1.2 * result.breaks()["margin"])
+    assert "table of dielectric strength over temperature is an assumption" in result.verdict.text
+
+
+def test_the_range_of_the_margin_takes_all_unfavourable_ends(balls):
+    ranges = {STRENGTH: ["10 V/um", "20 V/um"], TEMPERATURE: ["60 degC", "80 degC"]}
+    analysis = solved(ranges=ranges).margin_analysis
+    worst = margin_at(balls, **{STRENGTH: 10e6, TEMPERATURE: 353.15})
+    best = margin_at(balls, **{STRENGTH: 20e6, TEMPERATURE: 333.15})
+    assert (analysis.low, analysis.high) == (pytest.approx(worst, rel=2e-3), pytest.approx(best, rel=2e-3))
+    (strength,) = (one for one in analysis.effects if one.key == STRENGTH)
+    assert (strength.low_input, strength.high_input) == (10e6, 20e6)
+    assert (balls.margin_analysis.low, balls.margin_analysis.high) == (None, None)
+
+
+def test_a_narrow_range_leaves_the_margin():
+    result = solved(ranges={"motor.common_mode_voltage": [299.9999, 300.0001], STRENGTH: [15e6, 15.000001e6]})
+    analysis, margin = result.margin_analysis, result.breaks()["margin"]
+    assert (analysis.low, analysis.high) == (pytest.approx(margin, rel=1e-6), pytest.approx(margin, rel=1e-6))
+    assert analysis.low <= margin <= analysis.high
+
+
+def test_the_range_contains_the_margin_of_the_file():
+    """The strength of the file is below its stated range: the margin of the file counts as well."""
+    result = solved(ranges={STRENGTH: ["20 V/um", "30 V/um"]})
+    margin = result.breaks()["margin"]
+    assert result.margin_analysis.low == pytest.approx(margin)
+    assert result.margin_analysis.high == pytest.approx(2.0 * margin)
+
+
+def test_a_range_that_formulas_cannot_follow_is_said(balls):
+    """The shape of a Weibull law has no part in a formula; a rough end of a range leaves no film at all."""
+    margins = FormulaMargins.of(balls.solution)
+    with pytest.raises(InputError, match="has an effect that contacts by formula do not have"):
+        margins.at({"discharge.weibull.shape": 5.0})
+    result = solved(
+        discharge__dielectric_strength="100 V/um", ranges={"bearing.composite_rq": ["0.02 um", "50 um"]}
+    )
+    assert result.margin_analysis.low == 0.0
+    assert "the surfaces touch" in result.verdict.text
+    assert result.verdict.level == "yellow"
+
+
+def test_without_a_margin_there_is_no_analysis():
+    for changes in (
+        {"motor": None},
+        {"discharge__dielectric_strength": None},
+        {"bearing__element_material": "silicon-nitride"},
+        {"bearing__inner_speed": "30 rpm"},
+    ):
+        analysis = solved(**changes).margin_analysis
+        assert analysis.critical_speed is None
+        assert analysis.effects == ()
+
+
+def test_a_stored_bearing_has_the_same_analysis_and_verdict(balls, tmp_path):
+    save(balls, tmp_path)
+    stored = load(tmp_path / "bearing.nc")
+    assert stored.margin_analysis == balls.margin_analysis
+    assert stored.verdict == balls.verdict
+    assert stored.summary() == balls.summary()

@@ -1,0 +1,164 @@
+"""Verdicts on bearings: what is expected, and that nothing reads as safe which is not."""
+
+import dataclasses
+
+import pytest
+
+from ehlectric.bearing.margin.analysis import MarginAnalysis
+from ehlectric.bearing.margin.critical_speed import SpeedRange
+from ehlectric.bearing.margin.verdict import bearing_verdict
+from ehlectric.bearing.result import BearingResult
+from ehlectric.bearing.solver import solve_bearing
+from ehlectric.errors import ResultWarning
+from tests.helpers.bearings import BALLS, bearing_case
+
+NO_SPEEDS = SpeedRange(31.4159265, 1256.637, 144.5, None, above=True)
+
+
+def solved(**changes):
+    return solve_bearing(bearing_case(BALLS, contacts="formula", **changes), workers=1)
+
+
+@pytest.fixture(scope="module")
+def balls():
+    return solved()
+
+
+def as_solved(result, *, error=0.0, converged=True, warnings=()):
+    """The same bearing as though its contacts had been solved, with an error, a state and warnings."""
+
+    def curve(one):
+        changes = {"error": error, "converged": converged, "warnings": tuple(warnings)}
+        return dataclasses.replace(
+            one, solutions=tuple(dataclasses.replace(contact, **changes) for contact in one.solutions)
+        )
+
+    solution = result.solution
+    case = solution.case.model_copy(update={"contacts": "solved"})
+    curves = {name: curve(getattr(solution, name)) for name in ("inner_curve", "outer_curve")}
+    return BearingResult(dataclasses.replace(solution, case=case, **curves))
+
+
+def judged(result, **analysis):
+    margin = result.breaks()["margin"]
+    return bearing_verdict(result.solution, MarginAnalysis(margin, NO_SPEEDS, **analysis))
+
+
+def test_a_bearing_that_holds_its_voltage(balls):
+    """All of the numbers are those of its summary."""
+    verdict, found = balls.verdict, balls.summary()
+    assert verdict.level == found["margin"]["level"] == "green"
+    assert found["verdict"] == verdict.text
+    assert list(found).index("verdict") == list(found).index("warning_codes") + 1
+    totals = found["bearing"]
+    assert verdict.margin == totals["margin"]
+    assert verdict.text.startswith(
+        f"No breakdown expected: shaft voltage {totals['shaft_voltage']:.3g} V, first breakdown at "
+        f"{totals['first_break']:.3g} V (margin {totals['margin']:.2f}) at 3000 rpm, 70 °C. Below about "
+    )
+    assert verdict.text.endswith(
+        "Upper bound: isothermal, fully flooded film; dielectric strength 15 V/µm is an assumption."
+    )
+    assert "breakdown-expected" not in found["warning_codes"]
+
+
+def test_a_margin_below_one_is_red_and_a_warning():
+    """Solved contacts decide; those by formula may be 30 % off, and a margin of 0.85 with them is yellow."""
+    slow = solved(bearing__inner_speed="1000 rpm")
+    assert 0.78 < slow.breaks()["margin"] < 0.9
+    found = judged(slow)
+    assert (found.level, found.text[:17]) == ("yellow", "Breakdown likely:")
+    (warning,) = (one for one in slow.warnings() if one.code == "breakdown-expected")
+    assert warning.severity == "warning"
+    assert f"margin {slow.breaks()['margin']:.2f}" in str(warning)
+    red = judged(as_solved(slow))
+    assert (red.level, red.text[:19]) == ("red", "Breakdown expected:")
+
+
+def test_films_by_formula_decide_only_beyond_their_error(balls):
+    margin = balls.breaks()["margin"]
+    for voltage, level in ((1.31, "green"), (1.29, "yellow"), (1 / 1.29, "yellow"), (1 / 1.31, "red")):
+        common = 300.0 * margin / voltage
+        assert judged(solved(motor__common_mode_voltage=common)).level == level
+    # With solved films the same margins are beyond doubt.
+    near = as_solved(solved(motor__common_mode_voltage=300.0 * margin / 1.1))
+    assert judged(near).level == "green"
+    assert judged(as_solved(near, error=0.15)).level == "yellow"
+    assert "Films may be 15 % off." in judged(as_solved(near, error=0.15)).text
+
+
+def test_a_stated_range_across_one_is_yellow(balls):
+    result = as_solved(balls)
+    assert judged(result, low=1.1, high=2.0).level == "green"
+    verdict = judged(result, low=0.9, high=2.0)
+    assert (verdict.level, verdict.text[:19]) == ("yellow", "Breakdown possible:")
+    assert "0.90 to 2.00 within the stated ranges" in verdict.text
+
+
+@pytest.mark.parametrize(
+    ("error", "converged", "code"),
+    [
+        (0.0, False, "not-converged"),
+        (0.3, True, "grid-far-too-coarse"),
+        (None, True, "coarser-grid-unsolved"),
+    ],
+)
+def test_numbers_that_must_not_be_used_have_no_verdict(balls, error, converged, code):
+    warned = as_solved(balls, error=error, converged=converged, warnings=(ResultWarning(code, "no use"),))
+    silent = [as_solved(balls, converged=False)] if not converged else []
+    for result in (warned, *silent):
+        verdict = judged(result)
+        assert verdict.level == "grey"
+        assert verdict.text.startswith("No verdict: ")
+        assert verdict.margin is None
+
+
+def test_a_doubt_leaves_no_green_verdict(balls):
+    text = "the largest field is at an edge"
+    verdict = judged(as_solved(balls, warnings=(ResultWarning("field-range-too-narrow", text),)))
+    assert verdict.level == "yellow"
+    assert "The largest field is at an edge of the field range." in verdict.text
+    partial = judged(as_solved(solved(bearing__composite_rq="0.1 um")))
+    assert partial.level == "yellow"
+    assert "Surfaces may touch (lambda ratio " in partial.text
+
+
+def test_surfaces_that_touch_do_not_read_as_safe():
+    verdict = solved(bearing__inner_speed="30 rpm").verdict
+    assert verdict.level == "yellow"
+    assert verdict.text.startswith("Surfaces touch at 30 rpm, 70 °C (lambda ratio 0.")
+    assert "This is no protection" in verdict.text
+    assert verdict.margin is None
+
+
+def test_ceramic_elements_have_no_verdict():
+    verdict = solved(bearing__element_material="silicon-nitride").verdict
+    assert verdict.level == "grey"
+    assert "their own breakdown is not computed" in verdict.text
+    slow = solved(bearing__element_material="silicon-nitride", bearing__inner_speed="30 rpm").verdict
+    assert "Surfaces touch (lambda ratio 0." in slow.text
+
+
+def test_without_a_strength_one_line_says_so():
+    result = solved(discharge=None)
+    assert result.verdict.level == "grey"
+    assert "no dielectric strength given, no breakdown voltage." in result.verdict.text
+    assert f"The shaft voltage is {result.shaft_voltage:.3g} V at 3000 rpm, 70 °C." in result.verdict.text
+    assert "shaft voltage is" not in solved(discharge=None, motor=None).verdict.text
+
+
+def test_without_a_motor_the_voltage_is_said_that_it_withstands(balls):
+    verdict = solved(motor=None).verdict
+    assert verdict.level == "grey"
+    assert f"first breakdown at {balls.breaks()['first_break']:.3g} V at 3000 rpm" in verdict.text
+    assert "no shaft voltage is known without [motor]" in verdict.text
+
+
+def test_a_film_factor_is_said(balls):
+    grease = judged(solved(bearing__film_factor=0.7))
+    assert grease.text.endswith("Dielectric strength 15 V/µm is an assumption.")
+    assert "Upper bound" not in grease.text
+    oil = "lubricant__temperature__thermal_conductivity"
+    sheared = judged(solved(bearing__film_factor="inlet-shear", **{oil: "0.14 W/m/K"}))
+    assert "fully flooded film with inlet shear heating" in sheared.text
+    assert sheared.margin < balls.breaks()["margin"]

@@ -1,0 +1,206 @@
+"""How results and cases show themselves: one line, a table in a notebook, figures and tables of pandas."""
+# ruff: noqa: E501
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+from ehlectric import InputError, Sweep, solve, solve_motion
+from ehlectric.bearing.result import BearingResult
+from ehlectric.contact.results import Result
+from ehlectric.discharge.verdict import Verdict
+from ehlectric.runtime.values import WIDTH
+from ehlectric.sweep.results import Range
+from tests.conftest import PAPER_CONTACT
+from tests.helpers.bearings import BALLS, bearing_case
+from tests.helpers.sweep_models import LOAD, SPEED, breakdown, grid, sobol
+from tests.unit.commands.test_solve import MOTION
+
+CONTACT = {
+    "contact": PAPER_CONTACT,
+    "lubricant": {"base": "paper"},
+    "title": "A <b> & c",
+    "grid": {"nodes": 401},
+}
+BALL = {"geometry": "point", "radius_x": 0.01, "radius_y": 0.01, "load": 20, "reduced_modulus": 226e9}
+POINT = CONTACT | {"contact": BALL | {"entrainment_speed": 2.0}, "grid": {"nodes": 65}}
+STRENGTH = {"discharge": {"dielectric_strength": "15 V/um"}}
+KINDS = ("line", "point", "bearing", "motion", "sweep")
+
+
+@pytest.fixture(scope="module")
+def results():
+    """A result of every kind."""
+    return {
+        "line": solve(CONTACT),
+        "point": solve(POINT),
+        "bearing": solve(bearing_case(BALLS, contacts="formula")),
+        "motion": solve_motion(MOTION),
+        "sweep": grid({SPEED: (1.0, 2.0, 4.0), LOAD: (1e6, 2e6)}),
+    }
+
+
+@pytest.mark.parametrize(
+    ("kind", "parts"),
+    [
+        ("line", ("<Result 'A <b> & c': line contact", "minimum film 0.6", "maximum pressure 1.9", "V/µm", "converged")),
+        ("point", ("<PointResult", "point contact", "converged>")),
+        ("bearing", ("<BearingResult", "3000 rpm", "capacitance", "first breakdown", "shaft voltage", "converged")),
+        ("motion", ("<MotionResult", "moving roughness", "time steps to", "minimum film", "complete>")),
+        ("sweep", ("<SweepResults 'A sweep'", "grid of 6 points over entrainment speed, load per length", "6 solved")),
+    ],
+)  # fmt: skip
+def test_representation_is_one_short_line(results, kind, parts):
+    text = repr(results[kind])
+    assert len(text) <= WIDTH
+    assert "\n" not in text
+    assert str(results[kind]) == text
+    for part in parts:
+        assert part in text
+
+
+def test_representation_of_what_is_not_converged():
+    result = solve(CONTACT | {"solver": {"max_iterations": 1}})
+    assert "NOT CONVERGED (stalled)>" in repr(result)
+
+
+def test_representation_of_parts_of_a_result(results):
+    for part in (results["line"].film, results["point"].field, results["bearing"].solution):
+        assert len(repr(part)) <= WIDTH
+
+
+@pytest.mark.parametrize(
+    ("kind", "parts"),
+    [
+        ("line", ("Hertz pressure", "minimum film", "µm", "capacitance, field range")),
+        ("point", ("semi-axis, along", "pF")),
+        ("bearing", ("capacitance", "shaft voltage", "warning: ")),
+        ("motion", ("Newton steps a time step",)),
+        ("sweep", ("solved", "of 6 points")),
+    ],
+)
+def test_a_notebook_shows_the_rows_of_the_command(results, kind, parts):
+    html = results[kind]._repr_html_()
+    assert html.count("<tr") == html.count("</tr>") > 2 or kind == "sweep"
+    for part in parts:
+        assert part in html
+
+
+def test_titles_are_no_markup(results):
+    html = results["line"]._repr_html_()
+    assert "A &lt;b&gt; &amp; c" in html
+    assert "<b> &" not in html
+
+
+@pytest.mark.parametrize("kind", [Result, BearingResult])
+def test_a_verdict_is_shown(results, kind, monkeypatch):
+    verdict = Verdict("red", "Breakdown expected at <4 V.", 0.8)
+    monkeypatch.setattr(kind, "verdict", property(lambda _result: verdict), raising=False)
+    result = results["line" if kind is Result else "bearing"]
+    assert repr(result).endswith("verdict red>")
+    html = result._repr_html_()
+    assert "Breakdown expected at &lt;4 V." in html
+    assert "#d55e00" in html
+
+
+def test_cases_show_what_was_given(results):
+    case = results["line"].case
+    html = case._repr_html_()
+    assert "contact.reduced_radius" in html
+    assert ">14.1</td>" in html
+    assert "solver." not in html
+    assert (
+        repr(case) == "<Case 'A <b> & c': line contact, load_per_length 1.57 MN/m, entrainment_speed 4 m/s>"
+    )
+    bearing = results["bearing"].case
+    assert "3000 rpm" in repr(bearing)
+    assert "rpm</td>" in bearing._repr_html_()
+    sweep = Sweep.from_dict({"case": case, "vary": {SPEED: {"from": 1, "to": 8, "count": 8}}})
+    assert "grid of 8 points over contact.entrainment_speed" in repr(sweep)
+    assert "1, 2, 3, 4, 5, 6, ... (8 values)" in sweep._repr_html_()
+    spread = {"case": case, "vary": {SPEED: {"from": 1, "to": 8}}, "design": "sobol", "samples": 2}
+    assert "1 to 8" in Sweep.from_dict(spread)._repr_html_()
+
+
+@pytest.mark.parametrize(
+    ("kind", "label"),
+    [
+        ("line", "pressure"),
+        ("point", "y/b"),
+        ("bearing", "V"),
+        ("motion", "film"),
+        ("sweep", "load per length"),
+    ],
+)
+def test_plot_draws_the_figure_that_tells_most(results, kind, label):
+    figure = results[kind].plot()
+    assert isinstance(figure, Figure)
+    texts = [text for ax in figure.axes for text in (ax.get_ylabel(), ax.get_xlabel())]
+    assert any(label in text for text in texts), texts
+
+
+def test_a_notebook_shows_the_figure(results):
+    """A figure of a canvas without a window has no image of its own in a notebook."""
+    assert results["line"].plot()._repr_png_().startswith(b"\x89PNG")
+
+
+def test_plot_by_name(results):
+    line = results["line"]
+    for name in ("potential", "potential.png"):
+        assert line.plot(name).axes[0].get_xlabel() == line.plot("potential").axes[0].get_xlabel()
+    with pytest.raises(InputError, match=r"figure: got 'fild.png'; expected one of film\.png"):
+        line.plot("fild")
+
+
+def test_discharges_are_drawn_by_their_field():
+    result = solve(CONTACT | STRENGTH)
+    assert "field" in result.plot().axes[0].get_ylabel()
+
+
+def test_plot_of_sweeps():
+    lines = grid({SPEED: (1.0, 2.0, 4.0)}).plot()
+    assert "breakdown voltage" in lines.axes[0].get_ylabel()
+    assert "entrainment speed" in lines.axes[0].get_xlabel()
+    swept = grid({SPEED: (1.0, 2.0, 4.0), LOAD: (1e6, 2e6)})
+    assert "minimum film" in swept.plot(value="film.minimum_thickness").axes[1].get_ylabel()
+    assert "load" in swept.plot(x=LOAD).axes[0].get_xlabel()
+    assert sobol({SPEED: Range(1.0, 4.0), LOAD: Range(1e6, 2e6)}, 16, breakdown).plot().axes
+    with pytest.raises(InputError, match="no point of 3 is solved"):
+        grid({SPEED: (1.0, 2.0, 4.0)}, status=lambda _: "failed").plot()
+
+
+def test_tables_of_pandas(results):
+    line, bearing, motion = (results[kind].to_dataframe() for kind in ("line", "bearing", "motion"))
+    film = results["line"].film
+    np.testing.assert_array_equal(line["thickness"], film.thickness)
+    assert line.attrs["units"] == {"x": "m", "pressure": "Pa", "thickness": "m", "density": ""}
+    contacts = results["bearing"].contacts()
+    assert len(bearing) == len(contacts)
+    assert bearing["load"].tolist() == [row["load"] for row in contacts]
+    assert bearing.attrs["units"]["contact_angle"] == "rad"
+    assert bearing["max_pressure"].dtype == float
+    assert set(bearing.attrs["units"]) == set(bearing) - {"element", "ring", "solved"}
+    np.testing.assert_array_equal(motion["minimum_thickness"], results["motion"].values("minimum_thickness"))
+    assert motion.attrs["units"]["minimum_thickness"] == "m"
+
+
+def test_a_map_node_by_node(results):
+    film = results["point"].film
+    frame = results["point"].to_dataframe()
+    assert len(frame) == film.thickness.size
+    row = frame.iloc[film.y.size + 2]
+    assert (row["x"], row["y"], row["thickness"]) == (film.x[1], film.y[2], film.thickness[1, 2])
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_result_has_a_summary_and_a_dataset(results, kind):
+    result = results[kind]
+    assert isinstance(result.summary(), dict)
+    assert result.to_xarray().attrs["case"]
+
+
+def test_dataset_of_a_bearing_has_units(results):
+    dataset = results["bearing"].to_xarray()
+    assert dataset["load"].attrs["units"] == "N"
+    positions = results["bearing"].solution.positions
+    np.testing.assert_array_equal(dataset["load"][0, 0], positions[0].inner.load)

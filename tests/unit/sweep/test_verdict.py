@@ -1,0 +1,119 @@
+"""Verdicts on sweeps, from made-up points whose margins are known."""
+
+import math
+
+import numpy as np
+import pytest
+
+from ehlectric import Case
+from ehlectric.sweep.results import Point, Range, SweepResults
+from ehlectric.sweep.verdict import crossing, sweep_verdict, value_text
+from tests.helpers.bearings import BALLS, bearing_case
+
+SPEED, TEMPERATURE = "bearing.inner_speed", "bearing.temperature"
+CONTACT = Case.from_dict(
+    {
+        "contact": {
+            "reduced_radius": "14.1 mm", "reduced_modulus": "226 GPa", "max_hertz_pressure": "1 GPa",
+            "entrainment_speed": "4 m/s",
+        },
+        "lubricant": {"base": "paper"},
+    }
+)  # fmt: skip
+
+
+def rpm(value):
+    return value * math.pi / 30.0
+
+
+def point(number, inputs, margin, *, status="solved", codes=(), lubrication="full film"):
+    table = {"margin": margin, "lubrication": lubrication}
+    summary = {"bearing": table, "discharge": table, "warnings": list(codes), "warning_codes": list(codes)}
+    return Point(number, inputs, status, summary=summary)
+
+
+def sweep(axes, margins, *, case=None, **points):
+    """Sweep over one axis with these margins; keywords change single points by their number."""
+    (key,) = axes
+    rows = [
+        point(k, {key: value}, margin, **points.get(f"at_{k}", {}))
+        for k, (value, margin) in enumerate(zip(axes[key], margins, strict=True))
+    ]
+    return SweepResults(case or bearing_case(BALLS), "grid", axes, {}, 0, tuple(rows))
+
+
+def test_where_the_margin_falls_below_one():
+    """A margin of (n/1380)^0.6 crosses 1 at 1380 rpm, whichever way the values run."""
+    speeds = [300.0, 900.0, 2500.0, 6000.0]
+    for order in (speeds, speeds[::-1]):
+        margins = [(n / 1380.0) ** 0.6 for n in order]
+        verdict = sweep_verdict(sweep({SPEED: tuple(map(rpm, order))}, margins))
+        assert verdict.level == "yellow"
+        assert verdict.text == (
+            "Breakdown is expected at 2 of 4 points: the margin is 0.40 to 2.42. "
+            "The margin falls below 1 below about 1380 rpm."
+        )
+        assert verdict.margin == pytest.approx(min(margins))
+
+
+def test_a_margin_that_falls_with_the_input():
+    kelvin = (333.15, 343.15, 353.15)
+    verdict = sweep_verdict(sweep({TEMPERATURE: kelvin}, [1.44, 1.2, 1 / 1.2]))
+    # Half of the logarithms: sqrt(343.15*353.15) K = 348.11 K.
+    assert verdict.text.endswith("The margin falls below 1 above about 75 °C.")
+
+
+@pytest.mark.parametrize(
+    ("margins", "level"), [([1.1, 2.0], "green"), ([0.5, 0.9], "red"), ([0.9, 1.1], "yellow")]
+)
+def test_levels(margins, level):
+    assert sweep_verdict(sweep({SPEED: (100.0, 200.0)}, margins)).level == level
+
+
+def test_contacts_have_their_own_margin():
+    verdict = sweep_verdict(sweep({"contact.entrainment_speed": (1.0, 4.0)}, [0.5, 2.0], case=CONTACT))
+    assert verdict.text.endswith("The margin falls below 1 below about 2 m/s.")
+
+
+def test_points_without_a_margin_leave_no_green_verdict():
+    speeds, margins = (1.0, 10.0, 100.0, 200.0, 400.0), [None, None, 1.5, 0.5, 2.0]
+    verdict = sweep_verdict(
+        sweep(
+            {SPEED: speeds},
+            margins,
+            at_0={"lubrication": "conducting"},
+            at_1={"status": "not converged"},
+            at_3={"codes": ["grid-far-too-coarse"]},
+        )
+    )
+    assert verdict.level == "yellow"
+    assert verdict.text == (
+        "Breakdown is expected at none of 2 points: the margin is 1.50 to 2.00. 3 more points have no "
+        "margin, 1 surfaces touch, 1 not solved, 1 solved, but not to be used."
+    )
+    one = sweep_verdict(sweep({SPEED: speeds[:3]}, [1.5, None, 2.0], at_1={"lubrication": "conducting"}))
+    assert one.text.endswith("1 more point has no margin, surfaces touch.")
+
+
+def test_sweeps_without_margins_have_no_verdict():
+    assert sweep_verdict(sweep({SPEED: (1.0, 2.0)}, [None, None])) is None
+
+
+def test_no_crossing_where_two_inputs_vary_or_values_are_words():
+    inputs = [{SPEED: a, TEMPERATURE: b} for a in (100.0, 200.0) for b in (330.0, 350.0)]
+    rows = tuple(
+        point(k, one, margin) for k, (one, margin) in enumerate(zip(inputs, (0.5, 2, 0.5, 2), strict=True))
+    )
+    axes = {SPEED: (100.0, 200.0), TEMPERATURE: (330.0, 350.0)}
+    both = SweepResults(bearing_case(BALLS), "grid", axes, {}, 0, rows)
+    assert sweep_verdict(both).text == "Breakdown is expected at 2 of 4 points: the margin is 0.50 to 2.00."
+    words = sweep({"bearing.fill": ("oil", "air")}, [0.5, 2.0])
+    assert "falls below" not in sweep_verdict(words).text
+    sobol = SweepResults(bearing_case(BALLS), "sobol", {}, {SPEED: Range(1.0, 2.0)}, 2, rows)
+    assert "falls below" not in sweep_verdict(sobol).text
+
+
+def test_a_linear_input_below_zero_is_interpolated_as_it_is():
+    assert crossing((-5e-6, 0.5), (15e-6, 2.0)) == pytest.approx(5e-6)
+    assert crossing((2.0, 0.5), (8.0, 2.0)) == pytest.approx(4.0)
+    assert value_text("bearing.contact_angle", np.deg2rad(25.0), bearing_case(BALLS)) == "25 deg"

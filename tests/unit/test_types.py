@@ -1,0 +1,93 @@
+"""Types of the public names, as a user's type checker sees them."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import ehlectric
+
+SCRIPT = """
+import pint
+import ehlectric
+from ehlectric import BearingCase, BearingResult, Case, PointResult, Result, Sweep, solve, solve_many
+
+unit: pint.UnitRegistry[float] = pint.UnitRegistry()
+line = Case.line(
+    reduced_radius=0.0141, reduced_modulus="226 GPa", load_per_length=unit.Quantity(1.57, "MN/m"),
+    speed_1=1.0, speed_2=unit.Quantity(7.0, "m/s"), lubricant="paper", grid={"nodes": 801},
+)
+ball = Case.point(
+    radius_x="10 mm", radius_y=0.01, load=20, reduced_modulus=226e9, entrainment_speed=2.0,
+    lubricant={"base": "paper"},
+)
+bearing = BearingCase.of(
+    base="6208", radial_clearance="10 um", radial_load="1 kN", inner_speed="3000 rpm",
+    temperature="70 degC", composite_rq="0.03 um", lubricant={"base": "paper", "viscosity": "20 mPa s"},
+)
+tables = Case(contact={"load": 20}, lubricant={"base": "paper"})
+machine = BearingCase(bearing={"base": "6208"}, lubricant={"base": "paper"}, contacts="formula")
+sweep = Sweep.from_dict({"case": line, "vary": {"grid.nodes": [401, 801]}})
+reveal_type(solve(line))
+reveal_type(solve(ball))
+reveal_type(solve(bearing))
+reveal_type(solve(Case.from_toml("case.toml")))
+reveal_type(solve("case.toml"))
+thickness: float = solve(Case.from_toml("case.toml")).film.minimum_thickness
+for one in solve_many([bearing]):
+    reveal_type(one.result)
+for number, result, error in solve_many([line, line]):
+    reveal_type(result)
+reveal_type(solve(line).plot())
+reveal_type(line.replace({"grid.nodes": 401}))
+"""
+WRONG = """
+from ehlectric import Case, solve
+
+Case.line(reduced_radus=1.0, lubricant="paper")
+Case.line(reduced_radius=[1.0], lubricant="paper")
+Case(contact=5, lubricant={})
+solve(5)
+case = Case.line(lubricant="paper")
+solve(case).no_such_attribute
+solve(case, workers=2)
+"""
+
+
+def checked(tmp_path, script):
+    """Lines of mypy about a script of a user, which has its own strict settings and no plugin."""
+    (tmp_path / "script.py").write_text(script, encoding="utf-8")
+    (tmp_path / "mypy.ini").write_text("[mypy]\nstrict = True\n", encoding="utf-8")
+    done = subprocess.run(
+        [sys.executable, "-m", "mypy", "--config-file", "mypy.ini", "script.py"],
+        cwd=tmp_path,
+        env={"MYPYPATH": str(Path(ehlectric.__file__).parents[1]), "PATH": ""},
+        capture_output=True,
+        text=True,
+    )
+    return [line for line in done.stdout.splitlines() if line.startswith("script.py")]
+
+
+@pytest.mark.slow
+def test_a_type_checker_knows_the_results(tmp_path):
+    lines = checked(tmp_path, SCRIPT)
+    assert not [line for line in lines if ": error" in line], lines
+    shown = [line.partition("Revealed type is ")[2].strip('"') for line in lines]
+    assert shown == [
+        "ehlectric.contact.results.Result",
+        "ehlectric.contact.results.PointResult",
+        "ehlectric.bearing.result.BearingResult",
+        "ehlectric.contact.results.Result | ehlectric.contact.results.PointResult",
+        "Any",
+        "ehlectric.bearing.result.BearingResult | None",
+        "ehlectric.contact.results.Result | None",
+        "matplotlib.figure.Figure",
+        "ehlectric.cases.case.LineCase",
+    ]
+
+
+@pytest.mark.slow
+def test_a_type_checker_finds_mistakes(tmp_path):
+    wrong = [line.split(":")[1] for line in checked(tmp_path, WRONG) if ": error" in line]
+    assert {int(number) for number in wrong} == {4, 5, 6, 7, 9, 10}
