@@ -29,6 +29,7 @@ from ehlectric.cases import contact as contact_inputs
 from ehlectric.cases import library
 from ehlectric.cases import roughness as roughness_inputs
 from ehlectric.cases import table as validation
+from ehlectric.cases.grade import Grade
 from ehlectric.cases.input_keys import TABLES, descriptions
 from ehlectric.cases.lubricant import LAWS, density_law, permittivity_law
 from ehlectric.cases.quantity import Count, Quantities, Quantity
@@ -85,7 +86,7 @@ def _bounds(given: Quantity | Count) -> str:
 def _find(annotation: Any, metadata: Iterable[Any]) -> Any:
     """The Quantity, Quantities, Count, literal strings or table behind an annotation."""
     for item in metadata:
-        if isinstance(item, Quantity | Quantities | Count):
+        if isinstance(item, Quantity | Quantities | Count | Grade):
             return item
     if get_origin(annotation) is Literal:
         return get_args(annotation)
@@ -112,6 +113,8 @@ def _takes(name: str, found: Any, *, pair: bool) -> str:
         return ", ".join(f'`"{name}"`' for name in _NAMES[name])
     if name == "film_factor":
         return '`"none"`, `"inlet-shear"`, or a number above 0 and at most 1'
+    if isinstance(found, Grade):
+        return f'{found.takes}, as `46` or `"ISO VG 46"`'
     if isinstance(found, Quantities):
         return f"a list of {found.least} or more, each {_takes(name, found.each, pair=False)}"
     if isinstance(found, Quantity | Count):

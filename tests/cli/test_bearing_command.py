@@ -161,7 +161,10 @@ def test_json_on_request(ehlectric, bearing_file, tmp_path):
         (
             'radial_clearance = "20 um"',
             'contact_angle = "15 deg"',
-            "bearing.radial_clearance: missing; a bearing of kind 'cylindrical roller' needs it",
+            (
+                "bearing.radial_clearance: missing; a bearing of kind 'cylindrical roller' needs it: the "
+                "clearance in operation, or clearance_class with bore"
+            ),
         ),
         (
             "elements = 14",
@@ -176,7 +179,7 @@ def test_json_on_request(ehlectric, bearing_file, tmp_path):
             '[lubricant]\nviscosity = "0.02 Pa s"\n',
             (
                 "lubricant.viscosity: got viscosity and temperature together; expected either viscosity or "
-                "temperature"
+                "[lubricant.temperature]"
             ),
         ),
     ],

@@ -114,7 +114,8 @@ def test_a_point_contact_is_run_too(ehlectric, tmp_path, case_file):
 # What is typed, changes of the case, and what is said.
 PASSES = "passes = 0.375\n"
 ALONE = (
-    "motion: got roughness on surfaces at rest alone; expected it on one that moves, or a case without motion"
+    "motion: got roughness only on surfaces at rest; expected roughness on a surface that moves, or a case "
+    "without motion"
 )
 ROUGH = CASE[CASE.index("[[roughness]]") : CASE.index("[grid]")]
 BAD = [

@@ -213,6 +213,24 @@ def test_paper_case_needs_no_warning():
     assert not list(line_case_warnings(case, resolve(case)))
 
 
+@pytest.mark.parametrize(("radius", "told"), [("1 m", 0), ("1.1 m", 1)])
+def test_radii_of_no_machine_are_doubted(radius, told):
+    case = Case.from_dict(
+        {
+            "contact": {
+                "reduced_radius": radius,
+                "reduced_modulus": "226 GPa",
+                "max_hertz_pressure": "1 GPa",
+                "entrainment_speed": "4 m/s",
+            },
+            "lubricant": {"base": "paper"},
+        }
+    )
+    warnings = [w for w in line_case_warnings(case, resolve(case)) if w.code == "radius-large"]
+    assert len(warnings) == told
+    assert all(str(w).startswith("reduced_radius is 1.1 m, more than machine parts") for w in warnings)
+
+
 def test_replace_displaces_alternatives():
     case = Case.from_dict(TABLE)
     other = case.replace({"contact.max_hertz_pressure": "1 GPa"}, contact={"speed_1": 1.0, "speed_2": 3.0})

@@ -24,8 +24,15 @@ lists = st.lists(st.builds(ResultWarning, st.sampled_from(list(CODES)), words))
 
 # Warnings as versions without codes wrote them, by the code that each has.
 TEXTS = json.loads((EARLIER / "warnings.json").read_text(encoding="utf-8"))
-# Codes of warnings that no file has: the commands alone tell them.
+# Codes of warnings that no file has without its code: the commands alone tell them, or no version without
+# codes gave them.
 UNSTORED = {
+    "radius-large",
+    "speed-high",
+    "temperature-extreme",
+    "viscosity-high",
+    "clearance-class",
+    "viscosity-grade",
     "speed-left-out",
     "points-with-warnings",
     "points-with-notes",

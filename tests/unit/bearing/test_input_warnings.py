@@ -1,0 +1,59 @@
+"""Warnings of inputs that a machine hardly has, and of inputs that stand for a range."""
+
+import pytest
+
+from ehlectric.bearing.warnings import input_warnings
+from tests.helpers.bearings import BALLS, bearing_case
+
+GRADE = {
+    "lubricant__temperature__kinematic_viscosity_40": None,
+    "lubricant__temperature__iso_vg": 32,
+}
+CLASS = {"bearing__radial_clearance": "C2", "bearing__bore": "40 mm"}
+
+
+def told(viscosity=0.01, **changes):
+    return {w.code: str(w) for w in input_warnings(bearing_case(BALLS, **changes), viscosity)}
+
+
+def test_an_ordinary_bearing_has_none():
+    assert told() == {}
+
+
+@pytest.mark.parametrize(
+    ("code", "just", "above", "text"),
+    [
+        # 60 mm and 16 667 rpm are 1e6 mm/min.
+        (
+            "speed-high",
+            {"bearing__inner_speed": "16660 rpm"},
+            {"bearing__inner_speed": "16680 rpm"},
+            "1.668e+04 rpm and a pitch diameter of 60 mm: n d_m is 1e+06 mm/min",
+        ),
+        (
+            "temperature-extreme",
+            {"bearing__temperature": "200 degC"},
+            {"bearing__temperature": "201 degC"},
+            "bearing.temperature is 201 °C",
+        ),
+        (
+            "temperature-extreme",
+            {"bearing__temperature": "-40 degC"},
+            {"bearing__temperature": "-41 degC"},
+            "bearing.temperature is -41 °C",
+        ),
+        ("viscosity-high", {"viscosity": 10.0}, {"viscosity": 11.0}, "the oil has 11 Pa s at 70 °C"),
+        ("viscosity-grade", {}, GRADE, "ISO VG 32 is 28.8 to 35.2 mm²/s at 40 °C; computed with the middle"),
+        (
+            "clearance-class",
+            {},
+            CLASS,
+            "C2 is 1 to 11 um before mounting; computed with 6 um",
+        ),
+    ],
+)
+def test_limits(code, just, above, text):
+    assert told(**just) == {}
+    found = told(**above)
+    assert list(found) == [code]
+    assert text in found[code]
