@@ -4,6 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 RESULTS := results/line_contact
 POINT_RESULTS := results/ball_contact
+BEARING_RESULTS := results/bearing_6208
 
 export PIP_CONSTRAINT := $(CURDIR)/requirements.lock
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
@@ -12,7 +13,7 @@ export PIP_DISABLE_PIP_VERSION_CHECK := 1
 .PHONY: help install run test slow lint check format docs figures bench bench-public lock clean
 
 help:
-	@echo "make run     install and solve the example, with figures"
+	@echo "make run     install and solve a contact and a bearing, with figures"
 	@echo "make test    install and run the tests"
 	@echo "make slow    run the long tests"
 	@echo "make check   format, lint, types, import contract and tests"
@@ -51,7 +52,8 @@ install: $(BIN)/python pyproject.toml requirements.lock
 
 run: $(VENV)/.run
 	$(BIN)/ehlectric run examples/line_contact.toml -o $(RESULTS)
-	@echo "The figures are in $(CURDIR)/$(RESULTS):" && ls $(RESULTS)/*.png
+	$(BIN)/ehlectric bearing examples/bearing_6208.toml --contacts formula -o $(BEARING_RESULTS)
+	@echo "The figures are in $(CURDIR)/results:" && ls $(RESULTS)/*.png $(BEARING_RESULTS)/*.png
 
 test: $(VENV)/.test
 	$(BIN)/python -m pytest
@@ -84,6 +86,8 @@ figures: $(VENV)/.run
 	$(BIN)/ehlectric sweep examples/sweep.toml -o results/sweep --quiet
 	$(BIN)/ehlectric map results/sweep --x contact.entrainment_speed --y contact.load_per_length --quiet
 	cp results/sweep/map_discharge.breakdown_voltage.png docs/figures/breakdown_map.png
+	$(BIN)/ehlectric bearing examples/bearing_6208.toml --contacts formula -o $(BEARING_RESULTS) --quiet
+	cp $(BEARING_RESULTS)/breakdown_over_speed.png docs/figures
 
 bench: $(VENV)/.dev
 	$(BIN)/python benchmarks/table.py

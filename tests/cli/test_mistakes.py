@@ -56,7 +56,7 @@ REFUSED = {
         {'base = "6208"': 'base = "6205"'},
         (
             "bearing.base: got '6205'; expected a name of the library: "
-            "209-hamrock, 6208, nu-215; or leave base out and give kind, elements, element_diameter"
+            "209-hamrock, 6205, 6208, nu-215; or leave base out and give kind, elements, element_diameter"
         ),
     ),
     "E4": (

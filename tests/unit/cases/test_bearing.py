@@ -145,11 +145,11 @@ MISTAKES = [
     ),
     (
         {"bearing__base": "6209"},
-        "bearing.base: got '6209'; expected a name of the library: 209-hamrock, 6208, nu-215",
+        "bearing.base: got '6209'; expected a name of the library: 209-hamrock, 6205, 6208, nu-215",
     ),
     (
         {"bearing__base": 6208},
-        "bearing.base: got 6208; expected a name of the library, as a string: 209-hamrock, 6208, nu-215",
+        "bearing.base: got 6208; expected a name of the library, as a string: 209-hamrock, 6205, 6208, nu-215",
     ),
     ({"lubricant__base": "papier"}, "lubricant.base: got 'papier'; expected"),
     ({"lubricant__base": 46}, "lubricant.base: got 46; expected a name of the library, as a string: "),
@@ -394,3 +394,14 @@ def test_a_given_viscosity_knows_no_temperature():
         assert any("lubricant.viscosity is given" in text for text in map(str, result.warnings()))
     over = solve_bearing(bearing_case(BALLS, contacts="formula"))
     assert not any("lubricant.viscosity" in text for text in map(str, over.warnings()))
+
+
+def test_ball_bearing_6205_of_the_library_has_the_published_frequencies():
+    """Frequencies over that of the shaft, printed by the Bearing Data Center: 5.4152 of balls at the inner ring,
+    3.5848 at the outer ring, 0.39828 of the cage; outer ring at rest, contact angle 0."""
+    table = library.bearing("6205")
+    inches = [float(table[name].removesuffix(" inch")) for name in ("element_diameter", "pitch_diameter")]
+    ratio = inches[0] / inches[1]
+    assert 0.5 * table["elements"] * (1.0 + ratio) == pytest.approx(5.4152, rel=0.0, abs=1e-4)
+    assert 0.5 * table["elements"] * (1.0 - ratio) == pytest.approx(3.5848, rel=0.0, abs=1e-4)
+    assert 0.5 * (1.0 - ratio) == pytest.approx(0.39828, rel=0.0, abs=5e-5)
