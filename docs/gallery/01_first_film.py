@@ -11,6 +11,7 @@ import matplotlib.pyplot as plt
 
 import ehlectric
 from ehlectric.figures.contact import line as plot
+from ehlectric.figures.contact import line_maps
 
 case = ehlectric.Case.from_dict(
     {
@@ -31,15 +32,16 @@ result = ehlectric.solve(case)
 plot.pressure_and_film(result, plt.subplots()[1])
 
 # %%
-# The potential is linear across the film. Heights are drawn hundreds of times larger than lengths.
-plot.potential(result, plt.subplots()[1])
+# The potential is linear across the film. The figure says how many times its heights are
+# enlarged.
+line_maps.potential(result, plt.subplots()[1])
 
 # %%
-# The field strength, divided by that of parallel plates at the distance of the minimum film:
-plot.field_strength(result, plt.subplots()[1])
+# The field strength, with its maximum at the constriction enlarged. Grey is below the range of the colours:
+line_maps.field_strength(result, plt.subplots()[1])
 
 # %%
-# The field is largest at the exit constriction, in a strip some twenty micrometres wide. Its width is of
+# The field has its maximum at the exit constriction, in a strip some twenty micrometres wide. Its width is of
 # interest for the current density of a discharge.
 plot.field_profiles(result, plt.subplots()[1])
 
@@ -48,7 +50,7 @@ plot.field_profiles(result, plt.subplots()[1])
 field = result.field
 print(f"minimum film      {1e6 * result.film.minimum_thickness:.3f} µm")
 print(f"estimated error   {100 * result.film.discretisation_error:.2f} %")
-print(f"largest field     {1e-6 * field.max_strength:.2f} V/µm")
+print(f"maximum field     {1e-6 * field.max_strength:.2f} V/µm")
 print(f"V12/h_min         {1e-6 * field.voltage / result.film.minimum_thickness:.2f} V/µm")
 print(f"width above 95 %  {1e6 * field.high_field_width:.1f} µm")
 print(f"capacitance       {1e9 * field.capacitance:.2f} nF/m over 2.5 half-widths")

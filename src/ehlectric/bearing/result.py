@@ -152,7 +152,7 @@ class BearingResult(Shown):
         frame.attrs["units"] = {str(name): units[str(name)] for name in numbers}
         return frame
 
-    def headline(self) -> str:
+    def _headline(self) -> str:
         """Title, speed, capacitance, first breakdown voltage and shaft voltage on one line."""
         voltage, shaft = self.breaks()["first_break"], self.shaft_voltage
         return headline(
@@ -162,7 +162,7 @@ class BearingResult(Shown):
             None if voltage is None else f"first breakdown {voltage:.4g} V",
             None if shaft is None else f"shaft voltage {shaft:.4g} V",
             "converged" if self.converged else "NOT CONVERGED",
-            verdict=getattr(self, "verdict", None),
+            verdict=vars(self).get("verdict"),  # of those known: the verdict takes seconds
         )
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self, Unpack
 
@@ -14,7 +14,8 @@ from ehlectric.cases.case import Title
 from ehlectric.cases.changes import Groups, displace, set_keys
 from ehlectric.cases.discharge import STRENGTHS, TABLES
 from ehlectric.cases.grid import Solver
-from ehlectric.cases.keywords import BearingKeys, Keys, tables, takes
+from ehlectric.cases.keywords.constructors import tables, takes
+from ehlectric.cases.keywords.types import BearingKeys, Keys
 from ehlectric.cases.ranges import InputRange, ranges_of
 from ehlectric.cases.row import amount, value_at
 from ehlectric.cases.table import Table, read_toml
@@ -65,7 +66,7 @@ class BearingCase(Tabled, Table):
         Title of tables and figures.
     contacts : str, optional
         "solved", or "formula" for contacts from film-thickness formulas.
-    discharge, motor, solver : mapping, optional
+    discharge, motor, solver, ranges : mapping, optional
         Further tables, as in a bearing file.
 
     Raises
@@ -85,8 +86,8 @@ class BearingCase(Tabled, Table):
             contacts: str = ...,
             discharge: BearingDischarge | Keys = ...,
             motor: Motor | Keys | None = ...,
-            ranges: Mapping[str, Sequence[Any]] = ...,
             solver: Solver | Keys = ...,
+            ranges: Keys | None = ...,
         ) -> None: ...
 
     ADVICE: ClassVar = _ADVICE
@@ -130,7 +131,7 @@ class BearingCase(Tabled, Table):
                 )
         return self
 
-    def headline(self) -> str:
+    def _headline(self) -> str:
         """Title, bearing, loads and speed on one line."""
         bearing = self.bearing
         loads = [("radial", bearing.radial_load), ("axial", bearing.axial_load)]
@@ -153,6 +154,7 @@ class BearingCase(Tabled, Table):
         discharge: BearingDischarge | Keys | None = None,
         motor: Motor | Keys | None = None,
         solver: Solver | Keys | None = None,
+        ranges: Keys | None = None,
         **bearing: Unpack[BearingKeys],
     ) -> BearingCase:
         """Make a bearing case from the keys of its table ``bearing``.
@@ -165,11 +167,11 @@ class BearingCase(Tabled, Table):
             Title of tables and figures.
         contacts : str, optional
             "solved", or "formula" for contacts from film-thickness formulas.
-        discharge, motor, solver : optional
+        discharge, motor, solver, ranges : optional
             Further tables, as in a bearing file.
         **bearing
             Keys of the table ``bearing``: floats in SI units, texts with units, or quantities of pint; see
-            ``ehlectric.cases.keywords.BearingKeys``.
+            ``ehlectric.cases.keywords.types.BearingKeys``.
 
         Returns
         -------
@@ -194,7 +196,7 @@ class BearingCase(Tabled, Table):
         ... )
         <BearingCase 6208, radial load 1 kN, 3000 rpm, 70 degC>
         """
-        given = tables(lubricant=lubricant, discharge=discharge, motor=motor, solver=solver)
+        given = tables(lubricant=lubricant, discharge=discharge, motor=motor, solver=solver, ranges=ranges)
         return BearingCase.from_dict({"title": title, "contacts": contacts, "bearing": bearing, **given})
 
     @classmethod

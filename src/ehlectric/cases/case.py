@@ -14,12 +14,12 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self, TypeVar, Unpac
 
 from pydantic import AfterValidator, model_validator
 
-from ehlectric.cases.alternatives import displace_alternatives, drop_geometry
-from ehlectric.cases.changes import flattened, set_keys
+from ehlectric.cases.changes import displace_alternatives, drop_geometry, flattened, set_keys
 from ehlectric.cases.contact import Contact
 from ehlectric.cases.discharge import Discharge
 from ehlectric.cases.grid import POINT_GRID_KEYS, Electric, Grid, Solver, point_grid
-from ehlectric.cases.keywords import Keys, LineKeys, PointKeys, tables, takes
+from ehlectric.cases.keywords.constructors import tables, takes
+from ehlectric.cases.keywords.types import Keys, LineKeys, PointKeys
 from ehlectric.cases.lubricant import Lubricant
 from ehlectric.cases.motion import Motion
 from ehlectric.cases.roughness import Roughness, check_geometry
@@ -85,10 +85,6 @@ class Case(Tabled, Table):
     2.0
     """
 
-    ADVICE: ClassVar = {
-        f"lubricant.{key}": "a contact expects the viscosity at its temperature, lubricant.viscosity"
-        for key in ("temperature", "iso_vg", "viscosity_grade", "viscosity_index")
-    }
     if TYPE_CHECKING:
 
         def __init__(
@@ -104,6 +100,11 @@ class Case(Tabled, Table):
             grid: Grid | Keys = ...,
             solver: Solver | Keys = ...,
         ) -> None: ...
+
+    ADVICE: ClassVar = {
+        f"lubricant.{key}": "a contact expects the viscosity at its temperature, lubricant.viscosity"
+        for key in ("temperature", "iso_vg", "viscosity_grade", "viscosity_index")
+    }
 
     title: Title = ""
     contact: Contact
@@ -158,7 +159,7 @@ class Case(Tabled, Table):
         # A LineCase is equal to a Case with the same values, as a result has once it is loaded.
         return self.__dict__ == other.__dict__ if isinstance(other, Case) else NotImplemented
 
-    def headline(self) -> str:
+    def _headline(self) -> str:
         """Title, geometry, load and speed on one line."""
         given = [(key, self.contact.value(key), unit) for key, unit in _SHOWN.items()]
         numbers = [f"{key} {amount(value, unit)}" for key, value, unit in given if value is not None]
@@ -191,7 +192,7 @@ class Case(Tabled, Table):
             Further tables, as in a case file.
         **contact
             Keys of the table ``contact``: floats in SI units, texts with units, or quantities of pint; see
-            ``ehlectric.cases.keywords.LineKeys``.
+            ``ehlectric.cases.keywords.types.LineKeys``.
 
         Returns
         -------
@@ -245,7 +246,7 @@ class Case(Tabled, Table):
             Further tables, as in a case file.
         **contact
             Keys of the table ``contact``: floats in SI units, texts with units, or quantities of pint; see
-            ``ehlectric.cases.keywords.PointKeys``.
+            ``ehlectric.cases.keywords.types.PointKeys``.
 
         Returns
         -------
@@ -348,10 +349,7 @@ class Case(Tabled, Table):
 
 
 class LineCase(Case):
-    """Case of a stationary line contact, which type checkers tell from that of a point contact.
-
-    ``Case.line`` makes it; ``solve`` returns a ``Result``.
-    """
+    """Case of a stationary line contact, as ``Case.line`` makes it; ``solve`` returns a ``Result``."""
 
     @model_validator(mode="after")
     def _check_kind(self) -> Self:
@@ -359,10 +357,7 @@ class LineCase(Case):
 
 
 class PointCase(Case):
-    """Case of a stationary point contact, which type checkers tell from that of a line contact.
-
-    ``Case.point`` makes it; ``solve`` returns a ``PointResult``.
-    """
+    """Case of a stationary point contact, as ``Case.point`` makes it; ``solve`` returns a ``PointResult``."""
 
     @model_validator(mode="after")
     def _check_kind(self) -> Self:

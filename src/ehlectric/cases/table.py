@@ -18,8 +18,12 @@ from ehlectric.cases.quantity import WRITTEN
 from ehlectric.errors import InputError, shown
 from ehlectric.runtime.files import reading
 
-# Names of pydantic, many of them deprecated, which completion need not list.
-_HIDDEN = frozenset(name for name in dir(BaseModel) if not name.startswith("__"))
+# Names that completion need not list: those of pydantic, many of them deprecated, and internal ones.
+_HIDDEN = frozenset(name for name in dir(BaseModel) if not name.startswith("__")) | {
+    "ADVICE",
+    "from_written",
+    "known_keys",
+}
 
 
 class Table(BaseModel):
@@ -29,15 +33,6 @@ class Table(BaseModel):
 
     # Advice for unknown dotted keys that users expect in this table or in a table within it.
     ADVICE: ClassVar[Mapping[str, str]] = {}
-
-    @classmethod
-    def __get_pydantic_json_schema__(cls, core: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        """Schema for editors: of the docstring only the first sentence, and no key required beside a base."""
-        schema = dict(handler.resolve_ref_schema(handler(core)))
-        schema["description"] = (cls.__doc__ or "").partition("\n\n")[0]
-        if "base" in cls.model_fields:
-            schema.pop("required", None)
-        return schema
 
     def __init__(self, /, **table: Any) -> None:
         try:
@@ -60,6 +55,15 @@ class Table(BaseModel):
 
     def __dir__(self) -> list[str]:
         return [name for name in super().__dir__() if name not in _HIDDEN]
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, core: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        """Schema for editors: of the docstring only the first sentence, and no key required beside a base."""
+        schema = dict(handler.resolve_ref_schema(handler(core)))
+        schema["description"] = (cls.__doc__ or "").partition("\n\n")[0]
+        if "base" in cls.model_fields:
+            schema.pop("required", None)
+        return schema
 
     @classmethod
     def from_dict(cls, table: Mapping[str, Any]) -> Self:

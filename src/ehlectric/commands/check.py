@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from ehlectric.commands.options import Json, Quiet, file_argument
-from ehlectric.commands.terminal import echo_verdict, print_rows, user_errors, warn
+from ehlectric.commands.terminal import print_rows, print_verdict, user_errors, warn
 
 
 def check(
@@ -38,6 +38,6 @@ def check(
         typer.echo(json.dumps(meaning.summary, indent=2))
     elif not quiet:
         print_rows(meaning.rows, meaning.title)
-        echo_verdict(meaning.summary)
+        print_verdict(meaning.verdict)
     if not quiet:
         warn(meaning.warnings)

@@ -129,7 +129,8 @@ def plot(
     with user_errors():
         look = figure_options(formats, style)
 
-        from ehlectric.commands.drawing import load_and_draw, stored_result
+        from ehlectric.commands.drawing import load_and_draw
+        from ehlectric.commands.folders import stored_result
         from ehlectric.commands.kinds import refuse_input
 
         refuse_input(result)

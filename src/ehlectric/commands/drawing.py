@@ -16,54 +16,13 @@ from ehlectric.figures.names import (
     in_formats,
     map_files,
 )
-from ehlectric.runtime.files import prepare, refuse_unreadable
+from ehlectric.runtime.files import prepare
 
 if TYPE_CHECKING:
     from ehlectric.sweep.results import SweepResults
 
 # Files and warnings of figures.
 Files = tuple[tuple[Path, ...], tuple[ResultWarning, ...]]
-
-
-def stored_result(path: str | Path) -> Path:
-    """File from which the figures of a result are drawn, of a file or of a folder of any kind.
-
-    Parameters
-    ----------
-    path : str or Path
-        A result.nc, bearing.nc or motion.nc, which is returned as it is; any other file of a result; or the
-        folder of a result.
-
-    Returns
-    -------
-    Path
-        A NetCDF file, or the database of a sweep.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read, or if the folder has no result or several.
-    """
-    from ehlectric.bearing.files import NETCDF as BEARING
-    from ehlectric.commands.folders import files_of_results
-    from ehlectric.contact.files import NETCDF as CONTACT
-    from ehlectric.motion.stored_run import MOTION
-    from ehlectric.sweep.store import NAME as SWEEP
-
-    path, names = Path(path), (CONTACT, BEARING, MOTION, SWEEP)
-    if not path.is_dir():
-        refuse_unreadable(path)
-        beside = path.name in files_of_results(path.parent) and path.name not in names
-        if not beside:
-            return path
-        path = path.parent
-    found = [path / name for name in names if (path / name).is_file()]
-    if not found:
-        raise InputError(path, "has no result", takes=f"a folder with one of {', '.join(names)}")
-    if len(found) > 1:
-        results = " and ".join(file.name for file in found)
-        raise InputError(path, f"has {results}", takes="one result; name the file to draw")
-    return found[0]
 
 
 def load_and_draw(
@@ -95,6 +54,7 @@ def load_and_draw(
         If the file is not a result, the folder cannot be used, or a sweep varies too many keys for a map.
     """
     from ehlectric.bearing.result import BearingResult
+    from ehlectric.commands.folders import stored_result
     from ehlectric.commands.results import load
     from ehlectric.motion.stored_run import MOTION, read_motion
     from ehlectric.runtime.stored_warnings import of_attributes

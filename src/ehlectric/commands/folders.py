@@ -22,6 +22,7 @@ from ehlectric.figures.names import (
     SPEED_FIGURE_FILES,
     in_formats,
 )
+from ehlectric.runtime.files import refuse_unreadable
 
 SENSITIVITY = "sensitivity.json"
 
@@ -135,3 +136,43 @@ def _case_of(path: Path) -> str:
 
     with opened(path, "r") as file:
         return str(file.attrs["case"]) if "case" in file.attrs else ""
+
+
+def stored_result(path: str | Path) -> Path:
+    """File from which the figures of a result are drawn, of a file or of a folder of any kind.
+
+    Parameters
+    ----------
+    path : str or Path
+        A result.nc, bearing.nc or motion.nc, which is returned as it is; any other file of a result; or the
+        folder of a result.
+
+    Returns
+    -------
+    Path
+        A NetCDF file, or the database of a sweep.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, or if the folder has no result or several.
+    """
+    from ehlectric.bearing.files import NETCDF as BEARING
+    from ehlectric.contact.files import NETCDF as CONTACT
+    from ehlectric.motion.stored_run import MOTION
+    from ehlectric.sweep.store import NAME as SWEEP
+
+    path, names = Path(path), (CONTACT, BEARING, MOTION, SWEEP)
+    if not path.is_dir():
+        refuse_unreadable(path)
+        beside = path.name in files_of_results(path.parent) and path.name not in names
+        if not beside:
+            return path
+        path = path.parent
+    found = [path / name for name in names if (path / name).is_file()]
+    if not found:
+        raise InputError(path, "has no result", takes=f"a folder with one of {', '.join(names)}")
+    if len(found) > 1:
+        results = " and ".join(file.name for file in found)
+        raise InputError(path, f"has {results}", takes="one result; name the file to draw")
+    return found[0]

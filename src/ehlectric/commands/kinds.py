@@ -53,7 +53,7 @@ def kind_of_file(path: str | Path) -> FileKind:
     InputError
         If the file cannot be read or is not TOML.
     """
-    return _kind(read_toml(path)) or "contact"
+    return kind_of_tables(read_toml(path)) or "contact"
 
 
 def expect(path: Path, *kinds: FileKind) -> FileKind:
@@ -78,7 +78,7 @@ def expect(path: Path, *kinds: FileKind) -> FileKind:
         If the file cannot be read, is a result, is not TOML, or is of another kind.
     """
     _refuse_result(path)
-    kind = _kind(read_toml(path))
+    kind = kind_of_tables(read_toml(path))
     if kind is None:
         return kinds[0]
     if kind not in kinds:
@@ -101,7 +101,7 @@ def refuse_input(path: Path) -> None:
         raise InputError(path, f"is {name}", takes=f"a result; solve it with: {_typed(command, path)}")
 
 
-def _kind(table: Mapping[str, Any]) -> FileKind | None:
+def kind_of_tables(table: Mapping[str, Any]) -> FileKind | None:
     """Kind of the tables of a file; None if none of them tells it."""
     if any(key in table for key in _OF_SWEEPS):
         return "sweep"

@@ -25,13 +25,14 @@ from ehlectric.sweep.inputs import Sweep
 if TYPE_CHECKING:
     from ehlectric.bearing.result import BearingResult
     from ehlectric.contact.conditions import Conditions, PointConditions
+    from ehlectric.discharge.verdict import Verdict
     from ehlectric.sweep.plan import Planned
 
 # Largest number of points of a sweep that are checked one by one.
 _MOST_CHECKED = 2000
 
 # Statement above the rows that follow from film formulas.
-_BY_FORMULA = "films may be 30 % off, and all that follows"
+_BY_FORMULA = "films may be 30 % off"
 
 
 @dataclass(frozen=True)
@@ -48,12 +49,15 @@ class Meaning:
         The same numbers as nested tables, SI units.
     warnings : tuple of ResultWarning
         Warnings about the case and its surfaces.
+    verdict : Verdict or None
+        Whether the film of a bearing breaks down, by formula; None for other files and without a strength.
     """
 
     title: str
     rows: tuple[Row, ...]
     summary: dict[str, Any]
     warnings: tuple[ResultWarning, ...]
+    verdict: Verdict | None = None
 
 
 @singledispatch
@@ -151,6 +155,7 @@ def _breakdown_rows(estimate: Mapping[str, Any]) -> Iterator[Row]:
 @check.register
 def _check_bearing(case: BearingCase) -> Meaning:
     from ehlectric.bearing.solver import check_bearing
+    from ehlectric.commands.tables.bearing import input_rows, outcome_rows
 
     check_bearing(case)
     judged, reason = _by_formula(case)
@@ -158,10 +163,11 @@ def _check_bearing(case: BearingCase) -> Meaning:
         return _without_films(case, reason)
     result = _solved_by_formula(judged)
     summary = {**result.summary(), "by_formula": True}
-    rows = [*_echo(summary), *_dry(summary), Row("by formula:", note=_BY_FORMULA), *_totals(summary)]
+    totals = (row for row in outcome_rows(summary) if row.name != "time")
+    rows = [*input_rows(summary), *_dry(summary), Row("by formula:", note=_BY_FORMULA), *totals]
     if reason:
         rows.append(Row("breakdown", note=reason))
-    return Meaning(case.title, tuple(rows), summary, tuple(result.warnings()))
+    return Meaning(case.title, tuple(rows), summary, tuple(result.warnings()), result.verdict)
 
 
 def _by_formula(case: BearingCase) -> tuple[BearingCase | None, str]:
@@ -190,6 +196,7 @@ def _solved_by_formula(case: BearingCase) -> BearingResult:
 def _without_films(case: BearingCase, reason: str) -> Meaning:
     """Meaning of a bearing whose contacts no formula describes: its inputs alone."""
     from ehlectric.bearing.preparation import resolve_bearing
+    from ehlectric.commands.tables.bearing import input_rows
 
     oil = resolve_bearing(case).lubricant
     summary = {
@@ -197,25 +204,8 @@ def _without_films(case: BearingCase, reason: str) -> Meaning:
         "lubricant": {"temperature": case.bearing.temperature, "viscosity": oil.viscosity},
         "by_formula": False,
     }
-    rows = (*_echo(summary), Row("films and voltages", note=reason))
+    rows = (*input_rows(summary), Row("films and voltages", note=reason))
     return Meaning(case.title, rows, summary, ())
-
-
-def _echo(summary: Mapping[str, Any]) -> Iterator[Row]:
-    """Rows of the inputs that decide, as an engineer states them."""
-    bearing, oil = summary["inputs"]["bearing"], summary["lubricant"]
-    for name in ("radial", "axial"):
-        if bearing.get(f"{name}_load"):
-            yield Row(f"{name} load", bearing[f"{name}_load"], "N")
-    for ring in ("inner", "outer"):
-        if bearing.get(f"{ring}_speed"):
-            rpm = bearing[f"{ring}_speed"] * 30.0 / math.pi
-            yield Row(f"speed of the {ring} ring", f"{rpm:.5g}", "rpm")
-    yield Row("temperature", f"{bearing['temperature'] - 273.15:.4g}", "°C")
-    yield Row("  viscosity", f"{1e3 * oil['viscosity']:.4g}", "mPa s", ", at this temperature")
-    if oil.get("pressure_viscosity_coefficient"):
-        alpha = f"{1e9 * oil['pressure_viscosity_coefficient']:.4g}"
-        yield Row("  pressure-viscosity coefficient", alpha, "1/GPa")
 
 
 def _dry(summary: Mapping[str, Any]) -> Iterator[Row]:
@@ -228,13 +218,6 @@ def _dry(summary: Mapping[str, Any]) -> Iterator[Row]:
         yield Row("  minimum film, by formula", most["minimum_thickness"], "µm")
         speed = summary["mechanics"][f"entrainment_speed_{ring}"]
         yield Row("  entrainment speed", speed, "m/s")
-
-
-def _totals(summary: Mapping[str, Any]) -> Iterator[Row]:
-    """Rows of the totals of the bearing, as its command prints them, without the time."""
-    from ehlectric.commands.tables.bearing import total_rows
-
-    return (row for row in total_rows(summary) if row.name != "time")
 
 
 @check.register
@@ -253,7 +236,7 @@ def _check_sweep(sweep: Sweep) -> Meaning:
     described = _described(sweep, planned, first)
     rows = (*_sweep_rows(sweep, described, seconds), Row("first point:"), *meaning.rows)
     summary = {"sweep": described, "first_point": meaning.summary}
-    return replace(meaning, title=sweep.title or meaning.title, rows=rows, summary=summary)
+    return replace(meaning, title=sweep.title or meaning.title, rows=rows, summary=summary, verdict=None)
 
 
 def _described(sweep: Sweep, planned: list[Planned], first: Planned) -> dict[str, Any]:

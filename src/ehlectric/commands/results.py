@@ -8,17 +8,16 @@ from typing import TypeAlias
 from ehlectric.bearing import files as of_bearings
 from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.storage.dataset import SCHEMA
+from ehlectric.commands.folders import stored_result
 from ehlectric.contact import files as of_contacts
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.errors import InputError, shown
 from ehlectric.motion.result import MotionResult
 from ehlectric.motion.stored_run import MOTION, read_motion
 from ehlectric.runtime.netcdf import read_dataset
+from ehlectric.sweep.store import NAME as SWEEP
 
 AnyResult: TypeAlias = Result | PointResult | BearingResult | MotionResult
-
-# Files of results, in the order in which they are looked for in a folder.
-_NAMES = (of_contacts.NETCDF, of_bearings.NETCDF, MOTION)
 
 
 def load(path: str | Path) -> AnyResult:
@@ -37,7 +36,7 @@ def load(path: str | Path) -> AnyResult:
     Raises
     ------
     InputError
-        Where the file cannot be read or is not a result, or the folder has none.
+        Where the file cannot be read or is not a result, or the folder has none, several, or a sweep.
 
     Examples
     --------
@@ -51,23 +50,15 @@ def load(path: str | Path) -> AnyResult:
     ...     load(folder) == result
     True
     """
-    path = _file_in(Path(path))
+    path = stored_result(path)
+    if path.name == SWEEP:
+        raise InputError(path.parent, "is the folder of a sweep", takes="a result; read_sweep reads a sweep")
     if path.name == MOTION:
         return MotionResult.of(read_motion(path))
     dataset = read_dataset(path)
     if str(dataset.attrs.get("schema", "")).startswith(SCHEMA.partition("/")[0]):
         return of_bearings.result_of(dataset, path)
     return of_contacts.result_of(dataset, path)
-
-
-def _file_in(path: Path) -> Path:
-    """File of the result in a folder; ``path`` itself where it is not a folder."""
-    if not path.is_dir():
-        return path
-    found = [path / name for name in _NAMES if (path / name).is_file()]
-    if not found:
-        raise InputError(path, "has no result;", takes=f"a folder with {', '.join(_NAMES)}")
-    return found[0]
 
 
 def save(result: Result | PointResult | BearingResult, folder: str | Path) -> list[Path]:

@@ -15,6 +15,7 @@ from ehlectric.cases.any_case import case_of_dict, case_of_file
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case, LineCase, PointCase
 from ehlectric.cases.table import read_toml
+from ehlectric.commands.kinds import kind_of_tables
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.contact.solver import OWN, Solvers
 from ehlectric.contact.solver import solve as solve_stationary
@@ -27,9 +28,6 @@ from ehlectric.runtime.progress import Progress, silent
 
 # A case, its tables, or the path of its file.
 Solvable: TypeAlias = Case | BearingCase | Mapping[str, Any] | str | PathLike[str]
-
-# Tables and keys that only sweep files have.
-_OF_SWEEPS = ("case", "vary", "design")
 
 
 @overload
@@ -194,7 +192,7 @@ def case_of(given: object) -> Case | BearingCase:
 
 
 def _refuse_sweep(name: object, table: Mapping[str, Any]) -> None:
-    if any(key in table for key in _OF_SWEEPS):
+    if kind_of_tables(table) == "sweep":
         raise InputError(name, "is a sweep;", takes="run_sweep(Sweep.from_toml(path), folder)")
 
 

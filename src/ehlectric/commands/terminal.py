@@ -6,7 +6,7 @@ import json
 import re
 import sys
 import textwrap
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -111,19 +111,12 @@ def report(
     elif not quiet:
         for table in tables(outcome):
             print_table(table)
-        echo_verdict(outcome.summary)
         echo_files(outcome.files)
     if not quiet:
         warn(outcome.warnings)
         if not as_json:
             print_verdict(getattr(outcome.result, "verdict", None))
     refuse_failure(outcome)
-
-
-def echo_verdict(summary: Mapping[str, Any]) -> None:
-    """Print the verdict of a summary below its tables; nothing where it has none."""
-    if text := summary.get("verdict"):
-        typer.echo(text)
 
 
 def refuse_failure(outcome: RunOutcome[Any]) -> None:

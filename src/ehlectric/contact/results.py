@@ -61,7 +61,7 @@ class ContactResult(Solution[ConditionsT, FilmT, FieldT]):
         frame.attrs["units"] = {name: unit for name, (_, unit) in columns.items()}
         return frame
 
-    def headline(self) -> str:
+    def _headline(self) -> str:
         """Title, minimum film, maximum pressure and maximum field on one line."""
         film = self.film
         return headline(
@@ -71,7 +71,7 @@ class ContactResult(Solution[ConditionsT, FilmT, FieldT]):
             f"maximum pressure {amount(film.max_pressure, 'Pa')}",
             f"maximum field {amount(self.field.max_strength, 'V/m')}",
             "converged" if self.converged else f"NOT CONVERGED ({film.status})",
-            verdict=getattr(self, "verdict", None),
+            verdict=self.verdict,
         )
 
     def formulas(self) -> Mapping[str, Thickness]:

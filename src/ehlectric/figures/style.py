@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import textwrap
 import threading
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
@@ -20,6 +19,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
 from matplotlib.text import Annotation
+from matplotlib.textpath import text_to_path
 from matplotlib.transforms import offset_copy
 
 from ehlectric.arrays import Array
@@ -110,8 +110,8 @@ assert tuple(_LOOKS) == STYLES
 # Width on the screen above which a figure takes two columns of a journal [inches].
 _ONE_COLUMN = 6.5
 
-# Characters of a title that fit into an inch, and sizes of its first line and of the others [pt].
-_AN_INCH, _FINDING, _BELOW = 14.0, 10.0, 8.5
+# Sizes of the first line of a title and of the others [pt], and part of the page's width that they may take.
+_FINDING, _BELOW, _FULL = 10.0, 8.5, 0.97
 
 _turn = threading.RLock()
 _style: ContextVar[str] = ContextVar("style", default="screen")
@@ -226,9 +226,8 @@ def name_over(ax: Axes, text: str, *, converged: bool = True) -> None:
         if converged:
             return
         others = []
-    room = int(_AN_INCH * figure.get_figwidth())
-    finding = textwrap.wrap(first, room) or [""]
-    below = [part for line in others for part in textwrap.wrap(line, int(room * _FINDING / _BELOW))]
+    finding = _broken(figure, first, _FINDING)
+    below = [part for line in others for part in _broken(figure, line, _BELOW)]
     how: dict[str, Any] = {} if converged else NOT_CONVERGED
     # Empty lines keep the room for the smaller ones, which are drawn beside them.
     lines = "\n".join([*finding, *(" " for _ in below)])
@@ -245,6 +244,20 @@ def name_over(ax: Axes, text: str, *, converged: bool = True) -> None:
                 parse_math=False,
             )
         )
+
+
+def _broken(figure: Figure, line: str, size: float) -> list[str]:
+    """Parts of a line of text, each of which fits into the width of a figure; letters in points."""
+    room = _FULL * 72.0 * figure.get_figwidth()
+    letters, parts = FontProperties(size=size), [""]
+    for word in line.split():
+        longer = f"{parts[-1]} {word}".lstrip()
+        width, _, _ = text_to_path.get_text_width_height_descent(longer, letters, ismath=False)
+        if width > room and parts[-1]:
+            parts.append(word)
+        else:
+            parts[-1] = longer
+    return parts
 
 
 def save_figure(figure: Figure, path: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
@@ -337,8 +350,7 @@ def _fitting(labels: Sequence[str], columns: int, room: float) -> int:
     """Number of columns of a legend with these labels, at most ``columns``, that fit into ``room`` [pt]."""
     size = FontProperties(size=mpl.rcParams["legend.fontsize"]).get_size_in_points()
     for number in range(columns, 1, -1):
-        rows = -(-len(labels) // number)
-        of_columns = [labels[first : first + rows] for first in range(0, len(labels), rows)]
+        of_columns = [column for column in np.array_split(np.array(labels), number) if column.size]
         # A letter is about half as wide as its size; the handle and the space around it take eight letters.
         if sum(0.52 * size * (8.0 + max(map(len, column))) for column in of_columns) <= room:
             return number
@@ -363,7 +375,7 @@ def label_position(result: OfContact, ax: Axes, axis: str = "x") -> None:
 
 
 # Room that the axis of lengths above the axes takes [pt].
-LENGTH_AXIS = 27.0
+LENGTH_AXIS = 31.0
 
 
 def length_axis(result: OfContact, ax: Axes, axis: str = "x") -> None:

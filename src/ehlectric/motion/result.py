@@ -65,7 +65,7 @@ class MotionResult(Shown, MotionRun):
         frame.attrs["units"] = {name: self.dataset[name].attrs.get("units", "") for name in names}
         return frame
 
-    def headline(self) -> str:
+    def _headline(self) -> str:
         """Title, time steps, minimum film and maximum field on one line."""
         steps = self.dataset.sizes["step"] - 1
         return headline(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,8 +11,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ehlectric.arrays import Array
+from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.results import Result
-from ehlectric.figures.contact import line as plot
+from ehlectric.figures.contact import line_maps as plot
 from ehlectric.figures.style import BODY, figure_of, new_panels
 from ehlectric.paper import schematics
 from ehlectric.paper.contacts import CONTACTS, PaperContact
@@ -22,6 +23,12 @@ from ehlectric.paper.study import Study, readings_differ_by, straight_line
 # black line on it would be lost.
 _COLOURS = ("#0072b2", "#009e73", "#cc79a7", "#e69f00")
 _MICRO = 1e6
+
+# Half of the height of sections that are compared, over the thickest central film.
+_AROUND = 0.9
+
+# The two definitions of mid-film coincide if the fields on them differ by less than this part.
+_COINCIDE = 1e-6
 
 # Look of the straight-line reading of mid-film, drawn over the curves of s = 1/2.
 _STRAIGHT: dict[str, Any] = {"color": "black", "lw": 0.6, "ls": (0, (2, 4))}
@@ -52,35 +59,57 @@ def _of(gigapascal: int) -> list[PaperContact]:
 
 
 def _panel_name(contact: PaperContact, letter: str, result: Result) -> str:
-    """Letter and name of a sub-figure as printed, with the computed M if it differs from the print."""
-    groups = result.conditions.contact
-    name = f"({letter}) {contact.printed}"
-    printed = float(contact.printed[1:].split("L")[0])
-    return name if abs(printed - groups.moes_m) < 1.0 else f"{name}  (M = {groups.moes_m:.1f})"
+    """Letter, name as printed and speed of a sub-figure, with the computed M if it differs from the print."""
+    computed, printed = result.conditions.contact.moes_m, float(contact.printed[1:].split("L")[0])
+    other = "" if abs(printed - computed) < 1.0 else f" (M = {computed:.1f})"
+    return f"({letter}) {contact.printed}{other}, {_speed(contact)}"
+
+
+def _speed(contact: PaperContact) -> str:
+    """Text: sum of the surface speeds of a contact."""
+    return f"$u_1+u_2$ = {contact.u_s:g} m/s"
 
 
 def _title(ax: Axes, text: str) -> None:
     ax.set_title(text, loc="left", weight="bold")
 
 
+def _compared(panels: Sequence[Axes], results: Iterable[Result]) -> Figure:
+    """Figure of sections that are compared: with one scale of heights, one colour bar, and labels outside."""
+    figure = figure_of(panels[0])
+    bars = [bar for ax in panels for drawn in ax.collections if (bar := drawn.colorbar) is not None]
+    label, ticks = bars[0].ax.get_ylabel(), bars[0].get_ticks()
+    drawn = bars[0].mappable
+    for bar in bars:
+        bar.remove()
+    figure.colorbar(drawn, ax=list(panels), label=label, ticks=ticks, pad=0.02)
+    thickest = max(result.film.central_thickness for result in results)
+    factor, _ = unit_for(thickest, "m")
+    for ax in panels:
+        ax.set_ylim(-_AROUND * factor * thickest, _AROUND * factor * thickest)
+        ax.label_outer()
+    return figure
+
+
 def potentials(study: Study) -> Figure:
-    """Draw Figure 4: electric potential in two smooth films."""
+    """Draw Figure 4: electric potential in two smooth films, on one scale of heights."""
     panels = new_panels(1, 2, (10.0, 3.6))
-    for ax, letter, contact in zip(panels, "ab", (CONTACTS[0], CONTACTS[3]), strict=True):
+    contacts = (CONTACTS[0], CONTACTS[3])
+    for ax, letter, contact in zip(panels, "ab", contacts, strict=True):
         result = study.smooth[contact]
         _title(plot.potential(result, ax), _panel_name(contact, letter, result))
-    return figure_of(panels[0])
+    return _compared(panels, [study.smooth[contact] for contact in contacts])
 
 
 def _strengths(solved: dict[PaperContact, Result], gigapascal: int) -> Figure:
-    """Draw the dimensionless field strength of the four contacts of a Hertz pressure, in the same colours."""
+    """Draw the dimensionless field strength of the four contacts of a Hertz pressure, on the same scales."""
     panels = new_panels(2, 2, (10.0, 6.8))
     results = {contact: solved[contact] for contact in _of(gigapascal)}
     largest = max(float(np.max(r.field.strength)) * r.strength_scale for r in results.values())
     for ax, (contact, result) in zip(panels, results.items(), strict=True):
         plot.field_strength(result, ax, largest=largest)
         _title(ax, _panel_name(contact, contact.label, result))
-    return figure_of(panels[0])
+    return _compared(panels, results.values())
 
 
 def smooth_strengths(gigapascal: int) -> Callable[[Study], Figure]:
@@ -107,26 +136,29 @@ def _middle(
     panels = new_panels(1, 2, (10.0, 4.6))
     for ax, letter, gigapascal in zip(panels, "ab", (1, 2), strict=True):
         contacts = _of(gigapascal)
+        difference = max(readings_differ_by(solved[contact]) for contact in contacts)
+        coincide = difference < _COINCIDE
         drawn_on = [ax, *([_exit_inset(ax, exits[gigapascal])] if gigapascal in exits else [])]
         for colour, contact in zip(_COLOURS, contacts, strict=True):
             result = solved[contact]
             x, factor = result.field.x / result.conditions.half_width, scale(result)
             straight = factor * straight_line(result)
             for axes in drawn_on:
-                axes.plot(x, factor * result.field.middle_strength, color=colour, label=contact.printed)
-                axes.plot(x, straight, **_STRAIGHT)
-        ax.plot([], [], **_STRAIGHT, label="straight line")
-        difference = max(readings_differ_by(solved[contact]) for contact in contacts)
-        apart = "are one line" if difference < 1e-6 else f"are up to {100.0 * difference:.2g} % apart"
+                name = f"{contact.printed}, {_speed(contact)}"
+                axes.plot(x, factor * result.field.middle_strength, color=colour, label=name)
+                if not coincide:
+                    axes.plot(x, straight, **_STRAIGHT)
+        if not coincide:
+            ax.plot([], [], **_STRAIGHT, label="mid-film as a straight line")
+        apart = "coincide" if coincide else f"differ by up to {100.0 * difference:.2g} %"
         _title(ax, f"({letter}) {gigapascal} GPa")
-        ax.set_title(f"the readings {apart}", loc="right")
-        top = max(
-            scale(r) * float(np.max(r.field.middle_strength)) for r in map(solved.__getitem__, contacts)
-        )
-        ax.set(xlabel="$x/b$", ylabel=label, xlim=(-1.25, 1.25), ylim=(0.0, 1.3 * top))
-        ax.legend(
-            loc="upper left", ncols=3, frameon=False, title="colours: line $s = 1/2$", title_fontsize=8.0
-        )
+        ax.set_title(f"both definitions of mid-film {apart}", loc="right")
+        ax.set(xlabel="$x/b$", ylabel=label, xlim=(-1.25, 1.25))
+        ax.legend(loc="upper left", ncols=2, frameon=False)
+    top = max(scale(r) * float(np.max(r.field.middle_strength)) for r in solved.values())
+    for ax in panels:
+        ax.set_ylim(0.0, 1.35 * top)
+        ax.label_outer()
     return figure_of(panels[0])
 
 

@@ -103,7 +103,7 @@ def reproduce(
         verdicts = report.verdicts(made)
         with whole(folder / REPORT) as beside:
             beside.write_text(report.html(study, made, drawn), encoding="utf-8")
-    return Reproduced([folder / name for name in reversed(names)], made, verdicts, study.converged)
+    return Reproduced([folder / name for name in names], made, verdicts, study.converged)
 
 
 def _requested(figure: int | None, table: int | None) -> tuple[list[int], list[str]]:

@@ -46,14 +46,14 @@ def headline(title: str, *parts: str | None, verdict: object = None) -> str:
 
 
 class Tabled:
-    """Object that a notebook shows as a table, and that prints as one short line, ``headline``."""
+    """Object that a notebook shows as a table, and that prints as one short line, ``_headline``."""
 
-    def headline(self) -> str:
+    def _headline(self) -> str:
         """Title and key numbers on one line, for the representation."""
         raise NotImplementedError
 
     def __repr__(self) -> str:
-        return shortened(f"<{type(self).__name__} {self.headline()}>")
+        return shortened(f"<{type(self).__name__} {self._headline()}>")
 
     def __str__(self) -> str:
         return repr(self)

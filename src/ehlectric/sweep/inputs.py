@@ -163,7 +163,7 @@ class Sweep(Tabled, Table):
         """
         return super().from_written(_with_case(table, written=True))
 
-    def headline(self) -> str:
+    def _headline(self) -> str:
         """Title, number of points and varied keys on one line."""
         title = self.title or self.case.title
         return headline(title, f"{self.design} of {self.size} points over {', '.join(self.vary)}")

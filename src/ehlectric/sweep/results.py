@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,11 +12,13 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.cases.result_key import key_of
 from ehlectric.cases.table import nearest
+from ehlectric.discharge.verdict import Verdict
 from ehlectric.errors import InputError
 from ehlectric.runtime.display import Shown, headline
 from ehlectric.sweep.columns import columns_of, dataset_of, numbers_of, unit_of_column
 from ehlectric.sweep.labels import label_of, result_keys
 from ehlectric.sweep.points import Point, Range, Spacing, Status, SweepPoints, as_number, flat
+from ehlectric.sweep.verdict import sweep_verdict
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -73,6 +76,11 @@ class SweepResults(Shown, SweepPoints):
         column = [flat(point.summary or {}).get(key) if point.solved else None for point in self.points]
         return np.array([as_number(value) for value in column])
 
+    @cached_property
+    def verdict(self) -> Verdict | None:
+        """Verdict: at how many points breakdown is expected; None where no point has a margin."""
+        return sweep_verdict(self)
+
     def _check(self, key: str) -> None:
         """Raise an InputError for a key that no summary has and that is not documented."""
         rows = [flat(point.summary) for point in self.points if point.solved and point.summary]
@@ -125,7 +133,7 @@ class SweepResults(Shown, SweepPoints):
         frame.attrs["units"] = {key: unit for key, unit in units.items() if unit is not None}
         return frame
 
-    def headline(self) -> str:
+    def _headline(self) -> str:
         """Title, number of points, varied keys and status on one line."""
         counts = self.summary()
         others = [f"{counts[status]} {status}" for status in ("not converged", "failed", "open")]
@@ -134,7 +142,7 @@ class SweepResults(Shown, SweepPoints):
             f"{self.design} of {len(self.points)} points over {', '.join(map(self._name, self.varied))}",
             f"{counts['solved']} solved",
             *(text for text in others if not text.startswith("0 ")),
-            verdict=getattr(self, "verdict", None),
+            verdict=self.verdict,
         )
 
     def _name(self, key: str) -> str:

@@ -3,34 +3,37 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
 from ehlectric.arrays import Array
+from ehlectric.bearing.margin.verdict import FORMULA_FACTOR
 from ehlectric.cases.any_case import AnyCase
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.row import value_at
-from ehlectric.discharge.verdict import Level, Verdict, ratio_text
+from ehlectric.discharge.verdict import DOUBTS, Level, Verdict, ratio_text
 from ehlectric.sweep.labels import Scale, label_of
-from ehlectric.sweep.results import SweepResults
+from ehlectric.sweep.points import SweepPoints
 
 
-def sweep_verdict(results: SweepResults) -> Verdict | None:
+def sweep_verdict(results: SweepPoints) -> Verdict | None:
     """Verdict on a sweep from the margins of its points.
 
     Parameters
     ----------
-    results : SweepResults
+    results : SweepPoints
         Results of a sweep.
 
     Returns
     -------
     Verdict or None
         Green where no margin is below 1, red where all are, else yellow. It is not green where points have no
-        margin: they are not solved or must not be used, or their surfaces touch. None where no point has a
-        margin.
+        margin: they are not solved or must not be used, or their surfaces touch. Nor is it green where the
+        margin of a point may be below 1, by the accuracy of formulas or by its warnings. None where no point
+        has a margin.
     """
     usable = _margins(results)
     known = usable[np.isfinite(usable)]
@@ -47,14 +50,34 @@ def sweep_verdict(results: SweepResults) -> Verdict | None:
     if missing:
         sentences.append(f"{missing} more {_have(missing)} no margin, {_why(results, usable)}.")
     level: Level = "red" if below == known.size else "yellow" if below or missing else "green"
-    return Verdict(level, " ".join(sentences), lowest)
+    doubts = list(_doubts(results, usable))
+    if doubts and level == "green":
+        level = "yellow"
+    return Verdict(level, " ".join([*sentences, *doubts]), lowest)
+
+
+def _doubts(results: SweepPoints, margins: Array) -> Iterator[str]:
+    """Sentences for which margins above 1 may be below it."""
+    above = [(point, margin) for point, margin in zip(results.points, margins, strict=True) if margin >= 1.0]
+    near = sum(
+        margin < FORMULA_FACTOR
+        for point, margin in above
+        if value_at(point.summary or {}, "bearing.contacts") == "formula"
+    )
+    if near:
+        yield f"At {near} of the other points the margin is within the 30 % that formulas may be off."
+    doubtful = sum(
+        bool({one.code for one in point.warnings} & {*DOUBTS, "partial-film"}) for point, _ in above
+    )
+    if doubtful:
+        yield f"At {doubtful} of the other points warnings say that the margin may be lower."
 
 
 def _have(count: int) -> str:
     return "point has" if count == 1 else "points have"
 
 
-def _margins(results: SweepResults) -> Array:
+def _margins(results: SweepPoints) -> Array:
     """Margin at every point; NaN where a point has none or its film must not be used."""
     table = "bearing" if isinstance(results.case, BearingCase) else "discharge"
     used = [(point.summary or {}) if point.solved and not point.doubtful else {} for point in results.points]
@@ -62,7 +85,7 @@ def _margins(results: SweepResults) -> Array:
     return np.array([math.nan if value is None else float(value) for value in values])
 
 
-def _why(results: SweepResults, margins: Array) -> str:
+def _why(results: SweepPoints, margins: Array) -> str:
     """Reasons why points have no margin, with their numbers."""
     counts: dict[str, int] = {}
     for point, margin in zip(results.points, margins, strict=True):
@@ -81,7 +104,7 @@ def _why(results: SweepResults, margins: Array) -> str:
     return ", ".join(f"{count} {reason}" for reason, count in counts.items())
 
 
-def _crossings(results: SweepResults, margins: Array) -> list[str]:
+def _crossings(results: SweepPoints, margins: Array) -> list[str]:
     """Sentences about the values of a single varied input at which the margin crosses 1."""
     if len(results.varied) != 1 or results.design == "sobol":
         return []

@@ -5,12 +5,14 @@ import inspect
 import pickle
 import warnings
 
+import pint
 import pytest
 
 from ehlectric import BearingCase, Case, InputError, LineCase, PointCase
 from ehlectric.cases.bearing import Bearing
 from ehlectric.cases.contact import ONLY, Contact
-from ehlectric.cases.keywords import BearingKeys, LineKeys, PointKeys, keys_of
+from ehlectric.cases.keywords.constructors import keys_of
+from ehlectric.cases.keywords.types import BearingKeys, LineKeys, PointKeys
 
 LINE = {
     "reduced_radius": "14.1 mm",
@@ -76,6 +78,14 @@ def test_a_bearing():
     assert case == BearingCase.from_dict({"bearing": DUTY, "lubricant": oil})
     assert case == BearingCase(bearing=DUTY, lubricant=oil)
     assert case.bearing.inner_speed == pytest.approx(314.159, rel=1e-5)
+
+
+def test_quantities_of_pint(line):
+    unit = pint.UnitRegistry()
+    given = {"reduced_radius": unit.Quantity(14.1, "mm"), "max_hertz_pressure": unit.Quantity(1.0, "GPa")}
+    assert Case.line(**(LINE | given), lubricant="paper") == line
+    with pytest.raises(InputError, match=r"contact\.reduced_radius"):
+        Case.line(**(LINE | {"reduced_radius": unit.Quantity(1.0, "N")}), lubricant="paper")
 
 
 @pytest.mark.parametrize(

@@ -1,14 +1,18 @@
 """How results and cases show themselves: one line, a table in a notebook, figures and tables of pandas."""
 # ruff: noqa: E501
 
+from dataclasses import replace
+from html import escape
+
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
 from ehlectric import InputError, Sweep, solve, solve_motion
-from ehlectric.bearing.result import BearingResult
-from ehlectric.contact.results import Result
-from ehlectric.discharge.verdict import Verdict
+from ehlectric.commands.tables.bearing import total_rows
+from ehlectric.commands.tables.contact import result_rows
+from ehlectric.commands.tables.motion import run_rows
+from ehlectric.commands.tables.sweep import sweep_rows
 from ehlectric.runtime.values import WIDTH
 from ehlectric.sweep.results import Range
 from tests.conftest import PAPER_CONTACT
@@ -70,20 +74,24 @@ def test_representation_of_parts_of_a_result(results):
 
 
 @pytest.mark.parametrize(
-    ("kind", "parts"),
+    ("kind", "rows_of"),
     [
-        ("line", ("Hertz pressure", "minimum film", "µm", "capacitance, field range")),
-        ("point", ("semi-axis, along", "pF")),
-        ("bearing", ("capacitance", "shaft voltage", "warning: ")),
-        ("motion", ("Newton steps a time step",)),
-        ("sweep", ("solved", "of 6 points")),
+        ("line", result_rows),
+        ("point", result_rows),
+        ("bearing", lambda result: total_rows(result.summary())),
+        ("motion", lambda result: run_rows(result.summary())),
+        ("sweep", sweep_rows),
     ],
 )
-def test_a_notebook_shows_the_rows_of_the_command(results, kind, parts):
-    html = results[kind]._repr_html_()
-    assert html.count("<tr") == html.count("</tr>") > 2 or kind == "sweep"
-    for part in parts:
-        assert part in html
+def test_a_notebook_shows_the_rows_of_the_command(results, kind, rows_of):
+    result = results[kind]
+    html, rows = result._repr_html_(), rows_of(result)
+    assert html.count("<tr") == html.count("</tr>") == len(rows) > 2
+    for row in rows:
+        for text in (row.name.strip(), row.shown, row.unit):
+            assert f"{escape(text)}" in html
+    if kind == "bearing":
+        assert html.count("warning: ") + html.count("note: ") == len(result.warnings())
 
 
 def test_titles_are_no_markup(results):
@@ -92,15 +100,22 @@ def test_titles_are_no_markup(results):
     assert "<b> &" not in html
 
 
-@pytest.mark.parametrize("kind", [Result, BearingResult])
-def test_a_verdict_is_shown(results, kind, monkeypatch):
-    verdict = Verdict("red", "Breakdown expected at <4 V.", 0.8)
-    monkeypatch.setattr(kind, "verdict", property(lambda _result: verdict), raising=False)
-    result = results["line" if kind is Result else "bearing"]
+def test_a_verdict_is_shown():
+    result = solve(CONTACT | {"discharge": {"dielectric_strength": "1 V/um"}})
+    assert result.verdict.level == "red"
     assert repr(result).endswith("verdict red>")
     html = result._repr_html_()
-    assert "Breakdown expected at &lt;4 V." in html
+    assert escape(result.verdict.text) in html
     assert "#d55e00" in html
+
+
+def test_a_verdict_of_a_bearing_is_in_its_line_once_it_is_known(results):
+    """It solves bearings at other inputs, for which a line of text does not wait."""
+    result = replace(results["bearing"])
+    assert "verdict" not in repr(result)
+    html = result._repr_html_()
+    assert escape(result.verdict.text) in html
+    assert repr(result).endswith(f"verdict {result.verdict.level}>")
 
 
 def test_cases_show_what_was_given(results):
@@ -146,8 +161,8 @@ def test_a_notebook_shows_the_figure(results):
 
 def test_plot_by_name(results):
     line = results["line"]
-    for name in ("potential", "potential.png"):
-        assert line.plot(name).axes[0].get_xlabel() == line.plot("potential").axes[0].get_xlabel()
+    for name in ("field_strength", "field_strength.png"):
+        assert line.plot(name).axes[0].get_xlabel() == line.plot("field_strength").axes[0].get_xlabel()
     with pytest.raises(InputError, match=r"figure: got 'fild.png'; expected one of film\.png"):
         line.plot("fild")
 

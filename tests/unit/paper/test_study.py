@@ -218,3 +218,35 @@ def test_cores_without_affinity(monkeypatch):
     """Systems other than Linux do not tell which cores a process may use."""
     monkeypatch.delattr(os, "sched_getaffinity", raising=False)
     assert cores() >= 1
+
+
+@pytest.mark.parametrize("number", [4, 5, 6, 9, 10])
+def test_sections_that_are_compared_share_their_heights_and_one_colour_bar(study, number):
+    """Heights are in one unit, the thickest film fits, and every panel says its speed."""
+    axes = FIGURES[number].draw(study).axes
+    panels, bars = [ax for ax in axes if ax.get_title(loc="left")], [ax for ax in axes if ax.get_ylabel()]
+    assert len(panels) == len(axes) - 1 == (2 if number == 4 else 4)
+    limits = {ax.get_ylim() for ax in panels}
+    assert len(limits) == 1
+    gigapascal, solved = 1 if number in (4, 5, 9) else 2, study.rough if number > 8 else study.smooth
+    thickest = 1e6 * max(r.film.central_thickness for c, r in solved.items() if c.gigapascal == gigapascal)
+    low, high = limits.pop()
+    assert low < -0.5 * thickest < 0.5 * thickest < high < thickest
+    assert {ax.get_ylabel() for ax in bars if ax in panels} == {"height $y$ [µm]"}
+    assert all("m/s" in ax.get_title(loc="left") for ax in panels)
+
+
+@pytest.mark.parametrize(("number", "text"), [(7, "coincide"), (11, "differ by up to ")])
+def test_the_definitions_of_mid_film_are_one_line_where_they_coincide(study, number, text):
+    """A dotted line over each curve, and in its inset, where they differ."""
+    panels = FIGURES[number].draw(study).axes[:2]
+    solved = study.smooth if number == 7 else study.rough
+    for ax, gigapascal in zip(panels, (1, 2), strict=True):
+        apart = max(readings_differ_by(solved[c]) for c in CONTACTS if c.gigapascal == gigapascal)
+        title = ax.get_title(loc="right")
+        assert title.startswith(f"both definitions of mid-film {text}")
+        assert number == 7 or title.endswith(f"{100.0 * apart:.2g} %")
+        dotted = [line for line in ax.get_lines() if line.get_color() == "black"]
+        assert len(dotted) == (0 if number == 7 else 5)
+        assert "M12L15, $u_1+u_2$ = 8 m/s" in [t.get_text() for t in panels[0].get_legend().get_texts()]
+    assert panels[0].get_ylim() == panels[1].get_ylim()

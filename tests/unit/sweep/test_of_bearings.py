@@ -76,7 +76,7 @@ def test_what_a_value_is_set_beside():
 
 @pytest.mark.parametrize(
     ("value", "part", "text"),
-    [("bearing.first_break", 1.0, "break"), ("bearing.through_breakdown", 2.0, "break")],
+    [("bearing.first_break", 1.0, "first breakdown"), ("bearing.through_breakdown", 2.0, "ring-to-ring")],
 )
 def test_a_line_of_breakdown_voltages_has_that_of_the_shaft(value, part, text):
     ax = value_lines(over(), SPEED, None, value)

@@ -235,7 +235,7 @@ def test_ranges_say_how_their_axes_are():
         ("field.max_strength", [1.6e7], r"$|E|_\mathrm{max}$ [V/µm]", "16 V/µm"),
         ("hertz.max_pressure", [2e9], r"$p_\mathrm{h}$ [GPa]", "2 GPa"),
         ("discharge.capacitance_hertz", [40e-9], r"$C_\mathrm{H}$ [nF/m]", "40 nF/m"),
-        ("discharge.capacitance_ratio", [1.4], "capacitance over that of a plate", "1.4"),
+        ("discharge.capacitance_ratio", [1.4], "capacitance / parallel plates", "1.4"),
         ("discharge.contact_energy", [2e-9], "[nJ]", "2 nJ"),
         ("discharge.zone_area", [4e-12], "zone that breaks down first [µm²]", "4 µm²"),
         ("discharge.some_area", [4e-12], "discharge.some_area", "4e-12"),  # no key of a result
@@ -247,7 +247,7 @@ def test_ranges_say_how_their_axes_are():
         ("discharge.pit_diameter", [2e-6], "diameter of the pit [µm]", "2 µm"),
         ("discharge.zone_size", [2e-5], "zone that breaks down first [µm]", "20 µm"),
         ("discharge.zone_position.1", [2e-5], "zone that breaks down first [µm]", "20 µm"),
-        ("discharge.zone_over_half_width", [0.04], "zone over the half-width", "0.04"),
+        ("discharge.zone_over_half_width", [0.04], "size of the zone / half-width", "0.04"),
         ("discharge.capacitance", [40e-9], "capacitance of the whole film $C$ [nF/m]", "40 nF/m"),
         ("discharge.capacitance_plate", [30e-9], "A_\\mathrm{H}/h(0)$ [nF/m]", "30 nF/m"),
         ("discharge.current_density", [3e5], "apparent current density $J$ [A/mm²]", "0.3 A/mm²"),

@@ -26,8 +26,8 @@ def rpm(value):
     return value * math.pi / 30.0
 
 
-def point(number, inputs, margin, *, status="solved", codes=(), lubrication="full film"):
-    table = {"margin": margin, "lubrication": lubrication}
+def point(number, inputs, margin, *, status="solved", codes=(), lubrication="full film", contacts="solved"):
+    table = {"margin": margin, "lubrication": lubrication, "contacts": contacts}
     summary = {"bearing": table, "discharge": table, "warnings": list(codes), "warning_codes": list(codes)}
     return Point(number, inputs, status, summary=summary)
 
@@ -68,6 +68,17 @@ def test_a_margin_that_falls_with_the_input():
 )
 def test_levels(margins, level):
     assert sweep_verdict(sweep({SPEED: (100.0, 200.0)}, margins)).level == level
+
+
+def test_a_margin_that_may_be_below_one_leaves_no_green_verdict():
+    axes, safe = {SPEED: (100.0, 200.0)}, [1.2, 2.0]
+    formula = sweep_verdict(sweep(axes, safe, at_0={"contacts": "formula"}, at_1={"contacts": "formula"}))
+    assert formula.level == "yellow"
+    assert "At 1 of the other points the margin is within the 30 %" in formula.text
+    warned = sweep_verdict(sweep(axes, safe, at_1={"codes": ["partial-film"]}))
+    assert warned.level == "yellow"
+    assert "At 1 of the other points warnings say" in warned.text
+    assert sweep_verdict(sweep(axes, safe, at_1={"codes": ["isothermal-film"]})).level == "green"
 
 
 def test_contacts_have_their_own_margin():

@@ -88,6 +88,11 @@ def total_rows(summary: Mapping[str, Any]) -> list[Row]:
     list of Row
         Values in SI units.
     """
+    return [*input_rows(summary), *outcome_rows(summary)]
+
+
+def outcome_rows(summary: Mapping[str, Any]) -> list[Row]:
+    """Rows of the totals of a bearing, and of what moves its margin; values in SI units."""
     totals = summary["bearing"]
     first = f", {totals['first_break_at']}" if totals["first_break_at"] else ""
     entries = (
@@ -109,7 +114,6 @@ def total_rows(summary: Mapping[str, Any]) -> list[Row]:
         ("interpolation error over the load", "bearing.interpolation_error", "%"),
     )
     return [
-        *_inputs(summary),
         *rows_of(BEARING_KEYS, summary, entries),
         Row("time", summary["seconds"], "s", digits=".3g"),
         *_margin(summary),
@@ -120,7 +124,7 @@ def total_rows(summary: Mapping[str, Any]) -> list[Row]:
 _HOW = {"solved": "solved", "formula": "by formula"}
 
 
-def _inputs(summary: Mapping[str, Any]) -> Iterator[Row]:
+def input_rows(summary: Mapping[str, Any]) -> Iterator[Row]:
     """Rows of the inputs that decide about breakdown."""
     bearing, oil = summary["inputs"]["bearing"], summary["lubricant"]
     celsius = f"{oil['temperature'] - 273.15:.4g}"

@@ -22,7 +22,7 @@ from ehlectric.contact.results import ContactResult
 from ehlectric.errors import ResultWarning
 from ehlectric.motion.result import MotionResult
 from ehlectric.sweep.inputs import Sweep
-from ehlectric.sweep.labels import label_of
+from ehlectric.sweep.labels import CELSIUS, label_of
 from ehlectric.sweep.points import Range
 from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.warnings import sweep_warnings
@@ -54,7 +54,7 @@ def html_of(shown: Any) -> str:
         "<table>",
         *map(_row, rows_of(shown)),
         "</table>",
-        *(f"<p>warning: {escape(str(warning))}</p>" for warning in _warnings(shown)),
+        *(f"<p>{_word(warning)}: {escape(str(warning))}</p>" for warning in _warnings(shown)),
     ]
     return "<div>" + "".join(parts) + "</div>"
 
@@ -77,6 +77,10 @@ def _row(row: Row) -> str:
     )
 
 
+def _word(warning: ResultWarning) -> str:
+    return "note" if warning.severity == "note" else "warning"
+
+
 def _warnings(shown: Any) -> Iterable[ResultWarning]:
     """Warnings of a result; none of a case."""
     if isinstance(shown, SweepResults):
@@ -97,8 +101,9 @@ def _input(case: Case | BearingCase, key: str, value: Any) -> Row:
     """Row of an input: its name, and its value in a unit that suits it."""
     if isinstance(value, bool) or not isinstance(value, int | float):
         return Row(key, value if isinstance(value, str) else json.dumps(value))
-    scale = label_of(key, case).scaled(np.array([float(value)]))
-    return Row(key, f"{value * scale.factor:.6g}", scale.unit)
+    label = label_of(key, case)
+    scale = CELSIUS if label.unit == "K" else label.scaled(np.array([float(value)]))
+    return Row(key, f"{scale.of(value):.6g}", scale.unit)
 
 
 def _sweep_rows(sweep: Sweep) -> Iterator[Row]:

@@ -10,6 +10,7 @@ from ehlectric.arrays import Array
 from ehlectric.bearing.impedance import impedance_of
 from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solution import lambda_ratio, lubrication
+from ehlectric.discharge.verdict import lead_of, ratio_text
 from ehlectric.figures.bearing.curves import RPM, Curves, Speed, Speeds, critical_speed_of
 from ehlectric.figures.bearing.impedance import magnitude_at, prefixed, read_at
 from ehlectric.figures.bearing.looks import volts
@@ -42,8 +43,13 @@ def circuit(result: BearingResult) -> str:
     first = volts(found["first_break"])
     if shaft is None:
         return f"First breakdown at {first}: {found['first_break_at']}"
-    verdict = "Breakdown expected" if found["margin"] < 1.0 else "No breakdown expected"
-    return f"{verdict}: margin {found['margin']:.3g} (first breakdown {first} / shaft voltage {volts(shaft)})"
+    verdict, margin = result.verdict, found["margin"]
+    lead = (
+        "Margin"
+        if verdict is None or verdict.level == "grey"
+        else f"{lead_of(verdict.level, margin)}: margin"
+    )
+    return f"{lead} {ratio_text(margin)} (first breakdown {first} / shaft voltage {volts(shaft)})"
 
 
 def pitch(result: BearingResult) -> str:
@@ -83,7 +89,7 @@ def breakdown_over_speed(curves: Curves, own: Speed | None) -> str:
     at_own = ""
     if own is not None and (value := own[1]["bearing"]["first_break"]) is not None:
         shaft = own[1]["bearing"]["shaft_voltage"]
-        at_own = f"{volts(value)}" if shaft is None else f"margin {value / shaft:.3g}"
+        at_own = f"{volts(value)}" if shaft is None else f"margin {ratio_text(value / shaft)}"
         at_own += f" at {rpm_text(own[0])}"
     if not np.any(known):
         first = np.flatnonzero(np.isfinite(curves["first_break"]))

@@ -10,6 +10,7 @@ from matplotlib.patheffects import withStroke
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.cases.quantity import unit_for
+from ehlectric.discharge.verdict import ratio_text
 from ehlectric.figures.axes import is_wide, scale_axis
 from ehlectric.figures.bearing.curves import (
     RPM,
@@ -197,7 +198,7 @@ def _own_margin(own: Speed | None, ax: Axes) -> None:
     ax.annotate("", (rpm, first), (rpm, shaft), arrowprops=arrow)
     middle = (first * shaft) ** 0.5 if ax.get_yscale() == "log" else 0.5 * (first + shaft)
     ax.annotate(
-        f"margin {first / shaft:.3g}",
+        f"margin {ratio_text(first / shaft)}",
         (rpm, middle),
         (6.0, 0.0),
         textcoords="offset points",

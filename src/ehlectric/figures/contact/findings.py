@@ -119,7 +119,7 @@ def profiles_text(result: AnyContact) -> str:
         there = float(limit.flat[np.argmax(field.column_strength / limit)])
         text = f"Maximum field {with_unit(field.max_strength, 'V/m')}, "
         text += f"{per_cent(used)} of the strength {with_unit(there, 'V/m')}"
-    return f"{text}; walls and mid-film agree within {per_cent(_disagreement(result))}"
+    return f"{text}; walls and mid-film within {per_cent(_disagreement(result))}"
 
 
 def _disagreement(result: AnyContact) -> float:
@@ -203,7 +203,9 @@ def breakdown_text(result: AnyContact) -> str:
         chance = f"{100.0 * found.probability:.2g} %"
         return f"Probability of breakdown {chance} at {applied}; 63 % at {breaking}"
     verdict = "No breakdown" if found.margin > 1.0 else "Breakdown"
-    return f"{verdict} at {applied}: breakdown voltage {breaking} at {place} (margin {found.margin:.3g})"
+    # The panels of a point contact say where they cut the film.
+    where = f" at {place}" if isinstance(result, Result) else ""
+    return f"{verdict} at {applied}: breakdown voltage {breaking}{where} (margin {found.margin:.3g})"
 
 
 LINE_FINDINGS: Mapping[str, Callable[[Result], str]] = {

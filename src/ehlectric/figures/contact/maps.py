@@ -12,7 +12,6 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.collections import QuadMesh
 from matplotlib.colorbar import Colorbar
 from matplotlib.colors import Colormap
-from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Ellipse
 from matplotlib.ticker import MaxNLocator
@@ -42,9 +41,6 @@ _WIDTH, _FURTHER, _WIDE = 5.8, 1.6, 7.2
 # Room around the maps: beside them for labels and a colour bar; above and below them for title and labels,
 # for each row of a legend, and for a colour bar [inches].
 _BESIDE, _ABOVE, _ROW, _BAR = 1.6, 0.85, 0.2, 0.45
-
-# Empty edge above and below the maps [inches].
-_EDGE = 0.06
 
 # Range of x/b of the maps of the film, before and behind the Hertz ellipse, as for the line contact.
 _BEFORE, _BEHIND = -2.0, 1.5
@@ -332,18 +328,6 @@ def say(result: OfPointContact, ax: Axes, at: Array, text: str) -> None:
             fontsize=8.0,
             path_effects=_outlined("black", 2.0),
         )
-
-
-def fit_height(figure: Figure) -> None:
-    """Make a figure of maps as high as what is drawn on it.
-
-    Axes of equal scale need less height than the page has where a legend or a colour bar takes width.
-    """
-    figure.draw_without_rendering()
-    needed = figure.get_tightbbox()
-    height = float(needed.height) + 2.0 * _EDGE
-    if height < figure.get_figheight():
-        figure.set_figheight(height)
 
 
 def extreme_positions(x: Array, y: Array, values: Array) -> Array:

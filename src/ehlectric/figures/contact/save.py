@@ -12,10 +12,12 @@ from matplotlib.figure import Figure
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.figures.contact.findings import finding
 from ehlectric.figures.contact.line import figures_of
-from ehlectric.figures.contact.maps import fit_height
 from ehlectric.figures.contact.point import point_figures_of
 from ehlectric.figures.names import in_formats
 from ehlectric.figures.style import drawing_of, figure_of, name_over, save_figure, style
+
+# Empty edge above and below the maps [inches].
+_EDGE = 0.06
 
 
 def drawings_of(result: Result | PointResult) -> dict[str, Callable[..., Axes]]:
@@ -52,7 +54,7 @@ def figure(result: Result | PointResult, name: str) -> Figure:
         _name(ax, result, name)
         # Only maps have axes of equal scale.
         if ax.get_aspect() != "auto":
-            fit_height(figure_of(ax))
+            _fit_height(figure_of(ax))
     return figure_of(ax)
 
 
@@ -86,3 +88,15 @@ def _name(ax: Axes, result: Result | PointResult, name: str) -> None:
     title = textwrap.shorten(result.case.title, 90, placeholder=" ...")
     first = finding(result, file) if result.converged else "NOT CONVERGED"
     name_over(ax, "\n".join(filter(None, [first, title])), converged=result.converged)
+
+
+def _fit_height(figure: Figure) -> None:
+    """Make a figure of maps as high as what is drawn on it.
+
+    Axes of equal scale need less height than the page has where a legend or a colour bar takes width.
+    """
+    figure.draw_without_rendering()
+    needed = figure.get_tightbbox()
+    height = float(needed.height) + 2.0 * _EDGE
+    if height < figure.get_figheight():
+        figure.set_figheight(height)

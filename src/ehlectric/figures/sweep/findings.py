@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array
+from ehlectric.discharge.verdict import ratio_text
 from ehlectric.figures.sweep.paths import LinePath, joined, lines_of
 from ehlectric.figures.sweep.points import labelled, voltage_text
 from ehlectric.sweep.breakdown_keys import breakdown_of
@@ -30,10 +31,11 @@ def of_slice(results: SweepResults, selection: Slice) -> str:
     below = int(np.sum(margin < 1.0))
     applied = f"{selection.breakdown.voltage_name} {voltage_text(selection)}"
     everywhere = f"at all {margin.size} points" if margin.size > 1 else "at the point"
+    least, most = (ratio_text(float(of(margin))) for of in (np.min, np.max))
     if not below:
-        return f"No breakdown expected {everywhere}: minimum margin {margin.min():.3g} ({applied})"
+        return f"No breakdown expected {everywhere}: minimum margin {least} ({applied})"
     if below == margin.size:
-        return f"Breakdown expected {everywhere}: maximum margin {margin.max():.3g} ({applied})"
+        return f"Breakdown expected {everywhere}: maximum margin {most} ({applied})"
     where = _where(results, selection) or f"at {below} of {margin.size} points"
     return f"Breakdown expected {where} ({applied})"
 

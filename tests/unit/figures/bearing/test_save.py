@@ -8,6 +8,7 @@ import tomli_w
 from matplotlib.figure import Figure
 from typer.testing import CliRunner
 
+from ehlectric import solve_bearing
 from ehlectric.bearing.contacts import ContactCurve
 from ehlectric.bearing.preparation import equilibria_of, resolve_bearing
 from ehlectric.bearing.result import BearingResult
@@ -15,6 +16,7 @@ from ehlectric.bearing.ring_contacts import RingContacts
 from ehlectric.bearing.solution import BearingSolution, Position, ring_state
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.commands.app import app
+from ehlectric.discharge.verdict import Verdict
 from ehlectric.figures.bearing import circuit as bearing_circuit_plot
 from ehlectric.figures.bearing import impedance as bearing_impedance_plot
 from ehlectric.figures.bearing import pitch as bearing_pitch_plot
@@ -30,7 +32,7 @@ from ehlectric.figures.bearing.save import (
 )
 from ehlectric.figures.names import BEARING_FIGURE_FILES, SPEED_FIGURE_FILES
 from ehlectric.figures.style import BLUE
-from tests.helpers.bearings import contact_solution
+from tests.helpers.bearings import BALLS, bearing_case, contact_solution
 from tests.helpers.titles import title_of
 
 LOADS, CIRCUIT, PITCH, IMPEDANCE = BEARING_FIGURE_FILES
@@ -493,9 +495,35 @@ def test_a_critical_speed_of_the_summary_is_that_of_the_figure(points):
     own = at_speed(3000.0, 2.3e-10, 5.6, 4.0)
     own[1]["margin"] = {"critical_speed": 1234.0 / RPM}
     drawn = speed_figure(points, SPEED_FIGURE_FILES[1], own=own)
-    assert said(drawn).startswith("Breakdown expected below about 1230 rpm (margin 1.4 at 3000 rpm)")
+    assert said(drawn).startswith("Breakdown expected below about 1230 rpm (margin 1.40 at 3000 rpm)")
     (mark,) = [found for found in drawn.axes[0].get_lines() if found.get_markerfacecolor() == "white"]
     assert mark.get_xdata()[0] == pytest.approx(1234.0)
+
+
+def test_the_critical_speed_of_table_title_and_picture_is_one():
+    """The table's is found by solving at more speeds; the drawn curves cross within a per cent of it."""
+    motor = {
+        "common_mode_voltage": "300 V",
+        "winding_rotor_capacitance": "20 pF",
+        "rotor_frame_capacitance": "1 nF",
+    }
+    found = solve_bearing(bearing_case(BALLS, contacts="formula").replace({"motor": motor}), workers=1)
+    critical = found.margin_analysis.critical_speed
+    assert critical is not None
+    named = f"{float(f'{critical * RPM:.3g}'):g} rpm"
+    drawn = figure(found, SPEED_FIGURE_FILES[1])
+    assert said(drawn).startswith(f"Breakdown expected below about {named} (margin ")
+    assert named in [text.get_text().strip() for text in drawn.axes[0].texts]
+    first, shaft = (line(drawn.axes[0], name).get_data() for name in ("first", "shaft"))
+    at = np.argmin(np.abs(np.log(first[1] / shaft[1])))
+    assert first[0][at] == pytest.approx(critical * RPM, rel=0.03)
+
+
+def test_a_doubtful_margin_is_no_promise(result, monkeypatch):
+    for level, lead in (("yellow", "Breakdown possible: margin"), ("grey", "Margin")):
+        verdict = Verdict(level, "", 1.4)
+        monkeypatch.setattr(BearingResult, "verdict", property(lambda _, v=verdict: v))
+        assert said(figure(result, CIRCUIT)).startswith(f"{lead} 1.")
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,8 @@ from ehlectric import Case, solve
 from ehlectric.figures.contact.breakdown import breakdown, breakdown_voltages, limit_line, probability
 from ehlectric.figures.contact.cuts import field_cut, field_sections
 from ehlectric.figures.contact.findings import finding, has_spike, per_cent, place_text
-from ehlectric.figures.contact.line import field_deviation, field_profiles, field_strength, film, roughness
+from ehlectric.figures.contact.line import field_deviation, field_profiles, film, roughness
+from ehlectric.figures.contact.line_maps import field_strength
 from ehlectric.figures.contact.save import drawings_of, figure
 from ehlectric.figures.style import OUT_OF_RANGE, axes_or_new
 from tests.conftest import PAPER_CONTACT

@@ -79,7 +79,7 @@ def test_maps_are_of_the_result_to_scale(kind, draw, part, values, label):
         x, y = (axis[part] / result.conditions.semi_axis_x for axis, part in zip(of.axes, at, strict=True))
         even = np.hypot(x, y / result.conditions.ratio) < 0.4
         shown, expected = shown[even], expected[even]
-    np.testing.assert_allclose(shown, expected, rtol=2e-2 if spike else 1e-9, atol=1e-9)
+    np.testing.assert_allclose(shown, expected, rtol=3e-2 if spike else 1e-9, atol=1e-9)
     assert expected.size > 20
     assert bars(ax) == [label]
 

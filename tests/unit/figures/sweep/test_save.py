@@ -433,11 +433,13 @@ def test_titles_say_where_breakdown_is_expected():
     )
     fast = figure(grid({SPEED: (4.0, 8.0)}), f"lines_{VALUE}.png", x=SPEED)
     assert (
-        title_of(fast)[0] == "No breakdown expected at all 2 points: minimum margin 2 (applied voltage 5 V)"
+        title_of(fast)[0]
+        == "No breakdown expected at all 2 points: minimum margin 2.00 (applied voltage 5 V)"
     )
     slow = figure(grid({SPEED: (0.5, 1.0)}), f"lines_{VALUE}.png", x=SPEED)
     margin = 2.0 * (1.0 / 4.0) ** 0.7
-    assert title_of(slow)[0].startswith(f"Breakdown expected at all 2 points: maximum margin {margin:.3g} ")
+    text = f"Breakdown expected at all 2 points: maximum margin {margin:.2f} "
+    assert title_of(slow)[0].startswith(text)
     film = figure(grid({SPEED: (4.0, 8.0)}), "lines_film.minimum_thickness.png", x=SPEED)
     thick = 10.0 / 15.0 * 2.0**0.7
     assert title_of(film)[0] == f"Minimum film thickness: {10 / 15:.3g} to {thick:.3g} µm"

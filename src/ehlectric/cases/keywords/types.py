@@ -6,11 +6,8 @@ the case is made, by the same checks as those of a case file.
 
 from __future__ import annotations
 
-import inspect
-from collections.abc import Callable, Mapping, Sequence
-from typing import Any, Protocol, TypeAlias, TypedDict, TypeVar
-
-F = TypeVar("F", bound=Callable[..., Any])
+from collections.abc import Mapping
+from typing import Any, Protocol, TypeAlias, TypedDict
 
 
 class HasUnit(Protocol):
@@ -150,39 +147,3 @@ class BearingKeys(TypedDict, total=False):
     composite_rq: Value
     fill: str
     film_factor: float | str
-
-
-def takes(keys: type) -> Callable[[F], F]:
-    """Decorator that shows the keys of a ``TypedDict`` in the signature of a function of ``**keywords``.
-
-    Editors and ``help`` then list them by name.
-    """
-
-    def decorated(function: F) -> F:
-        signature = inspect.signature(function)
-        *first, _ = signature.parameters.values()
-        kind = inspect.Parameter.KEYWORD_ONLY
-        named = [inspect.Parameter(key, kind, default=None) for key in keys_of(keys)]
-        function.__signature__ = signature.replace(parameters=[*first, *named])  # type: ignore[attr-defined]
-        return function
-
-    return decorated
-
-
-def keys_of(keys: type) -> Sequence[str]:
-    """Names of the keys of a ``TypedDict``."""
-    return list(keys.__annotations__)
-
-
-def tables(**named: Any) -> dict[str, Any]:
-    """Tables of a case by name, without those that are None; the name of a lubricant becomes its table.
-
-    Examples
-    --------
-    >>> tables(lubricant="paper", discharge=None)
-    {'lubricant': {'base': 'paper'}}
-    """
-    given = {name: table for name, table in named.items() if table is not None}
-    if isinstance(given.get("lubricant"), str):
-        given["lubricant"] = {"base": given["lubricant"]}
-    return given

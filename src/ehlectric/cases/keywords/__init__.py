@@ -1,0 +1,1 @@
+"""Keywords of the constructors of cases: their types, and the tables made of them."""

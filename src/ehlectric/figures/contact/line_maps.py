@@ -1,0 +1,142 @@
+"""Maps of the field in the film of a line contact: potential and field strength."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.ticker import MaxNLocator
+
+from ehlectric.arrays import Array
+from ehlectric.cases.quantity import unit_for
+from ehlectric.contact.results import Result
+from ehlectric.figures.contact.maps import round_levels
+from ehlectric.figures.section import MAXIMUM, draw_section, section_inset
+from ehlectric.figures.style import axes_or_new, figure_of, in_half_widths, label_position
+
+
+def potential(result: Result, ax: Axes | None = None) -> Axes:
+    """Draw a map of the electric potential in the film, with ten equipotential lines.
+
+    Parameters
+    ----------
+    result : Result
+        Result of a line contact.
+    ax : Axes, optional
+        Axes to draw on; axes of a new figure if omitted.
+
+    Returns
+    -------
+    Axes
+        Axes with the map, and a colour bar beside them.
+    """
+    field, electric = result.field, result.case.electric
+    low, high = sorted((electric.potential_1, electric.potential_2))
+    ticks = np.linspace(low, high, 5)
+    ax = _map(result, field.potential, ax, label="potential $V$ [V]", limits=(low, high), ticks=ticks)
+    x, y = _mesh(result)
+    lines = np.linspace(low, high, 12)[1:-1]
+    ax.contour(x, y, field.potential, lines, colors="white", linewidths=0.4, linestyles="-")
+    return ax
+
+
+def field_strength(result: Result, ax: Axes | None = None, *, largest: float | None = None) -> Axes:
+    """Draw a map of the field strength in the film, with an inset around its maximum, which is marked.
+
+    Parameters
+    ----------
+    result : Result
+        Result of a line contact.
+    ax : Axes, optional
+        Axes to draw on; axes of a new figure if omitted.
+    largest : float, optional
+        Draws the dimensionless field strength abs(E) h_min/V12 instead, from 0 to this value, without inset.
+
+    Returns
+    -------
+    Axes
+        Axes with the map, and a colour bar beside them. The colours span the field strengths inside the
+        Hertz zone; smaller ones are grey.
+
+    Notes
+    -----
+    The dimensionless field strength is drawn as Figures 5 and 6 of Morris et al. (2022),
+    doi:10.3390/lubricants10050087.
+    """
+    field = result.field
+    if largest is not None:
+        return _dimensionless(result, ax, largest)
+    factor, unit = unit_for(field.max_strength, "V/m")
+    inside = np.abs(field.x) <= result.conditions.half_width
+    low = float(np.min(field.strength[inside])) if np.any(inside) else 0.0
+    levels = round_levels(factor * low, factor * field.max_strength, 8)
+    limits = (float(levels[0]), factor * field.max_strength)
+    strength = factor * field.strength
+    label = f"field strength $|E|$ [{unit}]"
+    ax = _map(result, strength, ax, label=label, limits=limits, ticks=levels[levels <= limits[1]], under=True)
+    _zoom(result, ax, strength, limits)
+    return ax
+
+
+def _dimensionless(result: Result, ax: Axes | None, largest: float) -> Axes:
+    """Draw a map of abs(E) h_min/V12 from 0 to ``largest``."""
+    scale = result.strength_scale
+    nice = np.asarray(MaxNLocator(6).tick_values(0.0, largest))
+    ticks = nice[(nice >= 0.0) & (nice <= largest)]
+    label = r"field strength $|E|\,h_\mathrm{min}/V_{12}$"
+    ax = _map(result, scale * result.field.strength, ax, label=label, limits=(0.0, largest), ticks=ticks)
+    factor, unit = unit_for(1.0 / scale, "V/m")
+    ax.set_title(rf"$V_{{12}}/h_\mathrm{{min}}$ = {factor / scale:.3g} {unit}", loc="right")
+    return ax
+
+
+def _zoom(result: Result, ax: Axes, values: Array, limits: tuple[float, float]) -> None:
+    """Mark the maximum of the field, and draw its surroundings enlarged on the upper body."""
+    x, y = _mesh(result)
+    k, j = np.unravel_index(np.argmax(values), values.shape)
+    height = float(np.max(y[k]) - np.min(y[k]))
+    half = 0.06 if not result.rough else 0.03
+    inset = ax.inset_axes((0.03, 0.68, 0.37, 0.29))
+    section_inset(inset, x[:, 0], y, values, limits=limits, under=True)
+    inset.set_xlim(x[k, 0] - half, x[k, 0] + half)
+    inset.set_ylim(np.min(y[k]) - 0.35 * height, np.max(y[k]) + 0.35 * height)
+    ax.indicate_inset_zoom(inset, edgecolor="black", lw=0.6)
+    for axes in (ax, inset):
+        axes.plot(x[k, 0], y[k, j], **MAXIMUM)
+
+
+def _mesh(result: Result) -> tuple[Array, Array]:
+    """Position x/b and height of the field's nodes, both (nx, ns); the height in the unit of its axis."""
+    field = result.field
+    factor, _ = unit_for(result.film.central_thickness, "m")
+    x = np.broadcast_to(in_half_widths(result, field.x)[:, np.newaxis], field.y.shape)
+    return x, factor * field.y
+
+
+def _map(
+    result: Result,
+    values: Array,
+    ax: Axes | None,
+    *,
+    label: str,
+    limits: tuple[float, float],
+    ticks: Array,
+    under: bool = False,
+) -> Axes:
+    """Draw a map of values (nx, ns) in the film, with its axis labels and colour bar.
+
+    Values below the limits are grey where ``under`` is set.
+    """
+    ax = axes_or_new(ax)
+    x, y = _mesh(result)
+    electric = result.case.electric
+    potentials = (electric.potential_1, electric.potential_2)
+    factor, unit = unit_for(result.film.central_thickness, "m")
+    units = (result.conditions.half_width, 1.0 / factor)
+    filled = draw_section(
+        ax, x[:, 0], y, values, limits=limits, potentials=potentials, under=under, units=units
+    )
+    ax.set_ylabel(f"height $y$ [{unit}]")
+    label_position(result, ax)
+    bar = figure_of(ax).colorbar(filled, ax=ax, label=label, pad=0.02)
+    bar.set_ticks(list(ticks))
+    return ax
