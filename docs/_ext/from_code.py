@@ -29,8 +29,8 @@ from ehlectric.cases import contact as contact_inputs
 from ehlectric.cases import library
 from ehlectric.cases import roughness as roughness_inputs
 from ehlectric.cases import table as validation
-from ehlectric.cases.grade import Grade
 from ehlectric.cases.input_keys import TABLES, descriptions
+from ehlectric.cases.library.grade import Grade
 from ehlectric.cases.lubricant import LAWS, density_law, permittivity_law
 from ehlectric.cases.quantity import Count, Quantities, Quantity
 from ehlectric.commands.app import app as commands

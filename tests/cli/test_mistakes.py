@@ -271,4 +271,4 @@ def test_temperatures_of_a_cut(monkeypatch, tmp_path, at, message):
     words = ["grid", "--x", SPEED, "--y", LOAD, "--value", "discharge.breakdown_voltage", "--at", at]
     done = CliRunner().invoke(app, words, env={"COLUMNS": "200"})
     assert done.exit_code == (2 if message else 0), done.output
-    assert (message or "temperature = 343.1") in done.output
+    assert (message or "temperature = 70 °C") in done.output

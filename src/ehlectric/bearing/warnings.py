@@ -21,7 +21,7 @@ from ehlectric.bearing.solution import (
 )
 from ehlectric.cases.bearing import Bearing
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.cases.clearance import clearance_range
+from ehlectric.cases.library.clearance import clearance_range
 from ehlectric.discharge.verdict import breakdown_warning
 from ehlectric.errors import ResultWarning
 from ehlectric.lubricant.viscosity_index import GRADE_WIDTH

@@ -9,9 +9,9 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import AfterValidator, BeforeValidator, model_validator
 
 from ehlectric.cases import library
-from ehlectric.cases.clearance import BORE, ClearanceClass, with_class, with_clearance
 from ehlectric.cases.discharge import Discharge
-from ehlectric.cases.grade import Grade
+from ehlectric.cases.library.clearance import BORE, ClearanceClass, with_class, with_clearance
+from ehlectric.cases.library.grade import Grade
 from ehlectric.cases.lubricant import Lubricant, law_parameters, library_name, with_lubricant
 from ehlectric.cases.quantity import Count, Quantity
 from ehlectric.cases.table import Table

@@ -145,9 +145,7 @@ class Case(Tabled, Table):
         if self.motion is None:
             return
         if not self.roughness:
-            raise InputError.worded(
-                "motion", "needs a rough surface: roughness is what moves", takes="a rough surface"
-            )
+            raise InputError.worded("motion", "needs a rough surface: roughness is what moves")
         if self.grid.wedge != "second-order":
             raise InputError("grid.wedge", got=f"{self.grid.wedge!r} beside motion", takes="'second-order'")
         if self.grid.refine is not None:

@@ -27,6 +27,7 @@ TEXTS = json.loads((EARLIER / "warnings.json").read_text(encoding="utf-8"))
 # Codes of warnings that no file has without its code: the commands alone tell them, or no version without
 # codes gave them.
 UNSTORED = {
+    "breakdown-expected",
     "radius-large",
     "speed-high",
     "temperature-extreme",

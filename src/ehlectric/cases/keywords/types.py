@@ -101,10 +101,12 @@ class BearingKeys(TypedDict, total=False):
         Names: bearing of the library, kind of the bearing, profile of rollers, materials, "oil" or "air".
     elements : int
         Number of rolling elements.
-    element_diameter, pitch_diameter, inner_groove, outer_groove, roller_length : float, str or quantity
+    bore, element_diameter, pitch_diameter, roller_length : float, str or quantity
         Geometry [m].
-    bore, clearance_class : float, str or quantity
-        Bore [m] and class of the clearance by ISO 5753, such as "C3".
+    inner_groove, outer_groove : float
+        Groove radii divided by the ball diameter.
+    clearance_class : str
+        "C2", "CN", "C3", "C4" or "C5" of ISO 5753-1 for the bore, in place of ``radial_clearance``.
     radial_clearance, contact_angle, shoulder_height : float, str or quantity
         Clearance [m], free contact angle [rad], and height of the shoulder over the element diameter.
     element_capacitance : float, str or quantity
@@ -112,7 +114,7 @@ class BearingKeys(TypedDict, total=False):
     radial_load, axial_load : float, str or quantity
         Loads [N].
     inner_speed : float, str or quantity
-        Rotational speed of the inner ring [rad/s]; write "3000 rpm" for revolutions per minute.
+        Rotational speed of the inner ring: "3000 rpm", or a float in rad/s; a whole number is refused.
     temperature : float, str or quantity
         Absolute temperature of the oil [K]; write "70 degC" for degrees Celsius.
     composite_rq : float, str or quantity
@@ -124,6 +126,7 @@ class BearingKeys(TypedDict, total=False):
     base: str
     kind: str
     elements: int
+    bore: Value
     element_diameter: Value
     pitch_diameter: Value
     inner_groove: Value
@@ -132,7 +135,6 @@ class BearingKeys(TypedDict, total=False):
     profile: str
     shoulder_height: Value
     radial_clearance: Value
-    bore: Value
     clearance_class: str
     contact_angle: Value
     element_material: str
