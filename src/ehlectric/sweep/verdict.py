@@ -56,7 +56,7 @@ def sweep_verdict(results: SweepPoints) -> Verdict | None:
     return Verdict(level, " ".join([*sentences, *doubts]), lowest)
 
 
-def _doubts(results: SweepResults, margins: Array) -> Iterator[str]:
+def _doubts(results: SweepPoints, margins: Array) -> Iterator[str]:
     """Sentences for which margins above 1 may be below it."""
     above = [(point, margin) for point, margin in zip(results.points, margins, strict=True) if margin >= 1.0]
     near = sum(
