@@ -27,7 +27,7 @@ def test_the_examples_run(tmp_path, monkeypatch, capsys):
     plt.close("all")
     printed = capsys.readouterr().out
     assert "contact.reduced_radus: unknown key; the nearest known one is contact.reduced_radius" in printed
-    assert "<SweepResults grid of 5 points over entrainment speed, 5 solved>" in printed
+    assert "<SweepResults grid of 5 points over entrainment speed, 5 solved, verdict " in printed
     assert len(names["margins"]) == 6
     assert list(names["margins"].values()) == sorted(names["margins"].values())
     assert names["first_breakdown"](names["bearing"]) > 1.0

@@ -189,7 +189,7 @@ def test_a_file_that_is_no_result_is_not_loaded(files, tmp_path):
     with pytest.raises(InputError, match=r"motion\.nc: is no motion of ehlectric, or damaged$"):
         load(tmp_path)
     (tmp_path / "empty").mkdir()
-    with pytest.raises(InputError, match=r"empty: has no result; expected a folder with result\.nc, "):
+    with pytest.raises(InputError, match=r"empty: has no result; expected a folder with one of result\.nc, "):
         load(tmp_path / "empty")
 
 
