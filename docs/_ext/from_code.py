@@ -432,6 +432,7 @@ def setup(app: Sphinx) -> dict[str, Any]:
     for constructor in (ehlectric.Case.line, ehlectric.Case.point, ehlectric.BearingCase.of):
         # Sphinx looks up defaults in the source, where the keys of a TypedDict are not.
         del constructor.__func__.__signature__
+    app.setup_extension("sphinx.ext.autodoc")  # it defines the event
     app.connect("autodoc-process-signature", _shortened)
     app.connect("builder-inited", _write, priority=100)
     app.connect("builder-inited", _paper, priority=100)
