@@ -124,20 +124,20 @@ def test_a_bearing(ehlectric, bearing_file, tmp_path):
     assert len(rows) == len(summary["contacts"]) == 28
     for row, same in zip(rows, summary["contacts"], strict=True):
         assert row["ring"] == same["ring"]
-        assert float(row["capacitance"]) == same["capacitance"]
+        assert float(row["capacitance [F]"]) == same["capacitance"]
         # Without load there is no Hertz pressure: an empty field.
-        assert (row["max_pressure"] == "") == (same["max_pressure"] is None)
+        assert (row["max_pressure [Pa]"] == "") == (same["max_pressure"] is None)
     with (tmp_path / "out" / "impedance.csv").open(newline="", encoding="utf-8") as file:
         lines = list(csv.DictReader(file))
     # Rollers in oil of 1 pS/m: a resistor of tau/C far below 1/(2 pi tau), a capacitor far above it.
     tau = 2.4 * 8.8541878e-12 / 1e-12
-    assert float(lines[0]["frequency"]) < 0.1 / tau
-    resistance = float(lines[0]["magnitude"]) * found["capacitance"]
+    assert float(lines[0]["frequency [Hz]"]) < 0.1 / tau
+    resistance = float(lines[0]["magnitude [ohm]"]) * found["capacitance"]
     assert resistance == pytest.approx(tau, rel=1e-3, abs=0.0)
-    omega = 2.0 * math.pi * float(lines[-1]["frequency"])
-    assert omega * float(lines[-1]["magnitude"]) == pytest.approx(1.0 / found["capacitance"], rel=1e-3)
-    assert float(lines[0]["phase_degrees"]) == pytest.approx(0.0, abs=1.0)
-    assert float(lines[-1]["phase_degrees"]) == pytest.approx(-90.0, abs=0.1)
+    omega = 2.0 * math.pi * float(lines[-1]["frequency [Hz]"])
+    assert omega * float(lines[-1]["magnitude [ohm]"]) == pytest.approx(1.0 / found["capacitance"], rel=1e-3)
+    assert float(lines[0]["phase_degrees [deg]"]) == pytest.approx(0.0, abs=1.0)
+    assert float(lines[-1]["phase_degrees [deg]"]) == pytest.approx(-90.0, abs=0.1)
     # Closed formulas, g = 11/60: cage at w (1 - g)/2, rollers at w (1 - g^2)/(2 g), d_m w (1 - g^2)/4.
     g, w, speeds = 11.0 / 60.0, 100.0 * math.pi, summary["mechanics"]
     assert speeds["cage_speed"] == pytest.approx(0.5 * w * (1.0 - g), rel=1e-9, abs=0.0)

@@ -53,9 +53,9 @@ REFUSED = {
         ),
     ),
     "E3": (
-        {'base = "6208"': 'base = "6205"'},
+        {'base = "6208"': 'base = "6206"'},
         (
-            "bearing.base: got '6205'; expected a name of the library: "
+            "bearing.base: got '6206'; expected a name of the library: "
             "209-hamrock, 6205, 6208, nu-215; or leave base out and give kind, elements, element_diameter"
         ),
     ),

@@ -93,7 +93,7 @@ def test_a_sweep_is_solved_saved_and_told(ehlectric, tmp_path, swept):
     assert 0 < warned <= 4
     assert done.stdout.split()[:5] == ["points", "solved", "4", "of", "4"]
     assert done.stdout.splitlines()[-2:] == ["written to out:", "  sweep.csv, sweep.parquet, sweep.nc"]
-    assert [row["contact.entrainment_speed"] for row in rows] == ["1.0", "1.0", "2.0", "2.0"]
+    assert [row["contact.entrainment_speed [m/s]"] for row in rows] == ["1.0", "1.0", "2.0", "2.0"]
     with xr.open_dataset(tmp_path / "out" / "sweep.nc") as file:
         assert dict(file.sizes) == {"contact.entrainment_speed": 2, "contact.max_hertz_pressure": 2}
         # More speed, thicker film; more load, a thinner one.

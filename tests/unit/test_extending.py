@@ -128,7 +128,7 @@ def test_check_shows_formulas_and_warnings_of_a_new_law(geometry):
     assert films_of(summary) == pytest.approx(films_of(expected), rel=1e-13)
     times = summary["hertz"]["max_pressure"] / P_2
     assert f"the viscosity doubles {times:.0f} times" in list(map(str, texts))
-    assert rows(meaning)["Moes L"] == f"{expected['groups']['moes_l']:.4g}"
+    assert rows(meaning)["material parameter L (Moes)"] == f"{expected['groups']['moes_l']:.4g}"
 
 
 @pytest.mark.usefixtures("laws")
@@ -251,8 +251,8 @@ def test_a_new_formula_is_in_results_and_tables(monkeypatch, module, geometry):
     summary = meaning.summary
     films = {"minimum_thickness": None, "central_thickness": 4e-5}
     assert summary["film_formulas"]["mine"] == films
-    assert rows(meaning)["My formula, central"] == "40"
-    assert "My formula, minimum" not in rows(meaning)
+    assert rows(meaning)["central film (My formula)"] == "40"
+    assert "minimum film (My formula)" not in rows(meaning)
     result = solve(case)
     assert result.formulas()["mine"] == CentralThickness(central_thickness=4e-5)
     assert result.summary()["film_formulas"]["mine"] == films
@@ -264,7 +264,7 @@ def test_a_piezoviscous_formula_gives_nothing_for_an_isoviscous_oil(monkeypatch)
     meaning = check(Case.from_dict({"contact": PAPER_CONTACT, "lubricant": oil}))
     summary = meaning.summary
     assert set(summary["film_formulas"]["mine"].values()) == {None}
-    assert not any(name.startswith("My formula") for name in rows(meaning))
+    assert not any("My formula" in name for name in rows(meaning))
 
 
 def test_a_lubricant_of_the_library_is_one_file(tmp_path, monkeypatch):

@@ -385,7 +385,9 @@ def find_files(table: dict[str, Any], folder: Path) -> None:
     """
     rough = table.get("roughness")
     for surface in rough if isinstance(rough, list) else []:
-        if isinstance(surface, dict) and isinstance(surface.get("file"), str):
+        if not isinstance(surface, dict) or not isinstance(surface.get("file"), str):
+            continue
+        if not Path(surface["file"]).is_absolute():
             surface["file"] = str((folder / surface["file"]).absolute())
 
 

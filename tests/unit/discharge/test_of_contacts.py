@@ -309,8 +309,13 @@ def test_rows_of_the_table(solved):
     assert "breakdown voltage" not in bare
     assert bare["dielectric strength"] == ("none", "given: no breakdown voltage")
     # A single contact has the inputs that decide its film at its head.
-    assert list(line_rows)[:3] == ["load per length", "entrainment speed", "viscosity"]
-    assert list(constant)[:2] == ["load", "entrainment speed"]
+    assert list(line_rows)[1:5] == [
+        "load per length",
+        "entrainment speed",
+        "slide-to-roll ratio",
+        "viscosity at ambient pressure",
+    ]
+    assert list(constant)[1:3] == ["load", "entrainment speed"]
 
 
 def rows(table):

@@ -117,7 +117,7 @@ def test_a_doubt_leaves_no_green_verdict(balls):
     text = "the largest field is at an edge"
     verdict = judged(as_solved(balls, warnings=(ResultWarning("field-range-too-narrow", text),)))
     assert verdict.level == "yellow"
-    assert "The largest field is at an edge of the field range." in verdict.text
+    assert "The maximum field is at an edge of the field range." in verdict.text
     partial = judged(as_solved(solved(bearing__composite_rq="0.1 um")))
     assert partial.level == "yellow"
     assert "Surfaces may touch (lambda ratio " in partial.text
