@@ -149,7 +149,7 @@ def _breakdown_by_formula(
 def _breakdown_rows(estimate: Mapping[str, Any]) -> Iterator[Row]:
     yield Row("breakdown voltage", estimate["breakdown_voltage"], "V", f", by formula: {estimate['formula']}")
     if estimate["margin"] is not None:
-        yield Row("  margin", estimate["margin"], note="breakdown / applied, up to 40 % off")
+        yield Row("margin (breakdown / applied)", estimate["margin"], note="by formula: up to 40 % off")
 
 
 @check.register
@@ -163,10 +163,11 @@ def _check_bearing(case: BearingCase) -> Meaning:
         return _without_films(case, reason)
     result = _solved_by_formula(judged)
     summary = {**result.summary(), "by_formula": True}
-    totals = (row for row in outcome_rows(summary) if row.name != "time")
-    rows = [*input_rows(summary), *_dry(summary), Row("by formula:", note=_BY_FORMULA), *totals]
+    totals = (row for row in outcome_rows(summary) if row.name != "computing time")
+    accuracy = Row("accuracy of all that follows", note=_BY_FORMULA)
+    rows = [*input_rows(summary), *_dry(summary), accuracy, *totals]
     if reason:
-        rows.append(Row("breakdown", note=reason))
+        rows.append(Row("breakdown voltage", note=reason))
     return Meaning(case.title, tuple(rows), summary, tuple(result.warnings()), result.verdict)
 
 
@@ -213,11 +214,12 @@ def _dry(summary: Mapping[str, Any]) -> Iterator[Row]:
     for ring in ("inner", "outer"):
         contacts = [row for row in summary["contacts"] if row["ring"] == ring]
         most = max(contacts, key=lambda row: float(row["load"]))
-        yield Row(f"most loaded contact, {ring} ring", most["load"], "N")
-        yield Row("  Hertz pressure", most["max_pressure"], "GPa")
-        yield Row("  minimum film, by formula", most["minimum_thickness"], "µm")
+        yield Row(f"most loaded contact, {ring} ring")
+        yield Row(f"load, {ring} ring", most["load"], "N")
+        yield Row(f"Hertz pressure, {ring} ring", most["max_pressure"], "GPa")
+        yield Row(f"minimum film, {ring} ring", most["minimum_thickness"], "µm", ", by formula")
         speed = summary["mechanics"][f"entrainment_speed_{ring}"]
-        yield Row("  entrainment speed", speed, "m/s")
+        yield Row(f"entrainment speed, {ring} ring", speed, "m/s")
 
 
 @check.register

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 def loads_table(summary: Mapping[str, Any]) -> Table:
     """Table of the loads and dry contacts of all elements with both rings."""
-    heads = ("at\n[deg]", "load\n[N]", "angle\n[deg]", "p_h\n[GPa]", "semi-axes\n[µm]")
+    heads = ("position\n[deg]", "load\n[N]", "angle\n[deg]", "Hertz p\n[GPa]", "semi-axes\n[µm]")
     rows = (
         (
             f"{math.degrees(row['position']):.0f}",
@@ -37,7 +37,7 @@ def loads_table(summary: Mapping[str, Any]) -> Table:
 def films_table(summary: Mapping[str, Any]) -> Table:
     """Table of the films, capacitances and voltages of all elements with both rings."""
     driven = summary["bearing"]["shaft_voltage"] is not None
-    heads = ("h_min\n[µm]", "h(0)\n[µm]", "lambda", "C\n[pF]", "share\n[%]")
+    heads = ("h_min\n[µm]", "h central\n[µm]", "lambda", "C\n[pF]", "V share\n[%]")
     rows = (
         (
             f"{row['minimum_thickness'] * 1e6:.4g}",
@@ -51,7 +51,7 @@ def films_table(summary: Mapping[str, Any]) -> Table:
         for row in summary["contacts"]
     )
     field = "E\n[V/µm]" if driven else "E/V\n[1/µm]"
-    return _contacts_table(summary, (*heads, field, "breaks\n[V]"), rows)
+    return _contacts_table(summary, (*heads, field, "breakdown\n[V]"), rows)
 
 
 def _contacts_table(
@@ -95,27 +95,37 @@ def outcome_rows(summary: Mapping[str, Any]) -> list[Row]:
     """Rows of the totals of a bearing, and of what moves its margin; values in SI units."""
     totals = summary["bearing"]
     first = f", {totals['first_break_at']}" if totals["first_break_at"] else ""
-    entries = (
-        ("capacitance", "bearing.capacitance", "pF", f", contacts {_HOW[totals['contacts']]}"),
-        ("  capacitance, oil in all gaps", "bearing.capacitance_oil", "pF"),
-        ("  capacitance, air around the films", "bearing.capacitance_air", "pF"),
-        ("  capacitance / parallel plates", "bearing.capacitance_ratio", ""),
+    films = (
         ("minimum lambda ratio", "bearing.lambda_ratio", "", totals["lubrication"]),
         ("film factor", "bearing.film_factor", "", _film_factor(summary)),
-        ("shaft voltage", "bearing.shaft_voltage", "V", ", by the capacitive divider"),
-        ("  bearing voltage ratio", "bearing.bearing_voltage_ratio", "%", ", shaft / common-mode"),
-        ("first breakdown voltage", "bearing.first_break", "V", first),
-        ("  first breakdown, mean over positions", "bearing.first_break_mean", "V"),
-        ("ring-to-ring breakdown voltage", "bearing.through_breakdown", "V"),
-        ("  ring-to-ring, mean over positions", "bearing.through_breakdown_mean", "V"),
-        ("max field per volt on the bearing", "bearing.strength_per_volt", "1/µm"),
-        ("  max field at the shaft voltage", "bearing.max_strength", "V/µm"),
         ("discretisation error of the films", "bearing.discretisation_error", "%"),
         ("interpolation error over the load", "bearing.interpolation_error", "%"),
     )
+    capacitances = (
+        ("capacitance of the bearing", "bearing.capacitance", "pF"),
+        ("capacitance, oil in all gaps", "bearing.capacitance_oil", "pF"),
+        ("capacitance, air around the films", "bearing.capacitance_air", "pF"),
+        ("capacitance / parallel plates", "bearing.capacitance_ratio", ""),
+    )
+    voltages = (
+        ("bearing voltage ratio", "bearing.bearing_voltage_ratio", "%", ", shaft / common-mode"),
+        ("shaft voltage", "bearing.shaft_voltage", "V", ", by the capacitive divider"),
+        ("max field per volt on the bearing", "bearing.strength_per_volt", "1/µm"),
+        ("max field at the shaft voltage", "bearing.max_strength", "V/µm"),
+        ("ring-to-ring breakdown voltage", "bearing.through_breakdown", "V"),
+        ("ring-to-ring, mean over cage positions", "bearing.through_breakdown_mean", "V"),
+        ("margin (ring-to-ring / shaft voltage)", "bearing.through_margin", ""),
+        ("first breakdown, mean over positions", "bearing.first_break_mean", "V"),
+        ("first breakdown voltage", "bearing.first_break", "V", first),
+    )
     return [
-        *rows_of(BEARING_KEYS, summary, entries),
-        Row("time", summary["seconds"], "s", digits=".3g"),
+        Row(f"films, contacts {_HOW[totals['contacts']]}"),
+        *rows_of(BEARING_KEYS, summary, films),
+        Row("computing time", summary["seconds"], "s", digits=".3g"),
+        Row("capacitance"),
+        *rows_of(BEARING_KEYS, summary, capacitances),
+        Row("breakdown"),
+        *rows_of(BEARING_KEYS, summary, voltages),
         *_margin(summary),
     ]
 
@@ -129,6 +139,7 @@ def input_rows(summary: Mapping[str, Any]) -> Iterator[Row]:
     bearing, oil = summary["inputs"]["bearing"], summary["lubricant"]
     celsius = f"{oil['temperature'] - 273.15:.4g}"
     over_temperature = "temperature" in summary["inputs"]["lubricant"]
+    yield Row("operating conditions")
     yield Row("speed of the inner ring", bearing["inner_speed"], "rpm")
     for name in ("radial", "axial"):
         if bearing[f"{name}_load"]:
@@ -146,7 +157,7 @@ def _strength(discharge: Mapping[str, Any]) -> Row:
     """Row of the dielectric strength."""
     name = "dielectric strength"
     if "dielectric_strength" in discharge:
-        return Row(name, discharge["dielectric_strength"], "V/µm", ", an assumption of the file")
+        return Row(name, discharge["dielectric_strength"], "V/µm", ", as assumed")
     if "weibull" in discharge:
         law = discharge["weibull"]
         return Row(f"{name}, Weibull scale", law["scale"], "V/µm", f", shape {law['shape']:g}")
@@ -172,25 +183,26 @@ def _margin(summary: Mapping[str, Any]) -> Iterator[Row]:
     if margin is None:
         return
     yield Row("margin (first breakdown / shaft voltage)", margin, alarm=margin < 1.0)
-    through = summary["bearing"]["through_margin"]
-    yield Row("  margin (ring-to-ring / shaft voltage)", through)
     if analysis is None:
         return
     if analysis["low"] is not None:
-        yield Row("  margin within the stated ranges", _between(analysis["low"], analysis["high"]))
+        yield Row("margin within the stated ranges", _between(analysis["low"], analysis["high"]))
     if analysis["critical_speed"] is not None:
-        note = "rpm, breakdown expected below; scaled film formulas"
+        note = "rpm, breakdown expected below"
         yield Row("critical speed", rpm_text(analysis["critical_speed"]), note=note)
     elif analysis["lowest_speed"] is not None:
         low, high = (rpm_text(analysis[f"{name}_speed"]) for name in ("lowest", "highest"))
         yield Row("critical speed", "none", note=f"from {low} to {high} rpm")
     if analysis["touching_speed"] is not None:
         yield Row("surfaces touch below", rpm_text(analysis["touching_speed"]), note="rpm")
+    if analysis["effects"] or analysis["left_out"]:
+        yield Row("margin if one input changes")
     for effect in analysis["effects"]:
         margins = _between(effect["low_margin"], effect["high_margin"])
-        yield Row(f"  margin at {input_range(effect)}", margins, note=effect["label"])
+        name, _, beside = effect["label"].partition(" (")
+        yield Row(f"{name}, {input_range(effect)}", margins, note=beside.removesuffix(")"))
     for text in analysis["left_out"]:
-        yield Row("  not computed", note=text)
+        yield Row("not computed", note=text)
 
 
 def _between(low: float, high: float) -> str:

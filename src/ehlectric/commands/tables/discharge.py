@@ -39,10 +39,10 @@ def _breakdown(breakdown: Breakdown, applied: float) -> Iterator[Row]:
     yield Row("breakdown voltage", voltage, "V", f", at {condition}")
     low, high = breakdown.breakdown_voltage_low, breakdown.breakdown_voltage_high
     if low is not None and high is not None:
-        yield Row("  breakdown voltage, 5 to 95 %", f"{low:.4g} to {high:.4g}", "V")
+        yield Row("breakdown voltage, 5 to 95 %", f"{low:.4g} to {high:.4g}", "V")
     yield Row("margin (breakdown / applied)", breakdown.margin, alarm=breakdown.margin < 1.0)
     note = "at the applied voltage"
-    yield Row("  probability of breakdown", breakdown.probability, note=note, digits=".3g")
+    yield Row("probability of breakdown", breakdown.probability, note=note, digits=".3g")
 
 
 def _zone(zone: BreakdownZone, half_width: float) -> Iterator[Row]:
@@ -57,7 +57,7 @@ def _zone(zone: BreakdownZone, half_width: float) -> Iterator[Row]:
 
 def _capacitances(capacitances: Capacitances, unit: str) -> Iterator[Row]:
     yield Row("capacitance of the whole film", capacitances.capacitance, unit)
-    yield Row("  capacitance / parallel plates", capacitances.capacitance_ratio)
+    yield Row("capacitance / parallel plates", capacitances.capacitance_ratio)
     zones = {
         "Hertz zone": capacitances.capacitance_hertz,
         "inlet": capacitances.capacitance_inlet,
@@ -67,20 +67,20 @@ def _capacitances(capacitances: Capacitances, unit: str) -> Iterator[Row]:
     for zone, value in zones.items():
         if value is not None:
             filling = f", filling: {capacitances.outlet}" if zone == "outlet" else ""
-            yield Row(f"  capacitance of the {zone}", value, unit, filling)
+            yield Row(f"capacitance of the {zone}", value, unit, filling)
     least, most = (
         Row("", value, unit).shown
         for value in (capacitances.capacitance_layers, capacitances.capacitance_full)
     )
     note = ", assumption: layers to full"
-    yield Row("  capacitance by outlet filling", f"{least} to {most}", unit, note)
+    yield Row("capacitance by outlet filling", f"{least} to {most}", unit, note)
 
 
 def _costs(costs: DischargeCosts) -> Iterator[Row]:
     rows = (
         ("energy stored in the contact", costs.contact_energy, "nJ"),
         ("energy of a discharge", costs.discharge_energy, "nJ"),
-        ("  energy at the breakdown voltage", costs.breakdown_energy, "nJ"),
+        ("energy at the breakdown voltage", costs.breakdown_energy, "nJ"),
         ("diameter of the pit it melts", costs.pit_diameter, "µm", "; assumption: a hemisphere"),
     )
     yield from (Row(name, value, *unit) for name, value, *unit in rows if value is not None)
@@ -95,4 +95,4 @@ def _leakage(leakage: Leakage) -> Iterator[Row]:
     if leakage.relaxation_time is not None and leakage.corner_frequency is not None:
         note = ", at ambient pressure"
         yield Row("charge relaxation time of the oil", leakage.relaxation_time, "s", note, digits=".3g")
-        yield Row("  film is capacitive above", leakage.corner_frequency, "Hz", digits=".3g")
+        yield Row("film is capacitive above", leakage.corner_frequency, "Hz", digits=".3g")
