@@ -19,9 +19,11 @@ from ehlectric.bearing.solution import (
     lambda_ratio,
     lubrication,
 )
-from ehlectric.cases.bearing import Bearing
+from ehlectric.cases import library
+from ehlectric.cases.bearing import ROLLERS, Bearing, BearingLubricant
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.library.clearance import clearance_range
+from ehlectric.cases.lubricant import Lubricant
 from ehlectric.discharge.verdict import breakdown_warning
 from ehlectric.errors import ResultWarning
 from ehlectric.lubricant.viscosity_index import GRADE_WIDTH
@@ -32,6 +34,10 @@ _MOST_SPEED = 1e6
 
 # Temperatures that bearing steel, stabilised for 200 degC at most, and ordinary oils stand [degC].
 _COLDEST, _HOTTEST = -40.0, 200.0
+
+# Load, as a part of the static load rating, below which a unit is probably wrong: makers state minimum loads
+# of about a hundredth of the rating.
+_LEAST_LOAD = 1e-3
 
 # Viscosity above which an oil is near its pour point [Pa s].
 _MOST_VISCOUS = 10.0
@@ -68,7 +74,15 @@ def film_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
             'voltages are upper bounds; "inlet-shear" or a number below 1 gives thinner films'
         )
         yield ResultWarning("isothermal-film", text)
-    if solution.case.lubricant.temperature is None:
+    of_base = library_viscosity(solution.case.lubricant)
+    if of_base is not None:
+        at = f"{solution.case.bearing.temperature - 273.15:.4g} °C"
+        text = (
+            f"the viscosity is the {1e3 * of_base:.4g} mPa s of base {solution.case.lubricant.base!r} in the "
+            f"library, at any temperature; give lubricant.viscosity at {at}, or [lubricant.temperature]"
+        )
+        yield ResultWarning("viscosity-of-base", text)
+    elif solution.case.lubricant.temperature is None:
         text = (
             "bearing.temperature is ignored for the films, because lubricant.viscosity is given; give the "
             "viscosities at 40 and 100 °C instead to use it"
@@ -82,6 +96,14 @@ def film_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
         )
         yield ResultWarning("temperature-low", text)
     yield from clearance_warnings(solution.conditions.geometry.clearance, solution.positions[0])
+
+
+def library_viscosity(oil: BearingLubricant) -> float | None:
+    """Viscosity of a lubricant [Pa s] if it is the one that its base has in the library, else None."""
+    if oil.temperature is not None or oil.base is None:
+        return None
+    of_base = Lubricant.from_dict(library.lubricant(oil.base)).viscosity
+    return of_base if oil.viscosity == of_base else None
 
 
 def input_warnings(case: BearingCase, viscosity: float) -> Iterator[ResultWarning]:
@@ -103,6 +125,13 @@ def input_warnings(case: BearingCase, viscosity: float) -> Iterator[ResultWarnin
             f"{rpm:.4g} rpm and a pitch diameter of {1e3 * bearing.pitch_diameter:.4g} mm: n d_m is "
             f"{factor:.3g} mm/min, and ordinary oil-lubricated bearings run below {_MOST_SPEED:g}; is the "
             "unit of bearing.inner_speed right?",
+        )
+    load, rating = math.hypot(bearing.radial_load, bearing.axial_load), _static_rating(bearing)
+    if load < _LEAST_LOAD * rating:
+        yield ResultWarning(
+            "load-low",
+            f"the load of {load:.3g} N is below a thousandth of the static load rating, about "
+            f"{rating:.2g} N; is the unit of the load right?",
         )
     if not _COLDEST <= celsius <= _HOTTEST:
         yield ResultWarning(
@@ -131,6 +160,18 @@ def input_warnings(case: BearingCase, viscosity: float) -> Iterator[ResultWarnin
             "viscosity-grade",
             f"ISO VG {oil.iso_vg} is {low:.4g} to {high:.4g} mm²/s at 40 °C; computed with the middle",
         )
+
+
+def _static_rating(bearing: Bearing) -> float:
+    """Static load rating of a row of elements by ISO 76 [N], for typical ratios of diameters.
+
+    A radial row of Z balls of diameter D carries 13 Z D^2, and one of rollers of length L 40 Z D L, in N and
+    mm. The factor of balls, f0 of the standard, is 12.4 to 15.7 for diameters up to 0.35 of the pitch
+    diameter; that of rollers, 44 (1 - D/d_m), is 33 to 42.
+    """
+    diameter, length = 1e3 * bearing.element_diameter, 1e3 * (bearing.roller_length or 0.0)
+    each = 40.0 * diameter * length if bearing.kind == ROLLERS else 13.0 * diameter**2
+    return bearing.elements * each
 
 
 def voltage_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:

@@ -57,6 +57,8 @@ DOUBTS = (
     "strength-table-exceeded",
     "shoulder-reached",
     "temperature-low",
+    "viscosity-of-base",
+    "load-low",
 )
 
 

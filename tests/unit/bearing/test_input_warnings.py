@@ -2,7 +2,7 @@
 
 import pytest
 
-from ehlectric.bearing.warnings import input_warnings
+from ehlectric.bearing.warnings import input_warnings, library_viscosity
 from tests.helpers.bearings import BALLS, bearing_case
 
 GRADE = {
@@ -57,3 +57,19 @@ def test_limits(code, just, above, text):
     found = told(**above)
     assert list(found) == [code]
     assert text in found[code]
+
+
+def test_the_viscosity_of_a_base_is_not_at_the_temperature_of_the_bearing():
+    """The paper's oil has 40 mPa s; a viscosity of the file, or one over temperature, is the user's own."""
+    base = {"lubricant__temperature": None, "lubricant__base": "paper"}
+    assert library_viscosity(bearing_case(BALLS, **base).lubricant) == 0.04
+    assert library_viscosity(bearing_case(BALLS, **base, lubricant__viscosity="12 mPa s").lubricant) is None
+    assert library_viscosity(bearing_case(BALLS).lubricant) is None
+
+
+def test_a_load_in_kilonewtons_without_its_unit_is_doubted():
+    """13 Z D^2 = 13 * 9 * 11.906^2 = 16.6 kN, near the 17.9 kN that NSK prints for a 6208."""
+    alone = {"bearing__axial_load": None}
+    assert "load-low" not in told(bearing__radial_load="17 N", **alone)
+    text = told(bearing__radial_load=1.8, **alone)["load-low"]
+    assert "the load of 1.8 N is below a thousandth of the static load rating, about 1.7e+04 N" in text

@@ -32,6 +32,8 @@ UNSTORED = {
     "speed-high",
     "temperature-extreme",
     "viscosity-high",
+    "viscosity-of-base",
+    "load-low",
     "clearance-class",
     "viscosity-grade",
     "speed-left-out",
