@@ -150,8 +150,8 @@ def input_warnings(case: BearingCase, viscosity: float) -> Iterator[ResultWarnin
         low, high, middle = (1e6 * value for value in (allowed.least, allowed.most, allowed.middle))
         yield ResultWarning(
             "clearance-class",
-            f"clearance_class {bearing.clearance_class} is {low:.3g} to {high:.3g} um before mounting; "
-            f"computed with {middle:.3g} um, which fits and a warm inner ring make smaller",
+            f"clearance class {bearing.clearance_class} is {low:.3g} to {high:.3g} µm before mounting; "
+            f"computed with {middle:.3g} µm, which fits and a warm inner ring make smaller",
         )
     oil = case.lubricant.temperature
     if oil is not None and oil.iso_vg is not None:
