@@ -156,7 +156,7 @@ def test_units_that_people_print(ehlectric, tmp_path, inputs, changes):
             {'"10 um"': '"C3"'},
             0.01246,
             24e-6,
-            "clearance_class C3 is 15 to 33 um before mounting",
+            "clearance class C3 is 15 to 33 µm before mounting",
             id="E13",
         ),
     ],

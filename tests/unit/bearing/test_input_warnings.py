@@ -48,7 +48,7 @@ def test_an_ordinary_bearing_has_none():
             "clearance-class",
             {},
             CLASS,
-            "C2 is 1 to 11 um before mounting; computed with 6 um",
+            "C2 is 1 to 11 µm before mounting; computed with 6 µm",
         ),
     ],
 )
