@@ -165,7 +165,7 @@ def _bearing(
     result = solve_bearing(case, progress=progress, workers=workers)
     if require_convergence and not result.converged:
         raise ConvergenceError("a contact of the bearing")
-    log_warnings(case.title, result.warnings())
+    log_warnings(case.title, result.warnings)
     return result
 
 

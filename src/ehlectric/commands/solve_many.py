@@ -133,8 +133,7 @@ def _told(index: int, outcome: _Outcome) -> Solved[Any]:
     """Finished case, whose warnings are logged."""
     if isinstance(outcome, Exception):
         return Solved(index, None, outcome)
-    warnings = outcome.warnings() if isinstance(outcome, BearingResult) else outcome.warnings
-    log_warnings(outcome.case.title, warnings)
+    log_warnings(outcome.case.title, outcome.warnings)
     return Solved(index, outcome)
 
 

@@ -391,9 +391,9 @@ def test_a_given_viscosity_knows_no_temperature():
     ]
     assert lambda_ratio(results[0].solution) == lambda_ratio(results[1].solution)
     for result in results:
-        assert any("lubricant.viscosity is given" in text for text in map(str, result.warnings()))
+        assert any("lubricant.viscosity is given" in text for text in map(str, result.warnings))
     over = solve_bearing(bearing_case(BALLS, contacts="formula"))
-    assert not any("lubricant.viscosity" in text for text in map(str, over.warnings()))
+    assert not any("lubricant.viscosity" in text for text in map(str, over.warnings))
 
 
 def test_ball_bearing_6205_of_the_library_has_the_published_frequencies():

@@ -91,7 +91,7 @@ def test_a_notebook_shows_the_rows_of_the_command(results, kind, rows_of):
         for text in (row.name.strip(), row.shown, row.unit):
             assert f"{escape(text)}" in html
     if kind == "bearing":
-        assert html.count("warning: ") + html.count("note: ") == len(result.warnings())
+        assert html.count("warning: ") + html.count("note: ") == len(result.warnings)
 
 
 def test_titles_are_no_markup(results):

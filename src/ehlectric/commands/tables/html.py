@@ -85,8 +85,8 @@ def _warnings(shown: Any) -> Iterable[ResultWarning]:
     """Warnings of a result; none of a case."""
     if isinstance(shown, SweepResults):
         return sweep_warnings(shown)
-    warnings = getattr(shown, "warnings", ())
-    return warnings() if callable(warnings) else warnings
+    warnings: Iterable[ResultWarning] = getattr(shown, "warnings", ())
+    return warnings
 
 
 def input_rows(case: Case | BearingCase) -> Iterator[Row]:
