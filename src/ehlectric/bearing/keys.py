@@ -248,8 +248,8 @@ CONTACT_KEYS: Keys = {
     ),
     "max_strength": ResultKey("that field strength at the shaft voltage; null without a motor", "V/m"),
     "breakdown_voltage": ResultKey(
-        "voltage on the contact itself, not on the bearing, at which it breaks down; null without a strength, "
-        "for a conducting bearing and for ceramic elements",
+        "voltage on the contact itself, not on the bearing, at which it breaks down; null without a "
+        "strength, for a conducting bearing and for ceramic elements",
         "V",
     ),
     "bearing_breakdown_voltage": ResultKey(

@@ -187,6 +187,7 @@ class BearingResult(Shown):
         voltage, shaft = self.breaks()["first_break"], self.shaft_voltage
         return headline(
             self.case.title,
+            self.case.bearing.base or self.case.bearing.kind,
             f"{self.case.bearing.inner_speed * 30.0 / math.pi:.4g} rpm",
             f"capacitance {amount(self.capacitance(), 'F')}",
             None if voltage is None else f"first breakdown {voltage:.4g} V",

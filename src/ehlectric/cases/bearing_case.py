@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self, Unpack
 
 from pydantic import field_serializer, field_validator, model_validator
 
+from ehlectric.cases import library
 from ehlectric.cases.bearing import Bearing, BearingDischarge, BearingLubricant, Motor
 from ehlectric.cases.case import Title
-from ehlectric.cases import library
 from ehlectric.cases.changes import Groups, displace, flattened, set_keys
 from ehlectric.cases.discharge import STRENGTHS, TABLES
 from ehlectric.cases.grid import Solver

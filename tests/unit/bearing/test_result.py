@@ -13,7 +13,7 @@ from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.shaft_voltage import bearing_voltage_ratio
 from ehlectric.bearing.solution import lambda_ratio, plate_capacitance
 from ehlectric.bearing.solver import solve_bearing
-from ehlectric.errors import ResultWarning
+from ehlectric.errors import InputError, ResultWarning
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, with_values
 
 
@@ -410,3 +410,27 @@ def test_a_weibull_strength_from_the_file():
     least = min(float(np.min(circuit.first_breaks)) for circuit in result.solution.circuits("oil"))
     assert 28.0 ** (-1.0 / 10.0) * least < found["first_break"] < least
     assert found["through_breakdown"] > found["first_break"]
+
+
+def test_a_contact_breaks_down_at_its_voltage_over_its_share():
+    """Two contacts in series share the voltage: the bearing carries more than either."""
+    result = solve_bearing(bearing_case(BALLS, contacts="formula"), workers=1)
+    rows = result.contacts()
+    for row in rows:
+        assert row["bearing_breakdown_voltage"] * row["voltage_share"] == pytest.approx(
+            row["breakdown_voltage"]
+        )
+        assert row["bearing_breakdown_voltage"] > 1.2 * row["breakdown_voltage"]
+    at_first_position = min(row["bearing_breakdown_voltage"] for row in rows)
+    assert result.breaks()["first_break"] == pytest.approx(at_first_position, rel=0.02)
+    frame = result.to_dataframe()
+    assert frame.attrs["units"]["bearing_breakdown_voltage"] == "V"
+    assert set(frame.attrs["descriptions"]) == set(frame.columns)
+    assert "not on the bearing" in frame.attrs["descriptions"]["breakdown_voltage"]
+
+
+def test_the_fill_of_a_capacitance_is_oil_or_air():
+    result = solve_bearing(bearing_case(BALLS, contacts="formula", bearing__fill="air"), workers=1)
+    assert result.capacitance() == result.capacitance("air") < result.capacitance("oil")
+    with pytest.raises(InputError, match=r"^fill: got 'water'; expected 'oil', 'air', or None "):
+        result.capacitance("water")

@@ -27,7 +27,9 @@ def takes(keys: type) -> Callable[[F], F]:
         @functools.wraps(function)
         def called(*values: Any, **keywords: Any) -> Any:
             if "lubricant" not in keywords:
-                raise InputError.missing("lubricant", "its table, or the name of one of the library, as 'paper'")
+                raise InputError.missing(
+                    "lubricant", "its table, or the name of one of the library, as 'paper'"
+                )
             return function(*values, **keywords)
 
         called.__signature__ = signature.replace(parameters=[*first, *named])  # type: ignore[attr-defined]
