@@ -252,7 +252,7 @@ def _with_axes(results: SweepResults, name: str, options: Mapping[str, Any]) -> 
         return dict(options)
     if options.get("x") and (stem.startswith("map_") or results.design != "grid"):
         return dict(options)
-    return default_axes(results, options) | options
+    return {**default_axes(results, options), **options}
 
 
 def _no_figure(result: AnyResult, name: str) -> InputError:

@@ -220,3 +220,15 @@ def test_dataset_of_a_bearing_has_units(results):
     assert dataset["load"].attrs["units"] == "N"
     positions = results["bearing"].solution.positions
     np.testing.assert_array_equal(dataset["load"][0, 0], positions[0].inner.load)
+
+
+def test_units_of_a_notebook_are_those_of_an_engineer():
+    """No prefix on one, 300 V in place of 0.3 kV, and sweeps in rpm and °C."""
+    case = bearing_case(BALLS, contacts="formula")
+    html = case._repr_html_()
+    for number, unit in (("870", "kg/m³"), ("300", "V"), ("70", "°C"), ("3000", "rpm"), ("46", "mm²/s")):
+        assert f'>{number}</td><td style="text-align:left">{unit}</td>' in html
+    vary = {"bearing.inner_speed": ["1000 rpm", "2000 rpm"], "bearing.temperature": ["40 degC", "80 degC"]}
+    html = Sweep.from_dict({"case": case, "vary": vary})._repr_html_()
+    assert '>1000, 2000</td><td style="text-align:left">rpm</td>' in html
+    assert '>40, 80</td><td style="text-align:left">°C</td>' in html
