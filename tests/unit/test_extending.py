@@ -238,7 +238,7 @@ def test_contacts_of_a_bearing_by_formula_take_a_new_law():
     assert found.summary()["bearing"]["capacitance"] == pytest.approx(
         expected.summary()["bearing"]["capacitance"], rel=1e-9
     )
-    assert any(str(text).endswith("times") for text in found.warnings())
+    assert any(str(text).endswith("times") for text in found.warnings)
 
 
 @pytest.mark.parametrize(("module", "geometry"), [(film_line, "line"), (film_point, "point")])

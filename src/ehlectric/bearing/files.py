@@ -82,7 +82,7 @@ def run(
     clear(folder, names)
     files = save(result, folder)
     failure = None if result.converged else "not converged: a contact of the bearing"
-    return RunOutcome(result, result.summary(), tuple(files), tuple(result.warnings()), failure)
+    return RunOutcome(result, result.summary(), tuple(files), result.warnings, failure)
 
 
 def save(result: BearingResult, folder: str | Path) -> list[Path]:

@@ -248,8 +248,13 @@ CONTACT_KEYS: Keys = {
     ),
     "max_strength": ResultKey("that field strength at the shaft voltage; null without a motor", "V/m"),
     "breakdown_voltage": ResultKey(
-        "breakdown voltage of the contact by itself; null without a strength, for a conducting bearing and "
-        "for ceramic elements",
+        "voltage on the contact itself, not on the bearing, at which it breaks down; null without a "
+        "strength, for a conducting bearing and for ceramic elements",
+        "V",
+    ),
+    "bearing_breakdown_voltage": ResultKey(
+        "bearing voltage at which the contact breaks down, breakdown_voltage / voltage_share; null as "
+        "breakdown_voltage is",
         "V",
     ),
     "solved": ResultKey("whether there is a film; a gap of rigid bodies otherwise"),

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
-from ehlectric.bearing.keys import BEARING_KEYS
+from ehlectric.bearing.keys import BEARING_KEYS, CONTACT_KEYS
 from ehlectric.bearing.margin.analysis import MarginAnalysis, analyse_margin
 from ehlectric.bearing.margin.verdict import bearing_verdict
 from ehlectric.bearing.shaft_voltage import shaft_voltage
@@ -19,7 +19,7 @@ from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.result_key import key_of
 from ehlectric.cases.row import amount
 from ehlectric.discharge.verdict import Verdict
-from ehlectric.errors import ResultWarning
+from ehlectric.errors import InputError, ResultWarning, shown
 from ehlectric.runtime.display import Shown, headline
 from ehlectric.runtime.files import plain
 
@@ -79,8 +79,26 @@ class BearingResult(Shown):
         """
         return shaft_voltage(self.solution)
 
-    def capacitance(self, fill: str) -> float:
-        """Capacitance with "oil" or "air" around the films, mean over the positions of the cage [F]."""
+    def capacitance(self, fill: Literal["oil", "air"] | None = None) -> float:
+        """Capacitance of the bearing, mean over the positions of the cage.
+
+        Parameters
+        ----------
+        fill : str, optional
+            "oil" or "air" around the films; by default ``bearing.fill`` of the case.
+
+        Returns
+        -------
+        float
+            Capacitance [F]; of ceramic elements that of the elements, or an upper bound.
+
+        Raises
+        ------
+        InputError
+            If ``fill`` is neither "oil" nor "air".
+        """
+        if fill not in (None, "oil", "air"):
+            raise InputError("fill", got=shown(fill), takes="'oil', 'air', or None for the fill of the case")
         return capacitance(self.solution, fill)
 
     def breaks(self) -> dict[str, Any]:
@@ -90,12 +108,18 @@ class BearingResult(Shown):
         """
         return breaks(self.solution)
 
-    def warnings(self) -> list[ResultWarning]:
+    @property
+    def warnings(self) -> tuple[ResultWarning, ...]:
         """Warnings that tell where the result is unreliable, each once."""
-        return bearing_warnings(self.solution)
+        return tuple(bearing_warnings(self.solution))
 
     def contacts(self) -> list[dict[str, Any]]:
-        """Table of contacts, a row per element and ring, with the cage at its first position, SI units."""
+        """Table of contacts, a row per element and ring, with the cage at its first position, SI units.
+
+        ``breakdown_voltage`` is a voltage on the contact itself; ``bearing_breakdown_voltage`` is the bearing
+        voltage at which it breaks down, to be compared with the shaft voltage. ``strength_per_volt`` and
+        ``max_strength`` refer to the bearing voltage.
+        """
         return contact_rows(self.solution)
 
     @cached_property
@@ -141,7 +165,9 @@ class BearingResult(Shown):
         -------
         pandas.DataFrame
             Columns as in contacts.csv, SI units, angles in radians; NaN where a contact has no value.
-            ``attrs["units"]`` has the unit of each column.
+            ``attrs["units"]`` has the unit of each column of numbers, ``attrs["descriptions"]`` the meaning
+            of each column. ``breakdown_voltage`` is a voltage on the contact itself,
+            ``bearing_breakdown_voltage`` the bearing voltage at which it breaks down.
         """
         import pandas as pd
 
@@ -150,19 +176,23 @@ class BearingResult(Shown):
         numbers = [name for name in frame if name in units]
         frame[numbers] = frame[numbers].astype(float)
         frame.attrs["units"] = {str(name): units[str(name)] for name in numbers}
+        frame.attrs["descriptions"] = {str(name): CONTACT_KEYS[str(name)].meaning for name in frame}
         return frame
 
     def _headline(self) -> str:
-        """Title, speed, capacitance, first breakdown voltage and shaft voltage on one line."""
+        """Title, speed, capacitance, first breakdown voltage and shaft voltage on one line.
+
+        The verdict is left out: it takes seconds, and a line must not depend on what was asked before.
+        """
         voltage, shaft = self.breaks()["first_break"], self.shaft_voltage
         return headline(
             self.case.title,
+            self.case.bearing.base or self.case.bearing.kind,
             f"{self.case.bearing.inner_speed * 30.0 / math.pi:.4g} rpm",
-            f"capacitance {amount(self.capacitance(self.case.bearing.fill), 'F')}",
+            f"capacitance {amount(self.capacitance(), 'F')}",
             None if voltage is None else f"first breakdown {voltage:.4g} V",
             None if shaft is None else f"shaft voltage {shaft:.4g} V",
             "converged" if self.converged else "NOT CONVERGED",
-            verdict=vars(self).get("verdict"),  # of those known: the verdict takes seconds
         )
 
 

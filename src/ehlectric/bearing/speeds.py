@@ -56,7 +56,7 @@ def over_speed(
     >>> slow["capacitance"] > fast["capacitance"], left_out
     (True, [])
     """
-    changed, left_out = _by_formula(case)
+    changed, left_out = formula_case(case)
     if changed is None:
         return [], left_out
     points = []
@@ -72,11 +72,21 @@ def over_speed(
     return points, left_out
 
 
-def _by_formula(case: BearingCase) -> tuple[BearingCase | None, list[ResultWarning]]:
-    """Case with contacts by formula, and warnings of what the formulas cannot compute.
+def formula_case(case: BearingCase) -> tuple[BearingCase | None, list[ResultWarning]]:
+    """Case of a bearing with contacts by formula, and warnings of what the formulas cannot compute.
 
-    Where they cannot compute breakdown voltages, the case has no dielectric strength. Where they cannot be
-    used at all, there is no case.
+    Parameters
+    ----------
+    case : BearingCase
+        Case of the bearing.
+
+    Returns
+    -------
+    case : BearingCase or None
+        Case with contacts by formula; without a dielectric strength where the formulas cannot compute
+        breakdown voltages, None where they cannot be used at all.
+    left_out : list of ResultWarning
+        Warnings of what is left out, and why.
     """
     lubricant = case.lubricant.at(case.bearing.temperature)
     left_out: list[ResultWarning] = []

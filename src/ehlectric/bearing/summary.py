@@ -110,6 +110,7 @@ def contact_rows(solution: BearingSolution) -> list[dict[str, Any]]:
         ):
             values = ring.values
             strength = share[k] * values.strength_per_volt[k] if insulates else None
+            own = values.breakdown_voltage[k] if insulates else None
             rows.append(
                 {
                     "element": k,
@@ -127,7 +128,8 @@ def contact_rows(solution: BearingSolution) -> list[dict[str, Any]]:
                     "voltage_share": share[k] if insulates else None,
                     "strength_per_volt": strength,
                     "max_strength": None if strength is None or shaft is None else strength * shaft,
-                    "breakdown_voltage": values.breakdown_voltage[k] if insulates else None,
+                    "breakdown_voltage": own,
+                    "bearing_breakdown_voltage": None if own is None else own / share[k],
                     "solved": bool(ring.solved[k]),
                 }
             )

@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self, Unpack
 
 from pydantic import field_serializer, field_validator, model_validator
 
+from ehlectric.cases import library
 from ehlectric.cases.bearing import Bearing, BearingDischarge, BearingLubricant, Motor
 from ehlectric.cases.case import Title
-from ehlectric.cases.changes import Groups, displace, set_keys
+from ehlectric.cases.changes import Groups, displace, flattened, set_keys
 from ehlectric.cases.discharge import STRENGTHS, TABLES
 from ehlectric.cases.grid import Solver
 from ehlectric.cases.keywords.constructors import tables, takes
@@ -33,6 +34,20 @@ _ALTERNATIVES: dict[str, Groups] = {
     ),
     "discharge": (STRENGTHS, TABLES),
 }
+
+# Dimensions of a bearing, which belong to its base.
+_DIMENSIONS = (
+    "kind",
+    "elements",
+    "bore",
+    "element_diameter",
+    "pitch_diameter",
+    "inner_groove",
+    "outer_groove",
+    "roller_length",
+    "profile",
+    "shoulder_height",
+)
 
 # Keys of [discharge] that a bearing file may not have.
 _NOT_OF_BEARINGS = ("length", "external_capacitance", "peak_current", "pit")
@@ -238,15 +253,19 @@ class BearingCase(Tabled, Table):
         table["bearing"]["inner_speed"] = f"{self.bearing.inner_speed!r} {ROTATION}"
         return tomli_w.dumps(table)
 
-    def replace(self, changes: Mapping[str, Any]) -> Self:
-        """Return a changed copy of the case.
+    def replace(self, changes: Mapping[str, Any] | None = None, /, **tables: Any) -> Self:
+        """Return a changed copy of the case; the title stays unless a new one is given.
+
+        A new key replaces its alternative. A new ``lubricant.base`` replaces all values of the lubricant, and
+        a new ``bearing.base`` all dimensions of the bearing. A range of a replaced value is left out.
 
         Parameters
         ----------
-        changes : mapping
-            New values by dotted key, as in ``{"bearing.radial_load": "1 kN"}``. A new key replaces its
-            alternative; a new ``lubricant.base`` replaces all values of the lubricant. A range of a replaced
-            value is left out.
+        changes : mapping, optional
+            New values by dotted key, as in ``{"bearing.radial_load": "1 kN"}``.
+        **tables
+            New values by table, as in ``bearing={"radial_load": "1 kN"}``, or by key of the case, as in
+            ``title="A"``. Other keys of a table stay; ``ranges`` is replaced as a whole.
 
         Returns
         -------
@@ -258,9 +277,12 @@ class BearingCase(Tabled, Table):
         InputError
             If a key is unknown, or the changed case is not valid.
         """
+        changes = _flat_changes(tables) | dict(changes or {})
         table = self.to_dict()
         if "lubricant.base" in changes:
             table["lubricant"] = {}
+        if changes.get("bearing.base") is not None:
+            _drop_dimensions(table["bearing"])
         displace(table, changes, _ALTERNATIVES)
         set_keys(table, changes)
         if "ranges" in table and "ranges" not in changes:
@@ -273,6 +295,21 @@ class BearingCase(Tabled, Table):
             # It follows from the class, and anew where the class or the bore changes.
             table["bearing"].pop("radial_clearance", None)
         return self.from_dict(table)
+
+
+def _flat_changes(tables: Mapping[str, Any]) -> dict[str, Any]:
+    """New values by dotted key; ``ranges``, whose own keys are dotted, stays a table."""
+    ranges = {"ranges": tables["ranges"]} if "ranges" in tables else {}
+    return flattened({name: table for name, table in tables.items() if name != "ranges"}) | ranges
+
+
+def _drop_dimensions(bearing: dict[str, Any]) -> None:
+    """Remove the dimensions of a bearing, and the clearance if it is that of its base in the library."""
+    own = library.bearing(bearing["base"]) if bearing.get("base") else {}
+    if "radial_clearance" in own:
+        bearing.pop("radial_clearance", None)
+    for key in _DIMENSIONS:
+        bearing.pop(key, None)
 
 
 def _is_number(value: Any) -> bool:

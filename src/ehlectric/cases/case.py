@@ -313,7 +313,7 @@ class Case(Tabled, Table):
         return tomli_w.dumps(self.to_dict())
 
     def replace(self, changes: Mapping[str, Any] | None = None, /, **tables: Any) -> Self:
-        """Return a changed copy of the case.
+        """Return a changed copy of the case; the title stays unless a new one is given.
 
         A new key replaces its alternative: a Hertz pressure replaces the load, two radii replace the reduced
         radius, and a new ``lubricant.base`` replaces all values of the lubricant. A new geometry removes the

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
 from collections.abc import Mapping
 from functools import cache
@@ -129,7 +130,7 @@ def descriptions(table: str) -> dict[str, str]:
 
 
 def describe(key: str) -> str:
-    """Description of a key of a case, bearing or sweep file, in Markdown with formulas in LaTeX.
+    """Description of a key of a case, bearing or sweep file, as plain text with its SI unit.
 
     Parameters
     ----------
@@ -139,7 +140,7 @@ def describe(key: str) -> str:
     Returns
     -------
     str
-        A phrase, such as "load of a point contact".
+        A phrase with the unit in brackets, such as "load of a point contact [N]".
 
     Raises
     ------
@@ -149,9 +150,9 @@ def describe(key: str) -> str:
     Examples
     --------
     >>> describe("contact.load"), describe("roughness.1.hurst")
-    ('load of a point contact', 'Hurst exponent of a self-affine surface')
-    >>> describe("contact.body_1.youngs_modulus")
-    '$E$'
+    ('load of a point contact [N]', 'Hurst exponent of a self-affine surface')
+    >>> describe("bearing.radial_load")
+    'radial load, F_r [N]'
     """
     *names, leaf = [name for name in key.split(".") if not name.isdecimal()] or [key]
     table = ".".join("body" if name in ("body_1", "body_2") else name for name in names)
@@ -159,7 +160,48 @@ def describe(key: str) -> str:
     if leaf not in known:
         every = [f"{table}.{name}" for table in _texts() for name in descriptions(table)]
         raise InputError.unknown(key, nearest(key, every))
-    return known[leaf]
+    text, unit = (
+        _plain(known[leaf]),
+        unit_of(_numbered(key)).replace("**2", "²").replace("**3", "³").replace("*", " "),
+    )
+    name = INPUT_NAMES.get(key, (leaf.replace("_", " ") if _NAMELESS.match(known[leaf]) else "", ""))[0]
+    whole = text if text.startswith(name) else f"{name}, {text}"
+    return f"{whole} [{unit}]" if unit else whole
+
+
+# Descriptions that begin with a formula or a preposition, and do not name the quantity.
+_NAMELESS = re.compile(r"\$|of |at |above |below |from |peak|absolute")
+
+# Commands of LaTeX in descriptions, as plain text.
+_LATEX = {
+    r"\\(?:mathrm|text)\{([^}]*)\}": r"\1",
+    r"\\sqrt\{((?:[^{}]|\{[^}]*\})*)\}": r"√(\1)",
+    r"\\eta": "η",
+    r"\\nu": "ν",
+    r"\\omega": "ω",
+    r"\\sigma": "σ",
+    r"\\alpha": "α",
+    r"\\rho": "ρ",
+    r"\\zeta": "ζ",
+    r"\\lambda": "λ",
+    r"\\varepsilon": "ε",
+    r"\\ln": "ln ",
+    r"\^2": "²",
+    r"[${}`]": "",
+}
+
+
+def _numbered(key: str) -> str:
+    """Key with the number of a rough surface, which a description does not need."""
+    first, _, rest = key.partition(".")
+    return f"{first}.1.{rest}" if first == "roughness" and not rest[:1].isdecimal() else key
+
+
+def _plain(text: str) -> str:
+    """Text without the marks of Markdown and LaTeX."""
+    for pattern, plain in _LATEX.items():
+        text = re.sub(pattern, plain, text)
+    return text
 
 
 def input_field(key: str) -> FieldInfo:

@@ -164,10 +164,28 @@ def value_at(table: Mapping[str, Any], key: str) -> Any:
 def amount(value: float, unit: str) -> str:
     """Value in a prefixed unit that suits it, with four digits.
 
+    Lengths and field strengths below 1 of a unit stay in it, as films do in micrometres.
+
     Examples
     --------
-    >>> amount(7.4e-7, "m"), amount(2.5e6, "V/m")
-    ('0.74 µm', '2.5 V/µm')
+    >>> amount(7.4e-7, "m"), amount(2.5e6, "V/m"), amount(300.0, "V")
+    ('0.74 µm', '2.5 V/µm', '300 V')
     """
-    factor, prefixed = unit_for(abs(value), unit)
+    factor, prefixed = suited(value, unit)
     return f"{factor * value:.4g} {prefixed}"
+
+
+def suited(value: float, unit: str) -> tuple[float, str]:
+    """Factor from an SI unit to a prefixed unit that suits a value, and this unit.
+
+    Units that have a prefix already, as kg, or a power of their own, as 1/K, get no other one.
+
+    Examples
+    --------
+    >>> suited(870.0, "kg/m**3"), suited(2.3e-10, "F")
+    ((1.0, 'kg/m³'), (1000000000000.0, 'pF'))
+    """
+    if not unit or "**" in unit or unit.startswith(("kg", "1/", "K", "deg", "rad")):
+        return 1.0, unit.replace("**2", "²").replace("**3", "³").replace("*", " ")
+    factor, prefixed = unit_for(abs(value), unit, least=0.1 if unit in ("m", "V/m") else 1.0)
+    return round(factor, 12), prefixed.replace("*", " ")

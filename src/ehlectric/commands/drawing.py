@@ -70,7 +70,7 @@ def load_and_draw(
     result = load(path)
     if isinstance(result, BearingResult):
         names = (*BEARING_FIGURE_FILES, *SPEED_FIGURE_FILES)
-        return _draw(result, folder, names, tuple(result.warnings()), formats, style)
+        return _draw(result, folder, names, result.warnings, formats, style)
     return _draw(result, folder, ALL_FIGURES, result.warnings, formats, style)
 
 

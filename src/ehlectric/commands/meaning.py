@@ -168,7 +168,7 @@ def _check_bearing(case: BearingCase) -> Meaning:
     rows = [*input_rows(summary), *_dry(summary), accuracy, *totals]
     if reason:
         rows.append(Row("breakdown voltage", note=reason))
-    return Meaning(case.title, tuple(rows), summary, tuple(result.warnings()), result.verdict)
+    return Meaning(case.title, tuple(rows), summary, result.warnings, result.verdict)
 
 
 def _by_formula(case: BearingCase) -> tuple[BearingCase | None, str]:

@@ -24,7 +24,7 @@ from ehlectric.motion.result import MotionResult
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.stored_run import MOTION, read_motion
 from ehlectric.runtime.log import LOGGER, log_warnings
-from ehlectric.runtime.progress import Progress, silent
+from ehlectric.runtime.progress import Progress, silent, told_to
 
 # A case, its tables, or the path of its file.
 Solvable: TypeAlias = Case | BearingCase | Mapping[str, Any] | str | PathLike[str]
@@ -115,7 +115,8 @@ def solve(
     Raises
     ------
     InputError
-        If the input is wrong, or is a sweep or a case with motion; the message names the right function.
+        If the input or ``progress`` is wrong, or the input is a sweep or a case with motion; the message
+        names the right function.
     ConvergenceError
         If a film did not converge and ``require_convergence`` is True, or if a field did not converge.
 
@@ -132,6 +133,7 @@ def solve(
     <Result line contact, minimum film ..., maximum pressure ..., maximum field ..., converged>
     """
     found = case_of(case)
+    told_to(progress)
     if isinstance(found, BearingCase):
         return _bearing(found, progress, workers, solvers, require_convergence=require_convergence)
     if found.motion is not None:
@@ -165,7 +167,7 @@ def _bearing(
     result = solve_bearing(case, progress=progress, workers=workers)
     if require_convergence and not result.converged:
         raise ConvergenceError("a contact of the bearing")
-    log_warnings(case.title, result.warnings())
+    log_warnings(case.title, result.warnings)
     return result
 
 
@@ -270,6 +272,7 @@ def solve_motion(case: Case, *, progress: Progress = silent) -> MotionResult:
     """
     if case.motion is None:
         raise InputError("motion", "missing;", takes="it, or solve for a stationary contact")
+    told_to(progress)
     with TemporaryDirectory() as folder:
         try:
             run_motion(case, folder, progress=progress)

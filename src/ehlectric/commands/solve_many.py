@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import ExitStack
 from functools import partial
+from os import PathLike
 from typing import Any, Generic, NamedTuple, TypeVar, overload
 
 from ehlectric.bearing.result import BearingResult
@@ -70,7 +71,8 @@ def solve_many(cases: Iterable[Solvable], workers: int | None = None) -> Iterato
         Whatever ``solve`` takes. The iterable is read as the processes get free, so it may be endless.
     workers : int, optional
         Number of processes of this machine; by default the number of cores. With 1, the cases are solved in
-        this process, one after the other.
+        this process, one after the other. Processes take some seconds to start: 1 is faster for a few cases
+        of a second or less, such as bearings with contacts by formula.
 
     Yields
     ------
@@ -81,7 +83,7 @@ def solve_many(cases: Iterable[Solvable], workers: int | None = None) -> Iterato
     Raises
     ------
     InputError
-        If ``workers`` is not a whole number of at least 1.
+        If ``workers`` is not a whole number of at least 1, or ``cases`` is a single case.
     LostError
         If the processes cannot start or work no longer. This also happens if a script calls ``solve_many``
         without ``if __name__ == "__main__":``, as every process imports the script again. A notebook does
@@ -103,6 +105,10 @@ def solve_many(cases: Iterable[Solvable], workers: int | None = None) -> Iterato
     """
     if isinstance(workers, bool) or not (workers is None or (isinstance(workers, int) and workers >= 1)):
         raise InputError("workers", got=shown(workers), takes="a whole number of at least 1")
+    if isinstance(cases, Case | BearingCase | Mapping | str | PathLike) or not isinstance(cases, Iterable):
+        raise InputError(
+            "cases", got=shown(type(cases).__name__), takes="a list of cases; solve takes one case"
+        )
     number = workers or cores()
     given = enumerate(cases)
     return _here(given) if number == 1 else _in_processes(given, number)
@@ -133,8 +139,7 @@ def _told(index: int, outcome: _Outcome) -> Solved[Any]:
     """Finished case, whose warnings are logged."""
     if isinstance(outcome, Exception):
         return Solved(index, None, outcome)
-    warnings = outcome.warnings() if isinstance(outcome, BearingResult) else outcome.warnings
-    log_warnings(outcome.case.title, warnings)
+    log_warnings(outcome.case.title, outcome.warnings)
     return Solved(index, outcome)
 
 

@@ -8,8 +8,8 @@ from typing import Any
 from ehlectric.bearing.result import BearingResult
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.errors import InputError
+from ehlectric.figures.bearing.save import bearing_figures_of
 from ehlectric.figures.names import SENSITIVITY_FIGURE, map_files
-from ehlectric.figures.results import figure_names
 from ehlectric.motion.result import MotionResult
 from ehlectric.sweep.breakdown_keys import breakdown_of
 from ehlectric.sweep.results import SweepResults
@@ -55,7 +55,7 @@ def _of_bearing(result: BearingResult, _options: Mapping[str, Any]) -> _Default:
     """Breakdown over speed where there is a breakdown voltage, else the loads."""
     if result.breaks()["first_break"] is not None:
         return "breakdown_over_speed.png", {}
-    return figure_names(result)[0], {}
+    return next(iter(bearing_figures_of(result))), {}
 
 
 def _of_motion(_result: MotionResult, _options: Mapping[str, Any]) -> _Default:
@@ -67,13 +67,36 @@ def _of_sweep(results: SweepResults, options: Mapping[str, Any]) -> _Default:
     if results.design == "sobol":
         return SENSITIVITY_FIGURE, {}
     value = options.get("value") or _value_of(results)
-    keys = [options["x"]] if options.get("x") else []
-    keys += [key for key in _numeric(results) if key not in (*keys, options.get("y"))]
-    if not keys:
+    over = default_axes(results, options)
+    if not over:
         raise InputError("x", "no varied key has numbers;", takes="a figure by its name")
-    over = {"x": keys[0]} | ({"y": options.get("y") or keys[1]} if options.get("y") or keys[1:] else {})
     files = map_files(value)
     return files[0 if "y" in over and results.design == "grid" else 1], over | {"value": value}
+
+
+def default_axes(results: SweepResults, options: Mapping[str, Any]) -> dict[str, str]:
+    """Varied keys along the axes of a figure: those that are given, else the first ones with numbers.
+
+    Parameters
+    ----------
+    results : SweepResults
+        Results of a sweep.
+    options : mapping
+        Options of the figure, of which ``x`` and ``y`` are kept.
+
+    Returns
+    -------
+    dict of str to str
+        ``x``, and ``y`` where there is a second key; empty where no key has numbers.
+    """
+    x, y = options.get("x"), options.get("y")
+    at = options.get("at") or {}
+    free = [key for key in _numeric(results) if key not in (x, y, *at)]
+    keys = [x] if x else free[:1]
+    if not keys:
+        return {}
+    others = [y] if y else [key for key in free if key not in keys]
+    return {"x": keys[0]} | ({"y": others[0]} if others else {})
 
 
 def _value_of(results: SweepResults) -> str:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import inspect
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -11,16 +12,28 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from ehlectric.bearing.result import BearingResult
+from ehlectric.bearing.speeds import formula_case
+from ehlectric.cases.table import nearest
 from ehlectric.contact.results import PointResult, Result
-from ehlectric.errors import ResultWarning
+from ehlectric.errors import InputError, ResultWarning, shown
 from ehlectric.figures.bearing import save as bearing
 from ehlectric.figures.contact import save as contact
+from ehlectric.figures.defaults import default_axes
 from ehlectric.figures.motion import save as motion
-from ehlectric.figures.names import in_formats
+from ehlectric.figures.names import (
+    BEARING_FIGURE_FILES,
+    SENSITIVITY_FIGURE,
+    SPEED_FIGURE_FILES,
+    in_formats,
+    map_files,
+)
 from ehlectric.figures.style import style as styled
 from ehlectric.figures.sweep import save as sweep
 from ehlectric.motion.stored_run import MotionRun
+from ehlectric.runtime.files import prepare
+from ehlectric.sweep.labels import label_of
 from ehlectric.sweep.results import SweepResults
+from ehlectric.sweep.slices import known_values
 
 AnyResult = Result | PointResult | BearingResult | xr.Dataset | MotionRun | SweepResults
 
@@ -76,14 +89,22 @@ def figure(result: AnyResult, name: str, *, style: str = "screen", **options: An
     >>> figure(solve(case), "film.png").axes[0].get_xlabel()[:5]
     '$x/b$'
     """
+    draws = _draws_of(result)
+    _check_options(result, draws, options)
+    if isinstance(result, SweepResults):
+        options = _with_axes(result, name, options)
+    elif _stem(name) not in figure_names(result):
+        raise _no_figure(result, name)
     with styled(style):
-        return _draws_of(result).figure(_opened(result), name, **options)
+        return draws.figure(_opened(result), name, **options)
 
 
 def figure_names(result: AnyResult) -> list[str]:
     """Names of the figures that a result has.
 
-    The names of figures of a sweep, which depend on a value, and of a bearing over speed are not among them.
+    Those of a bearing include its figures over speed, which are drawn from contacts by formula. Those of a
+    sweep are maps and lines of each value that has a name, over the first varied keys; ``x`` and ``y`` choose
+    others.
 
     Parameters
     ----------
@@ -93,9 +114,9 @@ def figure_names(result: AnyResult) -> list[str]:
     Returns
     -------
     list of str
-        Names for ``figure``.
+        Names for ``figure``, without the ending of a file.
     """
-    return list(_draws_of(result).names(_opened(result)))
+    return [_stem(name) for name in _draws_of(result).names(_opened(result))]
 
 
 def draw_figures(
@@ -108,7 +129,7 @@ def draw_figures(
     result : Result, PointResult, BearingResult, Dataset, MotionRun or SweepResults
         Result of a contact, bearing, transient contact or sweep.
     folder : str or Path
-        Folder of the files; it must exist.
+        Folder of the files; it is made if it does not exist.
     formats : sequence of str
         Formats of the files, of "png", "svg" and "pdf".
     style : str
@@ -128,7 +149,7 @@ def draw_figures(
     """
     in_formats((), formats)
     with styled(style):
-        return _draws_of(result).save(result, Path(folder), formats)
+        return _draws_of(result).save(result, prepare(folder), formats)
 
 
 def save_figures(
@@ -141,7 +162,7 @@ def save_figures(
     result : Result, PointResult, BearingResult, Dataset, MotionRun or SweepResults
         Result of a contact, bearing, transient contact or sweep.
     folder : str or Path
-        Folder of the files; it must exist.
+        Folder of the files; it is made if it does not exist.
     formats : sequence of str
         Formats of the files, of "png", "svg" and "pdf".
     style : str
@@ -185,15 +206,86 @@ def _save_motion(result: xr.Dataset | MotionRun, folder: Path, formats: Sequence
     return Drawn(tuple(motion.save_motion_figures(dataset, folder, formats)))
 
 
+def _names_of_bearing(result: BearingResult) -> list[str]:
+    """Names of the figures of a bearing, also over speed as far as formulas compute them."""
+    case, _ = formula_case(result.case)
+    if case is None:
+        return list(bearing.bearing_figures_of(result))
+    breaks = case.discharge.has_strength and not result.solution.conditions.ceramic
+    over_speed = [name for name in bearing.SPEED_FIGURES if breaks or not name.startswith("breakdown")]
+    return [*bearing.bearing_figures_of(result), *over_speed]
+
+
+def _names_of_sweep(results: SweepResults) -> list[str]:
+    """Names of the figures of a sweep over its default axes."""
+    axes = default_axes(results, {})
+    known = (value for value in known_values(results) if not value.startswith("inputs."))
+    values = [value for value in known if label_of(value, results.case).name != value]
+    names = []
+    for value in values if axes else ():
+        on_map, lines = map_files(value)
+        names += [on_map, lines] if "y" in axes and results.design == "grid" else [lines]
+    return [SENSITIVITY_FIGURE, *names] if results.design == "sobol" else names
+
+
+def _check_options(result: AnyResult, draws: _Draws, options: Mapping[str, Any]) -> None:
+    """Raise an InputError for an option that the figures of a result do not have."""
+    _, _, *known = inspect.signature(draws.figure).parameters
+    for option in options:
+        if option not in known:
+            takes = f"one of {', '.join(known)}" if known else f"none but style for a {type(result).__name__}"
+            raise InputError(option, "is no option of this figure", takes=takes)
+
+
+def _with_axes(results: SweepResults, name: str, options: Mapping[str, Any]) -> dict[str, Any]:
+    """Options of a figure of a sweep, with the default axes where none are given.
+
+    Raises
+    ------
+    InputError
+        If the name is not that of a figure but that of a value.
+    """
+    stem = _stem(name)
+    if stem in known_values(results):
+        raise InputError("figure", got=f"{shown(stem)}, a value;", takes=f"value={stem!r} in place of a name")
+    if not stem.startswith(("map_", "lines_")):
+        return dict(options)
+    if options.get("x") and (stem.startswith("map_") or results.design != "grid"):
+        return dict(options)
+    return {**default_axes(results, options), **options}
+
+
+def _no_figure(result: AnyResult, name: str) -> InputError:
+    """Error of a name that is none of the figures of a result, with the nearest name and the cause."""
+    names, (file,) = figure_names(result), in_formats([name])
+    of_bearings = isinstance(result, BearingResult) and file in (*BEARING_FIGURE_FILES, *SPEED_FIGURE_FILES)
+    cause = _lacking(result) if of_bearings else f"nearest is {nearest(_stem(name), names)}"
+    return InputError("figure", got=shown(name), takes=f"one of {', '.join(names)}; {cause}")
+
+
+def _lacking(result: Any) -> str:
+    """Why a bearing lacks figures that other bearings have."""
+    if result.solution.conditions.ceramic:
+        return "the others need elements that conduct, and those of this bearing are ceramic"
+    if not result.case.discharge.has_strength:
+        return "those of breakdown need discharge.dielectric_strength, which the case does not give"
+    return "this bearing has nothing to show in the others"
+
+
+def _stem(name: str) -> str:
+    """Name of a figure without the ending of a format."""
+    return in_formats([name])[0].removesuffix(".png")
+
+
 _CONTACT = _Draws(contact.figure, contact.drawings_of, _save_contact)
 _MOTION = _Draws(motion.figure, motion.drawings_of, _save_motion)
 _DRAWS: dict[type, _Draws] = {
     Result: _CONTACT,
     PointResult: _CONTACT,
-    BearingResult: _Draws(bearing.figure, bearing.bearing_figures_of, _save_bearing),
+    BearingResult: _Draws(bearing.figure, _names_of_bearing, _save_bearing),
     xr.Dataset: _MOTION,
     MotionRun: _MOTION,
-    SweepResults: _Draws(sweep.figure, lambda _results: (), lambda _results, _folder, _formats: Drawn(())),
+    SweepResults: _Draws(sweep.figure, _names_of_sweep, lambda _results, _folder, _formats: Drawn(())),
 }
 
 

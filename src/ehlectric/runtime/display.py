@@ -74,24 +74,23 @@ class Shown(Tabled, Values):
             Name of the figure, with or without ".png", such as "field_map". By default the figure that tells
             most about a result of this kind. ``ehlectric.figure_names`` lists the names.
         **options
-            Options of the figures of a sweep: ``x``, ``y``, ``value`` and ``at``, see
-            ``ehlectric.figures.sweep.save.figure``.
+            ``style``, "screen" or "journal"; and of the figures of a sweep ``x``, ``y``, ``value`` and
+            ``at``, see ``ehlectric.figures.sweep.save.figure``.
 
         Returns
         -------
         matplotlib.figure.Figure
-            Figure, which a notebook shows; ``savefig`` writes it as PNG, SVG or PDF.
+            Figure. A notebook shows it if it is the last line of a cell; in a script, ``savefig`` writes it
+            as PNG, SVG or PDF.
 
         Raises
         ------
         InputError
-            If the result has no figure of this name.
+            If the result has no figure of this name, or its figures have no such option.
         """
         if name is None:
             name, chosen = _call(_DEFAULT, self, **options)
             options = chosen | options
-        elif not name.endswith(".png"):
-            name = f"{name}.png"
         return shown(_call(_FIGURE, self, name, **options))
 
 

@@ -13,10 +13,11 @@ from pydantic import ValidationInfo, create_model, field_validator, model_valida
 from pydantic.fields import FieldInfo
 
 from ehlectric.cases.any_case import AnyCase, case_of_dict, case_of_file
+from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case, Title, find_files
-from ehlectric.cases.input_keys import input_field, number_of
+from ehlectric.cases.input_keys import input_field, kind_of, number_of
 from ehlectric.cases.quantity import WRITTEN, Count, Quantity
-from ehlectric.cases.table import Table, nearest, read_toml
+from ehlectric.cases.table import Table, nearest, nearest_key, read_toml
 from ehlectric.errors import InputError, shown
 from ehlectric.runtime.display import Tabled, headline
 from ehlectric.sweep import design as sweep_design
@@ -26,12 +27,14 @@ from ehlectric.sweep.results import Range
 MOST_POINTS = 200_000
 _RANGE_KEYS = ("from", "to", "count", "spacing")
 _SPACINGS = ("linear", "log")
+_RANGE = "a list of values, or a table of from, to, count and optionally spacing"
 
 
 class Sweep(Tabled, Table):
     """Sweep over many cases: a base case, and the keys of it that vary.
 
     ``vary`` maps dotted keys of the case to their values in SI units or, in a "sobol" design, to a ``Range``.
+    It is made from lists, arrays, or tables of ``from``, ``to``, ``count`` and optionally ``spacing``.
     Rough surfaces are numbered from 1, as in "roughness.1.rescale_rq". A varied key replaces its alternative
     in the base case, as a load replaces a Hertz pressure.
 
@@ -64,6 +67,8 @@ class Sweep(Tabled, Table):
         if not flat:
             raise InputError(got="no key", takes="at least one key of the case with its values or its range")
         written = bool(info.context and info.context.get(WRITTEN))
+        for key in flat:
+            _check_known(key, case)
         return {key: _axis(key, value, design, written=written) for key, value in flat.items()}
 
     @model_validator(mode="after")
@@ -213,15 +218,26 @@ def _with_case(table: Mapping[str, Any], *, written: bool) -> Mapping[str, Any]:
     return table
 
 
+def _check_known(key: str, case: AnyCase) -> None:
+    """Raise an InputError for a key that no case has, with the nearest key of a case of this kind."""
+    try:
+        input_field(key)
+    except InputError as error:
+        if isinstance(case, BearingCase) and "unknown key" in error.text:
+            raise InputError.unknown(key, nearest_key(key, BearingCase)) from None
+        raise
+
+
 def _flattened(tables: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
     """Values and ranges by dotted key, from dotted keys and nested tables in any mixture."""
     flat: dict[str, Any] = {}
     for key, value in tables.items():
-        inner = (
-            _flattened(value, f"{prefix}{key}.")
-            if isinstance(value, Mapping) and not {"from", "to"} & set(value)
-            else {f"{prefix}{key}": value}
-        )
+        table = isinstance(value, Mapping) and not {"from", "to"} & set(value)
+        if table and kind_of(f"{prefix}{key}") is not None:
+            raise InputError(
+                f"{prefix}{key}", got=f"a table of {', '.join(map(str, value)) or 'nothing'}", takes=_RANGE
+            )
+        inner = _flattened(value, f"{prefix}{key}.") if table else {f"{prefix}{key}": value}
         for name in inner.keys() & flat.keys():
             raise InputError.worded(name, "is given twice")
         flat |= inner
@@ -243,6 +259,8 @@ def _axis(key: str, value: Any, design: str, *, written: bool) -> tuple[Any, ...
     if key.partition(".")[0] == "motion":
         raise InputError.worded(key, "cannot vary: the films of a sweep are stationary")
     field = input_field(key)
+    if isinstance(value, np.ndarray):
+        value = value.tolist()
     if isinstance(value, Mapping):
         return _range(key, value, number_of(field), design, written=written)
     if isinstance(value, Range):
@@ -268,7 +286,8 @@ def _values(key: str, field: FieldInfo, values: Sequence[Any], *, written: bool)
     annotation = Annotated[field.annotation, *field.metadata] if field.metadata else field.annotation
     keys: Any = {leaf: (annotation, ...)}
     value_of: type[Table] = create_model("Value", __base__=Table, **keys)
-    for value in values:
+    for each in values:
+        value = each.item() if isinstance(each, np.generic) else each
         try:
             made = value_of.from_written({leaf: value}) if written else value_of.from_dict({leaf: value})
             parsed = made.model_dump(mode="json")[leaf]

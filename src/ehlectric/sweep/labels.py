@@ -17,8 +17,8 @@ from ehlectric.cases.result_key import Keys, key_of
 from ehlectric.contact.keys import CONTACT_KEYS
 from ehlectric.motion.keys import MOTION_KEYS
 
-# Units without prefixes: none, angles and absolute temperatures.
-_PLAIN = ("", "deg", "K", "rad")
+# Units without prefixes: none, angles, absolute temperatures and their inverse.
+_PLAIN = ("", "deg", "K", "rad", "1/K")
 
 
 @dataclass(frozen=True)
@@ -87,8 +87,13 @@ class Scale:
 # Absolute temperatures in figures.
 CELSIUS = Scale(1.0, "°C", -273.15)
 
-# Other units without prefixes: limits of current density are published in A/mm^2, and shaft speeds in rpm.
-_OWN = {"A/m**2": Scale(1e-6, "A/mm²"), "rad/s": Scale(30.0 / np.pi, "rpm")}
+# Other units without prefixes: limits of current density are published in A/mm^2, shaft speeds in rpm, and
+# kinematic viscosities in mm^2/s.
+_OWN = {
+    "A/m**2": Scale(1e-6, "A/mm²"),
+    "rad/s": Scale(30.0 / np.pi, "rpm"),
+    "m**2/s": Scale(1e6, "mm²/s"),
+}
 
 
 def label_of(key: str, case: AnyCase) -> Label:
@@ -166,6 +171,8 @@ def scale_for(largest: float, unit: str) -> Scale:
         return Scale(1.0, unit)
     if unit in _OWN:
         return _OWN[unit]
+    if unit.startswith("kg"):
+        return Scale(1.0, _printed(unit))  # it has a prefix
     # Imported here because it imports matplotlib, which tables of names and units do not need.
     from ehlectric.cases.quantity import unit_for
 

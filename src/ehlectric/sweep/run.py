@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import AbstractContextManager, ExitStack, nullcontext
 from pathlib import Path
 from typing import Any
 
-from ehlectric.errors import InputError, LostError
+from ehlectric.errors import InputError, LostError, shown
 from ehlectric.runtime.files import clear, prepare
 from ehlectric.runtime.outcome import RunOutcome
-from ehlectric.runtime.progress import Progress, silent
+from ehlectric.runtime.progress import Progress, silent, told_to
 from ehlectric.runtime.workers import cores
 from ehlectric.sweep.engine import Crew, Task, crew_of, processes, run_points
 from ehlectric.sweep.inputs import Sweep
@@ -25,7 +25,7 @@ from ehlectric.sweep.warnings import sweep_warnings
 
 
 def run_sweep(
-    sweep: Sweep,
+    sweep: Sweep | Mapping[str, Any] | str | Path,
     folder: str | Path,
     executor: Executor | None = None,
     progress: Progress | None = None,
@@ -36,8 +36,8 @@ def run_sweep(
 
     Parameters
     ----------
-    sweep : Sweep
-        Sweep to solve.
+    sweep : Sweep, mapping, str or Path
+        Sweep to solve, its nested tables, or the path of its TOML file.
     folder : str or Path
         Folder of sweep.sqlite and of the tables; it is made if it does not exist.
     executor : Executor, optional
@@ -56,7 +56,7 @@ def run_sweep(
     Raises
     ------
     InputError
-        Where no point is a valid case, or the folder cannot be used.
+        Where the sweep or no point of it is valid, or the folder cannot be used.
     LostError
         Where the executor no longer works. The points solved so far are saved, and the same call solves the
         others. Also where a script calls this without ``if __name__ == "__main__":``, as every process
@@ -67,12 +67,25 @@ def run_sweep(
     Each point is saved as it finishes. A point that the folder has is not solved again, unless its process
     was killed or ran out of memory.
     """
+    given, told = _sweep_of(sweep), told_to(progress)
     try:
-        return run(sweep, folder, progress or silent, solvers=crew(executor, workers)).result
+        return run(given, folder, told, solvers=crew(executor, workers)).result
     except LostError as error:
         if executor is not None:
             raise
         raise LostError(f'{error}; in a script, make this call below if __name__ == "__main__":') from None
+
+
+def _sweep_of(given: object) -> Sweep:
+    """Sweep that is given as itself, as its nested tables, or by the path of its file."""
+    if isinstance(given, Sweep):
+        return given
+    if isinstance(given, Mapping):
+        return Sweep.from_dict(given)
+    if isinstance(given, str | Path):
+        return Sweep.from_toml(given)
+    takes = "a Sweep, a dict, or the path of a TOML file"
+    raise InputError("sweep", got=shown(type(given).__name__), takes=takes)
 
 
 def crew(executor: Executor | None, workers: int | None) -> AbstractContextManager[Crew]:

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array, IntArray, Mask
+from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.input_keys import kind_of
 from ehlectric.cases.quantity import Count, Quantity
 from ehlectric.cases.table import nearest
@@ -268,13 +269,30 @@ def numbers_of(results: SweepResults, value: str) -> Array:
         raise InputError(f"no point of {len(results.points)} is solved, there is nothing to show")
     known = known_values(results)
     if value not in known:
-        within = value.partition(".")[0] + "."
-        near = nearest(value, [key for key in known if key.startswith(within)] or known)
-        table = "; the case has no [discharge]" if within == "discharge." and near[:9] != "discharge" else ""
-        raise InputError(
-            "value", got=shown(value), takes=f"a number of summary.json; nearest is {near}{table}"
-        )
+        near, cause = _near(value, known), _lacking(results, value, known)
+        takes = f"a number of summary.json; nearest is {near}{cause}"
+        raise InputError("value", got=shown(value), takes=takes)
     return results.values(value)
+
+
+def _near(value: str, known: Sequence[str]) -> str:
+    """Known key that is nearest: of the same table, else with the same name in another table, else any."""
+    within, leaf = value.partition(".")[0] + ".", value.rpartition(".")[2]
+    same = [key for key in known if key.startswith(within)]
+    return nearest(value, same or [key for key in known if key.endswith(f".{leaf}")] or known)
+
+
+def _lacking(results: SweepResults, value: str, known: Sequence[str]) -> str:
+    """Why a sweep has no number of the table ``discharge``; empty for another table."""
+    if not value.startswith("discharge.") or any(key.startswith("discharge.") for key in known):
+        return ""
+    if isinstance(results.case, BearingCase):
+        keys = [key for key in ("bearing.first_break", "bearing.margin") if key in known]
+        names = " and ".join(keys)
+        return f"; of a bearing it is {names}" if keys else "; no point has a breakdown voltage"
+    return (
+        "; the case has no [discharge]" if results.case.discharge is None else "; no point has such a number"
+    )
 
 
 def _is_number(value: Any) -> bool:

@@ -43,7 +43,7 @@ def refusal(tables, **changes):
 
 
 def about(result, word):
-    return [text for text in map(str, result.warnings()) if word in text]
+    return [text for text in map(str, result.warnings) if word in text]
 
 
 @pytest.mark.parametrize(("radial", "axial"), [(1e-30, 0.0), (1e-6, 1e-4), (1e-4, 1e-4), (0.06, 0.0)])

@@ -13,7 +13,7 @@ from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.shaft_voltage import bearing_voltage_ratio
 from ehlectric.bearing.solution import lambda_ratio, plate_capacitance
 from ehlectric.bearing.solver import solve_bearing
-from ehlectric.errors import ResultWarning
+from ehlectric.errors import InputError, ResultWarning
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, with_values
 
 
@@ -53,10 +53,10 @@ def test_rollers_are_solved(rollers):
     """A light load's film needs a long inlet, whose lack is warned of."""
     assert rollers.converged
     assert not [
-        text for text in map(str, rollers.warnings()) if "inlet is too short" in text or "do not use" in text
+        text for text in map(str, rollers.warnings) if "inlet is too short" in text or "do not use" in text
     ]
     found = strict(rollers.summary())
-    told = rollers.warnings()
+    told = rollers.warnings
     assert found["warnings"] == [warning.text for warning in told]
     assert found["warning_codes"] == [warning.code for warning in told]
     assert found["schema"] == "ehlectric.bearing/1"
@@ -253,7 +253,7 @@ def test_ceramic_elements(rollers):
     assert found["bearing"]["shaft_voltage"] is None
     given = with_bearing(ceramic, element_capacitance=3e-12)
     assert given.capacitance("oil") == pytest.approx(14 * 3e-12, rel=1e-12, abs=0.0)
-    assert not any("that of conducting ones" in text for text in map(str, given.warnings()))
+    assert not any("that of conducting ones" in text for text in map(str, given.warnings))
     ratio = 20.0 / (20.0 + 1000.0 + 84.0)
     assert bearing_voltage_ratio(given.solution) == pytest.approx(ratio, rel=1e-12, abs=0.0)
     assert given.shaft_voltage == pytest.approx(300.0 * ratio, rel=1e-12, abs=0.0)
@@ -321,8 +321,8 @@ def test_what_contacts_share_is_said_once(axial):
     """One contact with either ring here: both, or one."""
     loads = [c.solutions[0].load for c in (axial.solution.inner_curve, axial.solution.outer_curve)]
     both = warned(warned(axial, "inner", [["thin oil", "a"]]), "outer", [["thin oil", "b"]])
-    told = [text for text in map(str, both.warnings()) if text.endswith(("thin oil", ": a", ": b"))]
-    assert [warning.code for warning in both.warnings()].count(CODE) == 3
+    told = [text for text in map(str, both.warnings) if text.endswith(("thin oil", ": a", ": b"))]
+    assert [warning.code for warning in both.warnings].count(CODE) == 3
     assert told == [
         "thin oil",
         f"inner contact at {loads[0]:.4g} N: a",
@@ -335,22 +335,22 @@ def test_what_some_contacts_share_names_their_loads(rollers):
     loads = [contact.load for contact in curve.solutions]
     assert len(loads) > 3
     heavy = [["Barus"] if load >= loads[2] else [] for load in loads]
-    told = [text for text in map(str, warned(rollers, "inner", heavy).warnings()) if "Barus" in text]
+    told = [text for text in map(str, warned(rollers, "inner", heavy).warnings) if "Barus" in text]
     assert told == [f"{len(loads) - 2} inner contacts at {loads[2]:.4g} to {loads[-1]:.4g} N: Barus"]
 
 
 def test_film_factor_is_told(rollers):
-    assert any(text.startswith("bearing.film_factor is none:") for text in map(str, rollers.warnings()))
+    assert any(text.startswith("bearing.film_factor is none:") for text in map(str, rollers.warnings))
     assert rollers.summary()["bearing"]["film_factor"] == 1.0
     conditions = dataclasses.replace(rollers.solution.conditions, film_factor=0.7)
     lean = BearingResult(dataclasses.replace(rollers.solution, conditions=conditions))
-    assert not any(text.startswith("bearing.film_factor is none:") for text in map(str, lean.warnings()))
+    assert not any(text.startswith("bearing.film_factor is none:") for text in map(str, lean.warnings))
     assert lean.summary()["bearing"]["film_factor"] == 0.7
     # A one that is given is told as what it is.
     one = with_bearing(rollers, film_factor=1.0)
     assert any(
         text.startswith("bearing.film_factor is 1: the films are isothermal")
-        for text in map(str, one.warnings())
+        for text in map(str, one.warnings)
     )
 
 
@@ -382,12 +382,12 @@ def test_plates_hold_less_than_the_bearing(axial, rollers):
 def test_a_doubt_about_the_oil_is_said_once():
     """A given alpha that Roelands' z is not for, of all contacts; Barus' law, of those above 0.5 GPa."""
     given = bearing_case(BALLS, contacts="formula", lubricant__pressure_viscosity_coefficient="10 1/GPa")
-    told = [text for text in map(str, solve_bearing(given).warnings()) if "roelands_z" in text]
+    told = [text for text in map(str, solve_bearing(given).warnings) if "roelands_z" in text]
     assert len(told) == 1
     assert told[0].startswith("lubricant.roelands_z is 0.67")
     barus = {"lubricant__viscosity_law": "barus", "lubricant__pressure_viscosity_coefficient": "18 1/GPa"}
     found = solve_bearing(bearing_case(BALLS, contacts="formula", **barus))
-    told = [text for text in map(str, found.warnings()) if "Barus" in text]
+    told = [text for text in map(str, found.warnings) if "Barus" in text]
     assert len(told) == 1
     curves = found.solution.inner_curve, found.solution.outer_curve
     heavy = [[c.load for c in curve.solutions if c.values.max_pressure > 0.5e9] for curve in curves]
@@ -405,8 +405,32 @@ def test_a_weibull_strength_from_the_file():
     changes = {"discharge__dielectric_strength": None, "discharge__weibull": law}
     result = solve_bearing(bearing_case(ROLLERS, **changes))
     assert {position.shape for position in result.solution.positions} == {10.0}
-    assert any("63.2 %" in text for text in map(str, result.warnings()))
+    assert any("63.2 %" in text for text in map(str, result.warnings))
     found = result.breaks()
     least = min(float(np.min(circuit.first_breaks)) for circuit in result.solution.circuits("oil"))
     assert 28.0 ** (-1.0 / 10.0) * least < found["first_break"] < least
     assert found["through_breakdown"] > found["first_break"]
+
+
+def test_a_contact_breaks_down_at_its_voltage_over_its_share():
+    """Two contacts in series share the voltage: the bearing carries more than either."""
+    result = solve_bearing(bearing_case(BALLS, contacts="formula"), workers=1)
+    rows = result.contacts()
+    for row in rows:
+        assert row["bearing_breakdown_voltage"] * row["voltage_share"] == pytest.approx(
+            row["breakdown_voltage"]
+        )
+        assert row["bearing_breakdown_voltage"] > 1.2 * row["breakdown_voltage"]
+    at_first_position = min(row["bearing_breakdown_voltage"] for row in rows)
+    assert result.breaks()["first_break"] == pytest.approx(at_first_position, rel=0.02)
+    frame = result.to_dataframe()
+    assert frame.attrs["units"]["bearing_breakdown_voltage"] == "V"
+    assert set(frame.attrs["descriptions"]) == set(frame.columns)
+    assert "not on the bearing" in frame.attrs["descriptions"]["breakdown_voltage"]
+
+
+def test_the_fill_of_a_capacitance_is_oil_or_air():
+    result = solve_bearing(bearing_case(BALLS, contacts="formula", bearing__fill="air"), workers=1)
+    assert result.capacitance() == result.capacitance("air") < result.capacitance("oil")
+    with pytest.raises(InputError, match=r"^fill: got 'water'; expected 'oil', 'air', or None "):
+        result.capacitance("water")

@@ -166,7 +166,7 @@ def test_an_oil_below_freezing_is_doubted():
     """ASTM D341 goes on below any pour point."""
     for temperature, doubted in (("-10 degC", True), ("70 degC", False)):
         case = bearing_case(BALLS, contacts="formula", bearing__temperature=temperature)
-        texts = list(map(str, solve_bearing(case).warnings()))
+        texts = list(map(str, solve_bearing(case).warnings))
         assert any(text.startswith("bearing.temperature is") for text in texts) == doubted
         # A bearing's contacts have no grid that its file could change.
         assert not any("grid." in text for text in texts)
@@ -186,7 +186,7 @@ def test_a_6208_as_a_whole_and_between_the_loads_that_were_solved():
     assert result.converged
     assert found["discretisation_error"] < 0.03
     assert not [
-        text for text in map(str, result.warnings()) if "too short" in text or "does not cavitate" in text
+        text for text in map(str, result.warnings) if "too short" in text or "does not cavitate" in text
     ]
     formula = solve_bearing(case.replace({"contacts": "formula"})).summary()["bearing"]
     for key in ("capacitance", "capacitance_plate", "first_break", "through_breakdown", "lambda_ratio"):

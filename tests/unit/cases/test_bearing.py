@@ -391,9 +391,9 @@ def test_a_given_viscosity_knows_no_temperature():
     ]
     assert lambda_ratio(results[0].solution) == lambda_ratio(results[1].solution)
     for result in results:
-        assert any("lubricant.viscosity is given" in text for text in map(str, result.warnings()))
+        assert any("lubricant.viscosity is given" in text for text in map(str, result.warnings))
     over = solve_bearing(bearing_case(BALLS, contacts="formula"))
-    assert not any("lubricant.viscosity" in text for text in map(str, over.warnings()))
+    assert not any("lubricant.viscosity" in text for text in map(str, over.warnings))
 
 
 def test_ball_bearing_6205_of_the_library_has_the_published_frequencies():
@@ -405,3 +405,29 @@ def test_ball_bearing_6205_of_the_library_has_the_published_frequencies():
     assert 0.5 * table["elements"] * (1.0 + ratio) == pytest.approx(5.4152, rel=0.0, abs=1e-4)
     assert 0.5 * table["elements"] * (1.0 - ratio) == pytest.approx(3.5848, rel=0.0, abs=1e-4)
     assert 0.5 * (1.0 - ratio) == pytest.approx(0.39828, rel=0.0, abs=5e-5)
+
+
+def test_replace_takes_tables_by_keyword_as_a_contact_does():
+    case = bearing_case(BALLS, contacts="formula")
+    by_key = case.replace({"bearing.radial_load": "1 kN", "bearing.temperature": "60 degC", "title": "A"})
+    assert case.replace(bearing={"radial_load": "1 kN", "temperature": "60 degC"}, title="A") == by_key
+    # A dotted key wins, and ranges have dotted keys of their own.
+    ranges = {"bearing.radial_load": ["1 kN", "3 kN"]}
+    mixed = case.replace({"bearing.radial_load": "2 kN"}, bearing={"radial_load": "1 kN"}, ranges=ranges)
+    assert mixed.bearing.radial_load == 2000.0
+    assert [(one.key, one.low, one.high) for one in mixed.ranges] == [("bearing.radial_load", 1e3, 3e3)]
+
+
+def test_another_base_brings_its_dimensions():
+    """Balls of 7.94 mm on 39.04 mm, as the library has them, and not those of the 6208 under a new name."""
+    duty = {"radial_clearance": "10 um", "radial_load": "1 kN", "inner_speed": "3000 rpm"}
+    duty |= {"temperature": "70 degC", "composite_rq": "0.03 um", "inner_groove": 0.515}
+    tables = {"lubricant": {"base": "paper", "viscosity": "20 mPa s"}}
+    case = BearingCase.from_dict({"bearing": {"base": "6208"} | duty, **tables})
+    small = case.replace({"bearing.base": "6205"})
+    assert small.bearing.element_diameter == pytest.approx(0.3126 * 25.4e-3, rel=1e-3)
+    assert small.bearing.pitch_diameter == pytest.approx(1.537 * 25.4e-3, rel=1e-3)
+    del duty["inner_groove"]
+    assert small == BearingCase.from_dict({"bearing": {"base": "6205"} | duty, **tables})
+    given = case.replace({"bearing.base": "6205", "bearing.inner_groove": 0.51})
+    assert given.bearing.inner_groove == 0.51

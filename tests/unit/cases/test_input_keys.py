@@ -52,3 +52,15 @@ def test_a_key_that_can_be_varied_can_be_described():
 def test_a_key_that_is_none_is_refused_with_the_nearest_one(key, nearest):
     with pytest.raises(InputError, match=rf"^{key}: unknown key; the nearest known one is {nearest}"):
         describe(key)
+
+
+def test_descriptions_are_plain_text_with_units():
+    for table in TABLES:
+        for leaf in descriptions(table):
+            key = f"{table}.{leaf}".replace("contact.body.", "contact.body_1.")
+            text = describe(key)
+            assert not set("$`{}\\") & set(text), text
+    assert describe("bearing.composite_rq").endswith("[m]")
+    assert "√(R_q1² + R_q2²) of element" in describe("bearing.composite_rq")
+    assert describe("contact.body_1.youngs_modulus") == "youngs modulus, E [Pa]"
+    assert describe("bearing.inner_speed").startswith("speed of the inner ring, ω_i, with its unit")

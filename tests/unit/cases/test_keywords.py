@@ -146,3 +146,11 @@ def test_an_error_in_a_table_within_a_table_has_its_whole_key():
     with pytest.raises(InputError) as caught:
         Case.from_dict(bad)
     assert caught.value.key == "contact.body_1.youngs_modulu"
+
+
+def test_a_missing_lubricant_is_told_as_every_missing_key():
+    for make in (Case.line, Case.point, BearingCase.of):
+        with pytest.raises(
+            InputError, match=r"^lubricant: missing; expected its table, or the name of one of "
+        ):
+            make()

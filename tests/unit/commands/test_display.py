@@ -91,7 +91,7 @@ def test_a_notebook_shows_the_rows_of_the_command(results, kind, rows_of):
         for text in (row.name.strip(), row.shown, row.unit):
             assert f"{escape(text)}" in html
     if kind == "bearing":
-        assert html.count("warning: ") + html.count("note: ") == len(result.warnings())
+        assert html.count("warning: ") + html.count("note: ") == len(result.warnings)
 
 
 def test_titles_are_no_markup(results):
@@ -109,13 +109,14 @@ def test_a_verdict_is_shown():
     assert "#d55e00" in html
 
 
-def test_a_verdict_of_a_bearing_is_in_its_line_once_it_is_known(results):
-    """It solves bearings at other inputs, for which a line of text does not wait."""
+def test_the_line_of_a_bearing_is_the_same_before_and_after_its_verdict_is_known(results):
+    """The verdict solves bearings at other inputs, for which a line of text does not wait."""
     result = replace(results["bearing"])
-    assert "verdict" not in repr(result)
+    before = repr(result)
     html = result._repr_html_()
     assert escape(result.verdict.text) in html
-    assert repr(result).endswith(f"verdict {result.verdict.level}>")
+    assert repr(result) == before
+    assert "verdict" not in before
 
 
 def test_cases_show_what_was_given(results):
@@ -163,7 +164,7 @@ def test_plot_by_name(results):
     line = results["line"]
     for name in ("field_strength", "field_strength.png"):
         assert line.plot(name).axes[0].get_xlabel() == line.plot("field_strength").axes[0].get_xlabel()
-    with pytest.raises(InputError, match=r"figure: got 'fild.png'; expected one of film\.png"):
+    with pytest.raises(InputError, match=r"figure: got 'fild'; expected one of film, .*; nearest is film$"):
         line.plot("fild")
 
 
@@ -219,3 +220,15 @@ def test_dataset_of_a_bearing_has_units(results):
     assert dataset["load"].attrs["units"] == "N"
     positions = results["bearing"].solution.positions
     np.testing.assert_array_equal(dataset["load"][0, 0], positions[0].inner.load)
+
+
+def test_units_of_a_notebook_are_those_of_an_engineer():
+    """No prefix on one, 300 V in place of 0.3 kV, and sweeps in rpm and °C."""
+    case = bearing_case(BALLS, contacts="formula")
+    html = case._repr_html_()
+    for number, unit in (("870", "kg/m³"), ("300", "V"), ("70", "°C"), ("3000", "rpm"), ("46", "mm²/s")):
+        assert f'>{number}</td><td style="text-align:left">{unit}</td>' in html
+    vary = {"bearing.inner_speed": ["1000 rpm", "2000 rpm"], "bearing.temperature": ["40 degC", "80 degC"]}
+    html = Sweep.from_dict({"case": case, "vary": vary})._repr_html_()
+    assert '>1000, 2000</td><td style="text-align:left">rpm</td>' in html
+    assert '>40, 80</td><td style="text-align:left">°C</td>' in html

@@ -200,3 +200,9 @@ def test_results_differ_where_their_numbers_do(line):
 
 def test_bearing_cases_are_typed():
     assert isinstance(BEARING, BearingCase)
+
+
+def test_a_progress_that_cannot_be_called_is_refused():
+    for function, case in ((ehlectric.solve, CONTACT), (ehlectric.solve_motion, MOTION)):
+        with pytest.raises(InputError, match=r"^progress: got True; expected a function "):
+            function(case, progress=True)

@@ -98,3 +98,11 @@ def test_a_script_without_its_guard_is_told(tmp_path):
     done = subprocess.run([sys.executable, script], capture_output=True, text=True, timeout=120)
     assert done.returncode == 1
     assert 'a script takes this call below if __name__ == "__main__":' in done.stderr
+
+
+@pytest.mark.parametrize("one", [CASES[0], CONTACT, "case.toml", 3])
+def test_a_single_case_is_no_list_of_cases(one):
+    with pytest.raises(
+        InputError, match=rf"^cases: got '{type(one).__name__}'; expected a list of cases; solve "
+    ):
+        solve_many(one)

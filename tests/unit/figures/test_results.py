@@ -12,7 +12,7 @@ import pytest
 from matplotlib.figure import Figure
 from PIL import Image
 
-from ehlectric import Case, InputError, figure, read_motion, save_figures, solve, solve_bearing
+from ehlectric import BearingCase, Case, InputError, figure, read_motion, save_figures, solve, solve_bearing
 from ehlectric.figures import names
 from ehlectric.figures.bearing import save as of_bearings
 from ehlectric.figures.contact.line import FIGURES
@@ -73,11 +73,13 @@ def test_names_need_no_matplotlib():
 def test_figures_of_a_contact(kind, tmp_path):
     result = contact(kind)
     expected = {"line": names.FIGURE_FILES, "point": names.POINT_FIGURE_FILES}[kind]
-    assert tuple(figure_names(result)) == expected
+    assert [f"{name}.png" for name in figure_names(result)] == list(expected)
     drawn = figure(result, expected[0])
     assert isinstance(drawn, Figure)
     assert "By name" in [*title_of(drawn), drawn.axes[0].get_title(loc="left")]
-    with pytest.raises(InputError, match=rf"^figure: got 'roughness\.png'; expected one of {expected[0]}, "):
+    with pytest.raises(
+        InputError, match=rf"^figure: got 'roughness\.png'; expected one of {expected[0][:-4]}, "
+    ):
         figure(result, "roughness.png")
     files = save_figures(result, tmp_path)
     assert tuple(file.name for file in files) == expected
@@ -89,17 +91,18 @@ def test_figures_of_a_contact(kind, tmp_path):
 def test_the_roughness_is_among_the_figures_of_a_rough_contact():
     table = {"contact": PAPER_CONTACT, "lubricant": OIL, "roughness": [ROUGH], "grid": {"nodes": 401}}
     result = solve(Case.from_dict(table), beside_smooth=False)
-    assert figure_names(result)[-1] == names.ROUGHNESS_FIGURE
+    assert f"{figure_names(result)[-1]}.png" == names.ROUGHNESS_FIGURE
     assert "Rq" in figure(result, "roughness.png").axes[0].get_legend().get_texts()[0].get_text()
 
 
 def test_figures_of_a_bearing(bearing, tmp_path):
-    assert tuple(figure_names(bearing)) == names.BEARING_FIGURE_FILES
+    every = (*names.BEARING_FIGURE_FILES, *names.SPEED_FIGURE_FILES)
+    assert [f"{name}.png" for name in figure_names(bearing)] == list(every)
     assert len(figure(bearing, "bearing_circuit.png").axes) == 2
     over_speed = figure(bearing, "capacitance_over_speed.png")
     assert over_speed.axes[0].get_xlabel().endswith("[rpm]")
     with pytest.raises(
-        InputError, match=r"^figure: got 'film\.png'; expected one of bearing_loads.*speed\.png$"
+        InputError, match=r"^figure: got 'film\.png'; expected one of bearing_loads.*_over_speed; nearest is "
     ):
         figure(bearing, "film.png")
     drawn = draw_figures(bearing, tmp_path)
@@ -110,7 +113,8 @@ def test_figures_of_a_bearing(bearing, tmp_path):
 
 def test_figures_of_a_motion(motion, tmp_path):
     """Of the dataset and of the run; it does not reach the instant that is compared."""
-    assert figure_names(motion) == figure_names(MotionRun.of(motion)) == list(names.MOTION_FIGURE_FILES[:2])
+    expected = [name.removesuffix(".png") for name in names.MOTION_FIGURE_FILES[:2]]
+    assert figure_names(motion) == figure_names(MotionRun.of(motion)) == expected
     assert len(figure(motion, "motion_history.png").axes) == 2
     with pytest.raises(InputError, match=r"^figure: got 'motion_beside_stationary\.png'; expected one of "):
         figure(motion, "motion_beside_stationary.png")
@@ -124,13 +128,61 @@ def test_figures_of_a_sweep(tmp_path):
     assert "entrainment speed" in drawn.axes[0].get_xlabel()
     lines = figure(results, f"lines_{value}.png", x=SPEED, at={LOAD: "1 MN/m"})
     assert "breakdown voltage" in lines.axes[0].get_ylabel()
-    assert figure_names(results) == save_figures(results, tmp_path) == []
+    assert save_figures(results, tmp_path) == []
     with pytest.raises(
         InputError, match=r"^figure: got 'film\.png'; expected map_KEY\.png, lines_KEY\.png or "
     ):
         figure(results, "film.png")
     with pytest.raises(InputError, match=r"^y: missing; expected a varied key, for a map$"):
         figure(results, f"map_{value}.png", x=SPEED)
+
+
+def test_a_sweep_lists_figures_that_it_draws_without_further_options():
+    results = grid({SPEED: (1.0, 2.0, 4.0), LOAD: (1e5, 1e6)}, breakdown)
+    listed = figure_names(results)
+    assert listed[:2] == ["map_film.minimum_thickness", "lines_film.minimum_thickness"]
+    for name in listed:
+        assert isinstance(results.plot(name), Figure)
+    along_load = results.plot("lines_film.minimum_thickness", x=LOAD).axes[0].get_xlabel()
+    assert "load per length" in along_load
+    one = grid({SPEED: (1.0, 2.0, 4.0)}, breakdown)
+    assert not [name for name in figure_names(one) if name.startswith("map")]
+    match = (
+        r"^figure: got 'discharge\.margin', a value; expected value='discharge\.margin' in place of a name$"
+    )
+    with pytest.raises(InputError, match=match):
+        results.plot("discharge.margin")
+
+
+def test_a_figure_that_a_bearing_lacks_is_told_with_its_cause_and_those_that_there_are(bearing):
+    """Without a strength nothing breaks down; the circuit and the capacitance are drawn."""
+    tables = bearing.case.to_dict()
+    del tables["discharge"]
+    silent = solve_bearing(BearingCase.from_dict(tables), workers=1)
+    listed = figure_names(silent)
+    assert "breakdown_over_speed" not in listed
+    assert "capacitance_over_speed" in listed
+    match = (
+        rf"^figure: got 'breakdown_over_speed'; expected one of {', '.join(listed)}; those of breakdown need "
+    )
+    with pytest.raises(InputError, match=match):
+        silent.plot("breakdown_over_speed")
+    with pytest.raises(InputError, match=r"; nearest is breakdown_over_speed$"):
+        bearing.plot("breakdown_over_sped")
+
+
+def test_options_that_a_figure_has_not_are_refused(bearing):
+    with pytest.raises(InputError, match=r"^x: is no option of this figure; expected none but style "):
+        bearing.plot("bearing_loads", x="bearing.inner_speed")
+    results = grid({SPEED: (1.0, 2.0, 4.0)}, breakdown)
+    with pytest.raises(InputError, match=r"^z: is no option of this figure; expected one of x, y, value, "):
+        results.plot("lines_film.minimum_thickness", z=SPEED)
+
+
+def test_figures_are_saved_into_a_folder_that_is_made(line, tmp_path):
+    files = save_figures(line, tmp_path / "new" / "folder")
+    assert files[0].parent == tmp_path / "new" / "folder"
+    assert all(file.is_file() for file in files)
 
 
 def test_a_figure_has_the_style_and_leaves_the_settings_as_they_are():

@@ -3,6 +3,7 @@
 import math
 import re
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -12,6 +13,7 @@ from ehlectric.cases.input_keys import input_field, number_of
 from ehlectric.contact.resolve import resolve
 from ehlectric.sweep.results import Range
 from tests.cli.conftest import CASE as CASE_FILE
+from tests.helpers.bearings import BALLS, bearing_case
 from tests.helpers.places import EXAMPLES
 from tests.helpers.sweeps import CASE, LOAD, NODES, PRESSURE, SPEED, TABLE, sweep_over
 
@@ -320,3 +322,26 @@ def test_numbers_of_the_case_are_known(key):
 )
 def test_others_are_no_numbers(key):
     assert number_of(input_field(key)) is None
+
+
+def test_values_may_be_arrays():
+    speeds = np.array([1.0, 2.0, 4.0])
+    base = {"case": CASE, "vary": {SPEED: speeds, "grid.nodes": np.array([801, 1601])}}
+    listed = {"case": CASE, "vary": {SPEED: [1.0, 2.0, 4.0], "grid.nodes": [801, 1601]}}
+    assert Sweep.from_dict(base).axes == Sweep.from_dict(listed).axes
+    scalars = {"case": CASE, "vary": {SPEED: list(speeds), "grid.nodes": [np.int64(801), np.int64(1601)]}}
+    assert Sweep.from_dict(scalars).axes == Sweep.from_dict(listed).axes
+
+
+def test_an_unknown_key_of_a_bearing_is_answered_with_one_of_a_bearing():
+    with pytest.raises(
+        InputError, match=r"inner_speed: unknown key; the nearest known one is bearing\.inner_speed$"
+    ):
+        Sweep.from_dict({"case": bearing_case(BALLS), "vary": {"inner_speed": ["1000 rpm", "2000 rpm"]}})
+
+
+def test_the_keys_of_a_range_are_told():
+    vary = {SPEED: {"start": 1.0, "stop": 2.0, "num": 3}}
+    match = rf"^vary\.{SPEED}: got a table of start, stop, num; expected a list of values, or a table of from, to, "
+    with pytest.raises(InputError, match=match):
+        Sweep.from_dict({"case": CASE, "vary": vary})

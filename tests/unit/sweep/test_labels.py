@@ -13,7 +13,7 @@ from ehlectric.cases.result_key import key_of
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.stored_run import read_motion
 from ehlectric.motion.summary import summary_of
-from ehlectric.sweep.labels import label_of, result_keys
+from ehlectric.sweep.labels import label_of, result_keys, scale_for
 from ehlectric.sweep.results import flat
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case
 from tests.helpers.moving_cases import TABLES, moving
@@ -116,3 +116,17 @@ def test_lists_of_a_case_have_their_unit():
     case = case_of("line")
     assert label_of("inputs.discharge.strength_table.strength.1", case).unit == "V/m"
     assert label_of("inputs.grid.field_range.0", case).unit == ""
+
+
+@pytest.mark.parametrize(
+    ("value", "unit", "shown"),
+    [
+        (46e-6, "m**2/s", "46 mm²/s"),
+        (870.0, "kg/m**3", "870 kg/m³"),
+        (6.5e-4, "1/K", "0.00065 1/K"),
+        (2.2e-8, "1/Pa", "22 1/GPa"),
+    ],
+)
+def test_a_prefix_belongs_to_a_unit_that_can_have_one(value, unit, shown):
+    """A micro before m²/s means (µm)²/s, and kg has a prefix already."""
+    assert scale_for(value, unit).text(value) == shown

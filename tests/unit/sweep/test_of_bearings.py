@@ -12,6 +12,7 @@ from typer.testing import CliRunner
 
 from ehlectric.bearing.preparation import resolve_bearing
 from ehlectric.commands.app import app
+from ehlectric.errors import InputError
 from ehlectric.figures.names import SPEED_FIGURE_FILES
 from ehlectric.figures.sweep.lines import value_lines
 from ehlectric.figures.sweep.maps import value_map
@@ -217,3 +218,9 @@ def test_units_of_a_bearing():
         "bearing.margin": "",
     }.items():
         assert label_of(key, own).unit == unit, key
+
+
+def test_a_key_of_contacts_is_answered_with_that_of_bearings():
+    match = r"nearest is bearing\.margin; of a bearing it is bearing\.first_break and bearing\.margin$"
+    with pytest.raises(InputError, match=match):
+        over().plot(value="discharge.margin")

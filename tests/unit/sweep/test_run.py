@@ -186,3 +186,19 @@ def test_solve_point_is_what_is_submitted(tmp_path):
     with ThreadPoolExecutor(1) as threads:
         run(speeds(1), tmp_path, solvers=nullcontext(Crew(submit, lambda: 1)))
     assert calls == [(solve_point, CASE.replace({SPEED: 1.0}).to_dict())]
+
+
+def test_a_sweep_may_be_tables_or_a_file_and_nothing_else(tmp_path):
+    tables = {"case": CASE, "vary": {SPEED: [1.0, 2.0]}, "design": "grid"}
+    results = run_sweep(tables, tmp_path / "tables", workers=1)
+    assert [point.inputs for point in results.points] == [{SPEED: 1.0}, {SPEED: 2.0}]
+    file = tmp_path / "sweep.toml"
+    (tmp_path / "case.toml").write_text(CASE.to_toml(), encoding="utf-8")
+    file.write_text(f'case = "case.toml"\n[vary]\n"{SPEED}" = [1.0, 2.0]\n', encoding="utf-8")
+    again = run_sweep(str(file), tmp_path / "tables", workers=1)
+    assert [point.summary for point in again.points] == [point.summary for point in results.points]
+    with pytest.raises(InputError, match=r"^sweep: got 'Case'; expected a Sweep, a dict, or the path of "):
+        run_sweep(CASE, tmp_path)
+    with pytest.raises(InputError, match=r"^progress: got True; expected a function of done, of and text"):
+        run_sweep(tables, tmp_path / "none", progress=True)
+    assert not (tmp_path / "none").exists()

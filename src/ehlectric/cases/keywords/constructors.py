@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import functools
 import inspect
 from collections.abc import Callable, Sequence
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
+
+from ehlectric.errors import InputError
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -12,7 +15,7 @@ F = TypeVar("F", bound=Callable[..., Any])
 def takes(keys: type) -> Callable[[F], F]:
     """Decorator that shows the keys of a ``TypedDict`` in the signature of a function of ``**keywords``.
 
-    Editors and ``help`` then list them by name.
+    Editors and ``help`` then list them by name. A call without the lubricant raises an InputError.
     """
 
     def decorated(function: F) -> F:
@@ -20,8 +23,17 @@ def takes(keys: type) -> Callable[[F], F]:
         *first, _ = signature.parameters.values()
         kind = inspect.Parameter.KEYWORD_ONLY
         named = [inspect.Parameter(key, kind, default=None) for key in keys_of(keys)]
-        function.__signature__ = signature.replace(parameters=[*first, *named])  # type: ignore[attr-defined]
-        return function
+
+        @functools.wraps(function)
+        def called(*values: Any, **keywords: Any) -> Any:
+            if "lubricant" not in keywords:
+                raise InputError.missing(
+                    "lubricant", "its table, or the name of one of the library, as 'paper'"
+                )
+            return function(*values, **keywords)
+
+        called.__signature__ = signature.replace(parameters=[*first, *named])  # type: ignore[attr-defined]
+        return cast("F", called)
 
     return decorated
 

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from html import escape
 from typing import Any
-
-import numpy as np
 
 from ehlectric.bearing.result import BearingResult
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.changes import flattened
-from ehlectric.cases.row import Row
+from ehlectric.cases.row import Row, suited
 from ehlectric.commands.tables.bearing import total_rows
 from ehlectric.commands.tables.contact import result_rows
 from ehlectric.commands.tables.motion import run_rows
@@ -22,7 +20,7 @@ from ehlectric.contact.results import ContactResult
 from ehlectric.errors import ResultWarning
 from ehlectric.motion.result import MotionResult
 from ehlectric.sweep.inputs import Sweep
-from ehlectric.sweep.labels import CELSIUS, label_of
+from ehlectric.sweep.labels import CELSIUS, Scale, label_of, scale_for
 from ehlectric.sweep.points import Range
 from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.warnings import sweep_warnings
@@ -85,8 +83,8 @@ def _warnings(shown: Any) -> Iterable[ResultWarning]:
     """Warnings of a result; none of a case."""
     if isinstance(shown, SweepResults):
         return sweep_warnings(shown)
-    warnings = getattr(shown, "warnings", ())
-    return warnings() if callable(warnings) else warnings
+    warnings: Iterable[ResultWarning] = getattr(shown, "warnings", ())
+    return warnings
 
 
 def input_rows(case: Case | BearingCase) -> Iterator[Row]:
@@ -101,22 +99,33 @@ def _input(case: Case | BearingCase, key: str, value: Any) -> Row:
     """Row of an input: its name, and its value in a unit that suits it."""
     if isinstance(value, bool) or not isinstance(value, int | float):
         return Row(key, value if isinstance(value, str) else json.dumps(value))
-    label = label_of(key, case)
-    scale = CELSIUS if label.unit == "K" else label.scaled(np.array([float(value)]))
+    scale = _scale(key, case, [float(value)])
     return Row(key, f"{scale.of(value):.6g}", scale.unit)
+
+
+def _scale(key: str, case: Case | BearingCase, values: Sequence[float]) -> Scale:
+    """Unit that suits all of some values of an input: °C, rpm, per GPa, or with a prefix that it lacks."""
+    unit, largest = label_of(key, case).unit, max(map(abs, values))
+    if unit == "K":
+        return CELSIUS
+    if unit in ("rad/s", "A/m**2", "m**2/s", "1/Pa", "m**2", "m**3"):
+        return scale_for(largest or 1.0, unit)
+    return Scale(*suited(largest, unit))
 
 
 def _sweep_rows(sweep: Sweep) -> Iterator[Row]:
     """Rows of a sweep: its design, and the values or the range of each varied key."""
     yield Row("design", sweep.design, note=f"{sweep.size} points")
     for key, values in sweep.vary.items():
+        ends = (values.start, values.stop) if isinstance(values, Range) else values
+        numbers = [float(value) for value in ends if isinstance(value, int | float)]
+        scale = _scale(key, sweep.case, numbers) if len(numbers) == len(ends) else Scale(1.0, "")
+        texts = [f"{scale.of(value):.6g}" if numbers else str(value) for value in ends]
         if isinstance(values, Range):
-            yield Row(key, f"{values.start:g} to {values.stop:g}", note=f"SI units, {values.spacing}")
+            yield Row(key, " to ".join(texts), scale.unit, f", {values.spacing}")
         else:
-            texts = [f"{value:g}" if isinstance(value, float) else str(value) for value in values]
-            listed = ", ".join(texts[:_LISTED])
-            more = f", ... ({len(values)} values)" if len(values) > _LISTED else ""
-            yield Row(key, listed + more, note="SI units")
+            more = f", ... ({len(texts)} values)" if len(texts) > _LISTED else ""
+            yield Row(key, ", ".join(texts[:_LISTED]) + more, scale.unit)
 
 
 # Rows by the class of what is shown.

@@ -68,7 +68,7 @@ def test_a_margin_below_one_is_red_and_a_warning():
     assert 0.78 < slow.breaks()["margin"] < 0.9
     found = judged(slow)
     assert (found.level, found.text[:17]) == ("yellow", "Breakdown likely:")
-    (warning,) = (one for one in slow.warnings() if one.code == "breakdown-expected")
+    (warning,) = (one for one in slow.warnings if one.code == "breakdown-expected")
     assert warning.severity == "warning"
     assert f"margin {slow.breaks()['margin']:.2f}" in str(warning)
     red = judged(as_solved(slow))
