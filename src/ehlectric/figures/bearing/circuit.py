@@ -44,10 +44,12 @@ def contact_capacitances(result: BearingResult, ax: Axes | None = None) -> Axes:
     ax.bar(at + 0.2, factor * circuit.outer, 0.4, color=ORANGE, label="outer contact")
     ax.set_ylabel(f"capacitance\n[{unit}]")
     _elements(result, ax)
-    # The capacitance in summary.json is another one, the mean over a pitch.
-    total, of = unit_for(circuit.capacitance, "F", least=1.0)
-    text = f"whole bearing, {fill} fill: {total * circuit.capacitance:.4g} {of}"
-    ax.set_ylim(0.0, 1.25 * ax.dataLim.ymax)
+    # The capacitance in summary.json is the mean over a pitch, that of this position another one.
+    here, mean = circuit.capacitance, result.capacitance(fill)
+    total, of = unit_for(mean, "F", least=1.0)
+    text = f"whole bearing, {fill} fill: {total * mean:.4g} {of}, mean over the cage positions\n"
+    text += f"{total * here:.4g} {of} at the position shown"
+    ax.set_ylim(0.0, 1.4 * ax.dataLim.ymax)
     ax.text(0.5, 0.97, text, transform=ax.transAxes, ha="center", va="top", fontsize="small")
     legend_above(ax)
     return ax
