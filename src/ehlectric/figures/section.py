@@ -124,7 +124,7 @@ def _two_digits(number: float) -> str:
     return f"{float(f'{number:.2g}'):g}"
 
 
-def section_inset(
+def section_part(
     ax: Axes,
     x: Array,
     heights: Array,
@@ -134,11 +134,9 @@ def section_inset(
     colours: str = "viridis",
     under: bool = False,
 ) -> None:
-    """Draw a part of a section, as ``draw_section`` does, on small axes without labels."""
+    """Draw a section, of which the axes show a part, as ``draw_section`` does, without texts."""
     _fill(ax, x, heights, values, limits=limits, colours=colours, under=under)
     ax.set_facecolor(BODY)
-    ax.tick_params(labelsize=7.0, labelleft=False, left=False, labelbottom=True)
-    ax.locator_params(axis="x", nbins=4)
 
 
 def _fill(
