@@ -100,11 +100,11 @@ def of_cut(file: str, at: Mapping[str, str] | None = None) -> str:
 
 
 def with_units_kept(text: str) -> str:
-    """Text with no-break spaces between numbers and their units.
+    r"""Text with no-break spaces between numbers and their units.
 
     Examples
     --------
-    >>> with_units_kept("below 2.28 to 3.25 m/s (8 V)") == "below 2.28 to 3.25\\xa0m/s (8\\xa0V)"
+    >>> with_units_kept("below 2.28 to 3.25 m/s (8 V)") == "below 2.28 to 3.25\xa0m/s (8\xa0V)"
     True
     """
     return _OF_UNIT.sub("\xa0", text)

@@ -151,7 +151,9 @@ def deviation_text(result: AnyContact) -> str:
     text += f", worst at {place_text(result, place)}"
     # The faces at the ends of the field range are those of the computation, not of the contact.
     ends = float(np.max(apart, where=~counted, initial=0.0))
-    return f"{text}; left out: ends of the range, {per_cent(ends)}" if ends > np.max(deviation) else text
+    return (
+        f"{text}; at the ends of the range, not drawn, {per_cent(ends)}" if ends > np.max(deviation) else text
+    )
 
 
 def pressure_text(result: PointResult) -> str:
