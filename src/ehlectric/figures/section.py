@@ -80,13 +80,12 @@ def draw_section(
         zip((0.04, 0.96), ("bottom", "top"), potentials, strict=True), 1
     ):
         text = f"surface {surface}, {volts:g} V".replace("-", "−")
-        # Beside the middle, so that an inset has room on the left.
         ax.text(
-            0.62,
+            0.985,
             height,
             text,
             transform=ax.transAxes,
-            ha="center",
+            ha="right",
             va=where,
             fontsize=8.0,
             path_effects=[withStroke(linewidth=2.0, foreground=BODY)],

@@ -251,7 +251,7 @@ def _broken(figure: Figure, line: str, size: float) -> list[str]:
     """Parts of a line of text, each of which fits into the width of a figure; letters in points."""
     room = _FULL * 72.0 * figure.get_figwidth()
     letters, parts = FontProperties(size=size), [""]
-    for word in line.split(" "):
+    for word in filter(None, line.split(" ")):
         longer = f"{parts[-1]} {word}".lstrip()
         width, _, _ = text_to_path.get_text_width_height_descent(longer, letters, ismath=False)
         if width > room and parts[-1]:

@@ -170,8 +170,8 @@ def film(result: Result, ax: Axes | None = None) -> Axes:
     return above
 
 
-# Relative difference below which the fields of walls and mid-film are one line, and part of the range of their
-# values below which both walls are.
+# Relative difference below which the fields of walls and mid-film are one line, and part of the range of
+# their values below which both walls are.
 _EQUAL, _ALIKE = 1e-2, 1e-2
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Patch
@@ -10,6 +12,7 @@ from matplotlib.ticker import MaxNLocator
 from ehlectric.arrays import Array
 from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.results import Result
+from ehlectric.figures.axes import BAR
 from ehlectric.figures.contact.maps import round_levels
 from ehlectric.figures.contact.panels import enlarged_below, stacked_panels
 from ehlectric.figures.section import MAXIMUM, draw_section, section_part
@@ -84,18 +87,16 @@ def field_strength(result: Result, ax: Axes | None = None, *, largest: float | N
     strength = factor * field.strength
     label = f"field strength $|E|$ [{unit}]"
     ticks = levels[levels <= limits[1]]
-    ax, below = (ax, None) if ax is not None else stacked_panels((6.3, 5.4))
-    bars = [ax] if below is None else [ax, below]
-    _map(result, strength, ax, label=label, limits=limits, ticks=ticks, under=True, bars=bars)
+    ax, *below = [ax] if ax is not None else stacked_panels((6.3, 5.4))
+    _map(result, strength, ax, label=label, limits=limits, ticks=ticks, under=True)
     handles = [
         Patch(facecolor=OUT_OF_RANGE, label=f"film below {limits[0]:.4g} {unit}"),
         Patch(facecolor=BODY, label="surfaces"),
     ]
-    if below is not None:
-        handles.append(_zoom(result, (ax, below), strength, limits))
+    handles += [_zoom(result, (ax, panel), strength, limits) for panel in below]
     x, y = _mesh(result)
     k, j = np.unravel_index(np.argmax(strength), strength.shape)
-    for axes in bars:
+    for axes in (ax, *below):
         axes.plot(x[k, 0], y[k, j], **MAXIMUM)
     legend_above(ax, handles, columns=3)
     return ax
@@ -127,7 +128,7 @@ def _zoom(result: Result, panels: tuple[Axes, Axes], values: Array, limits: tupl
     below.set_ylim(float(np.min(near)) - room, float(np.max(near)) + room)
     below.set_ylabel(above.get_ylabel())
     label_position(result, below)
-    return enlarged_below(above, ends)
+    return enlarged_below(above, ends, framed=True)
 
 
 def _mesh(result: Result) -> tuple[Array, Array]:
@@ -147,11 +148,10 @@ def _map(
     limits: tuple[float, float],
     ticks: Array,
     under: bool = False,
-    bars: list[Axes] | None = None,
 ) -> Axes:
     """Draw a map of values (nx, ns) in the film, with its axis labels and colour bar.
 
-    Values below the limits are grey where ``under`` is set. The colour bar is beside the axes ``bars``.
+    Values below the limits are grey where ``under`` is set.
     """
     ax = axes_or_new(ax)
     x, y = _mesh(result)
@@ -164,6 +164,8 @@ def _map(
     )
     ax.set_ylabel(f"height $y$ [{unit}]")
     label_position(result, ax)
-    bar = figure_of(ax).colorbar(filled, ax=bars or ax, label=label, pad=0.02)
+    # Beside the axes themselves, a wide legend above them does not push the bar away.
+    place: dict[str, Any] = {"cax": ax.inset_axes(BAR)} if under else {"ax": ax, "pad": 0.02}
+    bar = figure_of(ax).colorbar(filled, label=label, **place)
     bar.set_ticks(list(ticks))
     return ax

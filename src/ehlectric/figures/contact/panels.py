@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from matplotlib.axes import Axes
 from matplotlib.patches import Patch
 
@@ -17,6 +19,9 @@ def stacked_panels(size: tuple[float, float]) -> list[Axes]:
     return panels
 
 
-def enlarged_below(ax: Axes, ends: tuple[float, float]) -> Patch:
-    """Shade the range of the horizontal axis that the panel below enlarges."""
-    return ax.axvspan(*ends, color=GREY, alpha=0.2, lw=0.0, zorder=0.2, label="enlarged below")
+def enlarged_below(ax: Axes, ends: tuple[float, float], *, framed: bool = False) -> Patch:
+    """Shade the range of the horizontal axis that the panel below enlarges, or frame it on filled axes."""
+    look: dict[str, Any] = {"color": GREY, "alpha": 0.2, "lw": 0.0, "zorder": 0.2}
+    if framed:
+        look = {"facecolor": "none", "edgecolor": "black", "lw": 0.7, "ls": "--", "zorder": 3.0}
+    return ax.axvspan(*ends, label="enlarged below", **look)

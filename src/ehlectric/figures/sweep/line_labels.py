@@ -57,7 +57,8 @@ def label_lines(ax: Axes, lines: ContourSet, taken: Array, texts: Sequence[str],
     """
     ax.autoscale_view()
     for path, text in zip(lines.get_paths(), texts, strict=True):
-        places = path.vertices[np.all(np.isfinite(path.vertices), axis=1)]
+        vertices = np.asarray(path.vertices, dtype=float)
+        places = vertices[np.all(np.isfinite(vertices), axis=1)]
         if not places.size:
             continue
         places = _between(_on_page(ax, places))
@@ -70,7 +71,7 @@ def label_lines(ax: Axes, lines: ContourSet, taken: Array, texts: Sequence[str],
         if free[best] < _ROOM:
             continue
         at = ax.transData.inverted().transform(ax.transAxes.transform(places[best]))
-        ax.text(*at, text, ha="center", va="center", fontsize="x-small", **look)
+        ax.text(float(at[0]), float(at[1]), text, ha="center", va="center", fontsize="x-small", **look)
         taken = np.vstack([taken, at])
     return taken
 

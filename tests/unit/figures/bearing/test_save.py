@@ -426,11 +426,14 @@ def test_radii_are_named_where_no_mark_is():
 
 
 def test_a_bearings_capacitance_over_its_contacts_is_that_of_the_position_shown(result):
-    """Not the mean over a pitch, which the summary has."""
+    """And of the mean over a pitch, which tables and summary have."""
     (text,) = bearing_circuit_plot.contact_capacitances(result).texts
     here, mean = result.solution.circuits("oil")[0].capacitance, result.capacitance("oil")
     assert f"{1e12 * here:.4g}" != f"{1e12 * mean:.4g}"
-    assert text.get_text() == f"whole bearing, oil fill: {1e12 * here:.4g} pF"
+    assert text.get_text() == (
+        f"whole bearing, oil fill: {1e12 * mean:.4g} pF, mean over the cage positions\n"
+        f"{1e12 * here:.4g} pF at the position shown"
+    )
 
 
 def test_a_bearing_that_did_not_converge_says_so(result):
