@@ -81,7 +81,7 @@ def draw_section(
     ):
         text = f"surface {surface}, {volts:g} V".replace("-", "−")
         ax.text(
-            0.985,
+            0.82,
             height,
             text,
             transform=ax.transAxes,

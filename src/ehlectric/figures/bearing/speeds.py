@@ -225,8 +225,8 @@ def _beside(ax: Axes, *, low: float, high: float) -> dict[str, Any]:
         return {"xytext": (6.0, 0.0), "va": "center"}
     pointer = {"arrowstyle": "-", "color": GREY, "lw": 0.6, "shrinkA": 0.0, "shrinkB": 4.0}
     if below > _GAP:
-        return {"xytext": (16.0, -26.0), "va": "top", "arrowprops": pointer}
-    return {"xytext": (-16.0, 26.0), "va": "bottom", "ha": "right", "arrowprops": pointer}
+        return {"xytext": (8.0, -26.0), "va": "top", "arrowprops": pointer}
+    return {"xytext": (-8.0, 26.0), "va": "bottom", "ha": "right", "arrowprops": pointer}
 
 
 def _speed_axis(curves: Curves, ax: Axes) -> Array:
