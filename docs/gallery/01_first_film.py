@@ -37,7 +37,7 @@ plot.pressure_and_film(result, plt.subplots()[1])
 line_maps.potential(result, plt.subplots()[1])
 
 # %%
-# The field strength, with its maximum at the constriction enlarged. Grey is below the range of the colours:
+# The field strength, with its maximum marked at the constriction. Grey is below the range of the colours:
 line_maps.field_strength(result, plt.subplots()[1])
 
 # %%

@@ -5,6 +5,7 @@ import os
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import pytest
 
@@ -187,6 +188,42 @@ def test_surface_shows_every_step(ehlectric, tmp_path):
     for text in ("form: parabola", "cutoff_long: 80", "trim: 40", "truncate: 50", "9600", "0.156245"):
         assert text in done.stdout
     assert (tmp_path / "profile.png").read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize(
+    ("words", "files"),
+    [
+        (["-o", "x.pdf"], {"x.pdf"}),
+        (["-o", "x.svg", "--style", "journal"], {"x.svg"}),
+        (["-o", "x.png", "--format", "png", "--format", "pdf"], {"x.png", "x.pdf"}),
+        (["-o", "folder", "--format", "svg"], {"folder/profile.svg"}),
+    ],
+)
+def test_figures_of_surfaces_have_the_format_of_their_names(ehlectric, tmp_path, words, files):
+    begins = {".png": b"\x89PNG", ".pdf": b"%PDF", ".svg": b"<?xml"}
+    done = ehlectric("surface", EXAMPLES / "surfaces" / "dektak-1.csv", *words)
+    assert done.returncode == 0, done.stderr
+    assert {str(p.relative_to(tmp_path)) for p in tmp_path.rglob("*.*")} == files
+    for name in files:
+        assert (tmp_path / name).read_bytes().startswith(begins[Path(name).suffix])
+        assert Path(name).name in done.stdout
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (
+            ["-o", "x.tif"],
+            "--output: got 'x.tif'; expected a file ending in .png or .svg or .pdf, or a folder",
+        ),
+        (["-o", "x.png", "--format", "pdf"], "--output: got 'x.png'; expected a file ending in .pdf"),
+        (["-o", "x", "--format", "tif"], "--format: got 'tif'; expected one of png, svg, pdf"),
+        (["-o", "x", "--style", "poster"], "--style: got 'poster'; expected one of screen, journal"),
+    ],
+)
+def test_figures_of_surfaces_in_no_known_format_are_refused(ehlectric, tmp_path, words, message):
+    assert message in one_line(ehlectric("surface", EXAMPLES / "surfaces" / "dektak-1.csv", *words))
+    assert not list(tmp_path.iterdir())
 
 
 @pytest.mark.slow

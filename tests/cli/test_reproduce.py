@@ -29,6 +29,20 @@ def test_schematics_need_no_solution(ehlectric, tmp_path):
         assert (tmp_path / "out" / f"figure_{number}.png").read_bytes().startswith(PNG)
 
 
+def test_figures_have_a_format_and_a_style(ehlectric, tmp_path):
+    words = ["--figure", "3", "--format", "pdf", "--style", "journal"]
+    done = ehlectric("reproduce", "-o", "out", *words)
+    assert done.returncode == 0, done.stderr
+    assert [path.name for path in (tmp_path / "out").iterdir()] == ["figure_3.pdf"]
+    assert (tmp_path / "out" / "figure_3.pdf").read_bytes().startswith(b"%PDF")
+    refused = ehlectric("reproduce", "-o", "not", "--format", "tif")
+    assert (refused.returncode, refused.stderr) == (
+        2,
+        "error: --format: got 'tif'; expected one of png, svg, pdf\n",
+    )
+    assert not (tmp_path / "not").exists()
+
+
 def test_table_3_alone(ehlectric, tmp_path):
     done = ehlectric("reproduce", "-o", "out", "--table", "3")
     assert done.returncode == 0, done.stderr

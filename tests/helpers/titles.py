@@ -8,4 +8,6 @@ def title_of(figure: Figure) -> list[str]:
     """Lines of the title over all panels: the finding, then the smaller lines below it."""
     first = [line for line in figure.get_suptitle().split("\n") if line.strip()]
     below = [artist.get_text() for artist in figure.get_children() if isinstance(artist, Annotation)]
-    return first + [line for text in below for line in text.split("\n")]
+    lines = first + [line for text in below for line in text.split("\n")]
+    # No-break spaces hold numbers and units together.
+    return [line.replace("\xa0", " ") for line in lines]

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from ehlectric.commands.options import Output, Quiet
+from ehlectric.commands.options import Formats, Output, Quiet, Style, figure_options
 from ehlectric.commands.terminal import (
     NOT_CONVERGED,
     echo_files,
@@ -29,6 +29,8 @@ def reproduce(
     table: Annotated[
         str | None, typer.Option(metavar="NUMBER", help="Make this table only, 3.", show_default=False)
     ] = None,
+    formats: Formats = None,
+    style: Style = "screen",
     quiet: Quiet = False,
 ) -> None:
     """Reproduce the paper: its contacts, tables and figures, with a report.
@@ -38,9 +40,14 @@ def reproduce(
     with user_errors():
         from ehlectric.paper.reproduce import reproduce as reproduced
 
+        look = figure_options(formats, style)
         with progress_bar(shown=not quiet) as progress:
             made = reproduced(
-                output, figure=_number("figure", figure), table=_number("table", table), progress=progress
+                output,
+                figure=_number("figure", figure),
+                table=_number("table", table),
+                progress=progress,
+                **look,
             )
     if not quiet:
         for name, text in made.verdicts.items():

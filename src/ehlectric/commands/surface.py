@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from ehlectric.commands.options import Json, file_argument, one_of
+from ehlectric.commands.options import Formats, Json, Style, figure_options, file_argument, one_of
 from ehlectric.commands.terminal import echo_files, print_table, user_errors, warn
+from ehlectric.errors import InputError, shown
 
 _UNITS = "such as um or nm, for a file that does not state it"
 
@@ -73,8 +75,15 @@ def surface(
     truncate: Annotated[str | None, _length("Limit heights to plus and minus this.")] = None,
     output: Annotated[
         Path | None,
-        typer.Option("--output", "-o", metavar="PNG", help="Draw the profile or map into this file."),
+        typer.Option(
+            "--output",
+            "-o",
+            metavar="FILE",
+            help="Draw the profile or map into this .png, .svg or .pdf file, or into this folder.",
+        ),
     ] = None,
+    formats: Formats = None,
+    style: Style = "screen",
     as_json: Json = False,
 ) -> None:
     """Show the content of a surface file and the effect of each processing step, without solving.
@@ -95,18 +104,42 @@ def surface(
         from ehlectric.surfaces.rough_profiles import measured
 
         keys = {key: value for key, value in table.items() if value is not None}
+        look = figure_options(formats, style)
+        files = [] if output is None else _files(output, "map" if whole else "profile", formats)
         roughness = Roughness.from_dict({"surface": 1, "file": str(file)} | keys)
         rough = whole_map(roughness) if whole else measured(roughness)
-        if output is not None:
-            prepare(output.parent, [output.name])
+        if files:
+            prepare(files[0].parent, [file.name for file in files])
+            from ehlectric.figures.style import style as styled
             from ehlectric.figures.surface import save_surface
 
-            save_surface(rough.steps, output)
+            with styled(look["style"]):
+                files = save_surface(rough.steps, files[0], [file.suffix[1:] for file in files])
     described = rough.describe()
     if as_json:
         typer.echo(json.dumps(described, indent=2))
     else:
         print_table(surface_table(described))
         warn(rough.warnings)
-        if output is not None:
-            echo_files([output])
+        if files:
+            echo_files(files)
+
+
+def _files(output: Path, name: str, formats: Sequence[str] | None) -> list[Path]:
+    """Files of a figure, one of each format: ``output``, or without an ending, files in this folder.
+
+    Raises
+    ------
+    InputError
+        If the ending is that of no format, or of another one than those asked for.
+    """
+    from ehlectric.figures.names import FORMATS
+
+    ending = output.suffix[1:]
+    if not ending:
+        return [output / f"{name}.{kind}" for kind in dict.fromkeys(formats or ("png",))]
+    allowed = [kind for kind in FORMATS if kind in (formats or FORMATS)]
+    if ending not in allowed:
+        endings = " or ".join(f".{kind}" for kind in allowed)
+        raise InputError("--output", got=shown(str(output)), takes=f"a file ending in {endings}, or a folder")
+    return [output.with_suffix(f".{kind}") for kind in dict.fromkeys(formats or (ending,))]

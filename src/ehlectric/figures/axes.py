@@ -26,6 +26,9 @@ WIDE = 20.0
 # An axis has a tick at each value where there are at most so many, each of at most so many characters.
 _FEW_VALUES, _SHORT = 8, 4
 
+# Place of a colour bar beside the axes, in parts of them.
+BAR = (1.025, 0.0, 0.04, 1.0)
+
 # Round numbers of a decade: three, six and twelve of them.
 _FEW, _SOME = (1.0, 2.0, 5.0), (1.0, 1.5, 2.0, 3.0, 5.0, 7.0)
 _MANY = (1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0)
@@ -162,7 +165,9 @@ def norm_of(levels: Array, *, log: bool) -> Normalize:
 
 def colour_bar(ax: Axes, norm: Normalize, text: str, levels: Array, colours: Colormap = COLOURS) -> None:
     """Add a colour bar with ticks at round levels, at every second or third one where there are many."""
-    bar = figure_of(ax).colorbar(ScalarMappable(norm, colours), ax=ax, label=text, pad=0.02)
+    # Beside the axes themselves, a wide legend above them does not push the bar away.
+    beside = ax.inset_axes(BAR)
+    bar = figure_of(ax).colorbar(ScalarMappable(norm, colours), cax=beside, label=text)
     ticks = levels if levels.size <= 9 else levels[:: 2 if levels.size <= 18 else 3]
     bar.set_ticks(list(ticks), labels=[f"{level:.6g}" for level in ticks])
     bar.ax.minorticks_off()

@@ -10,6 +10,11 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from ehlectric.errors import InputError, shown
 
+# Space between a number and its unit, at which a title is not broken into lines.
+_OF_UNIT = re.compile(
+    r"(?<=\d) (?=(?:%|‰|°C|rpm|[fpnµumkMG]?(?:Pa|Hz|V|m|N|F|A|W|s|S|K|Ω)(?:[/²³]\S*)?)(?:[\s,;:.()]|$))"
+)
+
 # Formats of the files, and styles of the figures.
 FORMATS = ("png", "svg", "pdf")
 STYLES = ("screen", "journal")
@@ -92,6 +97,17 @@ def of_cut(file: str, at: Mapping[str, str] | None = None) -> str:
         return file
     cut = ",".join(f"{key}={_of_file_name(text)}" for key, text in sorted(at.items()))
     return f"{_stem(file)}_at_{cut}.png"
+
+
+def with_units_kept(text: str) -> str:
+    r"""Text with no-break spaces between numbers and their units.
+
+    Examples
+    --------
+    >>> with_units_kept("below 2.28 to 3.25 m/s (8 V)") == "below 2.28 to 3.25\xa0m/s (8\xa0V)"
+    True
+    """
+    return _OF_UNIT.sub("\xa0", text)
 
 
 def _of_file_name(text: str) -> str:

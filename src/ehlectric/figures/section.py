@@ -80,13 +80,12 @@ def draw_section(
         zip((0.04, 0.96), ("bottom", "top"), potentials, strict=True), 1
     ):
         text = f"surface {surface}, {volts:g} V".replace("-", "−")
-        # Beside the middle, so that an inset has room on the left.
         ax.text(
-            0.62,
+            0.82,
             height,
             text,
             transform=ax.transAxes,
-            ha="center",
+            ha="right",
             va=where,
             fontsize=8.0,
             path_effects=[withStroke(linewidth=2.0, foreground=BODY)],
@@ -124,7 +123,7 @@ def _two_digits(number: float) -> str:
     return f"{float(f'{number:.2g}'):g}"
 
 
-def section_inset(
+def section_part(
     ax: Axes,
     x: Array,
     heights: Array,
@@ -134,11 +133,9 @@ def section_inset(
     colours: str = "viridis",
     under: bool = False,
 ) -> None:
-    """Draw a part of a section, as ``draw_section`` does, on small axes without labels."""
+    """Draw a section, of which the axes show a part, as ``draw_section`` does, without texts."""
     _fill(ax, x, heights, values, limits=limits, colours=colours, under=under)
     ax.set_facecolor(BODY)
-    ax.tick_params(labelsize=7.0, labelleft=False, left=False, labelbottom=True)
-    ax.locator_params(axis="x", nbins=4)
 
 
 def _fill(

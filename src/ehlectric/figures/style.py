@@ -26,7 +26,7 @@ from ehlectric.arrays import Array
 from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.errors import InputError, shown
-from ehlectric.figures.names import STYLES, in_formats
+from ehlectric.figures.names import STYLES, in_formats, with_units_kept
 from ehlectric.runtime.files import whole
 
 D = TypeVar("D")
@@ -95,6 +95,7 @@ _JOURNAL: dict[str, Any] = _SCREEN | {
     "ytick.labelsize": 7.0,
     "legend.fontsize": 7.0,
     "lines.linewidth": 0.8,
+    "lines.markersize": 4.2,
     "axes.linewidth": 0.5,
     "xtick.major.width": 0.5,
     "ytick.major.width": 0.5,
@@ -221,7 +222,7 @@ def name_over(ax: Axes, text: str, *, converged: bool = True) -> None:
     """
     figure = figure_of(ax)
     figure.set_label(text.replace("\n", ". "))
-    first, *others = text.split("\n")
+    first, *others = with_units_kept(text).split("\n")
     if not _LOOKS[_style.get()].titled:
         if converged:
             return
@@ -250,7 +251,7 @@ def _broken(figure: Figure, line: str, size: float) -> list[str]:
     """Parts of a line of text, each of which fits into the width of a figure; letters in points."""
     room = _FULL * 72.0 * figure.get_figwidth()
     letters, parts = FontProperties(size=size), [""]
-    for word in line.split():
+    for word in filter(None, line.split(" ")):
         longer = f"{parts[-1]} {word}".lstrip()
         width, _, _ = text_to_path.get_text_width_height_descent(longer, letters, ismath=False)
         if width > room and parts[-1]:
@@ -374,8 +375,8 @@ def label_position(result: OfContact, ax: Axes, axis: str = "x") -> None:
     ax.set_xlabel(f"${axis}/b$   ($b$ = {factor * result.conditions.half_width:.4g} {unit})")
 
 
-# Room that the axis of lengths above the axes takes [pt].
-LENGTH_AXIS = 31.0
+# Room that the axis of lengths above the axes takes [pt], and place of its name beside its numbers [pt].
+LENGTH_AXIS, _LENGTH_NAME = 18.0, (-4.0, 6.0)
 
 
 def length_axis(result: OfContact, ax: Axes, axis: str = "x") -> None:
@@ -385,4 +386,7 @@ def length_axis(result: OfContact, ax: Axes, axis: str = "x") -> None:
     top = ax.secondary_xaxis(
         "top", functions=(lambda x: np.asarray(x) * factor * b, lambda x: np.asarray(x) / (factor * b))
     )
-    top.set_xlabel(f"${axis}$ [{unit}]", labelpad=3.0)
+    top.set_xlabel(f"${axis}$ [{unit}]", ha="right", va="bottom")
+    left, up = _LENGTH_NAME
+    beside = offset_copy(ax.transAxes, figure_of(ax), x=left, y=up, units="points")
+    top.xaxis.set_label_coords(0.0, 1.0, transform=beside)

@@ -41,7 +41,7 @@ def profile(drawn: Profile, ax: Axes | None = None) -> Axes:
     s = statistics(drawn)
     scale, prefixed = unit_for(s.rq, "m", least=1.0)
     amplitudes = f"Rq {scale * s.rq:.3g} {prefixed}, Ra {scale * s.ra:.3g} {prefixed}"
-    ax.set_title(f"{amplitudes}, Rsk {s.rsk:.2f}, Rku {s.rku:.1f}", loc="right")
+    ax.set_title(f"{amplitudes}, Rsk {s.rsk:.2f}, Rku {s.rku:.1f}".replace("-", "−"), loc="right")
     ax.set(xlabel=f"$x$ [{length}]", ylabel=f"height [{unit}]")
     ax.set_xlim(along * drawn.x[0], along * drawn.x[-1])
     return ax

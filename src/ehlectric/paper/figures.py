@@ -59,10 +59,15 @@ def _of(gigapascal: int) -> list[PaperContact]:
 
 
 def _panel_name(contact: PaperContact, letter: str, result: Result) -> str:
-    """Letter, name as printed and speed of a sub-figure, with the computed M if it differs from the print."""
+    """Letter, name and speed of a sub-figure."""
+    return f"({letter}) {_name(contact, result)}"
+
+
+def _name(contact: PaperContact, result: Result) -> str:
+    """Name as printed and speed of a contact, with the computed M if it differs from the print."""
     computed, printed = result.conditions.contact.moes_m, float(contact.printed[1:].split("L")[0])
     other = "" if abs(printed - computed) < 1.0 else f" (M = {computed:.1f})"
-    return f"({letter}) {contact.printed}{other}, {_speed(contact)}"
+    return f"{contact.printed}{other}, {_speed(contact)}"
 
 
 def _speed(contact: PaperContact) -> str:
@@ -144,7 +149,7 @@ def _middle(
             x, factor = result.field.x / result.conditions.half_width, scale(result)
             straight = factor * straight_line(result)
             for axes in drawn_on:
-                name = f"{contact.printed}, {_speed(contact)}"
+                name = _name(contact, result)
                 axes.plot(x, factor * result.field.middle_strength, color=colour, label=name)
                 if not coincide:
                     axes.plot(x, straight, **_STRAIGHT)

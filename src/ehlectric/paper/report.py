@@ -7,7 +7,6 @@ from collections.abc import Mapping
 from datetime import UTC, datetime
 from importlib import resources
 from itertools import pairwise
-from pathlib import Path
 
 import numpy as np
 from jinja2 import Environment, StrictUndefined
@@ -30,7 +29,7 @@ LEAST_WIDTHS = 2.0
 LARGEST_CHANGE = 1.0
 
 
-def html(study: Study, tables: Mapping[str, PaperTable], figures: Mapping[int, Path]) -> str:
+def html(study: Study, tables: Mapping[str, PaperTable], figures: Mapping[int, bytes]) -> str:
     """Report of a complete study as an HTML page.
 
     Parameters
@@ -40,7 +39,7 @@ def html(study: Study, tables: Mapping[str, PaperTable], figures: Mapping[int, P
     tables : mapping
         Tables by name, all of ``ehlectric.paper.tables.TABLES``.
     figures : mapping
-        Paths of the PNG files by figure number; they are embedded in the page.
+        Contents of PNG files by figure number; they are embedded in the page.
 
     Returns
     -------
@@ -64,9 +63,9 @@ def html(study: Study, tables: Mapping[str, PaperTable], figures: Mapping[int, P
             {
                 "number": number,
                 "caption": FIGURES[number].caption,
-                "data": base64.b64encode(path.read_bytes()).decode(),
+                "data": base64.b64encode(content).decode(),
             }
-            for number, path in figures.items()
+            for number, content in figures.items()
         ],
         slips=[{**vars(slip), "check": slip.check(study)} for slip in SLIPS],
     )

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from io import BytesIO
 from pathlib import Path
 
+from matplotlib.figure import Figure
+
 from ehlectric.errors import InputError
-from ehlectric.figures.style import style
+from ehlectric.figures.names import in_formats
+from ehlectric.figures.style import save_figure
+from ehlectric.figures.style import style as styled
 from ehlectric.paper import report
 from ehlectric.paper.figures import FIGURES
 from ehlectric.paper.study import run_study
@@ -39,9 +44,9 @@ class Reproduced:
     converged: bool
 
 
-def figure_file(number: int) -> str:
-    """File name of a figure."""
-    return f"figure_{number}.png"
+def figure_files(number: int, formats: Sequence[str] = ("png",)) -> tuple[str, ...]:
+    """File names of a figure, one of each format."""
+    return in_formats([f"figure_{number}"], formats)
 
 
 def reproduce(
@@ -50,6 +55,8 @@ def reproduce(
     figure: int | None = None,
     table: int | None = None,
     progress: Callable[[int, int, str], None] | None = None,
+    formats: Sequence[str] = ("png",),
+    style: str = "screen",
 ) -> Reproduced:
     """Solve the contacts of the paper, and write its figures and tables.
 
@@ -64,6 +71,10 @@ def reproduce(
         report.html are written.
     progress : callable, optional
         Called with (number done, number in all, name of what was done) after every contact and figure.
+    formats : sequence of str
+        Formats of the figures, of "png", "svg" and "pdf". The report has its own copies.
+    style : str
+        Style of the figures, "screen" or "journal".
 
     Returns
     -------
@@ -81,7 +92,9 @@ def reproduce(
     """
     figures, tables = _requested(figure, table)
     whole_report = figure is None and table is None
-    names = [figure_file(number) for number in figures] + [f"{name}.csv" for name in tables]
+    names = [file for number in figures for file in figure_files(number, formats)] + [
+        f"{name}.csv" for name in tables
+    ]
     names += [REPORT] if whole_report else []
     folder = prepare(folder, names)
     parts = [part for number in figures for part in FIGURES[number].parts]
@@ -91,19 +104,28 @@ def reproduce(
     made = {name: TABLES[name][0](study) for name in tables}
     for name, paper_table in made.items():
         paper_table.save(folder / f"{name}.csv")
-    drawn = {number: folder / figure_file(number) for number in figures}
-    with style():
-        for number, path in drawn.items():
-            with whole(path) as beside:
-                FIGURES[number].draw(study).savefig(beside, dpi=200)
+    copies: dict[int, bytes] = {}
+    with styled(style):
+        for number in figures:
+            drawn = FIGURES[number].draw(study)
+            save_figure(drawn, folder / f"figure_{number}.png", formats)
+            if whole_report:
+                copies[number] = _png(drawn)
             if progress is not None:
                 progress(number, max(figures), f"figure {number}")
     verdicts = {}
     if whole_report:
         verdicts = report.verdicts(made)
         with whole(folder / REPORT) as beside:
-            beside.write_text(report.html(study, made, drawn), encoding="utf-8")
+            beside.write_text(report.html(study, made, copies), encoding="utf-8")
     return Reproduced([folder / name for name in names], made, verdicts, study.converged)
+
+
+def _png(figure: Figure) -> bytes:
+    """Content of a PNG file of a figure, with as many pixels as a page on the screen needs."""
+    content = BytesIO()
+    figure.savefig(content, format="png", dpi=200)
+    return content.getvalue()
 
 
 def _requested(figure: int | None, table: int | None) -> tuple[list[int], list[str]]:

@@ -8,6 +8,7 @@ import warnings
 from xml.etree import ElementTree
 
 import matplotlib as mpl
+import numpy as np
 import pytest
 from matplotlib.figure import Figure
 from PIL import Image
@@ -275,6 +276,19 @@ def test_unknown_formats_and_styles_are_refused(line, tmp_path):
     with pytest.raises(InputError, match=r"^style: got 'book'; expected one of screen, journal$"):
         save_figures(line, tmp_path, style="book")
     assert not list(tmp_path.iterdir())
+
+
+def test_titles_are_not_broken_between_a_number_and_its_unit():
+    """At every width of the page, "8 V" and "2.28 to 3.25 m/s" keep their units."""
+    text = "Breakdown expected below 2.28 to 3.25 m/s at 12 °C and 70 % (applied voltage 8 V)"
+    for width in np.arange(2.0, 6.0, 0.1):
+        with style():
+            ax = new_panels(1, 1, (width, 2.0))[0]
+            name_over(ax, text)
+        lines = title_of(ax.figure)
+        assert " ".join(lines) == text
+        assert not [line for line in lines if line.startswith(("m/s", "°C", "%", "V)"))]
+    assert ax.figure.get_label() == text
 
 
 def test_long_titles_are_broken_and_none_of_their_lines_is_lost():

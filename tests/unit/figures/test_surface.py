@@ -35,6 +35,13 @@ def test_steps_are_saved(tmp_path, heights):
         assert path.read_bytes().startswith(b"\x89PNG")
 
 
+def test_a_negative_skewness_has_a_minus_sign():
+    heights = -np.abs(HEIGHTS[:, 0])
+    title = profile(Profile(1e-6, heights)).get_title(loc="right")
+    assert "Rsk −" in title
+    assert "-" not in title
+
+
 def test_profiles_keep_their_unit():
     ax = profile(Profile(1e-6, HEIGHTS[:, 0]))
     assert (ax.get_xlabel(), ax.get_ylabel()) == ("$x$ [µm]", "height [nm]")

@@ -14,10 +14,11 @@ from ehlectric.cases.quantity import unit_for
 from ehlectric.figures.axes import is_wide, round_numbers
 from ehlectric.figures.bearing.curves import nearly_equal
 from ehlectric.figures.bearing.looks import FIRST, SHAFT, THROUGH, label_ends, volts
-from ehlectric.figures.style import BLUE, ORANGE, axes_or_new, legend_above
+from ehlectric.figures.style import BLUE, ORANGE, axes_or_new, figure_of, legend_above
 
-# Largest number of elements that have a tick on the axis.
-_NUMBERED = 16
+# Largest number of elements that have a tick on the axis of a figure of this width [inches]; of a narrower one,
+# fewer have.
+_NUMBERED, _WIDTH = 16, 6.0
 
 
 def contact_capacitances(result: BearingResult, ax: Axes | None = None) -> Axes:
@@ -44,10 +45,12 @@ def contact_capacitances(result: BearingResult, ax: Axes | None = None) -> Axes:
     ax.bar(at + 0.2, factor * circuit.outer, 0.4, color=ORANGE, label="outer contact")
     ax.set_ylabel(f"capacitance\n[{unit}]")
     _elements(result, ax)
-    # The capacitance in summary.json is another one, the mean over a pitch.
-    total, of = unit_for(circuit.capacitance, "F", least=1.0)
-    text = f"whole bearing, {fill} fill: {total * circuit.capacitance:.4g} {of}"
-    ax.set_ylim(0.0, 1.25 * ax.dataLim.ymax)
+    # The capacitance in summary.json is the mean over a pitch, that of this position another one.
+    here, mean = circuit.capacitance, result.capacitance(fill)
+    total, of = unit_for(mean, "F", least=1.0)
+    text = f"bearing, {fill} fill: mean {total * mean:.4g} {of}\n"
+    text += f"at this cage position {total * here:.4g} {of}"
+    ax.set_ylim(0.0, 1.4 * ax.dataLim.ymax)
     ax.text(0.5, 0.97, text, transform=ax.transAxes, ha="center", va="top", fontsize="small")
     legend_above(ax)
     return ax
@@ -130,7 +133,8 @@ def _levels(result: BearingResult, ax: Axes) -> None:
 def _elements(result: BearingResult, ax: Axes) -> None:
     """Label the axis of the elements with their numbers and their angles from the radial load."""
     angles = np.degrees(result.solution.positions[0].equilibrium.position)
-    ticks = np.arange(0, angles.size, math.ceil(angles.size / _NUMBERED))
+    numbered = _NUMBERED * min(1.0, figure_of(ax).get_figwidth() / _WIDTH)
+    ticks = np.arange(0, angles.size, math.ceil(angles.size / numbered))
     ax.set_xticks(ticks, [f"{k}\n{angles[k]:.0f}°" for k in ticks])
     ax.set_xlim(-0.6, angles.size - 0.4)
     radial = result.solution.case.bearing.radial_load > 0.0

@@ -24,6 +24,9 @@ from ehlectric.figures.bearing.curves import (
 from ehlectric.figures.bearing.looks import FIRST, SHAFT, THROUGH, label_ends, volts
 from ehlectric.figures.style import BLUE, GREY, ORANGE, axes_or_new, legend_above
 
+# Height of the room that a label between curves needs, as part of the axes.
+_GAP = 0.2
+
 _STAR: dict[str, Any] = {"ls": "none", "marker": "*", "ms": 12.0, "color": "black", "mec": "white"}
 
 
@@ -200,13 +203,30 @@ def _own_margin(own: Speed | None, ax: Axes) -> None:
     ax.annotate(
         f"margin {ratio_text(first / shaft)}",
         (rpm, middle),
-        (6.0, 0.0),
         textcoords="offset points",
-        va="center",
         fontsize="small",
         zorder=6.0,
         path_effects=[withStroke(linewidth=2.0, foreground="white")],
+        **_beside(ax, low=min(first, shaft), high=max(first, shaft)),
     )
+
+
+def _beside(ax: Axes, *, low: float, high: float) -> dict[str, Any]:
+    """Place of a label at two rising curves [V]: between them, below both, or above both where there is room.
+
+    Offset of the label in points, and its alignment. Right of a speed, the curves are above their values at
+    this speed, and left of it below them.
+    """
+    below, above = (
+        float(ax.transAxes.inverted().transform(ax.transData.transform((1.0, value)))[1])
+        for value in (low, high)
+    )
+    if above - below > _GAP:
+        return {"xytext": (6.0, 0.0), "va": "center"}
+    pointer = {"arrowstyle": "-", "color": GREY, "lw": 0.6, "shrinkA": 0.0, "shrinkB": 4.0}
+    if below > _GAP:
+        return {"xytext": (8.0, -26.0), "va": "top", "arrowprops": pointer}
+    return {"xytext": (-8.0, 26.0), "va": "bottom", "ha": "right", "arrowprops": pointer}
 
 
 def _speed_axis(curves: Curves, ax: Axes) -> Array:

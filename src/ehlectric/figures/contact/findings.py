@@ -119,10 +119,13 @@ def profiles_text(result: AnyContact) -> str:
         there = float(limit.flat[np.argmax(field.column_strength / limit)])
         text = f"Maximum field {with_unit(field.max_strength, 'V/m')}, "
         text += f"{per_cent(used)} of the strength {with_unit(there, 'V/m')}"
-    return f"{text}; walls and mid-film within {per_cent(_disagreement(result))}"
+    if result.smooth is not None:
+        change = field.max_strength / float(np.max(result.smooth.middle_strength)) - 1.0
+        text += f", {_more(change, 'above', 'below')} smooth"
+    return f"{text}; walls and mid-film within {per_cent(disagreement(result))}"
 
 
-def _disagreement(result: AnyContact) -> float:
+def disagreement(result: AnyContact) -> float:
     """Largest relative difference between the fields on both walls and at mid-film of one column."""
     field = result.field
     sections = np.stack([field.strength[..., 0], field.middle_strength, field.strength[..., -1]])
@@ -135,17 +138,22 @@ def deviation_text(result: AnyContact) -> str:
     field = result.field
     sections = np.stack([field.strength[..., 0], field.middle_strength, field.strength[..., -1]])
     deviation: Array = np.max(np.abs(sections / field.thin_gap_strength - 1.0), axis=0)
-    counted = field.inner
+    apart, counted = deviation, field.inner
     if isinstance(result, PointResult):
         counted = counted & result.zones["hertz"](field.x[:, np.newaxis], field.y)
         counted = counted if np.any(counted) else field.inner
     deviation = np.where(counted, deviation, 0.0)
     where = np.unravel_index(np.argmax(deviation), deviation.shape)
     place = tuple(float(axis[k]) for axis, k in zip(field.axes, where, strict=True))
-    text = f"The estimate V12/h is within {per_cent(float(np.max(deviation)))} of the field"
+    text = f"The estimate V12/h is within {per_cent(float(np.max(deviation)))} of the field on this grid"
     if isinstance(result, PointResult):
         return f"{text} inside the Hertz ellipse"
-    return f"{text}; worst at {place_text(result, place)}"
+    text += f", worst at {place_text(result, place)}"
+    # The faces at the ends of the field range are those of the computation, not of the contact.
+    ends = float(np.max(apart, where=~counted, initial=0.0))
+    return (
+        f"{text}; at the ends of the range, not drawn, {per_cent(ends)}" if ends > np.max(deviation) else text
+    )
 
 
 def pressure_text(result: PointResult) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -13,8 +14,9 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.results import Result
 from ehlectric.figures.contact.breakdown import breakdown_figures_of, limit_line
-from ehlectric.figures.contact.findings import cut_offs, strength_limit
+from ehlectric.figures.contact.findings import cut_offs, disagreement, per_cent, strength_limit
 from ehlectric.figures.contact.line_maps import field_strength
+from ehlectric.figures.contact.panels import enlarged_below, stacked_panels
 from ehlectric.figures.names import ROUGHNESS_FIGURE
 from ehlectric.figures.style import (
     BLUE,
@@ -27,7 +29,6 @@ from ehlectric.figures.style import (
     label_position,
     legend_above,
     length_axis,
-    new_panels,
 )
 from ehlectric.formulas.hertz_line import line_pressure
 
@@ -54,19 +55,21 @@ def pressure_and_film(result: Result, ax: Axes | None = None) -> Axes:
     largest = max(film.max_pressure, conditions.max_pressure)
     factor, unit = unit_for(largest, "Pa")
     hertz = conditions.max_pressure * line_pressure(x)
-    lines = ax.plot(x, factor * hertz, color=GREY, ls="--", lw=0.8, label="Hertz pressure")
-    lines += ax.plot(x, factor * film.pressure, color=BLUE, label="pressure")
+    # Dashes tell the lines apart without colours too.
+    lines = ax.plot(x, factor * hertz, color=GREY, ls=":", lw=1.0, label="Hertz pressure")
+    lines += ax.plot(x, factor * film.pressure, color=BLUE, zorder=2.5, label="pressure")
     ax.set_xlim(*_window(x))
     label_position(result, ax)
     ax.set_ylabel(f"pressure $p$ [{unit}]", color=BLUE)
     twin = ax.twinx()
     to_pressure = factor
     factor, unit = unit_for(film.central_thickness, "m")
-    lines += twin.plot(x, factor * film.thickness, color=ORANGE, label="film thickness")
+    lines += twin.plot(x, factor * film.thickness, color=ORANGE, ls=_FILM, label="film thickness")
     if result.smooth:
-        ax.plot(x, to_pressure * result.smooth.pressure, color="black", lw=0.9, ls=":")
+        # Wide and behind the rough curves, so that neither hides the other.
+        ax.plot(x, to_pressure * result.smooth.pressure, **_SMOOTH)
         smooth = factor * result.smooth.thickness
-        lines += twin.plot(x, smooth, color="black", lw=0.9, ls=":", label="both, smooth surfaces")
+        lines += twin.plot(x, smooth, label="both, smooth surfaces", **_SMOOTH)
     twin.set_ylabel(f"film thickness $h$ [{unit}]", color=ORANGE)
     _align(ax, twin, to_pressure * largest, factor * film.central_thickness)
     minimum, position = factor * film.minimum_thickness, film.minimum_position / conditions.half_width
@@ -83,6 +86,11 @@ def pressure_and_film(result: Result, ax: Axes | None = None) -> Axes:
     length_axis(result, ax)
     legend_above(ax, lines, 4 if len(lines) < 5 else 3, lift=LENGTH_AXIS)
     return ax
+
+
+# Dashes of the film thickness, and look of smooth surfaces behind rough ones.
+_FILM = (0, (5.0, 1.5))
+_SMOOTH: dict[str, Any] = {"color": "0.75", "lw": 2.6, "zorder": 1.5}
 
 
 def _window(x: Array) -> tuple[float, float]:
@@ -130,7 +138,7 @@ def film_change(result: Result, ax: Axes | None = None) -> Axes:
     change, heights = film.thickness - result.smooth.thickness, result.roughness.sum(axis=0)
     shown = (x >= _window(x)[0]) & (x <= _window(x)[1])
     factor, unit = unit_for(float(np.max(np.abs(np.stack([change, heights])[:, shown]))), "m", least=1.0)
-    ax.plot(x, -factor * heights, color="#9ccbe8", lw=1.0, label="if not flattened")
+    ax.plot(x, -factor * heights, color="#9ccbe8", lw=1.6, label="if not flattened")
     ax.plot(x, factor * change, color=ORANGE, lw=0.8, label="rough − smooth film")
     ax.set_xlim(*_window(x))
     ax.set_ylabel(f"change of film [{unit}]")
@@ -156,13 +164,15 @@ def film(result: Result, ax: Axes | None = None) -> Axes:
     """
     if ax is not None or result.smooth is None:
         return pressure_and_film(result, ax)
-    above, below = new_panels(2, 1, (6.3, 5.2))
-    gridspec = above.get_gridspec()
-    assert gridspec is not None
-    gridspec.set_height_ratios([3.0, 2.0])
+    above, below = stacked_panels((6.3, 5.2))
     pressure_and_film(result, above)
     film_change(result, below)
     return above
+
+
+# Relative difference below which the fields of walls and mid-film are one line, and part of the range of
+# their values below which both walls are.
+_EQUAL, _ALIKE = 1e-2, 1e-2
 
 
 def field_profiles(result: Result, ax: Axes | None = None) -> Axes:
@@ -181,7 +191,8 @@ def field_profiles(result: Result, ax: Axes | None = None) -> Axes:
     -------
     Axes
         Axes with the field strength in V/m, prefixed, on the left, and abs(E) h_min/V12 on the right. The
-        dielectric strength is a line, if the case has one.
+        dielectric strength is a line, if the case has one. Where walls and mid-film agree within a per cent,
+        they are one line. Of a rough contact, only the field strengths of the Hertz zone are shown.
     """
     ax = axes_or_new(ax)
     field = result.field
@@ -191,23 +202,30 @@ def field_profiles(result: Result, ax: Axes | None = None) -> Axes:
     width, length = unit_for(field.high_field_width, "m", least=1.0)
     label = f"above 95 % of maximum, {width * field.high_field_width:.3g} {length} wide"
     shaded = ax.axvspan(zone[0], zone[1], color=GREEN, alpha=0.25, lw=0.0, label=label)
-    lines = _sections(ax, x, field.inner, factor * np.stack(_strengths(result)), rough=bool(result.rough))
+    strengths = factor * np.stack(_strengths(result))
+    lines = _sections(ax, x, field.inner, strengths, rough=bool(result.rough), apart=disagreement(result))
     if result.smooth:
         smooth = factor * result.smooth.middle_strength
-        lines += ax.plot(x, smooth, color=GREY, lw=1.2, ls=":", label="mid-film, smooth surfaces")
+        look: dict[str, Any] = {"color": "black", "lw": 1.1, "ls": (0, (3.0, 1.5)), "zorder": 4.0}
+        lines += ax.plot(x, smooth, label="mid-film, smooth surfaces", **look)
     ax.set(ylabel=rf"field strength $|E|$ [{unit}]", xlim=(x[0], x[-1]))
     label_position(result, ax)
     top = factor * field.max_strength
     limit = strength_limit(result)
     if limit is not None:
         top = max(top, limit_line(ax, x, factor * limit, top, unit))
-    ax.set_ylim(0.0, 1.08 * top)
+    low = 0.0
+    hertz = np.abs(x) <= 1.0
+    if result.rough and np.any(hertz):
+        low = float(np.min(strengths[:, hertz]))
+        low = max(0.0, low - 0.1 * (top - low))
+    ax.set_ylim(low, top + 0.08 * (top - low))
     scale = result.strength_scale / factor
     right = ax.secondary_yaxis(
         "right", functions=(lambda e: np.asarray(e) * scale, lambda e: np.asarray(e) / scale)
     )
     right.set_ylabel(r"dimensionless, $|E|\,h_\mathrm{min}/V_{12}$")
-    ax.legend(handles=[*lines, shaded], loc="lower center", frameon=False)
+    legend_above(ax, [*lines, shaded])
     return ax
 
 
@@ -217,20 +235,28 @@ def _strengths(result: Result) -> tuple[Array, Array, Array]:
     return field.strength[:, 0], field.strength[:, -1], field.middle_strength
 
 
-def _sections(ax: Axes, x: Array, on: Mask, values: Array, *, rough: bool) -> list[Line2D]:
+def _sections(
+    ax: Axes, x: Array, on: Mask, values: Array, *, rough: bool, apart: float = np.inf, marker: str = ""
+) -> list[Line2D]:
     """Draw values (3, nx) on both walls and at mid-film over x/b, where the mask is True.
 
-    Close to the end faces of the field domain, the faces disturb the field.
+    Close to the end faces of the field domain, the faces disturb the field. Where the values of all three are
+    at most a per cent ``apart``, they are one line, and so are those of walls that are alike.
     """
-    # Lines that coincide are drawn one in the other, so that all of them can be seen.
-    looks = (
-        ("surface 1", BLUE, "-", 1.8 if rough else 2.4),
-        ("surface 2", ORANGE, "-" if rough else "--", 1.0 if rough else 1.6),
-        ("mid-film", "black", "-", 0.4 if rough else 0.8),
-    )
+    looks = [
+        ("surface 1", BLUE, "-", 1.2 if rough else 1.6),
+        ("surface 2", ORANGE, "-", 0.9),
+        ("mid-film", GREEN if rough else "black", "-", 0.6 if rough else 0.8),
+    ]
+    if apart < _EQUAL:
+        looks = [(f"walls and mid-film, equal within {per_cent(apart)}", BLUE, "-", 1.2)]
+        values = values[2:]
+    elif np.allclose(values[0][on], values[1][on], rtol=0.0, atol=_ALIKE * float(np.ptp(values[:, on]))):
+        looks, values = [("both walls", *looks[0][1:]), looks[2]], values[1:]
     lines: list[Line2D] = []
     for (label, color, dashes, width), along in zip(looks, values, strict=True):
-        lines += ax.plot(x[on], along[on], color=color, ls=dashes, lw=width, label=label)
+        look: dict[str, Any] = {"color": color, "ls": dashes, "lw": width, "marker": marker, "ms": 2.5}
+        lines += ax.plot(x[on], along[on], label=label, **look)
     return lines
 
 
@@ -247,35 +273,48 @@ def field_deviation(result: Result, ax: Axes | None = None) -> Axes:
     Returns
     -------
     Axes
-        Axes with the deviations in per mille of V12/h, on both walls and at mid-film, and an inset around the
-        largest of them. The ends of the field domain are left out: within some gap heights, the end faces
-        disturb the field.
+        Axes with the deviations in per mille of V12/h, on both walls and at mid-film. Below them, in a new
+        figure, a second panel shows the surroundings of the largest. The ends of the field domain are left
+        out: within some gap heights, the end faces disturb the field.
     """
-    ax = axes_or_new(ax)
+    if ax is not None:
+        return _deviations(result, ax)
+    above, below = stacked_panels((6.3, 5.2))
+    _deviations(result, above)
+    _deviations(result, below, marker=".")
+    x, on = in_half_widths(result, result.field.x), result.field.inner
+    deviations = np.where(on, np.abs(_from_thin_gap(result)), 0.0)
+    k = int(np.argmax(np.max(deviations, axis=0)))
+    ends = x[k] - _AROUND, x[k] + _AROUND
+    below.set_xlim(*ends)
+    shown = _from_thin_gap(result)[:, on & (x >= ends[0]) & (x <= ends[1])]
+    room = 0.08 * float(np.ptp(shown)) or 1.0
+    below.set_ylim(float(shown.min()) - room, float(shown.max()) + room)
+    enlarged_below(above, ends)
+    legend_above(above, columns=3)
+    return above
+
+
+# Half of the range of x/b that an enlargement shows.
+_AROUND = 0.03
+
+
+def _from_thin_gap(result: Result) -> Array:
+    """Deviations of the field from V12/h on both walls and at mid-film [‰], (3, nx)."""
+    deviations: Array = 1e3 * (np.stack(_strengths(result)) / result.field.thin_gap_strength - 1.0)
+    return deviations
+
+
+def _deviations(result: Result, ax: Axes, marker: str = "") -> Axes:
+    """Draw the deviations of the field from V12/h over x/b."""
     field = result.field
     x, on = in_half_widths(result, field.x), field.inner
-    values = 1e3 * (np.stack(_strengths(result)) / field.thin_gap_strength - 1.0)
-    _sections(ax, x, on, values, rough=bool(result.rough))
+    _sections(ax, x, on, _from_thin_gap(result), rough=bool(result.rough), marker=marker)
     ax.axhline(0.0, color=GREY, lw=0.5, zorder=0.5)
-    ax.set(ylabel="deviation of the field from $V_{12}/h$ [‰]", xlim=(x[0], x[-1]))
+    ax.set(ylabel="deviation of the field\nfrom $V_{12}/h$ [‰]", xlim=(x[0], x[-1]))
     label_position(result, ax)
-    legend_above(ax, columns=3)
-    inner = np.where(on, values, 0.0)
-    _, k = np.unravel_index(np.argmax(np.abs(inner)), inner.shape)
-    low, high = float(inner.min()), float(inner.max())
-    # Room for the inset on the side of zero that has the larger deviations, away from the largest one.
-    side, end = (-1.0, low) if -low > high else (1.0, high)
-    margin = 0.1 * (high - low) or 1.0
-    ax.set_ylim(min(low, side * 0.4 * abs(end)) - margin, max(high, side * 0.4 * abs(end)) + margin)
-    left = 0.1 if x[k] > 0.0 else 0.45
-    inset = ax.inset_axes((left, 0.08 if side < 0.0 else 0.58, 0.45, 0.34))
-    _sections(inset, x, on, values, rough=bool(result.rough))
-    inset.set_xlim(x[k] - 0.03, x[k] + 0.03)
-    inset.set_ylim(low - margin, high + margin)
-    inset.tick_params(labelsize=7.0)
-    inset.locator_params(nbins=4)
-    inset.axhline(0.0, color=GREY, lw=0.5, zorder=0.5)
-    ax.indicate_inset_zoom(inset, edgecolor=GREY, lw=0.6)
+    if not marker:
+        legend_above(ax, columns=3)
     return ax
 
 

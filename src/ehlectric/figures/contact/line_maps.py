@@ -2,16 +2,29 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
 from ehlectric.arrays import Array
 from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.results import Result
+from ehlectric.figures.axes import BAR
 from ehlectric.figures.contact.maps import round_levels
-from ehlectric.figures.section import MAXIMUM, draw_section, section_inset
-from ehlectric.figures.style import axes_or_new, figure_of, in_half_widths, label_position
+from ehlectric.figures.contact.panels import enlarged_below, stacked_panels
+from ehlectric.figures.section import MAXIMUM, draw_section, section_part
+from ehlectric.figures.style import (
+    BODY,
+    OUT_OF_RANGE,
+    axes_or_new,
+    figure_of,
+    in_half_widths,
+    label_position,
+    legend_above,
+)
 
 
 def potential(result: Result, ax: Axes | None = None) -> Axes:
@@ -40,7 +53,7 @@ def potential(result: Result, ax: Axes | None = None) -> Axes:
 
 
 def field_strength(result: Result, ax: Axes | None = None, *, largest: float | None = None) -> Axes:
-    """Draw a map of the field strength in the film, with an inset around its maximum, which is marked.
+    """Draw a map of the field strength in the film, and enlarged around its maximum, which is marked.
 
     Parameters
     ----------
@@ -49,13 +62,14 @@ def field_strength(result: Result, ax: Axes | None = None, *, largest: float | N
     ax : Axes, optional
         Axes to draw on; axes of a new figure if omitted.
     largest : float, optional
-        Draws the dimensionless field strength abs(E) h_min/V12 instead, from 0 to this value, without inset.
+        Draws the dimensionless field strength abs(E) h_min/V12 instead, from 0 to this value.
 
     Returns
     -------
     Axes
         Axes with the map, and a colour bar beside them. The colours span the field strengths inside the
-        Hertz zone; smaller ones are grey.
+        Hertz zone; smaller ones are grey. In a new figure, a second panel enlarges the film around the
+        maximum.
 
     Notes
     -----
@@ -72,8 +86,19 @@ def field_strength(result: Result, ax: Axes | None = None, *, largest: float | N
     limits = (float(levels[0]), factor * field.max_strength)
     strength = factor * field.strength
     label = f"field strength $|E|$ [{unit}]"
-    ax = _map(result, strength, ax, label=label, limits=limits, ticks=levels[levels <= limits[1]], under=True)
-    _zoom(result, ax, strength, limits)
+    ticks = levels[levels <= limits[1]]
+    ax, *below = [ax] if ax is not None else stacked_panels((6.3, 5.4))
+    _map(result, strength, ax, label=label, limits=limits, ticks=ticks, under=True)
+    handles = [
+        Patch(facecolor=OUT_OF_RANGE, label=f"film below {limits[0]:.4g} {unit}"),
+        Patch(facecolor=BODY, label="surfaces"),
+    ]
+    handles += [_zoom(result, (ax, panel), strength, limits) for panel in below]
+    x, y = _mesh(result)
+    k, j = np.unravel_index(np.argmax(strength), strength.shape)
+    for axes in (ax, *below):
+        axes.plot(x[k, 0], y[k, j], **MAXIMUM)
+    legend_above(ax, handles, columns=3)
     return ax
 
 
@@ -89,19 +114,21 @@ def _dimensionless(result: Result, ax: Axes | None, largest: float) -> Axes:
     return ax
 
 
-def _zoom(result: Result, ax: Axes, values: Array, limits: tuple[float, float]) -> None:
-    """Mark the maximum of the field, and draw its surroundings enlarged on the upper body."""
+def _zoom(result: Result, panels: tuple[Axes, Axes], values: Array, limits: tuple[float, float]) -> Patch:
+    """Draw the surroundings of the maximum enlarged on the lower panel, and return their legend entry."""
+    above, below = panels
     x, y = _mesh(result)
-    k, j = np.unravel_index(np.argmax(values), values.shape)
-    height = float(np.max(y[k]) - np.min(y[k]))
+    k = int(np.argmax(np.max(values, axis=1)))
     half = 0.06 if not result.rough else 0.03
-    inset = ax.inset_axes((0.03, 0.68, 0.37, 0.29))
-    section_inset(inset, x[:, 0], y, values, limits=limits, under=True)
-    inset.set_xlim(x[k, 0] - half, x[k, 0] + half)
-    inset.set_ylim(np.min(y[k]) - 0.35 * height, np.max(y[k]) + 0.35 * height)
-    ax.indicate_inset_zoom(inset, edgecolor="black", lw=0.6)
-    for axes in (ax, inset):
-        axes.plot(x[k, 0], y[k, j], **MAXIMUM)
+    ends = float(x[k, 0]) - half, float(x[k, 0]) + half
+    section_part(below, x[:, 0], y, values, limits=limits, under=True)
+    near = y[(x[:, 0] >= ends[0]) & (x[:, 0] <= ends[1])]
+    room = 0.12 * float(np.ptp(near))
+    below.set_xlim(*ends)
+    below.set_ylim(float(np.min(near)) - room, float(np.max(near)) + room)
+    below.set_ylabel(above.get_ylabel())
+    label_position(result, below)
+    return enlarged_below(above, ends, framed=True)
 
 
 def _mesh(result: Result) -> tuple[Array, Array]:
@@ -137,6 +164,8 @@ def _map(
     )
     ax.set_ylabel(f"height $y$ [{unit}]")
     label_position(result, ax)
-    bar = figure_of(ax).colorbar(filled, ax=ax, label=label, pad=0.02)
+    # Beside the axes themselves, a wide legend above them does not push the bar away.
+    place: dict[str, Any] = {"cax": ax.inset_axes(BAR)} if under else {"ax": ax, "pad": 0.02}
+    bar = figure_of(ax).colorbar(filled, label=label, **place)
     bar.set_ticks(list(ticks))
     return ax

@@ -124,6 +124,9 @@ def value_lines(
     ax.margins(x=0.03)
     own = {} if y is None else {"color": GREY}  # the marks on the axes have the colours of their lines
     handles: list[Artist] = [*kind_handles(selection, **own)]
+    if selection.of_discharge and value not in selection.breakdown.keys and handles:
+        at_voltage = f"at the {selection.breakdown.voltage_name} {voltage_text(selection)}"
+        handles[0].set_label(f"{handles[0].get_label()} {at_voltage}")
     handles += [
         *mark_warned(ax, selection, along, scale.of(selection.values)),
         *_applied(path, ax, (scale_x, scale), lines),
@@ -149,15 +152,13 @@ def _applied(path: LinePath, ax: Axes, scales: tuple[Scale, Scale], lines: list[
     """Draw the value that corresponds to the applied voltage, and return its legend entries."""
     selection, (scale_x, scale) = path.selection, scales
     volts = selection.voltage[np.isfinite(selection.voltage)]
-    if not (selection.of_discharge and volts.size):
+    if not (selection.of_discharge and volts.size) or selection.value not in selection.breakdown.keys:
         return []
     about, applied = selection.breakdown, voltage_text(selection)
     text = f"{about.voltage_name} {applied}"
-    if selection.value not in selection.breakdown.keys:
-        return [Line2D([], [], ls="none", label=f"at the {text}")]
     if selection.value == selection.breakdown.margin:
         # A margin of 1 is where breakdown voltage and applied voltage are equal.
-        level, text = scale.of(1.0), f"margin 1: {about.name} = {about.voltage_name} {applied}"
+        level, text = scale.of(1.0), f"margin 1 at {applied}"
     elif np.ptp(volts) <= 1e-9 * volts[0]:
         level = scale.of(float(volts[0]))
     elif not joined(selection, lines):
@@ -173,7 +174,7 @@ def _applied(path: LinePath, ax: Axes, scales: tuple[Scale, Scale], lines: list[
     ax.axhline(level, color="black", ls="--", lw=1.2, zorder=3.0)
     floor = 1e-3 * level if ax.get_yscale() == "log" else min(0.0, ax.get_ylim()[0])
     ax.axhspan(floor, level, color=GREY, alpha=0.15, lw=0.0)
-    below = Patch(facecolor=GREY, alpha=0.15, label=f"below {about.voltage_name} {applied}")
+    below = Patch(facecolor=GREY, alpha=0.15, label=f"below {about.voltage_name}")
     return [Line2D([], [], color="black", ls="--", lw=1.2, label=text), below]
 
 

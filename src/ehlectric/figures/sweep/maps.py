@@ -18,7 +18,8 @@ from matplotlib.tri import Triangulation
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.figures.axes import COLOURS, by_logarithm, colour_bar, is_wide, levels_of, norm_of, scale_axis
-from ehlectric.figures.style import axes_or_new, legend_above
+from ehlectric.figures.style import GREY, axes_or_new, legend_above
+from ehlectric.figures.sweep.line_labels import ON_BOX, ON_COLOURS, label_lines
 from ehlectric.figures.sweep.points import (
     dot_size,
     kind_handles,
@@ -151,6 +152,11 @@ class _Between:
     def _at_nodes(self, values: Array) -> tuple[Array, Mask]:
         return self.surface.at_nodes(values, log=by_logarithm(values, log_axis=self.log_axis))
 
+    def places(self) -> Array:
+        """Positions of the points, in the units of the axes, shape (points, 2)."""
+        at = (self.selection.along, np.array(self.selection.across))
+        return np.column_stack([scale.of(of) for scale, of in zip(self.scales, at, strict=True)])
+
     def triangles(self, whole: Mask) -> Triangulation:
         """Triangles with values throughout, in the units of the axes."""
         x, y = self.scales[0].of(self.surface.x), self.scales[1].of(self.surface.y)
@@ -175,8 +181,10 @@ def _fill(between: _Between, ax: Axes) -> list[Artist]:
         # A value equal to the last level, such as a probability of 1, would be outside the colour scale.
         bounds = [*levels[:-1], levels[-1] + 1e-9 * (levels[-1] - levels[0])]
         ax.tricontourf(*drawn, levels=bounds, norm=norm, cmap=colours)
-        ax.tricontour(*drawn, levels=levels, colors="white", linewidths=0.4, linestyles="-")
-        handles += _breakdown(between, ax)
+        lines = ax.tricontour(*drawn, levels=levels, colors="white", linewidths=0.4, linestyles="-")
+        entries, taken = _breakdown(between, ax)
+        handles += entries
+        label_lines(ax, lines, taken, [f"{level:.6g}" for level in levels], **ON_COLOURS)
     alone = between.surface.alone(selection.values)
     if np.any(alone):
         at = between.scales[0].of(selection.along), between.scales[1].of(np.array(selection.across))
@@ -201,35 +209,36 @@ def colours_of(levels: Array, *, log: bool) -> tuple[Normalize, Colormap]:
     return norm_of(levels, log=log), COLOURS
 
 
-def _breakdown(between: _Between, ax: Axes) -> list[Artist]:
+def _breakdown(between: _Between, ax: Axes) -> tuple[list[Artist], Array]:
     """Draw where breakdown voltage and applied voltage are equal, and hatch where the film breaks down.
 
-    Returns the legend entries.
+    Returns the legend entries, and the positions of points and of the label.
     """
+    taken = between.places()
     if not between.selection.of_discharge:
-        return []
+        return [], taken
     margin, whole = between.margins()
     if not np.any(whole):
-        return []
+        return [], taken
     shown = margin[between.surface.triangles[whole]]
     least, most = float(np.min(shown)), float(np.max(shown))
     about, volts = between.selection.breakdown, voltage_text(between.selection)
     applied = f"{about.voltage_name} {volts}"
     if least >= 1.0:
         where = " where filled" * bool(np.any(between.surface.alone(between.selection.margin)))
-        return [Line2D([], [], ls="none", label=f"{about.name} above {applied}{where}")]
+        label = f"{about.name} above {applied}{where}"
+        return [Patch(facecolor="none", edgecolor=GREY, lw=0.5, label=label)], taken
     drawn = between.triangles(whole), margin
     ax.tricontourf(*drawn, levels=[min(0.5 * least, 0.5), 1.0], colors="none", hatches=[_BREAKS])
     hatched = Patch(facecolor="none", edgecolor="black", hatch=_BREAKS, lw=0.0)
     if most <= 1.0:
         hatched.set_label(f"{about.name} below {applied}")
-        return [hatched]
+        return [hatched], taken
     line = ax.tricontour(*drawn, levels=[1.0], colors="black", linewidths=1.8)
     line.set_path_effects([cast("AbstractPathEffect", withStroke(linewidth=3.2, foreground="white"))])
-    for text in ax.clabel(line, fmt={1.0: "margin 1"}, fontsize="small", inline=False):
-        text.set_path_effects([withStroke(linewidth=3.0, foreground="white")])
-    hatched.set_label(f"below {applied}")
-    return [Line2D([], [], color="black", lw=1.8, label=f"{about.name} = {applied}"), hatched]
+    taken = label_lines(ax, line, taken, ["margin 1"], **ON_BOX)
+    hatched.set_label(f"below {about.voltage_name}")
+    return [Line2D([], [], color="black", lw=1.8, label=f"margin 1 at {volts}"), hatched], taken
 
 
 def _dots(

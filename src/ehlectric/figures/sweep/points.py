@@ -6,6 +6,7 @@ import math
 import textwrap
 from typing import Any
 
+import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
@@ -20,13 +21,52 @@ from ehlectric.sweep.slices import Slice
 # Marker of a point by its kind, in figures and in their legends.
 _MARKS: dict[str, dict[str, Any]] = {
     "solved": {"marker": "o", "ms": 2.6, "color": "black", "mew": 0.0},
-    "with a warning": {"marker": "o", "ms": 8.0, "color": ORANGE, "mfc": "none", "mew": 1.1},
+    "less accurate": {"marker": "o", "ms": 6.5, "color": ORANGE, "mfc": "none", "mew": 0.9},
     "without this value": {"marker": "s", "ms": 4.0, "color": GREY, "mfc": "none", "mew": 0.8},
     "do not use": {"marker": "D", "ms": 4.2, "color": ORANGE, "mfc": "none", "mew": 1.2},
     "not converged": {"marker": "+", "ms": 7.0, "color": "black", "mew": 1.3},
     "failed": {"marker": "x", "ms": 5.5, "color": ORANGE, "mew": 1.6},
     "not tried yet": {"marker": "o", "ms": 4.0, "color": GREY, "mfc": "none", "mew": 0.8},
 }
+
+# Codes of warnings that say that the numbers of a point are less accurate than those of other points. Other
+# warnings, such as that of an expected breakdown, say something about a contact whose numbers are good.
+LESS_ACCURATE = frozenset(
+    {
+        # Laws of lubricant and strength beyond their range
+        "law-range",
+        "temperature-low",
+        "strength-table-exceeded",
+        "tunnelling",
+        # Roughness that is not resolved
+        "roughness-continued",
+        "roughness-unresolved",
+        "variance-missed",
+        # Surfaces that may touch: voltages are upper bounds
+        "surfaces-touch",
+        "thinner-than-atom",
+        "touching",
+        "partial-film",
+        # Discretisation
+        "refine-not-reached",
+        "error-unknown",
+        "grid-too-coarse",
+        "field-grid-too-coarse",
+        "stationary-error",
+        "stationary-not-converged",
+        # Domain
+        "inlet-too-short",
+        "outlet-too-short",
+        "domain-too-small",
+        "field-range-too-narrow",
+        # Geometry of bearings beyond its assumptions
+        "clearance-taken-up",
+        "shoulder-reached",
+        "capacitance-bound",
+        # Warnings of other versions, whose meaning is not known
+        "unclassified",
+    }
+)
 
 # Names of kinds in legends, where they differ from the kind.
 _NAMES = {"solved": "points", "do not use": "must not be used"}
@@ -47,12 +87,13 @@ def kinds(selection: Slice) -> dict[str, Mask]:
 
 
 def warned(selection: Slice) -> Mask:
-    """Mask of the points with a value that have a warning that not all points have, shape (points,).
+    """Mask of the points with a value whose numbers are less accurate than those of others, shape (points,).
 
-    A warning of all points, such as that of an isothermal film, tells no point from another.
+    They have a warning of ``LESS_ACCURATE`` that not all points have: a warning of all points tells no point
+    from another.
     """
     codes = [
-        {warning.code for warning in point.warnings if warning.severity == "warning"}
+        {warning.code for warning in point.warnings if warning.code in LESS_ACCURATE}
         for point in selection.points
     ]
     drawn = selection.of("solved") & np.isfinite(selection.values)
@@ -61,31 +102,38 @@ def warned(selection: Slice) -> Mask:
 
 
 def mark_warned(ax: Axes, selection: Slice, x: Array, y: Array) -> list[Line2D]:
-    """Draw a ring around each point that has a warning, and return the legend entry of the rings."""
+    """Draw a ring around each point that is less accurate, and return the legend entry of the rings."""
     some = warned(selection)
     if not np.any(some):
         return []
-    mark(ax, "with a warning", x[some], y[some])
-    label = f"{np.sum(some)} of them with a warning"
-    return [Line2D([], [], ls="none", label=label, **_MARKS["with a warning"])]
+    mark(ax, "less accurate", x[some], y[some])
+    return [Line2D([], [], ls="none", label=f"{np.sum(some)} less accurate", **_look("less accurate"))]
+
+
+def _look(kind: str) -> dict[str, Any]:
+    """Marker of a kind, smaller where the style has smaller markers."""
+    scale = mpl.rcParams["lines.markersize"] / mpl.rcParamsDefault["lines.markersize"]
+    return _MARKS[kind] | {"ms": scale * _MARKS[kind]["ms"], "mew": scale * _MARKS[kind]["mew"]}
 
 
 def dot_size(selection: Slice, largest: float) -> float:
     """Diameter of the dots of solved points [pt], smaller if there are more than 400 points."""
+    largest *= mpl.rcParams["lines.markersize"] / mpl.rcParamsDefault["lines.markersize"]
     return largest * min(1.0, max(0.3, math.sqrt(400.0 / len(selection.points))))
 
 
 def mark(ax: Axes, kind: str, x: Array, y: Array, **look: Any) -> None:
     """Draw the marks of points of one kind, above everything else in the axes."""
-    edge = [] if kind == "solved" else [withStroke(linewidth=2.6, foreground="white")]
+    # A white edge around the rings would hide the curves beside them.
+    edge = [] if kind in ("solved", "less accurate") else [withStroke(linewidth=2.6, foreground="white")]
     plain: dict[str, Any] = {"ls": "none", "zorder": 5.0, "clip_on": False, "path_effects": edge}
-    ax.plot(x, y, **(plain | _MARKS[kind] | look))
+    ax.plot(x, y, **(plain | _look(kind) | look))
 
 
 def kind_handles(selection: Slice, **look: Any) -> list[Line2D]:
     """Legend entries with the number of points of each kind."""
     return [
-        Line2D([], [], ls="none", label=f"{np.sum(mask)} {_NAMES.get(kind, kind)}", **(_MARKS[kind] | look))
+        Line2D([], [], ls="none", label=f"{np.sum(mask)} {_NAMES.get(kind, kind)}", **(_look(kind) | look))
         for kind, mask in kinds(selection).items()
     ]
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import tomli_w
 from matplotlib.figure import Figure
+from matplotlib.text import Text
 from typer.testing import CliRunner
 
 from ehlectric import solve_bearing
@@ -426,11 +427,13 @@ def test_radii_are_named_where_no_mark_is():
 
 
 def test_a_bearings_capacitance_over_its_contacts_is_that_of_the_position_shown(result):
-    """Not the mean over a pitch, which the summary has."""
+    """And of the mean over a pitch, which tables and summary have."""
     (text,) = bearing_circuit_plot.contact_capacitances(result).texts
     here, mean = result.solution.circuits("oil")[0].capacitance, result.capacitance("oil")
     assert f"{1e12 * here:.4g}" != f"{1e12 * mean:.4g}"
-    assert text.get_text() == f"whole bearing, oil fill: {1e12 * here:.4g} pF"
+    assert text.get_text() == (
+        f"bearing, oil fill: mean {1e12 * mean:.4g} pF\nat this cage position {1e12 * here:.4g} pF"
+    )
 
 
 def test_a_bearing_that_did_not_converge_says_so(result):
@@ -574,6 +577,26 @@ def test_curves_are_scaled_to_a_bearing_of_solved_contacts(points):
         )
     assert "margin 1" in [text.get_text() for text in drawn.axes[0].texts]
     assert RPM * critical_speed_of(curves) == pytest.approx(3000.0, rel=1e-9)
+
+
+@pytest.mark.parametrize("first", [4.05, 4.3, 5.0, 8.0, 3.9, 2.0])
+def test_no_curve_runs_through_the_label_of_the_margin(points, first):
+    """Whether the first breakdown is far above the shaft voltage of 4 V, a little, or below it."""
+    own = at_speed(3000.0, 1.8e-10, first, 4.0)
+    drawn = speed_figure(points, SPEED_FIGURE_FILES[1], own=own)
+    drawn.draw_without_rendering()
+    (ax,) = drawn.axes
+    (label,) = (text for text in ax.texts if text.get_text().startswith("margin"))
+    box = Text.get_window_extent(label)
+    for curve in ax.get_lines():
+        if curve.get_marker() in ("None", "o") and len(curve.get_xdata()) > 2:
+            places = ax.transData.transform(curve.get_xydata())
+            places = places[np.all(np.isfinite(places), axis=1)]
+            x = np.linspace(box.x0, box.x1, 50)
+            y = np.interp(x, *places.T, left=np.nan, right=np.nan)
+            assert not np.any((y > box.y0) & (y < box.y1)), curve.get_label()
+    assert ax.get_window_extent().y0 < box.y0
+    assert box.y1 < ax.get_window_extent().y1
 
 
 def test_figures_over_speed_are_saved(points, tmp_path):

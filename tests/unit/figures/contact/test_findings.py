@@ -194,15 +194,20 @@ def test_the_field_map_marks_its_maximum_and_is_grey_below_its_colours(below):
     ax = field_strength(below)
     (mark,) = (line for line in ax.lines if line.get_marker() == "o")
     field = below.field
+    # Nothing lies on the film: the enlargement is a panel of its own, with the same maximum.
+    (bar,) = ax.child_axes
+    assert bar.get_window_extent().x0 > ax.get_window_extent().x1
+    _, zoom = ax.figure.axes
+    (same,) = (line for line in zoom.lines if line.get_marker() == "o")
+    assert zoom.get_xlim()[0] < same.get_xdata()[0] == mark.get_xdata()[0] < zoom.get_xlim()[1]
     assert mark.get_xdata()[0] == pytest.approx(field.max_strength_position / below.conditions.half_width)
-    (inset,) = ax.child_axes
-    assert inset.get_xlim()[0] < mark.get_xdata()[0] < inset.get_xlim()[1]
     filled = ax.collections[0]
     low, high = filled.get_clim()
     inside = np.abs(field.x) <= below.conditions.half_width
     assert low <= 1e-6 * field.strength[inside].min()
     assert high == pytest.approx(1e-6 * field.max_strength)
     assert low > 0.5 * high
+    assert f"film below {low:.4g} V/µm" in [text.get_text() for text in ax.get_legend().get_texts()]
     assert filled.cmap.get_under()[:3] == pytest.approx(
         [int(OUT_OF_RANGE[k : k + 2], 16) / 255 for k in (1, 3, 5)]
     )
@@ -210,15 +215,56 @@ def test_the_field_map_marks_its_maximum_and_is_grey_below_its_colours(below):
 
 def test_the_largest_deviation_is_enlarged(below):
     ax = field_deviation(below)
-    error, x = numbers(finding(below, "field_deviation.png").removeprefix("The estimate V12/h"))
-    (inset,) = ax.child_axes
-    assert inset.get_xlim()[0] < x < inset.get_xlim()[1]
+    assert not ax.child_axes
+    said = finding(below, "field_deviation.png").removeprefix("The estimate V12/h")
+    error, x, ends = numbers(said)
+    assert "on this grid" in said
+    _, zoom = ax.figure.axes
+    assert zoom.get_xlim()[0] < x < zoom.get_xlim()[1]
     on = below.field.inner
     sections = np.stack(
         [below.field.strength[:, 0], below.field.middle_strength, below.field.strength[:, -1]]
     )
     worst = np.abs(sections / below.field.thin_gap_strength - 1.0)[:, on].max()
     assert error == pytest.approx((1e3 if worst < 1e-3 else 1e2) * worst, rel=0.06)
+    # The ends are left out of the curves, and the title says how far off they are.
+    outside = np.abs(sections / below.field.thin_gap_strength - 1.0)[:, ~on].max()
+    assert outside > worst
+    assert ends == pytest.approx((1e3 if outside < 1e-3 else 1e2) * outside, rel=0.06)
+    assert said.partition("not drawn, ")[2]
+
+
+def test_fields_that_coincide_are_one_line_and_rough_ones_are_beside_the_smooth_one(below, rough):
+    plain = [text.get_text() for text in field_profiles(below).get_legend().get_texts()]
+    assert plain[0].startswith("walls and mid-film, equal within ")
+    assert "mid-film" not in plain
+    ax = field_profiles(rough)
+    smooth = next(line for line in ax.lines if line.get_label() == "mid-film, smooth surfaces")
+    assert smooth.get_zorder() > max(line.get_zorder() for line in ax.lines if line is not smooth)
+    np.testing.assert_array_equal(smooth.get_ydata(), 1e-6 * rough.smooth.middle_strength)
+    # From the minimum of the Hertz zone, with a tenth of the range below it.
+    low, high = ax.get_ylim()
+    hertz = np.abs(rough.field.x) <= rough.conditions.half_width
+    least = 1e-6 * rough.field.strength[hertz].min()
+    assert 0.0 < low < least < low + 0.2 * (high - low)
+    change = 100.0 * (rough.field.max_strength / rough.smooth.middle_strength.max() - 1.0)
+    title = finding(rough, "field_profiles.png")
+    assert f"{abs(change):.2g}"[:3] in title
+    assert title.partition(" smooth;")[0].endswith("above" if change > 0.0 else "below")
+
+
+def test_films_are_told_apart_without_colours(below, rough):
+    """Pressure, film and Hertz pressure have dashes of their own; smooth surfaces lie behind rough ones."""
+    for result in (below, rough):
+        left = film(result)
+        right = next(ax for ax in left.figure.axes if ax.get_ylabel().startswith("film"))
+        lines = {line.get_label(): line for ax in (left, right) for line in ax.lines}
+        names = ("Hertz pressure", "pressure", "film thickness")
+        assert len({str(lines[name]._dash_pattern) for name in names}) == 3
+    for ax, name in ((left, "pressure"), (right, "film thickness")):
+        (smooth,) = (line for line in ax.lines if line.get_color() == "0.75")
+        assert smooth.get_zorder() < lines[name].get_zorder()
+        assert smooth.get_linewidth() > lines[name].get_linewidth()
 
 
 def test_cut_off_heights_are_explained(rough):

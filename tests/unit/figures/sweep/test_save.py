@@ -7,13 +7,16 @@ import pytest
 from matplotlib.collections import PathCollection
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
+from matplotlib.patches import Patch
 from matplotlib.tri import TriContourSet
 
 from ehlectric import InputError
-from ehlectric.errors import ResultWarning
+from ehlectric.errors import CODES, ResultWarning
 from ehlectric.figures.axes import levels_of, round_numbers
+from ehlectric.figures.style import style
 from ehlectric.figures.sweep.lines import value_lines
 from ehlectric.figures.sweep.maps import value_map
+from ehlectric.figures.sweep.points import LESS_ACCURATE
 from ehlectric.figures.sweep.save import figure, save_maps
 from ehlectric.figures.sweep.sensitivity import distribution, parts, save_sensitivity, sensitivity_figure
 from ehlectric.runtime.stored_warnings import texts_and_codes
@@ -53,7 +56,7 @@ def test_map_has_units_and_marks_every_point():
     assert ax.get_xlabel() == "entrainment speed $(u_1 + u_2)/2$ [m/s]"
     assert ax.get_ylabel() == "load per length $w$ [MN/m]"
     assert (ax.get_xscale(), ax.get_yscale()) == ("log", "log")
-    bar = ax.figure.axes[1]
+    (bar,) = ax.child_axes
     assert bar.get_ylabel() == r"breakdown voltage $V_\mathrm{b}$ [V]"
     assert legend(ax)[:3] == ["18 points", "1 not converged", "1 failed"]
     assert marks(ax, "o").shape == (18, 2)
@@ -123,14 +126,15 @@ def test_line_of_breakdown_is_where_it_is():
         x, y = line_of_breakdown(ax).T
         np.testing.assert_allclose(x, 4.0 * (0.5 * y**0.1) ** (1.0 / 0.7), rtol=2e-3)
         assert (y.min(), y.max()) == pytest.approx((0.2, 2.0))
-        assert legend(ax)[1:] == ["breakdown voltage = applied voltage 5 V", "below applied voltage 5 V"]
+        assert legend(ax)[1:] == ["margin 1 at 5 V", "below applied voltage"]
+        assert "margin 1" in [text.get_text() for text in ax.texts]
 
 
 def test_voltage_of_every_point_counts():
     """Where the voltage varies, V = V_2 + 1 V, so does the line: V_b(u) = V; for V_2 = 1 V, u is 0.4 m/s."""
     speeds = list(np.geomspace(0.5, 8.0, 60))
     ax = value_map(grid({SPEED: speeds, POTENTIAL: (1.0, 2.0, 4.0, 8.0)}), SPEED, POTENTIAL, VALUE)
-    assert "breakdown voltage = applied voltage 2 to 9 V" in legend(ax)
+    assert "margin 1 at 2 to 9 V" in legend(ax)
     on_nodes = [
         (x, y) for x, y in line_of_breakdown(ax) if any(abs(y - v) < 1e-9 for v in (1.0, 2.0, 4.0, 8.0))
     ]
@@ -154,7 +158,7 @@ def test_map_without_the_line_says_on_which_side_it_is(potential, text):
 def test_film_has_no_line_of_breakdown():
     ax = value_map(grid({SPEED: SPEEDS, LOAD: LOADS}), SPEED, LOAD, "film.minimum_thickness")
     assert legend(ax) == ["20 points"]
-    assert ax.figure.axes[1].get_ylabel() == r"minimum film thickness $h_\mathrm{min}$ [µm]"
+    assert ax.child_axes[0].get_ylabel() == r"minimum film thickness $h_\mathrm{min}$ [µm]"
 
 
 def test_wide_values_have_logarithmic_colours():
@@ -235,7 +239,7 @@ def test_lines_end_where_points_are_not_solved():
     assert ax.get_yticklabels()[0].get_text() == "no value"
     assert legend(ax) == [
         *("18 points", "1 not converged", "1 failed"),
-        *("applied voltage 5 V", "below applied voltage 5 V"),
+        *("applied voltage 5 V", "below applied voltage"),
     ]
 
 
@@ -251,10 +255,9 @@ def test_applied_voltage_is_a_level_or_a_line_for_each():
     np.testing.assert_allclose(dashed, [[2.0] * 5, [5.0] * 5])
     assert legend(ax)[-1] == "applied voltage 2 to 5 V"
     margin = value_lines(grid({POTENTIAL: (1.0, 2.0, 4.0)}), POTENTIAL, None, "discharge.margin")
-    assert legend(margin)[1:] == [
-        "margin 1: breakdown voltage = applied voltage 2 to 5 V",
-        "below applied voltage 2 to 5 V",
-    ]
+    assert legend(margin)[1:] == ["margin 1 at 2 to 5 V", "below applied voltage"]
+    chance = value_lines(grid({SPEED: SPEEDS}), SPEED, None, "discharge.probability")
+    assert legend(chance) == ["5 points at the applied voltage 5 V"]
 
 
 def test_points_without_lines_have_no_line_of_voltage_either():
@@ -274,7 +277,7 @@ def test_lines_are_named_or_have_a_colour_bar():
     assert named.get_title().get_text() == "load per length\n$w$ [MN/m]"
     assert [text.get_text() for text in named.get_texts()] == ["2", "1", "0.5", "0.2"]
     many = value_lines(grid({SPEED: SPEEDS, LOAD: list(np.geomspace(2e5, 2e6, 12))}), SPEED, LOAD, VALUE)
-    assert many.figure.axes[1].get_ylabel() == "load per length $w$ [MN/m]"
+    assert many.child_axes[0].get_ylabel() == "load per length $w$ [MN/m]"
     oils = value_lines(grid({SPEED: SPEEDS, "lubricant.base": ("b", "a")}), SPEED, "lubricant.base", VALUE)
     (named,) = [child for child in oils.artists if hasattr(child, "get_title")]
     assert [text.get_text() for text in named.get_texts()] == ["b", "a"]
@@ -401,22 +404,72 @@ def test_line_of_breakdown_is_a_level_of_the_colours():
     )
 
 
-def test_points_with_a_warning_that_not_all_have_are_ringed():
-    """A warning of all points tells none apart, and a note is no warning."""
+def test_points_whose_numbers_are_less_accurate_are_ringed():
+    """A warning of all points tells none apart; one of an expected breakdown is no doubt about a number."""
 
     def warned(inputs):
-        codes = ["regime", "heights-cut"] if inputs[SPEED] > 3.0 else ["regime", "voids-filled"]
+        codes = ["law-range", "breakdown-expected", "regime"][: 1 if inputs[SPEED] < 3.0 else 3]
+        codes += ["inlet-too-short"] if inputs[SPEED] == 8.0 else []
         return texts_and_codes([ResultWarning(code, code) for code in codes]) | breakdown(inputs)
 
     results = grid({SPEED: SPEEDS, LOAD: LOADS}, warned)
     for draw in (value_map, value_lines):
         ax = draw(results, SPEED, LOAD, VALUE)
-        (rings,) = [line for line in ax.lines if line.get_markersize() == 8.0]
-        assert sorted(set(rings.get_xdata())) == [4.0, 8.0]
-        assert "8 of them with a warning" in legend(ax)
+        (rings,) = [line for line in ax.lines if line.get_markersize() == 6.5]
+        assert set(rings.get_xdata()) == {8.0}
+        # An edge of white would hide the curves around a ring.
+        assert not rings.get_path_effects()
+        assert "4 less accurate" in legend(ax)
         assert "20 points" in legend(ax)
     plain = value_map(grid({SPEED: SPEEDS, LOAD: LOADS}), SPEED, LOAD, VALUE)
-    assert not [text for text in legend(plain) if "warning" in text]
+    assert not [text for text in legend(plain) if "accurate" in text]
+
+
+def test_codes_of_less_accurate_points_are_warnings_of_contacts():
+    """Severe ones make a point a diamond, and notes and the codes of a whole sweep tell no point apart."""
+    assert {CODES[code].severity for code in LESS_ACCURATE} == {"warning"}
+    assert not {"breakdown-expected", "regime", "isothermal-film", "points-with-warnings"} & LESS_ACCURATE
+
+
+def test_lines_of_a_map_have_their_values_in_free_places():
+    ax = value_map(grid({SPEED: SPEEDS, LOAD: LOADS}), SPEED, LOAD, VALUE)
+    points = ax.transData.transform([(u, w / 1e6) for u in SPEEDS for w in LOADS])
+    labels = {text.get_text(): ax.transData.transform(text.get_position()) for text in ax.texts}
+    lines = line_of_breakdown(ax)
+    margin = labels.pop("margin 1")
+    assert np.min(np.hypot(*(ax.transData.transform(lines) - margin).T)) < 2.0
+    assert len(labels) > 3
+    for text, at in (labels | {"margin 1": margin}).items():
+        assert np.min(np.hypot(*(points - at).T)) > 10.0, text
+        assert all(np.hypot(*(at - other)) > 10.0 for other in labels.values() if other is not at)
+    # 10 V (u/(4 m/s))^0.7 (w/(1 MN/m))^-0.1 at the place of a label is its value.
+    for text, at in labels.items():
+        u, w = ax.transData.inverted().transform(at)
+        assert 10.0 * (u / 4.0) ** 0.7 * w**-0.1 == pytest.approx(float(text), rel=0.01)
+
+
+def test_the_colour_bar_of_a_journal_is_beside_its_map():
+    """Though the legend above the map is wider than the map; and it has at most three lines."""
+
+    def warned(inputs):
+        codes = ["inlet-too-short"] if inputs[SPEED] == 8.0 else []
+        return texts_and_codes([ResultWarning(code, code) for code in codes]) | breakdown(inputs)
+
+    with style("journal"):
+        name = f"map_{VALUE}.png"
+        results = grid({SPEED: SPEEDS, LOAD: LOADS}, warned)
+        drawn = figure(results, name, x=SPEED, y=LOAD)
+        drawn.draw_without_rendering()
+    (ax,) = drawn.axes
+    (bar,) = ax.child_axes
+    frame, beside = ax.get_window_extent(), bar.get_window_extent()
+    assert 0.0 < beside.x0 - frame.x1 < 0.05 * frame.width
+    entries = ax.get_legend()
+    assert legend(ax) == ["20 points", "margin 1 at 5 V", "below applied voltage", "4 less accurate"]
+    assert entries.get_window_extent().height < 4.0 * entries.get_texts()[0].get_window_extent().height
+    for handle in entries.legend_handles:
+        assert handle.get_visible()
+        assert isinstance(handle, Patch) or handle.get_marker() != "None" or handle.get_linestyle() != "None"
 
 
 def test_titles_say_where_breakdown_is_expected():
