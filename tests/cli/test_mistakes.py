@@ -76,7 +76,7 @@ REFUSED = {
     "E5": ({'"10 um"': '"0,08 mm"'}, "got '0,08 mm' (decimal comma: write 0.08 mm)"),
     "E6": (
         {'"1800 N"': "1800 N"},
-        ("line 6 is 'radial_load = 1800 N': a number with a unit stands in quotes, \"1800 N\""),
+        ("line 6 is 'radial_load = 1800 N': write a number with a unit in quotes, \"1800 N\""),
     ),
     "E6-comma": ({'"10 um"': "0,08"}, "line 5 is 'radial_clearance = 0,08': decimal comma, write 0.08"),
     "E12": (
@@ -185,7 +185,7 @@ def test_a_bearing_that_is_too_fast(ehlectric, tmp_path):
     ("changes", "message"),
     [
         pytest.param({'"14.1 mm"': '"14,1 mm"'}, "(decimal comma: write 14.1 mm)", id="E5"),
-        pytest.param({'"226 GPa"': "226 GPa"}, 'stands in quotes, "226 GPa"', id="E6"),
+        pytest.param({'"226 GPa"': "226 GPa"}, 'in quotes, "226 GPa"', id="E6"),
         pytest.param({'"14.1 mm"': "14,1 mm"}, 'decimal comma, write "14.1 mm"', id="E6-comma"),
         pytest.param(
             {'base = "paper"': 'base = "paper"\ntemperature = "70 °C"'},

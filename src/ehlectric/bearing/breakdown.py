@@ -66,7 +66,7 @@ def _weakest(circuit: Circuit) -> str:
 
 
 def strength_per_volt(solution: BearingSolution) -> float | None:
-    """Largest field strength over the bearing voltage, of all contacts and positions of the cage [1/m].
+    """Maximum field strength per volt on the bearing, of all contacts and positions of the cage [1/m].
 
     None for ceramic elements, and where surfaces touch.
     """

@@ -83,8 +83,8 @@ def ball_by_formula(contact: BallContact) -> ContactSolution:
     -----
     Film thickness by Chittenden, Dowson, Dunn and Taylor (1985), doi:10.1098/rspa.1985.0014. The gap is
     the gap of the dry contact plus the central film thickness. The capacitance is computed with the
-    permittivity under the Hertz pressure; the largest field strength is the voltage over the minimum film
-    thickness.
+    permittivity under the Hertz pressure; the maximum field strength is the voltage divided by the
+    minimum film thickness.
     """
     check_contact(contact)
     conditions, dry, oil = contact.conditions, contact.dry, contact.ring.conditions.lubricant

@@ -48,7 +48,7 @@ class ContactValues(Values, Generic[N]):
     plate : float or ndarray, shape (n,)
         Capacitance eps0 eps_r A/h(0) of the Hertz area A as a plate [F].
     strength_per_volt : float or ndarray, shape (n,)
-        Largest field strength over the voltage of the contact [1/m].
+        Maximum field strength per volt on the contact [1/m].
     breakdown_voltage : float or ndarray, shape (n,)
         Voltage on the contact at which its film breaks down [V]; infinite without a strength.
     """

@@ -172,7 +172,7 @@ def _syntax(message: str, text: str) -> str:
         quoted = f'"{value}"' if re.search(r"[^\d.]", value) else value
         return f"line {place[1]} is {shown(line)}: decimal comma, write {quoted}"
     if unit is not None:
-        return f'line {place[1]} is {shown(line)}: a number with a unit stands in quotes, "{unit[1].strip()}"'
+        return f'line {place[1]} is {shown(line)}: write a number with a unit in quotes, "{unit[1].strip()}"'
     return f"{message}: {shown(line)}"
 
 

@@ -12,6 +12,7 @@ from ehlectric.commands.terminal import (
     NOT_CONVERGED,
     echo_files,
     in_natural_order,
+    print_table,
     progress_bar,
     user_errors,
 )
@@ -52,6 +53,11 @@ def reproduce(
     if not quiet:
         for name, text in made.verdicts.items():
             typer.echo(f"{name.replace('_', ' ').capitalize()}: {text}")
+        if not made.verdicts and "table_3" in made.tables:
+            from ehlectric.commands.tables.paper import films_tables
+
+            for films in films_tables(made.tables["table_3"]):
+                print_table(films)
         echo_files(in_natural_order(made.files))
     if not made.converged:
         typer.echo("error: not converged: some films of the study", err=True)

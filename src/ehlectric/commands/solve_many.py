@@ -131,7 +131,7 @@ def _in_processes(cases: Iterator[tuple[int, Solvable]], number: int) -> Iterato
                 for index, outcome in batch:
                     yield _told(index, outcome)
         except LostError as error:
-            text = f'{error}; a script takes this call below if __name__ == "__main__":'
+            text = f'{error}; in a script, call solve_many inside an if __name__ == "__main__": block'
             raise LostError(text) from None
 
 

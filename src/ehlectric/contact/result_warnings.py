@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
@@ -24,6 +25,9 @@ _NAMED = 8
 # Relative loss of film thickness, caused by a domain that is too small, above which a point contact gets a
 # warning. The loss in the default domain is about 0.01.
 _LOSS = 0.02
+
+# Share of the pressure that builds up upstream of the domain, above which a line contact gets a warning.
+_DEFICIT = 0.01
 
 
 def film_warnings(setup: Case | Setup, film: Film | PointFilm) -> Iterator[ResultWarning]:
@@ -79,14 +83,15 @@ def film_warnings(setup: Case | Setup, film: Film | PointFilm) -> Iterator[Resul
 def line_result_warnings(setup: Case | Setup, film: Film, field: Field) -> Iterator[ResultWarning]:
     """Warnings about the inlet of a line contact and about the grid and range of its field."""
     deficit = film.inlet_deficit
-    if deficit is not None and deficit > 0.01:
+    if deficit is not None and deficit > _DEFICIT:
         code, effect = "inlet-too-short", "the film is wrong by about as much"
         if deficit > 0.2:
             code, effect = "inlet-far-too-short", "do not use this film"
         yield ResultWarning(
             code,
             f"the inlet is too short: {100 * deficit:.2g} % of the pressure would build up upstream of it; "
-            f"{effect}, lower grid.inlet",
+            f"{effect}; lower grid.inlet from {setup.grid.inlet:g} to about "
+            f"{_longer_inlet(setup.grid.inlet, deficit):g}",
         )
     inside = int(np.count_nonzero((film.x >= field.x[0]) & (film.x <= field.x[-1])))
     if setup.grid.field_nodes is not None and setup.grid.field_nodes < inside:
@@ -99,6 +104,22 @@ def line_result_warnings(setup: Case | Setup, film: Film, field: Field) -> Itera
         yield ResultWarning(
             "field-range-too-narrow", "the maximum field is at an end of grid.field_range; widen this range"
         )
+
+
+def _longer_inlet(inlet: float, deficit: float) -> float:
+    """Inlet in half-widths at which no more than 1 % of the pressure builds up upstream, a multiple of 0.5.
+
+    Far upstream the gap is a parabola, the gradient of the reduced pressure falls with the fourth power of
+    the distance, and so the missing pressure falls with its cube.
+
+    Parameters
+    ----------
+    inlet : float
+        Inlet of the case in half-widths, negative.
+    deficit : float
+        Share of the reduced pressure that is missing with this inlet, from 0 to 1.
+    """
+    return -math.ceil(-2.0 * inlet * math.cbrt(deficit / _DEFICIT)) / 2.0
 
 
 def point_result_warnings(setup: Case | Setup, film: PointFilm, field: PointField) -> Iterator[ResultWarning]:

@@ -139,7 +139,7 @@ class PointField(GapField):
         Returns
         -------
         float
-            Charge of wall 2 inside the zone over the voltage [F]. For zones that cover the map without
+            Charge of wall 2 inside the zone, divided by the voltage [F]. For zones that cover the map without
             overlap the values add up to ``capacitance_by_charge``, except for rounding.
         """
         return float(np.vdot(zone_areas(self.x, self.y, zone), self.capacitance_density))

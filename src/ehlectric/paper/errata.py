@@ -209,7 +209,7 @@ SLIPS = (
     ),
     Slip("Section 3.1: 0.8 A m^-2", "0.8 A mm^-2", _current_density),
     Slip(
-        "Roughness held still under rolling surfaces called 'pure rolling'",
+        "Stationary roughness under rolling surfaces called 'pure rolling'",
         "the stationary problem is that of a rough surface at rest, the other sliding over it",
         _stated(
             "roughness of a rolling surface travels with it, and eq. (6) then needs the squeeze term "

@@ -88,7 +88,9 @@ def verdicts(tables: Mapping[str, PaperTable]) -> dict[str, str]:
     printed, rough, width, constant = (
         tables[name] for name in ("table_3", "conclusion_1", "conclusion_2", "conclusion_3")
     )
-    excess = max(abs(v) for head in (OWN, "moved, least", "moved, largest") for v in _percent(rough, head))
+    excess = max(
+        abs(v) for head in (OWN, "shifted, minimum", "shifted, maximum") for v in _percent(rough, head)
+    )
     shares = _column(width, "width/b")
     narrower = all(later < earlier for part in (shares[:4], shares[4:]) for earlier, later in pairwise(part))
     changes = [abs(value) / 1e4 for value in _column(constant, "change of E_max [1e-6]")]
@@ -126,7 +128,7 @@ def numbers(study: Study, tables: Mapping[str, PaperTable]) -> dict[str, str]:
         "centre_1": _range(centre[1], ".3f"),
         "centre_2": _range(centre[2], ".3f"),
         "own": _range(_percent(rough, OWN), ".1f"),
-        "own_moved": _range(_percent(rough, "moved, least") + _percent(rough, "moved, largest"), ".1f"),
+        "own_moved": _range(_percent(rough, "shifted, minimum") + _percent(rough, "shifted, maximum"), ".1f"),
         "grid": format(
             100.0
             * max(
@@ -137,7 +139,7 @@ def numbers(study: Study, tables: Mapping[str, PaperTable]) -> dict[str, str]:
         ),
         "by_smooth": _range(_percent(rough, BY_SMOOTH), ".1f"),
         "by_smooth_moved": _range(
-            _percent(rough, "that moved, least") + _percent(rough, "that moved, largest"), ".1f"
+            _percent(rough, "the same shifted, minimum") + _percent(rough, "the same shifted, maximum"), ".1f"
         ),
         "lowered": str(sum(b < a for a, b in films)),
         "amplitude_1": _range(_column(rough, AMPLITUDE)[:4], ".2f"),

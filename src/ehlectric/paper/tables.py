@@ -39,7 +39,7 @@ class PaperTable:
     heads : tuple of str
         Heads of the columns, with units.
     formats : tuple of str
-        Format of the numbers of each column as shown; the saved table has all digits.
+        Format of the numbers of each column as shown; the saved table has six significant digits.
     rows : tuple of tuple
         Numbers and texts, row by row.
     """
@@ -57,11 +57,12 @@ class PaperTable:
         ]
 
     def save(self, path: Path) -> None:
-        """Write the table as a CSV file with all digits."""
+        """Write the table as a CSV file, numbers with six significant digits."""
         with whole(path) as beside, beside.open("w", newline="", encoding="utf-8") as file:
             writer = csv.writer(file)
             writer.writerow(self.heads)
-            writer.writerows(self.rows)
+            for row in self.rows:
+                writer.writerow(format(value, ".6g") if isinstance(value, float) else value for value in row)
 
 
 def _shown(value: str | float, form: str) -> str:
@@ -179,11 +180,11 @@ def rough_table(study: Study) -> PaperTable:
         ("h_min rough [µm]", ".3f"),
         (OWN, ".3f"),
         ("on half of the nodes", ".3f"),
-        ("moved, least", ".3f"),
-        ("moved, largest", ".3f"),
+        ("shifted, minimum", ".3f"),
+        ("shifted, maximum", ".3f"),
         (BY_SMOOTH, ".3f"),
-        ("that moved, least", ".3f"),
-        ("that moved, largest", ".3f"),
+        ("the same shifted, minimum", ".3f"),
+        ("the same shifted, maximum", ".3f"),
         (AMPLITUDE, ".2f"),
     ]
     return _table("Largest field of the rough contacts", columns, rows)

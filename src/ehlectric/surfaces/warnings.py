@@ -71,9 +71,11 @@ def _continued(table: Roughness, surface: RoughMap, domain: Domain) -> Iterator[
         yield ResultWarning(
             "roughness-continued",
             f"surface {surface.surface} is {surface.extent[axis] * 1e6:.4g} µm long along {'xy'[axis]}, but "
-            f"the domain needs {needed[axis] * 1e6:.4g} µm"
+            f"the domain needs {needed[axis] * 1e6:.4g} µm, since the map is centred"
             + (" (it is too short along y, too)" if len(short) == 2 else "")
-            + f": it was continued by extend = {table.extend!r}; use a larger map to avoid this",
+            + f": it was continued by extend = {table.extend!r}; to avoid this, use a larger map, "
+            + ("change roughness.shift or raise" if axis == 0 else "change roughness.shift_y or lower")
+            + (" grid.inlet" if axis == 0 else " grid.side"),
         )
 
 
@@ -208,8 +210,9 @@ def profile_surface_warnings(
             yield ResultWarning(
                 "roughness-continued",
                 f"the profile of surface {surface.surface} is {surface.extent * 1e6:.4g} µm long, but the "
-                f"domain needs {reach * 1e6:.4g} µm: it was continued by extend = {table.extend!r}; use a "
-                "longer profile to avoid this",
+                f"domain needs {reach * 1e6:.4g} µm, since the profile is centred and must reach the farther "
+                f"end: it was continued by extend = {table.extend!r}; to avoid this, use a longer profile, "
+                "change roughness.shift or raise grid.inlet",
             )
         if surface.steps:
             yield from profile_warnings(surface.surface, surface.steps[-1][1], dx, ends)

@@ -266,7 +266,7 @@ def _ask(crew: Crew) -> None:
         crew.submit(_here).result()
     except (CancelledError, Exception) as error:
         text = f"{type(error).__name__}: {error}".rstrip(": ")
-        raise LostError(f"no point can be solved any more, {text}") from None
+        raise LostError(f"the processes stopped, no further point can be solved: {text}") from None
 
 
 def _here() -> str:

@@ -246,9 +246,9 @@ def test_sweeps_in_python_take_floats():
     [
         ("a = 14,1", "line 2 is 'a = 14,1': decimal comma, write 14.1"),
         ("a = 14,1 mm # x", "line 2 is 'a = 14,1 mm # x': decimal comma, write \"14.1 mm\""),
-        ("a = 226 GPa", "line 2 is 'a = 226 GPa': a number with a unit stands in quotes, \"226 GPa\""),
-        ('a = ["1 m", 2 m]', 'a number with a unit stands in quotes, "2 m"'),
-        ("a = 70 °C", 'a number with a unit stands in quotes, "70 °C"'),
+        ("a = 226 GPa", "line 2 is 'a = 226 GPa': write a number with a unit in quotes, \"226 GPa\""),
+        ('a = ["1 m", 2 m]', 'write a number with a unit in quotes, "2 m"'),
+        ("a = 70 °C", 'write a number with a unit in quotes, "70 °C"'),
         (
             'a = "1 m" b',
             "is not TOML, Expected newline or end of document after a statement (at line 2, column 11)",

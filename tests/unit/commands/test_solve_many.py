@@ -97,7 +97,7 @@ def test_a_script_without_its_guard_is_told(tmp_path):
     )
     done = subprocess.run([sys.executable, script], capture_output=True, text=True, timeout=120)
     assert done.returncode == 1
-    assert 'a script takes this call below if __name__ == "__main__":' in done.stderr
+    assert 'in a script, call solve_many inside an if __name__ == "__main__": block' in done.stderr
 
 
 @pytest.mark.parametrize("one", [CASES[0], CONTACT, "case.toml", 3])

@@ -221,6 +221,7 @@ SLOW, ISOVISCOUS = {"contact.entrainment_speed": 0.5}, {"lubricant.viscosity_law
 # Changes of the case, words of a warning, and its code.
 WARNINGS = [
     ({"grid.inlet": -1.3, "contact.entrainment_speed": 40.0}, "inlet is too short", "inlet-far-too-short"),
+    ({"grid.inlet": -1.5}, r"lower grid.inlet from -1.5 to about -[2-4]", "inlet-too-short"),
     ({"grid.outlet": 1.01, "grid.field_range": [-1.1, 1.0]}, "does not cavitate", "outlet-too-short"),
     (
         {"grid.nodes": 129, "contact.entrainment_speed": 0.5},

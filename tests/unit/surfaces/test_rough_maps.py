@@ -162,8 +162,9 @@ def test_nothing_is_above_a_cut(extend):
     assert f"truncate cuts {100 * share:.2g} % of the points of surface 1" in said[0]
     # 200 and 296 points: the domain reaches 0.45 mm and 0.3 mm from the middle.
     assert said[1] == (
-        "surface 1 is 87.17 µm long along x, but the domain needs 900 µm (it is too short along y, too): it "
-        f"was continued by extend = '{extend}'; use a larger map to avoid this"
+        "surface 1 is 87.17 µm long along x, but the domain needs 900 µm, since the map is centred "
+        f"(it is too short along y, too): it was continued by extend = '{extend}'; to avoid this, use a "
+        "larger map, change roughness.shift or raise grid.inlet"
     )
 
 

@@ -281,7 +281,7 @@ def test_where_nobody_is_left_no_point_is_to_blame(error):
         return future
 
     found = {}
-    message = f"^no point can be solved any more, {type(error).__name__}: {error}$"
+    message = f"^the processes stopped, no further point can be solved: {type(error).__name__}: {error}$"
     with pytest.raises(LostError, match=message):
         run_points(points([129] * 3), Crew(submit, lambda: 2), found.update)
     assert found == {}
