@@ -16,8 +16,8 @@ from ehlectric.figures.bearing.curves import nearly_equal
 from ehlectric.figures.bearing.looks import FIRST, SHAFT, THROUGH, label_ends, volts
 from ehlectric.figures.style import BLUE, ORANGE, axes_or_new, figure_of, legend_above
 
-# Largest number of elements that have a tick on the axis of a figure of this width [inches]; of a narrower one,
-# fewer have.
+# Largest number of elements that have a tick on the axis of a figure of this width [inches]. Fewer have one
+# in a narrower figure.
 _NUMBERED, _WIDTH = 16, 6.0
 
 

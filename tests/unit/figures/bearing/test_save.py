@@ -583,6 +583,7 @@ def test_curves_are_scaled_to_a_bearing_of_solved_contacts(points):
 def test_no_curve_runs_through_the_label_of_the_margin(points, first):
     """Whether the first breakdown is far above the shaft voltage of 4 V, a little, or below it."""
     own = at_speed(3000.0, 1.8e-10, first, 4.0)
+    own[1]["bearing"]["through_breakdown"] = first
     drawn = speed_figure(points, SPEED_FIGURE_FILES[1], own=own)
     drawn.draw_without_rendering()
     (ax,) = drawn.axes
