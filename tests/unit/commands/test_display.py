@@ -178,7 +178,7 @@ def test_plot_of_sweeps():
     assert "breakdown voltage" in lines.axes[0].get_ylabel()
     assert "entrainment speed" in lines.axes[0].get_xlabel()
     swept = grid({SPEED: (1.0, 2.0, 4.0), LOAD: (1e6, 2e6)})
-    assert "minimum film" in swept.plot(value="film.minimum_thickness").axes[1].get_ylabel()
+    assert "minimum film" in swept.plot(value="film.minimum_thickness").axes[0].child_axes[0].get_ylabel()
     assert "load" in swept.plot(x=LOAD).axes[0].get_xlabel()
     assert sobol({SPEED: Range(1.0, 4.0), LOAD: Range(1e6, 2e6)}, 16, breakdown).plot().axes
     with pytest.raises(InputError, match="no point of 3 is solved"):
