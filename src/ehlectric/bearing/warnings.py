@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 
 from ehlectric.bearing.breakdown import breakdown_of
+from ehlectric.bearing.by_formula import formula_error
 from ehlectric.bearing.contacts import ContactSolution
 from ehlectric.bearing.limits import TAKEN, groove_ratio, shoulder_angle
 from ehlectric.bearing.shaft_voltage import shaft_voltage
@@ -55,9 +56,10 @@ def bearing_warnings(solution: BearingSolution) -> list[ResultWarning]:
 def film_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
     """Warnings of the films of a whole bearing: how they are computed, oil, temperature and clearance."""
     if solution.case.contacts == "formula":
+        error = formula_error(solution.case.bearing.kind)
         text = (
-            "contacts by formula: film thicknesses may be wrong by 30 %, and fields are V/h_min; use "
-            'contacts = "solved" for design'
+            f"contacts by formula: film thicknesses may be wrong by {error}, "
+            'and fields are V/h_min; use contacts = "solved" for design'
         )
         yield ResultWarning("formula-contacts", text)
     if solution.conditions.film_factor == 1.0:

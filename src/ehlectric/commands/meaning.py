@@ -31,9 +31,6 @@ if TYPE_CHECKING:
 # Largest number of points of a sweep that are checked one by one.
 _MOST_CHECKED = 2000
 
-# Statement above the rows that follow from film formulas.
-_BY_FORMULA = "films may be 30 % off"
-
 
 @dataclass(frozen=True)
 class Meaning:
@@ -154,6 +151,7 @@ def _breakdown_rows(estimate: Mapping[str, Any]) -> Iterator[Row]:
 
 @check.register
 def _check_bearing(case: BearingCase) -> Meaning:
+    from ehlectric.bearing.by_formula import formula_error
     from ehlectric.bearing.solver import check_bearing
     from ehlectric.commands.tables.bearing import input_rows, outcome_rows
 
@@ -164,7 +162,9 @@ def _check_bearing(case: BearingCase) -> Meaning:
     result = _solved_by_formula(judged)
     summary = {**result.summary(), "by_formula": True}
     totals = (row for row in outcome_rows(summary) if row.name != "computing time")
-    accuracy = Row("accuracy of all that follows", note=_BY_FORMULA)
+    accuracy = Row(
+        "accuracy of all that follows", note=f"films may be {formula_error(case.bearing.kind)} off"
+    )
     rows = [*input_rows(summary), *_dry(summary), accuracy, *totals]
     if reason:
         rows.append(Row("breakdown voltage", note=reason))
