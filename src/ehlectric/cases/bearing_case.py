@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self, Unpack
@@ -19,7 +18,7 @@ from ehlectric.cases.keywords.types import BearingKeys, Keys
 from ehlectric.cases.ranges import InputRange, ranges_of
 from ehlectric.cases.row import amount, value_at
 from ehlectric.cases.table import Table, read_toml
-from ehlectric.cases.units import ROTATION
+from ehlectric.cases.units import ROTATION, rpm
 from ehlectric.errors import InputError
 from ehlectric.runtime.display import Tabled, headline
 
@@ -147,7 +146,7 @@ class BearingCase(Tabled, Table):
             self.title,
             bearing.base or bearing.kind,
             *(f"{way} load {amount(load, 'N')}" for way, load in loads if load),
-            f"{bearing.inner_speed * 30.0 / math.pi:.4g} rpm",
+            f"{rpm(bearing.inner_speed):.4g} rpm",
             f"{bearing.temperature - 273.15:.4g} degC",
         )
 

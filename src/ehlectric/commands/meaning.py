@@ -6,7 +6,6 @@ them, may be far from the solution; every row and every table that has them says
 
 from __future__ import annotations
 
-import math
 import time
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
@@ -19,6 +18,7 @@ import numpy as np
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.row import Row
+from ehlectric.cases.units import rpm
 from ehlectric.errors import InputError, ResultWarning
 from ehlectric.sweep.inputs import Sweep
 
@@ -302,6 +302,6 @@ def _in_units(key: str, values: list[Any], sweep: Sweep) -> tuple[list[str], str
     if unit == "K":
         return [f"{value - 273.15:.4g}" for value in values], "°C"
     if unit == "rad/s":
-        return [f"{value * 30.0 / math.pi:.4g}" for value in values], "rpm"
+        return [f"{rpm(value):.4g}" for value in values], "rpm"
     scale = label_of(key, sweep.case).scaled(np.array(values))
     return [f"{scale.factor * value:.4g}" for value in values], scale.unit

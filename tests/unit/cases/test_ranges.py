@@ -79,8 +79,7 @@ def test_a_range_goes_with_its_value():
         ),
         (
             {STRENGTH: ["20 V/um", "30 V/um"]},
-            f"ranges.{STRENGTH}: got 2e+07 to 3e+07; expected a range that contains the value of the file, "
-            "1.5e+07 (in SI units)",
+            "got 2e+07 to 3e+07; expected a range that contains the value of the file, 1.5e+07 (in SI units)",
         ),
         ([1, 2], "ranges: got [1, 2]; expected a table of keys"),
     ],
