@@ -161,6 +161,25 @@ def test_a_bearing_is_checked_by_formula(ehlectric, files):
     assert again["bearing"] == summary["bearing"]
 
 
+NO_DISCHARGE = BEARING.replace('[discharge]\ndielectric_strength = "15 V/um"\n', "")
+SLOW = BEARING.replace("3000 rpm", "900 rpm")
+assert NO_DISCHARGE != BEARING != SLOW
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        pytest.param(NO_DISCHARGE, "no dielectric strength given, no breakdown voltage", id="E17"),
+        pytest.param(SLOW, "warning: breakdown is expected: shaft voltage ", id="E23"),
+    ],
+)
+def test_a_bearing_without_an_answer_or_with_a_bad_one_says_so(ehlectric, files, text, says):
+    (files / "bearing.toml").write_text(text)
+    done = ehlectric("bearing", "bearing.toml", "--contacts", "formula", "--no-plots", "-o", "out")
+    assert done.returncode == 0
+    assert says in " ".join((done.stdout + done.stderr).split())
+
+
 def test_a_bearing_whose_strength_no_formula_takes_is_checked_without_voltages(ehlectric, files):
     """E9: the field that a Weibull law needs is not known by formula; all else is."""
     weibull = '[discharge.weibull]\nscale = "15 V/um"\nshape = 10\nreference_area = "1 mm^2"\n'

@@ -187,6 +187,12 @@ _MARGIN: Keys = {
         "rad/s",
         "critical speed",
     ),
+    "upper_critical_speed": ResultKey(
+        "speed of the inner ring above which the margin is below 1 again, up to `highest_speed`; null where "
+        "it is not",
+        "rad/s",
+        "upper critical speed",
+    ),
     "touching_speed": ResultKey(
         "speed of the inner ring below which the surfaces touch; null where they do not in that range",
         "rad/s",

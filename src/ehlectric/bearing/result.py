@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -18,6 +17,7 @@ from ehlectric.bearing.warnings import bearing_warnings
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.result_key import key_of
 from ehlectric.cases.row import amount
+from ehlectric.cases.units import rpm
 from ehlectric.discharge.verdict import Verdict
 from ehlectric.errors import ResultWarning
 from ehlectric.runtime.display import Shown, headline
@@ -157,7 +157,7 @@ class BearingResult(Shown):
         voltage, shaft = self.breaks()["first_break"], self.shaft_voltage
         return headline(
             self.case.title,
-            f"{self.case.bearing.inner_speed * 30.0 / math.pi:.4g} rpm",
+            f"{rpm(self.case.bearing.inner_speed):.4g} rpm",
             f"capacitance {amount(self.capacitance(self.case.bearing.fill), 'F')}",
             None if voltage is None else f"first breakdown {voltage:.4g} V",
             None if shaft is None else f"shaft voltage {shaft:.4g} V",

@@ -12,6 +12,7 @@ from ehlectric.bearing.solving.contacts_and_circuit import solution_of
 from ehlectric.bearing.summary import summary_of
 from ehlectric.cases.bearing import BearingDischarge
 from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.units import rpm
 from ehlectric.errors import InputError, ResultWarning
 
 # Number of speeds in a geometric series.
@@ -65,7 +66,7 @@ def over_speed(
         try:
             solution = solution_of(changed.replace({"bearing.inner_speed": speed}))
         except InputError as error:
-            text = f"figures over speed leave out {speed * 30.0 / np.pi:.4g} rpm: {error}"
+            text = f"figures over speed leave out {rpm(speed):.4g} rpm: {error}"
             left_out.append(ResultWarning("speed-left-out", text))
         else:
             points.append((speed, summary_of(solution)))

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 
 from ehlectric.bearing.breakdown import breakdown_of
+from ehlectric.bearing.by_formula import formula_error
 from ehlectric.bearing.contacts import ContactSolution
 from ehlectric.bearing.limits import TAKEN, groove_ratio, shoulder_angle
 from ehlectric.bearing.shaft_voltage import shaft_voltage
@@ -22,6 +23,7 @@ from ehlectric.bearing.solution import (
 from ehlectric.cases.bearing import Bearing
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.library.clearance import clearance_range
+from ehlectric.cases.units import rpm
 from ehlectric.discharge.verdict import breakdown_warning
 from ehlectric.errors import ResultWarning
 from ehlectric.lubricant.viscosity_index import GRADE_WIDTH
@@ -55,9 +57,10 @@ def bearing_warnings(solution: BearingSolution) -> list[ResultWarning]:
 def film_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
     """Warnings of the films of a whole bearing: how they are computed, oil, temperature and clearance."""
     if solution.case.contacts == "formula":
+        error = formula_error(solution.case.bearing.kind)
         text = (
-            "contacts by formula: film thicknesses may be wrong by 30 %, and fields are V/h_min; use "
-            'contacts = "solved" for design'
+            f"contacts by formula: film thicknesses may be wrong by {error}, "
+            'and fields are V/h_min; use contacts = "solved" for design'
         )
         yield ResultWarning("formula-contacts", text)
     if solution.conditions.film_factor == 1.0:
@@ -95,12 +98,12 @@ def input_warnings(case: BearingCase, viscosity: float) -> Iterator[ResultWarnin
         Dynamic viscosity of the oil at the temperature of the bearing [Pa s].
     """
     bearing = case.bearing
-    rpm, celsius = bearing.inner_speed * 30.0 / math.pi, bearing.temperature - 273.15
-    factor = rpm * 1e3 * bearing.pitch_diameter
+    turns, celsius = rpm(bearing.inner_speed), bearing.temperature - 273.15
+    factor = turns * 1e3 * bearing.pitch_diameter
     if factor > _MOST_SPEED:
         yield ResultWarning(
             "speed-high",
-            f"{rpm:.4g} rpm and a pitch diameter of {1e3 * bearing.pitch_diameter:.4g} mm: n d_m is "
+            f"{turns:.4g} rpm and a pitch diameter of {1e3 * bearing.pitch_diameter:.4g} mm: n d_m is "
             f"{factor:.3g} mm/min, and ordinary oil-lubricated bearings run below {_MOST_SPEED:g}; is the "
             "unit of bearing.inner_speed right?",
         )

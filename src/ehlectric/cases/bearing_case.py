@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self, Unpack
@@ -19,7 +18,7 @@ from ehlectric.cases.keywords.types import BearingKeys, Keys
 from ehlectric.cases.ranges import InputRange, ranges_of
 from ehlectric.cases.row import amount, value_at
 from ehlectric.cases.table import Table, read_toml
-from ehlectric.cases.units import ROTATION
+from ehlectric.cases.units import ROTATION, rpm
 from ehlectric.errors import InputError
 from ehlectric.runtime.display import Tabled, headline
 
@@ -33,6 +32,9 @@ _ALTERNATIVES: dict[str, Groups] = {
     ),
     "discharge": (STRENGTHS, TABLES),
 }
+
+# Relative error by which a value that is rounded may lie outside of its range.
+_ROUNDING = 1e-9
 
 # Keys of [discharge] that a bearing file may not have.
 _NOT_OF_BEARINGS = ("length", "external_capacitance", "peak_current", "pit")
@@ -108,7 +110,7 @@ class BearingCase(Tabled, Table):
         return None if tables is None else ranges_of(tables, cls) or None
 
     @field_serializer("ranges")
-    def _as_table(self, ranges: tuple[InputRange, ...] | None) -> dict[str, list[float]] | None:
+    def _as_table(self, ranges: tuple[InputRange, ...] | None) -> dict[str, list[int | float]] | None:
         return None if ranges is None else {one.key: [one.low, one.high] for one in ranges}
 
     @model_validator(mode="after")
@@ -125,9 +127,14 @@ class BearingCase(Tabled, Table):
                 )
         table = self.to_dict() if self.ranges else {}
         for one in self.ranges or ():
-            if not _is_number(value_at(table, one.key)):
+            value, key = value_at(table, one.key), f"ranges.{one.key}"
+            if not _is_number(value):
+                raise InputError(key, got="a range", takes=f"a number for {one.key} in the file too")
+            if not one.low - _ROUNDING * abs(one.low) <= value <= one.high + _ROUNDING * abs(one.high):
                 raise InputError(
-                    f"ranges.{one.key}", got="a range", takes=f"a number for {one.key} in the file too"
+                    key,
+                    got=f"{one.low:.6g} to {one.high:.6g}",
+                    takes=f"a range that contains the value of the file, {value:.6g} (in SI units)",
                 )
         return self
 
@@ -139,7 +146,7 @@ class BearingCase(Tabled, Table):
             self.title,
             bearing.base or bearing.kind,
             *(f"{way} load {amount(load, 'N')}" for way, load in loads if load),
-            f"{bearing.inner_speed * 30.0 / math.pi:.4g} rpm",
+            f"{rpm(bearing.inner_speed):.4g} rpm",
             f"{bearing.temperature - 273.15:.4g} degC",
         )
 

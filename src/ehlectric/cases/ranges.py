@@ -90,7 +90,8 @@ def _range(key: str, value: Any, model: type[Table]) -> InputRange:
             raise error.under(table) if table else error from None
         if isinstance(parsed, bool) or not isinstance(parsed, int | float):
             raise InputError(key, got=shown(end), takes="numbers: only they have a range")
-        ends.append(float(parsed))
+        # A whole number stays one: no other is allowed where it counts something.
+        ends.append(parsed)
     low, high = ends
     if not low < high:
         raise InputError(key, got=f"{shown(value[0])} and {shown(value[1])}", takes="the smaller one first")

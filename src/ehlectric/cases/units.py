@@ -44,6 +44,22 @@ _ZEROS = {"K": 0.0, "degC": 273.15, "°C": 273.15, "C": 273.15}
 _COMMA = re.compile(r"\s*([-+]?\d+),(\d+)((?:[eE][-+]?\d+)?(?![,\d]).*)", re.DOTALL)
 
 
+def rpm(speed: float) -> float:
+    """Rotational speed in revolutions per minute, from rad/s."""
+    return speed / RPM
+
+
+def rpm_text(speed: float) -> str:
+    """Speed [rad/s] as text in revolutions per minute, rounded to three digits.
+
+    Examples
+    --------
+    >>> rpm_text(144.38)
+    '1380'
+    """
+    return f"{float(f'{rpm(speed):.3g}'):.10g}"
+
+
 @cache
 def registry() -> pint.UnitRegistry[float]:
     """Registry of units, made when it is first needed, because importing pint takes a while."""

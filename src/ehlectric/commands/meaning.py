@@ -6,7 +6,6 @@ them, may be far from the solution; every row and every table that has them says
 
 from __future__ import annotations
 
-import math
 import time
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
@@ -19,6 +18,7 @@ import numpy as np
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.row import Row
+from ehlectric.cases.units import rpm
 from ehlectric.errors import InputError, ResultWarning
 from ehlectric.sweep.inputs import Sweep
 
@@ -30,9 +30,6 @@ if TYPE_CHECKING:
 
 # Largest number of points of a sweep that are checked one by one.
 _MOST_CHECKED = 2000
-
-# Statement above the rows that follow from film formulas.
-_BY_FORMULA = "films may be 30 % off"
 
 
 @dataclass(frozen=True)
@@ -154,6 +151,7 @@ def _breakdown_rows(estimate: Mapping[str, Any]) -> Iterator[Row]:
 
 @check.register
 def _check_bearing(case: BearingCase) -> Meaning:
+    from ehlectric.bearing.by_formula import formula_error
     from ehlectric.bearing.solver import check_bearing
     from ehlectric.commands.tables.bearing import input_rows, outcome_rows
 
@@ -164,7 +162,9 @@ def _check_bearing(case: BearingCase) -> Meaning:
     result = _solved_by_formula(judged)
     summary = {**result.summary(), "by_formula": True}
     totals = (row for row in outcome_rows(summary) if row.name != "computing time")
-    accuracy = Row("accuracy of all that follows", note=_BY_FORMULA)
+    accuracy = Row(
+        "accuracy of all that follows", note=f"films may be {formula_error(case.bearing.kind)} off"
+    )
     rows = [*input_rows(summary), *_dry(summary), accuracy, *totals]
     if reason:
         rows.append(Row("breakdown voltage", note=reason))
@@ -302,6 +302,6 @@ def _in_units(key: str, values: list[Any], sweep: Sweep) -> tuple[list[str], str
     if unit == "K":
         return [f"{value - 273.15:.4g}" for value in values], "°C"
     if unit == "rad/s":
-        return [f"{value * 30.0 / math.pi:.4g}" for value in values], "rpm"
+        return [f"{rpm(value):.4g}" for value in values], "rpm"
     scale = label_of(key, sweep.case).scaled(np.array(values))
     return [f"{scale.factor * value:.4g}" for value in values], scale.unit

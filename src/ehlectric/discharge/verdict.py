@@ -47,6 +47,10 @@ class Verdict:
 # Probability below which a voltage of a Weibull law counts as safe.
 UNLIKELY = 0.05
 
+# Part of a dielectric strength by which it may be wrong either way where no range of it is stated:
+# engineering judgement.
+STRENGTH_UNKNOWN = 0.2
+
 # Warnings of results whose margin may be lower than computed: no verdict is green with one of them.
 DOUBTS = (
     "surfaces-touch",
@@ -111,6 +115,35 @@ def assumption_of(discharge: Discharge, stated: tuple[float, float] | None = Non
     return "the Weibull law of the dielectric strength is an assumption"
 
 
+def strength_interval(margin: float) -> tuple[float, float]:
+    """Margins at the smallest and the largest strength that is possible where no range of it is stated.
+
+    Every breakdown voltage is proportional to the strength.
+    """
+    return (1.0 - STRENGTH_UNKNOWN) * margin, (1.0 + STRENGTH_UNKNOWN) * margin
+
+
+def strength_doubt(discharge: Discharge, margin: float) -> str:
+    """Sentence for a margin that a change of the strength takes across 1; empty where none does.
+
+    Examples
+    --------
+    >>> law = Discharge.from_dict({"dielectric_strength": "15 V/um"})
+    >>> strength_doubt(law, 1.1), strength_doubt(law, 1.3)
+    ('At a strength of 12 V/µm (20 % lower) the margin is 0.88.', '')
+    """
+    low, high = strength_interval(margin)
+    if level_of(low, high) != "yellow":
+        return ""
+    above, strength = margin >= 1.0, discharge.dielectric_strength
+    end, way = (low, "lower") if above else (high, "higher")
+    change = f"{100.0 * STRENGTH_UNKNOWN:.0f} % {way}"
+    at = f"strength that is {change}"
+    if strength is not None:
+        at = f"strength of {strength * end / margin / 1e6:.3g} V/µm ({change})"
+    return f"At a {at} the margin is {ratio_text(end)}."
+
+
 def doubts_of(warnings: Iterable[ResultWarning]) -> list[str]:
     """Sentences of warnings for which the margin may be lower than computed, each once."""
     codes = {warning.code for warning in warnings}
@@ -152,8 +185,9 @@ def contact_verdict(
     Returns
     -------
     Verdict
-        Grey without a strength, or where the film must not be used. Yellow where the margin less the
-        discretisation error, or the margin of a Weibull law at a probability of 5 %, is below 1.
+        Grey without a strength, or where the film must not be used. Yellow where the discretisation
+        error, a strength that differs by 20 %, or a probability of 5 % with a Weibull law takes the margin
+        across 1.
     """
     warnings = tuple(warnings)
     refused = unusable(warnings)
@@ -174,7 +208,9 @@ def contact_verdict(
         low *= lowest / at
         span = f" at a probability of 63.2 %, {lowest:.3g} to {highest:.3g} V from 5 to 95 %"
         spread = f", {ratio_text(margin * lowest / at)} to {ratio_text(margin * highest / at)}"
-    level = level_of(low, margin * (1.0 + off))
+    weakest, strongest = strength_interval(margin)
+    level = level_of(min(low, weakest), max(margin * (1.0 + off), strongest))
+    doubts += filter(None, [strength_doubt(discharge, margin)])
     if doubts and level == "green":
         level = "yellow"
     if level == "yellow" and off > 0.0 and abs(margin - 1.0) <= off:

@@ -10,11 +10,18 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.bearing.margin.verdict import FORMULA_FACTOR
+from ehlectric.bearing.by_formula import formula_factor
 from ehlectric.cases.any_case import AnyCase
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.row import value_at
-from ehlectric.discharge.verdict import DOUBTS, Level, Verdict, ratio_text
+from ehlectric.discharge.verdict import (
+    DOUBTS,
+    Level,
+    Verdict,
+    assumption_of,
+    ratio_text,
+    strength_interval,
+)
 from ehlectric.sweep.labels import Scale, label_of
 from ehlectric.sweep.points import SweepPoints
 
@@ -31,9 +38,9 @@ def sweep_verdict(results: SweepPoints) -> Verdict | None:
     -------
     Verdict or None
         Green where no margin is below 1, red where all are, else yellow. It is not green where points have no
-        margin: they are not solved or must not be used, or their surfaces touch. Nor is it green where the
-        margin of a point may be below 1, by the accuracy of formulas or by its warnings. None where no point
-        has a margin.
+        margin: they are not solved or must not be used, or their surfaces touch. Nor is it green or red where
+        the margin of a point may lie on the other side of 1, by the accuracy of formulas, by its warnings, or
+        at a strength that differs by 20 %. None where no point has a margin.
     """
     usable = _margins(results)
     known = usable[np.isfinite(usable)]
@@ -51,26 +58,61 @@ def sweep_verdict(results: SweepPoints) -> Verdict | None:
         sentences.append(f"{missing} more {_have(missing)} no margin, {_why(results, usable)}.")
     level: Level = "red" if below == known.size else "yellow" if below or missing else "green"
     doubts = list(_doubts(results, usable))
-    if doubts and level == "green":
+    if doubts:
         level = "yellow"
-    return Verdict(level, " ".join([*sentences, *doubts]), lowest)
+    return Verdict(level, " ".join([*sentences, *doubts, *_assumptions(results)]), lowest)
 
 
 def _doubts(results: SweepPoints, margins: Array) -> Iterator[str]:
-    """Sentences for which margins above 1 may be below it."""
-    above = [(point, margin) for point, margin in zip(results.points, margins, strict=True) if margin >= 1.0]
+    """Sentences for which margins may lie on the other side of 1."""
+    known = [
+        (point, margin)
+        for point, margin in zip(results.points, margins, strict=True)
+        if math.isfinite(margin)
+    ]
+    case = results.case
+    factor = formula_factor(case.bearing.kind) if isinstance(case, BearingCase) else 1.0
     near = sum(
-        margin < FORMULA_FACTOR
-        for point, margin in above
+        1.0 / factor <= margin < factor
+        for point, margin in known
         if value_at(point.summary or {}, "bearing.contacts") == "formula"
     )
     if near:
-        yield f"At {near} of the other points the margin is within the 30 % that formulas may be off."
+        off = 100.0 * (factor - 1.0)
+        yield f"At {near} of the points the margin is within the {off:.0f} % that formulas may be off."
+    if not _strength_varies(results):
+        weak = sum(low < 1.0 <= high for low, high in (strength_interval(margin) for _, margin in known))
+        if weak:
+            yield f"At {weak} of the points a strength that differs by 20 % takes the margin across 1."
     doubtful = sum(
-        bool({one.code for one in point.warnings} & {*DOUBTS, "partial-film"}) for point, _ in above
+        bool({one.code for one in point.warnings} & {*DOUBTS, "partial-film"})
+        for point, margin in known
+        if margin >= 1.0
     )
     if doubtful:
-        yield f"At {doubtful} of the other points warnings say that the margin may be lower."
+        yield f"At {doubtful} of the points warnings say that the margin may be lower."
+
+
+def _strength_varies(results: SweepPoints) -> bool:
+    """Whether the strength is among the varied inputs."""
+    return any(key.startswith("discharge.") for key in results.varied)
+
+
+def _assumptions(results: SweepPoints) -> Iterator[str]:
+    """Sentence about the assumptions behind the margins."""
+    bound = ""
+    factors = {value_at(point.summary or {}, "bearing.film_factor") for point in results.points}
+    if factors & {1.0} or not isinstance(results.case, BearingCase):
+        bound = "Upper bound: isothermal, fully flooded film; "
+    discharge = results.case.discharge
+    if discharge is None or not discharge.has_strength:
+        return
+    if _strength_varies(results):
+        clause = "the dielectric strength is an assumption"
+    else:
+        clause = assumption_of(discharge)
+    text = f"{bound}{clause}."
+    yield text[0].upper() + text[1:]
 
 
 def _have(count: int) -> str:
@@ -118,8 +160,8 @@ def _crossings(results: SweepPoints, margins: Array) -> list[str]:
         if math.isfinite(margin)
     )
     return [
-        f"The margin falls below 1 {'below' if low[1] < high[1] else 'above'} about "
-        f"{value_text(key, crossing(low, high), results.case)}."
+        f"{'Below' if low[1] < high[1] else 'Above'} about "
+        f"{value_text(key, crossing(low, high), results.case)} the margin is below 1: breakdown is expected."
         for low, high in pairwise(rows)
         if (low[1] < 1.0) != (high[1] < 1.0)
     ]

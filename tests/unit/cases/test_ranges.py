@@ -35,6 +35,13 @@ def test_ranges_are_written_and_read(tmp_path):
     assert with_ranges({}) == bearing_case(BALLS)
 
 
+def test_a_whole_number_keeps_its_kind():
+    case = with_ranges({"bearing.elements": [8, 10]})
+    assert all(isinstance(end, int) for end in (case.ranges[0].low, case.ranges[0].high))
+    assert BearingCase.from_dict(case.to_dict()) == case
+    assert case.replace({TEMPERATURE: "60 degC"}).ranges == case.ranges
+
+
 def test_a_range_goes_with_its_value():
     """A changed value has no range any more, nor has one that another key replaces."""
     case = with_ranges(BOTH)
@@ -69,6 +76,10 @@ def test_a_range_goes_with_its_value():
         (
             {STRENGTH: [1e7, 2e7], "discharge": {"dielectric_strength": [1e7, 3e7]}},
             "got it twice; expected it once",
+        ),
+        (
+            {STRENGTH: ["20 V/um", "30 V/um"]},
+            "got 2e+07 to 3e+07; expected a range that contains the value of the file, 1.5e+07 (in SI units)",
         ),
         ([1, 2], "ranges: got [1, 2]; expected a table of keys"),
     ],

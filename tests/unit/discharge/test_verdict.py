@@ -42,35 +42,46 @@ def contact(**tables):
 
 
 def test_words_of_a_contact_that_holds_its_voltage():
-    assert verdict(1.196).text == (
-        "No breakdown expected: applied voltage 8 V, breakdown voltage 9.57 V (margin 1.20). "
+    assert verdict(1.3).text == (
+        "No breakdown expected: applied voltage 8 V, breakdown voltage 10.4 V (margin 1.30). "
         "Upper bound: isothermal, fully flooded film; dielectric strength 15 V/µm is an assumption."
     )
-    assert str(verdict(1.196)) == verdict(1.196).text
-    thin = verdict(1.196, flooded=False).text
-    assert thin.endswith("(margin 1.20). Dielectric strength 15 V/µm is an assumption.")
+    assert str(verdict(1.3)) == verdict(1.3).text
+    thin = verdict(1.3, flooded=False).text
+    assert thin.endswith("(margin 1.30). Dielectric strength 15 V/µm is an assumption.")
 
 
 @pytest.mark.parametrize(
     ("margin", "error", "level", "lead"),
     [
-        (1.2, 0.0, "green", "No breakdown expected"),
+        (1.25, 0.0, "green", "No breakdown expected"),
         (0.8, 0.0, "red", "Breakdown expected"),
         (1.02, 0.03, "yellow", "Breakdown possible"),
         (0.99, 0.03, "yellow", "Breakdown likely"),
-        (1.04, 0.03, "green", "No breakdown expected"),
-        (1.0, 0.0, "green", "No breakdown expected"),
+        (1.3, 0.03, "green", "No breakdown expected"),
+        (1.24, 0.0, "yellow", "Breakdown possible"),
+        (1.0, 0.0, "yellow", "Breakdown possible"),
+        (0.84, 0.0, "yellow", "Breakdown likely"),
     ],
 )
 def test_levels_with_the_error_of_the_film(margin, error, level, lead):
     found = verdict(margin, error=error)
     assert (found.level, found.margin) == (level, margin)
     assert found.text.startswith(f"{lead}: ")
-    assert ("off on this grid" in found.text) == (level == "yellow")
+    assert ("off on this grid" in found.text) == (level == "yellow" and error > 0.0)
 
 
 def test_a_margin_just_below_one_is_not_rounded_to_one():
     assert "(margin 0.9981)" in verdict(0.9981).text
+
+
+def test_a_strength_that_differs_by_20_percent_is_said():
+    assert "At a strength of 12 V/µm (20 % lower) the margin is 0.96." in verdict(1.196).text
+    assert "At a strength of 18 V/µm (20 % higher) the margin is 1.08." in verdict(0.9).text
+    table = Discharge.from_dict(
+        {"strength_table": {"pressure": ["0 GPa", "2 GPa"], "strength": ["15 V/um", "25 V/um"]}}
+    )
+    assert "At a strength that is 20 % lower the margin is 0.88." in verdict(1.1, discharge=table).text
 
 
 def test_a_weibull_law_counts_at_five_percent():
@@ -78,7 +89,7 @@ def test_a_weibull_law_counts_at_five_percent():
     law = Discharge.from_dict({"weibull": WEIBULL, "length": "10 mm"})
     part, most = weibull_part(10.0, 0.05), weibull_part(10.0, 0.95)
     assert part == pytest.approx(0.743, abs=5e-4)
-    for margin, level in ((1.3, "yellow"), (1.4, "green"), (0.9, "red")):
+    for margin, level in ((1.3, "yellow"), (1.4, "green"), (0.8, "red")):
         at = 8.0 * margin
         found = verdict(margin, discharge=law, low=part * at, high=most * at)
         assert found.level == level

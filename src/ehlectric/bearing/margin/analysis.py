@@ -52,6 +52,7 @@ class MarginAnalysis:
         speeds = self.speeds
         return {
             "critical_speed": self.critical_speed,
+            "upper_critical_speed": None if speeds is None else speeds.upper,
             "touching_speed": None if speeds is None else speeds.touching,
             "lowest_speed": None if speeds is None else speeds.lowest,
             "highest_speed": None if speeds is None else speeds.highest,

@@ -1,4 +1,4 @@
-"""Critical speed of a bearing, below which breakdown is expected."""
+"""Speeds of a bearing at which its margin crosses 1, and below which its surfaces touch."""
 
 from __future__ import annotations
 
@@ -7,10 +7,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
 
+import numpy as np
 from scipy.optimize import brentq
 
 from ehlectric.bearing.margin.formula_margins import FormulaMargins, FormulaPoint
-from ehlectric.bearing.solution import CONDUCTING
+from ehlectric.bearing.solution import CONDUCTING, PARTIAL
+from ehlectric.cases.units import rpm
 from ehlectric.errors import InputError
 
 # Smallest and largest speed that are looked at, divided by the speed of the case.
@@ -19,6 +21,9 @@ LEAST, MOST = 0.1, 4.0
 # Speeds beside that of the case at which margins are computed, divided by it, and the tolerance of the
 # logarithm of the critical speed: 0.2 % of the speed.
 _PARTS, _TOLERANCE = (LEAST, 0.3, 2.0, MOST), 2e-3
+
+# The same where the margin is not monotonic: heating by shear in the inlet makes films thinner at high speed.
+_FINE_PARTS = tuple(float(part) for part in np.geomspace(LEAST, MOST, 14))
 
 
 @dataclass(frozen=True)
@@ -29,26 +34,61 @@ class SpeedRange:
     ----------
     lowest, highest : float
         Ends of the range of speeds that have a result [rad/s].
-    critical : float or None
-        Speed at which the margin is 1, below which it is smaller [rad/s]; None where there is no such speed.
+    crossings : tuple of float
+        Speeds at which the margin crosses 1 [rad/s], in increasing order.
     touching : float or None
         Speed below which the surfaces touch [rad/s]; None where they do not touch in the range.
+    partial : float or None
+        Speed below which surfaces may touch [rad/s], because their lambda ratio is below 3. None where it
+        is not in the range; the highest speed of the range where it still is there.
     above : bool
         Whether the margin at the highest speed is at least 1.
+    minimum : float or None
+        Smallest margin that was computed, dimensionless, where surfaces do not touch; None where all touch.
     left_out : tuple of str
         Speeds that have no result, and why.
     """
 
     lowest: float
     highest: float
-    critical: float | None
+    crossings: tuple[float, ...]
     touching: float | None
+    partial: float | None
     above: bool
+    minimum: float | None
     left_out: tuple[str, ...] = ()
+
+    @property
+    def broken(self) -> tuple[tuple[float | None, float | None], ...]:
+        """Intervals of speed with a margin below 1 [rad/s]; None in place of an end of the range.
+
+        Examples
+        --------
+        A margin that rises through 1 at 100 rad/s and falls through it at 900 rad/s:
+
+        >>> SpeedRange(10.0, 1e3, (100.0, 900.0), None, None, above=False, minimum=0.5).broken
+        ((None, 100.0), (900.0, None))
+        """
+        ends: list[float | None] = [*self.crossings]
+        if not self.above:
+            ends.append(None)
+        if len(ends) % 2:
+            ends.insert(0, None)
+        return tuple(zip(ends[::2], ends[1::2], strict=True))
+
+    @property
+    def critical(self) -> float | None:
+        """Highest speed at which the margin rises through 1 [rad/s]; None where there is none."""
+        return max((high for _, high in self.broken if high is not None), default=None)
+
+    @property
+    def upper(self) -> float | None:
+        """Speed above which the margin is below 1 up to the highest speed [rad/s], or None."""
+        return self.crossings[-1] if self.crossings and not self.above else None
 
 
 def speed_range(margins: FormulaMargins) -> SpeedRange:
-    """Find the critical speed of a bearing.
+    """Find the speeds at which the margin of a bearing crosses 1.
 
     Parameters
     ----------
@@ -58,12 +98,12 @@ def speed_range(margins: FormulaMargins) -> SpeedRange:
     Returns
     -------
     SpeedRange
-        Critical speed, from a tenth of the case's speed to four times this speed.
+        Speeds from a tenth of the case's speed to four times this speed.
 
     Notes
     -----
-    The temperature is that of the case at all speeds. Where the margin crosses 1 more than once, the highest
-    of these speeds counts: breakdown is expected somewhere below it.
+    The temperature is that of the case at all speeds. The margin rises with the speed. Only with inlet
+    shear heating it falls again at high speed; more speeds are computed then.
     """
     own = math.log(margins.case.bearing.inner_speed)
     known = {own: margins.own}
@@ -74,35 +114,45 @@ def speed_range(margins: FormulaMargins) -> SpeedRange:
             known[log] = margins.at({"bearing.inner_speed": math.exp(log)})
         return known[log]
 
-    for part in _PARTS:
+    for part in _FINE_PARTS if margins.case.bearing.film_factor == "inlet-shear" else _PARTS:
         try:
             at(own + math.log(part))
         except InputError as error:
-            speed = math.exp(own) * part * 30.0 / math.pi
-            left_out.append(f"speed {speed:.4g} rpm: {error}")
+            left_out.append(f"speed {rpm(math.exp(own) * part):.4g} rpm: {error}")
     logs = sorted(known)
     lowest, highest = logs[0], logs[-1]
-    touching = _crossing(logs, lambda log: at(log).lambda_ratio - CONDUCTING)
+    touching = _last_rise(logs, lambda log: at(log).lambda_ratio - CONDUCTING)
+    partial = _last_rise(logs, lambda log: at(log).lambda_ratio - PARTIAL)
+    if at(highest).lambda_ratio < PARTIAL:
+        partial = highest
     if touching is not None:
         # At the crossing itself the surfaces may touch by rounding.
         logs = [touching + _TOLERANCE, *(log for log in logs if log > touching + _TOLERANCE)]
     # The surfaces may still touch by formula where the scaled lambda ratio is above 1.
     logs = [log for log in logs if at(log).margin > 0.0]
-    critical = _crossing(logs, lambda log: math.log(at(log).margin))
+    crossings = _crossings(logs, lambda log: math.log(at(log).margin))
     return SpeedRange(
         math.exp(lowest),
         math.exp(highest),
-        None if critical is None else math.exp(critical),
+        tuple(math.exp(log) for log in crossings),
         None if touching is None else math.exp(touching),
+        None if partial is None else math.exp(partial),
         at(highest).margin >= 1.0,
+        min((at(log).margin for log in logs), default=None),
         tuple(left_out),
     )
 
 
-def _crossing(logs: list[float], value: Callable[[float], float]) -> float | None:
+def _last_rise(logs: list[float], value: Callable[[float], float]) -> float | None:
     """Highest logarithm of a speed at which a value rises through 0; None where there is none."""
-    for low, high in reversed(list(pairwise(logs))):
-        if value(low) < 0.0 <= value(high):
-            found: float = brentq(value, low, high, xtol=_TOLERANCE)
-            return found
-    return None
+    rises = [(low, high) for low, high in pairwise(logs) if value(low) < 0.0 <= value(high)]
+    return _crossings(list(rises[-1]), value)[0] if rises else None
+
+
+def _crossings(logs: list[float], value: Callable[[float], float]) -> list[float]:
+    """Logarithms of the speeds at which a value changes its sign, in increasing order."""
+    return [
+        float(brentq(value, low, high, xtol=_TOLERANCE))
+        for low, high in pairwise(logs)
+        if (value(low) < 0.0) != (value(high) < 0.0)
+    ]

@@ -8,15 +8,22 @@ from dataclasses import dataclass
 from typing import Any
 
 from ehlectric.bearing.margin.formula_margins import FormulaMargins
+from ehlectric.cases.bearing import Bearing
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.input_keys import INPUT_NAMES
+from ehlectric.cases.library.clearance import clearance_range
 from ehlectric.cases.row import value_at
+from ehlectric.discharge.verdict import STRENGTH_UNKNOWN
 from ehlectric.errors import InputError
+from ehlectric.lubricant.viscosity_index import GRADE_WIDTH
 
-# Changes of the inputs, either way: dielectric strength and load relative to their value, temperature [K],
-# clearance [m] and free contact angle [rad], and these two relative to their value where they are small.
-# Engineering judgement: what is seldom known better in a machine.
-STRENGTH, LOAD, TEMPERATURE, CLEARANCE, ANGLE, RELATIVE = 0.2, 0.2, 10.0, 5e-6, math.radians(5.0), 0.5
+# Changes of the inputs, either way: load relative to its value, temperature [K], clearance [m] and free
+# contact angle [rad], and these two relative to their value where they are small. Engineering judgement: what
+# is seldom known better in a machine.
+LOAD, TEMPERATURE, CLEARANCE, ANGLE, RELATIVE = 0.2, 10.0, 5e-6, math.radians(5.0), 0.5
+
+# Input that an ISO viscosity grade stands for.
+_AT_40 = "lubricant.temperature.kinematic_viscosity_40"
 
 # Inputs that scale a dielectric strength, and the list of strengths of a table, which a factor scales. Every
 # breakdown voltage is proportional to the strength.
@@ -140,14 +147,17 @@ def _standard(case: BearingCase, table: Mapping[str, Any]) -> Iterator[_Change]:
     for key in _STRENGTHS:
         strength = value_at(table, key)
         if strength is not None:
-            yield _Change(key, INPUT_NAMES[key][0], _part(strength, STRENGTH))
+            yield _Change(key, INPUT_NAMES[key][0], _part(strength, STRENGTH_UNKNOWN))
     if case.discharge.strength_table is not None:
-        yield _Change(OF_TABLE, "factor on the dielectric strength", _part(1.0, STRENGTH))
+        yield _Change(OF_TABLE, "factor on the dielectric strength", _part(1.0, STRENGTH_UNKNOWN))
     if not _temperature_is_unused(case):
         yield _Change("bearing.temperature", "temperature", _around(bearing.temperature, TEMPERATURE))
+    oil = case.lubricant.temperature
+    if oil is not None and oil.iso_vg is not None:
+        label = f"{INPUT_NAMES[_AT_40][0]} (limits of ISO VG {oil.iso_vg})"
+        yield _Change(_AT_40, label, _part(oil.at_40(), GRADE_WIDTH))
     if bearing.radial_clearance is not None:
-        ends = _around(bearing.radial_clearance, CLEARANCE)
-        yield _Change("bearing.radial_clearance", "radial clearance", ends)
+        yield _Change("bearing.radial_clearance", *_clearance(bearing))
     if bearing.contact_angle is not None:
         yield _Change("bearing.contact_angle", "free contact angle", _around(bearing.contact_angle, ANGLE))
     radial = bearing.radial_load >= bearing.axial_load
@@ -160,6 +170,15 @@ def _standard(case: BearingCase, table: Mapping[str, Any]) -> Iterator[_Change]:
         _part(load, LOAD),
         factor_of_load=both,
     )
+
+
+def _clearance(bearing: Bearing) -> tuple[str, tuple[float, float]]:
+    """Name of the clearance and its two values: those of its class, or a step either way."""
+    assert bearing.radial_clearance is not None
+    if bearing.clearance_class is None or bearing.bore is None:
+        return "radial clearance", _around(bearing.radial_clearance, CLEARANCE)
+    limits = clearance_range(bearing.kind, bearing.clearance_class, bearing.bore)
+    return f"radial clearance (limits of class {bearing.clearance_class})", (limits.least, limits.most)
 
 
 def _part(value: float, part: float) -> tuple[float, float]:

@@ -2,29 +2,30 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 
 from ehlectric.bearing.breakdown import Breakdown, breakdown_of
+from ehlectric.bearing.by_formula import formula_error, formula_factor
 from ehlectric.bearing.margin.analysis import MarginAnalysis
 from ehlectric.bearing.margin.critical_speed import SpeedRange
 from ehlectric.bearing.shaft_voltage import shaft_voltage
 from ehlectric.bearing.solution import BearingSolution, lambda_ratio, lubrication
 from ehlectric.bearing.warnings import bearing_warnings
+from ehlectric.cases.units import rpm, rpm_text
 from ehlectric.discharge.verdict import (
     UNLIKELY,
+    Level,
     Verdict,
     assumption_of,
     doubts_of,
     lead_of,
     level_of,
     ratio_text,
+    strength_doubt,
+    strength_interval,
     unusable,
     weibull_part,
 )
-
-# Factor by which films from formulas, and margins with them, may be off either way.
-FORMULA_FACTOR = 1.3
 
 
 def bearing_verdict(solution: BearingSolution, analysis: MarginAnalysis) -> Verdict:
@@ -46,8 +47,9 @@ def bearing_verdict(solution: BearingSolution, analysis: MarginAnalysis) -> Verd
     Notes
     -----
     The margin may lie anywhere between its values at the ends of the stated ranges. Estimated errors of
-    solved films widen this interval, and a factor of 1.3 either way for contacts by formula. With a Weibull
-    law its lower end is that at a probability of 5 %.
+    solved films widen this interval, and ``formula_factor`` for contacts by formula. With a Weibull law its
+    lower end is that at a probability of 5 %. Without a stated range of the strength, a margin that a change
+    of the strength by 20 % takes across 1 is yellow, too.
     """
     refused = unusable(bearing_warnings(solution))
     if refused or not solution.converged:
@@ -88,10 +90,16 @@ def _judged(
     """Verdict on a bearing with a margin."""
     margin = breakdown.first_break / shaft
     low, high = _possible(solution, analysis, margin)
+    strength = _strength_is_open(solution)
+    if strength:
+        weakest, strongest = strength_interval(margin)
+        low, high = min(low, weakest), max(high, strongest)
     level = level_of(low, high)
     doubts = list(_doubts(solution, analysis, margin))
     if doubts and level == "green":
         level = "yellow"
+    if strength:
+        doubts += filter(None, [strength_doubt(solution.case.discharge, margin)])
     reasons = [*doubts, *(_widths(solution) if level == "yellow" else ())]
     interval = ""
     if analysis.low is not None and analysis.high is not None:
@@ -102,7 +110,7 @@ def _judged(
         f"{lead_of(level, margin)}: shaft voltage {shaft:.3g} V, first breakdown at "
         f"{breakdown.first_break:.3g} V (margin {ratio_text(margin)}{interval}) {_at(solution)}."
     )
-    speeds = list(_speeds(analysis.speeds))
+    speeds = list(_speeds(analysis.speeds, level))
     return Verdict(level, " ".join([text, *speeds, *reasons, _assumptions(solution)]), margin)
 
 
@@ -111,12 +119,18 @@ def _possible(solution: BearingSolution, analysis: MarginAnalysis, margin: float
     low = margin if analysis.low is None else analysis.low
     high = margin if analysis.high is None else analysis.high
     if solution.case.contacts == "formula":
-        low, high = low / FORMULA_FACTOR, high * FORMULA_FACTOR
+        factor = formula_factor(solution.case.bearing.kind)
+        low, high = low / factor, high * factor
     else:
         off = film_error(solution)
         low, high = low * (1.0 - off), high * (1.0 + off)
     weibull = solution.case.discharge.weibull
     return low if weibull is None else low * weibull_part(weibull.shape, UNLIKELY), high
+
+
+def _strength_is_open(solution: BearingSolution) -> bool:
+    """Whether the case states no range of the strength, so that a usual one counts."""
+    return not any(one.key.startswith("discharge.") for one in solution.case.ranges or ())
 
 
 def film_error(solution: BearingSolution) -> float:
@@ -145,40 +159,46 @@ def _doubts(solution: BearingSolution, analysis: MarginAnalysis, margin: float) 
 def _widths(solution: BearingSolution) -> Iterator[str]:
     """Sentences about the accuracy of the films, for a margin on which it decides."""
     if solution.case.contacts == "formula":
-        yield "Films by formula may be 30 % off: solved contacts decide."
+        off = formula_error(solution.case.bearing.kind)
+        yield f"Films by formula may be {off} off: solved contacts decide."
     elif film_error(solution) > 0.0:
         yield f"Films may be {100.0 * film_error(solution):.2g} % off."
 
 
-def _speeds(speeds: SpeedRange | None) -> Iterator[str]:
-    """Sentences about the speeds at which breakdown is expected."""
-    if speeds is None:
+def _speeds(speeds: SpeedRange | None, level: Level) -> Iterator[str]:
+    """Sentences about the speeds at which breakdown is expected; none where no other speed was computed."""
+    if speeds is None or speeds.lowest >= speeds.highest:
         return
-    if speeds.critical is not None:
-        yield f"Below about {rpm_text(speeds.critical)} rpm breakdown is expected."
-    else:
-        lowest = max(speeds.lowest, speeds.touching or 0.0)
-        says, highest = "No breakdown" if speeds.above else "Breakdown", rpm_text(speeds.highest)
-        yield f"{says} is expected at all speeds from {rpm_text(lowest)} to {highest} rpm."
+    lowest, highest = max(speeds.lowest, speeds.touching or 0.0), speeds.highest
+    within = f"at all speeds computed, {rpm_text(lowest)} to {rpm_text(highest)} rpm"
+    if speeds.crossings:
+        # A verdict that is not sure at the speed of the case is not sure at others.
+        word = "likely" if level == "yellow" else "expected"
+        where = " and ".join(_interval(low, high) for low, high in speeds.broken)
+        yield f"{where[0].upper()}{where[1:]} breakdown is {word}."
+    elif not speeds.above:
+        yield f"The margin is below 1 {within}."
+    elif speeds.minimum is not None:
+        yield f"The margin is at least {ratio_text(speeds.minimum)} {within}."
+    if speeds.partial is not None and speeds.partial > max(lowest, speeds.critical or 0.0):
+        yield f"Below about {rpm_text(speeds.partial)} rpm surfaces may touch."
     if speeds.touching is not None:
         yield f"Below about {rpm_text(speeds.touching)} rpm the surfaces touch and conduct."
 
 
-def rpm_text(speed: float) -> str:
-    """Speed [rad/s] as text in revolutions per minute, rounded to three digits.
-
-    Examples
-    --------
-    >>> rpm_text(144.38)
-    '1380'
-    """
-    return f"{float(f'{speed * 30.0 / math.pi:.3g}'):.10g}"
+def _interval(low: float | None, high: float | None) -> str:
+    """Clause with an interval of speed [rad/s], whose open ends are those of all speeds computed."""
+    if low is None:
+        return f"below about {rpm_text(high or 0.0)} rpm"
+    if high is None:
+        return f"above about {rpm_text(low)} rpm"
+    return f"between about {rpm_text(low)} and {rpm_text(high)} rpm"
 
 
 def _at(solution: BearingSolution) -> str:
     """Speed and temperature of a bearing as text."""
     bearing = solution.case.bearing
-    speed, temperature = bearing.inner_speed * 30.0 / math.pi, bearing.temperature - 273.15
+    speed, temperature = rpm(bearing.inner_speed), bearing.temperature - 273.15
     return f"at {float(f'{speed:.4g}'):g} rpm, {float(f'{temperature:.3g}'):g} °C"
 
 

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 from ehlectric.bearing.keys import BEARING_KEYS
 from ehlectric.bearing.margin.sensitivity import OF_TABLE
-from ehlectric.bearing.margin.verdict import rpm_text
 from ehlectric.cases.input_keys import unit_of
 from ehlectric.cases.row import Row, rows_of
+from ehlectric.cases.units import rpm_text
 from ehlectric.discharge.verdict import ratio_text
 from ehlectric.sweep.labels import Scale, scale_for
 
@@ -115,7 +115,7 @@ def outcome_rows(summary: Mapping[str, Any]) -> list[Row]:
         ("ring-to-ring breakdown voltage", "bearing.through_breakdown", "V"),
         ("ring-to-ring, mean over cage positions", "bearing.through_breakdown_mean", "V"),
         ("margin (ring-to-ring / shaft voltage)", "bearing.through_margin", ""),
-        ("first breakdown, mean over positions", "bearing.first_break_mean", "V"),
+        ("first breakdown, mean over cage positions", "bearing.first_break_mean", "V"),
         ("first breakdown voltage", "bearing.first_break", "V", first),
     )
     return [
@@ -187,14 +187,7 @@ def _margin(summary: Mapping[str, Any]) -> Iterator[Row]:
         return
     if analysis["low"] is not None:
         yield Row("margin within the stated ranges", _between(analysis["low"], analysis["high"]))
-    if analysis["critical_speed"] is not None:
-        note = "rpm, breakdown expected below"
-        yield Row("critical speed", rpm_text(analysis["critical_speed"]), note=note)
-    elif analysis["lowest_speed"] is not None:
-        low, high = (rpm_text(analysis[f"{name}_speed"]) for name in ("lowest", "highest"))
-        yield Row("critical speed", "none", note=f"from {low} to {high} rpm")
-    if analysis["touching_speed"] is not None:
-        yield Row("surfaces touch below", rpm_text(analysis["touching_speed"]), note="rpm")
+    yield from _speeds(analysis)
     if analysis["effects"] or analysis["left_out"]:
         yield Row("margin if one input changes")
     for effect in analysis["effects"]:
@@ -203,6 +196,20 @@ def _margin(summary: Mapping[str, Any]) -> Iterator[Row]:
         yield Row(f"{name}, {input_range(effect)}", margins, note=beside.removesuffix(")"))
     for text in analysis["left_out"]:
         yield Row("not computed", note=text)
+
+
+def _speeds(analysis: Mapping[str, Any]) -> Iterator[Row]:
+    """Rows of the speeds at which the margin crosses 1, or that none of those computed is one."""
+    lowest, highest = analysis["lowest_speed"], analysis["highest_speed"]
+    lower, upper = analysis["critical_speed"], analysis.get("upper_critical_speed")
+    if lower is not None:
+        yield Row("critical speed", rpm_text(lower), note="rpm, breakdown expected below")
+    if upper is not None:
+        yield Row("upper critical speed", rpm_text(upper), note="rpm, breakdown expected above")
+    if lower is None and upper is None and lowest is not None and lowest < highest:
+        yield Row("critical speed", "none", note=f"from {rpm_text(lowest)} to {rpm_text(highest)} rpm")
+    if analysis["touching_speed"] is not None:
+        yield Row("surfaces touch below", rpm_text(analysis["touching_speed"]), note="rpm")
 
 
 def _between(low: float, high: float) -> str:
@@ -240,4 +247,5 @@ _SCALES = {
     "rad": Scale(180.0 / math.pi, "deg"),
     "V/m": Scale(1e-6, "V/µm"),
     "N": Scale(1.0, "N"),
+    "m**2/s": Scale(1e6, "mm²/s"),
 }

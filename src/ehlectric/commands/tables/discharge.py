@@ -41,8 +41,9 @@ def _breakdown(breakdown: Breakdown, applied: float) -> Iterator[Row]:
     if low is not None and high is not None:
         yield Row("breakdown voltage, 5 to 95 %", f"{low:.4g} to {high:.4g}", "V")
     yield Row("margin (breakdown / applied)", breakdown.margin, alarm=breakdown.margin < 1.0)
-    note = "at the applied voltage"
-    yield Row("probability of breakdown", breakdown.probability, note=note, digits=".3g")
+    if breakdown.strength_law == "weibull":
+        note = "at the applied voltage"
+        yield Row("probability of breakdown", breakdown.probability, note=note, digits=".3g")
 
 
 def _zone(zone: BreakdownZone, half_width: float) -> Iterator[Row]:

@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.patheffects import withStroke
 
 from ehlectric.arrays import Array, Mask
+from ehlectric.cases import units
 from ehlectric.cases.quantity import unit_for
 from ehlectric.discharge.verdict import ratio_text
 from ehlectric.figures.axes import is_wide, scale_axis
@@ -182,7 +183,7 @@ def rpm_text(speed: float) -> str:
     >>> rpm_text(144.9)
     '1380 rpm'
     """
-    return f"{float(f'{speed * RPM:.3g}'):g} rpm"
+    return f"{units.rpm_text(speed)} rpm"
 
 
 def _own_margin(own: Speed | None, ax: Axes) -> None:

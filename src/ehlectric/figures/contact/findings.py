@@ -11,6 +11,7 @@ from ehlectric.arrays import Array
 from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.discharge.utilisation import FieldUtilisation
+from ehlectric.discharge.verdict import lead_of, ratio_text
 from ehlectric.figures.names import BREAKDOWN_FIGURE, ROUGHNESS_FIGURE
 
 AnyContact = Result | PointResult
@@ -202,10 +203,15 @@ def breakdown_text(result: AnyContact) -> str:
     if found.strength_law == "weibull" and found.probability is not None:
         chance = f"{100.0 * found.probability:.2g} %"
         return f"Probability of breakdown {chance} at {applied}; 63 % at {breaking}"
-    verdict = "No breakdown" if found.margin > 1.0 else "Breakdown"
+    verdict = result.verdict
+    assert verdict is not None
+    lead = "No verdict" if verdict.level == "grey" else lead_of(verdict.level, found.margin)
+    strength = found.dielectric_strength
+    assumed = "by the table assumed" if strength is None else f"{strength / 1e6:.3g} V/µm assumed"
     # The panels of a point contact say where they cut the film.
     where = f" at {place}" if isinstance(result, Result) else ""
-    return f"{verdict} at {applied}: breakdown voltage {breaking}{where} (margin {found.margin:.3g})"
+    margin = f"margin {ratio_text(found.margin)}, strength {assumed}"
+    return f"{lead} at {applied}: breakdown voltage {breaking}{where} ({margin})"
 
 
 LINE_FINDINGS: Mapping[str, Callable[[Result], str]] = {

@@ -6,9 +6,12 @@ import math
 import pytest
 
 from ehlectric.bearing.files import load, save
+from ehlectric.bearing.margin.critical_speed import SpeedRange
 from ehlectric.bearing.margin.formula_margins import FormulaMargins
 from ehlectric.bearing.margin.sensitivity import OF_TABLE, Effect
 from ehlectric.bearing.solver import solve_bearing
+from ehlectric.cases.units import rpm_text
+from ehlectric.discharge.verdict import ratio_text
 from ehlectric.errors import InputError
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case
 
@@ -100,8 +103,93 @@ def test_without_a_crossing_there_is_no_critical_speed():
     own = safe.case.bearing.inner_speed
     assert safe.margin_analysis.speeds.lowest == pytest.approx(0.1 * own)
     assert safe.margin_analysis.speeds.highest == pytest.approx(4.0 * own)
-    assert "No breakdown is expected at all speeds from 300 to 12000 rpm." in safe.verdict.text
-    assert "Breakdown is expected at all speeds from 300 to 12000 rpm." in broken.verdict.text
+    least = ratio_text(safe.margin_analysis.speeds.minimum)
+    assert f"The margin is at least {least} at all speeds computed, 300 to 12000 rpm." in safe.verdict.text
+    assert least == ratio_text(margin_at(safe, **{"bearing.inner_speed": 0.1 * own}))
+    assert "The margin is below 1 at all speeds computed, 300 to 12000 rpm." in broken.verdict.text
+
+
+def test_speeds_with_a_partial_film_are_said():
+    """Below the speed of a lambda ratio of 3 no sentence reads as safe."""
+    safe = solved(discharge__dielectric_strength="300 V/um")
+    speed = safe.margin_analysis.speeds.partial
+    at = {"bearing.inner_speed": speed}
+    found = solve_bearing(safe.case.replace(at), workers=1).summary()["bearing"]["lambda_ratio"]
+    assert found == pytest.approx(3.0, abs=0.02)
+    assert f"Below about {rpm_text(speed)} rpm surfaces may touch." in safe.verdict.text
+
+
+@pytest.fixture(scope="module")
+def sheared():
+    oil = {"lubricant__temperature__thermal_conductivity": "0.14 W/m/K"}
+    return {
+        rpm: solved(
+            bearing__film_factor="inlet-shear", bearing__temperature="20 degC",
+            discharge__dielectric_strength="2.24 V/um", bearing__inner_speed=f"{rpm} rpm", **oil,
+        )
+        for rpm in (9000, 36000)
+    }  # fmt: skip
+
+
+def test_a_margin_that_falls_at_high_speed_has_two_critical_speeds(sheared):
+    """Inlet shear heating: the margin is below 1 on both sides of a band, from whichever speed one looks."""
+    for rpm, word in ((9000, "likely"), (36000, "expected")):
+        result = sheared[rpm]
+        speeds = result.margin_analysis.speeds
+        for at in (speeds.critical, speeds.upper):
+            assert margin_at(result, **{"bearing.inner_speed": at}) == pytest.approx(1.0, abs=1e-2)
+        assert speeds.critical < speeds.upper
+        ends = rpm_text(speeds.critical), rpm_text(speeds.upper)
+        text = f"Below about {ends[0]} rpm and above about {ends[1]} rpm breakdown is {word}."
+        assert text in result.verdict.text
+        assert result.margin_analysis.summary()["upper_critical_speed"] == speeds.upper
+    inside = (speeds.critical * speeds.upper) ** 0.5
+    assert margin_at(sheared[9000], **{"bearing.inner_speed": inside}) > 1.0
+    own = sheared[9000].margin_analysis
+    assert own.critical_speed == pytest.approx(speeds.critical, rel=0.01)
+
+
+@pytest.mark.parametrize(
+    ("crossings", "above", "broken", "critical", "upper"),
+    [
+        ((), True, (), None, None),
+        ((), False, ((None, None),), None, None),
+        ((2.0,), True, ((None, 2.0),), 2.0, None),
+        ((2.0,), False, ((2.0, None),), None, 2.0),
+        ((2.0, 5.0), True, ((2.0, 5.0),), 5.0, None),
+        ((2.0, 5.0), False, ((None, 2.0), (5.0, None)), 2.0, 5.0),
+    ],
+)
+def test_intervals_with_a_margin_below_one(crossings, above, broken, critical, upper):
+    speeds = SpeedRange(1.0, 10.0, crossings, None, None, above, 0.5)
+    assert (speeds.broken, speeds.critical, speeds.upper) == (broken, critical, upper)
+
+
+def test_a_whole_number_has_a_range():
+    """Nine balls, or eight to ten: all effects and speeds are still computed."""
+    result = solved(ranges={"bearing.elements": [8, 10]})
+    analysis = result.margin_analysis
+    assert analysis.left_out == ()
+    found = effect(result, "bearing.elements")
+    assert (found.low_input, found.high_input) == (8, 10)
+    fewer = margin_at(solved(), **{"bearing.elements": 8})
+    assert found.low_margin == pytest.approx(fewer, rel=2e-3)
+    assert analysis.critical_speed is not None
+
+
+def test_the_limits_of_a_class_and_of_a_grade_are_those_of_their_standards():
+    """ISO 5753-1, bore above 24 to 30 mm: C3 is 13 to 28 um. ISO 3448: VG 46 is 41.4 to 50.6 mm^2/s."""
+    oil = {"iso_vg": 46, "viscosity_index": 100, "density_15": "870 kg/m^3"}
+    result = solved(
+        bearing__radial_clearance=None, bearing__clearance_class="C3", bearing__bore="25 mm",
+        lubricant={"base": "paper", "temperature": oil},
+    )  # fmt: skip
+    clearance = effect(result, "bearing.radial_clearance")
+    assert (clearance.low_input, clearance.high_input) == (pytest.approx(13e-6), pytest.approx(28e-6))
+    grade = effect(result, "lubricant.temperature.kinematic_viscosity_40")
+    assert (grade.low_input, grade.high_input) == (pytest.approx(41.4e-6), pytest.approx(50.6e-6))
+    thick = {"lubricant.temperature.kinematic_viscosity_40": 50.6e-6}
+    assert margin_at(result, **thick) == pytest.approx(grade.high_margin, rel=2e-3)
 
 
 def test_surfaces_that_touch_at_low_speed_are_said():
@@ -207,14 +295,6 @@ def test_a_narrow_range_leaves_the_margin():
     analysis, margin = result.margin_analysis, result.breaks()["margin"]
     assert (analysis.low, analysis.high) == (pytest.approx(margin, rel=1e-6), pytest.approx(margin, rel=1e-6))
     assert analysis.low <= margin <= analysis.high
-
-
-def test_the_range_contains_the_margin_of_the_file():
-    """The strength of the file is below its stated range: the margin of the file counts as well."""
-    result = solved(ranges={STRENGTH: ["20 V/um", "30 V/um"]})
-    margin = result.breaks()["margin"]
-    assert result.margin_analysis.low == pytest.approx(margin)
-    assert result.margin_analysis.high == pytest.approx(2.0 * margin)
 
 
 def test_a_range_that_formulas_cannot_follow_is_said(balls):
