@@ -28,8 +28,8 @@ result = ehlectric.solve(case)
 result.plot("film")
 
 # %%
-# The field strength in the film, with its maximum at the constriction enlarged. Grey is below the range of the
-# colours. The figure says how many times its heights are enlarged.
+# The field strength in the film, with its maximum at the constriction enlarged. Grey is below the range of
+# the colours. The figure says how many times its heights are enlarged.
 result.plot("field_strength")
 
 # %%
