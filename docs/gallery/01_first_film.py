@@ -7,11 +7,7 @@ A roller of 14.1 mm reduced radius on steel, 1.57 MN/m, surfaces rolling at 4 m/
 <https://doi.org/10.3390/lubricants10050087>`_.
 """
 
-import matplotlib.pyplot as plt
-
 import ehlectric
-from ehlectric.figures.contact import line as plot
-from ehlectric.figures.contact import line_maps
 
 case = ehlectric.Case.from_dict(
     {
@@ -29,21 +25,17 @@ result = ehlectric.solve(case)
 
 # %%
 # The film. The pressure follows Hertz's except for the spike before the exit, where the film is thinnest.
-plot.pressure_and_film(result, plt.subplots()[1])
+result.plot("film")
 
 # %%
-# The potential is linear across the film. The figure says how many times its heights are
-# enlarged.
-line_maps.potential(result, plt.subplots()[1])
-
-# %%
-# The field strength, with its maximum marked at the constriction. Grey is below the range of the colours:
-line_maps.field_strength(result, plt.subplots()[1])
+# The field strength in the film, with its maximum at the constriction enlarged. Grey is below the range of
+# the colours. The figure says how many times its heights are enlarged.
+result.plot("field_strength")
 
 # %%
 # The field has its maximum at the exit constriction, in a strip some twenty micrometres wide. Its width is of
 # interest for the current density of a discharge.
-plot.field_profiles(result, plt.subplots()[1])
+result.plot("field_profiles")
 
 # %%
 # The key figures, in SI units. ``result.summary()`` holds them all.

@@ -10,7 +10,6 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import ehlectric
-from ehlectric.figures.contact import line as plot
 
 case = ehlectric.Case.from_dict(
     {
@@ -31,7 +30,7 @@ result = ehlectric.solve(case)
 # where the curvature of the walls is largest. Its sign changes there, since the field is stronger on a convex
 # wall and weaker on a concave one. At the thinnest place, marked by the dotted line, the deviation is hardly
 # visible.
-ax = plot.field_deviation(result, plt.subplots()[1])
+ax = result.plot("field_deviation").axes[0]
 b = result.conditions.half_width
 ax.axvline(result.film.minimum_position / b, color="black", ls=":", lw=0.8)
 ax.set_xlim(0.78, 1.02)

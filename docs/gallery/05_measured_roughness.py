@@ -6,10 +6,7 @@ A stylus profile on the lower body, which is at rest while the other surface sli
 waves are removed first; ``ehlectric surface`` shows the same steps without solving.
 """
 
-import matplotlib.pyplot as plt
-
 import ehlectric
-from ehlectric.figures.contact import line as plot
 
 case = ehlectric.Case.from_dict(
     {
@@ -44,16 +41,16 @@ for step in result.rough[0]["steps"]:
 
 # %%
 # The roughness as the film sees it:
-plot.roughness(result, plt.subplots(figsize=(6.3, 2.4))[1])
+result.plot("roughness")
 
 # %%
 # Pressure and film. A ridge a few micrometres wide carries up to three times the Hertz pressure, which
 # presses it nearly flat: the film hardly shows it.
-plot.pressure_and_film(result, plt.subplots()[1])
+result.plot("film")
 
 # %%
 # The field follows the film; it is highest on the peaks of the rough wall.
-plot.field_profiles(result, plt.subplots()[1])
+result.plot("field_profiles")
 
 # %%
 # V12/h_min with the minimum of the *rough* film is within some per cent of the maximum field. With the smooth
@@ -62,7 +59,7 @@ summary = result.summary()
 smooth = result.smooth.minimum_thickness
 voltage = result.field.voltage
 print(
-    f"largest field, solved   {1e-6 * result.field.max_strength:.2f} V/µm, {result.field.max_strength_wall}"
+    f"maximum field, solved   {1e-6 * result.field.max_strength:.2f} V/µm, {result.field.max_strength_wall}"
 )
 print(f"V12/h_min, rough film   {1e-6 * voltage / result.film.minimum_thickness:.2f} V/µm")
 print(f"V12/h_min, smooth film  {1e-6 * voltage / smooth:.2f} V/µm")

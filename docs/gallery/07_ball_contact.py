@@ -6,11 +6,7 @@ A steel ball of 10 mm radius on a steel plane, 20 N, rolling at 2 m/s, potential
 contact whose dry contact is a circle. Film and field are maps over the plane.
 """
 
-import matplotlib.pyplot as plt
-
 import ehlectric
-from ehlectric.figures.contact import cuts as point_cuts
-from ehlectric.figures.contact import point as point_plot
 
 case = ehlectric.Case.from_dict(
     {
@@ -29,31 +25,25 @@ case = ehlectric.Case.from_dict(
 )
 result = ehlectric.solve(case)
 
-
-def axes_of_map():
-    """Axes for a map of a round contact with a colour bar."""
-    return plt.subplots(figsize=(5.8, 4.9), layout="compressed")[1]
-
-
 # %%
 # The film, with lines of equal thickness as in an interferogram. Oil enters from the left. The
 # constriction runs around the exit like a horseshoe, and the film is thinnest in its two side lobes,
 # where oil flows off to the sides.
-point_plot.film_map(result, axes_of_map())
+result.plot("film_map")
 
 # %%
 # The pressure has its ridge along the inner side of the horseshoe.
-point_plot.pressure_map(result, axes_of_map())
+result.plot("pressure_map")
 
 # %%
 # The field follows the film: it is largest in the side lobes, not at the exit as in a line contact.
 # The contour around each lobe is at 95 % of the maximum.
-point_plot.field_map(result, axes_of_map())
+result.plot("field_map")
 
 # %%
 # Pressure, film and field on lines along and across entrainment, through the centre and through the
 # minimum film.
-point_cuts.cuts(result, plt.subplots(3, 2, figsize=(7.0, 6.6))[1].ravel())
+result.plot("cuts")
 
 # %%
 # The key figures. The capacitance over the field range is divided into that of the Hertz ellipse, of the
@@ -62,7 +52,7 @@ film, field = result.film, result.field
 print(f"minimum film      {1e6 * film.minimum_thickness:.3f} µm")
 print(f"central film      {1e6 * film.central_thickness:.3f} µm")
 print(f"estimated error   {100 * film.discretisation_error:.2f} %")
-print(f"largest field     {1e-6 * field.max_strength:.2f} V/µm")
+print(f"maximum field     {1e-6 * field.max_strength:.2f} V/µm")
 print(f"V12/h_min         {1e-6 * field.voltage / film.minimum_thickness:.2f} V/µm")
 print(f"area above 95 %   {1e12 * field.high_field_area:.0f} µm², both lobes")
 print(f"capacitance       {1e12 * field.capacitance:.2f} pF")

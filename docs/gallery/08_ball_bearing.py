@@ -12,7 +12,6 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import ehlectric
-from ehlectric.figures.contact import point as point_plot
 
 case = ehlectric.Case.from_dict(
     {
@@ -92,17 +91,17 @@ for name, formula in result.formulas().items():
 # %%
 # A long ellipse is drawn with entrainment pointing down; its narrow axis is stretched. The film in its
 # middle is that of a line contact, thinnest along the exit.
-point_plot.film_map(result, plt.subplots(figsize=(7.0, 4.2), layout="compressed")[1])
+result.plot("film_map")
 
 # %%
 # The field likewise.
-point_plot.field_map(result, plt.subplots(figsize=(7.0, 4.2), layout="compressed")[1])
+result.plot("field_map")
 
 # %%
 # The key figures. In a bearing this contact is in series with that of the ball on the outer ring, and
 # the balls are in parallel.
 field = result.field
-print(f"largest field     {1e-6 * field.max_strength:.1f} V/µm")
+print(f"maximum field     {1e-6 * field.max_strength:.1f} V/µm")
 print(f"V12/h_min         {1e-6 * field.voltage / film.minimum_thickness:.1f} V/µm")
 print(f"capacitance       {1e12 * field.capacitance:.1f} pF")
 for name, zone in result.zones.items():

@@ -65,7 +65,7 @@ def test_a_bearing_that_breaks_down_says_so_last(ehlectric, bearing_file, tmp_pa
     # Every input whose effect is in the file has a row with its range in printed units.
     assert "dielectric strength, 3.2 to 4.8 V/µm" in done.stdout
     assert "temperature, 60 to 80 °C" in done.stdout
-    assert len(summary["margin"]["effects"]) == 4
+    assert len(summary["margin"]["effects"]) == 6
     again = ehlectric("bearing", bearing_file, "-o", "out", "--no-plots", "--json")
     assert json.loads(again.stdout)["verdict"] == summary["verdict"]
 

@@ -22,6 +22,9 @@ from ehlectric.lubricant.viscosity_index import GRADE_WIDTH
 # is seldom known better in a machine.
 LOAD, TEMPERATURE, CLEARANCE, ANGLE, RELATIVE = 0.2, 10.0, 5e-6, math.radians(5.0), 0.5
 
+# Relative change of the capacitances of the motor, which data sheets do not have and few users measure.
+MOTOR = 0.5
+
 # Input that an ISO viscosity grade stands for.
 _AT_40 = "lubricant.temperature.kinematic_viscosity_40"
 
@@ -79,7 +82,7 @@ class _Change:
 
 
 def effects_of(margins: FormulaMargins, margin: float) -> tuple[tuple[Effect, ...], tuple[str, ...]]:
-    """Effects of strength, temperature, clearance and load, and of all inputs that have a range.
+    """Effects of strength, temperature, clearance, load and motor, and of all inputs that have a range.
 
     Parameters
     ----------
@@ -142,7 +145,7 @@ def _changes(
 
 
 def _standard(case: BearingCase, table: Mapping[str, Any]) -> Iterator[_Change]:
-    """Changes of strength, temperature, clearance or contact angle, and load."""
+    """Changes of strength, temperature, clearance or contact angle, load, and motor."""
     bearing = case.bearing
     for key in _STRENGTHS:
         strength = value_at(table, key)
@@ -170,6 +173,9 @@ def _standard(case: BearingCase, table: Mapping[str, Any]) -> Iterator[_Change]:
         _part(load, LOAD),
         factor_of_load=both,
     )
+    for name in ("winding_rotor", "rotor_frame"):
+        key = f"motor.{name}_capacitance"
+        yield _Change(key, f"{name.replace('_', '-')} capacitance", _part(value_at(table, key), MOTOR))
 
 
 def _clearance(bearing: Bearing) -> tuple[str, tuple[float, float]]:

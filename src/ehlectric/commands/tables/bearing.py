@@ -187,7 +187,7 @@ def _margin(summary: Mapping[str, Any]) -> Iterator[Row]:
         return
     if analysis["low"] is not None:
         yield Row("margin within the stated ranges", _between(analysis["low"], analysis["high"]))
-    yield from _speeds(analysis)
+    yield from _speeds(analysis, broken=margin < 1.0)
     if analysis["effects"] or analysis["left_out"]:
         yield Row("margin if one input changes")
     for effect in analysis["effects"]:
@@ -198,16 +198,18 @@ def _margin(summary: Mapping[str, Any]) -> Iterator[Row]:
         yield Row("not computed", note=text)
 
 
-def _speeds(analysis: Mapping[str, Any]) -> Iterator[Row]:
+def _speeds(analysis: Mapping[str, Any], *, broken: bool) -> Iterator[Row]:
     """Rows of the speeds at which the margin crosses 1, or that none of those computed is one."""
     lowest, highest = analysis["lowest_speed"], analysis["highest_speed"]
     lower, upper = analysis["critical_speed"], analysis.get("upper_critical_speed")
     if lower is not None:
-        yield Row("critical speed", rpm_text(lower), note="rpm, breakdown expected below")
+        yield Row("critical speed", rpm_text(lower), note="rpm, breakdown below")
     if upper is not None:
-        yield Row("upper critical speed", rpm_text(upper), note="rpm, breakdown expected above")
+        yield Row("upper critical speed", rpm_text(upper), note="rpm, breakdown above")
     if lower is None and upper is None and lowest is not None and lowest < highest:
-        yield Row("critical speed", "none", note=f"from {rpm_text(lowest)} to {rpm_text(highest)} rpm")
+        low, high = rpm_text(lowest), rpm_text(highest)
+        beyond = f"above {high}" if broken else f"below {low}"
+        yield Row("critical speed", beyond, note=f"rpm: none from {low} to {high} rpm")
     if analysis["touching_speed"] is not None:
         yield Row("surfaces touch below", rpm_text(analysis["touching_speed"]), note="rpm")
 

@@ -245,7 +245,7 @@ def test_the_load_acts_on_the_film_and_on_the_shaft_voltage(balls):
 
 def test_effects_are_sorted_by_size(balls):
     sizes = [abs(math.log(one.high_margin / one.low_margin)) for one in balls.margin_analysis.effects]
-    assert len(sizes) == 4
+    assert len(sizes) == 6
     assert sizes == sorted(sizes, reverse=True)
     touching = Effect("bearing.temperature", "temperature", 330.0, 350.0, 1.2, 0.0)
     assert touching.size == math.inf
@@ -254,7 +254,8 @@ def test_effects_are_sorted_by_size(balls):
 def test_inputs_of_each_kind_of_bearing(rollers):
     """Rollers and balls have a clearance, angular-contact bearings a contact angle in its place."""
     keys = {one.key for one in rollers.margin_analysis.effects}
-    assert keys == {STRENGTH, TEMPERATURE, "bearing.radial_clearance", "bearing.radial_load"}
+    motor = {f"motor.{name}_capacitance" for name in ("winding_rotor", "rotor_frame")}
+    assert keys == motor | {STRENGTH, TEMPERATURE, "bearing.radial_clearance", "bearing.radial_load"}
     found = effect(solved(**ANGULAR), "bearing.contact_angle")
     assert (math.degrees(found.low_input), math.degrees(found.high_input)) == pytest.approx((20.0, 30.0))
 
@@ -333,3 +334,17 @@ def test_a_stored_bearing_has_the_same_analysis_and_verdict(balls, tmp_path):
     assert stored.margin_analysis == balls.margin_analysis
     assert stored.verdict == balls.verdict
     assert stored.summary() == balls.summary()
+
+
+def test_the_motor_divides_the_voltage(balls):
+    """The shaft voltage is that of the divider, C_wr/(C_wr + C_rf + 2 C_b); the breakdown voltage stays."""
+    motor, own = balls.case.motor, balls.capacitance()
+    effect = next(one for one in balls.margin_analysis.effects if "winding" in one.key)
+    assert (effect.low_input, effect.high_input) == (10e-12, 30e-12)
+
+    def shaft(winding):
+        return winding / (winding + motor.rotor_frame_capacitance + 2.0 * own)
+
+    for winding, margin in ((10e-12, effect.low_margin), (30e-12, effect.high_margin)):
+        expected = balls.margin_analysis.margin * shaft(20e-12) / shaft(winding)
+        assert margin == pytest.approx(expected, rel=2e-3, abs=0.0)

@@ -116,7 +116,7 @@ def test_rollers_by_formula_may_be_40_percent_off():
     near = solve_bearing(rollers.case.replace({"motor.common_mode_voltage": common}), workers=1)
     assert near.verdict.level == "yellow"
     assert "Films by formula may be 40 % off" in near.verdict.text
-    assert any("may be wrong by 40 %" in str(one) for one in near.warnings())
+    assert any("may be wrong by 40 %" in str(one) for one in near.warnings)
 
 
 def test_a_stated_range_across_one_is_yellow(balls):

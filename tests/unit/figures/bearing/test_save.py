@@ -59,7 +59,7 @@ TABLE = {
         "winding_rotor_capacitance": "20 pF",
         "rotor_frame_capacitance": "1 nF",
     },
-    "lubricant": {"base": "paper"},
+    "lubricant": {"base": "paper", "viscosity": "0.041 Pa s"},
     "discharge": {"dielectric_strength": "15 V/um", "conductivity": "1 nS/m"},
 }
 
