@@ -56,6 +56,7 @@ def test_the_tutorial_has_the_output_of_check(tutorial):
     assert words(verdict) in printed
 
 
+@pytest.mark.slow
 def test_the_tutorial_has_the_output_of_check_with_the_thicker_oil(tutorial):
     file = tutorial / "bearing.toml"
     text = file.read_text(encoding="utf-8")

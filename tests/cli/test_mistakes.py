@@ -107,7 +107,7 @@ REFUSED = {
 @pytest.mark.parametrize(("changes", "message"), REFUSED.values(), ids=REFUSED)
 def test_refused_bearings(ehlectric, tmp_path, changes, message):
     (tmp_path / "bearing.toml").write_text(spoiled(BEARING, changes), encoding="utf-8")
-    done = ehlectric("bearing", "bearing.toml", "-o", "out")
+    done = ehlectric("bearing", "bearing.toml", "-o", "out", "--no-plots")
     assert done.returncode == 2
     assert message in done.stderr
     assert done.stderr.count("\n") == 1
@@ -134,7 +134,7 @@ def inputs():
 @pytest.mark.parametrize("changes", ACCEPTED.values(), ids=ACCEPTED)
 def test_units_that_people_print(ehlectric, tmp_path, inputs, changes):
     (tmp_path / "bearing.toml").write_text(spoiled(BEARING, changes), encoding="utf-8")
-    done = ehlectric("bearing", "bearing.toml", "-o", "out")
+    done = ehlectric("bearing", "bearing.toml", "-o", "out", "--no-plots")
     assert done.returncode == 0, done.stderr
     found = json.loads((tmp_path / "out" / "summary.json").read_text())["inputs"]["bearing"]
     assert {key: found[key] for key in inputs} == inputs
@@ -163,7 +163,7 @@ def test_units_that_people_print(ehlectric, tmp_path, inputs, changes):
 )
 def test_what_catalogues_say(ehlectric, tmp_path, changes, viscosity, clearance, warning):
     (tmp_path / "bearing.toml").write_text(spoiled(BEARING, changes), encoding="utf-8")
-    done = ehlectric("bearing", "bearing.toml", "-o", "out")
+    done = ehlectric("bearing", "bearing.toml", "-o", "out", "--no-plots")
     assert done.returncode == 0, done.stderr
     assert warning in " ".join(done.stderr.split())
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
@@ -174,7 +174,7 @@ def test_what_catalogues_say(ehlectric, tmp_path, changes, viscosity, clearance,
 def test_a_bearing_that_is_too_fast(ehlectric, tmp_path):
     """E1 and E20: 3000 rad/s as a string is accepted, and doubted."""
     (tmp_path / "bearing.toml").write_text(spoiled(BEARING, {"3000 rpm": "3000 rad/s"}))
-    done = ehlectric("bearing", "bearing.toml", "-o", "out")
+    done = ehlectric("bearing", "bearing.toml", "-o", "out", "--no-plots")
     assert done.returncode == 0, done.stderr
     assert "2.865e+04 rpm and a pitch diameter of 60 mm: n d_m is 1.72e+06 mm/min" in " ".join(
         done.stderr.split()

@@ -40,7 +40,7 @@ def literals(tree):
 def test_every_code_is_used():
     """A code that no generator gives any more is taken out of the table."""
     used = set().union(*map(literals, syntax_trees()))
-    assert set(CODES) - used == FOREIGN
+    assert set(CODES) - used <= FOREIGN
 
 
 def test_every_generator_gives_a_known_code():

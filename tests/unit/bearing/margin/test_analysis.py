@@ -63,6 +63,7 @@ def test_the_margin_at_the_critical_speed_is_one(request, name):
     assert margin_at(result, **{"bearing.inner_speed": 1.05 * critical}) > 1.0
 
 
+@pytest.mark.slow
 def test_the_critical_speed_does_not_depend_on_the_speed_of_the_file(balls):
     """From below, where the margin is less than 1, it is the same speed."""
     slower = solved(bearing__inner_speed="1000 rpm")
@@ -112,6 +113,7 @@ def test_without_a_crossing_there_is_no_critical_speed():
     assert "The margin is below 1 at all speeds computed, 300 to 12000 rpm." in broken.verdict.text
 
 
+@pytest.mark.slow
 def test_speeds_with_a_partial_film_are_said():
     """Below the speed of a lambda ratio of 3 no sentence reads as safe."""
     safe = solved(discharge__dielectric_strength="300 V/um")
@@ -136,6 +138,7 @@ def sheared():
     return {n: solve_bearing(case.replace({"bearing.inner_speed": f"{n} rpm"}), workers=1) for n in speeds}
 
 
+@pytest.mark.slow
 def test_a_margin_that_falls_at_high_speed_has_two_critical_speeds(sheared):
     """Inlet shear heating: the margin is below 1 on both sides of a band, from whichever speed one looks."""
     for rpm, word in ((9000, "likely"), (36000, "expected")):
@@ -170,6 +173,7 @@ def test_intervals_with_a_margin_below_one(crossings, above, broken, critical, u
     assert (speeds.broken, speeds.critical, speeds.upper) == (broken, critical, upper)
 
 
+@pytest.mark.slow
 def test_a_whole_number_has_a_range():
     """Nine balls, or eight to ten: all effects and speeds are still computed."""
     result = solved(ranges={"bearing.elements": [8, 10]})
@@ -260,6 +264,7 @@ def test_inputs_of_each_kind_of_bearing(rollers):
     assert (math.degrees(found.low_input), math.degrees(found.high_input)) == pytest.approx((20.0, 30.0))
 
 
+@pytest.mark.slow
 def test_a_small_clearance_stays_positive():
     found = effect(solved(bearing__radial_clearance="4 um"), "bearing.radial_clearance")
     assert (found.low_input, found.high_input) == (pytest.approx(2e-6), pytest.approx(6e-6))
@@ -296,6 +301,7 @@ def test_the_range_of_the_margin_takes_all_unfavourable_ends(balls):
     assert (balls.margin_analysis.low, balls.margin_analysis.high) == (None, None)
 
 
+@pytest.mark.slow
 def test_a_narrow_range_leaves_the_margin():
     result = solved(ranges={"motor.common_mode_voltage": [299.9999, 300.0001], STRENGTH: [15e6, 15.000001e6]})
     analysis, margin = result.margin_analysis, result.breaks()["margin"]
