@@ -60,6 +60,7 @@ sphinx_gallery_conf = {
     "filename_pattern": r"/\d+_",
     "within_subsection_order": "FileNameSortKey",
     "reset_modules": ("matplotlib", "gallery_style.apply"),
+    "image_scrapers": ("matplotlib", "gallery_style.last_figure"),
     "image_srcset": ["2x"],
     "remove_config_comments": True,
     "capture_repr": (),  # what is printed is shown, and no value besides

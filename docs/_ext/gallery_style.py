@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 from cycler import cycler
@@ -27,4 +28,25 @@ def apply(gallery_conf: dict[str, Any], name: str) -> None:  # noqa: ARG001
             "legend.frameon": False,
             "lines.linewidth": 1.2,
         }
+    )
+
+
+def last_figure(block: object, block_vars: dict[str, Any], gallery_conf: dict[str, Any]) -> str:  # noqa: ARG001
+    """Save the figure that is the value of the last line of a block, which a notebook would show.
+
+    The figures of results do not belong to pyplot, where the gallery looks for figures.
+    """
+    from matplotlib.figure import Figure
+    from sphinx_gallery.scrapers import figure_rst
+
+    figure = block_vars["example_globals"].get("___")
+    if not isinstance(figure, Figure):
+        return ""
+    block_vars["example_globals"]["___"] = None
+    path = Path(next(block_vars["image_path_iterator"]))
+    sharp = path.with_name(f"{path.stem}_2_00x{path.suffix}")
+    for name, dots in ((path, 110.0), (sharp, 220.0)):
+        figure.savefig(name, dpi=dots)
+    return str(
+        figure_rst([str(path)], gallery_conf["src_dir"], srcsetpaths=[{0: str(path), 2.0: str(sharp)}])
     )

@@ -21,14 +21,14 @@ from ehlectric.bearing.solution import (
     lubrication,
 )
 from ehlectric.cases import library
-from ehlectric.cases.bearing import ROLLERS, Bearing, BearingLubricant
+from ehlectric.cases.bearing import ROLLERS, Bearing, BearingLubricant, OilTemperature
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.library.clearance import clearance_range
 from ehlectric.cases.lubricant import Lubricant
 from ehlectric.cases.units import rpm
 from ehlectric.discharge.verdict import breakdown_warning
 from ehlectric.errors import ResultWarning
-from ehlectric.lubricant.viscosity_index import GRADE_WIDTH
+from ehlectric.lubricant.viscosity_index import GRADE_WIDTH, LEAST_AT_100, viscosity_index
 
 # Speed factor n d_m, rotational speed times pitch diameter, above which a bearing needs a special design
 # [mm/min]. Catalogues state limiting speeds near half of it to all of it for oil lubrication.
@@ -161,8 +161,17 @@ def input_warnings(case: BearingCase, viscosity: float) -> Iterator[ResultWarnin
         low, high = (1e6 * oil.at_40() * (1.0 + part) for part in (-GRADE_WIDTH, GRADE_WIDTH))
         yield ResultWarning(
             "viscosity-grade",
-            f"ISO VG {oil.iso_vg} is {low:.4g} to {high:.4g} mm²/s at 40 °C; computed with the middle",
+            f"ISO VG {oil.iso_vg} is {low:.4g} to {high:.4g} mm²/s at 40 °C; computed with the middle"
+            f"{_index_of(oil)}",
         )
+
+
+def _index_of(oil: OilTemperature) -> str:
+    """Words on the viscosity index of a grade with a given viscosity at 100 degC, which may be another oil's."""
+    if oil.kinematic_viscosity_100 is None or 1e6 * oil.at_100() < LEAST_AT_100:
+        return ""
+    given = f"{1e6 * oil.kinematic_viscosity_100:.4g} mm²/s at 100 °C"
+    return f"; with {given} its viscosity index is {viscosity_index(oil.at_40(), oil.at_100()):.0f}"
 
 
 def _static_rating(bearing: Bearing) -> float:

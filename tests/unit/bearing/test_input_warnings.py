@@ -73,3 +73,14 @@ def test_a_load_in_kilonewtons_without_its_unit_is_doubted():
     assert "load-low" not in told(bearing__radial_load="17 N", **alone)
     text = told(bearing__radial_load=1.8, **alone)["load-low"]
     assert "the load of 1.8 N is below a thousandth of the static load rating, about 1.7e+04 N" in text
+
+
+def test_a_grade_beside_the_viscosity_of_another_oil_says_the_index():
+    """ISO VG 32 with the 6.8 mm²/s at 100 °C of a VG 46. By hand, ASTM D2270 with H = 46.41 mm²/s gives
+    N = lg(46.41/32)/lg(6.8) = 0.1940 and (10^N - 1)/0.00715 + 100 = 178.8."""
+    assert "its viscosity index is 179" in told(**GRADE)["viscosity-grade"]
+    with_index = GRADE | {
+        "lubricant__temperature__kinematic_viscosity_100": None,
+        "lubricant__temperature__viscosity_index": 100,
+    }
+    assert told(**with_index)["viscosity-grade"].endswith("computed with the middle")
