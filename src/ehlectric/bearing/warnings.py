@@ -167,7 +167,7 @@ def input_warnings(case: BearingCase, viscosity: float) -> Iterator[ResultWarnin
 
 
 def _index_of(oil: OilTemperature) -> str:
-    """Words on the viscosity index of a grade with a given viscosity at 100 degC, which may be another oil's."""
+    """Viscosity index of a grade with a given viscosity at 100 degC, in words; empty without one."""
     if oil.kinematic_viscosity_100 is None or 1e6 * oil.at_100() < LEAST_AT_100:
         return ""
     given = f"{1e6 * oil.kinematic_viscosity_100:.4g} mm²/s at 100 °C"
