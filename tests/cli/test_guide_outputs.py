@@ -41,6 +41,7 @@ def tutorial(tmp_path):
     return tmp_path
 
 
+@pytest.mark.slow
 def test_the_bearing_page_has_the_output_of_its_command(bearing_output):
     verdict, totals, contacts = blocks("bearing.md", "text")
     assert words(verdict) in bearing_output

@@ -143,6 +143,7 @@ def test_results_given_to_run_are_told_to_be_drawn(ehlectric, files):
     )
 
 
+@pytest.mark.slow
 def test_a_bearing_is_checked_by_formula(ehlectric, files):
     """E9: the numbers of the check are those of the run by formula, and the table says what they are."""
     checked = ehlectric("check", "bearing.toml")
@@ -286,6 +287,7 @@ def test_two_cuts_of_a_sweep_have_two_names(ehlectric, files):
     assert drawn == {f"{stem}=0.5GPa.svg", f"{stem}=1GPa.svg"}
 
 
+@pytest.mark.slow
 def test_two_cuts_over_the_speed_of_a_bearing_have_two_names(ehlectric, files):
     """E19: its figures over speed too."""
     text = 'case = "bearing.toml"\n[vary]\nbearing.inner_speed = ["1000 rpm", "6000 rpm"]\n'
@@ -314,6 +316,7 @@ def test_kinds_of_warnings_of_a_sweep_are_counted(ehlectric, files):
     assert counted[0].startswith("warning: 1 of 2 solved points have the warning partial-film: ")
 
 
+@pytest.mark.slow
 def test_a_folder_is_drawn_whatever_it_is_of(ehlectric, files):
     """A contact, and a sweep with its lines over the key that it varies."""
     assert ehlectric("run", "case.toml", "-o", "out", "--no-plots", "-q").returncode == 0

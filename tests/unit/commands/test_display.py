@@ -109,6 +109,7 @@ def test_a_verdict_is_shown():
     assert "#d55e00" in html
 
 
+@pytest.mark.slow
 def test_the_line_of_a_bearing_is_the_same_before_and_after_its_verdict_is_known(results):
     """The verdict solves bearings at other inputs, for which a line of text does not wait."""
     result = replace(results["bearing"])

@@ -96,6 +96,7 @@ def test_the_roughness_is_among_the_figures_of_a_rough_contact():
     assert "Rq" in figure(result, "roughness.png").axes[0].get_legend().get_texts()[0].get_text()
 
 
+@pytest.mark.slow
 def test_figures_of_a_bearing(bearing, tmp_path):
     every = (*names.BEARING_FIGURE_FILES, *names.SPEED_FIGURE_FILES)
     assert [f"{name}.png" for name in figure_names(bearing)] == list(every)

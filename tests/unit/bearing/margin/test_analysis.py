@@ -72,6 +72,7 @@ def test_the_critical_speed_does_not_depend_on_the_speed_of_the_file(balls):
     assert other == pytest.approx(own, rel=5e-3)
 
 
+@pytest.mark.slow
 def test_films_are_scaled_to_those_of_the_solution(balls):
     """Solved films that are 20 % thinner have a critical speed that is higher by about 0.8^(-1/0.67)."""
     states = [
@@ -96,6 +97,7 @@ def test_films_are_scaled_to_those_of_the_solution(balls):
     assert 0.8 ** (-1.0 / 0.67) < ratio < 0.8 ** (-1.0 / 0.5)
 
 
+@pytest.mark.slow
 def test_without_a_crossing_there_is_no_critical_speed():
     """Far above and far below: 300 V/um is beyond any oil, and 1 V/um is less than a gas withstands."""
     safe, broken = (solved(discharge__dielectric_strength=f"{e} V/um") for e in (300, 1))
@@ -186,6 +188,7 @@ def test_a_whole_number_has_a_range():
     assert analysis.critical_speed is not None
 
 
+@pytest.mark.slow
 def test_the_limits_of_a_class_and_of_a_grade_are_those_of_their_standards():
     """ISO 5753-1, bore above 24 to 30 mm: C3 is 13 to 28 um. ISO 3448: VG 46 is 41.4 to 50.6 mm^2/s."""
     oil = {"iso_vg": 46, "viscosity_index": 100, "density_15": "870 kg/m^3"}
@@ -201,6 +204,7 @@ def test_the_limits_of_a_class_and_of_a_grade_are_those_of_their_standards():
     assert margin_at(result, **thick) == pytest.approx(grade.high_margin, rel=2e-3)
 
 
+@pytest.mark.slow
 def test_surfaces_that_touch_at_low_speed_are_said():
     """At the touching speed lambda is 1; just above it the margin is that of a film of one roughness."""
     rough = solved(bearing__composite_rq="0.1 um", discharge__dielectric_strength="100 V/um")
@@ -278,6 +282,7 @@ def test_a_temperature_without_effect_is_said():
     assert analysis.critical_speed is not None
 
 
+@pytest.mark.slow
 def test_a_strength_over_temperature_counts_and_its_ends_are_said():
     """At 10 K more the table ends: this effect has no result, and that is said."""
     table = {"temperature": ["20 degC", "75 degC"], "strength": ["20 V/um", "14.5 V/um"]}
@@ -290,6 +295,7 @@ def test_a_strength_over_temperature_counts_and_its_ends_are_said():
     assert "table of dielectric strength over temperature is an assumption" in result.verdict.text
 
 
+@pytest.mark.slow
 def test_the_range_of_the_margin_takes_all_unfavourable_ends(balls):
     ranges = {STRENGTH: ["10 V/um", "20 V/um"], TEMPERATURE: ["60 degC", "80 degC"]}
     analysis = solved(ranges=ranges).margin_analysis
@@ -309,6 +315,7 @@ def test_a_narrow_range_leaves_the_margin():
     assert analysis.low <= margin <= analysis.high
 
 
+@pytest.mark.slow
 def test_a_range_that_formulas_cannot_follow_is_said(balls):
     """The shape of a Weibull law has no part in a formula; a rough end of a range leaves no film at all."""
     margins = FormulaMargins.of(balls.solution)

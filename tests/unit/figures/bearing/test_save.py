@@ -503,6 +503,7 @@ def test_a_critical_speed_of_the_summary_is_that_of_the_figure(points):
     assert mark.get_xdata()[0] == pytest.approx(1234.0)
 
 
+@pytest.mark.slow
 def test_the_critical_speed_of_table_title_and_picture_is_one():
     """The table's is found by solving at more speeds; the drawn curves cross within a per cent of it."""
     motor = {
