@@ -124,7 +124,7 @@ def test_points_that_failed_are_counted_by_their_reason(ehlectric, tmp_path, swe
         counts[row["status"]] += 1
     # 13 half-widths take 105 nodes at least: four points have 65.
     assert counts["failed"] == 4
-    assert "failed 4 4 grid.nodes: got 65 over 13 half-widths; expected at least 105" in " ".join(
+    assert "4 points grid.nodes: got 65 over 13 half-widths; expected at least 105" in " ".join(
         done.stdout.split()
     )
 
