@@ -251,12 +251,12 @@ def test_a_second_sweep_in_the_same_folder_is_refused(ehlectric, tmp_path, swept
 @pytest.mark.slow
 def test_no_row_is_lost_or_doubled_by_kills(ehlectric, tmp_path, swept):
     """Ten times kill -9 at a random moment: rows only become more, and the workers go too."""
-    swept(LONG.replace("count = 10", "count = 20"))
+    swept(LONG.replace("count = 10", "count = 60"))
     moment, rows = random.Random(5), {}
     for turn in range(10):
         # Half of them while points are saved, half while all is being made ready.
         process = begun(tmp_path, "--workers", "2", points=len(rows) + 1 if turn % 2 else len(rows))
-        time.sleep(moment.uniform(0.0, 0.4))
+        time.sleep(moment.uniform(0.0, 0.2))
         workers = children(process.pid)
         before = saved(tmp_path / "out")
         process.kill()
@@ -265,14 +265,14 @@ def test_no_row_is_lost_or_doubled_by_kills(ehlectric, tmp_path, swept):
         assert rows.items() <= before.items() <= after.items()
         assert gone(workers)
         rows = after
-    assert 5 <= len(rows) < 240
+    assert 5 <= len(rows) < 720
     done = ehlectric("sweep", "sweep.toml", "-o", "out")
     assert done.returncode == 0, done.stderr
     final = saved(tmp_path / "out")
     assert rows.items() <= final.items()
-    assert len(final) == 240
-    assert [point.status for point in read_sweep(tmp_path / "out").points] == ["solved"] * 240
-    assert [row["number"] for row in rows_of(tmp_path / "out")] == [str(k) for k in range(240)]
+    assert len(final) == 720
+    assert [point.status for point in read_sweep(tmp_path / "out").points] == ["solved"] * 720
+    assert [row["number"] for row in rows_of(tmp_path / "out")] == [str(k) for k in range(720)]
 
 
 @pytest.mark.slow
