@@ -19,6 +19,12 @@ def test_import_loads_nothing_heavy():
     assert not loaded & {"matplotlib", "xarray", "pint", "numpy", "scipy", "pydantic"}
 
 
+def test_the_command_starts_without_what_it_may_not_need():
+    loaded = modules_after("import ehlectric.commands.app")
+    assert "typer" in loaded
+    assert not loaded & {"matplotlib", "xarray", "pint", "numpy", "scipy", "pydantic", "h5py"}
+
+
 def test_solving_needs_no_figures_or_files():
     loaded = modules_after("import ehlectric; ehlectric.solve; ehlectric.Case")
     assert "scipy" in loaded

@@ -19,6 +19,7 @@ from ehlectric.errors import InputError, shown
 from ehlectric.lubricant.temperature import Walther, density
 from ehlectric.lubricant.viscosity import VISCOSITY_LAWS
 from ehlectric.lubricant.viscosity_index import grade_middle, viscosity_at_100
+from ehlectric.runtime.values import is_number
 
 ROLLERS = "cylindrical roller"
 ANGULAR = "angular-contact ball"
@@ -57,7 +58,7 @@ def _material(name: str) -> str:
 def _film_factor(value: Any) -> float | str:
     if value in ("none", "inlet-shear"):
         return str(value)
-    if isinstance(value, bool) or not isinstance(value, int | float) or not 0.0 < value <= 1.0:
+    if not is_number(value) or not 0.0 < value <= 1.0:
         raise InputError(got=shown(value), takes="'none', 'inlet-shear', or a number above 0 and at most 1")
     return float(value)
 

@@ -22,6 +22,7 @@ from ehlectric.cases.table import Table, read_toml
 from ehlectric.cases.units import ROTATION, rpm
 from ehlectric.errors import InputError
 from ehlectric.runtime.display import Tabled, headline
+from ehlectric.runtime.values import is_number
 
 # Alternative keys, by table: a key that changes replaces its alternatives.
 _ALTERNATIVES: dict[str, Groups] = {
@@ -47,6 +48,7 @@ _DIMENSIONS = (
     "profile",
     "shoulder_height",
 )
+
 # Relative error by which a value that is rounded may lie outside of its range.
 _ROUNDING = 1e-9
 
@@ -142,7 +144,7 @@ class BearingCase(Tabled, Table):
         table = self.to_dict() if self.ranges else {}
         for one in self.ranges or ():
             value, key = value_at(table, one.key), f"ranges.{one.key}"
-            if not _is_number(value):
+            if not is_number(value):
                 raise InputError(key, got="a range", takes=f"a number for {one.key} in the file too")
             if not one.low - _ROUNDING * abs(one.low) <= value <= one.high + _ROUNDING * abs(one.high):
                 raise InputError(
@@ -295,7 +297,7 @@ class BearingCase(Tabled, Table):
             table["ranges"] = {
                 key: ends
                 for key, ends in table["ranges"].items()
-                if key not in changes and _is_number(value_at(table, key))
+                if key not in changes and is_number(value_at(table, key))
             }
         if table["bearing"].get("clearance_class") is not None and "bearing.radial_clearance" not in changes:
             # It follows from the class, and anew where the class or the bore changes.
@@ -316,8 +318,3 @@ def _drop_dimensions(bearing: dict[str, Any]) -> None:
         bearing.pop("radial_clearance", None)
     for key in _DIMENSIONS:
         bearing.pop(key, None)
-
-
-def _is_number(value: Any) -> bool:
-    """Whether the value of an input is a number, and not missing, a choice, a list or a table."""
-    return isinstance(value, int | float) and not isinstance(value, bool)

@@ -11,6 +11,7 @@ from pydantic.fields import FieldInfo
 
 from ehlectric.cases.table import Table, nearest_key, table_of
 from ehlectric.errors import InputError, shown
+from ehlectric.runtime.values import is_number
 
 
 @dataclass(frozen=True)
@@ -88,7 +89,7 @@ def _range(key: str, value: Any, model: type[Table]) -> InputRange:
             parsed = getattr(one.from_dict({leaf: end}), leaf)
         except InputError as error:
             raise error.under(table) if table else error from None
-        if isinstance(parsed, bool) or not isinstance(parsed, int | float):
+        if not is_number(parsed):
             raise InputError(key, got=shown(end), takes="numbers: only they have a range")
         # A whole number stays one: no other is allowed where it counts something.
         ends.append(parsed)

@@ -17,6 +17,7 @@ from ehlectric.figures.names import (
     map_files,
 )
 from ehlectric.runtime.files import prepare
+from ehlectric.runtime.values import is_number
 
 if TYPE_CHECKING:
     from ehlectric.sweep.results import SweepResults
@@ -133,4 +134,4 @@ def _axes(results: SweepResults, home: Path) -> tuple[str, str | None]:
 
 
 def _numeric(values: Sequence[Any]) -> bool:
-    return all(isinstance(value, int | float) and not isinstance(value, bool) for value in values)
+    return all(map(is_number, values))

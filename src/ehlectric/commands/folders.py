@@ -10,8 +10,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from ehlectric.cases.case import Case
 from ehlectric.errors import InputError
 from ehlectric.figures.names import (
     ALL_FIGURES,
@@ -23,6 +23,9 @@ from ehlectric.figures.names import (
     in_formats,
 )
 from ehlectric.runtime.files import refuse_unreadable
+
+if TYPE_CHECKING:
+    from ehlectric.cases.case import Case
 
 SENSITIVITY = "sensitivity.json"
 

@@ -8,7 +8,6 @@ from typing import Annotated
 
 import typer
 
-from ehlectric.commands.folders import SENSITIVITY
 from ehlectric.commands.options import Formats, Quiet, Style, figure_options, files_ending
 from ehlectric.commands.terminal import echo_files, print_rows, print_table, user_errors, warn
 from ehlectric.errors import InputError, shown
@@ -128,6 +127,7 @@ def sensitivity(
     with user_errors():
         look = figure_options(formats, style)
 
+        from ehlectric.commands.folders import SENSITIVITY
         from ehlectric.figures.names import SENSITIVITY_FIGURE, in_formats
         from ehlectric.figures.style import style as styled
         from ehlectric.figures.sweep.sensitivity import save_sensitivity

@@ -14,7 +14,6 @@ import typer
 from ehlectric.commands.options import Quiet, one_of
 from ehlectric.commands.terminal import echo_files, user_errors
 from ehlectric.errors import InputError, shown
-from ehlectric.runtime.files import prepare, refuse_special, whole
 
 _HERE = Path(__file__).parent
 
@@ -92,6 +91,8 @@ def init(
         if geometry and geometry not in _GEOMETRIES:
             takes = f"{' or '.join(_GEOMETRIES)}; other kinds are written with --kind"
             raise InputError("--geometry", got=shown(geometry), takes=takes)
+        from ehlectric.runtime.files import prepare, refuse_special
+
         source = template(geometry or kind)
         refuse_special(path)
         if path.exists() and not force:
@@ -137,6 +138,9 @@ def examples(
         wanted = [_known(name) for name in names] if names else _names()
         files = list(dict.fromkeys(file for name in wanted for file in _needed(f"{name}.toml")))
         target = output or Path()
+
+        from ehlectric.runtime.files import prepare, refuse_special
+
         for file in files:
             refuse_special(target / file)
             if (target / file).exists() and not force:
@@ -186,6 +190,8 @@ def _needed(file: str) -> Iterator[str]:
 
 
 def _copy(source: Path, target: Path) -> None:
+    from ehlectric.runtime.files import whole
+
     with whole(target) as beside:
         shutil.copyfile(source, beside)
 

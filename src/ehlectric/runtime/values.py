@@ -1,11 +1,11 @@
-"""Equality and short representation of results: frozen dataclasses whose attributes are arrays."""
+"""Values of inputs and results: what is a number, and equality and representation of objects with arrays."""
 
 from __future__ import annotations
 
 import textwrap
 from collections.abc import Iterator, Mapping
 from dataclasses import fields, is_dataclass
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeGuard
 
 import numpy as np
 
@@ -97,3 +97,14 @@ def _same_arrays(one: np.ndarray[Any, Any], other: np.ndarray[Any, Any]) -> bool
     if one.dtype != other.dtype or one.shape != other.shape:
         return False
     return np.array_equal(one, other, equal_nan=one.dtype.kind in "fc")
+
+
+def is_number(value: object) -> TypeGuard[int | float]:
+    """Whether a value is a number of Python; a bool is none, though Python counts it as an int.
+
+    Examples
+    --------
+    >>> [is_number(value) for value in (1, 0.5, True, "1", None)]
+    [True, True, False, False, False]
+    """
+    return isinstance(value, int | float) and not isinstance(value, bool)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ehlectric.cases.input_keys import kind_of
+from ehlectric.runtime.values import is_number
 from ehlectric.sweep.labels import label_of
 from ehlectric.sweep.points import SweepPoints, as_number, flat
 from ehlectric.version import __version__
@@ -89,11 +90,7 @@ def numbers_of(results: SweepPoints) -> dict[str, list[float | None]]:
 
 def _numbers(summary: Mapping[str, Any]) -> dict[str, float]:
     """Numbers of a summary by dotted key."""
-    return {
-        key: value
-        for key, value in flat(summary).items()
-        if isinstance(value, int | float) and not isinstance(value, bool)
-    }
+    return {key: value for key, value in flat(summary).items() if is_number(value)}
 
 
 def dataset_of(results: SweepPoints) -> xr.Dataset:
@@ -143,7 +140,7 @@ def dataset_of(results: SweepPoints) -> xr.Dataset:
             "Conventions": "CF-1.11",
             "title": results.title or results.case.title or "Sweep of a lubricated contact",
             "source": f"ehlectric {__version__}",
-            "comment": "SI units; not a number where a point is not solved; warnings say what not to use",
+            "comment": "SI units; NaN where a point is not solved; see warnings before a value is used",
             "case": results.case.to_toml(),
             "design": results.design,
             "ranges": json.dumps({key: vars(over) for key, over in results.ranges.items()}),
@@ -155,7 +152,7 @@ def dataset_of(results: SweepPoints) -> xr.Dataset:
 
 def _array(values: list[Any]) -> Any:
     """Values as an array of numbers, or of texts if some are not numbers; lists become JSON texts."""
-    numeric = [isinstance(value, int | float) and not isinstance(value, bool) for value in values]
+    numeric = [is_number(value) for value in values]
     if all(numeric):
         return np.array(values)
     return np.array([cell(value) for value in values], dtype=object)

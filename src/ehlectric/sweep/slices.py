@@ -15,6 +15,7 @@ from ehlectric.cases.input_keys import kind_of
 from ehlectric.cases.quantity import Count, Quantity
 from ehlectric.cases.table import nearest
 from ehlectric.errors import InputError, shown
+from ehlectric.runtime.values import is_number
 from ehlectric.sweep.breakdown_keys import Breakdown, breakdown_of
 from ehlectric.sweep.results import Point, Status, SweepResults, as_number, flat
 
@@ -84,7 +85,7 @@ class Slice:
     @property
     def numeric(self) -> bool:
         """Whether ``y`` is a number at all points."""
-        return self.y is not None and all(map(_is_number, self.across))
+        return self.y is not None and all(map(is_number, self.across))
 
     def check_numeric(self) -> None:
         """Check that the values of the second key are numbers, as a map needs.
@@ -177,7 +178,7 @@ def take(
             )
     if x == y:
         raise InputError("y", got=f"{shown(y)}, which is x;", takes="another key that varies")
-    if not all(_is_number(point.inputs.get(x)) for point in results.points):
+    if not all(is_number(point.inputs.get(x)) for point in results.points):
         raise InputError("x", got=f"{shown(x)}, whose values are strings or lists", takes="a key of numbers")
     values = numbers_of(results, value)
     fixed = {key: _fixed(results, key, text) for key, text in (at or {}).items()}
@@ -241,7 +242,7 @@ def known_values(results: SweepResults) -> list[str]:
     for point in results.points:
         if point.solved:
             table = flat(point.summary or {})
-            keys |= dict.fromkeys(key for key, value in table.items() if _is_number(value))
+            keys |= dict.fromkeys(key for key, value in table.items() if is_number(value))
     return list(keys)
 
 
@@ -295,13 +296,9 @@ def _lacking(results: SweepResults, value: str, known: Sequence[str]) -> str:
     )
 
 
-def _is_number(value: Any) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool)
-
-
 def _hashable(value: Any) -> Any:
     """Value as a float if it is a number, else as text."""
-    return float(value) if _is_number(value) else str(value)
+    return float(value) if is_number(value) else str(value)
 
 
 def _axis(results: SweepResults, key: str) -> list[Any]:
@@ -323,7 +320,7 @@ def _fixed(results: SweepResults, key: str, text: str) -> Any:
     if results.design == "sobol":
         raise InputError("at", got=f"{key}, of which a sobol design has no two points alike;", takes="a grid")
     axis = _axis(results, key)
-    if not all(map(_is_number, axis)):
+    if not all(map(is_number, axis)):
         if text not in axis:
             raise InputError("at", got=f"{key}={text}", takes=f"one of {_listed(axis)}")
         return text
@@ -362,5 +359,5 @@ def _si(key: str) -> str:
 
 def _listed(values: Any) -> str:
     """Text that lists the first of some names or values."""
-    texts = [f"{value:g}" if _is_number(value) else str(value) for value in values]
+    texts = [f"{value:g}" if is_number(value) else str(value) for value in values]
     return ", ".join(texts[:_MOST_LISTED]) + (" ..." if len(texts) > _MOST_LISTED else "")

@@ -22,6 +22,7 @@ from ehlectric.discharge.verdict import (
     ratio_text,
     strength_interval,
 )
+from ehlectric.runtime.values import is_number
 from ehlectric.sweep.labels import Scale, label_of
 from ehlectric.sweep.points import SweepPoints
 
@@ -152,7 +153,7 @@ def _crossings(results: SweepPoints, margins: Array) -> list[str]:
         return []
     key = results.varied[0]
     inputs = [point.inputs[key] for point in results.points]
-    if not all(isinstance(value, int | float) and not isinstance(value, bool) for value in inputs):
+    if not all(map(is_number, inputs)):
         return []
     rows = sorted(
         (float(value), float(margin))

@@ -12,6 +12,7 @@ from pydantic_core import CoreSchema, core_schema
 from ehlectric.cases.quantity import scalar
 from ehlectric.errors import InputError, shown
 from ehlectric.lubricant.viscosity_index import GRADES
+from ehlectric.runtime.values import is_number
 
 _WRITTEN = re.compile(r"\s*(?:ISO[ -]?)?(?:VG[ -]?)?(\d{1,4})\s*", re.IGNORECASE)
 
@@ -47,6 +48,6 @@ class Grade:
         item = scalar(entry)
         match = _WRITTEN.fullmatch(item) if isinstance(item, str) else None
         grade = int(match[1]) if match else item
-        if isinstance(grade, bool) or not isinstance(grade, int | float) or grade not in GRADES:
+        if not is_number(grade) or grade not in GRADES:
             raise InputError(got=shown(entry), takes=self.takes)
         return int(grade)

@@ -19,6 +19,7 @@ from ehlectric.commands.tables.sweep import sweep_rows
 from ehlectric.contact.results import ContactResult
 from ehlectric.errors import ResultWarning
 from ehlectric.motion.result import MotionResult
+from ehlectric.runtime.values import is_number
 from ehlectric.sweep.inputs import Sweep
 from ehlectric.sweep.labels import CELSIUS, Scale, label_of, scale_for
 from ehlectric.sweep.points import Range
@@ -97,7 +98,7 @@ def input_rows(case: Case | BearingCase) -> Iterator[Row]:
 
 def _input(case: Case | BearingCase, key: str, value: Any) -> Row:
     """Row of an input: its name, and its value in a unit that suits it."""
-    if isinstance(value, bool) or not isinstance(value, int | float):
+    if not is_number(value):
         return Row(key, value if isinstance(value, str) else json.dumps(value))
     scale = _scale(key, case, [float(value)])
     return Row(key, f"{scale.of(value):.6g}", scale.unit)
