@@ -1,0 +1,1 @@
+"""An attack on the commands: mutated inputs, and kills at random moments."""

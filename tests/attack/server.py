@@ -1,0 +1,161 @@
+"""Process that runs commands of ehlectric in children of its own, and says what each of them did.
+
+The process has all of ehlectric loaded, so that a command starts in milliseconds: each runs in a fork. It reads
+one request a line from standard input, and answers in one line of JSON.
+"""
+
+from __future__ import annotations
+
+import atexit
+import json
+import os
+import resource
+import select
+import signal
+import sys
+import time
+import traceback
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+# A child may not take more address space than this [bytes]; the bound that is judged is lower.
+ADDRESS_SPACE = 16 << 30
+
+# Events of the interpreter's audit that change files, and which of their arguments are paths.
+_CHANGING = {
+    "os.mkdir": (0,),
+    "os.remove": (0,),
+    "os.rename": (0, 1),
+    "os.rmdir": (0,),
+    "os.symlink": (1,),
+    "os.link": (1,),
+    "os.truncate": (0,),
+    "os.chmod": (0,),
+    "shutil.rmtree": (0,),
+}
+_WRITING = os.O_WRONLY | os.O_RDWR | os.O_CREAT | os.O_TRUNC | os.O_APPEND
+
+
+def _preload() -> None:
+    """Import what commands import, so that forks have it."""
+    import matplotlib
+
+    matplotlib.use("agg")
+    import h5py  # noqa: F401
+    import matplotlib.animation
+    import matplotlib.backends.backend_agg
+    import matplotlib.pyplot  # noqa: F401
+    import PIL.Image
+    import pint  # noqa: F401
+    import xarray  # noqa: F401
+
+    import ehlectric.commands.app
+    import ehlectric.commands.runs
+    import ehlectric.figures.results
+    import ehlectric.paper.reproduce
+    import ehlectric.sweep.run
+
+    PIL.Image.init()
+    for module in list(ehlectric.commands.app.__dict__.values()):
+        getattr(module, "__name__", None)
+    from ehlectric.cases.case import Case
+
+    Case.from_toml(Path(__file__).parents[2] / "examples" / "line_contact.toml")
+
+
+def _watch(changed: Callable[[str], None]) -> None:
+    """Report the paths of files that the process opens for writing, makes, moves or removes."""
+
+    def look(event: str, arguments: tuple[Any, ...]) -> None:
+        if event == "open":
+            path, _, flags = arguments
+            if isinstance(path, str | bytes | os.PathLike) and flags is not None and flags & _WRITING:
+                changed(os.path.abspath(os.fsdecode(path)))
+        elif event in _CHANGING:
+            for number in _CHANGING[event]:
+                if isinstance(arguments[number], str | bytes | os.PathLike):
+                    changed(os.path.abspath(os.fsdecode(arguments[number])))
+
+    sys.addaudithook(look)
+
+
+def _child(request: dict[str, Any]) -> int:
+    """Run the command of a request; the exit status."""
+    for name, number in (("out", 1), ("err", 2)):
+        file = os.open(request[name], os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
+        os.dup2(file, number)
+        os.close(file)
+    os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
+    sys.stdout = open(1, "w", encoding="utf-8", closefd=False)  # noqa: SIM115
+    sys.stderr = open(2, "w", encoding="utf-8", closefd=False, buffering=1)  # noqa: SIM115
+    os.chdir(request["folder"])
+    changes = open(request["changes"], "w", encoding="utf-8", buffering=1)  # noqa: SIM115
+    _watch(lambda path: changes.write(path + "\n") and None)
+    sys.argv = ["ehlectric", *request["arguments"]]
+    from ehlectric.commands.app import main
+
+    try:
+        main()
+    except SystemExit as end:
+        return end.code if isinstance(end.code, int) else int(end.code is not None)
+    except BaseException:
+        traceback.print_exc()
+        return 1
+    finally:
+        atexit._run_exitfuncs()
+        sys.stdout.flush()
+    return 0
+
+
+def _fork(request: dict[str, Any]) -> int:
+    """Start the child of a request; its process number."""
+    pid = os.fork()
+    if pid:
+        return pid
+    status = 1
+    try:
+        os.setsid()
+        resource.setrlimit(resource.RLIMIT_AS, (ADDRESS_SPACE, ADDRESS_SPACE))
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+        status = _child(request)
+    except BaseException:
+        traceback.print_exc()
+    finally:
+        os._exit(status)
+
+
+def _answer(request: dict[str, Any]) -> dict[str, Any]:
+    """Run a request to its end, or kill it at the moment that it names or at its time limit."""
+    started = time.monotonic()
+    pid = _fork(request)
+    end = os.pidfd_open(pid)
+    try:
+        ready, _, _ = select.select([end], [], [], request["limit"])
+        if not ready:
+            # The process alone, as a shortage of memory or a user does: its workers must notice by themselves.
+            os.kill(pid, signal.SIGKILL)
+        _, status, usage = os.wait4(pid, 0)
+    finally:
+        os.close(end)
+    return {
+        "status": os.waitstatus_to_exitcode(status),
+        "ended": bool(ready),
+        "seconds": time.monotonic() - started,
+        "peak": usage.ru_maxrss * 1024,
+        "group": pid,
+    }
+
+
+def serve() -> None:
+    """Answer requests until standard input ends."""
+    _preload()
+    # Answers go out by a descriptor of their own: children have the standard ones for themselves.
+    answers = os.fdopen(os.dup(1), "w", encoding="utf-8")
+    print("{}", file=answers, flush=True)
+    for line in sys.stdin:
+        print(json.dumps(_answer(json.loads(line))), file=answers, flush=True)
+
+
+if __name__ == "__main__":
+    serve()
