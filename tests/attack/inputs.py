@@ -19,7 +19,6 @@ import tomli_w
 
 from ehlectric import Case
 from ehlectric.commands.kinds import kind_of_file
-
 from tests.attack.mutations import hostile, mutated_bytes, mutated_table, mutated_text, near, places
 from tests.attack.stock import BEARINGS, CASES, SWEEPS, Stock
 
@@ -109,7 +108,21 @@ _SURFACE_OPTIONS = (
     "--x-unit", "--z-unit", "--line", "--along", "--form", "--cutoff-long", "--cutoff-short", "--trim",
     "--rescale-rq", "--truncate",
 )  # fmt: skip
-_SURFACE_VALUES = ("um", "nm", "0", "3", "-1", "row", "column", "none", "parabola", "8 um", "80 um", "1 nm", "1 km")
+_SURFACE_VALUES = (
+    "um",
+    "nm",
+    "0",
+    "3",
+    "-1",
+    "row",
+    "column",
+    "none",
+    "parabola",
+    "8 um",
+    "80 um",
+    "1 nm",
+    "1 km",
+)
 
 
 def surface(stock: Stock, folder: Path, draw: random.Random) -> Iterator[Words]:
@@ -266,7 +279,9 @@ def _alter(connection: sqlite3.Connection, draw: random.Random) -> None:
         if choice < 0.7:
             rows = connection.execute(f'select rowid, "{column}" from "{table}"').fetchall()
             number, value = draw.choice(rows)
-            new = mutated_json(value, draw) if isinstance(value, str) and draw.random() < 0.7 else hostile(draw)
+            new = (
+                mutated_json(value, draw) if isinstance(value, str) and draw.random() < 0.7 else hostile(draw)
+            )
             if not isinstance(new, str | int | float):
                 new = json.dumps(new, default=str)
             connection.execute(f'update "{table}" set "{column}" = ? where rowid = ?', (new, number))
@@ -299,7 +314,16 @@ _COMMANDS: tuple[Words, ...] = (
 def words(stock: Stock, folder: Path, draw: random.Random) -> Iterator[Words]:
     """The words of a command: one is replaced, left out, doubled or put elsewhere."""
     (folder / "out").mkdir()
-    for name in ("line.toml", "grid.toml", "bearing_6208.toml", "profile.csv", "line", "moving", "grid", "sobol"):
+    for name in (
+        "line.toml",
+        "grid.toml",
+        "bearing_6208.toml",
+        "profile.csv",
+        "line",
+        "moving",
+        "grid",
+        "sobol",
+    ):
         (folder / name).symlink_to(stock.folder / name)
     command = list(draw.choice(_COMMANDS))
     # Such a change may leave a command that is right, which then does what it does.

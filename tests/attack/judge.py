@@ -48,7 +48,7 @@ def faults(outcome: Outcome, folder: Path, temporary: Path) -> Iterator[str]:
     text = outcome.out + outcome.err
     yield from (f"prints {word!r}" for word in _INTERNAL if word in text)
     if odd := sorted({mark for mark in text if _unprintable(mark)}):
-        yield f"prints characters {ascii(odd)}"
+        yield f"prints characters {odd!a}"
     if outcome.peak > LARGEST:
         yield f"took {outcome.peak / 2**30:.1f} GB"
     yield from _message_faults(outcome)

@@ -57,7 +57,9 @@ def hostile(draw: random.Random) -> Any:
     if choice < 0.85:
         return draw.choice(_LONG)(int(10 ** draw.uniform(1.0, 5.0)))
     if choice < 0.95:
-        return draw.choice(([], {}, [[]], [1, "a"], {"a": {"b": {}}}, _nested(draw.randrange(2, 60)), [0.0] * 1000))
+        return draw.choice(
+            ([], {}, [[]], [1, "a"], {"a": {"b": {}}}, _nested(draw.randrange(2, 60)), [0.0] * 1000)
+        )
     return draw.choice(
         (datetime.datetime(2000, 1, 1), datetime.date(2000, 1, 1), datetime.time(1, 2), datetime.datetime.max)
     )
@@ -150,14 +152,18 @@ def mutated_text(text: str, draw: random.Random) -> str:
 
 def scaled(text: str, draw: random.Random) -> str:
     """Text whose first number is multiplied by a power of ten, by -1 or by a factor near one."""
-    factor = draw.choice((10 ** draw.uniform(-9.0, 9.0), 10 ** draw.uniform(-1.0, 1.0), draw.uniform(0.5, 2.0), -1.0))
+    factor = draw.choice(
+        (10 ** draw.uniform(-9.0, 9.0), 10 ** draw.uniform(-1.0, 1.0), draw.uniform(0.5, 2.0), -1.0)
+    )
     try:
         return _NUMBER.sub(lambda match: f"{float(match[0]) * factor:.6g}", text, count=1)
     except (OverflowError, ValueError):
         return text
 
 
-def mutated_table(table: Mapping[str, Any], draw: random.Random, others: Sequence[Mapping[str, Any]] = ()) -> Any:
+def mutated_table(
+    table: Mapping[str, Any], draw: random.Random, others: Sequence[Mapping[str, Any]] = ()
+) -> Any:
     """A copy of nested tables with one to four changes of keys and values.
 
     ``others`` are tables of which keys are taken over.
@@ -165,7 +171,9 @@ def mutated_table(table: Mapping[str, Any], draw: random.Random, others: Sequenc
     table = copy.deepcopy(dict(table))
     if draw.random() < GENTLE:
         # Values within reason, so that there is something to solve.
-        values = [(inside, key) for inside, key in places(table) if not isinstance(inside[key], dict | list | bool)]
+        values = [
+            (inside, key) for inside, key in places(table) if not isinstance(inside[key], dict | list | bool)
+        ]
         for inside, key in draw.sample(values, min(len(values), draw.randrange(1, 6))):
             inside[key] = gentle(inside[key], draw)
         return table
@@ -178,7 +186,11 @@ def gentle(value: Any, draw: random.Random) -> Any:
     """A number, or a text with a number, that is up to three times larger or smaller; other values as they are."""
     factor = 3.0 ** draw.uniform(-1.0, 1.0)
     if isinstance(value, str):
-        return _NUMBER.sub(lambda match: f"{float(match[0]) * factor:.4g}", value, count=1) if value[:1].isdigit() else value
+        return (
+            _NUMBER.sub(lambda match: f"{float(match[0]) * factor:.4g}", value, count=1)
+            if value[:1].isdigit()
+            else value
+        )
     if isinstance(value, int | float):
         return type(value)(value * factor)
     return value
@@ -225,7 +237,11 @@ def near(value: Any, draw: random.Random) -> Any:
     if isinstance(value, float):
         return value * draw.choice((-1.0, 10 ** draw.uniform(-9.0, 9.0), draw.uniform(0.3, 3.0)))
     if isinstance(value, str):
-        return scaled(value, draw) if _NUMBER.search(value) else draw.choice((value.upper(), value + " ", value[:-1]))
+        return (
+            scaled(value, draw)
+            if _NUMBER.search(value)
+            else draw.choice((value.upper(), value + " ", value[:-1]))
+        )
     if isinstance(value, list):
         return draw.choice((value * 2, value[1:], value[::-1], [*value, hostile(draw)]))
     return hostile(draw)
@@ -233,4 +249,12 @@ def near(value: Any, draw: random.Random) -> Any:
 
 def _misspelt(key: str, draw: random.Random) -> str:
     at = draw.randrange(len(key) + 1)
-    return draw.choice((key[:at] + key[at + 1 :], key[:at] + "_" + key[at:], key.upper(), key + "." + key, str(hostile(draw))))
+    return draw.choice(
+        (
+            key[:at] + key[at + 1 :],
+            key[:at] + "_" + key[at:],
+            key.upper(),
+            key + "." + key,
+            str(hostile(draw)),
+        )
+    )

@@ -45,7 +45,7 @@ def _preload() -> None:
     import h5py  # noqa: F401
     import matplotlib.animation
     import matplotlib.backends.backend_agg
-    import matplotlib.pyplot  # noqa: F401
+    import matplotlib.pyplot
     import PIL.Image
     import pint  # noqa: F401
     import xarray  # noqa: F401

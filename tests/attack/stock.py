@@ -62,13 +62,18 @@ BEARINGS: dict[str, dict[str, Any]] = {
     "ranges": {
         **_BALL,
         "bearing": {**_BALL["bearing"], "base": "6205", "film_factor": 0.8},
-        "ranges": {"bearing.temperature": ["60 degC", "80 degC"], "discharge.dielectric_strength": ["10 V/um", "20 V/um"]},
+        "ranges": {
+            "bearing.temperature": ["60 degC", "80 degC"],
+            "discharge.dielectric_strength": ["10 V/um", "20 V/um"],
+        },
     },
     "roller": {
         **_BALL,
         "bearing": {
             **{key: value for key, value in _BALL["bearing"].items() if key != "axial_load"},
-            "base": "nu-215", "profile": "logarithmic", "radial_load": "20 kN",
+            "base": "nu-215",
+            "profile": "logarithmic",
+            "radial_load": "20 kN",
         },
     },
 }
@@ -140,7 +145,9 @@ def make(folder: Path, runner: Runner) -> Stock:
     surfaces = write_inputs(folder)
     for name in CASES:
         _done(runner, folder, "run", f"{name}.toml", "-o", name, "--no-plots")
-    _done(runner, folder, "bearing", "bearing_6208.toml", "-o", "bearing", "--contacts", "formula", "--no-plots")
+    _done(
+        runner, folder, "bearing", "bearing_6208.toml", "-o", "bearing", "--contacts", "formula", "--no-plots"
+    )
     for name in SWEEPS:
         _done(runner, folder, "sweep", f"{name}.toml", "-o", name, "--workers", "1")
     results = tuple(sorted(folder.glob("*/*.nc")))
@@ -152,4 +159,3 @@ def _done(runner: Runner, folder: Path, *words: str) -> None:
     outcome = runner.run(*words, folder=folder, limit=300.0)
     if outcome.status != 0:
         raise AssertionError(f"{' '.join(words)}: {outcome.err}")
-
