@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import sys
 import tempfile
 import time
 from collections.abc import Iterator
@@ -39,10 +40,11 @@ def main() -> int:
         for turn in count():
             for report in _round(given, turn, stock, home, runner):
                 wrong += len(report.faults)
-                print(report, *report.faults, sep="\n  ", flush=True)
+                sys.stdout.write("\n  ".join((str(report), *report.faults)) + "\n")
+                sys.stdout.flush()
             if time.monotonic() > deadline or given.number is not None:
                 break
-    print(f"{wrong} faults; their inputs are in {home}" if wrong else "no faults")
+    sys.stdout.write(f"{wrong} faults; their inputs are in {home}\n" if wrong else "no faults\n")
     return int(wrong > 0)
 
 

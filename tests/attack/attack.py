@@ -52,7 +52,7 @@ class Report:
     def __str__(self) -> str:
         ends = ", ".join(f"{end} {count}" for end, count in sorted(self.statuses.items()))
         return (
-            f"{self.name}, seed {self.seed}: {self.inputs} inputs in {self.seconds:.0f} s; exit status {ends}; "
+            f"{self.name}, seed {self.seed}: {self.inputs} in {self.seconds:.0f} s; ended with {ends}; "
             f"slowest {self.slowest:.1f} s, largest {self.largest / 2**20:.0f} MB; {len(self.faults)} faults"
         )
 

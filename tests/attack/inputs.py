@@ -1,4 +1,4 @@
-"""Inputs of the attack: each kind writes mutated files into a folder, and names the commands that read them."""
+"""Inputs of the attack: each kind writes mutated files into a folder, and names commands that read them."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class Kind:
     Attributes
     ----------
     draw : callable
-        ``draw(stock, folder, random)`` writes files into a folder, and yields the commands to be run there, each
+        ``draw(stock, folder, random)`` writes files into a folder, and yields commands to be run there, each
         only after the one before has ended with status 0.
     count : int
         Number of inputs in the attack of the tests.
@@ -81,7 +81,7 @@ def _small(path: Path) -> bool:
     return not case.grid.refine and case.grid.nodes <= most and (case.grid.nodes_y or 0) <= most
 
 
-def bearing(stock: Stock, folder: Path, draw: random.Random) -> Iterator[Words]:
+def bearing(_: Stock, folder: Path, draw: random.Random) -> Iterator[Words]:
     """A bearing: checked, or solved by formula."""
     table = BEARINGS[draw.choice(tuple(BEARINGS))]
     _write(folder / "bearing.toml", mutated_table(table, draw, tuple(BEARINGS.values())), draw)
@@ -165,7 +165,7 @@ def _repack(source: Path, target: Path, draw: random.Random) -> None:
 
 
 def result(stock: Stock, folder: Path, draw: random.Random) -> Iterator[Words]:
-    """A stored result: mutated bytes, or values, shapes, names and attributes changed by HDF5's own library."""
+    """A stored result: mutated bytes, or values, shapes, names and attributes changed by HDF5."""
     source = draw.choice(stock.results)
     target = folder / source.name
     if draw.random() < 0.5:
@@ -309,6 +309,9 @@ _COMMANDS: tuple[Words, ...] = (
     ("init", "out/case.toml", "--kind", "line"),
     ("examples", "bearing_6208", "-o", "out"),
 )
+
+
+_FILES = ("line.toml", "grid.toml", "bearing_6208.toml", "profile.csv")
 
 
 def words(stock: Stock, folder: Path, draw: random.Random) -> Iterator[Words]:

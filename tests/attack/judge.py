@@ -19,7 +19,8 @@ STATUSES = (0, 2, 3)
 # Words of interpreters and libraries, which no user should have to read.
 _INTERNAL = (
     "Traceback (most recent call last)", "HDF5-DIAG", "Segmentation fault", "RuntimeWarning", "UserWarning",
-    "DeprecationWarning", "ResourceWarning", "Exception ignored", "BrokenProcessPool", "__main__", " object at 0x",
+    "DeprecationWarning", "ResourceWarning", "Exception ignored", "BrokenProcessPool", "__main__",
+    " object at 0x",
 )  # fmt: skip
 
 

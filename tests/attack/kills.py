@@ -28,7 +28,7 @@ from tests.attack.stock import CASES, SWEEPS, Stock, write_toml
 _BETWEEN = 10
 
 # Values of a result that differ from run to run: times, and where it was computed.
-_OF_THE_RUN = (
+_OF_THE_RUN = ("time", "seconds", "date", "folder", "path", "file", "history")
     "time",
     "seconds",
     "created",
@@ -66,14 +66,14 @@ class Scenario:
 
 
 def _titled(name: str, table: Mapping[str, Any]) -> Callable[[Stock, Path, str], None]:
-    def prepare(stock: Stock, folder: Path, title: str) -> None:
+    def prepare(_: Stock, folder: Path, title: str) -> None:
         write_toml(folder / name, {**table, "title": title})
 
     return prepare
 
 
 def _linked(*names: str) -> Callable[[Stock, Path, str], None]:
-    def prepare(stock: Stock, folder: Path, title: str) -> None:
+    def prepare(stock: Stock, folder: Path, _: str) -> None:
         for name in names:
             source = stock.folder / name
             (shutil.copytree if source.is_dir() else shutil.copyfile)(source, folder / name)
@@ -82,7 +82,7 @@ def _linked(*names: str) -> Callable[[Stock, Path, str], None]:
     return prepare
 
 
-def _swept(stock: Stock, folder: Path, title: str) -> None:
+def _swept(_: Stock, folder: Path, __: str) -> None:
     write_toml(folder / "line.toml", {**CASES["line"], "grid": {"nodes": 129}})
     speeds = {"from": "1 m/s", "to": "6 m/s", "count": 12}
     loads = {"from": "0.6 MN/m", "to": "1.4 MN/m", "count": 12}
@@ -110,6 +110,8 @@ def _saved_steps(out: Path) -> frozenset[Any]:
     return frozenset(range(saved_steps(path) if path.is_file() else 0))
 
 
+SPEED = "contact.entrainment_speed"
+_RUN = ("run", "case.toml", "-o", "out", "--no-plots")
 _MOVING = {**CASES["moving"], "motion": {"passes": 1.0, "record": 40}}
 
 SCENARIOS: Mapping[str, Scenario] = MappingProxyType(
@@ -117,20 +119,22 @@ SCENARIOS: Mapping[str, Scenario] = MappingProxyType(
         "init": Scenario(("init", "out/case.toml", "--force"), _linked()),
         "examples": Scenario(("examples", "rough_contact", "-o", "out", "--force"), _linked()),
         "check": Scenario(("check", "line.toml"), _linked("line.toml")),
-        "run": Scenario(("run", "case.toml", "-o", "out", "--no-plots"), _titled("case.toml", CASES["line"])),
-        "point": Scenario(("run", "case.toml", "-o", "out", "--no-plots"), _titled("case.toml", CASES["point"])),
+        "run": Scenario(_RUN, _titled("case.toml", CASES["line"])),
+        "point": Scenario(_RUN, _titled("case.toml", CASES["point"])),
         "motion": Scenario(
-            ("run", "case.toml", "-o", "out", "--no-plots"),
-            lambda stock, folder, title: _titled("case.toml", _MOVING)(stock, folder, "kept"),
+            _RUN,
+            lambda stock, folder, _: _titled("case.toml", _MOVING)(stock, folder, "kept"),
             progress=_saved_steps,
         ),
         "bearing": Scenario(
             ("bearing", "bearing_6208.toml", "-o", "out", "--contacts", "formula", "--no-plots"),
             _linked("bearing_6208.toml"),
         ),
-        "sweep": Scenario(("sweep", "sweep.toml", "-o", "out", "--workers", "2"), _swept, progress=_saved_points),
+        "sweep": Scenario(
+            ("sweep", "sweep.toml", "-o", "out", "--workers", "2"), _swept, progress=_saved_points
+        ),
         "map": Scenario(
-            ("map", "grid", "-o", "out", "--x", "contact.entrainment_speed", "--y", "contact.load_per_length"),
+            ("map", "grid", "-o", "out", "--x", SPEED, "--y", "contact.load_per_length"),
             _linked("grid"),
         ),
         "sensitivity": Scenario(("sensitivity", "sobol", "-o", "out"), _linked("sobol")),
@@ -145,8 +149,8 @@ SCENARIOS: Mapping[str, Scenario] = MappingProxyType(
 def kill(name: str, kills: int, seed: int, stock: Stock, home: Path, runner: Runner) -> Report:
     """Kill a command at random moments of its run, and look at what is left.
 
-    After each kill its workers are gone, and all files that can be seen are whole and of one run. What is saved
-    never becomes less. After some kills the command runs to its end: then its folder has what one run alone
+    After each kill its workers are gone, and all files that can be seen are whole and of one run. What is
+    saved never becomes less. After some kills the command runs to its end: then its folder has what one run alone
     writes there, value by value.
 
     Parameters
@@ -199,8 +203,8 @@ def _reference(
 
 
 def _burst(
-    scenario: Scenario, kills: int, span: float, folder: Path, stock: Stock, draw: random.Random, runner: Runner,
-    report: Report,
+    scenario: Scenario, kills: int, span: float, folder: Path, stock: Stock, draw: random.Random,
+    runner: Runner, report: Report,
 ) -> Iterator[str]:  # fmt: skip
     """Kill a command some times in one folder."""
     saved: frozenset[Any] = frozenset()

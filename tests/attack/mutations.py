@@ -15,12 +15,18 @@ _NUMBERS = (
 )  # fmt: skip
 
 _TEXTS = (
-    "", " ", "\t", "nan", "inf", "nan m", "inf GPa", "-1 m", "1e309 m", "1 m m", "1,5 mm", "1.5.5 mm", "1 furlong",
-    "0x10 m", "1_000 m", "1 / 0 m", "(1 m", "1 m)", "1 m**999999999", "m", "1", "-", "--help", "1 degC", "-300 degC",
-    "1e400", "1 m/0", "２ mm", "١ mm", "1 µm", "1 μm", "1\u00a0mm", "1 mm\u202e", "\u2028", "\u0085", "\u200b",
-    "\x1b[31mred\x1b[0m", "\x07", "a\nb", "a\rb", "=HYPERLINK(\"http://x\",\"y\")", "+1+cmd|' /C calc'!A0", "@SUM(1)",
-    "$\\frac{1}{$", "$$", "\\", "${HOME}", "%s%s%n", "{0.__class__}", "<script>alert(1)</script>", "&amp;", "'", '"',
-    "..", "../../../../etc/passwd", "/etc/passwd", "/dev/zero", "/dev/random", "/proc/self/mem", "/", "~", "file:///",
+    "", " ", "\t", "nan", "inf", "nan m", "inf GPa", "-1 m", "1e309 m", "1 m m", "1,5 mm", "1.5.5 mm",
+    "1 furlong",
+    "0x10 m", "1_000 m", "1 / 0 m", "(1 m", "1 m)", "1 m**999999999", "m", "1", "-", "--help",
+    "1 degC", "-300 degC",
+    "1e400", "1 m/0", "２ mm", "١ mm", "1 µm", "1 μm", "1\u00a0mm", "1 mm\u202e",
+    "\u2028", "\u0085", "\u200b",
+    "\x1b[31mred\x1b[0m", "\x07", "a\nb", "a\rb", "=HYPERLINK(\"http://x\",\"y\")",
+    "+1+cmd|' /C calc'!A0", "@SUM(1)",
+    "$\\frac{1}{$", "$$", "\\", "${HOME}", "%s%s%n", "{0.__class__}", "<script>alert(1)</script>", "&amp;",
+    "'", '"',
+    "..", "../../../../etc/passwd", "/etc/passwd", "/dev/zero", "/dev/random", "/proc/self/mem", "/", "~",
+    "file:///",
     "con", "none", "paper", "6208", "steel", "N" * 300, "é" * 300, "😀", "None", "true", "[]", "{}",
 )  # fmt: skip
 
@@ -183,7 +189,7 @@ def mutated_table(
 
 
 def gentle(value: Any, draw: random.Random) -> Any:
-    """A number, or a text with a number, that is up to three times larger or smaller; other values as they are."""
+    """A number, or a text with one, up to three times larger or smaller; other values as they are."""
     factor = 3.0 ** draw.uniform(-1.0, 1.0)
     if isinstance(value, str):
         return (

@@ -1,7 +1,7 @@
 """Process that runs commands of ehlectric in children of its own, and says what each of them did.
 
-The process has all of ehlectric loaded, so that a command starts in milliseconds: each runs in a fork. It reads
-one request a line from standard input, and answers in one line of JSON.
+The process has all of ehlectric loaded, so that a command starts in milliseconds: each runs in a fork. It
+reads one request a line from standard input, and answers in one line of JSON.
 """
 
 from __future__ import annotations
@@ -50,18 +50,15 @@ def _preload() -> None:
     import pint  # noqa: F401
     import xarray  # noqa: F401
 
-    import ehlectric.commands.app
-    import ehlectric.commands.runs
-    import ehlectric.figures.results
-    import ehlectric.paper.reproduce
-    import ehlectric.sweep.run
-
     PIL.Image.init()
-    for module in list(ehlectric.commands.app.__dict__.values()):
-        getattr(module, "__name__", None)
     from ehlectric.cases.case import Case
 
     Case.from_toml(Path(__file__).parents[2] / "examples" / "line_contact.toml")
+
+
+def _absolute(path: str | bytes | os.PathLike[str]) -> str:
+    # Links are not followed: the path is that which the command named.
+    return os.path.normpath(Path.cwd() / os.fsdecode(path))
 
 
 def _watch(changed: Callable[[str], None]) -> None:
@@ -71,11 +68,11 @@ def _watch(changed: Callable[[str], None]) -> None:
         if event == "open":
             path, _, flags = arguments
             if isinstance(path, str | bytes | os.PathLike) and flags is not None and flags & _WRITING:
-                changed(os.path.abspath(os.fsdecode(path)))
+                changed(_absolute(path))
         elif event in _CHANGING:
             for number in _CHANGING[event]:
                 if isinstance(arguments[number], str | bytes | os.PathLike):
-                    changed(os.path.abspath(os.fsdecode(arguments[number])))
+                    changed(_absolute(arguments[number]))
 
     sys.addaudithook(look)
 
@@ -90,7 +87,7 @@ def _child(request: dict[str, Any]) -> int:
     sys.stdout = open(1, "w", encoding="utf-8", closefd=False)  # noqa: SIM115
     sys.stderr = open(2, "w", encoding="utf-8", closefd=False, buffering=1)  # noqa: SIM115
     os.chdir(request["folder"])
-    changes = open(request["changes"], "w", encoding="utf-8", buffering=1)  # noqa: SIM115
+    changes = Path(request["changes"]).open("w", encoding="utf-8", buffering=1)  # noqa: SIM115
     _watch(lambda path: changes.write(path + "\n") and None)
     sys.argv = ["ehlectric", *request["arguments"]]
     from ehlectric.commands.app import main
@@ -133,7 +130,7 @@ def _answer(request: dict[str, Any]) -> dict[str, Any]:
     try:
         ready, _, _ = select.select([end], [], [], request["limit"])
         if not ready:
-            # The process alone, as a shortage of memory or a user does: its workers must notice by themselves.
+            # The process alone, as a shortage of memory does: its workers must notice by themselves.
             os.kill(pid, signal.SIGKILL)
         _, status, usage = os.wait4(pid, 0)
     finally:

@@ -1,4 +1,4 @@
-"""Files that the attack mutates: small inputs of every kind, and results and databases that commands made of them."""
+"""Files that the attack mutates: small inputs of every kind, and results and databases made of them."""
 
 from __future__ import annotations
 
@@ -37,7 +37,8 @@ CASES: dict[str, dict[str, Any]] = {
         "lubricant": {"base": "paper"}, "grid": {"nodes": 65}, **_ELECTRIC,
     },
     "rough": {
-        "title": "rough", "contact": {**_PAPER, "max_hertz_pressure": "0.7 GPa"}, "lubricant": {"base": "paper"},
+        "title": "rough", "contact": {**_PAPER, "max_hertz_pressure": "0.7 GPa"},
+        "lubricant": {"base": "paper"},
         "roughness": [_ROUGH, {"surface": 2, "file": "profile.csv", "form": "line", "cutoff_short": "8 um"}],
         "grid": {"nodes": 257}, **_ELECTRIC,
     },
