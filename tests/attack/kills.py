@@ -29,18 +29,6 @@ _BETWEEN = 10
 
 # Values of a result that differ from run to run: times, and where it was computed.
 _OF_THE_RUN = ("time", "seconds", "date", "folder", "path", "file", "history")
-    "time",
-    "seconds",
-    "created",
-    "date",
-    "computed",
-    "elapsed",
-    "duration",
-    "folder",
-    "path",
-    "file",
-    "history",
-)
 
 
 @dataclass(frozen=True)
@@ -150,8 +138,8 @@ def kill(name: str, kills: int, seed: int, stock: Stock, home: Path, runner: Run
     """Kill a command at random moments of its run, and look at what is left.
 
     After each kill its workers are gone, and all files that can be seen are whole and of one run. What is
-    saved never becomes less. After some kills the command runs to its end: then its folder has what one run alone
-    writes there, value by value.
+    saved never becomes less. After some kills the command runs to its end: then its folder has what one
+    run alone writes there, value by value.
 
     Parameters
     ----------
