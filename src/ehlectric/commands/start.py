@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 import tomllib
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -14,7 +13,7 @@ import typer
 from ehlectric.commands.options import Quiet, one_of
 from ehlectric.commands.terminal import echo_files, user_errors
 from ehlectric.errors import InputError, shown
-from ehlectric.runtime.files import prepare, refuse_special, whole
+from ehlectric.runtime.files import prepare, refuse_special, write
 
 _HERE = Path(__file__).parent
 
@@ -186,8 +185,7 @@ def _needed(file: str) -> Iterator[str]:
 
 
 def _copy(source: Path, target: Path) -> None:
-    with whole(target) as beside:
-        shutil.copyfile(source, beside)
+    write(target, source.read_bytes())
 
 
 def _command(path: Path) -> str:
