@@ -242,10 +242,8 @@ def test_a_second_sweep_in_the_same_folder_is_refused(ehlectric, tmp_path, swept
     process = begun(tmp_path, "--workers", "1")
     second = ehlectric("sweep", "sweep.toml", "-o", "out")
     assert (second.returncode, second.stdout) == (2, "")
-    assert (
-        second.stderr
-        == "error: out: is being written to by another ehlectric; expected a folder of its own\n"
-    )
+    line = "error: out: is being written to by another ehlectric; expected a folder of its own\n"
+    assert second.stderr == line
     assert process.poll() is None
     process.terminate()
     process.communicate(timeout=30)

@@ -19,7 +19,7 @@ from typing import Any, BinaryIO
 
 import numpy as np
 
-from ehlectric.errors import InputError
+from ehlectric.errors import InputError, WriteError
 from ehlectric.runtime.interrupts import held_back
 from ehlectric.runtime.locks import take
 
@@ -164,7 +164,7 @@ def whole(path: Path) -> Iterator[Path]:
 
     Raises
     ------
-    InputError
+    WriteError
         Where the file cannot be written, as on a full disk.
     """
     with _beside(path) as (beside, finish):
@@ -202,7 +202,7 @@ def flush(number: int) -> None:
 
 @contextmanager
 def writing(path: Path, *others: Path) -> Iterator[None]:
-    """Context in which a file is written: an OSError becomes an InputError of one line that names it.
+    """Context in which a file is written: an OSError becomes a WriteError of one line that names it.
 
     Parameters
     ----------
@@ -213,7 +213,7 @@ def writing(path: Path, *others: Path) -> Iterator[None]:
 
     Raises
     ------
-    InputError
+    WriteError
         Where an OSError about these files, or about no file, is raised within the context.
 
     Examples
@@ -221,7 +221,7 @@ def writing(path: Path, *others: Path) -> Iterator[None]:
     >>> with writing(Path("film.csv")):
     ...     raise OSError(errno.EROFS, "Read-only file system")
     Traceback (most recent call last):
-    ehlectric.errors.InputError: film.csv: cannot be written to, read-only file system
+    ehlectric.errors.WriteError: film.csv: cannot be written to, read-only file system
     """
     try:
         yield
@@ -231,7 +231,7 @@ def writing(path: Path, *others: Path) -> Iterator[None]:
         if error.filename is not None and Path(os.fsdecode(error.filename)) not in (path, *others):
             raise
         reason = (error.strerror or str(error)).lower()
-        raise InputError(path, f"cannot be written to, {reason}{ADVICE * (error.errno in _FULL)}") from None
+        raise WriteError(path, f"cannot be written to, {reason}{ADVICE * (error.errno in _FULL)}") from None
 
 
 def refuse_full(path: Path) -> None:
@@ -239,7 +239,7 @@ def refuse_full(path: Path) -> None:
 
     Raises
     ------
-    InputError
+    WriteError
         Where the disk has hardly a block left.
     """
     with writing(path):
@@ -259,7 +259,7 @@ def write(path: Path, content: Content) -> None:
 
     Raises
     ------
-    InputError
+    WriteError
         Where the file cannot be written, as on a full disk.
     """
     with whole(path) as beside:
@@ -286,7 +286,7 @@ def write_together(folder: Path, contents: Mapping[str, Content], replaced: Iter
 
     Raises
     ------
-    InputError
+    WriteError
         Where a file cannot be written, as on a full disk.
     """
     files = [folder / name for name in contents]
@@ -351,7 +351,7 @@ def write_json(path: Path, table: Mapping[str, Any]) -> None:
     ------
     ValueError
         Where a number is not finite; ``plain`` turns such numbers into None.
-    InputError
+    WriteError
         Where the file cannot be written, as on a full disk.
     """
     write(path, json_of(table))

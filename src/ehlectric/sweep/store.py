@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any, Self
 
 from ehlectric.cases.any_case import AnyCase, case_of_dict
-from ehlectric.errors import InputError
+from ehlectric.errors import InputError, WriteError
 from ehlectric.runtime.files import ADVICE, now, refuse_special, refuse_unreadable
 from ehlectric.runtime.folders import locked
 from ehlectric.sweep.inputs import Sweep
@@ -31,7 +31,7 @@ _APPLICATION = 0x65686C65
 _VERSION = 1
 
 # Error codes of SQLite for a full disk and for a write that fails, as at a limit of the size of files.
-_FULL = (sqlite3.SQLITE_FULL, sqlite3.SQLITE_IOERR)
+_FULL = (sqlite3.SQLITE_FULL, sqlite3.SQLITE_IOERR_WRITE, sqlite3.SQLITE_IOERR_FSYNC)
 
 # Longest time that a reader and the writer wait for each other [s].
 _PATIENCE = 60.0
@@ -297,8 +297,8 @@ def _one_line_errors(path: Path) -> Iterator[None]:
     try:
         yield
     except sqlite3.OperationalError as error:
-        if getattr(error, "sqlite_errorcode", 0) & 0xFF in _FULL:
-            raise InputError(path, f"cannot be written to, {error}{ADVICE}") from None
+        if getattr(error, "sqlite_errorcode", 0) in _FULL:
+            raise WriteError(path, f"cannot be written to, {error}{ADVICE}") from None
         raise InputError(path, f"cannot be used, {error}") from None
     except sqlite3.DatabaseError as error:
         raise InputError(path, f"is not a sweep of ehlectric, or damaged: {error}") from None

@@ -175,9 +175,7 @@ def test_what_a_kill_left_half_written_is_taken_back_by_the_next_reader(tmp_path
 def test_two_writers_are_one_too_many(tmp_path):
     with (
         Store(tmp_path),
-        pytest.raises(
-            InputError, match=r": is being written to by another ehlectric; expected a folder of its"
-        ),
+        pytest.raises(InputError, match=r": is being written to by another ehlectric; expected a folder "),
     ):
         Store(tmp_path)
     Store(tmp_path).__exit__()
