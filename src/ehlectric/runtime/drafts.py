@@ -96,7 +96,7 @@ class Draft:
             self._guarded(page)[start : start + count] = view[done : done + count]
             done += count
         self._at += size
-        self._size = max(self._size, self._at)
+        self._size = max(self._size, self._at) if size else self._size
         return size
 
     def _guarded(self, page: int) -> bytearray:
@@ -159,7 +159,9 @@ class Draft:
         except OSError:
             os.ftruncate(self._number, before)
             raise
-        for page in sorted(self._pages):
+        # Pages behind a part that was cut off are zeros, where nothing was written to them.
+        cut = range(-(-self._old // _PAGE), -(-min(before, self._size) // _PAGE))
+        for page in sorted({*self._pages, *cut}):
             self._put(page, page * _PAGE, min((page + 1) * _PAGE, before, self._size))
         os.ftruncate(self._number, self._size)
 

@@ -38,8 +38,8 @@ ADVICE = "; free some space, or choose another folder"
 # Flags with which a name that somebody else may have made is opened: no link, and no wait for a pipe.
 _SAFELY = getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0)
 
-# Space below which a disk counts as full [bytes].
-_BLOCK = 1 << 16
+# Space that any result needs, and space below which a disk counts as full once a file on it failed [bytes].
+_LITTLE, _BLOCK = 1 << 14, 1 << 16
 
 # Errors of files that cannot be flushed, on some file systems.
 _NO_FLUSH = (errno.EINVAL, errno.ENOSYS, errno.ENOTSUP)
@@ -92,11 +92,11 @@ def prepare(folder: str | Path, names: Iterable[str] = ()) -> Path:
         raise InputError(folder, "cannot be written to, it is no folder")
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=folder):
-            pass
+        with tempfile.TemporaryFile(dir=folder) as file:
+            file.write(bytes(_LITTLE))
     except OSError as error:
         reason = (error.strerror or str(error)).lower()
-        raise InputError(folder, f"cannot be written to, {reason}") from None
+        raise WriteError(folder, f"cannot be written to, {reason}{ADVICE * (error.errno in _FULL)}") from None
     for name in names:
         refuse_special(folder / name)
     return folder

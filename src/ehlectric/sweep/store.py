@@ -74,6 +74,7 @@ class Store:
         refuse_special(self._path)
         with ExitStack() as stack:
             stack.enter_context(locked(folder, LOCK))
+            stack.callback(_remove_empty, self._path)
             with _one_line_errors(self._path):
                 self._file = _opened(self._path, "rwc")
                 stack.callback(self._file.close)
@@ -289,6 +290,12 @@ def _opened(path: Path, mode: str) -> sqlite3.Connection:
         file.close()
         raise
     return file
+
+
+def _remove_empty(path: Path) -> None:
+    """Remove a file to which nothing was written, as on a full disk."""
+    if path.is_file() and not path.stat().st_size:
+        path.unlink()
 
 
 @contextmanager
