@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 from ehlectric.commands.folders import files_of_results, protect
 from ehlectric.commands.kinds import FileKind, kind_of_file
 from ehlectric.errors import InputError, shown
-from ehlectric.runtime.folders import RESULT_LOCK, alone_in
+from ehlectric.runtime.folders import FIGURE_LOCK, LONG, RESULT_LOCK, alone_in
 from ehlectric.runtime.outcome import RunOutcome
 from ehlectric.runtime.progress import Progress, silent
 
@@ -130,7 +130,8 @@ def run_and_draw(
         from ehlectric.figures.results import draw_figures
 
         progress(0, 0, "drawing figures")
-        drawn = draw_figures(outcome.result, folder, formats=formats, style=style)
+        with alone_in(folder, locks=[FIGURE_LOCK], patience=LONG):
+            drawn = draw_figures(outcome.result, folder, formats=formats, style=style)
     files, warnings = (*outcome.files, *drawn.files), (*outcome.warnings, *drawn.warnings)
     return replace(outcome, files=files, warnings=warnings)
 

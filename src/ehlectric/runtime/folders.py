@@ -14,14 +14,15 @@ from ehlectric.runtime.files import clear_left_behind, prepare, refuse_special, 
 from ehlectric.runtime.locks import take
 from ehlectric.runtime.log import LOGGER
 
-# Files that are locked while results, or figures, are written into their folder. Figures of a sweep may be
-# drawn while its points are solved, so they have a lock of their own.
+# Files that are locked while results, or what is made from stored results, are written into their folder.
+# Figures and tables of a sweep may be made while its points are solved, so they have a lock of their own.
 RESULT_LOCK, FIGURE_LOCK = ".ehlectric.lock", ".ehlectric-figures.lock"
 
 # Longest time to wait for a command that draws figures, and time between two attempts [s]. Nobody waits for a
-# command that solves.
+# command that solves; a command that has solved waits long.
 _PATIENCE = {FIGURE_LOCK: 5.0}
 _AGAIN = 0.05
+LONG = 600.0
 
 # Locks that the running call holds already: numbers of device and folder, and name of the lock.
 _HELD: ContextVar[frozenset[tuple[int, int, str]]] = ContextVar("_HELD", default=frozenset())
@@ -29,7 +30,11 @@ _HELD: ContextVar[frozenset[tuple[int, int, str]]] = ContextVar("_HELD", default
 
 @contextmanager
 def alone_in(
-    folder: str | Path, names: Iterable[str] = (), *, locks: Iterable[str] = (RESULT_LOCK, FIGURE_LOCK)
+    folder: str | Path,
+    names: Iterable[str] = (),
+    *,
+    locks: Iterable[str] = (RESULT_LOCK, FIGURE_LOCK),
+    patience: float | None = None,
 ) -> Iterator[Path]:
     """Context in which no other command writes into a folder.
 
@@ -44,6 +49,8 @@ def alone_in(
         Names of the files that will be written, as for ``prepare``.
     locks : iterable of str
         ``RESULT_LOCK``, ``FIGURE_LOCK`` or both: the kinds of files that will be written.
+    patience : float, optional
+        Longest time to wait for another command [s]; by default some seconds for figures, none for results.
 
     Yields
     ------
@@ -71,7 +78,7 @@ def alone_in(
         try:
             with ExitStack() as stack:
                 for name in new:
-                    stack.enter_context(locked(folder, name))
+                    stack.enter_context(locked(folder, name, patience))
                 if new:
                     clear_left_behind(folder)
                 yield folder
@@ -85,7 +92,7 @@ def alone_in(
 
 
 @contextmanager
-def locked(folder: Path, name: str) -> Iterator[None]:
+def locked(folder: Path, name: str, patience: float | None = None) -> Iterator[None]:
     """Context that holds a lock of a folder, which must exist; contexts of one lock cannot be nested.
 
     Parameters
@@ -94,6 +101,8 @@ def locked(folder: Path, name: str) -> Iterator[None]:
         Folder of the lock.
     name : str
         Name of the file that is locked.
+    patience : float, optional
+        Longest time to wait for another holder [s].
 
     Raises
     ------
@@ -101,7 +110,7 @@ def locked(folder: Path, name: str) -> Iterator[None]:
         Where the lock is held already, by this process or another.
     """
     path = folder / name
-    number = _taken(folder, path)
+    number = _taken(folder, path, _PATIENCE.get(name, 0.0) if patience is None else patience)
     try:
         yield
     finally:
@@ -112,7 +121,7 @@ def locked(folder: Path, name: str) -> Iterator[None]:
         os.close(number)
 
 
-def _taken(folder: Path, path: Path) -> int:
+def _taken(folder: Path, path: Path, patience: float) -> int:
     """Descriptor of a locked file.
 
     Raises
@@ -120,7 +129,7 @@ def _taken(folder: Path, path: Path) -> int:
     InputError
         Where another command holds the lock.
     """
-    until = time.monotonic() + _PATIENCE.get(path.name, 0.0)
+    until = time.monotonic() + patience
     refuse_special(path)
     while True:
         with writing(path):

@@ -11,7 +11,7 @@ from typing import Any
 
 from ehlectric.errors import InputError, LostError, shown
 from ehlectric.runtime.files import clear
-from ehlectric.runtime.folders import FIGURE_LOCK, RESULT_LOCK, alone_in
+from ehlectric.runtime.folders import FIGURE_LOCK, LONG, RESULT_LOCK, alone_in
 from ehlectric.runtime.outcome import RunOutcome
 from ehlectric.runtime.progress import Progress, silent, told_to
 from ehlectric.runtime.workers import cores
@@ -144,7 +144,8 @@ def run(
             # The crew leaves before the tables are written: a cluster can be used for something else.
             crews.close()
             results = read_sweep(folder)
-            write_tables(results, folder)
+            with alone_in(folder, locks=[FIGURE_LOCK], patience=LONG):
+                write_tables(results, folder)
     files = tuple(folder / name for name in FILES if (folder / name).exists())
     summary: dict[str, Any] = dict(Counter(str(point.status) for point in results.points))
     failure = None if "solved" in summary else f"none of {len(results.points)} points was solved"

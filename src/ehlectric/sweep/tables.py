@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, BinaryIO
 
 from ehlectric.runtime.files import Content, write_together
-from ehlectric.runtime.folders import RESULT_LOCK, alone_in
+from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
 from ehlectric.runtime.netcdf import content_of
 from ehlectric.runtime.tables import column_head, csv_of
 from ehlectric.sweep.columns import cell, columns_of, unit_of_column
@@ -49,7 +49,7 @@ def write_tables(results: SweepResults, folder: str | Path) -> list[Path]:
     }
     if find_spec("pyarrow") is not None:
         contents[PARQUET] = partial(_write_parquet, columns)
-    with alone_in(folder, FILES, locks=[RESULT_LOCK]) as folder:
+    with alone_in(folder, FILES, locks=[FIGURE_LOCK]) as folder:
         return write_together(folder, contents, FILES)
 
 
