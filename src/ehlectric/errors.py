@@ -133,6 +133,10 @@ class MemoryLimitError(InputError):
     """Error of a solution that does not fit into the memory of this machine; a larger one may solve it."""
 
 
+class WriteError(InputError):
+    """Error of a file that cannot be written, as on a full disk."""
+
+
 class LostError(RuntimeError):
     """Error of a sweep whose cluster or worker processes were lost; the solved points are saved."""
 

@@ -233,7 +233,7 @@ def test_a_sweep_that_is_stopped_says_what_is_saved(tmp_path, swept, number):
         errors == f"interrupted; {count} of 120 points are saved in out; the same command resumes the sweep\n"
     )
     assert gone(workers)
-    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == [".sweep.lock", "sweep.sqlite"]
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["sweep.sqlite"]
 
 
 @pytest.mark.slow
@@ -242,7 +242,8 @@ def test_a_second_sweep_in_the_same_folder_is_refused(ehlectric, tmp_path, swept
     process = begun(tmp_path, "--workers", "1")
     second = ehlectric("sweep", "sweep.toml", "-o", "out")
     assert (second.returncode, second.stdout) == (2, "")
-    assert second.stderr == "error: out: is being written to by another sweep; expected a folder of its own\n"
+    line = "error: out: is being written to by another ehlectric; expected a folder of its own\n"
+    assert second.stderr == line
     assert process.poll() is None
     process.terminate()
     process.communicate(timeout=30)

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 import ehlectric
 from ehlectric.bearing.ring_contacts import error_of_contact
 from ehlectric.cases.case import Case
-from ehlectric.errors import InputError, MemoryLimitError
+from ehlectric.errors import InputError, MemoryLimitError, WriteError
 from ehlectric.surfaces.files import read_surface
 from ehlectric.sweep.inputs import Sweep
 
@@ -88,7 +88,7 @@ def test_line_is_made_of_key_value_and_what_is_allowed(
     assert (error.key, error.got, error.takes) == known
 
 
-@pytest.mark.parametrize("kind", [InputError, MemoryLimitError])
+@pytest.mark.parametrize("kind", [InputError, MemoryLimitError, WriteError])
 def test_error_of_a_worker_arrives_whole(kind: type[InputError]) -> None:
     error = kind("grid.nodes", got=10**6, takes="a grid that fits").under("case")
     for arrived in (pickle.loads(pickle.dumps(error)), copy.copy(error)):

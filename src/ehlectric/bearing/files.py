@@ -12,11 +12,12 @@ from ehlectric.bearing.solver import check_bearing, solve_bearing
 from ehlectric.bearing.storage.dataset import solution_of
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.errors import InputError
-from ehlectric.runtime.files import clear, prepare, whole, write_json
-from ehlectric.runtime.netcdf import read_dataset
+from ehlectric.runtime.files import Content, json_of, write_together
+from ehlectric.runtime.folders import RESULT_LOCK, alone_in
+from ehlectric.runtime.netcdf import content_of, read_dataset
 from ehlectric.runtime.outcome import RunOutcome
 from ehlectric.runtime.progress import Progress, silent
-from ehlectric.runtime.tables import column_head, write_csv
+from ehlectric.runtime.tables import column_head, csv_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -57,7 +58,7 @@ def run(
     Raises
     ------
     InputError
-        Where the bearing cannot be solved, or the folder cannot be used.
+        Where the bearing cannot be solved, the folder cannot be used, or another command writes into it.
 
     Examples
     --------
@@ -77,16 +78,15 @@ def run(
     """
     check_bearing(case)
     names = (*FILES, *others)
-    folder = prepare(folder, names)
-    result = solve_bearing(case, progress=progress, workers=workers)
-    clear(folder, names)
-    files = save(result, folder)
+    with alone_in(folder, names) as folder:
+        result = solve_bearing(case, progress=progress, workers=workers)
+        files = save(result, folder, replaced=names)
     failure = None if result.converged else "not converged: a contact of the bearing"
     return RunOutcome(result, result.summary(), tuple(files), result.warnings, failure)
 
 
-def save(result: BearingResult, folder: str | Path) -> list[Path]:
-    """Save the result of a bearing: summary.json, contacts.csv, bearing.nc and impedance.csv.
+def save(result: BearingResult, folder: str | Path, *, replaced: Sequence[str] = ()) -> list[Path]:
+    """Save the result of a bearing: summary.json, contacts.csv, bearing.nc and impedance.csv, all or none.
 
     The file impedance.csv is written only if the bearing has an impedance.
 
@@ -96,6 +96,8 @@ def save(result: BearingResult, folder: str | Path) -> list[Path]:
         Result of ``solve_bearing``.
     folder : str or Path
         Folder of the files; it is made if it does not exist.
+    replaced : sequence of str
+        Names of further files of an earlier result there, which are removed.
 
     Returns
     -------
@@ -105,26 +107,24 @@ def save(result: BearingResult, folder: str | Path) -> list[Path]:
     Raises
     ------
     InputError
-        If the folder cannot be written to.
+        If the folder cannot be written to, its disk is full, or another command writes into it.
     """
-    folder = prepare(folder, FILES)
-    clear(folder, FILES)
     summary, impedance = result.summary(), impedance_of(result.solution)
-    write_json(folder / SUMMARY, summary)
     rows = summary["contacts"]
     units = contact_units()
     heads = [column_head(name, units[name]) if name in units else name for name in rows[0]]
-    write_csv(folder / CONTACTS, heads, (row.values() for row in rows))
-    written = [SUMMARY, CONTACTS]
+    contents: dict[str, Content] = {
+        SUMMARY: json_of(summary),
+        CONTACTS: csv_of(heads, (row.values() for row in rows)),
+    }
     if impedance is not None:
         columns = impedance.frequency.tolist(), impedance.magnitude.tolist(), impedance.phase.tolist()
         units = {"frequency": "Hz", "magnitude": "ohm", "phase_degrees": "deg"}
         heads = [column_head(*one) for one in units.items()]
-        write_csv(folder / IMPEDANCE, heads, zip(*columns, strict=True))
-        written.append(IMPEDANCE)
-    with whole(folder / NETCDF) as path:
-        result.to_xarray().to_netcdf(path, engine="h5netcdf")
-    return [folder / name for name in (*written, NETCDF)]
+        contents[IMPEDANCE] = csv_of(heads, zip(*columns, strict=True))
+    contents[NETCDF] = content_of(result.to_xarray())
+    with alone_in(folder, FILES, locks=[RESULT_LOCK]) as folder:
+        return write_together(folder, contents, (*FILES, *replaced))
 
 
 def load(path: str | Path) -> BearingResult:

@@ -17,6 +17,7 @@ from ehlectric.figures.names import (
     map_files,
 )
 from ehlectric.runtime.files import prepare
+from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
 from ehlectric.runtime.values import is_number
 
 if TYPE_CHECKING:
@@ -52,18 +53,26 @@ def load_and_draw(
     Raises
     ------
     InputError
-        If the file is not a result, the folder cannot be used, or a sweep varies too many keys for a map.
+        If the file is not a result, the folder cannot be used, another command draws into it, or a sweep
+        varies too many keys for a map.
     """
-    from ehlectric.bearing.result import BearingResult
     from ehlectric.commands.folders import stored_result
+
+    path = stored_result(path)
+    with alone_in(folder, locks=[FIGURE_LOCK]) as folder:
+        return _load_and_draw(path, folder, formats, style)
+
+
+def _load_and_draw(path: Path, folder: Path, formats: Sequence[str], style: str) -> Files:
+    """Draw the figures of a result from its NetCDF file or database."""
+    from ehlectric.bearing.result import BearingResult
     from ehlectric.commands.results import load
     from ehlectric.motion.stored_run import MOTION, read_motion
     from ehlectric.runtime.stored_warnings import of_attributes
     from ehlectric.sweep.store import NAME, read_sweep
 
-    path = stored_result(path)
     if path.name == NAME:
-        return _draw_sweep(read_sweep(path.parent), Path(folder), path.parent, formats, style)
+        return _draw_sweep(read_sweep(path.parent), folder, path.parent, formats, style)
     if path.name == MOTION:
         dataset = read_motion(path)
         warnings: Sequence[ResultWarning] = of_attributes(dataset.attrs)

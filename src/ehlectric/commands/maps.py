@@ -89,7 +89,7 @@ def draw_maps(
         from ehlectric.figures.names import SPEED_FIGURE_FILES, in_formats, map_files, of_cut
         from ehlectric.figures.style import style as styled
         from ehlectric.figures.sweep.save import save_maps, save_speeds
-        from ehlectric.runtime.files import prepare
+        from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
         from ehlectric.sweep.breakdown_keys import breakdown_of
         from ehlectric.sweep.slices import take
         from ehlectric.sweep.store import read_sweep
@@ -100,8 +100,7 @@ def draw_maps(
         names = in_formats(
             (*map_files(value, held), *(of_cut(name, held) for name in SPEED_FIGURE_FILES)), forms
         )
-        target = prepare(output or folder, names)
-        with styled(style):
+        with alone_in(output or folder, names, locks=[FIGURE_LOCK]) as target, styled(style):
             files = save_maps(results, x, y, value, target, at=held, formats=forms)
             files += save_speeds(results, taken, target, forms, at=held)
     if not quiet:
@@ -131,7 +130,8 @@ def sensitivity(
         from ehlectric.figures.names import SENSITIVITY_FIGURE, in_formats
         from ehlectric.figures.style import style as styled
         from ehlectric.figures.sweep.sensitivity import save_sensitivity
-        from ehlectric.runtime.files import prepare, write_json
+        from ehlectric.runtime.files import write_json
+        from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
         from ehlectric.sweep.breakdown_keys import breakdown_of
         from ehlectric.sweep.sensitivity import sensitivity as sensitivity_of
         from ehlectric.sweep.store import read_sweep
@@ -139,9 +139,8 @@ def sensitivity(
         results = read_sweep(folder)
         indices = sensitivity_of(results, value or breakdown_of(results.case).value)
         names = in_formats([SENSITIVITY_FIGURE], look["formats"])
-        target = prepare(output or folder, (SENSITIVITY, *names))
-        write_json(target / SENSITIVITY, indices.to_dict())
-        with styled(style):
+        with alone_in(output or folder, (SENSITIVITY, *names), locks=[FIGURE_LOCK]) as target, styled(style):
+            write_json(target / SENSITIVITY, indices.to_dict())
             drawn = save_sensitivity(results, indices, target / SENSITIVITY_FIGURE, look["formats"])
         files = [target / SENSITIVITY, *drawn]
     if not quiet:

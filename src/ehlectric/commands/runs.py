@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 from ehlectric.commands.folders import files_of_results, protect
 from ehlectric.commands.kinds import FileKind, kind_of_file
 from ehlectric.errors import InputError, shown
+from ehlectric.runtime.folders import FIGURE_LOCK, LONG, RESULT_LOCK, alone_in
 from ehlectric.runtime.outcome import RunOutcome
 from ehlectric.runtime.progress import Progress, silent
 
@@ -122,13 +123,15 @@ def run_and_draw(
     InputError, ConvergenceError, LostError
         As ``run`` raises them.
     """
-    outcome = RUNS[kind].run(case, folder, progress, **options)
-    if not draw:
-        return outcome
-    from ehlectric.figures.results import draw_figures
+    with alone_in(folder, locks=[RESULT_LOCK]) as folder:
+        outcome = RUNS[kind].run(case, folder, progress, **options)
+        if not draw:
+            return outcome
+        from ehlectric.figures.results import draw_figures
 
-    progress(0, 0, "drawing figures")
-    drawn = draw_figures(outcome.result, folder, formats=formats, style=style)
+        progress(0, 0, "drawing figures")
+        with alone_in(folder, locks=[FIGURE_LOCK], patience=LONG):
+            drawn = draw_figures(outcome.result, folder, formats=formats, style=style)
     files, warnings = (*outcome.files, *drawn.files), (*outcome.warnings, *drawn.warnings)
     return replace(outcome, files=files, warnings=warnings)
 
@@ -162,8 +165,9 @@ def run_contact(
     from ehlectric.paper.solvers import SOLVERS
 
     _check_solver(solver, tuple(SOLVERS))
-    protect(folder)
-    return run(case, folder, progress, solvers=SOLVERS[solver], others=files_of_results(folder))
+    with alone_in(folder, locks=[RESULT_LOCK]) as folder:
+        protect(folder)
+        return run(case, folder, progress, solvers=SOLVERS[solver], others=files_of_results(folder))
 
 
 def run_motion(
@@ -177,8 +181,9 @@ def run_motion(
     _check_solver(solver, tuple(SOLVERS))
     if solver != "ehlectric":
         raise InputError("--solver", got=f"{shown(solver)} for a case with motion", takes="'ehlectric'")
-    protect(folder, case)
-    return run(case, folder, progress, others=files_of_results(folder, keep=(MOTION,)))
+    with alone_in(folder, locks=[RESULT_LOCK]) as folder:
+        protect(folder, case)
+        return run(case, folder, progress, others=files_of_results(folder, keep=(MOTION,)))
 
 
 def _check_solver(solver: str, known: tuple[str, ...]) -> None:
@@ -198,8 +203,9 @@ def run_bearing(
     from ehlectric.bearing.files import run
 
     case = case.replace({"contacts": contacts}) if contacts else case
-    protect(folder)
-    return run(case, folder, progress, workers=workers, others=files_of_results(folder))
+    with alone_in(folder, locks=[RESULT_LOCK]) as folder:
+        protect(folder)
+        return run(case, folder, progress, workers=workers, others=files_of_results(folder))
 
 
 def run_sweep(
@@ -213,13 +219,14 @@ def run_sweep(
     """Solve a sweep in processes of this machine, or on the Dask cluster of a scheduler's address."""
     from ehlectric.sweep.run import crew, run
 
-    protect(folder, sweep=True)
-    others = files_of_results(folder)
-    if scheduler is None:
-        return run(sweep, folder, progress, solvers=crew(None, workers), others=others)
-    from ehlectric.sweep.cluster import cluster
+    solvers = crew(None, workers)
+    if scheduler is not None:
+        from ehlectric.sweep.cluster import cluster
 
-    return run(sweep, folder, progress, solvers=cluster(scheduler), others=others)
+        solvers = cluster(scheduler)
+    with alone_in(folder, locks=[RESULT_LOCK]) as folder:
+        protect(folder, sweep=True)
+        return run(sweep, folder, progress, solvers=solvers, others=files_of_results(folder))
 
 
 RUNS: Mapping[FileKind, Kind] = MappingProxyType(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 import tomllib
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -190,10 +189,9 @@ def _needed(file: str) -> Iterator[str]:
 
 
 def _copy(source: Path, target: Path) -> None:
-    from ehlectric.runtime.files import whole
+    from ehlectric.runtime.files import write
 
-    with whole(target) as beside:
-        shutil.copyfile(source, beside)
+    write(target, source.read_bytes())
 
 
 def _command(path: Path) -> str:

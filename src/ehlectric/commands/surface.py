@@ -99,7 +99,7 @@ def surface(
     with user_errors():
         from ehlectric.cases.roughness import Roughness
         from ehlectric.commands.tables.surface import surface_table
-        from ehlectric.runtime.files import prepare
+        from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
         from ehlectric.surfaces.rough_maps import whole_map
         from ehlectric.surfaces.rough_profiles import measured
 
@@ -109,11 +109,11 @@ def surface(
         roughness = Roughness.from_dict({"surface": 1, "file": str(file)} | keys)
         rough = whole_map(roughness) if whole else measured(roughness)
         if files:
-            prepare(files[0].parent, [file.name for file in files])
             from ehlectric.figures.style import style as styled
             from ehlectric.figures.surface import save_surface
 
-            with styled(look["style"]):
+            names = [file.name for file in files]
+            with alone_in(files[0].parent, names, locks=[FIGURE_LOCK]), styled(look["style"]):
                 files = save_surface(rough.steps, files[0], [file.suffix[1:] for file in files])
     described = rough.describe()
     if as_json:

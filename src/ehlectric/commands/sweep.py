@@ -22,7 +22,7 @@ from ehlectric.commands.terminal import (
     user_errors,
     warn,
 )
-from ehlectric.errors import InputError, LostError, ResultWarning, shown
+from ehlectric.errors import InputError, LostError, ResultWarning, WriteError, shown
 from ehlectric.runtime.progress import Progress, silent
 
 if TYPE_CHECKING:
@@ -110,6 +110,8 @@ def _drawn(folder: Path, look: Look) -> tuple[tuple[Path, ...], tuple[ResultWarn
 
     try:
         return load_and_draw(folder, folder, **look)
+    except WriteError:
+        raise
     except InputError as error:
         return (), (f"no figures: {error}",)
 

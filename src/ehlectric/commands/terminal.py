@@ -48,7 +48,8 @@ def user_errors() -> Iterator[None]:
     except BrokenPipeError:
         raise
     except OSError as error:
-        text = f"{error.filename}: cannot be used, {(error.strerror or str(error)).lower()}"
+        reason = f"cannot be used, {(error.strerror or str(error)).lower()}"
+        text = f"a file {reason}" if error.filename is None else f"{error.filename}: {reason}"
     else:
         return
     typer.echo(f"error: {text}", err=True)

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import json
 import tomllib
+from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 
@@ -16,8 +18,9 @@ from ehlectric.contact.problems import scales_of
 from ehlectric.contact.results import RESULTS, PointResult, Result
 from ehlectric.contact.solution import Smooth
 from ehlectric.errors import InputError
-from ehlectric.runtime.files import prepare, whole, write_json
-from ehlectric.runtime.netcdf import read_dataset
+from ehlectric.runtime.files import Content, json_of, write_together
+from ehlectric.runtime.folders import RESULT_LOCK, alone_in
+from ehlectric.runtime.netcdf import content_of, read_dataset
 from ehlectric.runtime.stored_warnings import of_attributes
 
 if TYPE_CHECKING:
@@ -33,8 +36,8 @@ FILES = (SUMMARY, NETCDF, FILM)
 _CSV = {"density": "density ratio"}
 
 
-def save(result: Result | PointResult, folder: str | Path) -> list[Path]:
-    """Write summary.json, result.nc and film.csv.
+def save(result: Result | PointResult, folder: str | Path, *, replaced: Sequence[str] = ()) -> list[Path]:
+    """Write summary.json, result.nc and film.csv, all of them or none.
 
     Parameters
     ----------
@@ -42,6 +45,8 @@ def save(result: Result | PointResult, folder: str | Path) -> list[Path]:
         Result of ``solve``.
     folder : str or Path
         Folder of the files; it is made if it does not exist.
+    replaced : sequence of str
+        Names of further files of an earlier result there, which are removed.
 
     Returns
     -------
@@ -51,21 +56,26 @@ def save(result: Result | PointResult, folder: str | Path) -> list[Path]:
     Raises
     ------
     InputError
-        Where the folder cannot be written to, or the result has no case, which the files must hold.
+        Where the folder cannot be written to, its disk is full, another command writes into it, or the
+        result has no case, which the files must hold.
     """
     if not isinstance(result.case, Case):
         raise InputError("result", got="one of solve_contact, which has no case;", takes="one of solve(case)")
-    folder = prepare(folder, FILES)
-    files = [folder / name for name in FILES]
-    write_json(files[0], result.summary())
-    with whole(files[1]) as path:
-        result.to_xarray().to_netcdf(path, engine="h5netcdf")
-    with whole(files[2]) as path:
-        columns = film_columns(result.film)
-        header = ",".join(f"{_CSV.get(name, name)} [{unit or '-'}]" for name, (_, unit) in columns.items())
-        values = np.column_stack([column for column, _ in columns.values()])
-        np.savetxt(path, values, delimiter=",", header=header, comments="", fmt="%.12g")
-    return files
+    contents: dict[str, Content] = {
+        SUMMARY: json_of(result.summary()),
+        NETCDF: content_of(result.to_xarray()),
+        FILM: partial(_write_film, result),
+    }
+    with alone_in(folder, FILES, locks=[RESULT_LOCK]) as folder:
+        return write_together(folder, contents, replaced)
+
+
+def _write_film(result: Result | PointResult, file: BinaryIO) -> None:
+    """Write the columns of a film as CSV."""
+    columns = film_columns(result.film)
+    header = ",".join(f"{_CSV.get(name, name)} [{unit or '-'}]" for name, (_, unit) in columns.items())
+    values = np.column_stack([column for column, _ in columns.values()])
+    np.savetxt(file, values, delimiter=",", header=header, comments="", fmt="%.12g")
 
 
 def load(path: str | Path) -> Result | PointResult:

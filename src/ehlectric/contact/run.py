@@ -10,7 +10,7 @@ from ehlectric.contact.check import check_case
 from ehlectric.contact.files import FILES, save
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.contact.solver import OWN, Solvers, solve
-from ehlectric.runtime.files import clear, prepare
+from ehlectric.runtime.folders import alone_in
 from ehlectric.runtime.outcome import RunOutcome
 from ehlectric.runtime.progress import Progress, silent
 
@@ -47,7 +47,7 @@ def run(
     Raises
     ------
     InputError
-        Where the case or the folder cannot be used.
+        Where the case or the folder cannot be used, or another command writes into the folder.
 
     Examples
     --------
@@ -63,17 +63,16 @@ def run(
     prepared = check_case(case)
     solvers.check(case)
     names = (*FILES, *others)
-    folder = prepare(folder, names)
-    result = solve(
-        case,
-        progress=lambda nodes, step, residual: progress(
-            0, 0, f"film: {nodes} nodes, step {step + 1}, residual {residual:.1e}"
-        ),
-        solvers=solvers,
-        prepared=prepared,
-    )
-    progress(0, 0, "writing results")
-    clear(folder, names)
-    files = save(result, folder)
+    with alone_in(folder, names) as folder:
+        result = solve(
+            case,
+            progress=lambda nodes, step, residual: progress(
+                0, 0, f"film: {nodes} nodes, step {step + 1}, residual {residual:.1e}"
+            ),
+            solvers=solvers,
+            prepared=prepared,
+        )
+        progress(0, 0, "writing results")
+        files = save(result, folder, replaced=names)
     failure = None if result.converged else f"not converged: {result.film.status}"
     return RunOutcome(result, result.summary(), tuple(files), result.warnings, failure)

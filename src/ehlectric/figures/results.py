@@ -30,7 +30,7 @@ from ehlectric.figures.names import (
 from ehlectric.figures.style import style as styled
 from ehlectric.figures.sweep import save as sweep
 from ehlectric.motion.stored_run import MotionRun
-from ehlectric.runtime.files import prepare
+from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
 from ehlectric.sweep.labels import label_of
 from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.slices import known_values
@@ -145,11 +145,11 @@ def draw_figures(
     Raises
     ------
     InputError
-        Where there is no such format or style.
+        Where there is no such format or style, the folder cannot be used, or another command draws into it.
     """
     in_formats((), formats)
-    with styled(style):
-        return _draws_of(result).save(result, prepare(folder), formats)
+    with alone_in(folder, locks=[FIGURE_LOCK]) as folder, styled(style):
+        return _draws_of(result).save(result, folder, formats)
 
 
 def save_figures(
@@ -177,7 +177,7 @@ def save_figures(
     Raises
     ------
     InputError
-        Where there is no such format or style.
+        Where there is no such format or style, the folder cannot be used, or another command draws into it.
     """
     return list(draw_figures(result, folder, formats, style).files)
 

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
+from io import BytesIO
 from pathlib import Path
 from typing import Any, Protocol, TypeVar
 
@@ -27,7 +28,7 @@ from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.errors import InputError, shown
 from ehlectric.figures.names import STYLES, in_formats, with_units_kept
-from ehlectric.runtime.files import whole
+from ehlectric.runtime.files import write
 
 D = TypeVar("D")
 
@@ -281,14 +282,16 @@ def save_figure(figure: Figure, path: Path, formats: Sequence[str] = ("png",)) -
     Raises
     ------
     InputError
-        Where there is no format of this name.
+        Where there is no format of this name, or a file cannot be written, as on a full disk.
     """
     files = [path.parent / name for name in in_formats([path.name], formats)]
     for file in files:
         kind = file.suffix[1:]
         metadata = _WITHOUT_DATE[kind] | {"Title": figure.get_label() or path.stem}
-        with style(), whole(file) as beside:
-            figure.savefig(beside, format=kind, metadata=metadata)
+        content = BytesIO()  # in memory: the libraries of images do not say why they cannot write
+        with style():
+            figure.savefig(content, format=kind, metadata=metadata)
+        write(file, content.getvalue())
     return files
 
 

@@ -1,9 +1,9 @@
 """File of a transient run, written while the run is solved and read again to resume it.
 
-The file is closed between two recorded instants, so it is intact when the run stops there. If the run stops
-while an instant is written, that instant does not count, because the number of recorded instants is written
-last. The films from which a run is resumed are stored twice (see ``ehlectric.motion.resume``). Maps are
-stored in single precision. The films from which a run is resumed are stored in double precision.
+The file is closed between two recorded instants, so it is intact when the run stops there. An instant is
+written whole or not at all: HDF5 changes a draft of the file in memory, which is then written to the disk.
+The films from which a run is resumed are stored twice (see ``ehlectric.motion.resume``). Maps are stored in
+single precision. The films from which a run is resumed are stored in double precision.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ from ehlectric.motion.contact import TransientContact
 from ehlectric.motion.kinds import AnyKind
 from ehlectric.motion.resume import keep, kept
 from ehlectric.motion.solver import Snapshot, TransientSolver
-from ehlectric.runtime.files import plain
-from ehlectric.runtime.netcdf import check_space, opened, resize
+from ehlectric.runtime.files import plain, write
+from ehlectric.runtime.netcdf import changed, created, opened, resize
 from ehlectric.version import __version__
 
 # Variables by name, each with its long name and unit: over all time steps, over the recorded instants, and
@@ -61,10 +61,6 @@ _OF_POINTS = ("minimum_y", "max_strength_y")
 
 # Steps or instants in a chunk of the file.
 _CHUNK = 1024
-
-# Upper bounds of the disk space of a recorded instant [bytes]: per node, for its maps and the films to resume
-# from; and, in addition, for the time steps since the previous recorded instant.
-_NODE_BYTES, _CHUNK_BYTES = 256, 10_000_000
 
 
 @dataclass(frozen=True)
@@ -135,26 +131,34 @@ class MotionFile:
         self._path, self._contact = path, contact
         self._left: tuple[Any, int] | None = None
 
-    def create(self, first: Snapshot, attributes: Mapping[str, Any], stationary: Mapping[str, Array]) -> None:
-        """Create the file with its variables, but without recorded instants.
+    def create(self, first: Record, attributes: Mapping[str, Any], stationary: Mapping[str, Array]) -> None:
+        """Create the file with its first recorded instant.
 
         Parameters
         ----------
-        first : Snapshot
-            An instant of the run, for the positions of the nodes.
+        first : Record
+            Film before the motion.
         attributes : mapping of str to str or float
             Attributes of the file.
         stationary : mapping of str to ndarray
             Maps of film and field with stationary roughness, by names such as ``pressure``.
+
+        Raises
+        ------
+        InputError
+            If the file cannot be written, as on a full disk.
         """
         kind = self._contact.kind
-        positions = dict(zip(kind.axes, first.film.axes, strict=True))
-        with opened(self._path, "w") as file:
+        positions = dict(zip(kind.axes, first.snapshot.film.axes, strict=True))
+
+        def fill(file: Any) -> None:
             _lay_out(file, positions, stationary, kind)
             file.attrs["frames"] = file.attrs["complete"] = 0
             for key, value in attributes.items():
                 file.attrs[key] = value
-            self._left = _state(file)
+            self._put(file, first)
+
+        write(self._path, created(fill))
 
     def append(self, record: Record) -> None:
         """Write a recorded instant and the time steps before it.
@@ -164,28 +168,32 @@ class MotionFile:
         InputError
             If another run has written to the file, or the disk has not enough space.
         """
-        maps, numbers = self._maps(record.snapshot), _numbers(record)
-        check_space(self._path, _NODE_BYTES * record.snapshot.film.pressure.size + _CHUNK_BYTES)
-        rows, step = record.rows, record.step
-        with opened(self._path, "a") as file:
+        with changed(self._path) as file:
             if _state(file) != self._left:
                 raise InputError(
                     self._path, "is being written to by another run", takes="a folder of its own"
                 )
-            # A half-written instant may follow the complete ones, so the step determines the place to write.
-            recorded = file.variables["frame_step"][: int(file.attrs["frames"])]
-            frame = int(np.searchsorted(recorded, step))
-            resize(file, {"step": step + 1, "frame": frame + 1})
-            for name in file.variables:
-                if name in _STEPS:
-                    file.variables[name][step + 1 - len(rows) :] = [row.values[name] for row in rows]
-            for name, value in (*maps.items(), *numbers.items()):
-                file.variables[name][frame] = value
-            keep(file, record.history, frame)
-            file.attrs["seconds"] = float(file.attrs["seconds"]) + record.seconds
-            file.attrs["frames"] = frame + 1
-            file.attrs["complete"] = int(step == self._contact.schedule.steps)
-            self._left = _state(file)
+            self._put(file, record)
+
+    def _put(self, file: Any, record: Record) -> None:
+        """Write an instant into the open file."""
+        maps, numbers = self._maps(record.snapshot), _numbers(record)
+        rows, step = record.rows, record.step
+        # A half-written instant of an earlier version may follow the complete ones, so the step determines
+        # the place to write.
+        recorded = file.variables["frame_step"][: int(file.attrs["frames"])]
+        frame = int(np.searchsorted(recorded, step))
+        resize(file, {"step": step + 1, "frame": frame + 1})
+        for name in file.variables:
+            if name in _STEPS:
+                file.variables[name][step + 1 - len(rows) :] = [row.values[name] for row in rows]
+        for name, value in (*maps.items(), *numbers.items()):
+            file.variables[name][frame] = value
+        keep(file, record.history, frame)
+        file.attrs["seconds"] = float(file.attrs["seconds"]) + record.seconds
+        file.attrs["frames"] = frame + 1
+        file.attrs["complete"] = int(step == self._contact.schedule.steps)
+        self._left = _state(file)
 
     def _maps(self, snapshot: Snapshot) -> dict[str, Array]:
         film, field = snapshot.film, snapshot.field

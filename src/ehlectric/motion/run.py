@@ -23,7 +23,8 @@ from ehlectric.motion.file import MotionFile, Record, Row, described
 from ehlectric.motion.solver import TransientSolver
 from ehlectric.motion.stored_run import MOTION, read_motion
 from ehlectric.motion.summary import summary_of
-from ehlectric.runtime.files import clear, now, plain, prepare, write_json
+from ehlectric.runtime.files import clear, now, plain, write_json
+from ehlectric.runtime.folders import FIGURE_LOCK, RESULT_LOCK, alone_in
 from ehlectric.runtime.outcome import RunOutcome
 from ehlectric.runtime.progress import Progress, silent
 from ehlectric.runtime.stored_warnings import as_attributes, warnings_of
@@ -65,26 +66,27 @@ def run(
     Raises
     ------
     InputError
-        Where the case or the folder cannot be used.
+        Where the case or the folder cannot be used, or another command writes into the folder.
     ConvergenceError
         Where the film before the motion is not converged, so that there is nothing to sum up.
     """
     prepared = check_case(case)
     contact = TransientContact.of(case, prepared.rough)
-    folder = prepare(folder, (MOTION, *FILES, *others))
-    # A run that was stopped between its last step and its summary has no summary.json.
-    again = (folder / SUMMARY).is_file()
-    clear(folder, (*FILES, *others))
     failure = None
-    try:
-        _solve(contact, prepared, folder / MOTION, again=again, progress=progress)
-    except ConvergenceError as error:
-        if not (folder / MOTION).is_file():
-            raise
-        failure = f"not converged: {error}"
-    dataset = read_motion(folder)
-    summary = summary_of(dataset)
-    write_json(folder / SUMMARY, summary)
+    with alone_in(folder, (MOTION, *FILES, *others), locks=[RESULT_LOCK]) as folder:
+        # A run that was stopped between its last step and its summary has no summary.json.
+        again = (folder / SUMMARY).is_file()
+        with alone_in(folder, locks=[FIGURE_LOCK]):
+            clear(folder, (*FILES, *others))
+        try:
+            _solve(contact, prepared, folder / MOTION, again=again, progress=progress)
+        except ConvergenceError as error:
+            if not (folder / MOTION).is_file():
+                raise
+            failure = f"not converged: {error}"
+        dataset = read_motion(folder)
+        summary = summary_of(dataset)
+        write_json(folder / SUMMARY, summary)
     return RunOutcome(dataset, summary, (folder / SUMMARY, folder / MOTION), warnings_of(summary), failure)
 
 
@@ -111,15 +113,15 @@ def run_motion(case: Case, folder: str | Path, *, again: bool = True, progress: 
     Raises
     ------
     InputError
-        If the case or the folder cannot be used.
+        If the case or the folder cannot be used, or another command writes into the folder.
     ConvergenceError
         If a time step does not converge; the file has the recorded instants before this step.
     """
     prepared = check_case(case)
     contact = TransientContact.of(case, prepared.rough)
-    path = prepare(folder, (MOTION,)) / MOTION
-    _solve(contact, prepared, path, again=again, progress=progress)
-    return path
+    with alone_in(folder, (MOTION,), locks=[RESULT_LOCK]) as folder:
+        _solve(contact, prepared, folder / MOTION, again=again, progress=progress)
+    return folder / MOTION
 
 
 def _solve(
@@ -168,8 +170,9 @@ def _begin(file: MotionFile, solver: TransientSolver, prepared: PreparedContact)
         "seconds": 0.0,
     }
     attributes |= as_attributes(_warnings(contact, still))
-    file.create(first, attributes | contact.schedule.moments(), _maps(contact, still))
-    file.append(Record(0, [Row.of(solver, history)], first, history, time.perf_counter() - started))
+    rows, seconds = [Row.of(solver, history)], time.perf_counter() - started
+    record = Record(0, rows, first, history, seconds)
+    file.create(record, attributes | contact.schedule.moments(), _maps(contact, still))
 
 
 def _maps(contact: TransientContact, still: Result | PointResult) -> dict[str, Array]:

@@ -17,7 +17,8 @@ from ehlectric.paper import report
 from ehlectric.paper.figures import FIGURES
 from ehlectric.paper.study import run_study
 from ehlectric.paper.tables import TABLES, PaperTable
-from ehlectric.runtime.files import clear, prepare, whole
+from ehlectric.runtime.files import clear, write
+from ehlectric.runtime.folders import alone_in
 
 REPORT = "report.html"
 
@@ -84,7 +85,7 @@ def reproduce(
     Raises
     ------
     InputError
-        If there is no such figure or table, or the folder cannot be written to.
+        If there is no such figure or table, the folder cannot be used, or another command writes into it.
 
     Notes
     -----
@@ -96,28 +97,27 @@ def reproduce(
         f"{name}.csv" for name in tables
     ]
     names += [REPORT] if whole_report else []
-    folder = prepare(folder, names)
     parts = [part for number in figures for part in FIGURES[number].parts]
     parts += [part for name in tables for part in TABLES[name][1]]
-    study = run_study(parts, progress=progress)
-    clear(folder, names)
-    made = {name: TABLES[name][0](study) for name in tables}
-    for name, paper_table in made.items():
-        paper_table.save(folder / f"{name}.csv")
-    copies: dict[int, bytes] = {}
-    with styled(style):
-        for number in figures:
-            drawn = FIGURES[number].draw(study)
-            save_figure(drawn, folder / f"figure_{number}.png", formats)
-            if whole_report:
-                copies[number] = _png(drawn)
-            if progress is not None:
-                progress(number, max(figures), f"figure {number}")
-    verdicts = {}
-    if whole_report:
-        verdicts = report.verdicts(made)
-        with whole(folder / REPORT) as beside:
-            beside.write_text(report.html(study, made, copies), encoding="utf-8")
+    with alone_in(folder, names) as folder:
+        study = run_study(parts, progress=progress)
+        clear(folder, names)
+        made = {name: TABLES[name][0](study) for name in tables}
+        for name, paper_table in made.items():
+            paper_table.save(folder / f"{name}.csv")
+        copies: dict[int, bytes] = {}
+        with styled(style):
+            for number in figures:
+                drawn = FIGURES[number].draw(study)
+                save_figure(drawn, folder / f"figure_{number}.png", formats)
+                if whole_report:
+                    copies[number] = _png(drawn)
+                if progress is not None:
+                    progress(number, max(figures), f"figure {number}")
+        verdicts = {}
+        if whole_report:
+            verdicts = report.verdicts(made)
+            write(folder / REPORT, report.html(study, made, copies).encode())
     return Reproduced([folder / name for name in names], made, verdicts, study.converged)
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,7 +12,8 @@ from ehlectric.cases.lubricant import density_law, permittivity_law
 from ehlectric.contact.results import Result
 from ehlectric.paper.contacts import PaperContact, table_3
 from ehlectric.paper.study import Study
-from ehlectric.runtime.files import whole
+from ehlectric.runtime.files import write
+from ehlectric.runtime.tables import csv_of
 
 MICRO = 1e6
 
@@ -58,11 +58,11 @@ class PaperTable:
 
     def save(self, path: Path) -> None:
         """Write the table as a CSV file, numbers with six significant digits."""
-        with whole(path) as beside, beside.open("w", newline="", encoding="utf-8") as file:
-            writer = csv.writer(file)
-            writer.writerow(self.heads)
-            for row in self.rows:
-                writer.writerow(format(value, ".6g") if isinstance(value, float) else value for value in row)
+        rows = (
+            [format(value, ".6g") if isinstance(value, float) else value for value in row]
+            for row in self.rows
+        )
+        write(path, csv_of(self.heads, rows))
 
 
 def _shown(value: str | float, form: str) -> str:

@@ -2,20 +2,47 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import math
 import os
+import re
 import secrets
+import shutil
+import stat
 import tempfile
-from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import ExitStack, contextmanager, suppress
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 import numpy as np
 
-from ehlectric.errors import InputError
+from ehlectric.errors import InputError, WriteError
+from ehlectric.runtime.interrupts import held_back
+from ehlectric.runtime.locks import take
+
+# Content of a file, or a function that writes it to an open file.
+Content = bytes | Callable[[BinaryIO], object]
+
+# Beginning of the names of files that are being written, and pattern of such names, which no other program
+# chooses.
+_HIDDEN = ".ehlectric-"
+_LEFT = re.compile(r"\.ehlectric-[0-9a-f]{16}(\.[^.]*)?")
+
+# Errors of a full disk or quota, and what to do about them.
+_FULL = tuple(getattr(errno, name) for name in ("ENOSPC", "EDQUOT", "EFBIG") if hasattr(errno, name))
+ADVICE = "; free some space, or choose another folder"
+
+# Flags with which a name that somebody else may have made is opened: no link, and no wait for a pipe.
+_SAFELY = getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0)
+
+# Space that any result needs, and space below which a disk counts as full once a file on it failed [bytes].
+_LITTLE, _BLOCK = 1 << 14, 1 << 16
+
+# Errors of files that cannot be flushed, on some file systems.
+_NO_FLUSH = (errno.EINVAL, errno.ENOSYS, errno.ENOTSUP)
 
 
 def plain(value: Any) -> Any:
@@ -65,11 +92,11 @@ def prepare(folder: str | Path, names: Iterable[str] = ()) -> Path:
         raise InputError(folder, "cannot be written to, it is no folder")
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=folder):
-            pass
+        with tempfile.TemporaryFile(dir=folder) as file:
+            file.write(bytes(_LITTLE))
     except OSError as error:
         reason = (error.strerror or str(error)).lower()
-        raise InputError(folder, f"cannot be written to, {reason}") from None
+        raise WriteError(folder, f"cannot be written to, {reason}{ADVICE * (error.errno in _FULL)}") from None
     for name in names:
         refuse_special(folder / name)
     return folder
@@ -131,20 +158,190 @@ def clear(folder: Path, names: Iterable[str]) -> None:
 def whole(path: Path) -> Iterator[Path]:
     """Context that writes a file whole or not at all.
 
-    Yields a new empty file in the same folder. It is renamed to ``path`` where the context ends without an
-    exception, and removed otherwise. The file has the permissions of any new file of the process. Where
-    ``path`` is a link, its target is replaced.
+    Yields a new empty file in the same folder, with a hidden name. It is renamed to ``path`` where the
+    context ends without an exception, and removed otherwise. The file has the permissions of any new file of
+    the process. Where ``path`` is a link, its target is replaced.
+
+    Raises
+    ------
+    WriteError
+        Where the file cannot be written, as on a full disk.
     """
-    path = path.resolve()
-    beside = path.with_name(f".{path.stem}-{secrets.token_hex(4)}{path.suffix}")
-    # The name is known before the file is made: a signal in between must not leave the file behind.
-    try:
-        # The kernel takes the umask off this mode: the umask can only be read by changing it.
-        os.close(os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666))
+    with _beside(path) as (beside, finish):
         yield beside
-        beside.replace(path)
+        finish()
+        beside.replace(path.resolve())
+
+
+@contextmanager
+def _beside(path: Path) -> Iterator[tuple[Path, Callable[[], None]]]:
+    """Context with a new file beside a path, and a function that brings its content to the disk."""
+    # The name is known before the file is made: a signal in between must not leave the file behind.
+    beside = path.resolve().with_name(f"{_HIDDEN}{secrets.token_hex(8)}{path.suffix}")
+    number = -1
+    try:
+        with writing(path, beside):
+            # The kernel takes the umask off this mode: the umask can only be read by changing it.
+            number = os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666)
+            take(number)
+            yield beside, lambda: flush(number)
     finally:
+        if number >= 0:
+            os.close(number)
         beside.unlink(missing_ok=True)
+
+
+def flush(number: int) -> None:
+    """Bring the content of an open file to the disk; network file systems report a full disk only then."""
+    try:
+        os.fsync(number)
+    except OSError as error:
+        if error.errno not in _NO_FLUSH:
+            raise
+
+
+@contextmanager
+def writing(path: Path, *others: Path) -> Iterator[None]:
+    """Context in which a file is written: an OSError becomes a WriteError of one line that names it.
+
+    Parameters
+    ----------
+    path : Path
+        File that is named in the error.
+    *others : Path
+        Files that stand for it. An error about any further file is left as it is.
+
+    Raises
+    ------
+    WriteError
+        Where an OSError about these files, or about no file, is raised within the context.
+
+    Examples
+    --------
+    >>> with writing(Path("film.csv")):
+    ...     raise OSError(errno.EROFS, "Read-only file system")
+    Traceback (most recent call last):
+    ehlectric.errors.WriteError: film.csv: cannot be written to, read-only file system
+    """
+    try:
+        yield
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        if error.filename is not None and Path(os.fsdecode(error.filename)) not in (path, *others):
+            raise
+        reason = (error.strerror or str(error)).lower()
+        raise WriteError(path, f"cannot be written to, {reason}{ADVICE * (error.errno in _FULL)}") from None
+
+
+def refuse_full(path: Path) -> None:
+    """Refuse to go on where the disk of a file is full, for programs that do not say why they cannot write.
+
+    Raises
+    ------
+    WriteError
+        Where the disk has hardly a block left.
+    """
+    with writing(path):
+        if shutil.disk_usage(path.resolve().parent).free < _BLOCK:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+
+def write(path: Path, content: Content) -> None:
+    """Write a file whole or not at all.
+
+    Parameters
+    ----------
+    path : Path
+        File to write; an existing one is replaced.
+    content : bytes or callable
+        Content of the file, or a function that writes it to an open binary file.
+
+    Raises
+    ------
+    WriteError
+        Where the file cannot be written, as on a full disk.
+    """
+    with whole(path) as beside:
+        _fill(beside, content)
+
+
+def write_together(folder: Path, contents: Mapping[str, Content], replaced: Iterable[str] = ()) -> list[Path]:
+    """Write the files of a result, all of them or none.
+
+    Parameters
+    ----------
+    folder : Path
+        Folder of the files.
+    contents : mapping of str to bytes or callable
+        Content of each file by its name, as ``write`` takes it.
+    replaced : iterable of str
+        Names of the files of an earlier result. They are removed when the new ones lie on the disk, so that a
+        full disk leaves the earlier result as it is.
+
+    Returns
+    -------
+    list of Path
+        Files written, in the order of ``contents``.
+
+    Raises
+    ------
+    WriteError
+        Where a file cannot be written, as on a full disk.
+    """
+    files = [folder / name for name in contents]
+    with ExitStack() as stack:
+        hidden = []
+        for path, content in zip(files, contents.values(), strict=True):
+            beside, finish = stack.enter_context(_beside(path))
+            with writing(path, beside):
+                _fill(beside, content)
+                finish()
+            hidden.append(beside)
+        with held_back():
+            # Without the earlier files first, a kill could leave files of both results.
+            clear(folder, {*replaced, *contents})
+            for path, beside in zip(files, hidden, strict=True):
+                with writing(path, beside):
+                    beside.replace(path)
+    return files
+
+
+def _fill(path: Path, content: Content) -> None:
+    with path.open("wb") as file:
+        if callable(content):
+            content(file)
+        else:
+            file.write(content)
+
+
+def clear_left_behind(folder: Path) -> None:
+    """Remove the hidden files that killed writers left in a folder, and no file of a writer that lives.
+
+    The kernel releases the lock of a file with its writer. Where the file system has no locks, nothing is
+    removed.
+    """
+    with os.scandir(folder) as entries:
+        found = [entry.path for entry in entries if _LEFT.fullmatch(entry.name)]
+    for path in found:
+        with suppress(OSError):  # another command has removed it, or it belongs to another user
+            number = os.open(path, os.O_RDONLY | _SAFELY)
+            try:
+                if take(number) == "taken" and stat.S_ISREG(os.fstat(number).st_mode):
+                    Path(path).unlink()
+            finally:
+                os.close(number)
+
+
+def json_of(table: Mapping[str, Any]) -> bytes:
+    """Content of a JSON file.
+
+    Raises
+    ------
+    ValueError
+        Where a number is not finite; ``plain`` turns such numbers into None.
+    """
+    return (json.dumps(table, indent=2, allow_nan=False) + "\n").encode()
 
 
 def write_json(path: Path, table: Mapping[str, Any]) -> None:
@@ -154,9 +351,10 @@ def write_json(path: Path, table: Mapping[str, Any]) -> None:
     ------
     ValueError
         Where a number is not finite; ``plain`` turns such numbers into None.
+    WriteError
+        Where the file cannot be written, as on a full disk.
     """
-    with whole(path) as beside:
-        beside.write_text(json.dumps(table, indent=2, allow_nan=False) + "\n", encoding="utf-8")
+    write(path, json_of(table))
 
 
 def now() -> str:

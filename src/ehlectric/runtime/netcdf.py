@@ -1,22 +1,29 @@
-"""NetCDF files: reading them, and writing files that grow while other programs read them."""
+"""NetCDF files: reading them, their content in memory, and files that grow while other programs read them."""
 
 from __future__ import annotations
 
+import errno
+import os
 import shutil
 import time
 import warnings
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import AbstractContextManager, contextmanager
+from io import FileIO
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
 
 from ehlectric.errors import InputError
-from ehlectric.runtime.files import refuse_unreadable
+from ehlectric.runtime.drafts import Draft
+from ehlectric.runtime.files import refuse_unreadable, writing
 from ehlectric.runtime.interrupts import held_back
+from ehlectric.runtime.locks import take
 
 if TYPE_CHECKING:
     import xarray as xr
 
+
+F = TypeVar("F", bound=AbstractContextManager[Any])
 
 # Longest time to wait for another program that has the file open, and time between two attempts [s].
 _PATIENCE, _AGAIN = 30.0, 0.05
@@ -55,11 +62,51 @@ def read_dataset(path: Path, damaged: str = "is not a NetCDF file") -> xr.Datase
         raise InputError(path, damaged) from None
 
 
-@contextmanager
-def opened(path: Path, mode: str) -> Iterator[Any]:
-    """Context with an open file. It waits while another program has the file open.
+def content_of(dataset: xr.Dataset) -> Callable[[BinaryIO], None]:
+    """Function that writes a dataset as a NetCDF file to an open file.
 
-    Interrupts are held back until the file is closed, so that they leave no damaged file.
+    Raises
+    ------
+    OSError
+        By the function, where the file cannot be written.
+    """
+    import xarray as xr
+
+    def fill(file: Any) -> None:
+        dataset.dump_to_store(xr.backends.H5NetCDFStore(file))
+
+    return created(fill)
+
+
+def created(fill: Callable[[Any], None]) -> Callable[[BinaryIO], None]:
+    """Function that writes a new NetCDF file to an open file.
+
+    Parameters
+    ----------
+    fill : callable
+        Called with the ``h5netcdf.File``, to which it writes.
+    """
+    import h5netcdf
+
+    def content(target: BinaryIO) -> None:
+        draft = Draft()
+        with h5netcdf.File(draft, "w") as file:
+            fill(file)
+        draft.copy_to(target)
+
+    return content
+
+
+@contextmanager
+def opened(path: Path, mode: str = "r") -> Iterator[Any]:
+    """Context with a file that is open for reading. It waits while another program writes to the file.
+
+    Parameters
+    ----------
+    path : Path
+        File to read.
+    mode : str
+        "r".
 
     Raises
     ------
@@ -68,11 +115,60 @@ def opened(path: Path, mode: str) -> Iterator[Any]:
     """
     import h5netcdf
 
+    def attempt() -> Any:
+        return h5netcdf.File(path, mode)
+
+    with _patient(path, attempt) as file:
+        yield file
+
+
+@contextmanager
+def changed(path: Path) -> Iterator[Any]:
+    """Context with a file that is open for changes, which are written all or not at all.
+
+    It waits while another program has the file open. Interrupts are held back until the file is closed, so
+    that they leave no damaged file.
+
+    Raises
+    ------
+    InputError
+        Where another program keeps the file open, or the disk is full.
+    """
+    import h5netcdf
+
+    def attempt() -> FileIO:
+        target = FileIO(path, "r+")
+        # HDF5 takes the same lock.
+        if take(target.fileno()) == "busy":
+            target.close()
+            raise BlockingIOError
+        return target
+
+    with _patient(path, attempt) as target:
+        draft = Draft(target.fileno())
+        with h5netcdf.File(draft, "r+") as file:
+            yield file
+        with writing(path):
+            # Some file systems need space also for what they overwrite.
+            if shutil.disk_usage(path.parent).free < draft.changed:
+                raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+            draft.apply()
+
+
+@contextmanager
+def _patient(path: Path, attempt: Callable[[], F]) -> Iterator[F]:
+    """Context with a file that is opened once no other program holds it; interrupts wait for its end.
+
+    Raises
+    ------
+    InputError
+        Where another program keeps the file open.
+    """
     until = time.monotonic() + _PATIENCE
     while True:
         with held_back():
             try:
-                file = h5netcdf.File(path, mode)
+                file = attempt()
             except BlockingIOError:
                 if time.monotonic() > until:
                     told = "is held open by another program, which must close it"
@@ -82,25 +178,6 @@ def opened(path: Path, mode: str) -> Iterator[Any]:
                     yield file
                 return
         time.sleep(_AGAIN)
-
-
-def check_space(path: Path, needed: int) -> None:
-    """Refuse to write more than the disk has room for: HDF5 damages the file when the disk is full.
-
-    Parameters
-    ----------
-    path : Path
-        File that grows.
-    needed : int
-        Largest number of bytes that it may grow by.
-
-    Raises
-    ------
-    InputError
-        Where the disk has fewer bytes left.
-    """
-    if shutil.disk_usage(path.parent).free < needed:
-        raise InputError(path, "cannot be written to, the disk is full")
 
 
 def resize(file: Any, sizes: Mapping[str, int]) -> None:

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Iterable, Sequence
-from pathlib import Path
-from typing import Any
-
-from ehlectric.runtime.files import whole
+from collections.abc import Callable, Iterable, Sequence
+from io import TextIOWrapper
+from typing import Any, BinaryIO
 
 
 def column_head(name: str, unit: str) -> str:
@@ -21,9 +19,16 @@ def column_head(name: str, unit: str) -> str:
     return f"{name} [{unit.replace('**', '^').replace('*', ' ') or '-'}]"
 
 
-def write_csv(path: Path, heads: Sequence[str], rows: Iterable[Iterable[Any]]) -> None:
-    """Write a CSV file in UTF-8; an interrupted write leaves no partial file."""
-    with whole(path) as beside, beside.open("w", encoding="utf-8", newline="") as file:
-        writer = csv.writer(file)
+def csv_of(
+    heads: Sequence[str], rows: Iterable[Iterable[Any]], *, ending: str = "\r\n"
+) -> Callable[[BinaryIO], None]:
+    """Function that writes a table as CSV in UTF-8 to an open file, with this ending of its lines."""
+
+    def content(file: BinaryIO) -> None:
+        text = TextIOWrapper(file, encoding="utf-8", newline="")
+        writer = csv.writer(text, lineterminator=ending)
         writer.writerow(heads)
         writer.writerows(rows)
+        text.detach()
+
+    return content

@@ -10,7 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from ehlectric.errors import InputError, LostError, shown
-from ehlectric.runtime.files import clear, prepare
+from ehlectric.runtime.files import clear
+from ehlectric.runtime.folders import FIGURE_LOCK, LONG, RESULT_LOCK, alone_in
 from ehlectric.runtime.outcome import RunOutcome
 from ehlectric.runtime.progress import Progress, silent, told_to
 from ehlectric.runtime.workers import cores
@@ -18,7 +19,7 @@ from ehlectric.sweep.engine import Crew, Task, crew_of, processes, run_points
 from ehlectric.sweep.inputs import Sweep
 from ehlectric.sweep.plan import Outcome, Planned, plan
 from ehlectric.sweep.results import SweepResults
-from ehlectric.sweep.store import LOCK, NAME, Store, read_sweep
+from ehlectric.sweep.store import NAME, Store, read_sweep
 from ehlectric.sweep.tables import FILES, write_tables
 from ehlectric.sweep.verdict import sweep_verdict
 from ehlectric.sweep.warnings import sweep_warnings
@@ -127,23 +128,24 @@ def run(
     Raises
     ------
     InputError
-        Where no point is a valid case, or the folder cannot be used.
+        Where no point is a valid case, the folder cannot be used, or another command writes into it.
     LostError
         Where the crew no longer works. The points solved so far are saved, and the same call solves the
         others.
     """
     planned = planned_points(sweep)
-    with ExitStack() as crews:
+    with alone_in(folder, (NAME, *FILES, *others), locks=[RESULT_LOCK]) as folder, ExitStack() as crews:
         working = crews.enter_context(crew(None, None) if solvers is None else solvers)
-        folder = prepare(folder, (NAME, LOCK, *FILES, *others))
         with Store(folder) as store:
             store.begin(sweep, planned)
-            clear(folder, (*FILES, *others))
+            with alone_in(folder, locks=[FIGURE_LOCK]):
+                clear(folder, (*FILES, *others))
             _solve(sweep, store, planned, working, progress)
             # The crew leaves before the tables are written: a cluster can be used for something else.
             crews.close()
             results = read_sweep(folder)
-            write_tables(results, folder)
+            with alone_in(folder, locks=[FIGURE_LOCK], patience=LONG):
+                write_tables(results, folder)
     files = tuple(folder / name for name in FILES if (folder / name).exists())
     summary: dict[str, Any] = dict(Counter(str(point.status) for point in results.points))
     failure = None if "solved" in summary else f"none of {len(results.points)} points was solved"

@@ -6,26 +6,32 @@ import json
 import sqlite3
 import tomllib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any, Self
 
 from ehlectric.cases.any_case import AnyCase, case_of_dict
-from ehlectric.errors import InputError
-from ehlectric.runtime.files import now, refuse_special, refuse_unreadable
+from ehlectric.errors import InputError, WriteError
+from ehlectric.runtime.files import ADVICE, now, refuse_special, refuse_unreadable
+from ehlectric.runtime.folders import locked
 from ehlectric.sweep.inputs import Sweep
 from ehlectric.sweep.plan import Outcome, Planned
 from ehlectric.sweep.results import Point, Range, Status, SweepResults
 from ehlectric.version import __version__
 
 NAME = "sweep.sqlite"
-LOCK = ".sweep.lock"
+
+# File that is locked while the database is open for writing; it is removed afterwards.
+LOCK = ".ehlectric-sweep.lock"
 
 # SQLite's application id marks the file as a sweep of ehlectric: its bytes are the letters "ehle". The
 # version is that of the tables in the file.
 _APPLICATION = 0x65686C65
 _VERSION = 1
+
+# Error codes of SQLite for a full disk and for a write that fails, as at a limit of the size of files.
+_FULL = (sqlite3.SQLITE_FULL, sqlite3.SQLITE_IOERR_WRITE, sqlite3.SQLITE_IOERR_FSYNC)
 
 # Longest time that a reader and the writer wait for each other [s].
 _PATIENCE = 60.0
@@ -65,17 +71,16 @@ class Store:
 
     def __init__(self, folder: Path) -> None:
         self._path = folder / NAME
-        for name in (NAME, LOCK):
-            refuse_special(folder / name)
-        self._lock = _locked(folder / LOCK)
-        try:
+        refuse_special(self._path)
+        with ExitStack() as stack:
+            stack.enter_context(locked(folder, LOCK))
+            stack.callback(_remove_empty, self._path)
             with _one_line_errors(self._path):
                 self._file = _opened(self._path, "rwc")
+                stack.callback(self._file.close)
                 self._file.execute("PRAGMA journal_mode = TRUNCATE")
                 self._file.execute("PRAGMA synchronous = FULL")
-        except BaseException:
-            self._lock.close()
-            raise
+            self._held = stack.pop_all()
 
     def __enter__(self) -> Self:
         return self
@@ -84,8 +89,7 @@ class Store:
         with suppress(sqlite3.Error):
             # Deletes the empty journal file.
             self._file.execute("PRAGMA journal_mode = DELETE")
-        self._file.close()
-        self._lock.close()
+        self._held.close()
 
     def begin(self, sweep: Sweep, planned: Iterable[Planned]) -> None:
         """Replace the stored input and points by those of a sweep; stored outcomes are kept."""
@@ -288,22 +292,10 @@ def _opened(path: Path, mode: str) -> sqlite3.Connection:
     return file
 
 
-def _locked(path: Path) -> sqlite3.Connection:
-    """Lock of a folder against other writers; it also works on network file systems.
-
-    The operating system releases it when this process ends, also after a crash.
-    """
-    lock = sqlite3.connect(path, timeout=0.0, isolation_level=None)
-    try:
-        lock.execute("BEGIN EXCLUSIVE")
-    except sqlite3.Error as error:
-        lock.close()
-        if getattr(error, "sqlite_errorcode", 0) & 0xFF == sqlite3.SQLITE_BUSY:
-            raise InputError(
-                path.parent, "is being written to by another sweep", takes="a folder of its own"
-            ) from None
-        raise InputError(path, f"cannot be used, {error}") from None
-    return lock
+def _remove_empty(path: Path) -> None:
+    """Remove a file to which nothing was written, as on a full disk."""
+    if path.is_file() and not path.stat().st_size:
+        path.unlink()
 
 
 @contextmanager
@@ -312,6 +304,8 @@ def _one_line_errors(path: Path) -> Iterator[None]:
     try:
         yield
     except sqlite3.OperationalError as error:
+        if getattr(error, "sqlite_errorcode", 0) in _FULL:
+            raise WriteError(path, f"cannot be written to, {error}{ADVICE}") from None
         raise InputError(path, f"cannot be used, {error}") from None
     except sqlite3.DatabaseError as error:
         raise InputError(path, f"is not a sweep of ehlectric, or damaged: {error}") from None

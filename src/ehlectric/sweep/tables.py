@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-import csv
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from functools import partial
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
-from ehlectric.runtime.files import clear, prepare, whole
-from ehlectric.runtime.tables import column_head
+from ehlectric.runtime.files import Content, write_together
+from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
+from ehlectric.runtime.netcdf import content_of
+from ehlectric.runtime.tables import column_head, csv_of
 from ehlectric.sweep.columns import cell, columns_of, unit_of_column
 from ehlectric.sweep.results import SweepResults
 
@@ -20,7 +22,7 @@ FILES = (CSV, PARQUET, NETCDF)
 
 
 def write_tables(results: SweepResults, folder: str | Path) -> list[Path]:
-    """Write sweep.csv, sweep.nc and, if pyarrow is installed, sweep.parquet.
+    """Write sweep.csv, sweep.nc and, if pyarrow is installed, sweep.parquet, all of them or none.
 
     Parameters
     ----------
@@ -37,26 +39,29 @@ def write_tables(results: SweepResults, folder: str | Path) -> list[Path]:
     Raises
     ------
     InputError
-        If the folder cannot be written to.
+        If the folder cannot be written to, its disk is full, or another command writes into it.
     """
-    folder = prepare(folder, FILES)
     columns = columns_of(results)
-    clear(folder, FILES)
-    files = [folder / CSV, folder / NETCDF]
-    with whole(files[0]) as path, path.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(_heads(results, columns))
-        writer.writerows(zip(*(map(cell, column) for column in columns.values()), strict=True))
-    with whole(files[1]) as path:
-        results.to_xarray().to_netcdf(path, engine="h5netcdf")
+    rows = zip(*(map(cell, column) for column in columns.values()), strict=True)
+    contents: dict[str, Content] = {
+        CSV: csv_of(_heads(results, columns), rows, ending="\n"),
+        NETCDF: content_of(results.to_xarray()),
+    }
     if find_spec("pyarrow") is not None:
-        import pyarrow
-        from pyarrow import parquet
+        contents[PARQUET] = partial(_write_parquet, columns)
+    with alone_in(folder, FILES, locks=[FIGURE_LOCK]) as folder:
+        return write_together(folder, contents, FILES)
 
-        files.append(folder / PARQUET)
-        with whole(files[-1]) as path:
-            parquet.write_table(pyarrow.table({key: _plain(column) for key, column in columns.items()}), path)
-    return files
+
+def _write_parquet(columns: Mapping[str, list[Any]], file: BinaryIO) -> None:
+    """Write columns as Parquet."""
+    import pyarrow
+    from pyarrow import parquet
+
+    # In memory: the library would close the file itself.
+    sink = pyarrow.BufferOutputStream()
+    parquet.write_table(pyarrow.table({key: _plain(column) for key, column in columns.items()}), sink)
+    file.write(sink.getvalue())
 
 
 def _heads(results: SweepResults, columns: Iterable[str]) -> list[str]:

@@ -1,5 +1,6 @@
 """Files that are written whole or not at all, with the permissions of any other file of the process."""
 
+import errno
 import json
 import os
 import stat
@@ -10,7 +11,17 @@ from pathlib import Path
 import pytest
 
 from ehlectric import InputError
-from ehlectric.runtime.files import reading, refuse_unreadable, write_json
+from ehlectric.errors import WriteError
+from ehlectric.runtime.files import (
+    clear_left_behind,
+    prepare,
+    reading,
+    refuse_unreadable,
+    whole,
+    write,
+    write_json,
+    write_together,
+)
 
 WRITE = """
 import os, sys
@@ -67,3 +78,109 @@ def test_a_file_that_cannot_be_read_is_refused(tmp_path):
         refuse_unreadable(tmp_path)
     with pytest.raises(InputError, match=r"^x: cannot be read, broken$"), reading(Path("x")):
         raise OSError("Broken")
+
+
+def full(part=b"half"):
+    """Content that meets a full disk after some bytes."""
+
+    def content(file):
+        file.write(part)
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    return content
+
+
+def named(path):
+    return f"{path}: cannot be written to, no space left on device; free some space, or choose another folder"
+
+
+def contents(folder):
+    return {path.name: path.read_text() for path in folder.iterdir()}
+
+
+def test_a_full_disk_is_one_line_that_names_the_file(tmp_path):
+    write(tmp_path / "film.csv", b"old")
+    with pytest.raises(WriteError) as told:
+        write(tmp_path / "film.csv", full())
+    assert str(told.value) == named(tmp_path / "film.csv")
+    assert contents(tmp_path) == {"film.csv": "old"}
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="only Linux has a device that is always full")
+def test_the_last_bytes_may_be_those_that_do_not_fit(tmp_path):
+    """Python writes the end of a file when it is closed."""
+
+    def content(file):
+        os.dup2(os.open("/dev/full", os.O_WRONLY), file.fileno())
+        file.write(b"short")
+
+    with pytest.raises(WriteError, match="no space left"):
+        write(tmp_path / "film.csv", content)
+    assert not list(tmp_path.iterdir())
+
+
+def test_an_error_about_another_file_is_left_as_it_is(tmp_path):
+    def content(_file):
+        (tmp_path / "missing").read_bytes()
+
+    with pytest.raises(FileNotFoundError, match="missing"):
+        write(tmp_path / "film.csv", content)
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("broken", ["a", "b", "c"])
+def test_files_of_a_result_are_written_all_or_none(tmp_path, broken):
+    """The earlier result stays where the new one does not fit."""
+    earlier = {"a": "old a", "b": "old b", "figure.png": "old figure"}
+    for name, text in earlier.items():
+        (tmp_path / name).write_text(text)
+    new = {name: full() if name == broken else name.encode() for name in "abc"}
+    with pytest.raises(WriteError) as told:
+        write_together(tmp_path, new, ["figure.png", "gone"])
+    assert str(told.value) == named(tmp_path / broken)
+    assert contents(tmp_path) == earlier
+    files = write_together(tmp_path, {name: name.encode() for name in "abc"}, ["figure.png", "gone"])
+    assert files == [tmp_path / name for name in "abc"]
+    assert contents(tmp_path) == {"a": "a", "b": "b", "c": "c"}
+
+
+def test_a_disk_without_any_space_is_refused_before_anything_is_solved(tmp_path, monkeypatch):
+    monkeypatch.setattr("tempfile.TemporaryFile", lambda **_: Path("/dev/full").open("wb"))  # noqa: SIM115
+    with pytest.raises(InputError) as told:
+        prepare(tmp_path)
+    assert str(told.value) == named(tmp_path)
+
+
+LEFT = """
+import os, signal, sys
+from pathlib import Path
+from ehlectric.runtime.files import whole
+with whole(Path(sys.argv[1])) as beside:
+    beside.write_text("half")
+    os.kill(os.getpid(), signal.SIGKILL)
+"""
+
+
+def test_what_a_kill_left_is_removed_and_nothing_else(tmp_path):
+    for name in ("film.png", "no_suffix"):
+        subprocess.run([sys.executable, "-c", LEFT, tmp_path / name], check=False)
+    left = [path.name for path in tmp_path.iterdir()]
+    assert len(left) == 2
+    assert all(name.startswith(".ehlectric-") for name in left)
+    # Names that a user may have chosen, a folder and a link of the pattern, and a file that is being written.
+    users = {
+        ".ehlectric-notes",
+        ".film-0123abcd.png",
+        "ehlectric-0123456789abcdef.png",
+        ".ehlectric-01.png",
+    }
+    for name in users:
+        (tmp_path / name).touch()
+    (tmp_path / ".ehlectric-0123456789abcdef.d").mkdir()
+    (tmp_path / ".ehlectric-0123456789abcdef.nc").symlink_to(tmp_path / ".ehlectric-notes")
+    with whole(tmp_path / "alive.png") as beside:
+        clear_left_behind(tmp_path)
+        assert beside.exists()
+        kept = {path.name for path in tmp_path.iterdir()} - {beside.name}
+    links = {".ehlectric-0123456789abcdef.d", ".ehlectric-0123456789abcdef.nc"}
+    assert kept == users | links

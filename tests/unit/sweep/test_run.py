@@ -51,7 +51,7 @@ def test_points_are_the_solutions_of_their_cases(tmp_path):
     assert [done for done, _, _ in told] == sorted(done for done, _, _ in told)
     assert (told[0], told[-1]) == ((0, 4, ""), (4, 4, ""))
     names = sorted(path.name for path in (tmp_path / "new" / "folder").iterdir())
-    assert names == [".sweep.lock", "sweep.csv", "sweep.nc", "sweep.parquet", "sweep.sqlite"]
+    assert names == ["sweep.csv", "sweep.nc", "sweep.parquet", "sweep.sqlite"]
     assert read_sweep(tmp_path / "new" / "folder") == results
 
 
@@ -61,7 +61,7 @@ def test_a_sweep_that_was_stopped_goes_on(tmp_path):
     saved = [point.inputs[SPEED] for point in read_sweep(tmp_path).points if point.solved]
     assert set(saved) < {1.0, 2.0, 3.0, 4.0}
     # No tables of a sweep that has not come to its end.
-    assert sorted(path.name for path in tmp_path.iterdir()) == [".sweep.lock", "sweep.sqlite"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["sweep.sqlite"]
     results, rest = solved_by(speeds(6), tmp_path)
     assert rest == [speed for speed in (1.0, 2.0, 3.0, 4.0, 5.0, 6.0) if speed not in saved]
     assert all(point.solved for point in results.points)
@@ -117,7 +117,7 @@ def test_two_sweeps_in_one_folder(tmp_path):
 
     def submit(call, *values):
         if not refused:
-            with pytest.raises(InputError, match="is being written to by another sweep") as told:
+            with pytest.raises(InputError, match="is being written to by another ehlectric") as told:
                 run_sweep(speeds(9), tmp_path)
             refused.append(told)
         return threads.submit(call, *values)

@@ -67,7 +67,7 @@ def test_what_was_asked_and_found_comes_back(tmp_path):
         Outcome("failed", "unexpected: no"),
     ]
     begun(tmp_path, sweep, outcomes)
-    assert sorted(path.name for path in tmp_path.iterdir()) == [".sweep.lock", NAME]
+    assert sorted(path.name for path in tmp_path.iterdir()) == [NAME]
     results = read_sweep(tmp_path)
     assert (results.case, results.design) == (CASE, "grid")
     assert results.axes == sweep.axes
@@ -175,7 +175,7 @@ def test_what_a_kill_left_half_written_is_taken_back_by_the_next_reader(tmp_path
 def test_two_writers_are_one_too_many(tmp_path):
     with (
         Store(tmp_path),
-        pytest.raises(InputError, match=r": is being written to by another sweep; expected a folder of its"),
+        pytest.raises(InputError, match=r": is being written to by another ehlectric; expected a folder "),
     ):
         Store(tmp_path)
     Store(tmp_path).__exit__()
@@ -277,7 +277,9 @@ print(saved)
 """
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     message, saved = done.stdout.splitlines()
-    assert message.startswith(f"{tmp_path / NAME}: cannot be used, d")  # "disk I/O error", or that it is full
+    assert message.startswith(
+        f"{tmp_path / NAME}: cannot be written to, d"
+    )  # "disk I/O error", or that it is full
     assert 50 < int(saved) < 400
     statuses = [point.status for point in read_sweep(tmp_path).points]
     assert statuses == ["solved"] * int(saved) + ["open"] * (400 - int(saved))

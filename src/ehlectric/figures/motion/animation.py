@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import subprocess
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, BinaryIO, cast
 
 import numpy as np
 from matplotlib import colormaps
@@ -18,7 +19,8 @@ from ehlectric.figures.motion.line_frames import Frames, line_frames
 from ehlectric.figures.motion.point_frames import map_frames
 from ehlectric.figures.style import style
 from ehlectric.motion.stored_run import MotionRun
-from ehlectric.runtime.files import refuse_special, whole
+from ehlectric.runtime.files import refuse_full, whole
+from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
 from ehlectric.runtime.progress import Progress, silent
 
 if TYPE_CHECKING:
@@ -69,7 +71,6 @@ def save_animation(
     if not _SLOWEST <= fps <= _FASTEST:
         raise InputError("fps", got=f"{fps:g}", takes=f"{_SLOWEST:g} to {_FASTEST:g} instants a second")
     write = _writer(path)
-    refuse_special(path)
     run = MotionRun.of(dataset)
     with style():
         drawn = _FRAMES[run.kind.name](run)
@@ -77,10 +78,11 @@ def save_animation(
         # Without a fixed layout, tick labels that appear and disappear would shift the panels.
         drawn.figure.draw_without_rendering()
         drawn.figure.set_layout_engine("none")
-        with whole(path) as beside:
+        with alone_in(path.parent, [path.name], locks=[FIGURE_LOCK]), whole(path) as beside:
             try:
                 write(beside, _instants(drawn, run.frames, progress), fps)
             except (BrokenPipeError, subprocess.CalledProcessError):
+                refuse_full(path)
                 raise InputError.worded(
                     path, "cannot be written, ffmpeg failed; a .gif needs no ffmpeg"
                 ) from None
@@ -107,6 +109,13 @@ def _writer(path: Path) -> Callable[[Path, Iterator[Frames], float], None]:
     return _write_mp4
 
 
+@dataclass(frozen=True)
+class _Plain:
+    """File without a number: Pillow writes to a number itself, and does not say why it cannot write."""
+
+    write: Callable[[bytes], int]
+
+
 def _write_gif(path: Path, instants: Iterator[Frames], fps: float) -> None:
     # Each image is reduced to 256 colours at once: matplotlib's own writer keeps all images in memory in full
     # colour.
@@ -114,7 +123,8 @@ def _write_gif(path: Path, instants: Iterator[Frames], fps: float) -> None:
     duration = round(1000.0 / fps)
     # A file that Pillow opens itself would stay open if drawing an image fails.
     with path.open("wb") as file:
-        next(images).save(file, "GIF", save_all=True, append_images=images, duration=duration, loop=0)
+        options: dict[str, Any] = {"save_all": True, "append_images": images, "duration": duration, "loop": 0}
+        next(images).save(cast("BinaryIO", _Plain(file.write)), "GIF", **options)
 
 
 def _image(drawn: Frames) -> Image.Image:

@@ -1,0 +1,184 @@
+"""Files of HDF5 whose changes are kept in memory until they are written to the disk by Python.
+
+The library HDF5 crashes where a write fails, as on a full disk. A write to a draft does not fail: HDF5 writes
+to pages in memory, and they are written to the disk when HDF5 has closed the file.
+"""
+
+from __future__ import annotations
+
+import io
+import os
+from typing import BinaryIO
+
+from ehlectric.runtime.files import flush
+
+# Size of a page [bytes].
+_PAGE = 1 << 16
+
+
+class Draft:
+    """Binary file in memory, which may be a changed copy of a file on the disk.
+
+    It has the methods that h5py needs of a file.
+
+    Parameters
+    ----------
+    number : int, optional
+        Descriptor of the file on the disk, open for reading and writing; without it the draft is empty.
+
+    Examples
+    --------
+    >>> draft = Draft()
+    >>> draft.write(b"film"), draft.seek(1), draft.read(2)
+    (4, 1, b'il')
+    """
+
+    def __init__(self, number: int | None = None) -> None:
+        self._number = number
+        self._old = self._size = 0 if number is None else os.fstat(number).st_size
+        self._pages: dict[int, bytearray] = {}
+        self._at = 0
+        self._failed: Exception | None = None
+
+    def seek(self, offset: int, whence: int = io.SEEK_SET) -> int:
+        """Move to a position, and return it."""
+        self._at = offset + {io.SEEK_SET: 0, io.SEEK_CUR: self._at, io.SEEK_END: self._size}[whence]
+        return self._at
+
+    def tell(self) -> int:
+        """Position in the file [bytes]."""
+        return self._at
+
+    def flush(self) -> None:
+        """Do nothing: ``apply`` writes to the disk."""
+
+    def truncate(self, size: int | None = None) -> int:
+        """Change the size of the file, and return it."""
+        size = self._at if size is None else size
+        if size < self._size:
+            for page in [page for page in self._pages if page * _PAGE >= size]:
+                del self._pages[page]
+            if size % _PAGE:
+                at, kept = divmod(size, _PAGE)
+                self._guarded(at)[kept:] = bytes(_PAGE - kept)
+            self._old = min(self._old, size)
+        self._size = size
+        return size
+
+    def read(self, size: int = -1) -> bytes:
+        """Read bytes from the position on; all of them by default."""
+        size = max(0, min(self._size - self._at, self._size if size < 0 else size))
+        buffer = bytearray(size)
+        self.readinto(buffer)
+        return bytes(buffer)
+
+    def readinto(self, buffer: bytearray | memoryview) -> int:
+        """Fill a buffer from the position on, and return the number of bytes."""
+        view = memoryview(buffer).cast("B")
+        size = done = max(0, min(len(view), self._size - self._at))
+        done = 0
+        while done < size:
+            page, start = divmod(self._at + done, _PAGE)
+            count = min(size - done, _PAGE - start)
+            held = self._pages.get(page)
+            view[done : done + count] = (self._stored(page) if held is None else held)[start : start + count]
+            done += count
+        self._at += size
+        return size
+
+    def write(self, content: bytes | memoryview) -> int:
+        """Write bytes at the position, and return their number."""
+        view = memoryview(content).cast("B")
+        done, size = 0, len(view)
+        while done < size:
+            page, start = divmod(self._at + done, _PAGE)
+            count = min(size - done, _PAGE - start)
+            self._guarded(page)[start : start + count] = view[done : done + count]
+            done += count
+        self._at += size
+        self._size = max(self._size, self._at) if size else self._size
+        return size
+
+    def _guarded(self, page: int) -> bytearray:
+        """Page to be changed. Where there is no memory for it, ``apply`` raises the error: HDF5 must not."""
+        try:
+            if page not in self._pages:
+                self._pages[page] = self._stored(page)
+            return self._pages[page]
+        except (MemoryError, OSError) as error:
+            self._failed = self._failed or error
+            return bytearray(_PAGE)
+
+    def _stored(self, page: int) -> bytearray:
+        """Page of the file on the disk, zeros where it has none."""
+        length = max(0, min(_PAGE, self._old - page * _PAGE))
+        if self._number is None or not length:
+            return bytearray(_PAGE)
+        os.lseek(self._number, page * _PAGE, os.SEEK_SET)
+        content = bytearray()
+        while len(content) < length and (part := os.read(self._number, length - len(content))):
+            content += part
+        return content + bytes(_PAGE - len(content))
+
+    def copy_to(self, file: BinaryIO) -> None:
+        """Write all bytes to a file.
+
+        Raises
+        ------
+        OSError
+            Where they cannot be written.
+        MemoryError
+            Where the draft had not enough memory.
+        """
+        self._check()
+        for page in range(-(-self._size // _PAGE)):
+            content = self._pages.get(page)
+            content = self._stored(page) if content is None else content
+            file.write(memoryview(content)[: self._size - page * _PAGE])
+
+    def apply(self) -> None:
+        """Write the changes to the file on the disk.
+
+        What makes the file longer is written first: where the disk is full, the file stays as it was.
+
+        Raises
+        ------
+        OSError
+            Where the changes cannot be written.
+        MemoryError
+            Where the draft had not enough memory.
+        """
+        self._check()
+        assert self._number is not None
+        before = os.fstat(self._number).st_size
+        try:
+            # Also pages that nothing was written to: in a hole, a later change could find the disk full.
+            for page in range(before // _PAGE, -(-self._size // _PAGE)):
+                self._put(page, max(page * _PAGE, before), min((page + 1) * _PAGE, self._size))
+            flush(self._number)
+        except OSError:
+            os.ftruncate(self._number, before)
+            raise
+        # Pages behind a part that was cut off are zeros, where nothing was written to them.
+        cut = range(-(-self._old // _PAGE), -(-min(before, self._size) // _PAGE))
+        for page in sorted({*self._pages, *cut}):
+            self._put(page, page * _PAGE, min((page + 1) * _PAGE, before, self._size))
+        os.ftruncate(self._number, self._size)
+
+    def _put(self, page: int, start: int, end: int) -> None:
+        """Write a part of a page to the disk."""
+        assert self._number is not None
+        if start < end:
+            os.lseek(self._number, start, os.SEEK_SET)
+            view = memoryview(self._pages.get(page, bytes(_PAGE)))[start - page * _PAGE : end - page * _PAGE]
+            while view:
+                view = view[os.write(self._number, view) :]
+
+    @property
+    def changed(self) -> int:
+        """Upper bound of the number of bytes that ``apply`` writes."""
+        return len(self._pages) * _PAGE
+
+    def _check(self) -> None:
+        if self._failed is not None:
+            raise self._failed

@@ -1,0 +1,54 @@
+"""Locks of the kernel on open files, which end with the process that holds them."""
+
+from __future__ import annotations
+
+import errno
+import sys
+from typing import Literal
+
+Taken = Literal["taken", "busy", "none"]
+
+# Errors that mean that somebody else has the lock.
+_BUSY = (errno.EWOULDBLOCK, errno.EAGAIN, errno.EACCES, errno.EDEADLK)
+
+
+def take(number: int) -> Taken:
+    """Try to lock an open file against every other process and every other open file of this one.
+
+    Parameters
+    ----------
+    number : int
+        Descriptor of the file. The lock ends when the file is closed, also by a kill.
+
+    Returns
+    -------
+    str
+        "taken"; "busy" where somebody else has the lock; "none" where the file system has no locks.
+
+    Examples
+    --------
+    >>> from tempfile import NamedTemporaryFile
+    >>> with NamedTemporaryFile() as one, open(one.name, "rb") as other:
+    ...     take(one.fileno()), take(other.fileno())
+    ('taken', 'busy')
+    """
+    try:
+        _lock(number)
+    except OSError as error:
+        return "busy" if error.errno in _BUSY else "none"
+    return "taken"
+
+
+if sys.platform == "win32":
+
+    def _lock(number: int) -> None:
+        import msvcrt
+
+        msvcrt.locking(number, msvcrt.LK_NBLCK, 1)
+
+else:
+
+    def _lock(number: int) -> None:
+        import fcntl
+
+        fcntl.flock(number, fcntl.LOCK_EX | fcntl.LOCK_NB)

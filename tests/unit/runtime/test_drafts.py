@@ -1,0 +1,156 @@
+"""Drafts of files: the same bytes as of a file, and all changes or none on the disk."""
+
+import errno
+import io
+import os
+
+import h5netcdf
+import numpy as np
+import pytest
+
+from ehlectric import InputError
+from ehlectric.runtime import drafts, netcdf
+from ehlectric.runtime.drafts import Draft
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_a_draft_is_a_file(seed, tmp_path, monkeypatch):
+    """Random operations on a draft and on Python's own file in memory."""
+    monkeypatch.setattr(drafts, "_PAGE", 16)
+    draw = np.random.default_rng(seed)
+    content = draw.bytes(int(draw.integers(0, 100)))
+    path = tmp_path / "file"
+    path.write_bytes(content)
+    with path.open("r+b") as file:
+        draft, expected = Draft(file.fileno()), io.BytesIO(content)
+        for _ in range(200):
+            match int(draw.integers(4)):
+                case 0:
+                    place = int(draw.integers(0, 120)), io.SEEK_SET
+                    assert draft.seek(*place) == expected.seek(*place)
+                case 1:
+                    some = draw.bytes(int(draw.integers(0, 50)))
+                    assert draft.write(some) == expected.write(some)
+                case 2:
+                    size = int(draw.integers(-1, 50))
+                    assert draft.read(size) == expected.read(size)
+                case _:
+                    # The file in memory does not grow by truncation.
+                    size = int(draw.integers(0, len(expected.getvalue()) + 1))
+                    assert draft.truncate(size) == expected.truncate(size)
+            assert draft.tell() == expected.tell()
+            assert draft.seek(0, io.SEEK_END) == len(expected.getvalue())
+            draft.seek(expected.tell())
+        assert path.read_bytes() == content
+        copy = io.BytesIO()
+        draft.copy_to(copy)
+        assert copy.getvalue() == expected.getvalue()
+        draft.apply()
+    assert path.read_bytes() == expected.getvalue()
+
+
+@pytest.fixture
+def grown(tmp_path):
+    """A file of a series of maps, and a function that adds a map to it."""
+    path = tmp_path / "maps.nc"
+
+    def lay_out(file):
+        file.dimensions = {"frame": None, "x": 40_000}
+        file.create_variable("map", ("frame", "x"), "f8", chunks=(1, 40_000))
+        file.create_variable("time", ("frame",), "f8", chunks=(8,))
+
+    with path.open("wb") as file:
+        netcdf.created(lay_out)(file)
+
+    def grow(frame):
+        with netcdf.changed(path) as file:
+            netcdf.resize(file, {"frame": frame + 1})
+            file.variables["map"][frame] = np.full(40_000, frame)
+            file.variables["time"][frame] = frame
+
+    return path, grow
+
+
+def frames(path):
+    with h5netcdf.File(path, "r") as file:
+        times = np.asarray(file.variables["time"][:])
+        np.testing.assert_array_equal(np.asarray(file.variables["map"][:])[:, 0], times)
+        return times.tolist()
+
+
+def test_a_file_grows(grown):
+    path, grow = grown
+    for frame in range(20):
+        grow(frame)
+    assert frames(path) == list(range(20))
+
+
+@pytest.mark.parametrize("room", [0, 1000, 70_000, 319_999])
+def test_a_file_for_which_the_disk_has_no_room_stays_as_it_was(grown, monkeypatch, room):
+    """A map has 320 000 bytes."""
+    path, grow = grown
+    grow(0)
+    before, put = path.read_bytes(), os.write
+
+    def limited(number, content):
+        nonlocal room
+        if not room:
+            raise OSError(errno.ENOSPC, "No space left on device")
+        written = put(number, memoryview(content)[:room])
+        room -= written
+        return written
+
+    with monkeypatch.context() as patch:
+        patch.setattr("ehlectric.runtime.drafts.os.write", limited)
+        with pytest.raises(InputError, match=r"maps\.nc: cannot be written to, no space left on device; f"):
+            grow(1)
+    assert path.read_bytes() == before
+    grow(1)
+    assert frames(path) == [0, 1]
+
+
+def test_a_file_is_read_where_a_kill_came_before_its_old_part_was_changed(grown, monkeypatch):
+    """What makes the file longer is written first, and does not count yet."""
+    path, grow = grown
+    grow(0)
+
+    class KilledError(BaseException):
+        pass
+
+    def kill(_number):
+        raise KilledError
+
+    with monkeypatch.context() as patch:
+        patch.setattr(drafts, "flush", kill)
+        with pytest.raises(KilledError):
+            grow(1)
+    assert frames(path) == [0]
+    grow(1)
+    assert frames(path) == [0, 1]
+
+
+def test_a_disk_that_is_nearly_full_is_refused_before_anything_is_written(grown, monkeypatch):
+    path, grow = grown
+    usage = type("Usage", (), {"free": 300_000})
+    monkeypatch.setattr("shutil.disk_usage", lambda _: usage)
+    before = path.read_bytes()
+    with pytest.raises(InputError, match=r"maps\.nc: cannot be written to, no space left"):
+        grow(0)
+    assert path.read_bytes() == before
+
+
+def test_memory_that_runs_out_is_told_after_hdf5_has_closed_the_file(grown, monkeypatch):
+    """An error within HDF5 would end the process."""
+    path, _ = grown
+    before = path.read_bytes()
+
+    def exhausted(_self, _page):
+        raise MemoryError
+
+    monkeypatch.setattr(Draft, "_stored", exhausted)
+    with path.open("r+b") as file:
+        draft = Draft(file.fileno())
+        draft.write(b"some")
+        with pytest.raises(MemoryError):
+            draft.apply()
+    assert path.read_bytes() == before
