@@ -12,6 +12,7 @@ from ehlectric.cases import library
 from ehlectric.cases.bearing import Bearing, BearingDischarge, BearingLubricant, Motor
 from ehlectric.cases.case import Title
 from ehlectric.cases.changes import Groups, displace, flattened, set_keys
+from ehlectric.cases.depth import refuse_deep
 from ehlectric.cases.discharge import STRENGTHS, TABLES
 from ehlectric.cases.grid import Solver
 from ehlectric.cases.keywords.constructors import tables, takes
@@ -283,6 +284,7 @@ class BearingCase(Tabled, Table):
         InputError
             If a key is unknown, or the changed case is not valid.
         """
+        refuse_deep({**tables, "changes": changes})
         changes = _flat_changes(tables) | dict(changes or {})
         table = self.to_dict()
         if "lubricant.base" in changes:

@@ -12,26 +12,44 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self, TypeVar, Unpack
 
-from pydantic import AfterValidator, model_validator
+from pydantic import AfterValidator, ValidationInfo, model_validator
 
 from ehlectric.cases.changes import displace_alternatives, drop_geometry, flattened, set_keys
 from ehlectric.cases.contact import Contact
+from ehlectric.cases.depth import refuse_deep
 from ehlectric.cases.discharge import Discharge
 from ehlectric.cases.grid import POINT_GRID_KEYS, Electric, Grid, Solver, point_grid
 from ehlectric.cases.keywords.constructors import tables, takes
 from ehlectric.cases.keywords.types import Keys, LineKeys, PointKeys
 from ehlectric.cases.lubricant import Lubricant
 from ehlectric.cases.motion import Motion
+from ehlectric.cases.quantity import WRITTEN
 from ehlectric.cases.roughness import Roughness, check_geometry
 from ehlectric.cases.row import amount
 from ehlectric.cases.table import Table, read_toml
-from ehlectric.errors import InputError, shown
+from ehlectric.errors import InputError, printable, shown, unseen
 from ehlectric.runtime.display import Tabled, headline
 
+# Longest title [characters].
+_LONGEST_TITLE = 200
 
-def _title(text: str) -> str:
-    if len(text) > 200 or any(unicodedata.category(letter) == "Cc" for letter in text):
-        raise InputError(got=shown(text), takes="at most 200 printable characters on one line")
+
+def _title(text: str, info: ValidationInfo) -> str:
+    """Title that is one line.
+
+    A title that a person writes into a file has no character that is not seen either, such as one that
+    turns the direction of the text: every program that shows the files of the result would obey it. Titles
+    of earlier results may have such characters; they are escaped where they are shown.
+    """
+    written = bool(info.context and info.context.get(WRITTEN))
+    if len(text) > _LONGEST_TITLE or any(unicodedata.category(letter) == "Cc" for letter in text):
+        raise InputError(got=shown(text), takes=f"at most {_LONGEST_TITLE} printable characters on one line")
+    if written and (hidden := next(filter(unseen, text), None)):
+        name = unicodedata.name(hidden, "a character without a name").lower()
+        raise InputError(
+            got=f"{shown(text)} with {printable(hidden)} ({name}), which is not seen",
+            takes="a title without it",
+        )
     return text
 
 
@@ -338,6 +356,7 @@ class Case(Tabled, Table):
         InputError
             If a key is unknown, or the changed case is not valid.
         """
+        refuse_deep({**tables, "changes": changes})
         flat = {**flattened(tables), **(changes or {})}
         table = self.to_dict()
         geometry = flattened(flat).get("contact.geometry", self.contact.geometry)

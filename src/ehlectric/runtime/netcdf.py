@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ehlectric.errors import InputError
-from ehlectric.runtime.files import refuse_unreadable
 from ehlectric.runtime.interrupts import held_back
+from ehlectric.runtime.reading import refuse_unreadable
 
 if TYPE_CHECKING:
     import xarray as xr

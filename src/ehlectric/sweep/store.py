@@ -13,7 +13,8 @@ from typing import Any, Self
 
 from ehlectric.cases.any_case import AnyCase, case_of_dict
 from ehlectric.errors import InputError
-from ehlectric.runtime.files import now, refuse_special, refuse_unreadable
+from ehlectric.runtime.files import now, refuse_special
+from ehlectric.runtime.reading import refuse_unreadable
 from ehlectric.sweep.inputs import Sweep
 from ehlectric.sweep.plan import Outcome, Planned
 from ehlectric.sweep.results import Point, Range, Status, SweepResults

@@ -10,7 +10,8 @@ from pathlib import Path
 import pytest
 
 from ehlectric import InputError
-from ehlectric.runtime.files import reading, refuse_unreadable, write_json
+from ehlectric.runtime.files import reading, write_json
+from ehlectric.runtime.reading import refuse_unreadable
 
 WRITE = """
 import os, sys
