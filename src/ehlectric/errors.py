@@ -34,7 +34,7 @@ def unseen(letter: str) -> bool:
 
 
 def printable(text: str) -> str:
-    """Text on one line, with the characters that a terminal obeys or that are not seen as escapes.
+    r"""Text on one line, with the characters that a terminal obeys or that are not seen as escapes.
 
     Parameters
     ----------
@@ -49,8 +49,8 @@ def printable(text: str) -> str:
 
     Examples
     --------
-    >>> print(printable("6208\\x1b[31m\\nfilm"))
-    6208\\x1b[31m\\nfilm
+    >>> print(printable("6208\x1b[31m\nfilm"))
+    6208\x1b[31m\nfilm
     """
     if text.isprintable():
         return text

@@ -7,12 +7,11 @@ computes the operating conditions from them.
 
 from __future__ import annotations
 
-import unicodedata
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self, TypeVar, Unpack
+from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar, Unpack
 
-from pydantic import AfterValidator, ValidationInfo, model_validator
+from pydantic import model_validator
 
 from ehlectric.cases.changes import displace_alternatives, drop_geometry, flattened, set_keys
 from ehlectric.cases.contact import Contact
@@ -23,39 +22,12 @@ from ehlectric.cases.keywords.constructors import tables, takes
 from ehlectric.cases.keywords.types import Keys, LineKeys, PointKeys
 from ehlectric.cases.lubricant import Lubricant
 from ehlectric.cases.motion import Motion
-from ehlectric.cases.quantity import WRITTEN
 from ehlectric.cases.roughness import Roughness, check_geometry
 from ehlectric.cases.row import amount
 from ehlectric.cases.table import Table, read_toml
-from ehlectric.errors import InputError, printable, shown, unseen
+from ehlectric.cases.title import Title
+from ehlectric.errors import InputError, shown
 from ehlectric.runtime.display import Tabled, headline
-
-# Longest title [characters].
-_LONGEST_TITLE = 200
-
-
-def _title(text: str, info: ValidationInfo) -> str:
-    """Title that is one line.
-
-    A title that a person writes into a file has no character that is not seen either, such as one that
-    turns the direction of the text: every program that shows the files of the result would obey it. Titles
-    of earlier results may have such characters; they are escaped where they are shown.
-    """
-    written = bool(info.context and info.context.get(WRITTEN))
-    if len(text) > _LONGEST_TITLE or any(unicodedata.category(letter) == "Cc" for letter in text):
-        raise InputError(got=shown(text), takes=f"at most {_LONGEST_TITLE} printable characters on one line")
-    if written and (hidden := next(filter(unseen, text), None)):
-        name = unicodedata.name(hidden, "a character without a name").lower()
-        raise InputError(
-            got=f"{shown(text)} with {printable(hidden)} ({name}), which is not seen",
-            takes="a title without it",
-        )
-    return text
-
-
-# Title of files and figures, on one line.
-Title = Annotated[str, AfterValidator(_title)]
-
 
 # Units of the numbers in the representation of a case, by their key in the table ``contact``.
 _SHOWN = {"load_per_length": "N/m", "load": "N", "max_hertz_pressure": "Pa", "entrainment_speed": "m/s"}

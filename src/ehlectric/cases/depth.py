@@ -14,8 +14,8 @@ MOST_DEEP = 16
 # Longest key, dotted or not [characters]. The longest key of a case has 45.
 LONGEST_KEY = 1000
 
-# Parts of a text in TOML that matter to the length of a dotted key: strings and comments, in which dots do not
-# count, dots, and what ends a key. A string without an end ends with its line or with the text.
+# Parts of a text in TOML that matter to the length of a dotted key: strings and comments, in which dots do
+# not count, dots, and what ends a key. A string without an end ends with its line or with the text.
 _TOKENS = re.compile(
     r'"""(?:[^\\]|\\.)*?(?:"""|\Z)'
     r"|'''.*?(?:'''|\Z)"

@@ -174,7 +174,8 @@ def _syntax(message: str, text: str) -> str:
         quoted = f'"{value}"' if re.search(r"[^\d.]", value) else value
         return f"line {place[1]} is {shown(line)}: decimal comma, write {quoted}"
     if unit is not None:
-        return f'line {place[1]} is {shown(line)}: write a number with a unit in quotes, "{short(unit[1].strip())}"'
+        number = short(unit[1].strip())
+        return f'line {place[1]} is {shown(line)}: write a number with a unit in quotes, "{number}"'
     return f"{short(message)}: {shown(line)}"
 
 

@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 ROTATION = "rad/s"
 RPM = math.pi / 30.0
 
-# Products and quotients of up to eight named units with one-digit exponents. No quantity here needs other units,
-# and pint would compute for ever on nested exponents, and on long names and products.
+# Products and quotients of up to eight named units with one-digit exponents. No quantity here needs other
+# units, and pint would compute for ever on nested exponents, and on long names and products.
 _NAME = r"[A-Za-zµμΩ°]{1,40}+(?:(?:\*\*|\^)?[-+]?[1-9])?"
 _UNIT = re.compile(rf"(?:1?\s*+/\s*+)?{_NAME}(?:(?:\s*+[*/·]\s*+|\s++){_NAME}){{0,7}}")
 _EXPONENT = re.compile(r"(?<=[A-Za-zµμΩ°])(?:\*\*|\^)?([-+]?[1-9])")
@@ -158,7 +158,8 @@ def _rotation(written: str) -> str:
         return "rpm"
     if _UNIT.fullmatch(written) is not None and _ANGLE.search(written) is None:
         raise ValueError(
-            f"{short(written)} is a frequency, which may count turns or radians: write rpm, min^-1, rad/s or deg/s"
+            f"{short(written)} is a frequency, which may count turns or radians: "
+            "write rpm, min^-1, rad/s or deg/s"
         )
     return written
 

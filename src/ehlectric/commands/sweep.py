@@ -19,6 +19,7 @@ from ehlectric.commands.terminal import (
     print_rows,
     print_verdict,
     refuse_failure,
+    say,
     user_errors,
     warn,
 )
@@ -142,7 +143,7 @@ def _tell_where_it_stops(output: Path) -> Iterator[_Begun]:
         # Read from the file: the progress may not have been called for the last points yet.
         saved, points = saved_points(output)
         text = f"{saved} of {points} points are saved in {output}; the same command resumes the sweep"
-        typer.echo(f"{why}; {text}", err=True)
+        say(f"{why}; {text}", err=True)
 
     try:
         yield begun

@@ -6,8 +6,8 @@ import os
 import stat
 from collections.abc import Iterator
 from contextlib import contextmanager
+from io import BufferedReader
 from pathlib import Path
-from typing import BinaryIO
 
 from ehlectric.errors import InputError, shown
 from ehlectric.runtime.files import reading
@@ -28,8 +28,13 @@ _SPECIAL = (
 _KERNEL = ("/proc/", "/sys/")
 
 
+# Without O_NONBLOCK the opening of a pipe waits until somebody writes into it. Windows has no such flag, but
+# opens files as text by default.
+_FLAGS = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
+
+
 @contextmanager
-def regular(path: str | Path) -> Iterator[BinaryIO]:
+def regular(path: str | Path) -> Iterator[BufferedReader]:
     """Context with a regular file that is open for reading.
 
     A pipe, a device, a socket, a folder and a file of the kernel are refused before anything is read from
@@ -56,14 +61,11 @@ def regular(path: str | Path) -> Iterator[BinaryIO]:
         with reading(path):
             # The opening of a device may already change it.
             refuse_kind(path, path.stat())
-            # Without O_NONBLOCK the opening of a pipe waits until somebody writes into it.
-            descriptor = os.open(
-                path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
-            )
-    except ValueError as error:
-        raise (
-            error if isinstance(error, InputError) else InputError(shown(str(path)), "is not a path")
-        ) from None
+            descriptor = os.open(path, _FLAGS)
+    except InputError:
+        raise
+    except ValueError:
+        raise InputError(shown(str(path)), "is not a path") from None
     with reading(path), os.fdopen(descriptor, "rb") as file:
         refuse_kind(path, os.fstat(descriptor))
         yield file

@@ -14,11 +14,12 @@ from pydantic.fields import FieldInfo
 
 from ehlectric.cases.any_case import AnyCase, case_of_dict, case_of_file
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.cases.case import Case, Title, find_files
+from ehlectric.cases.case import Case, find_files
 from ehlectric.cases.input_keys import input_field, kind_of, number_of
 from ehlectric.cases.quantity import WRITTEN, Count, Quantity
 from ehlectric.cases.table import Table, nearest, nearest_key, read_toml
-from ehlectric.errors import InputError, shown
+from ehlectric.cases.title import Title
+from ehlectric.errors import InputError, printable, shown
 from ehlectric.runtime.display import Tabled, headline
 from ehlectric.sweep import design as sweep_design
 from ehlectric.sweep.results import Range
@@ -210,7 +211,7 @@ def _with_case(table: Mapping[str, Any], *, written: bool) -> Mapping[str, Any]:
         if case is not None and not isinstance(case, AnyCase):
             raise InputError("case", got=shown(case), takes="a table or the name of a file")
     except InputError as error:
-        if error.key in ("case", str(case)):
+        if error.key in ("case", printable(str(case)) if isinstance(case, str | Path) else None):
             raise
         if isinstance(case, str | Path):
             raise error.retold(str(case), str(error)) from None

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ehlectric.runtime.files import clear, prepare, whole
-from ehlectric.runtime.tables import column_head
+from ehlectric.runtime.tables import column_head, csv_text
 from ehlectric.sweep.columns import cell, columns_of, unit_of_column
 from ehlectric.sweep.results import SweepResults
 
@@ -46,7 +46,7 @@ def write_tables(results: SweepResults, folder: str | Path) -> list[Path]:
     with whole(files[0]) as path, path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(_heads(results, columns))
-        writer.writerows(zip(*(map(cell, column) for column in columns.values()), strict=True))
+        writer.writerows(zip(*(map(_cell, column) for column in columns.values()), strict=True))
     with whole(files[1]) as path:
         results.to_xarray().to_netcdf(path, engine="h5netcdf")
     if find_spec("pyarrow") is not None:
@@ -57,6 +57,11 @@ def write_tables(results: SweepResults, folder: str | Path) -> list[Path]:
         with whole(files[-1]) as path:
             parquet.write_table(pyarrow.table({key: _plain(column) for key, column in columns.items()}), path)
     return files
+
+
+def _cell(value: Any) -> Any:
+    """Value for a cell of sweep.csv; a text is no formula for a spreadsheet."""
+    return csv_text(value) if isinstance(value, str) else cell(value)
 
 
 def _heads(results: SweepResults, columns: Iterable[str]) -> list[str]:
