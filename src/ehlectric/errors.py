@@ -12,6 +12,9 @@ from typing import Literal, Self
 # Largest length of a value in a message [characters].
 _MOST_SHOWN = 80
 
+# Largest length of the key of an error, which may be a path, and of its text [characters].
+_LONGEST_LINE = 2000
+
 _SHORT = reprlib.Repr()
 _SHORT.maxstring = _SHORT.maxother = _SHORT.maxlong = 60
 _SHORT.maxlevel = 3
@@ -72,8 +75,11 @@ def short(text: str, most: int = _MOST_SHOWN) -> str:
 
 
 def _line(text: str) -> str:
-    """Text on one line: line breaks become spaces, other control characters are escaped."""
-    return printable(" ".join(text.splitlines()))
+    """Text on one line: line breaks become spaces, other control characters are escaped.
+
+    The middle of a text that would fill a screen is left out.
+    """
+    return short(printable(" ".join(text.splitlines())), _LONGEST_LINE)
 
 
 class InputError(ValueError):
@@ -135,7 +141,7 @@ class InputError(ValueError):
             wrong = says if says is not None else "missing" if got is None else f"got {got}"
             got = says if got is None else got
         self.text = _line(wrong if takes is None else f"{wrong.removesuffix(';')}; expected {takes}")
-        self.key = None if key is None else printable(str(key))
+        self.key = None if key is None else short(printable(str(key)), _LONGEST_LINE)
         self.got = got.removesuffix(";") if isinstance(got, str) else got
         self.takes = takes
         super().__init__(self.text if self.key is None else f"{self.key}: {self.text}")

@@ -13,6 +13,9 @@ from ehlectric.errors import InputError, printable, shown, unseen
 # Longest title [characters].
 LONGEST = 200
 
+# Unicode categories that no title has: control characters, and halves of pairs, which no file can hold.
+_NEVER = frozenset({"Cc", "Cs"})
+
 
 def _title(text: str, info: ValidationInfo) -> str:
     """Title that is one line.
@@ -22,7 +25,7 @@ def _title(text: str, info: ValidationInfo) -> str:
     earlier results may have such characters; they are escaped where they are shown.
     """
     written = bool(info.context and info.context.get(WRITTEN))
-    if len(text) > LONGEST or any(unicodedata.category(letter) == "Cc" for letter in text):
+    if len(text) > LONGEST or any(unicodedata.category(letter) in _NEVER for letter in text):
         raise InputError(got=shown(text), takes=f"at most {LONGEST} printable characters on one line")
     hidden = next(filter(unseen, text), "") if written else ""
     if hidden:

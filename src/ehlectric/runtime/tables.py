@@ -62,7 +62,9 @@ def write_csv(path: Path, heads: Sequence[str], rows: Iterable[Iterable[Any]]) -
 
     No text is taken for a formula by a spreadsheet, see ``csv_text``.
     """
-    with whole(path) as beside, beside.open("w", encoding="utf-8", newline="") as file:
+    # Names of files may hold bytes that are no text in UTF-8; they are escaped.
+    code: dict[str, Any] = {"encoding": "utf-8", "errors": "backslashreplace", "newline": ""}
+    with whole(path) as beside, beside.open("w", **code) as file:
         writer = csv.writer(file)
         writer.writerow(map(_cell, heads))
         writer.writerows(map(_cell, row) for row in rows)

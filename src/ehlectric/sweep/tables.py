@@ -43,7 +43,9 @@ def write_tables(results: SweepResults, folder: str | Path) -> list[Path]:
     columns = columns_of(results)
     clear(folder, FILES)
     files = [folder / CSV, folder / NETCDF]
-    with whole(files[0]) as path, path.open("w", newline="", encoding="utf-8") as file:
+    # Names of files in reasons may hold bytes that are no text in UTF-8; they are escaped.
+    code: dict[str, Any] = {"encoding": "utf-8", "errors": "backslashreplace", "newline": ""}
+    with whole(files[0]) as path, path.open("w", **code) as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(_heads(results, columns))
         writer.writerows(zip(*(map(_cell, column) for column in columns.values()), strict=True))
@@ -61,7 +63,8 @@ def write_tables(results: SweepResults, folder: str | Path) -> list[Path]:
 
 def _cell(value: Any) -> Any:
     """Value for a cell of sweep.csv; a text is no formula for a spreadsheet."""
-    return csv_text(value) if isinstance(value, str) else cell(value)
+    # The writer of Python quotes no carriage return where lines end in line feeds; no title has one.
+    return csv_text(value.replace("\r", r"\r")) if isinstance(value, str) else cell(value)
 
 
 def _heads(results: SweepResults, columns: Iterable[str]) -> list[str]:
