@@ -121,7 +121,8 @@ def _workers(text: str | None, scheduler: str | None) -> int | None:
         return None
     if scheduler is not None:
         raise InputError.worded("--workers", "cannot be combined with --scheduler")
-    if not text.isdecimal() or not 1 <= int(text) <= _MOST_WORKERS:
+    digits = len(str(_MOST_WORKERS))
+    if not text.isdecimal() or len(text) > digits or not 1 <= int(text) <= _MOST_WORKERS:
         raise InputError("--workers", got=shown(text), takes=f"a whole number from 1 to {_MOST_WORKERS}")
     return int(text)
 

@@ -350,3 +350,12 @@ def test_hostile_text_files_of_surfaces_are_refused_soon(tmp_path, content):
     (tmp_path / "rough.csv").write_text(content)
     line = refused(read_surface, tmp_path / "rough.csv")
     assert len(line) < 300 + len(str(tmp_path))
+
+
+def test_values_of_a_grid_are_compared_soon():
+    """Thirty thousand values, of which the last is there twice; comparing all pairs takes half a minute."""
+    values = [*range(801, 60_801, 2), 801]
+    began = time.monotonic()
+    with pytest.raises(InputError, match="got 801 twice"):
+        Sweep.from_dict({"case": CASE, "vary": {"grid.nodes": values}})
+    assert time.monotonic() - began < 2.0 * SOON

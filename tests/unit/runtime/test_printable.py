@@ -10,7 +10,9 @@ from pathlib import Path
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.legend import Legend
 from rich.console import Console
 
 from ehlectric.cases.case import Case
@@ -163,6 +165,19 @@ def test_any_title_can_be_drawn_as_text(tmp_path, title, kind):
     assert b"\x1b[0m" not in content
     assert "\u202e".encode() not in content
     assert figure.get_label() == f"finding. {printable(title)}"
+
+
+@pytest.mark.parametrize("kind", ["screen", "journal"])
+def test_texts_of_a_varied_key_are_no_formulas_in_the_legend_of_a_figure(kind):
+    texts = ["$\\frac{$", "one $ more", "\u202ea", "_b"]
+    results = grid({SPEED: [1.0, 2.0, 4.0], "title": texts})
+    figure = results.plot("lines_discharge.margin", x=SPEED, y="title", style=kind)
+    drawn = FigureCanvasAgg(figure)
+    drawn.draw()
+    entries = [text.get_text() for legend in figure.findobj(Legend) for text in legend.get_texts()]
+    for text in texts[:3]:
+        assert literal(text) in entries
+    assert "\u202ea" not in entries
 
 
 @given(TITLES)
