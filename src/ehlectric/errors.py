@@ -3,22 +3,83 @@
 from __future__ import annotations
 
 import reprlib
+import unicodedata
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Literal, Self
 
+# Largest length of a value in a message [characters].
+_MOST_SHOWN = 80
+
+# Largest length of the key of an error, which may be a path, and of its text [characters].
+_LONGEST_LINE = 2000
+
 _SHORT = reprlib.Repr()
 _SHORT.maxstring = _SHORT.maxother = _SHORT.maxlong = 60
+_SHORT.maxlevel = 3
+
+# Unicode categories of characters that are not seen, or that change how the text around them is seen: control
+# and format characters (bidirectional controls, characters of no width), line separators, parts of pairs.
+_UNSEEN = frozenset({"Cc", "Cf", "Zl", "Zp", "Cs"})
 
 # "severe": the numbers must not be used. "note": the numbers are valid, and the text tells how they were
 # obtained.
 Severity = Literal["note", "warning", "severe"]
 
 
+def unseen(letter: str) -> bool:
+    """Whether a character is a control or format character, or a line separator.
+
+    A terminal obeys such characters, and readers do not see them. Spaces of any width are none of them.
+    """
+    return unicodedata.category(letter) in _UNSEEN
+
+
+def printable(text: str) -> str:
+    r"""Text on one line, with the characters that a terminal obeys or that are not seen as escapes.
+
+    Parameters
+    ----------
+    text : str
+        Text of a user, such as a title or the path of a file.
+
+    Returns
+    -------
+    str
+        Text without control characters, format characters and line separators. A text without them is
+        unchanged, and so is a text that is already printable.
+
+    Examples
+    --------
+    >>> print(printable("6208\x1b[31m\nfilm"))
+    6208\x1b[31m\nfilm
+    """
+    if text.isprintable():
+        return text
+    return "".join(repr(letter)[1:-1] if unseen(letter) else letter for letter in text)
+
+
+def short(text: str, most: int = _MOST_SHOWN) -> str:
+    """Text of at most ``most`` characters: the middle of a longer one is left out.
+
+    Examples
+    --------
+    >>> short("1" * 500, 10)
+    '1111...111'
+    """
+    if len(text) <= most:
+        return text
+    tail = (most - 3) // 2
+    return f"{text[: most - 3 - tail]}...{text[len(text) - tail :]}"
+
+
 def _line(text: str) -> str:
-    """Text without its line breaks."""
-    return " ".join(text.splitlines())
+    """Text on one line: line breaks become spaces, other control characters are escaped.
+
+    The middle of a text that would fill a screen is left out.
+    """
+    return short(printable(" ".join(text.splitlines())), _LONGEST_LINE)
 
 
 class InputError(ValueError):
@@ -80,7 +141,7 @@ class InputError(ValueError):
             wrong = says if says is not None else "missing" if got is None else f"got {got}"
             got = says if got is None else got
         self.text = _line(wrong if takes is None else f"{wrong.removesuffix(';')}; expected {takes}")
-        self.key = None if key is None else _line(str(key))
+        self.key = None if key is None else short(printable(str(key)), _LONGEST_LINE)
         self.got = got.removesuffix(";") if isinstance(got, str) else got
         self.takes = takes
         super().__init__(self.text if self.key is None else f"{self.key}: {self.text}")
@@ -105,7 +166,7 @@ class InputError(ValueError):
         >>> str(InputError.unknown("contact.lod", "contact.load"))
         'contact.lod: unknown key; the nearest known one is contact.load'
         """
-        return cls.worded(key, f"unknown key; the nearest known one is {nearest}", takes=nearest)
+        return cls.worded(short(key), f"unknown key; the nearest known one is {nearest}", takes=nearest)
 
     @classmethod
     def worded(cls, key: object, text: str, *, got: object = None, takes: str | None = None) -> Self:
@@ -147,7 +208,12 @@ class ConvergenceError(RuntimeError):
 
 def shown(value: object) -> str:
     """Representation of a value, short enough for a one-line message."""
-    return _SHORT.repr(value)
+    try:
+        text = _SHORT.repr(value)
+    except ValueError:
+        # Python writes no whole number of more than some thousand digits.
+        text = f"a whole number of {value.bit_length()} bits" if isinstance(value, int) else "a value"
+    return short(text)
 
 
 @dataclass(frozen=True)

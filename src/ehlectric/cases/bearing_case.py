@@ -10,8 +10,8 @@ from pydantic import field_serializer, field_validator, model_validator
 
 from ehlectric.cases import library
 from ehlectric.cases.bearing import Bearing, BearingDischarge, BearingLubricant, Motor
-from ehlectric.cases.case import Title
 from ehlectric.cases.changes import Groups, displace, flattened, set_keys
+from ehlectric.cases.depth import refuse_deep
 from ehlectric.cases.discharge import STRENGTHS, TABLES
 from ehlectric.cases.grid import Solver
 from ehlectric.cases.keywords.constructors import tables, takes
@@ -19,6 +19,7 @@ from ehlectric.cases.keywords.types import BearingKeys, Keys
 from ehlectric.cases.ranges import InputRange, ranges_of
 from ehlectric.cases.row import amount, value_at
 from ehlectric.cases.table import Table, read_toml
+from ehlectric.cases.title import Title
 from ehlectric.cases.units import ROTATION, rpm
 from ehlectric.errors import InputError
 from ehlectric.runtime.display import Tabled, headline
@@ -285,6 +286,7 @@ class BearingCase(Tabled, Table):
         InputError
             If a key is unknown, or the changed case is not valid.
         """
+        refuse_deep({**tables, "changes": changes})
         changes = _flat_changes(tables) | dict(changes or {})
         table = self.to_dict()
         if "lubricant.base" in changes:

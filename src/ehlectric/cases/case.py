@@ -7,15 +7,15 @@ computes the operating conditions from them.
 
 from __future__ import annotations
 
-import unicodedata
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self, TypeVar, Unpack
+from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar, Unpack
 
-from pydantic import AfterValidator, model_validator
+from pydantic import model_validator
 
 from ehlectric.cases.changes import displace_alternatives, drop_geometry, flattened, set_keys
 from ehlectric.cases.contact import Contact
+from ehlectric.cases.depth import refuse_deep
 from ehlectric.cases.discharge import Discharge
 from ehlectric.cases.grid import POINT_GRID_KEYS, Electric, Grid, Solver, point_grid
 from ehlectric.cases.keywords.constructors import tables, takes
@@ -25,19 +25,9 @@ from ehlectric.cases.motion import Motion
 from ehlectric.cases.roughness import Roughness, check_geometry
 from ehlectric.cases.row import amount
 from ehlectric.cases.table import Table, read_toml
+from ehlectric.cases.title import Title
 from ehlectric.errors import InputError, shown
 from ehlectric.runtime.display import Tabled, headline
-
-
-def _title(text: str) -> str:
-    if len(text) > 200 or any(unicodedata.category(letter) == "Cc" for letter in text):
-        raise InputError(got=shown(text), takes="at most 200 printable characters on one line")
-    return text
-
-
-# Title of files and figures, on one line.
-Title = Annotated[str, AfterValidator(_title)]
-
 
 # Units of the numbers in the representation of a case, by their key in the table ``contact``.
 _SHOWN = {"load_per_length": "N/m", "load": "N", "max_hertz_pressure": "Pa", "entrainment_speed": "m/s"}
@@ -338,6 +328,7 @@ class Case(Tabled, Table):
         InputError
             If a key is unknown, or the changed case is not valid.
         """
+        refuse_deep({**tables, "changes": changes})
         flat = {**flattened(tables), **(changes or {})}
         table = self.to_dict()
         geometry = flattened(flat).get("contact.geometry", self.contact.geometry)

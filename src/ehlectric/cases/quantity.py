@@ -13,11 +13,15 @@ from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
 from pydantic_core import CoreSchema, core_schema
 
 from ehlectric.cases import units
-from ehlectric.errors import InputError, shown
+from ehlectric.errors import InputError, short, shown
 
 _PREFIXES = {1e9: "G", 1e6: "M", 1e3: "k", 1.0: "", 1e-3: "m", 1e-6: "µ", 1e-9: "n", 1e-12: "p"}
 
-_NUMBER_AND_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*")
+# Groups that are never given up, "++" and the like, keep the time proportional to the length of the text.
+_NUMBER_AND_UNIT = re.compile(r"([-+]?(?:\d++\.?\d*+|\.\d++)(?:[eE][-+]?\d++)?+)\s*+(.*)")
+
+# Longest text of a number with its unit [characters].
+_LONGEST = 200
 
 # Temperatures without a unit whose size is below this are meant in degC [K].
 _COLDEST_BARE = 200.0
@@ -72,7 +76,9 @@ def to_si(text: str, unit: str) -> float:
 
 def _split(text: str, otherwise: str = "it is not a number with a unit") -> tuple[float, str]:
     """Number and unit in a text; raises ValueError, with advice or the given words, if it has none."""
-    match = _NUMBER_AND_UNIT.fullmatch(units.plain(text))
+    if len(text) > _LONGEST:
+        raise ValueError(f"it has {len(text)} characters, which is too long")
+    match = _NUMBER_AND_UNIT.fullmatch(units.plain(text).strip())
     advice = units.comma_advice(text)
     if match is None or advice:
         raise ValueError(advice or otherwise)
@@ -233,16 +239,22 @@ class Quantity:
         """Refuse a number without a unit where its unit is not certain: 3000 may be rpm, 70 may be degC."""
         if isinstance(entry, bool) or not isinstance(entry, numbers.Real):
             return
+        try:
+            number = float(entry)
+        except OverflowError:
+            return  # any quantity refuses it
         # Tables that the program saved hold floats in SI units, never whole numbers.
         typed = written or isinstance(entry, numbers.Integral)
         if self.unit == units.ROTATION and typed:
-            rpm = float(entry) / units.RPM
             raise InputError(
                 got=shown(entry),
-                takes=f"a string with its unit: '{entry} rpm' or '{entry} rad/s' (= {rpm:.0f} rpm)",
+                takes=(
+                    f"a string with its unit: '{short(f'{entry}')} rpm' or '{short(f'{entry}')} rad/s' "
+                    f"(= {short(f'{number / units.RPM:.0f}')} rpm)"
+                ),
             )
         coldest = _COLDEST_BARE if typed else self.least
-        if self.unit == "K" and -_COLDEST_BARE < float(entry) < min(coldest, _COLDEST_BARE):
+        if self.unit == "K" and -_COLDEST_BARE < number < min(coldest, _COLDEST_BARE):
             raise InputError(
                 got=shown(entry),
                 takes=f"a temperature with its unit, as '{entry} °C': a bare number would be in kelvin",
@@ -253,7 +265,7 @@ class Quantity:
             return to_si(entry, self.unit)
         if isinstance(entry, str) and self.fraction:
             return to_fraction(entry)
-        if isinstance(entry, str) and (advice := units.comma_advice(entry)):
+        if isinstance(entry, str) and len(entry) <= _LONGEST and (advice := units.comma_advice(entry)):
             raise ValueError(advice)
         if units.is_pint(entry):
             return units.from_pint(entry, self.unit)

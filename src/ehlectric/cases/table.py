@@ -14,9 +14,10 @@ from pydantic import BaseModel, ConfigDict, GetJsonSchemaHandler, ValidationErro
 from pydantic.fields import FieldInfo
 from pydantic_core import CoreSchema, ErrorDetails
 
+from ehlectric.cases.depth import refuse_deep, refuse_long_keys
 from ehlectric.cases.quantity import WRITTEN
-from ehlectric.errors import InputError, shown
-from ehlectric.runtime.files import reading
+from ehlectric.errors import InputError, short, shown
+from ehlectric.runtime.reading import read_text
 
 # Names that completion need not list: those of pydantic, many of them deprecated, and internal ones.
 _HIDDEN = frozenset(name for name in dir(BaseModel) if not name.startswith("__")) | {
@@ -35,6 +36,7 @@ class Table(BaseModel):
     ADVICE: ClassVar[Mapping[str, str]] = {}
 
     def __init__(self, /, **table: Any) -> None:
+        refuse_deep(table)
         try:
             super().__init__(**table)
         except ValidationError as error:
@@ -113,6 +115,7 @@ class Table(BaseModel):
 
     @classmethod
     def _validated(cls, table: Mapping[str, Any], *, written: bool) -> Self:
+        refuse_deep(table)
         try:
             return cls.model_validate(dict(table), context={WRITTEN: written})
         except ValidationError as error:
@@ -137,19 +140,18 @@ def read_toml(path: str | Path) -> dict[str, Any]:
     InputError
         If the file cannot be read or is not TOML.
     """
-    path, text = Path(path), ""
+    text = read_text(path)
     try:
-        with reading(path):
-            text = path.read_text(encoding="utf-8-sig")
-            return tomllib.loads(text)
-    except InputError:
-        raise
-    except UnicodeDecodeError:
-        raise InputError(path, "is not a text file in UTF-8") from None
+        refuse_long_keys(text)
+        table = tomllib.loads(text)
+        refuse_deep(table)
+    except InputError as error:
+        raise InputError(path, str(error)) from None
     except tomllib.TOMLDecodeError as error:
         raise InputError(path, f"is not TOML, {_syntax(str(error), text)}") from None
     except (ValueError, RecursionError):
         raise InputError(path, "is not TOML that can be read, some value is too long or too deep") from None
+    return table
 
 
 # Place in the message of tomllib, and numbers in a line of TOML that stand without quotes.
@@ -164,21 +166,22 @@ def _syntax(message: str, text: str) -> str:
     place = _PLACE.search(message)
     lines = text.splitlines()
     if place is None or not (line := " ".join(lines[int(place[1]) - 1].split())):
-        return message
+        return short(message)
     bare = _QUOTED.sub('""', line)
     comma, unit = _COMMA_NUMBER.search(bare), _UNIT_NUMBER.search(bare)
     if comma is not None:
-        value = comma[1].strip().replace(",", ".")
+        value = short(comma[1].strip().replace(",", "."))
         quoted = f'"{value}"' if re.search(r"[^\d.]", value) else value
         return f"line {place[1]} is {shown(line)}: decimal comma, write {quoted}"
     if unit is not None:
-        return f'line {place[1]} is {shown(line)}: write a number with a unit in quotes, "{unit[1].strip()}"'
-    return f"{message}: {shown(line)}"
+        number = short(unit[1].strip())
+        return f'line {place[1]} is {shown(line)}: write a number with a unit in quotes, "{number}"'
+    return f"{short(message)}: {shown(line)}"
 
 
 def nearest(name: str, known: Iterable[str]) -> str:
-    """Known name that is most similar to ``name``."""
-    return difflib.get_close_matches(name, list(known), n=1, cutoff=0.0)[0]
+    """Known name that is most similar to ``name``, of which the first 100 characters count."""
+    return difflib.get_close_matches(name[:100], list(known), n=1, cutoff=0.0)[0]
 
 
 def first_error(error: ValidationError, model: type[Table]) -> InputError:

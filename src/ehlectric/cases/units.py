@@ -8,7 +8,7 @@ import sys
 from functools import cache
 from typing import TYPE_CHECKING, TypeGuard
 
-from ehlectric.errors import shown
+from ehlectric.errors import short, shown
 
 if TYPE_CHECKING:
     import pint
@@ -17,10 +17,10 @@ if TYPE_CHECKING:
 ROTATION = "rad/s"
 RPM = math.pi / 30.0
 
-# Products and quotients of named units with one-digit exponents. No quantity here needs other units, and pint
-# would compute for ever on nested exponents.
-_NAME = r"[A-Za-zµμΩ°]+(?:(?:\*\*|\^)?[-+]?[1-9])?"
-_UNIT = re.compile(rf"(?:1?\s*/\s*)?{_NAME}(?:(?:\s*[*/·]\s*|\s+){_NAME})*")
+# Products and quotients of up to eight named units with one-digit exponents. No quantity here needs other
+# units, and pint would compute for ever on nested exponents, and on long names and products.
+_NAME = r"[A-Za-zµμΩ°]{1,40}+(?:(?:\*\*|\^)?[-+]?[1-9])?"
+_UNIT = re.compile(rf"(?:1?\s*+/\s*+)?{_NAME}(?:(?:\s*+[*/·]\s*+|\s++){_NAME}){{0,7}}")
 _EXPONENT = re.compile(r"(?<=[A-Za-zµμΩ°])(?:\*\*|\^)?([-+]?[1-9])")
 _ANGLE = re.compile("rad|rpm|rev|turn|deg")
 
@@ -41,7 +41,7 @@ _HINTS = {
 # Units of an absolute temperature, and the zero point of each unit [K].
 _ZEROS = {"K": 0.0, "degC": 273.15, "°C": 273.15, "C": 273.15}
 
-_COMMA = re.compile(r"\s*([-+]?\d+),(\d+)((?:[eE][-+]?\d+)?(?![,\d]).*)", re.DOTALL)
+_COMMA = re.compile(r"\s*+([-+]?\d++),(\d++)((?:[eE][-+]?\d++)?(?![,\d]).*)", re.DOTALL)
 
 
 def rpm(speed: float) -> float:
@@ -95,8 +95,9 @@ def comma_advice(text: str) -> str | None:
     if found is None:
         return None
     whole, part, rest = found.groups()
-    thousand = f", or {whole}{part}{rest} if the comma separates thousands" if len(part) == 3 else ""
-    return f"decimal comma: write {whole}.{part}{rest}{thousand}".rstrip()
+    rest = rest.rstrip()
+    thousand = f", or {short(whole + part + rest)} if the comma separates thousands" if len(part) == 3 else ""
+    return f"decimal comma: write {short(f'{whole}.{part}{rest}')}{thousand}"
 
 
 def factor(written: str, unit: str) -> float:
@@ -140,11 +141,11 @@ def factor(written: str, unit: str) -> float:
         other, hint = _HINTS.get(unit, ("", ""))
         mistaken = other and registry().Quantity(1.0, expression).check(other)
         advice = f"; {hint}" if mistaken else ""
-        raise ValueError(f"{written} is not a unit of this quantity{advice}") from None
+        raise ValueError(f"{short(written)} is not a unit of this quantity{advice}") from None
     except pint.UndefinedUnitError:
-        raise ValueError(f"{written!r} is not a unit; units are case-sensitive") from None
+        raise ValueError(f"{shown(written)} is not a unit; units are case-sensitive") from None
     except pint.PintError:
-        raise ValueError(f"{written!r} is not a unit") from None
+        raise ValueError(f"{shown(written)} is not a unit") from None
 
 
 def _rotation(written: str) -> str:
@@ -157,7 +158,8 @@ def _rotation(written: str) -> str:
         return "rpm"
     if _UNIT.fullmatch(written) is not None and _ANGLE.search(written) is None:
         raise ValueError(
-            f"{written} is a frequency, which may count turns or radians: write rpm, min^-1, rad/s or deg/s"
+            f"{short(written)} is a frequency, which may count turns or radians: "
+            "write rpm, min^-1, rad/s or deg/s"
         )
     return written
 

@@ -19,6 +19,7 @@ from ehlectric.commands.start import examples, init
 from ehlectric.commands.surface import surface
 from ehlectric.commands.sweep import sweep
 from ehlectric.commands.terminal import WRONG_INPUT
+from ehlectric.errors import InputError
 from ehlectric.version import __version__
 
 SIGNALLED = 128  # plus the number of the signal, as in shells
@@ -120,7 +121,8 @@ def _status() -> int:
         message = getattr(error, "format_message", None)
         if message is None:
             raise
-        typer.echo(f"error: {message()}", err=True)
+        # Its text is one line, with what the user typed escaped.
+        typer.echo(f"error: {InputError(message())}", err=True)
         return WRONG_INPUT
     return int(status or 0)
 

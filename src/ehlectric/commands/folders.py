@@ -22,7 +22,7 @@ from ehlectric.figures.names import (
     SPEED_FIGURE_FILES,
     in_formats,
 )
-from ehlectric.runtime.files import refuse_unreadable
+from ehlectric.runtime.reading import refuse_unreadable
 
 if TYPE_CHECKING:
     from ehlectric.cases.case import Case

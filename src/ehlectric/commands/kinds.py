@@ -14,7 +14,7 @@ from typing import Any, Literal
 
 from ehlectric.cases.table import read_toml
 from ehlectric.errors import InputError
-from ehlectric.runtime.files import reading
+from ehlectric.runtime.reading import regular
 
 FileKind = Literal["contact", "motion", "bearing", "sweep"]
 
@@ -116,7 +116,7 @@ def _refuse_result(path: Path) -> None:
     """Refuse a result where a TOML file is expected, and name the command that draws it."""
     if path.is_dir():
         raise InputError(path, "is a folder", takes=f"a TOML file; draw results with: {_typed('plot', path)}")
-    with reading(path), path.open("rb") as file:
+    with regular(path) as file:
         start = file.read(16)
     for first, name, command in _RESULTS:
         if start.startswith(first):

@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from ehlectric.commands.options import Formats, Quiet, Style, figure_options, files_ending
-from ehlectric.commands.terminal import echo_files, print_rows, print_table, user_errors, warn
+from ehlectric.commands.terminal import echo_files, print_rows, print_table, say, user_errors, warn
 from ehlectric.errors import InputError, shown
 
 
@@ -107,7 +107,7 @@ def draw_maps(
         from ehlectric.figures.sweep.points import held_text
 
         if taken.at or taken.free:
-            typer.echo("at " + held_text(results, taken).removeprefix("at "))
+            say("at " + held_text(results, taken).removeprefix("at "))
         echo_files(files)
 
 

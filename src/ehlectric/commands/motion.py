@@ -10,7 +10,7 @@ from typing import Annotated
 import typer
 
 from ehlectric.commands.options import Quiet, files_ending
-from ehlectric.commands.terminal import progress_bar, user_errors
+from ehlectric.commands.terminal import progress_bar, say, user_errors
 from ehlectric.runtime.progress import Progress
 
 
@@ -37,7 +37,7 @@ def tell_where_it_stops(folder: Path, show: Progress) -> Iterator[Progress]:
             saved = saved_steps(folder / MOTION)
             rest = "resumes the run" if saved < steps else "sums them up"
             text = f"{saved} of {steps} steps are saved in {folder}; the same command {rest}"
-            typer.echo(f"interrupted; {text}", err=True)
+            say(f"interrupted; {text}", err=True)
         raise
 
 
@@ -71,4 +71,4 @@ def animate(
         with progress_bar(shown=not quiet) as progress:
             save_animation(dataset, output, fps=fps, progress=progress)
     if not quiet:
-        typer.echo(f"written: {output}")
+        say(f"written: {output}")

@@ -19,7 +19,7 @@ from ehlectric.commands.kinds import kind_of_tables
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.contact.solver import OWN, Solvers
 from ehlectric.contact.solver import solve as solve_stationary
-from ehlectric.errors import ConvergenceError, InputError, shown
+from ehlectric.errors import ConvergenceError, InputError, printable, shown
 from ehlectric.motion.result import MotionResult
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.stored_run import MOTION, read_motion
@@ -279,7 +279,7 @@ def solve_motion(case: Case, *, progress: Progress = silent) -> MotionResult:
         except ConvergenceError as error:
             if not (Path(folder) / MOTION).is_file():
                 raise
-            LOGGER.warning("%s: the run ends early, %s", case.title or "motion", error)
+            LOGGER.warning("%s: the run ends early, %s", printable(case.title or "motion"), error)
         result = MotionResult.of(read_motion(folder))
     log_warnings(case.title, result.warnings)
     return result

@@ -11,7 +11,7 @@ from typing import Annotated
 import typer
 
 from ehlectric.commands.options import Quiet, one_of
-from ehlectric.commands.terminal import echo_files, user_errors
+from ehlectric.commands.terminal import echo_files, say, user_errors
 from ehlectric.errors import InputError, shown
 
 _HERE = Path(__file__).parent
@@ -100,9 +100,9 @@ def init(
         _copy(source, path)
         command = _command(path)
     if not quiet:
-        typer.echo(f"written: {path}")
-        typer.echo(f"  check it with: ehlectric check {path}")
-        typer.echo(f"  solve it with: ehlectric {command} {path}")
+        say(f"written: {path}")
+        say(f"  check it with: ehlectric check {path}")
+        say(f"  solve it with: ehlectric {command} {path}")
 
 
 def examples(

@@ -19,6 +19,7 @@ from ehlectric.commands.terminal import (
     print_rows,
     print_verdict,
     refuse_failure,
+    say,
     user_errors,
     warn,
 )
@@ -122,7 +123,8 @@ def _workers(text: str | None, scheduler: str | None) -> int | None:
         return None
     if scheduler is not None:
         raise InputError.worded("--workers", "cannot be combined with --scheduler")
-    if not text.isdecimal() or not 1 <= int(text) <= _MOST_WORKERS:
+    digits = len(str(_MOST_WORKERS))
+    if not text.isdecimal() or len(text) > digits or not 1 <= int(text) <= _MOST_WORKERS:
         raise InputError("--workers", got=shown(text), takes=f"a whole number from 1 to {_MOST_WORKERS}")
     return int(text)
 
@@ -144,7 +146,7 @@ def _tell_where_it_stops(output: Path) -> Iterator[_Begun]:
         # Read from the file: the progress may not have been called for the last points yet.
         saved, points = saved_points(output)
         text = f"{saved} of {points} points are saved in {output}; the same command resumes the sweep"
-        typer.echo(f"{why}; {text}", err=True)
+        say(f"{why}; {text}", err=True)
 
     try:
         yield begun

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from ehlectric.errors import ConvergenceError, InputError, ResultWarning
+from ehlectric.errors import ConvergenceError, InputError, ResultWarning, printable
 from ehlectric.runtime.progress import Progress, silent
 
 if TYPE_CHECKING:
@@ -32,6 +32,14 @@ NOT_CONVERGED = 3
 _WIDTH = 90
 
 
+def say(line: str, *, err: bool = False) -> None:
+    """Print one line on stdout or stderr; characters that a terminal obeys are escaped in it.
+
+    Titles and paths in the line may hold any character.
+    """
+    typer.echo(printable(line), err=err)
+
+
 @contextmanager
 def user_errors() -> Iterator[None]:
     """Context in which errors of the user become one line on stderr.
@@ -43,7 +51,7 @@ def user_errors() -> Iterator[None]:
     except InputError as error:
         text = str(error)
     except ConvergenceError as error:
-        typer.echo(f"error: not converged: {error}", err=True)
+        say(f"error: not converged: {error}", err=True)
         raise typer.Exit(NOT_CONVERGED) from None
     except BrokenPipeError:
         raise
@@ -52,7 +60,7 @@ def user_errors() -> Iterator[None]:
         text = f"a file {reason}" if error.filename is None else f"{error.filename}: {reason}"
     else:
         return
-    typer.echo(f"error: {text}", err=True)
+    say(f"error: {text}", err=True)
     raise typer.Exit(WRONG_INPUT)
 
 
@@ -123,7 +131,7 @@ def report(
 def refuse_failure(outcome: RunOutcome[Any]) -> None:
     """Print why a run failed, and end with exit status 3; nothing where it succeeded."""
     if outcome.failure is not None:
-        typer.echo(f"error: {outcome.failure}", err=True)
+        say(f"error: {outcome.failure}", err=True)
         raise typer.Exit(NOT_CONVERGED)
 
 
@@ -158,10 +166,10 @@ def print_verdict(verdict: Verdict | None) -> None:
     console = Console(highlight=False)
     if not console.is_terminal:
         # A line that is read by a program is not wrapped.
-        typer.echo(verdict.text)
+        say(verdict.text)
         return
     with console.capture() as captured:
-        console.print(Text(verdict.text, style=_STYLES[verdict.level]))
+        console.print(Text(printable(verdict.text), style=_STYLES[verdict.level]))
     typer.echo(captured.get(), nl=False)
 
 
@@ -172,13 +180,13 @@ def echo_files(files: Iterable[Path]) -> None:
     """
     folders: dict[Path, list[str]] = {}
     for path in files:
-        folders.setdefault(path.parent, []).append(path.name)
+        folders.setdefault(path.parent, []).append(printable(path.name))
     if sum(map(len, folders.values())) == 1:
         ((folder, (name,)),) = folders.items()
-        typer.echo(f"written: {folder / name}")
+        say(f"written: {folder / name}")
         return
     for folder, names in folders.items():
-        typer.echo(f"written to {folder}:")
+        say(f"written to {folder}:")
         for line in textwrap.wrap(", ".join(names), _WIDTH, break_long_words=False, break_on_hyphens=False):
             typer.echo(f"  {line}")
 
@@ -203,4 +211,4 @@ def warn(texts: Iterable[str | ResultWarning]) -> None:
     """Print warnings and notes on stderr, one on each line."""
     for text in texts:
         note = isinstance(text, ResultWarning) and text.severity == "note"
-        typer.echo(f"{'note' if note else 'warning'}: {text}", err=True)
+        say(f"{'note' if note else 'warning'}: {text}", err=True)

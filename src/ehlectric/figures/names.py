@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping, Sequence
 
-from ehlectric.errors import InputError, shown
+from ehlectric.errors import InputError, printable, shown
 
 # Space between a number and its unit, at which a title is not broken into lines.
 _OF_UNIT = re.compile(
@@ -108,6 +108,17 @@ def with_units_kept(text: str) -> str:
     True
     """
     return _OF_UNIT.sub("\xa0", text)
+
+
+def literal(text: str) -> str:
+    r"""Text of a user for a label of a figure, which matplotlib takes for no formula.
+
+    Examples
+    --------
+    >>> print(literal("$film$.csv"))
+    \$film\$.csv
+    """
+    return printable(text).replace("$", r"\$")
 
 
 def _of_file_name(text: str) -> str:

@@ -26,7 +26,7 @@ from matplotlib.transforms import offset_copy
 from ehlectric.arrays import Array
 from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.conditions import Conditions, PointConditions
-from ehlectric.errors import InputError, shown
+from ehlectric.errors import InputError, printable, shown
 from ehlectric.figures.names import STYLES, in_formats, with_units_kept
 from ehlectric.runtime.files import write
 
@@ -222,6 +222,7 @@ def name_over(ax: Axes, text: str, *, converged: bool = True) -> None:
         Whether the result is converged. If it is not, the first line is bold and red.
     """
     figure = figure_of(ax)
+    text = "\n".join(map(printable, text.split("\n")))
     figure.set_label(text.replace("\n", ". "))
     first, *others = with_units_kept(text).split("\n")
     if not _LOOKS[_style.get()].titled:
@@ -287,7 +288,7 @@ def save_figure(figure: Figure, path: Path, formats: Sequence[str] = ("png",)) -
     files = [path.parent / name for name in in_formats([path.name], formats)]
     for file in files:
         kind = file.suffix[1:]
-        metadata = _WITHOUT_DATE[kind] | {"Title": figure.get_label() or path.stem}
+        metadata = _WITHOUT_DATE[kind] | {"Title": figure.get_label() or printable(path.stem)}
         content = BytesIO()  # in memory: the libraries of images do not say why they cannot write
         with style():
             figure.savefig(content, format=kind, metadata=metadata)

@@ -136,18 +136,6 @@ def reading(path: str | Path) -> Iterator[None]:
         raise InputError(path, f"cannot be read, {(error.strerror or str(error)).lower()}") from None
 
 
-def refuse_unreadable(path: Path) -> None:
-    """Refuse a file that does not exist or cannot be opened.
-
-    Raises
-    ------
-    InputError
-        Where ``path`` cannot be read.
-    """
-    with reading(path):
-        path.open("rb").close()
-
-
 def clear(folder: Path, names: Iterable[str]) -> None:
     """Remove files of an earlier result: a folder holds the files of one result only."""
     for name in names:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import logging
 from collections.abc import Iterable
 
-from ehlectric.errors import ResultWarning
+from ehlectric.errors import ResultWarning, printable
 
 LOGGER = logging.getLogger("ehlectric")
 LOGGER.addHandler(logging.NullHandler())
@@ -21,4 +21,4 @@ def log_warnings(title: str, warnings: Iterable[ResultWarning]) -> None:
     """Log the warnings of a result: notes at the level INFO, the others at WARNING."""
     of = f"{title}: " if title else ""
     for warning in warnings:
-        LOGGER.log(_LEVELS[warning.severity], "%s%s [%s]", of, warning, warning.code)
+        LOGGER.log(_LEVELS[warning.severity], "%s [%s]", printable(f"{of}{warning}"), warning.code)

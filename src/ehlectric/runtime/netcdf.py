@@ -15,9 +15,10 @@ from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
 
 from ehlectric.errors import InputError
 from ehlectric.runtime.drafts import Draft
-from ehlectric.runtime.files import refuse_unreadable, writing
+from ehlectric.runtime.files import writing
 from ehlectric.runtime.interrupts import held_back
 from ehlectric.runtime.locks import take
+from ehlectric.runtime.reading import refuse_unreadable
 
 if TYPE_CHECKING:
     import xarray as xr

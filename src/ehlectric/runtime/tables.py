@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import re
 from collections.abc import Callable, Iterable, Sequence
 from io import TextIOWrapper
 from typing import Any, BinaryIO
@@ -19,16 +20,55 @@ def column_head(name: str, unit: str) -> str:
     return f"{name} [{unit.replace('**', '^').replace('*', ' ') or '-'}]"
 
 
+# First characters of a text that a spreadsheet takes for a formula.
+_FORMULA = re.compile(r"'*+[=+\-@\t\r\n＝＋－＠]")
+
+
+def csv_text(text: str) -> str:
+    """Text for a cell of a CSV file, which no spreadsheet takes for a formula.
+
+    A text that begins like a formula, with "=", "+", "-", "@", a tab or a line break, gets an apostrophe
+    before it, which spreadsheets take for the mark of a text. ``text_of_csv`` takes it off again.
+
+    Examples
+    --------
+    >>> csv_text("=HYPERLINK(A1)"), csv_text("6208, 70 °C")
+    ("'=HYPERLINK(A1)", '6208, 70 °C')
+    """
+    # A text with apostrophes before the sign gets one more, so that the way back is certain.
+    return f"'{text}" if _FORMULA.match(text) else text
+
+
+def text_of_csv(cell: str) -> str:
+    """Text of a cell that ``csv_text`` wrote.
+
+    Examples
+    --------
+    >>> text_of_csv("'=1"), text_of_csv("'Neill")
+    ('=1', "'Neill")
+    """
+    return cell[1:] if cell.startswith("'") and _FORMULA.match(cell) else cell
+
+
+def _cell(value: Any) -> Any:
+    """Value for a cell: a number is unchanged, and a text is no formula."""
+    return csv_text(value) if isinstance(value, str) else value
+
+
 def csv_of(
     heads: Sequence[str], rows: Iterable[Iterable[Any]], *, ending: str = "\r\n"
 ) -> Callable[[BinaryIO], None]:
-    """Function that writes a table as CSV in UTF-8 to an open file, with this ending of its lines."""
+    """Function that writes a table as CSV in UTF-8 to an open file, with this ending of its lines.
+
+    No text is taken for a formula by a spreadsheet, see ``csv_text``.
+    """
 
     def content(file: BinaryIO) -> None:
-        text = TextIOWrapper(file, encoding="utf-8", newline="")
+        # Names of files may hold bytes that are no text in UTF-8; they are escaped.
+        text = TextIOWrapper(file, encoding="utf-8", errors="backslashreplace", newline="")
         writer = csv.writer(text, lineterminator=ending)
-        writer.writerow(heads)
-        writer.writerows(rows)
+        writer.writerow(map(_cell, heads))
+        writer.writerows(map(_cell, row) for row in rows)
         text.detach()
 
     return content

@@ -14,7 +14,7 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.errors import InputError, ResultWarning
-from ehlectric.runtime.files import reading
+from ehlectric.runtime.reading import read_bytes
 from ehlectric.surfaces.instrument_files import HeightMap, read_al3d, read_x3p
 from ehlectric.surfaces.maps import Map
 from ehlectric.surfaces.profiles import LEAST_POINTS, Profile
@@ -29,6 +29,9 @@ MOST_VOID = 0.2
 
 # Largest number of points of a map that is processed: every processing step keeps a copy of the map.
 MOST_MAP_POINTS = 20_000_000
+
+# Largest size of a file of a surface, which is read whole: 100 million points of eight bytes [bytes].
+_MOST_BYTES = 1_000_000_000
 
 # Fraction of the slopes of a map that may exceed STEEPEST, for a few pixels of dust or noise.
 _MOST_STEEP = 0.01
@@ -240,7 +243,7 @@ def read_surface(path: str | Path, *, x_unit: str | None = None, z_unit: str | N
         If the file cannot be read, or its data are not credible for a surface.
     """
     path = Path(path)
-    content = _content(path)
+    content = read_bytes(path, most=_MOST_BYTES)
     if any(content.startswith(magic) and mark in content for magic, mark in _WORKBOOKS):
         raise InputError(path, "is a workbook of a spreadsheet program; save the sheet as CSV")
     suffix = path.suffix.lower()
@@ -255,17 +258,6 @@ def read_surface(path: str | Path, *, x_unit: str | None = None, z_unit: str | N
         surface = _of_map(path, _read_other(path), x_unit, z_unit)
     _check_scale(surface)
     return surface
-
-
-def _content(path: Path) -> bytes:
-    try:
-        with reading(path):
-            # Reading a pipe would wait for ever.
-            if path.exists() and not (path.is_file() or path.is_dir()):
-                raise InputError(path, "is not a regular file")
-            return path.read_bytes()
-    except ValueError as error:
-        raise error if isinstance(error, InputError) else InputError(f"{path!r}", "is not a path") from None
 
 
 def _of_map(path: Path, heights: HeightMap, x_unit: str | None, z_unit: str | None) -> Surface:

@@ -20,15 +20,16 @@ from ehlectric.errors import InputError, ResultWarning, shown
 from ehlectric.surfaces.profiles import LEAST_POINTS
 
 _EXPONENT = r"(?:[eE][-+]?[0-9]{1,4})?"
+# Repetitions that are never given up, "++" and "*+", keep the time proportional to the length of a line.
 _NUMBER = {
-    ".": re.compile(r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)" + _EXPONENT),
-    ",": re.compile(r"[-+]?(?:[0-9]+,?[0-9]*|,[0-9]+)" + _EXPONENT),
+    ".": re.compile(r"[-+]?(?:[0-9]++\.?[0-9]*+|\.[0-9]++)" + _EXPONENT),
+    ",": re.compile(r"[-+]?(?:[0-9]++,?[0-9]*+|,[0-9]++)" + _EXPONENT),
 }
-_SPACED_NUMBER = re.compile(r"[-+]?(?:[0-9]+[.,]?[0-9]+|[0-9]+\.?|\.[0-9]+)" + _EXPONENT)
-_WHOLE_PAIR = re.compile(r"\s*[-+]?[0-9]+,[0-9]+\s*")
+_SPACED_NUMBER = re.compile(r"[-+]?(?:[0-9]++(?:\.|[.,][0-9]++)?|\.[0-9]++)" + _EXPONENT)
+_WHOLE_PAIR = re.compile(r"\s*+[-+]?[0-9]++,[0-9]++\s*+")
 
 # Line with a single number.
-_SINGLE = re.compile(r"\s*[-+]?(?:[0-9]+[.,]?[0-9]*|[.,][0-9]+)(?:[eE][-+]?[0-9]+)?[;,]?\s*")
+_SINGLE = re.compile(r"\s*+[-+]?(?:[0-9]++[.,]?[0-9]*+|[.,][0-9]++)(?:[eE][-+]?[0-9]++)?[;,]?\s*+")
 _UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 _UNITS = dict.fromkeys(("m", "mm", "um", "nm")) | {"µm": "um", "μm": "um"}
 _UNIT_WORDS = {
@@ -37,6 +38,8 @@ _UNIT_WORDS = {
     for ending in ("metre", "meter", "metres", "meters")
 }
 _BRACKETED = re.compile(r"[\[(]([^\[\]()]*)[\])]")
+_BRACKETED_FIELD = re.compile(r"[^\[\]()]*+[\[(][^\[\]()]*+[\])]")
+_BRACKETED_FIELDS = re.compile(rf"(?:{_BRACKETED_FIELD.pattern})++")
 _VALIDITY = re.compile(r"valid(ity)?", re.IGNORECASE)
 
 # Largest position and height that are credible for a surface [m].
@@ -263,8 +266,10 @@ def _stated_units(block: _Block, width: int) -> tuple[str | None, str | None]:
     while fields and not fields[-1]:
         fields.pop()
     if len(fields) != width:
-        fields = re.findall(r"[^\[\]()]*[\[(][^\[\]()]*[\])]", lines[-1])
-        if len(fields) != width or "".join(fields) != lines[-1]:
+        # The search alone would take the square of the length of a line without brackets.
+        whole = _BRACKETED_FIELDS.fullmatch(lines[-1])
+        fields = _BRACKETED_FIELD.findall(lines[-1]) if whole else []
+        if len(fields) != width:
             return None, None
     return _unit_in(fields[0]), _unit_in(fields[1])
 

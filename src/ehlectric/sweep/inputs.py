@@ -14,11 +14,12 @@ from pydantic.fields import FieldInfo
 
 from ehlectric.cases.any_case import AnyCase, case_of_dict, case_of_file
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.cases.case import Case, Title, find_files
+from ehlectric.cases.case import Case, find_files
 from ehlectric.cases.input_keys import input_field, kind_of, number_of
 from ehlectric.cases.quantity import WRITTEN, Count, Quantity
 from ehlectric.cases.table import Table, nearest, nearest_key, read_toml
-from ehlectric.errors import InputError, shown
+from ehlectric.cases.title import Title
+from ehlectric.errors import InputError, printable, short, shown
 from ehlectric.runtime.display import Tabled, headline
 from ehlectric.sweep import design as sweep_design
 from ehlectric.sweep.results import Range
@@ -210,7 +211,7 @@ def _with_case(table: Mapping[str, Any], *, written: bool) -> Mapping[str, Any]:
         if case is not None and not isinstance(case, AnyCase):
             raise InputError("case", got=shown(case), takes="a table or the name of a file")
     except InputError as error:
-        if error.key in ("case", str(case)):
+        if error.key in ("case", printable(str(case)) if isinstance(case, str | Path) else None):
             raise
         if isinstance(case, str | Path):
             raise error.retold(str(case), str(error)) from None
@@ -235,7 +236,9 @@ def _flattened(tables: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
         table = isinstance(value, Mapping) and not {"from", "to"} & set(value)
         if table and kind_of(f"{prefix}{key}") is not None:
             raise InputError(
-                f"{prefix}{key}", got=f"a table of {', '.join(map(str, value)) or 'nothing'}", takes=_RANGE
+                f"{prefix}{key}",
+                got=f"a table of {short(', '.join(map(str, value))) or 'nothing'}",
+                takes=_RANGE,
             )
         inner = _flattened(value, f"{prefix}{key}.") if table else {f"{prefix}{key}": value}
         for name in inner.keys() & flat.keys():
@@ -271,12 +274,12 @@ def _axis(key: str, value: Any, design: str, *, written: bool) -> tuple[Any, ...
     if isinstance(value, str) or not isinstance(value, Sequence) or len(value) == 0:
         raise InputError(key, got=shown(value), takes="a list of values or a table with from and to")
     values = tuple(_values(key, field, value, written=written))
-    texts = [json.dumps(value) for value in values]
-    for k, text in enumerate(texts) if design == "grid" else ():
-        if text in texts[:k]:
-            raise InputError(
-                key, got=f"{shown(values[k])} twice", takes="values that differ in a grid design"
-            )
+    known: set[str] = set()
+    for each in values if design == "grid" else ():
+        text = json.dumps(each)
+        if text in known:
+            raise InputError(key, got=f"{shown(each)} twice", takes="values that differ in a grid design")
+        known.add(text)
     return values
 
 

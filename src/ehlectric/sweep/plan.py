@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
@@ -12,7 +13,7 @@ from typing import Any
 
 from ehlectric.cases.any_case import AnyCase
 from ehlectric.errors import InputError
-from ehlectric.runtime.files import reading
+from ehlectric.runtime.reading import regular
 from ehlectric.sweep.inputs import Sweep
 from ehlectric.sweep.results import Status
 from ehlectric.version import __version__
@@ -106,9 +107,9 @@ def case_key(case: AnyCase) -> str:
     for surface in table.get("roughness", ()):
         if "file" in surface:
             path = Path(surface["file"])
-            with reading(path):
-                status = path.stat()
-                surface["file"] = _contents(path, status.st_mtime_ns, status.st_size)
+            with regular(path) as file:
+                status = os.fstat(file.fileno())
+            surface["file"] = _contents(path, status.st_mtime_ns, status.st_size)
     text = json.dumps(table, sort_keys=True, separators=(",", ":"), allow_nan=False)
     return hashlib.sha256(text.encode()).hexdigest()
 
@@ -116,7 +117,7 @@ def case_key(case: AnyCase) -> str:
 @cache
 def _contents(path: Path, _changed: int, _size: int) -> str:
     """SHA-256 hash of a file; it is read again only when its time of change or size differs."""
-    with path.open("rb") as file:
+    with regular(path) as file:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 

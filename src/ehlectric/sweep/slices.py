@@ -14,13 +14,16 @@ from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.input_keys import kind_of
 from ehlectric.cases.quantity import Count, Quantity
 from ehlectric.cases.table import nearest
-from ehlectric.errors import InputError, shown
+from ehlectric.errors import InputError, short, shown
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.breakdown_keys import Breakdown, breakdown_of
 from ehlectric.sweep.results import Point, Status, SweepResults, as_number, flat
 
 # Largest number of names or values that a message lists.
 _MOST_LISTED = 8
+
+# Longest text of a whole number that a float can hold [characters].
+_LONGEST_WHOLE = 300
 
 
 @dataclass(frozen=True)
@@ -322,13 +325,15 @@ def _fixed(results: SweepResults, key: str, text: str) -> Any:
     axis = _axis(results, key)
     if not all(map(is_number, axis)):
         if text not in axis:
-            raise InputError("at", got=f"{key}={text}", takes=f"one of {_listed(axis)}")
+            raise InputError("at", got=f"{key}={short(text)}", takes=f"one of {_listed(axis)}")
         return text
     requested = _requested(key, text)
     low, high = min(axis), max(axis)
     slack = 1e-6 * max(abs(low), abs(high))
     if not low - slack <= requested <= high + slack:
-        raise InputError("at", got=f"{key}={text}", takes=f"a value from {low:g} to {high:g}{_si(key)}")
+        raise InputError(
+            "at", got=f"{key}={short(text)}", takes=f"a value from {low:g} to {high:g}{_si(key)}"
+        )
     return min(axis, key=lambda other: abs(other - requested))
 
 
@@ -341,9 +346,10 @@ def _requested(key: str, text: str) -> float:
     kind = kind_of(key)
     if kind is None or isinstance(kind, Count):
         if number is None:
-            raise InputError("at", got=f"{key}={text}", takes="a number")
+            raise InputError("at", got=f"{key}={short(text)}", takes="a number")
         return number
-    whole = re.fullmatch(r"[-+]?\d+", text)
+    # A longer number is infinite as a float, and Python makes no whole number of it.
+    whole = len(text) <= _LONGEST_WHOLE and re.fullmatch(r"[-+]?\d+", text)
     try:
         return kind.parse(text if number is None else int(text) if whole else number, written=True)
     except InputError as error:

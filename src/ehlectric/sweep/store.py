@@ -13,8 +13,9 @@ from typing import Any, Self
 
 from ehlectric.cases.any_case import AnyCase, case_of_dict
 from ehlectric.errors import InputError, WriteError
-from ehlectric.runtime.files import ADVICE, now, refuse_special, refuse_unreadable
+from ehlectric.runtime.files import ADVICE, now, refuse_special
 from ehlectric.runtime.folders import locked
+from ehlectric.runtime.reading import refuse_unreadable
 from ehlectric.sweep.inputs import Sweep
 from ehlectric.sweep.plan import Outcome, Planned
 from ehlectric.sweep.results import Point, Range, Status, SweepResults

@@ -42,7 +42,7 @@ def write_tables(results: SweepResults, folder: str | Path) -> list[Path]:
         If the folder cannot be written to, its disk is full, or another command writes into it.
     """
     columns = columns_of(results)
-    rows = zip(*(map(cell, column) for column in columns.values()), strict=True)
+    rows = zip(*(map(_cell, column) for column in columns.values()), strict=True)
     contents: dict[str, Content] = {
         CSV: csv_of(_heads(results, columns), rows, ending="\n"),
         NETCDF: content_of(results.to_xarray()),
@@ -62,6 +62,12 @@ def _write_parquet(columns: Mapping[str, list[Any]], file: BinaryIO) -> None:
     sink = pyarrow.BufferOutputStream()
     parquet.write_table(pyarrow.table({key: _plain(column) for key, column in columns.items()}), sink)
     file.write(sink.getvalue())
+
+
+def _cell(value: Any) -> Any:
+    """Value for a cell of sweep.csv."""
+    # The writer of Python quotes no carriage return where lines end in line feeds; no title has one.
+    return value.replace("\r", r"\r") if isinstance(value, str) else cell(value)
 
 
 def _heads(results: SweepResults, columns: Iterable[str]) -> list[str]:

@@ -16,12 +16,12 @@ from ehlectric.runtime.files import (
     clear_left_behind,
     prepare,
     reading,
-    refuse_unreadable,
     whole,
     write,
     write_json,
     write_together,
 )
+from ehlectric.runtime.reading import refuse_unreadable
 
 WRITE = """
 import os, sys

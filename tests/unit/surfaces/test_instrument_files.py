@@ -131,7 +131,7 @@ def test_units_of_files_that_have_their_own(tmp_path, name):
 
 def test_pipes_are_not_waited_for(tmp_path):
     os.mkfifo(tmp_path / "pipe.csv")
-    with pytest.raises(InputError, match="is not a regular file"):
+    with pytest.raises(InputError, match="it is a pipe, not a regular file"):
         read_surface(tmp_path / "pipe.csv")
     with pytest.raises(InputError, match="is a directory"):
         read_surface(tmp_path)

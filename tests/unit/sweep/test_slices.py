@@ -96,6 +96,17 @@ def test_what_cannot_be_drawn_is_refused_in_one_line(arguments, message):
     assert "\n" not in str(refused.value)
 
 
+@pytest.mark.parametrize(
+    "text", ["9" * 5000, "9" * 299, "9" * 5000 + " m/s", "1 " + "m*" * 3000 + "m", "nan"]
+)
+@pytest.mark.parametrize("key", [SPEED, "grid.nodes"])
+def test_hostile_values_to_hold_are_refused_in_a_short_line(key, text):
+    results = grid({SPEED: (1.0, 2.0), LOAD: (1e6, 2e6), "grid.nodes": (401, 801)})
+    with pytest.raises(InputError, match=r"^at: ") as refused:
+        take(results, LOAD, None, CONTACT.value, {key: text})
+    assert len(str(refused.value)) < 500
+
+
 def test_other_refusals():
     for results, key, message in (
         (cube(status=lambda _: "failed"), VALUE, "no point of 24 is solved"),

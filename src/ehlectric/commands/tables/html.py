@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from html import escape
+from html import escape as escaped
 from typing import Any
 
 from ehlectric.bearing.result import BearingResult
@@ -17,7 +17,7 @@ from ehlectric.commands.tables.contact import result_rows
 from ehlectric.commands.tables.motion import run_rows
 from ehlectric.commands.tables.sweep import sweep_rows
 from ehlectric.contact.results import ContactResult
-from ehlectric.errors import ResultWarning
+from ehlectric.errors import ResultWarning, printable
 from ehlectric.motion.result import MotionResult
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.inputs import Sweep
@@ -56,6 +56,11 @@ def html_of(shown: Any) -> str:
         *(f"<p>{_word(warning)}: {escape(str(warning))}</p>" for warning in _warnings(shown)),
     ]
     return "<div>" + "".join(parts) + "</div>"
+
+
+def escape(text: str) -> str:
+    """Text as HTML, with the characters that are not seen as escapes."""
+    return escaped(printable(text))
 
 
 def _verdict(verdict: Any) -> str:

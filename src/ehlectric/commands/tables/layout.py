@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from ehlectric.cases.row import Row
+from ehlectric.errors import printable
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -29,16 +30,18 @@ def table_of(rows: Iterable[Row], title: str = "") -> Table:
     from rich.table import Table
     from rich.text import Text
 
-    table = Table(title=Text(title) if title else None, show_header=False, title_justify="left", box=None)
+    table = Table(
+        title=Text(printable(title)) if title else None, show_header=False, title_justify="left", box=None
+    )
     table.add_column(no_wrap=True)
     table.add_column()
     indent = ""
     for row in rows:
         if row.heading:
-            table.add_row(row.name, "", style="bold")
+            table.add_row(Text(printable(row.name)), "", style="bold")
             indent = "  "
         else:
             # Text keeps rich from reading brackets as a style.
-            cells = Text(indent + row.name), Text(row.text)
+            cells = Text(indent + printable(row.name)), Text(printable(row.text))
             table.add_row(*cells, style="red" if row.alarm else None)
     return table

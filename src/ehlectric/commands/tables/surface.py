@@ -7,6 +7,8 @@ from typing import Any
 from rich.table import Table
 from rich.text import Text
 
+from ehlectric.errors import printable
+
 # Columns of the statistics of a profile and of a map: head, key, and format of the number.
 _PROFILE_COLUMNS = (
     ("Rq\n[nm]", "rq", "height"),
@@ -38,7 +40,7 @@ def surface_table(surface: dict[str, Any]) -> Table:
         parts.append(f"{100 * surface['voids']:.2g} % voids")
     if surface["height_step"] is not None:
         parts.append(f"height resolution {surface['height_step'] * 1e9:.2g} nm")
-    title = f"surface {surface['surface']}: {surface['source'] or 'generated'}\n{', '.join(parts)}"
+    title = f"surface {surface['surface']}: {printable(surface['source'] or 'generated')}\n{', '.join(parts)}"
     table = Table(title=Text(title), title_justify="left", box=None, padding=(0, 1, 0, 0))
     table.add_column("step", no_wrap=True)
     columns = _MAP_COLUMNS if of_map else _PROFILE_COLUMNS

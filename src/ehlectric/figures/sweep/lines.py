@@ -21,6 +21,7 @@ from ehlectric.figures.axes import (
     round_numbers,
     scale_axis,
 )
+from ehlectric.figures.names import literal
 from ehlectric.figures.style import GREY, axes_or_new, legend_above
 from ehlectric.figures.sweep.paths import (
     NAMED,
@@ -267,4 +268,4 @@ def _name_lines(
 
 
 def _line_name(value: Any, scale: Scale) -> str:
-    return f"{scale.of(value):.4g}" if isinstance(value, int | float) else str(value)
+    return f"{scale.of(value):.4g}" if isinstance(value, int | float) else literal(str(value))

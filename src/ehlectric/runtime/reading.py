@@ -1,0 +1,172 @@
+"""Reading of files that a user names: regular files of a bounded size, and nothing that never ends."""
+
+from __future__ import annotations
+
+import os
+import stat
+from collections.abc import Iterator
+from contextlib import contextmanager
+from io import BufferedReader
+from pathlib import Path
+
+from ehlectric.errors import InputError, shown
+from ehlectric.runtime.files import reading
+
+# Largest size of a file that a person writes: of a case, a bearing or a sweep [bytes].
+MOST_TEXT = 1_000_000
+
+# Kinds of files that are not regular, as messages name them.
+_SPECIAL = (
+    (stat.S_ISDIR, "is a directory"),
+    (stat.S_ISFIFO, "it is a pipe, not a regular file"),
+    (stat.S_ISCHR, "it is a device, not a regular file"),
+    (stat.S_ISBLK, "it is a device, not a regular file"),
+    (stat.S_ISSOCK, "it is a socket, not a regular file"),
+)
+
+# Folders whose files the kernel makes up when they are read. Some of them have no end or wait for ever.
+_KERNEL = ("/proc/", "/sys/")
+
+
+# Without O_NONBLOCK the opening of a pipe waits until somebody writes into it. Windows has no such flag, but
+# opens files as text by default.
+_FLAGS = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
+
+
+@contextmanager
+def regular(path: str | Path) -> Iterator[BufferedReader]:
+    """Context with a regular file that is open for reading.
+
+    A pipe, a device, a socket, a folder and a file of the kernel are refused before anything is read from
+    them. The check is made on the open file, so that the file cannot change in between.
+
+    Parameters
+    ----------
+    path : str or Path
+        File to read; a link is followed.
+
+    Yields
+    ------
+    file object
+        File open in binary mode.
+
+    Raises
+    ------
+    InputError
+        Where the path is no path, or the file does not exist, cannot be read or is no regular file. An
+        OSError within the context becomes an InputError too.
+    """
+    try:
+        path = Path(path)
+        with reading(path):
+            # The opening of a device may already change it.
+            refuse_kind(path, path.stat())
+            descriptor = os.open(path, _FLAGS)
+    except InputError:
+        raise
+    except ValueError:
+        raise InputError(shown(str(path)), "is not a path") from None
+    with reading(path), os.fdopen(descriptor, "rb") as file:
+        refuse_kind(path, os.fstat(descriptor))
+        yield file
+
+
+def refuse_kind(path: Path, status: os.stat_result) -> None:
+    """Refuse to read what is no regular file, or is a file that the kernel makes up.
+
+    Raises
+    ------
+    InputError
+        Where the status is that of a pipe, a device, a socket or a folder, or the path leads into /proc or
+        /sys.
+    """
+    if not stat.S_ISREG(status.st_mode):
+        why = (text for is_kind, text in _SPECIAL if is_kind(status.st_mode))
+        raise InputError(path, f"cannot be read, {next(why, 'it is not a regular file')}")
+    if os.path.realpath(path).startswith(_KERNEL):
+        raise InputError(path, "cannot be read, it is a file of the kernel, not a regular file")
+
+
+def refuse_unreadable(path: Path) -> None:
+    """Refuse a file that does not exist, cannot be opened or is no regular file.
+
+    Raises
+    ------
+    InputError
+        Where ``path`` cannot be read.
+    """
+    with regular(path):
+        pass
+
+
+def read_bytes(path: str | Path, *, most: int) -> bytes:
+    """Content of a regular file of a bounded size.
+
+    Parameters
+    ----------
+    path : str or Path
+        File to read; a link is followed.
+    most : int
+        Largest size of the file [bytes]. A larger file is refused before it is read.
+
+    Returns
+    -------
+    bytes
+        Content of the file.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, is no regular file, or is larger than ``most``.
+    """
+    with regular(path) as file:
+        size = os.fstat(file.fileno()).st_size
+        if size > most:
+            raise InputError(path, f"has {_size_text(size)}", takes=f"at most {_size_text(most)}")
+        content = file.read(size + 1)
+    if len(content) > size:
+        raise InputError(path, "grows while it is read")
+    return content
+
+
+def read_text(path: str | Path, *, most: int = MOST_TEXT) -> str:
+    """Text of a regular file in UTF-8 of a bounded size; a byte order mark is left out.
+
+    Line ends are line feeds, as Python reads a text file.
+
+    Parameters
+    ----------
+    path : str or Path
+        File to read; a link is followed.
+    most : int
+        Largest size of the file [bytes].
+
+    Returns
+    -------
+    str
+        Text of the file.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, is no regular file, is larger than ``most``, or is not text in UTF-8.
+    """
+    try:
+        text = read_bytes(path, most=most).decode("utf-8-sig")
+    except UnicodeDecodeError:
+        raise InputError(path, "is not a text file in UTF-8") from None
+    return text.replace("\r\n", "\n").replace("\r", "\n")
+
+
+def _size_text(size: int) -> str:
+    """Size [bytes] with a unit that suits it; three digits, and all digits of a size below 1 MB.
+
+    Examples
+    --------
+    >>> _size_text(20_000_000_000), _size_text(1_000_000), _size_text(1_000_001)
+    ('20 GB', '1 MB', '1.000001 MB')
+    """
+    for unit, name in ((10**9, "GB"), (10**6, "MB")):
+        if size >= unit:
+            return f"{size / unit:.7g} {name}"
+    return f"{size} bytes"

@@ -1,0 +1,361 @@
+"""Hostile texts and tables: each is refused by the project's own error, in a time that its length bounds."""
+
+import re
+import time
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import ehlectric
+from ehlectric.cases import depth, table, units
+from ehlectric.cases.case import Case
+from ehlectric.cases.depth import MOST_DEEP, refuse_deep, refuse_long_keys
+from ehlectric.cases.library.grade import Grade
+from ehlectric.cases.quantity import _NUMBER_AND_UNIT, Count, Quantity, length_unit
+from ehlectric.cases.table import nearest, read_toml
+from ehlectric.cases.units import ROTATION
+from ehlectric.commands import folders
+from ehlectric.errors import InputError
+from ehlectric.figures.names import _OF_UNIT
+from ehlectric.runtime.tables import _FORMULA
+from ehlectric.surfaces import text_files
+from ehlectric.surfaces.files import read_surface
+from ehlectric.sweep.inputs import Sweep
+
+CASE = {
+    "contact": {
+        "reduced_radius": "10 mm",
+        "reduced_modulus": "220 GPa",
+        "load_per_length": "100 kN/m",
+        "entrainment_speed": "1 m/s",
+    },
+    "lubricant": {"base": "paper"},
+}
+QUANTITIES = {
+    "length": Quantity("m", above=0.0),
+    "speed": Quantity("m/s"),
+    "rotation": Quantity(ROTATION),
+    "temperature": Quantity("K"),
+    "fraction": Quantity("", fraction=True),
+    "number": Quantity(""),
+}
+# Longest time of a refusal; those that hung took half a minute and more [s].
+SOON = 3.0
+
+
+@pytest.fixture(autouse=True)
+def _units_are_loaded():
+    """The registry of units, whose first use takes a while."""
+    units.registry()
+
+
+def refused(read, *given):
+    """Line of the error of the project that a call raises soon."""
+    began = time.monotonic()
+    with pytest.raises(InputError) as error:
+        read(*given)
+    assert time.monotonic() - began < SOON
+    line = str(error.value)
+    assert "\n" not in line
+    return line
+
+
+@pytest.mark.parametrize("quantity", QUANTITIES.values(), ids=QUANTITIES)
+@pytest.mark.parametrize(
+    "text",
+    [
+        "1" * 2000 + "y\nz",
+        "1 " + "a" * 200_000,
+        "1 " + "m*" * 3000 + "m",
+        "1 " + "m*" * 90 + "m",
+        "1 " + "(" * 5000 + "m" + ")" * 5000,
+        "1 m" + "**2" * 3000,
+        "1 m^" + "⁺" * 100_000,
+        "1," * 100_000,
+        "1" * 150_000 + ",5 m",
+        " " * 1_000_000,
+        "1e" + "9" * 100_000,
+        10**5000,
+        -(10**400),
+    ],
+    ids=lambda text: f"{str(text)[:8] if isinstance(text, str) else 'whole'!r}",
+)
+def test_a_hostile_quantity_is_refused_soon_in_a_short_line(quantity, text):
+    for written in (False, True):
+        line = refused(lambda: quantity.parse(text, written=written))  # noqa: B023
+        assert len(line) < 400
+
+
+def test_lines_name_what_is_wrong_with_a_long_text():
+    line = refused(QUANTITIES["length"].parse, "1" * 2000 + "y\nz")
+    assert line.startswith("got '1111111111")
+    assert "(it has 2003 characters, which is too long)" in line
+    line = refused(QUANTITIES["length"].parse, "1 " + "m*" * 20 + "m")
+    assert "is not a unit" in line
+    assert QUANTITIES["length"].parse("1 " + "m*" * 3 + "m/m/m/m") == 1.0
+
+
+@given(st.text(max_size=300) | st.from_regex(r"[0-9.,eE+\-* /()a-zµ°⁻¹²^]{0,300}", fullmatch=True))
+def test_any_text_as_a_quantity_is_a_number_or_the_error_of_the_project(text):
+    for quantity in QUANTITIES.values():
+        try:
+            value = quantity.parse(text)
+        except InputError as error:
+            value, line = 0.0, str(error)
+        else:
+            line = "one line"
+        assert len(line.splitlines()) == 1
+        assert len(line) < 500
+        assert isinstance(value, float)
+
+
+@given(st.text(max_size=300))
+def test_any_text_as_a_grade_a_unit_or_a_count_is_the_error_of_the_project(text):
+    for read in (Grade().parse, length_unit, Count(1, 9, "of items").parse):
+        try:
+            read(text)
+        except InputError:
+            pass
+        else:
+            assert read is not Count(1, 9, "of items").parse
+
+
+def test_whole_numbers_without_a_text_are_refused():
+    # Python writes no whole number of more than 4300 digits.
+    line = refused(Count(1, 9, "of items").parse, 10**5000)
+    assert line == "got a whole number of 16610 bits; expected a whole number from 1 to 9: of items"
+
+
+# Every regular expression for texts of a user, and texts that made such expressions slow.
+PATTERNS = {
+    "number and unit": _NUMBER_AND_UNIT.fullmatch,
+    "unit": units._UNIT.fullmatch,
+    "exponent": units._EXPONENT.findall,
+    "superscript": units._SUPERSCRIPT.findall,
+    "comma": units._COMMA.fullmatch,
+    "token": depth._TOKENS.findall,
+    "place": table._PLACE.findall,
+    "quoted": table._QUOTED.findall,
+    "comma number": table._COMMA_NUMBER.findall,
+    "unit number": table._UNIT_NUMBER.findall,
+    "point number": text_files._NUMBER["."].fullmatch,
+    "decimal comma number": text_files._NUMBER[","].fullmatch,
+    "spaced number": text_files._SPACED_NUMBER.fullmatch,
+    "pair": text_files._WHOLE_PAIR.fullmatch,
+    "single": text_files._SINGLE.fullmatch,
+    "brackets": text_files._BRACKETED.findall,
+    "bracketed fields": text_files._BRACKETED_FIELDS.fullmatch,
+    "number of a unit": _OF_UNIT.findall,
+    "csv": _FORMULA.match,
+}
+PARTS = (
+    *(
+        "1",
+        "a",
+        " ",
+        "1.",
+        "1,",
+        "1 ",
+        "m*",
+        "(",
+        "[",
+        '"',
+        "'",
+        '\\"',
+        "e1",
+        "=1",
+        "=,",
+        "/",
+        "⁺",
+        "\n",
+        "##",
+    ),
+    *("a.", "[a]", "(1", "= ", "9 ", ",1"),
+)
+ENDS = ("", "x", "!", "\n", "y\nz", ",", "]")
+
+
+@pytest.mark.parametrize("search", PATTERNS.values(), ids=PATTERNS)
+def test_the_time_of_a_regular_expression_grows_with_the_length_of_the_text(search):
+    """40 000 characters take below 0.25 s; an expression that takes the square of them takes seconds."""
+    for part in PARTS:
+        for end in ENDS:
+            text = ("1 " + part * 40_000)[:40_000] + end
+            times = []
+            for _ in range(3):
+                began = time.perf_counter()
+                search(text)
+                times.append(time.perf_counter() - began)
+                if times[-1] < 0.25:
+                    break
+            assert min(times) < 0.25, (part, end)
+
+
+def test_every_regular_expression_of_the_package_is_known():
+    """A new expression is tried against hostile texts above, or sees no text of a user."""
+    known = {
+        "cases/depth.py": 1,
+        "cases/input_keys.py": 2,  # texts of the package
+        "cases/library/grade.py": 1,  # anchored, without a repetition of a repetition
+        "cases/quantity.py": 1,
+        "cases/table.py": 5,
+        "cases/units.py": 5,
+        "commands/folders.py": 2,  # names of files, at most 255 characters
+        "commands/tables/sweep.py": 1,
+        "commands/terminal.py": 1,
+        "figures/names.py": 2,
+        "runtime/tables.py": 1,
+        "surfaces/text_files.py": 12,
+        "sweep/slices.py": 1,
+    }
+    package = Path(ehlectric.__file__).parent
+    made = re.compile(r"\bre\.(?:compile|match|search|fullmatch|sub|split|finditer|findall)\(")
+    found = {
+        path.relative_to(package).as_posix(): len(made.findall(path.read_text(encoding="utf-8")))
+        for path in package.rglob("*.py")
+    }
+    assert {name: count for name, count in found.items() if count} == known
+
+
+def test_names_of_files_of_maps_are_recognised_soon():
+    name = ("map_" + "_at_=" * 60)[:255]
+    began = time.monotonic()
+    assert folders._MAP.fullmatch(name) is None
+    assert time.monotonic() - began < SOON
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("a." * 25_000 + "b = 1", "line 1 has a key of more than 16 parts"),
+        ("[" + "a." * 400_000 + "b]", "line 1 has a key of more than 16 parts"),
+        ('title = "a.b"\n\nx = {' + '"a" . ' * 20_000 + "b = 1}", "line 3 has a key of more than 16 parts"),
+        ("x = " + "[" * 400_000, "is not TOML"),
+        ("x = " + "{a = " * 100_000, "is not TOML"),
+        ("x = " + "[" * 100 + "]" * 100, "x: has tables in each other more than 16 deep"),
+        ("x = " + "{a = " * 40 + "1" + "}" * 40, "x: has tables in each other more than 16 deep"),
+        ("x = " + "1" * 900_000, "is not TOML"),
+        ('x = "' + '\\"' * 400_000, "is not TOML"),
+        ("1" * 900_000, "is not TOML"),
+        ("x = 1" + "," * 900_000, "is not TOML"),
+        ("=" * 900_000, "is not TOML"),
+        ('"' + "k" * 900_000 + '" = 1', "has 900000 characters; expected a key of at most 1000"),
+        ('[vary]\n"' + "a." * 5000 + 'b" = [1]', "has 5001 parts; expected at most 16"),
+    ],
+    ids=lambda value: repr(value[:12]),
+)
+def test_hostile_files_are_refused_soon(tmp_path, text, message):
+    (tmp_path / "case.toml").write_text(text)
+    for read in (read_toml, Case.from_toml, Sweep.from_toml):
+        line = refused(read, tmp_path / "case.toml")
+        assert message in line
+        assert len(line) < 400 + len(str(tmp_path))
+
+
+def test_dots_in_texts_and_numbers_make_no_long_key():
+    many = ", ".join(["1.5", '"a.b.c.d"', "'e.f.g.h'"] * 100)
+    texts = f"y = '''\n{'b.' * 100}'''\nz = " + '"""' + "c." * 100 + '\\""""'
+    refuse_long_keys(f"x = [{many}] # {'a.' * 100}\n{texts}")
+    refuse_long_keys("\n".join(f"a.b{k}.c = 1.5" for k in range(1000)))
+    with pytest.raises(InputError, match="line 2 has a key"):
+        refuse_long_keys(f"x = 'a.b'\n{'a.' * 16}b = 1")
+    refuse_long_keys(f"{'a.' * (MOST_DEEP - 1)}b = 1")
+
+
+def nested(levels, kind=dict):
+    inner = 1
+    for _ in range(levels):
+        inner = {"contact": inner} if kind is dict else [inner]
+    return inner
+
+
+def within_itself():
+    table = {"grid": {}}
+    table["grid"]["contact"] = table["grid"]["lubricant"] = table
+    return table
+
+
+DEEP = {
+    "tables": lambda: nested(5000),
+    "below the limit of Python": lambda: nested(300),
+    "lists": lambda: {"roughness": nested(5000, list)},
+    "itself": within_itself,
+    "a list within itself": lambda: {"roughness": [items := [], items.append(items)]},
+}
+
+
+@pytest.mark.parametrize("made", DEEP.values(), ids=DEEP)
+def test_tables_that_are_too_deep_are_refused_wherever_they_are_given(made):
+    case = Case.from_dict(CASE)
+    for read in (
+        refuse_deep,
+        Case.from_dict,
+        lambda table: Case(**table),
+        ehlectric.solve,
+        case.replace,
+        lambda table: case.replace(contact=table),
+        lambda table: case.replace({"contact.load": table}),
+        lambda table: Sweep.from_dict({"case": table, "vary": {"grid.nodes": [401]}}),
+        lambda table: Sweep.from_dict({"case": case, "vary": table}),
+        lambda table: Sweep(case=case, vary=table),
+    ):
+        assert "has tables in each other more than 16 deep" in refused(read, made())
+
+
+def test_as_many_levels_as_a_case_may_have():
+    refuse_deep(nested(MOST_DEEP))
+    with pytest.raises(InputError, match="more than 16 deep"):
+        refuse_deep(nested(MOST_DEEP + 1))
+
+
+def test_keys_that_are_no_text_are_named():
+    assert refused(Case.from_dict, {1: 2}) == "got the key 1; expected a text as the key of a table"
+    assert "got the key None" in refused(Case.from_dict(CASE).replace, {None: 2})
+
+
+@pytest.mark.parametrize("parts", [5000, 20_000])
+def test_a_varied_key_of_many_parts_is_refused_soon(parts):
+    key = ".".join(["a"] * parts)
+    line = refused(Sweep.from_dict, {"case": CASE, "vary": {key: [1, 2]}})
+    assert f"has {parts} parts; expected at most 16" in line
+    assert len(line) < 200
+    assert f"has {parts} parts" in refused(Case.from_dict(CASE).replace, {key: 1})
+
+
+def test_the_nearest_name_of_a_long_one_is_found_soon():
+    began = time.monotonic()
+    assert nearest("contact.load" + "x" * 1_000_000, ["contact.load", "grid.nodes"]) == "contact.load"
+    assert time.monotonic() - began < SOON
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        "x [um],z [um]\n0,1\n1 " + "1" * 60_000 + "x\n",
+        "1 " + "1" * 60_000 + "x",
+        "a" * 1_000_000 + "\n0 1\n",
+        "a " * 500_000 + "\n0;1\n",
+        "(" * 1_000_000 + "\n0 1\n",
+        "1 (" * 300_000 + "\n" + "\n".join(f"{k} 0" for k in range(40)),
+        "1" + " " * 1_000_000 + "\n" + "\n".join(f"{k} 0" for k in range(40)),
+        "0," * 300_000,
+        "0;" * 300_000 + "x",
+        "1" * 900_000 + "\n" + "1" * 900_000,
+    ],
+    ids=range(10),
+)
+def test_hostile_text_files_of_surfaces_are_refused_soon(tmp_path, content):
+    (tmp_path / "rough.csv").write_text(content)
+    line = refused(read_surface, tmp_path / "rough.csv")
+    assert len(line) < 300 + len(str(tmp_path))
+
+
+def test_values_of_a_grid_are_compared_soon():
+    """Thirty thousand values, of which the last is there twice; comparing all pairs takes half a minute."""
+    values = [*range(801, 60_801, 2), 801]
+    began = time.monotonic()
+    with pytest.raises(InputError, match="got 801 twice"):
+        Sweep.from_dict({"case": CASE, "vary": {"grid.nodes": values}})
+    assert time.monotonic() - began < 2.0 * SOON

@@ -1,0 +1,148 @@
+"""Files that a user names: special files are refused at once, and sizes are known before anything is read."""
+
+import os
+import socket
+import time
+from pathlib import Path
+
+import pytest
+
+from ehlectric.cases.any_case import case_of_file
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.case import Case
+from ehlectric.commands.kinds import expect
+from ehlectric.errors import InputError
+from ehlectric.runtime.reading import MOST_TEXT, read_bytes, read_text, refuse_unreadable
+from ehlectric.surfaces.files import read_surface
+from ehlectric.sweep.inputs import Sweep
+from ehlectric.sweep.plan import plan
+
+CASE = """\
+[contact]
+reduced_radius = "14.1 mm"
+reduced_modulus = "226 GPa"
+max_hertz_pressure = "1 GPa"
+entrainment_speed = "2 m/s"
+[lubricant]
+base = "paper"
+"""
+
+# Every function that reads a file of the user.
+READERS = {
+    "case": Case.from_toml,
+    "any case": case_of_file,
+    "bearing": BearingCase.from_toml,
+    "sweep": Sweep.from_toml,
+    "base case": lambda path: Sweep.from_dict({"case": path, "vary": {"grid.nodes": [401, 801]}}),
+    "kind": expect,
+    "surface": read_surface,
+    "result": refuse_unreadable,
+}
+
+
+def pipe(path):
+    os.mkfifo(path)
+
+
+def unix_socket(path):
+    with socket.socket(socket.AF_UNIX) as server:
+        server.bind(str(path))
+
+
+def link_to(target):
+    def make(path):
+        if not Path(target).exists():
+            pytest.skip(f"this machine has no {target}")
+        path.symlink_to(target)
+
+    return make
+
+
+SPECIAL = {
+    "pipe": (pipe, "a pipe"),
+    "socket": (unix_socket, "a socket"),
+    "zero": (link_to("/dev/zero"), "a device"),
+    "null": (link_to("/dev/null"), "a device"),
+    "kmsg": (link_to("/proc/kmsg"), "a file of the kernel"),
+    "version": (link_to("/proc/version"), "a file of the kernel"),
+    "sys": (link_to("/sys/kernel/mm/transparent_hugepage/enabled"), "a file of the kernel"),
+    "folder": (Path.mkdir, "is a directory"),
+}
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no such files")
+@pytest.mark.parametrize("reader", READERS.values(), ids=READERS)
+@pytest.mark.parametrize(("make", "words"), SPECIAL.values(), ids=SPECIAL)
+def test_special_files_are_refused_at_once(tmp_path, monkeypatch, make, words, reader):
+    monkeypatch.chdir(tmp_path)
+    path = Path("special.toml")
+    make(path)
+    began = time.monotonic()
+    with pytest.raises(InputError) as refused:
+        reader(path)
+    assert time.monotonic() - began < 5.0
+    assert words in str(refused.value) or (words == "is a directory" and "is a folder" in str(refused.value))
+    assert str(refused.value).startswith("special.toml: ")
+    assert "\n" not in str(refused.value)
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no such file")
+def test_an_open_pipe_by_its_name_in_dev_is_refused():
+    ends = os.pipe()
+    try:
+        with pytest.raises(InputError, match="it is a pipe"):
+            read_text(f"/dev/fd/{ends[0]}")
+    finally:
+        for end in ends:
+            os.close(end)
+
+
+def test_a_pipe_as_roughness_of_a_sweep_is_no_valid_point(tmp_path):
+    if os.name == "nt":
+        pytest.skip("Windows has no pipes in folders")
+    pipe(tmp_path / "rough.csv")
+    rough = '[[roughness]]\nsurface = 1\nfile = "rough.csv"\n'
+    (tmp_path / "case.toml").write_text(CASE + rough)
+    case = Case.from_toml(tmp_path / "case.toml")
+    sweep = Sweep.from_dict({"case": case, "vary": {"grid.nodes": [401, 801]}})
+    assert all("it is a pipe" in point.refused for point in plan(sweep))
+
+
+@pytest.mark.parametrize("name", ["case", "bearing", "sweep", "base case", "surface"])
+def test_a_sparse_file_of_20_gb_is_refused_unread(tmp_path, name):
+    path = tmp_path / "sparse.toml"
+    with path.open("wb") as file:
+        try:
+            file.truncate(20 * 10**9)
+        except OSError as error:
+            pytest.skip(f"the file system of the tests makes no sparse file, {error}")
+    with pytest.raises(InputError, match=r"sparse\.toml: has 20 GB; expected at most 1 [MG]B"):
+        READERS[name](path)
+
+
+def test_sizes_at_the_limit(tmp_path):
+    path = tmp_path / "case.toml"
+    path.write_text(CASE + "#" * (MOST_TEXT - len(CASE)))
+    assert Case.from_toml(path).contact.reduced_radius == 0.0141
+    path.write_text(CASE + "#" * (MOST_TEXT - len(CASE) + 1))
+    with pytest.raises(InputError, match=r"has 1\.000001 MB; expected at most 1 MB"):
+        Case.from_toml(path)
+
+
+def test_bytes_come_back_as_they_are(tmp_path):
+    (tmp_path / "any").write_bytes(b"\xff\x00\r\n")
+    assert read_bytes(tmp_path / "any", most=4) == b"\xff\x00\r\n"
+    with pytest.raises(InputError, match="any: has 4 bytes; expected at most 3 bytes"):
+        read_bytes(tmp_path / "any", most=3)
+    (tmp_path / "empty").write_bytes(b"")
+    assert read_bytes(tmp_path / "empty", most=0) == b""
+
+
+def test_text_has_line_feeds_and_no_mark_of_its_byte_order(tmp_path):
+    (tmp_path / "text").write_bytes(b"\xef\xbb\xbfa\r\nb\rc\n\xc2\xb5")
+    assert read_text(tmp_path / "text") == "a\nb\nc\nµ"
+
+
+def test_what_is_no_path_is_one_line():
+    with pytest.raises(InputError, match=r"'a\\x00b': is not a path"):
+        read_text("a\0b")
