@@ -11,6 +11,8 @@ import os
 from collections.abc import Iterator
 from pathlib import Path, PurePosixPath
 
+from ehlectric.errors import MemoryLimitError
+
 # Texts of errors that mean that memory ran out, although their types do not say so: of the loader of shared
 # libraries, of threads that cannot start, and of HDF5.
 _TEXTS = ("cannot allocate memory", "failed to map segment", "can't start new thread", "memory allocation")
@@ -43,6 +45,29 @@ def available_memory() -> float:
         Memory [bytes]; at least zero, and infinite where the operating system tells no limit.
     """
     return max(0.0, min(physical_memory(), left_of_process(), left_of_groups()))
+
+
+def least_limit() -> str:
+    """Words for the limit that ``available_memory`` comes from."""
+    limits = {
+        "the memory of this machine": physical_memory(),
+        "what ulimit leaves to this process": left_of_process(),
+        "what its control group, as that of a container, leaves to this process": left_of_groups(),
+    }
+    return min(limits, key=lambda name: limits[name])
+
+
+def out_of_memory(error: BaseException) -> str:
+    """Line about an error that means that memory ran out.
+
+    Examples
+    --------
+    >>> out_of_memory(MemoryError("Unable to allocate 5 GiB")).partition(";")[0]
+    'out of memory: Unable to allocate 5 GiB'
+    """
+    text = " ".join(str(error).split())[:200]
+    said = "out of memory" + (f": {text}" if text else "")
+    return f"{said}; available are {in_bytes(available_memory())}, {least_limit()}"
 
 
 def left_of_process(status: Path = Path("/proc/self/status")) -> float:
@@ -154,7 +179,7 @@ def _left_of_group(folder: Path, version: int) -> float:
 
 
 def is_out_of_memory(error: BaseException | None) -> bool:
-    """Whether an error, or the one that it came from, means that memory ran out.
+    """Whether an error, or one that it came from, means that memory ran out or would not suffice.
 
     Examples
     --------
@@ -166,7 +191,7 @@ def is_out_of_memory(error: BaseException | None) -> bool:
     seen: set[int] = set()
     while error is not None and id(error) not in seen:
         seen.add(id(error))
-        if isinstance(error, MemoryError) or getattr(error, "errno", None) == errno.ENOMEM:
+        if isinstance(error, MemoryError | MemoryLimitError) or getattr(error, "errno", None) == errno.ENOMEM:
             return True
         if isinstance(error, ImportError | RuntimeError | OSError):
             text = str(error).lower()

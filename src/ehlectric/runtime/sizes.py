@@ -16,7 +16,7 @@ import numpy as np
 
 from ehlectric.errors import InputError
 from ehlectric.runtime.files import reading
-from ehlectric.runtime.memory import available_memory, in_bytes
+from ehlectric.runtime.memory import available_memory, in_bytes, least_limit
 
 # Largest size of the values of one NetCDF file [bytes]: twice those of a point contact on the finest grid.
 MOST_VALUES = 8_000_000_000
@@ -96,7 +96,7 @@ def check_memory_for(path: object, needed: float, says: str) -> None:
         raise InputError(
             path,
             f"{says} and needs {in_bytes(needed)} of memory",
-            takes=f"at most {in_bytes(available)}, which are available",
+            takes=f"at most {in_bytes(available)}, {least_limit()}",
         )
 
 

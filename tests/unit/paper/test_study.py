@@ -18,7 +18,8 @@ from ehlectric.paper.contacts import CONTACTS, LOADS, measured_profile
 from ehlectric.paper.figures import FIGURES
 from ehlectric.paper.study import Placed, Study, readings_differ_by, straight_line
 from ehlectric.paper.tables import TABLES, agrees, amplitude, printed_table
-from ehlectric.runtime.workers import cores, run_all
+from ehlectric.runtime.tasks import run_all
+from ehlectric.runtime.workers import cores
 from tests.helpers.places import EXAMPLES, ROOT
 from tests.reference.field import cylinder_potential
 

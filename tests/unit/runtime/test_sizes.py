@@ -70,7 +70,7 @@ def test_values_that_do_not_fit_into_the_memory(tmp_path, monkeypatch):
         read_dataset(path)
     assert error.value.text == (
         "holds 8 MB of values in 8.01 MB and needs 16 MB of memory; "
-        "expected at most 10 MB, which are available"
+        "expected at most 10 MB, the memory of this machine"
     )
 
 
