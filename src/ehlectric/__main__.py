@@ -5,19 +5,20 @@ from __future__ import annotations
 import sys
 
 from ehlectric.runtime.memory import in_bytes, is_out_of_memory, left_of_process, out_of_memory
+from ehlectric.runtime.workers import cores
 
-# Memory that the libraries of every command take [bytes of address space]. With less they do not fail in
-# words: BLAS waits for ever, or ends the process.
-LEAST_MEMORY = 600_000_000
+# Memory that the libraries of every command take [bytes of address space], and that of BLAS for each core.
+# With less they do not fail in words: BLAS waits for ever, or ends the process.
+LEAST_MEMORY, MEMORY_OF_CORE = 750_000_000, 20_000_000
 _TOO_LITTLE = 2
 
 
 def main() -> None:
     """Entry point of the ``ehlectric`` command, also where there is hardly any memory."""
-    left = left_of_process()
-    if left < LEAST_MEMORY:
+    left, least = left_of_process(), LEAST_MEMORY + MEMORY_OF_CORE * cores()
+    if left < least:
         told = f"memory: got {in_bytes(max(0.0, left))}, what ulimit leaves to this process"
-        sys.exit(_end(f"{told}; expected at least {in_bytes(LEAST_MEMORY)}"))
+        sys.exit(_end(f"{told}; expected at least {in_bytes(least)}"))
     try:
         from ehlectric.commands.app import main as run
     except Exception as error:

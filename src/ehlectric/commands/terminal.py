@@ -49,7 +49,7 @@ def user_errors() -> Iterator[None]:
         text, status = f"not converged: {error}", NOT_CONVERGED
     except LostError as error:
         text, status = str(error), NOT_CONVERGED
-    except BrokenPipeError:
+    except (BrokenPipeError, typer.Exit):
         raise
     except Exception as error:
         if is_out_of_memory(error):
@@ -75,7 +75,7 @@ def solving() -> Iterator[None]:
     """
     try:
         yield
-    except (InputError, LostError):
+    except (InputError, ConvergenceError, LostError, typer.Exit):
         raise
     except Exception as error:
         if not is_out_of_memory(error):

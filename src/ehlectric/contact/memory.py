@@ -1,4 +1,4 @@
-"""Memory that a case needs. A case that does not fit into what is available is refused before it is solved."""
+"""Memory that a case needs. A case that does not fit into what is left is refused before it is solved."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ def _check_record(motion: Motion, grid: Grid, nodes: int) -> None:
         raise MemoryLimitError(
             "motion.record",
             got=f"{motion.record} instants of {nodes} nodes, about {needed / 1e9:.0f} GB;",
-            takes=f"at most {int(available / RECORD_BYTES / nodes)}, which fit into {in_bytes(available)}, "
+            takes=f"at most {int(available / RECORD_BYTES / nodes)} in {in_bytes(available)}, "
             f"{least_limit()}",
         )
 

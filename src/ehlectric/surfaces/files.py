@@ -7,6 +7,7 @@ SurfaceTopography if it is installed.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -15,7 +16,8 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.errors import InputError, ResultWarning
 from ehlectric.runtime.files import reading
-from ehlectric.surfaces.instrument_files import HeightMap, read_al3d, read_x3p
+from ehlectric.runtime.sizes import check_file_size
+from ehlectric.surfaces.instrument_files import MOST_POINTS, HeightMap, read_al3d, read_x3p
 from ehlectric.surfaces.maps import Map
 from ehlectric.surfaces.profiles import LEAST_POINTS, Profile
 from ehlectric.surfaces.text_files import is_text, read_text
@@ -29,6 +31,13 @@ MOST_VOID = 0.2
 
 # Largest number of points of a map that is processed: every processing step keeps a copy of the map.
 MOST_MAP_POINTS = 20_000_000
+
+# Largest size of a file [bytes]: of text, some four million points of a profile; of another, a map of
+# ``instrument_files.MOST_POINTS`` points in double precision, with its image.
+MOST_TEXT, MOST_BINARY = 100_000_000, 1_000_000_000
+
+# Memory of the reader of text / size of the file, as measured.
+_TEXT_COPIES = 30.0
 
 # Fraction of the slopes of a map that may exceed STEEPEST, for a few pixels of dust or noise.
 _MOST_STEEP = 0.01
@@ -263,9 +272,23 @@ def _content(path: Path) -> bytes:
             # Reading a pipe would wait for ever.
             if path.exists() and not (path.is_file() or path.is_dir()):
                 raise InputError(path, "is not a regular file")
+            _check_size(path)
             return path.read_bytes()
     except ValueError as error:
         raise error if isinstance(error, InputError) else InputError(f"{path!r}", "is not a path") from None
+
+
+def _check_size(path: Path) -> None:
+    """Refuse a file that is too large for its kind, text or binary, before it is read.
+
+    Raises
+    ------
+    InputError
+        Where the file is too large, or does not fit into the memory as its reader keeps it.
+    """
+    with path.open("rb") as file:
+        text = is_text(file.read(4096))
+    check_file_size(path, MOST_TEXT if text else MOST_BINARY, copies=_TEXT_COPIES if text else 1.0)
 
 
 def _of_map(path: Path, heights: HeightMap, x_unit: str | None, z_unit: str | None) -> Surface:
@@ -283,7 +306,10 @@ def _check_scale(surface: Surface) -> None:
                 f"its points are {spacing:.3g} m apart along {axis}",
                 takes=f"{FINEST:g} to {COARSEST:g} m; is the unit right?",
             )
-    highest = np.max(np.abs(surface.heights), initial=0.0, where=~np.isnan(surface.heights))
+    there = ~np.isnan(surface.heights)
+    highest = max(
+        np.max(surface.heights, initial=0.0, where=there), -np.min(surface.heights, initial=0.0, where=there)
+    )
     if highest > _HIGHEST:
         raise InputError(
             surface.source,
@@ -301,9 +327,16 @@ def _read_other(path: Path) -> HeightMap:
             path, "is neither text, X3P nor AL3D; other formats take the extra ehlectric[instruments]"
         ) from None
     try:
-        topography = open_topography(str(path)).topography().to_unit("m")
+        reader = open_topography(str(path))
+        # The sizes in the header are known before the heights are read.
+        points = math.prod(reader.channels[0].nb_grid_pts or ())
+        if points > MOST_POINTS:
+            raise InputError(path, f"says it has {points} points", takes=f"at most {MOST_POINTS}")
+        topography = reader.topography().to_unit("m")
         heights: Array = np.ma.filled(np.ma.asarray(topography.heights(), dtype=float), np.nan)
         spacing = np.atleast_1d(topography.pixel_size)
+    except (InputError, MemoryError):
+        raise
     except Exception as error:  # the readers of forty formats raise exceptions of any kind
         raise InputError(path, f"cannot be read by SurfaceTopography, {str(error)[:80]}") from None
     if heights.ndim == 1:
