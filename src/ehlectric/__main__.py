@@ -1,5 +1,38 @@
 """``python -m ehlectric`` is the ``ehlectric`` command."""
 
-from ehlectric.commands.app import main
+from __future__ import annotations
 
-main()
+import sys
+
+from ehlectric.runtime.memory import in_bytes, is_out_of_memory, left_of_process, out_of_memory
+from ehlectric.runtime.workers import cores
+
+# Memory that the libraries of every command take [bytes of address space], and that of BLAS for each core.
+# With less they do not fail in words: BLAS waits for ever, or ends the process.
+LEAST_MEMORY, MEMORY_OF_CORE = 750_000_000, 20_000_000
+_TOO_LITTLE = 2
+
+
+def main() -> None:
+    """Entry point of the ``ehlectric`` command, also where there is hardly any memory."""
+    left, least = left_of_process(), LEAST_MEMORY + MEMORY_OF_CORE * cores()
+    if left < least:
+        told = f"memory: got {in_bytes(max(0.0, left))}, what ulimit leaves to this process"
+        sys.exit(_end(f"{told}; expected at least {in_bytes(least)}"))
+    try:
+        from ehlectric.commands.app import main as run
+    except Exception as error:
+        if not is_out_of_memory(error):
+            raise
+        sys.exit(_end(out_of_memory(error)))
+    run()
+
+
+def _end(text: str) -> int:
+    """Print why there is no command, and return its exit status."""
+    print(f"error: {text}", file=sys.stderr)  # noqa: T201
+    return _TOO_LITTLE
+
+
+if __name__ == "__main__":
+    main()

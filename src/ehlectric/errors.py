@@ -191,7 +191,7 @@ class InputError(ValueError):
 
 
 class MemoryLimitError(InputError):
-    """Error of a solution that does not fit into the memory of this machine; a larger one may solve it."""
+    """Error of a solution that does not fit into the available memory; with more of it, it may be solved."""
 
 
 class WriteError(InputError):
@@ -199,7 +199,7 @@ class WriteError(InputError):
 
 
 class LostError(RuntimeError):
-    """Error of a sweep whose cluster or worker processes were lost; the solved points are saved."""
+    """Error of a solution that lost its worker processes, its cluster or its memory."""
 
 
 class ConvergenceError(RuntimeError):

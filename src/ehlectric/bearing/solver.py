@@ -40,6 +40,8 @@ def solve_bearing(
     ------
     InputError
         Where the bearing cannot carry its load, or a contact cannot be solved.
+    LostError
+        Where the process of a contact was killed twice, as by a system out of memory.
     """
     return BearingResult(solution_of(case, progress=progress, workers=workers))
 

@@ -18,8 +18,9 @@ from ehlectric.commands.reproduce import reproduce
 from ehlectric.commands.start import examples, init
 from ehlectric.commands.surface import surface
 from ehlectric.commands.sweep import sweep
-from ehlectric.commands.terminal import WRONG_INPUT
+from ehlectric.commands.terminal import NOT_CONVERGED, WRONG_INPUT
 from ehlectric.errors import InputError
+from ehlectric.runtime.memory import is_out_of_memory, out_of_memory
 from ehlectric.version import __version__
 
 SIGNALLED = 128  # plus the number of the signal, as in shells
@@ -110,21 +111,30 @@ def _status() -> int:
         sys.stdout.flush()
     except (KeyboardInterrupt, typer.Abort):
         return SIGNALLED + signal.SIGINT
-    except OSError as error:
+    except Exception as error:
+        return _failed(error)
+    return int(status or 0)
+
+
+def _failed(error: Exception) -> int:
+    """Exit status of an error that no command tells, with its line; another error is raised again."""
+    if is_out_of_memory(error):
+        # What ran out before anything was solved is told by the commands.
+        typer.echo(f"error: {out_of_memory(error)}", err=True)
+        return NOT_CONVERGED
+    if isinstance(error, OSError):
         # Nothing can be printed any more, also not by the interpreter at its exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         if not isinstance(error, BrokenPipeError):
             reason = (error.strerror or str(error)).lower()
             typer.echo(f"error: standard output: cannot be written to, {reason}", err=True)
         return WRONG_INPUT
-    except Exception as error:
-        message = getattr(error, "format_message", None)
-        if message is None:
-            raise
-        # Its text is one line, with what the user typed escaped.
-        typer.echo(f"error: {InputError(message())}", err=True)
-        return WRONG_INPUT
-    return int(status or 0)
+    message = getattr(error, "format_message", None)
+    if message is None:
+        raise error
+    # Its text is one line, with what the user typed escaped.
+    typer.echo(f"error: {InputError(message())}", err=True)
+    return WRONG_INPUT
 
 
 def main() -> None:

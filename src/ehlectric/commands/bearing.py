@@ -51,7 +51,8 @@ def bearing(
     The folder then holds this result alone: files of an earlier result are removed, other files stay. A
     folder with a sweep or with moving roughness is refused.
 
-    Exit status 0: solved. 2: the input is wrong. 3: a contact is not converged; all files are still written.
+    Exit status 0: solved. 2: the input is wrong. 3: a contact is not converged, all files are still
+    written; or memory ran out, or the process of a contact was killed twice.
     """
     with user_errors():
         look = figure_options(formats, style)

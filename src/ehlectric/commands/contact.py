@@ -63,7 +63,8 @@ def run(
     The folder then holds this result alone: files of an earlier result are removed, other files stay. A
     folder with a sweep, or with moving roughness of another case, is refused.
 
-    Exit status 0: solved. 2: the input is wrong. 3: not converged; all files are still written.
+    Exit status 0: solved. 2: the input is wrong. 3: not converged, all files are still written; or memory
+    ran out.
     """
     with user_errors():
         look = figure_options(formats, style)

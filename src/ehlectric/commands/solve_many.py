@@ -17,8 +17,9 @@ from ehlectric.contact.results import PointResult, Result
 from ehlectric.contact.solver import solve
 from ehlectric.errors import InputError, LostError, shown
 from ehlectric.runtime.log import log_warnings
-from ehlectric.runtime.workers import cores
-from ehlectric.sweep.engine import Crew, finished_tasks, processes
+from ehlectric.runtime.memory import is_out_of_memory
+from ehlectric.runtime.tasks import finished_tasks
+from ehlectric.runtime.workers import Crew, cores, processes
 
 R = TypeVar("R")
 
@@ -124,7 +125,7 @@ def _in_processes(cases: Iterator[tuple[int, Solvable]], number: int) -> Iterato
     """Cases solved in processes of this machine."""
     with ExitStack() as crews:
         crew: Crew = crews.enter_context(processes(number))
-        batches = finished_tasks(cases, crew, solve_case, LostError)
+        batches = finished_tasks(cases, crew, solve_case, LostError, _ran_out)
         crews.callback(batches.close)
         try:
             for batch in batches:
@@ -133,6 +134,11 @@ def _in_processes(cases: Iterator[tuple[int, Solvable]], number: int) -> Iterato
         except LostError as error:
             text = f'{error}; in a script, call solve_many inside an if __name__ == "__main__": block'
             raise LostError(text) from None
+
+
+def _ran_out(outcome: _Outcome) -> bool:
+    """Whether a case found too little memory; alone it may find more."""
+    return isinstance(outcome, Exception) and is_out_of_memory(outcome)
 
 
 def _told(index: int, outcome: _Outcome) -> Solved[Any]:

@@ -24,6 +24,7 @@ from ehlectric.commands.terminal import (
     warn,
 )
 from ehlectric.errors import InputError, LostError, ResultWarning, WriteError, shown
+from ehlectric.runtime.memory import is_out_of_memory, out_of_memory
 from ehlectric.runtime.progress import Progress, silent
 
 if TYPE_CHECKING:
@@ -76,8 +77,8 @@ def sweep(
     interrupted, run the same command to resume it. Figures come from ehlectric map and ehlectric
     sensitivity, or from --plots.
 
-    Exit status 0: done; points that failed are counted. 2: the input is wrong. 3: no point was solved, or the
-    workers were lost.
+    Exit status 0: done; points that failed are counted. 2: the input is wrong. 3: no point was solved, or
+    memory or workers were lost.
     """
     with user_errors():
         options = {"workers": _workers(workers, scheduler), "scheduler": scheduler}
@@ -152,6 +153,13 @@ def _tell_where_it_stops(output: Path) -> Iterator[_Begun]:
         yield begun
     except LostError as error:
         tell(f"error: the workers were lost: {error}")
+        raise typer.Exit(NOT_CONVERGED) from None
+    except InputError:
+        raise
+    except Exception as error:
+        if not (begun.yet and is_out_of_memory(error)):
+            raise
+        tell(f"error: {out_of_memory(error)}")
         raise typer.Exit(NOT_CONVERGED) from None
     except (KeyboardInterrupt, SystemExit):
         if begun.yet:

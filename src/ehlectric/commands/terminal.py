@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from ehlectric.errors import ConvergenceError, InputError, ResultWarning, printable
+from ehlectric.errors import ConvergenceError, InputError, LostError, ResultWarning, printable
+from ehlectric.runtime.memory import is_out_of_memory, out_of_memory
 from ehlectric.runtime.progress import Progress, silent
 
 if TYPE_CHECKING:
@@ -44,36 +45,64 @@ def say(line: str, *, err: bool = False) -> None:
 def user_errors() -> Iterator[None]:
     """Context in which errors of the user become one line on stderr.
 
-    The exit status is 2 where the input is wrong, and 3 where something is not converged.
+    The exit status is 2 where the input is wrong, or memory ran out before anything was solved. It is 3 where
+    something is not converged, or processes or memory were lost in a solution.
     """
+    status = WRONG_INPUT
     try:
         yield
     except InputError as error:
         text = str(error)
     except ConvergenceError as error:
-        say(f"error: not converged: {error}", err=True)
-        raise typer.Exit(NOT_CONVERGED) from None
-    except BrokenPipeError:
+        text, status = f"not converged: {error}", NOT_CONVERGED
+    except LostError as error:
+        text, status = str(error), NOT_CONVERGED
+    except (BrokenPipeError, typer.Exit):
         raise
-    except OSError as error:
-        reason = f"cannot be used, {(error.strerror or str(error)).lower()}"
-        text = f"a file {reason}" if error.filename is None else f"{error.filename}: {reason}"
+    except Exception as error:
+        if is_out_of_memory(error):
+            text = out_of_memory(error)
+        elif isinstance(error, OSError):
+            reason = f"cannot be used, {(error.strerror or str(error)).lower()}"
+            text = f"a file {reason}" if error.filename is None else f"{error.filename}: {reason}"
+        else:
+            raise
     else:
         return
     say(f"error: {text}", err=True)
-    raise typer.Exit(WRONG_INPUT)
+    raise typer.Exit(status)
+
+
+@contextmanager
+def solving() -> Iterator[None]:
+    """Context in which something is solved: where memory runs out, a LostError says so.
+
+    Raises
+    ------
+    LostError
+        Where memory runs out; a grid that is known not to fit is an InputError as ever.
+    """
+    try:
+        yield
+    except (InputError, ConvergenceError, LostError, typer.Exit):
+        raise
+    except Exception as error:
+        if not is_out_of_memory(error):
+            raise
+        raise LostError(out_of_memory(error)) from None
 
 
 @contextmanager
 def progress_bar(*, shown: bool) -> Iterator[Progress]:
     """Context with a progress bar on stderr; nothing is shown where stderr is not a terminal."""
     if not (shown and sys.stderr.isatty()):
-        yield silent
+        with solving():
+            yield silent
         return
     from rich import progress
     from rich.console import Console
 
-    with progress.Progress(console=Console(stderr=True)) as bar:
+    with solving(), progress.Progress(console=Console(stderr=True)) as bar:
         task = bar.add_task("starting", total=None)
         yield lambda done, of, text: bar.update(task, completed=done, total=of or None, description=text)
 
@@ -82,11 +111,12 @@ def progress_bar(*, shown: bool) -> Iterator[Progress]:
 def progress_line(*, shown: bool) -> Iterator[Progress]:
     """Context with a line on stderr that says what is being done; only where stderr is a terminal."""
     if not (shown and sys.stderr.isatty()):
-        yield silent
+        with solving():
+            yield silent
         return
     from rich.console import Console
 
-    with Console(stderr=True).status("starting") as status:
+    with solving(), Console(stderr=True).status("starting") as status:
         yield lambda _done, _of, text: status.update(text)
 
 

@@ -70,7 +70,7 @@ def check_case(case: Case) -> PreparedContact:
     ------
     InputError
         If the values contradict each other, a surface cannot be used, or the case needs more than the
-        physical memory.
+        available memory.
     """
     kind = KINDS[case.contact.geometry]
     conditions = kind.resolve(case)

@@ -1,4 +1,4 @@
-"""Memory that a case needs. A case that does not fit into this machine is refused before it is solved."""
+"""Memory that a case needs. A case that does not fit into what is left is refused before it is solved."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ehlectric.cases.grid import Grid
 from ehlectric.cases.motion import Motion
 from ehlectric.errors import MemoryLimitError
 from ehlectric.film.newton import KRYLOV_LIMIT
-from ehlectric.runtime.memory import physical_memory
+from ehlectric.runtime.memory import available_memory, in_bytes, least_limit
 
 # Peak memory of a line contact [bytes], measured up to a million nodes: of the film per node; of the field
 # per column and per (degree + 1)^2.
@@ -32,7 +32,7 @@ RECORD_BYTES = 64
 
 
 def check_memory(case: Case) -> None:
-    """Raise a MemoryLimitError if a case does not fit into the memory of this machine.
+    """Raise a MemoryLimitError if a case does not fit into the available memory.
 
     Parameters
     ----------
@@ -42,7 +42,7 @@ def check_memory(case: Case) -> None:
     Raises
     ------
     MemoryLimitError
-        If film and field, or the recorded instants of a motion, need more than the physical memory.
+        If film and field, or the recorded instants of a motion, need more than the available memory.
     """
     if case.motion is not None:
         _check_record(case.motion, case.grid, _NODES[case.contact.geometry](case.grid))
@@ -64,7 +64,7 @@ def check_grid(geometry: str, grid: Grid, *, rough: bool) -> None:
     Raises
     ------
     MemoryLimitError
-        If film and field need more than the physical memory.
+        If film and field need more than the available memory.
     """
     sizes = _SIZES[geometry](grid)
     _refuse_beyond(grid, _NEEDED[geometry](grid, rough=rough), sizes)
@@ -73,28 +73,29 @@ def check_grid(geometry: str, grid: Grid, *, rough: bool) -> None:
 def _check_record(motion: Motion, grid: Grid, nodes: int) -> None:
     """Raise a MemoryLimitError if the instants of a motion, all read back at its end, do not fit."""
     steps = motion.steps or (math.inf if motion.passes is None else motion.passes * grid.nodes)
-    available, needed = physical_memory(), RECORD_BYTES * nodes * min(motion.record, steps + 1)
+    available, needed = available_memory(), RECORD_BYTES * nodes * min(motion.record, steps + 1)
     if needed > available:
         raise MemoryLimitError(
             "motion.record",
             got=f"{motion.record} instants of {nodes} nodes, about {needed / 1e9:.0f} GB;",
-            takes=f"at most {int(available / RECORD_BYTES / nodes)} in {available / 1e9:.0f} GB",
+            takes=f"at most {int(available / RECORD_BYTES / nodes)} in {in_bytes(available)}, "
+            f"{least_limit()}",
         )
 
 
 def _refuse_beyond(grid: Grid, needed: tuple[float, float], sizes: tuple[str, str]) -> None:
-    """Raise a MemoryLimitError if the memory needed by film and field exceeds the physical memory.
+    """Raise a MemoryLimitError if the memory needed by film and field exceeds the available memory.
 
     ``needed`` is the memory of the film and of the field [bytes]; ``sizes`` are their grids as text.
     """
-    available, (film, field) = physical_memory(), needed
+    available, (film, field) = available_memory(), needed
     if film + field > available:
         of_film = grid.field_nodes is None or film > field
         key, size = ("nodes", sizes[0]) if of_film else ("field_nodes", sizes[1])
         raise MemoryLimitError(
             f"grid.{key}",
             got=f"{size} with field_degree {grid.field_degree}, about {(film + field) / 1e9:.0f} GB;",
-            takes=f"a grid that fits into the {available / 1e9:.0f} GB of this machine",
+            takes=f"a grid that fits into {in_bytes(available)}, {least_limit()}",
         )
 
 

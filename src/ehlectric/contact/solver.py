@@ -178,7 +178,7 @@ def solve_contact(
     Raises
     ------
     InputError
-        If a surface cannot be used, or film and field need more than the physical memory.
+        If a surface cannot be used, or film and field need more than the available memory.
     ConvergenceError
         If the film did not converge and ``require_convergence`` is True, or if the field did not converge.
 

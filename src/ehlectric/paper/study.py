@@ -23,7 +23,7 @@ from ehlectric.field.line import solve_field
 from ehlectric.film.line import solve_film
 from ehlectric.paper import fas, sor
 from ehlectric.paper.contacts import CONTACTS, ROUGH_NODES, SMOOTH_NODES, PaperContact, measured_profile
-from ehlectric.runtime.workers import run_all
+from ehlectric.runtime.tasks import run_all
 
 # Residual down to which the V-cycles of the paper's multigrid are counted.
 COUNTED = 1e-6
@@ -145,8 +145,9 @@ def run_study(parts: Iterable[str], *, progress: Callable[[int, int, str], None]
 
     Raises
     ------
-    RuntimeError
-        If a process was killed, or a script calls this without ``if __name__ == "__main__":``.
+    LostError
+        If the process of a contact was killed twice, or a script calls this without
+        ``if __name__ == "__main__":``.
     """
     requested = dict.fromkeys(parts)
     with measured_profile() as profile:
@@ -167,7 +168,7 @@ def run_study(parts: Iterable[str], *, progress: Callable[[int, int, str], None]
                 progress(len(solved), len(work), f"{part.replace('_', ' ')}: {contact.name}")
 
         if work:
-            run_all([partial(task, contact) for _, contact, task in work], done)
+            run_all([partial(task, contact) for _, contact, task in work], done, what="contact")
     # The results are in the order of the contacts, not in the order of completion.
     return Study(**{part: {contact: solved[part, contact] for contact in CONTACTS} for part in requested})
 

@@ -19,6 +19,7 @@ from ehlectric.runtime.files import writing
 from ehlectric.runtime.interrupts import held_back
 from ehlectric.runtime.locks import take
 from ehlectric.runtime.reading import refuse_unreadable
+from ehlectric.runtime.sizes import check_netcdf_values
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -48,7 +49,8 @@ def read_dataset(path: Path, damaged: str = "is not a NetCDF file") -> xr.Datase
     Raises
     ------
     InputError
-        Where the file cannot be read, is damaged, or stays open in another program.
+        Where the file cannot be read, is damaged, or stays open in another program, or where its values are
+        too large.
     """
     import xarray as xr
 
@@ -56,8 +58,9 @@ def read_dataset(path: Path, damaged: str = "is not a NetCDF file") -> xr.Datase
     try:
         with warnings.catch_warnings(), opened(path, "r") as file:
             warnings.simplefilter("ignore")  # xarray warns about files that are refused below
+            check_netcdf_values(path, file)
             return xr.open_dataset(xr.backends.H5NetCDFStore(file)).load()
-    except InputError:
+    except (InputError, MemoryError):
         raise
     except Exception:  # HDF5 and its wrappers raise errors of many types for damaged files
         raise InputError(path, damaged) from None

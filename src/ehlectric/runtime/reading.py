@@ -11,6 +11,7 @@ from pathlib import Path
 
 from ehlectric.errors import InputError, shown
 from ehlectric.runtime.files import reading
+from ehlectric.runtime.sizes import check_size
 
 # Largest size of a file that a person writes: of a case, a bearing or a sweep [bytes].
 MOST_TEXT = 1_000_000
@@ -99,7 +100,7 @@ def refuse_unreadable(path: Path) -> None:
         pass
 
 
-def read_bytes(path: str | Path, *, most: int) -> bytes:
+def read_bytes(path: str | Path, *, most: int, copies: float = 1.0) -> bytes:
     """Content of a regular file of a bounded size.
 
     Parameters
@@ -108,6 +109,8 @@ def read_bytes(path: str | Path, *, most: int) -> bytes:
         File to read; a link is followed.
     most : int
         Largest size of the file [bytes]. A larger file is refused before it is read.
+    copies : float
+        Ratio of the memory that its reader needs to the size of the file.
 
     Returns
     -------
@@ -117,12 +120,11 @@ def read_bytes(path: str | Path, *, most: int) -> bytes:
     Raises
     ------
     InputError
-        If the file cannot be read, is no regular file, or is larger than ``most``.
+        If the file cannot be read, is no regular file, is larger than ``most``, or does not fit into memory.
     """
     with regular(path) as file:
         size = os.fstat(file.fileno()).st_size
-        if size > most:
-            raise InputError(path, f"has {_size_text(size)}", takes=f"at most {_size_text(most)}")
+        check_size(Path(path), size, most, copies=copies)
         content = file.read(size + 1)
     if len(content) > size:
         raise InputError(path, "grows while it is read")
@@ -156,17 +158,3 @@ def read_text(path: str | Path, *, most: int = MOST_TEXT) -> str:
     except UnicodeDecodeError:
         raise InputError(path, "is not a text file in UTF-8") from None
     return text.replace("\r\n", "\n").replace("\r", "\n")
-
-
-def _size_text(size: int) -> str:
-    """Size [bytes] with a unit that suits it; three digits, and all digits of a size below 1 MB.
-
-    Examples
-    --------
-    >>> _size_text(20_000_000_000), _size_text(1_000_000), _size_text(1_000_001)
-    ('20 GB', '1 MB', '1.000001 MB')
-    """
-    for unit, name in ((10**9, "GB"), (10**6, "MB")):
-        if size >= unit:
-            return f"{size / unit:.7g} {name}"
-    return f"{size} bytes"

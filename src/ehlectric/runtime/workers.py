@@ -1,4 +1,7 @@
-"""Pool of processes that ends at once where a run is stopped, and with its parent process."""
+"""Worker processes of this machine, and other crews that solve tasks.
+
+The processes end at once where a run is stopped, and with their parent process.
+"""
 
 from __future__ import annotations
 
@@ -6,13 +9,19 @@ import multiprocessing
 import os
 import signal
 import threading
-from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
-from concurrent.futures.process import BrokenProcessPool
+from collections.abc import Callable, Iterator
+from concurrent.futures import Executor, Future, ProcessPoolExecutor
 from contextlib import contextmanager
-from typing import TypeVar
+from dataclasses import dataclass
+from typing import Any, TypeVar
 
 T = TypeVar("T")
+
+# Tasks in flight per process: one that is being solved, and one that waits, so that no process idles.
+_AHEAD = 2
+
+# Environment variables in which BLAS libraries look up the number of threads when they are loaded.
+_THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 
 def cores() -> int:
@@ -21,46 +30,99 @@ def cores() -> int:
     return (os.cpu_count() or 1) if affinity is None else len(affinity(0))
 
 
-def run_all(
-    tasks: Sequence[Callable[[], T]], done: Callable[[int, T], None], *, processes: int | None = None
-) -> None:
-    """Run tasks in parallel, in processes of their own.
+@dataclass(frozen=True)
+class Crew:
+    """Processes or machines that solve tasks.
+
+    Attributes
+    ----------
+    submit : callable
+        Function that submits a call with its arguments, and returns its future.
+    width : callable
+        Function that returns the number of tasks that may be in flight.
+    renew : callable
+        Function that replaces processes that died.
+    waiting : callable
+        Function that returns what the crew is waiting for, as text; empty if it is working.
+    one_machine : bool
+        Whether all share the memory of one machine, so that a task finds more of it when it runs alone.
+    """
+
+    submit: Callable[..., Future[Any]]
+    width: Callable[[], int]
+    renew: Callable[[], None] = lambda: None
+    waiting: Callable[[], str] = str
+    one_machine: bool = False
+
+
+def crew_of(executor: Executor) -> Crew:
+    """Crew of an executor with the interface of ``concurrent.futures``.
 
     Parameters
     ----------
-    tasks : sequence of callable
-        Tasks without arguments. They and their results must pickle.
-    done : callable
-        Called in this process with the number of a task and its result, as the tasks finish.
-    processes : int, optional
-        Largest number of processes; by default as many as there are cores.
+    executor : Executor
+        Executor whose workers can import ehlectric. It is not shut down here, but by its owner.
 
-    Raises
-    ------
-    RuntimeError
-        Where a process was killed or could not begin. A script that calls this needs
-        ``if __name__ == "__main__":``.
+    Returns
+    -------
+    Crew
+        The workers of the executor.
     """
-    pool = ProcessPoolExecutor(
-        min(processes or cores(), len(tasks)),
-        mp_context=multiprocessing.get_context("spawn"),
-        initializer=end_with_parent,
-    )
-    try:
+    workers = getattr(executor, "_max_workers", None) or 32
+    return Crew(executor.submit, lambda: _AHEAD * workers + 1)
+
+
+@contextmanager
+def processes(number: int) -> Iterator[Crew]:
+    """Context manager that yields a crew of processes on this machine.
+
+    The processes end when the context or the calling process ends.
+
+    Parameters
+    ----------
+    number : int
+        Number of processes; each uses one BLAS thread.
+
+    Yields
+    ------
+    Crew
+        The processes.
+    """
+    pool = _pool(number)
+
+    def submit(call: Callable[..., T], *values: Any) -> Future[T]:
+        # The first calls start the processes. They inherit the setting that ignores interrupts (Ctrl-C).
         with without_interrupts():
-            # The processes start with the first tasks and inherit that interrupts are ignored.
-            futures = {pool.submit(task): number for number, task in enumerate(tasks)}
-        for future in as_completed(futures):
-            done(futures[future], future.result())
-    except BaseException as error:
+            return pool.submit(call, *values)
+
+    def renew() -> None:
+        nonlocal pool
         end_now(pool)
-        if isinstance(error, BrokenProcessPool):
-            raise RuntimeError(
-                "a process that solves contacts was killed or could not begin; a script that solves in "
-                'parallel needs its calls below if __name__ == "__main__":'
-            ) from None
+        pool = _pool(number)
+
+    try:
+        yield Crew(submit, lambda: _AHEAD * number + 1, renew, one_machine=True)
+    except BaseException:
+        end_now(pool)
         raise
-    pool.shutdown()
+    # Nothing is in flight, so the processes end by themselves and need not be waited for.
+    pool.shutdown(wait=False)
+
+
+def _pool(number: int) -> ProcessPoolExecutor:
+    return ProcessPoolExecutor(
+        number, mp_context=multiprocessing.get_context("spawn"), initializer=_prepare_process
+    )
+
+
+def _prepare_process() -> None:
+    """Prepare a new process: it ends with its parent, and uses one BLAS thread."""
+    from threadpoolctl import threadpool_limits
+
+    end_with_parent()
+    # The environment limits libraries that are loaded later; threadpool_limits limits loaded libraries.
+    os.environ |= dict.fromkeys(_THREADS, "1")
+    threadpool_limits(1)
 
 
 def end_now(pool: ProcessPoolExecutor) -> None:

@@ -7,6 +7,7 @@ SurfaceTopography if it is installed.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,8 +15,8 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.errors import InputError, ResultWarning
-from ehlectric.runtime.reading import read_bytes
-from ehlectric.surfaces.instrument_files import HeightMap, read_al3d, read_x3p
+from ehlectric.runtime.reading import read_bytes, regular
+from ehlectric.surfaces.instrument_files import MOST_POINTS, HeightMap, read_al3d, read_x3p
 from ehlectric.surfaces.maps import Map
 from ehlectric.surfaces.profiles import LEAST_POINTS, Profile
 from ehlectric.surfaces.text_files import is_text, read_text
@@ -30,8 +31,12 @@ MOST_VOID = 0.2
 # Largest number of points of a map that is processed: every processing step keeps a copy of the map.
 MOST_MAP_POINTS = 20_000_000
 
-# Largest size of a file of a surface, which is read whole: 100 million points of eight bytes [bytes].
-_MOST_BYTES = 1_000_000_000
+# Largest size of a file [bytes]: of text, some four million points of a profile; of another, a map of
+# ``instrument_files.MOST_POINTS`` points in double precision, with its image.
+MOST_TEXT, MOST_BINARY = 100_000_000, 1_000_000_000
+
+# Memory of the reader of text / size of the file, as measured.
+_TEXT_COPIES = 30.0
 
 # Fraction of the slopes of a map that may exceed STEEPEST, for a few pixels of dust or noise.
 _MOST_STEEP = 0.01
@@ -243,7 +248,7 @@ def read_surface(path: str | Path, *, x_unit: str | None = None, z_unit: str | N
         If the file cannot be read, or its data are not credible for a surface.
     """
     path = Path(path)
-    content = read_bytes(path, most=_MOST_BYTES)
+    content = _content(path)
     if any(content.startswith(magic) and mark in content for magic, mark in _WORKBOOKS):
         raise InputError(path, "is a workbook of a spreadsheet program; save the sheet as CSV")
     suffix = path.suffix.lower()
@@ -258,6 +263,14 @@ def read_surface(path: str | Path, *, x_unit: str | None = None, z_unit: str | N
         surface = _of_map(path, _read_other(path), x_unit, z_unit)
     _check_scale(surface)
     return surface
+
+
+def _content(path: Path) -> bytes:
+    """Content of a file of a bounded size that its reader can keep in memory."""
+    with regular(path) as file:
+        text = is_text(file.read(4096))
+    most, copies = (MOST_TEXT, _TEXT_COPIES) if text else (MOST_BINARY, 1.0)
+    return read_bytes(path, most=most, copies=copies)
 
 
 def _of_map(path: Path, heights: HeightMap, x_unit: str | None, z_unit: str | None) -> Surface:
@@ -275,7 +288,10 @@ def _check_scale(surface: Surface) -> None:
                 f"its points are {spacing:.3g} m apart along {axis}",
                 takes=f"{FINEST:g} to {COARSEST:g} m; is the unit right?",
             )
-    highest = np.max(np.abs(surface.heights), initial=0.0, where=~np.isnan(surface.heights))
+    there = ~np.isnan(surface.heights)
+    highest = max(
+        np.max(surface.heights, initial=0.0, where=there), -np.min(surface.heights, initial=0.0, where=there)
+    )
     if highest > _HIGHEST:
         raise InputError(
             surface.source,
@@ -293,9 +309,16 @@ def _read_other(path: Path) -> HeightMap:
             path, "is neither text, X3P nor AL3D; other formats take the extra ehlectric[instruments]"
         ) from None
     try:
-        topography = open_topography(str(path)).topography().to_unit("m")
+        reader = open_topography(str(path))
+        # The sizes in the header are known before the heights are read.
+        points = math.prod(reader.channels[0].nb_grid_pts or ())
+        if points > MOST_POINTS:
+            raise InputError(path, f"says it has {points} points", takes=f"at most {MOST_POINTS}")
+        topography = reader.topography().to_unit("m")
         heights: Array = np.ma.filled(np.ma.asarray(topography.heights(), dtype=float), np.nan)
         spacing = np.atleast_1d(topography.pixel_size)
+    except (InputError, MemoryError):
+        raise
     except Exception as error:  # the readers of forty formats raise exceptions of any kind
         raise InputError(path, f"cannot be read by SurfaceTopography, {str(error)[:80]}") from None
     if heights.ndim == 1:

@@ -5,11 +5,7 @@ The content of a file is not trusted: every size is checked before a block of th
 
 from __future__ import annotations
 
-import io
-import lzma
-import struct
 import zipfile
-import zlib
 from pathlib import Path
 from typing import TypeAlias
 from xml.etree import ElementTree
@@ -18,30 +14,23 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.errors import InputError, shown
+from ehlectric.runtime.sizes import check_memory_for
+from ehlectric.surfaces.archives import BROKEN, member, opened
 
 # Largest number of points of a map, and largest size of its XML description [bytes].
 MOST_POINTS = 100_000_000
-_MOST_XML = 10_000_000
+_MOST_XML = 2_000_000
 
 # Heights (rows, columns) [m] with NaN at points without data, distance between neighbours in a row [m], and
 # distance between rows [m], None for a single row.
 HeightMap: TypeAlias = tuple[Array, float, float | None]
 
-# Exceptions of Python's ZIP and XML readers for invalid content.
-_BROKEN = (
-    zipfile.BadZipFile,
-    zlib.error,
-    lzma.LZMAError,
-    struct.error,
-    ElementTree.ParseError,
-    RuntimeError,  # encrypted
-    NotImplementedError,  # compression that Python does not know
-    LookupError,
-    ValueError,
-    OSError,
-    EOFError,
-    OverflowError,
-)
+# Exceptions of the readers of archives and of XML for invalid content.
+_BROKEN = (*BROKEN, ElementTree.ParseError)
+
+# Memory of each point while a map is read [bytes]: its height, and whether it is valid.
+_POINT = 10
+
 _KINDS = {"D": "<f8", "F": "<f4", "L": "<i4", "I": "<i2"}
 
 
@@ -72,9 +61,10 @@ def read_x3p(path: Path, content: bytes) -> HeightMap:
         If the file is broken, or has other data than heights over a regular grid.
     """
     try:
-        archive = zipfile.ZipFile(io.BytesIO(content))
-        description = _member(archive, "main.xml", _MOST_XML)
-        root = ElementTree.fromstring(description)
+        archive = opened(content)
+        root = ElementTree.fromstring(member(archive, content, "main.xml", _MOST_XML))
+    except InputError as error:
+        raise error.under(str(path)) from None
     except _BROKEN:
         raise InputError(path, "is not a complete X3P file") from None
     _check_axes(path, root)
@@ -85,16 +75,22 @@ def read_x3p(path: Path, content: bytes) -> HeightMap:
         raise InputError(path, f"says it has {rows} x {columns} points", takes=f"at most {MOST_POINTS}")
     kind = np.dtype(_KINDS[_text(root, "CZ/DataType")])
     points = rows * columns
-    data = _block(path, archive, root, "PointDataLink", points * kind.itemsize)
+    needed = points * (kind.itemsize + _POINT)
+    check_memory_for(path, needed, f"says it has {rows} x {columns} points")
+    data = _block(path, archive, content, root, "PointDataLink", points * kind.itemsize)
     assert data is not None
     increment = _number(path, root, "CZ/Increment", None if kind.kind == "i" else 1.0)
     if increment <= 0.0:
         raise InputError(path, f"the increment of its heights is {increment:g}", takes="a positive one")
     # NaN and infinite numbers become voids.
     with np.errstate(all="ignore"):
-        heights = np.frombuffer(data, kind).astype(float) * increment + _number(path, root, "CZ/Offset", 0.0)
+        # In place: each copy of a large map takes as much memory again.
+        heights = np.frombuffer(data, kind).astype(float)
+        heights *= increment
+        heights += _number(path, root, "CZ/Offset", 0.0)
     heights[~np.isfinite(heights)] = np.nan
-    mask = _block(path, archive, root, "ValidPointsLink", -(-points // 8))
+    del data
+    mask = _block(path, archive, content, root, "ValidPointsLink", -(-points // 8))
     if mask is not None:
         bits = np.unpackbits(np.frombuffer(mask, np.uint8), count=points, bitorder="little")
         heights[bits == 0] = np.nan
@@ -102,12 +98,6 @@ def read_x3p(path: Path, content: bytes) -> HeightMap:
     # A single row has no neighbour, even if the file states a distance between rows.
     dy = None if rows == 1 else _number(path, root, "CY/Increment", None)
     return heights.reshape(rows, columns), dx, dy
-
-
-def _member(archive: zipfile.ZipFile, name: str, most: int) -> bytes:
-    if archive.getinfo(name).file_size > most:
-        raise ValueError(name)
-    return archive.read(name)
 
 
 def _text(root: ElementTree.Element, place: str) -> str:
@@ -158,7 +148,7 @@ def _number(path: Path, root: ElementTree.Element, place: str, default: float | 
 
 
 def _block(
-    path: Path, archive: zipfile.ZipFile, root: ElementTree.Element, link: str, size: int
+    path: Path, archive: zipfile.ZipFile, content: bytes, root: ElementTree.Element, link: str, size: int
 ) -> bytes | None:
     """Binary block of the archive of ``size`` bytes; None if the file has no mask of valid points."""
     name = _text(root, link)
@@ -166,7 +156,9 @@ def _block(
         return None
     try:
         held = archive.getinfo(name).file_size
-        data = archive.read(name) if held == size else b""
+        data = member(archive, content, name, size) if held == size else b""
+    except InputError as error:
+        raise InputError(path, f"{shown(name)} {error.text}") from None
     except _BROKEN:
         raise InputError(path, f"its {link} is {shown(name)}, which cannot be read from it") from None
     if held != size:
@@ -210,12 +202,15 @@ def read_al3d(path: Path, content: bytes) -> HeightMap:
         raise InputError(
             path, f"says it has {rows} x {columns} points at the byte {offset}", takes="positive numbers"
         )
+    if columns * rows > MOST_POINTS:
+        raise InputError(path, f"says it has {rows} x {columns} points", takes=f"at most {MOST_POINTS}")
     # Rows are padded to eight bytes.
     stride = -(-columns * 4 // 8) * 8
     if offset + stride * rows > len(content):
         raise InputError(
             path, f"is {len(content)} bytes long", takes=f"{offset + stride * rows} for its header"
         )
+    check_memory_for(path, columns * rows * 2 * _POINT, f"says it has {rows} x {columns} points")
     block = np.frombuffer(content, "<f4", stride // 4 * rows, offset).reshape(rows, stride // 4)
     # NaN and infinite numbers become voids.
     with np.errstate(all="ignore"):

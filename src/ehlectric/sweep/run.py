@@ -14,8 +14,8 @@ from ehlectric.runtime.files import clear
 from ehlectric.runtime.folders import FIGURE_LOCK, LONG, RESULT_LOCK, alone_in
 from ehlectric.runtime.outcome import RunOutcome
 from ehlectric.runtime.progress import Progress, silent, told_to
-from ehlectric.runtime.workers import cores
-from ehlectric.sweep.engine import Crew, Task, crew_of, processes, run_points
+from ehlectric.runtime.workers import Crew, cores, crew_of, processes
+from ehlectric.sweep.engine import Task, run_points
 from ehlectric.sweep.inputs import Sweep
 from ehlectric.sweep.plan import Outcome, Planned, plan
 from ehlectric.sweep.results import SweepResults

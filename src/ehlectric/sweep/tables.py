@@ -12,6 +12,7 @@ from ehlectric.runtime.files import Content, write_together
 from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
 from ehlectric.runtime.netcdf import content_of
 from ehlectric.runtime.tables import column_head, csv_of
+from ehlectric.runtime.values import is_number
 from ehlectric.sweep.columns import cell, columns_of, unit_of_column
 from ehlectric.sweep.results import SweepResults
 
@@ -67,7 +68,9 @@ def _write_parquet(columns: Mapping[str, list[Any]], file: BinaryIO) -> None:
 def _cell(value: Any) -> Any:
     """Value for a cell of sweep.csv."""
     # The writer of Python quotes no carriage return where lines end in line feeds; no title has one.
-    return value.replace("\r", r"\r") if isinstance(value, str) else cell(value)
+    if isinstance(value, str):
+        return value.replace("\r", r"\r")
+    return value if is_number(value) else cell(value)
 
 
 def _heads(results: SweepResults, columns: Iterable[str]) -> list[str]:

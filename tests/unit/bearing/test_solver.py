@@ -132,7 +132,7 @@ def test_a_load_wider_than_the_balls_is_refused_before_anything_is_solved(contac
 @pytest.mark.parametrize(("tables", "size"), [(BALLS, "257 x 257"), (ROLLERS, "3201")])
 def test_a_contact_beyond_the_memory_is_named(monkeypatch, tables, size):
     """By both that check and solve; the contact is one of the ring's, its grid no table of the file."""
-    monkeypatch.setattr("ehlectric.contact.memory.physical_memory", lambda: 1e6)
+    monkeypatch.setattr("ehlectric.contact.memory.available_memory", lambda: 1e6)
     case = bearing_case(tables)
     for refused in (check_bearing, lambda case: solve_bearing(case, workers=1)):
         with pytest.raises(MemoryLimitError) as error:

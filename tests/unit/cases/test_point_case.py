@@ -333,7 +333,7 @@ def test_any_case_means_something_or_is_refused_in_words(table):
 
 
 def test_grids_that_do_not_fit_into_memory(monkeypatch):
-    monkeypatch.setattr("ehlectric.contact.memory.physical_memory", lambda: 1e9)
+    monkeypatch.setattr("ehlectric.contact.memory.available_memory", lambda: 1e9)
     check_memory(point())
     with pytest.raises(InputError, match=r"grid\.nodes: got 2049 x 2049 .* GB; expected a grid .* 1 GB"):
         check_memory(point(grid={"nodes": 2049}))

@@ -23,7 +23,7 @@ def point(*roughness, **grid):
 
 
 def test_grids_that_do_not_fit_into_memory(monkeypatch, paper_case):
-    monkeypatch.setattr("ehlectric.contact.memory.physical_memory", lambda: 1e9)
+    monkeypatch.setattr("ehlectric.contact.memory.available_memory", lambda: 1e9)
     check_memory(paper_case)
     with pytest.raises(InputError, match=r"grid\.nodes: got 5000001 .* GB; expected a grid .* 1 GB"):
         check_memory(paper_case.replace({"grid.nodes": 5_000_001}))
@@ -39,7 +39,7 @@ def test_contacts_that_are_no_mirror_image_of_themselves_take_twice_as_much(monk
     whole, half = (sum(point_memory(point(nodes=513).grid, rough=rough)) for rough in (True, False))
     assert whole == pytest.approx(2.0 * half, rel=0.01)  # but for the line they share
     assert sum(point_memory(point(nodes=512).grid, rough=False)) == pytest.approx(whole, rel=0.01)
-    monkeypatch.setattr("ehlectric.contact.memory.physical_memory", lambda: 0.7 * whole)
+    monkeypatch.setattr("ehlectric.contact.memory.available_memory", lambda: 0.7 * whole)
     check_memory(point(nodes=513))
     with pytest.raises(InputError, match=r"grid\.nodes: got 513 x 513"):
         check_memory(point(PIT, nodes=513))
@@ -92,12 +92,12 @@ def test_film_of_a_point_contact_takes_what_is_reckoned_with(nodes_y):
 
 def test_instants_of_a_motion_that_fit_into_no_memory_are_refused(monkeypatch):
     """64 bytes a node and instant; no more instants than time steps and one are kept."""
-    monkeypatch.setattr("ehlectric.contact.memory.physical_memory", lambda: 64e6)
+    monkeypatch.setattr("ehlectric.contact.memory.available_memory", lambda: 64e6)
     check_memory(moving(motion={"passes": 1.0, "record": 20_000}))
     with pytest.raises(InputError, match=r"^motion\.record: got 20000 .* at most 15384 in"):
         check_memory(moving(motion={"duration": "1 s", "record": 20_000}))
     ball = moving(TABLES["point"], motion={"duration": "1 s", "record": 300})
     with pytest.raises(InputError, match=r"^motion\.record: got 300 instants of 4225 nodes"):
         check_memory(ball)
-    monkeypatch.setattr("ehlectric.contact.memory.physical_memory", lambda: 1e9)
+    monkeypatch.setattr("ehlectric.contact.memory.available_memory", lambda: 1e9)
     check_memory(ball)

@@ -334,7 +334,7 @@ def test_refinement_that_does_not_get_there_is_said(kind, monkeypatch):
     second, third = 2 * case.grid.nodes - 1, 4 * case.grid.nodes - 3
 
     def fits(nodes, size):
-        monkeypatch.setattr(memory, "physical_memory", lambda: size)
+        monkeypatch.setattr(memory, "available_memory", lambda: size)
         try:
             memory.check_memory(case.replace({"grid.nodes": nodes}))
         except InputError:

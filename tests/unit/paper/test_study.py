@@ -1,10 +1,8 @@
 """What the report says: which films agree, the readings of mid-film, the slips' checks."""
 
 import dataclasses
-import functools
 import os
 import re
-import signal
 from pathlib import Path
 
 import numpy as np
@@ -18,7 +16,7 @@ from ehlectric.paper.contacts import CONTACTS, LOADS, measured_profile
 from ehlectric.paper.figures import FIGURES
 from ehlectric.paper.study import Placed, Study, readings_differ_by, straight_line
 from ehlectric.paper.tables import TABLES, agrees, amplitude, printed_table
-from ehlectric.runtime.workers import cores, run_all
+from ehlectric.runtime.workers import cores
 from tests.helpers.places import EXAMPLES, ROOT
 from tests.reference.field import cylinder_potential
 
@@ -195,23 +193,6 @@ def test_slips_are_those_of_the_documentation():
     text = (ROOT / "docs" / "errata.md").read_text(encoding="utf-8")
     rows = [line for line in text.splitlines() if line.startswith("| ")][2:]
     assert len(rows) == len(errata.SLIPS)
-
-
-def test_tasks_run_in_processes_of_their_own():
-    found = {}
-    run_all([functools.partial(pow, 2, n) for n in range(5)], found.__setitem__, processes=2)
-    assert found == {n: 2**n for n in range(5)}
-
-
-def test_a_task_that_fails_or_dies_is_said():
-    with pytest.raises(ZeroDivisionError):
-        run_all([functools.partial(divmod, 1, 0)], lambda _number, _result: None, processes=1)
-    with pytest.raises(RuntimeError, match="was killed or could not begin"):
-        run_all(
-            [functools.partial(signal.raise_signal, signal.SIGKILL)],
-            lambda _number, _result: None,
-            processes=1,
-        )
 
 
 def test_cores_without_affinity(monkeypatch):

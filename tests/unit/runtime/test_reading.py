@@ -125,7 +125,7 @@ def test_sizes_at_the_limit(tmp_path):
     path.write_text(CASE + "#" * (MOST_TEXT - len(CASE)))
     assert Case.from_toml(path).contact.reduced_radius == 0.0141
     path.write_text(CASE + "#" * (MOST_TEXT - len(CASE) + 1))
-    with pytest.raises(InputError, match=r"has 1\.000001 MB; expected at most 1 MB"):
+    with pytest.raises(InputError, match=r"has 1000001 bytes; expected at most 1000000 bytes"):
         Case.from_toml(path)
 
 

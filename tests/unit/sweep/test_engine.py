@@ -13,9 +13,10 @@ import pytest
 from ehlectric import ConvergenceError, InputError, solve
 from ehlectric.bearing.speeds import over_speed
 from ehlectric.errors import LostError
-from ehlectric.runtime.workers import cores
+from ehlectric.runtime import tasks as runtime_tasks
+from ehlectric.runtime.workers import Crew, cores, crew_of, processes
 from ehlectric.sweep import engine as sweep_engine
-from ehlectric.sweep.engine import Crew, crew_of, processes, run_points, solve_point
+from ehlectric.sweep.engine import run_points, solve_point
 from ehlectric.sweep.plan import Outcome
 from ehlectric.version import __version__
 from tests.helpers.bearings import BALLS, bearing_case
@@ -247,7 +248,7 @@ def _alive(pid):
 def test_an_executor_that_is_shut_down_is_lost():
     threads = ThreadPoolExecutor(1)
     threads.shutdown()
-    with pytest.raises(LostError, match="no more points are taken: cannot schedule new futures"):
+    with pytest.raises(LostError, match="no more tasks are taken: cannot schedule new futures"):
         found_by(crew_of(threads), points([129]))
 
 
@@ -264,7 +265,7 @@ def test_points_that_are_cancelled_are_lost_and_others_handed_on():
             future.set_result(Outcome("solved"))
         return future
 
-    with pytest.raises(LostError, match="points in flight were cancelled"):
+    with pytest.raises(LostError, match="tasks in flight were cancelled"):
         run_points(points([129] * 5), Crew(submit, lambda: 5), found.update)
     assert sorted(found) == ["0", "1", "3", "4"]
 
@@ -281,14 +282,14 @@ def test_where_nobody_is_left_no_point_is_to_blame(error):
         return future
 
     found = {}
-    message = f"^the processes stopped, no further point can be solved: {type(error).__name__}: {error}$"
+    message = f"^the processes stopped, nothing more can be solved: {type(error).__name__}: {error}$"
     with pytest.raises(LostError, match=message):
         run_points(points([129] * 3), Crew(submit, lambda: 2), found.update)
     assert found == {}
 
 
 def test_what_is_in_flight_is_cancelled_where_the_run_is_stopped(monkeypatch):
-    monkeypatch.setattr(sweep_engine, "_PULSE", 0.01)
+    monkeypatch.setattr(runtime_tasks, "_PULSE", 0.01)
     futures = []
 
     def submit(_call, *_values):

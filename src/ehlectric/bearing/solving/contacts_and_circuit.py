@@ -13,7 +13,8 @@ from ehlectric.bearing.preparation import PreparedBearing, loads_to_solve, prepa
 from ehlectric.bearing.solution import BearingSolution, Position, ring_state
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.runtime.progress import Progress, silent
-from ehlectric.runtime.workers import cores, run_all
+from ehlectric.runtime.tasks import run_all
+from ehlectric.runtime.workers import cores
 
 # Number of positions of the cage over one pitch of the elements.
 POSITIONS = 8
@@ -48,6 +49,8 @@ def solution_of(
     ------
     InputError
         Where the bearing cannot carry its load, or a contact cannot be solved.
+    LostError
+        Where the process of a contact was killed twice, as by a system out of memory.
     """
     started = time.perf_counter()
     prepared = prepare_bearing(case, positions)
@@ -108,5 +111,5 @@ def _solved(
         for number, task in enumerate(reversed(tasks)):
             done(number, task())
     else:
-        run_all(list(reversed(tasks)), done, processes=workers)
+        run_all(list(reversed(tasks)), done, limit=workers, what="contact")
     return [solutions[k] for k in range(len(tasks))]

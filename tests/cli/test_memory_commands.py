@@ -1,0 +1,161 @@
+"""Commands that run out of memory, or whose worker processes are killed: one line, and nothing lost."""
+
+import json
+import os
+import resource
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from ehlectric import load
+from ehlectric.commands.app import app
+from tests.conftest import PAPER_CONTACT
+from tests.helpers.bearings import ROLLERS, bearing_case
+from tests.helpers.sweeps import CASE
+
+RUN = [sys.executable, "-m", "ehlectric"]
+
+
+def limited(megabytes, *arguments, folder):
+    """Run a command with a limit of its address space."""
+    limit = megabytes * 1_000_000
+    return subprocess.run(
+        [*RUN, *map(str, arguments)],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        timeout=300,
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)),
+    )
+
+
+def written(folder):
+    return sorted(str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file())
+
+
+def test_a_grid_that_the_limit_of_the_shell_leaves_no_room_for(tmp_path):
+    (tmp_path / "case.toml").write_text(CASE.replace({"grid.nodes": 1_000_001}).to_toml(), encoding="utf-8")
+    done = limited(1600, "run", "case.toml", folder=tmp_path)
+    assert done.returncode == 2, done.stderr
+    assert done.stderr.startswith("error: grid.nodes: got 1000001 with field_degree")
+    assert "what ulimit leaves to this process" in done.stderr
+    assert done.stderr.count("\n") == 1
+    assert written(tmp_path) == ["case.toml"]
+
+
+@pytest.mark.parametrize(
+    ("where", "status"),
+    [("ehlectric.cases.case.Case.from_toml", 2), ("ehlectric.contact.run.run", 3)],
+)
+def test_memory_that_runs_out_in_a_run(tmp_path, monkeypatch, where, status):
+    """2 while the file is read, 3 once it is being solved."""
+
+    def fails(*_given, **_options):
+        raise MemoryError("Unable to allocate 5 GiB")
+
+    monkeypatch.setattr(where, fails)
+    (tmp_path / "case.toml").write_text(CASE.to_toml(), encoding="utf-8")
+    done = CliRunner().invoke(app, ["run", str(tmp_path / "case.toml"), "-o", str(tmp_path / "out")])
+    assert done.exit_code == status
+    assert done.stderr.startswith("error: out of memory: Unable to allocate 5 GiB; available are ")
+    assert done.stderr.count("\n") == 1
+
+
+def test_memory_that_runs_out_in_a_sweep_says_what_is_saved(tmp_path, monkeypatch):
+    def fails(*_given, **_options):
+        raise MemoryError
+
+    monkeypatch.setattr("ehlectric.sweep.run.write_tables", fails)
+    contact = PAPER_CONTACT | {"entrainment_speed": 2.0}
+    (tmp_path / "case.toml").write_text(CASE.replace({"contact": contact}).to_toml(), encoding="utf-8")
+    text = 'case = "case.toml"\n[vary]\n"grid.nodes" = [129, 131]\n'
+    (tmp_path / "sweep.toml").write_text(text, encoding="utf-8")
+    out = tmp_path / "out"
+    done = CliRunner().invoke(app, ["sweep", str(tmp_path / "sweep.toml"), "-o", str(out), "--workers", "1"])
+    assert done.exit_code == 3, done.stderr
+    assert done.stderr.startswith("error: out of memory; available are ")
+    assert f"2 of 2 points are saved in {out}; the same command resumes the sweep" in done.stderr
+
+
+def workers_of(pid):
+    """Processes of multiprocessing that a process has started."""
+    try:
+        text = Path(f"/proc/{pid}/task/{pid}/children").read_text(encoding="ascii")
+    except OSError:
+        return []
+    found = []
+    for child in text.split():
+        try:
+            line = Path(f"/proc/{child}/cmdline").read_bytes()
+        except OSError:
+            continue
+        if b"spawn_main" in line:
+            found.append(int(child))
+    return found
+
+
+def killing(folder, *arguments, times):
+    """Run a command, and kill so many of its workers, each as soon as it computes."""
+    process = subprocess.Popen(
+        [*RUN, *arguments], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    killed = set()
+    while process.poll() is None and len(killed) < times:
+        for pid in workers_of(process.pid):
+            try:
+                fields = Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
+                ticks = sum(map(int, fields[11:13]))
+                # Imports take about a second of the processor's time.
+                if ticks / os.sysconf("SC_CLK_TCK") > 2.0 and pid not in killed and len(killed) < times:
+                    os.kill(pid, signal.SIGKILL)
+                    killed.add(pid)
+            except OSError:
+                continue
+        time.sleep(0.02)
+    out, err = process.communicate(timeout=900)
+    return process.returncode, out, err, len(killed)
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="workers are found in /proc")
+@pytest.mark.parametrize("times", [1, 1000])
+def test_a_worker_of_a_bearing_is_killed(tmp_path, times):
+    """Once: the contact is solved again. Always: one line, and an earlier result stays as it is."""
+    case = bearing_case(ROLLERS, contacts="solved")
+    (tmp_path / "bearing.toml").write_text(case.to_toml(), encoding="utf-8")
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / "summary.json").write_text("{}", encoding="utf-8")
+    status, _, err, killed = killing(
+        tmp_path, "bearing", "bearing.toml", "-o", "out", "--no-plots", "-q", times=times
+    )
+    assert killed >= min(times, 2)
+    if times == 1:
+        assert (status, err) == (0, "")
+        assert load(tmp_path / "out" / "bearing.nc").converged
+        assert json.loads((tmp_path / "out" / "summary.json").read_text(encoding="utf-8"))["converged"]
+        return
+    assert status == 3
+    assert err.startswith("error: a contact was not solved: its process was killed twice")
+    assert err.count("\n") == 1
+    assert written(tmp_path) == ["bearing.toml", "out/summary.json"]
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="workers are found in /proc")
+@pytest.mark.parametrize("times", [1, 1000])
+def test_a_worker_of_the_study_is_killed(tmp_path, times):
+    status, _, err, killed = killing(tmp_path, "reproduce", "--figure", "9", "-q", times=times)
+    assert killed >= min(times, 2)
+    if times == 1:
+        assert (status, err) == (0, "")
+        assert written(tmp_path) == ["reproduced/figure_9.png"]
+        return
+    assert status == 3
+    assert err.startswith("error: a contact was not solved: its process was killed twice")
+    assert err.count("\n") == 1
+    assert written(tmp_path) == []

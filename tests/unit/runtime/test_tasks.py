@@ -1,0 +1,80 @@
+"""Tasks in processes: one whose process dies or that finds too little memory is run again, alone."""
+
+import os
+import signal
+import time
+from functools import partial
+from pathlib import Path
+
+import pytest
+
+from ehlectric.errors import InputError, LostError
+from ehlectric.runtime.tasks import run_all
+
+
+def marked(folder, text, act):
+    """Act in the first process that comes here, and count the processes that come."""
+    count = len(list(Path(folder).glob(f"{text}-*")))
+    Path(folder, f"{text}-{os.getpid()}-{count}").touch()
+    if count == 0:
+        act()
+    return text
+
+
+def die():
+    os.kill(os.getpid(), signal.SIGKILL)
+
+
+def starve():
+    raise MemoryError("Unable to allocate 5 GiB")
+
+
+def starve_always():
+    starve()
+
+
+def test_tasks_run_in_processes_of_their_own():
+    found = {}
+    run_all([partial(pow, 2, n) for n in range(5)], found.__setitem__, limit=2)
+    assert found == {n: 2**n for n in range(5)}
+
+
+@pytest.mark.parametrize("act", [die, starve])
+def test_a_task_that_fails_once_is_run_again(tmp_path, act):
+    found = {}
+    tasks = [partial(marked, tmp_path, "a", act), partial(divmod, 7, 2), partial(divmod, 9, 2)]
+    run_all(tasks, found.__setitem__, limit=2)
+    assert found == {0: "a", 1: (3, 1), 2: (4, 1)}
+    runs = list(tmp_path.glob("a-*"))
+    assert len(runs) == 2
+
+
+def test_a_task_that_kills_every_process_is_lost():
+    with pytest.raises(LostError, match=r"^a contact was not solved: its process was killed twice") as error:
+        run_all([die], lambda _number, _result: None, limit=1, what="contact")
+    assert "\n" not in str(error.value)
+    assert '__name__ == "__main__"' in error.value.__notes__[0]  # for scripts, not in the line of a command
+
+
+def test_errors_of_tasks_are_raised_here():
+    with pytest.raises(MemoryError, match="5 GiB"):
+        run_all([starve_always], lambda _number, _result: None, limit=1)
+    with pytest.raises(ZeroDivisionError) as error:
+        run_all([partial(divmod, 1, 0)], lambda _number, _result: None, limit=1)
+    assert "in _attempt" in error.value.__notes__[0]  # where it came from, in the other process
+    with pytest.raises(InputError, match="width: got 1; expected 2") as told:
+        run_all([partial(refuse, 1)], lambda _number, _result: None, limit=1)
+    assert not getattr(told.value, "__notes__", [])
+
+
+def refuse(width):
+    raise InputError("width", got=width, takes="2")
+
+
+def test_the_processes_end_with_an_error(tmp_path):
+    """The other tasks are not waited for."""
+    started = time.monotonic()
+    tasks = [partial(marked, tmp_path, "a", partial(time.sleep, 60.0)), partial(divmod, 1, 0)]
+    with pytest.raises(ZeroDivisionError):
+        run_all(tasks, lambda _number, _result: None, limit=2)
+    assert time.monotonic() - started < 50.0
