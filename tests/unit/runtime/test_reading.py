@@ -146,3 +146,10 @@ def test_text_has_line_feeds_and_no_mark_of_its_byte_order(tmp_path):
 def test_what_is_no_path_is_one_line():
     with pytest.raises(InputError, match=r"'a\\x00b': is not a path"):
         read_text("a\0b")
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no such names")
+def test_a_name_that_is_no_text_in_utf_8_is_escaped():
+    with pytest.raises(InputError) as refused:
+        read_text(os.fsdecode(b"n\xff.toml"))
+    assert str(refused.value) == r"n\udcff.toml: cannot be read, no such file or directory"
