@@ -132,7 +132,7 @@ def test_sizes_at_the_limit(tmp_path):
 def test_bytes_come_back_as_they_are(tmp_path):
     (tmp_path / "any").write_bytes(b"\xff\x00\r\n")
     assert read_bytes(tmp_path / "any", most=4) == b"\xff\x00\r\n"
-    with pytest.raises(InputError, match="any: has 4 bytes; expected at most 3 bytes"):
+    with pytest.raises(InputError, match="any: has 4 B; expected at most 3 B"):
         read_bytes(tmp_path / "any", most=3)
     (tmp_path / "empty").write_bytes(b"")
     assert read_bytes(tmp_path / "empty", most=0) == b""

@@ -85,7 +85,7 @@ def test_a_sparse_file_of_twenty_gigabytes(tmp_path, name):
         file.truncate(20_000_000_000)
     most = "100 MB" if name == "sparse.csv" else "1 GB"
     error, peak = traced(lambda: read_surface(path))
-    assert str(error) == f"{path}: is 20 GB long; expected at most {most}"
+    assert str(error) == f"{path}: has 20 GB; expected at most {most}"
     assert peak < 1e6
 
 
