@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import time
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
@@ -83,19 +84,15 @@ def test_memory_that_runs_out_in_a_sweep_says_what_is_saved(tmp_path, monkeypatc
 
 
 def workers_of(pid):
-    """Processes of multiprocessing that a process has started."""
-    try:
-        text = Path(f"/proc/{pid}/task/{pid}/children").read_text(encoding="ascii")
-    except OSError:
-        return []
-    found = []
-    for child in text.split():
+    """Processes of multiprocessing that a process has started, and their times on the processor [s]."""
+    found = {}
+    for folder in Path("/proc").glob("[0-9]*"):
         try:
-            line = Path(f"/proc/{child}/cmdline").read_bytes()
-        except OSError:
+            fields = (folder / "stat").read_text(encoding="utf-8").rsplit(")", 1)[1].split()
+            if int(fields[1]) == pid and b"spawn_main" in (folder / "cmdline").read_bytes():
+                found[int(folder.name)] = sum(map(int, fields[11:13])) / os.sysconf("SC_CLK_TCK")
+        except (OSError, IndexError):
             continue
-        if b"spawn_main" in line:
-            found.append(int(child))
     return found
 
 
@@ -106,23 +103,19 @@ def killing(folder, *arguments, times):
     )
     killed = set()
     while process.poll() is None and len(killed) < times:
-        for pid in workers_of(process.pid):
-            try:
-                fields = Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
-                ticks = sum(map(int, fields[11:13]))
-                # Imports take about a second of the processor's time.
-                if ticks / os.sysconf("SC_CLK_TCK") > 2.0 and pid not in killed and len(killed) < times:
+        for pid, seconds in workers_of(process.pid).items():
+            # It has begun: its imports take about as long.
+            if seconds > 0.8 and pid not in killed and len(killed) < times:
+                with suppress(ProcessLookupError):
                     os.kill(pid, signal.SIGKILL)
-                    killed.add(pid)
-            except OSError:
-                continue
+                killed.add(pid)
         time.sleep(0.02)
     out, err = process.communicate(timeout=900)
     return process.returncode, out, err, len(killed)
 
 
 @pytest.mark.slow
-@pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="workers are found in /proc")
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="workers are found in /proc")
 @pytest.mark.parametrize("times", [1, 1000])
 def test_a_worker_of_a_bearing_is_killed(tmp_path, times):
     """Once: the contact is solved again. Always: one line, and an earlier result stays as it is."""
@@ -133,7 +126,7 @@ def test_a_worker_of_a_bearing_is_killed(tmp_path, times):
     status, _, err, killed = killing(
         tmp_path, "bearing", "bearing.toml", "-o", "out", "--no-plots", "-q", times=times
     )
-    assert killed >= min(times, 2)
+    assert killed >= min(times, 2), err
     if times == 1:
         assert (status, err) == (0, "")
         assert load(tmp_path / "out" / "bearing.nc").converged
@@ -146,14 +139,14 @@ def test_a_worker_of_a_bearing_is_killed(tmp_path, times):
 
 
 @pytest.mark.slow
-@pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="workers are found in /proc")
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="workers are found in /proc")
 @pytest.mark.parametrize("times", [1, 1000])
 def test_a_worker_of_the_study_is_killed(tmp_path, times):
-    status, _, err, killed = killing(tmp_path, "reproduce", "--figure", "9", "-q", times=times)
-    assert killed >= min(times, 2)
+    status, _, err, killed = killing(tmp_path, "reproduce", "--figure", "7", "-q", times=times)
+    assert killed >= min(times, 2), err
     if times == 1:
         assert (status, err) == (0, "")
-        assert written(tmp_path) == ["reproduced/figure_9.png"]
+        assert written(tmp_path) == ["reproduced/figure_7.png"]
         return
     assert status == 3
     assert err.startswith("error: a contact was not solved: its process was killed twice")

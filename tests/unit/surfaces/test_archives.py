@@ -69,7 +69,7 @@ def test_a_member_that_is_larger_than_it_says(tmp_path, pack):
     error, peak = traced(lambda: read_surface(path))
     assert isinstance(error, InputError)
     assert "which cannot be read from it" in str(error)
-    assert peak < 5e6
+    assert peak < 12e6  # the dictionary of LZMA takes 8 MB
 
 
 def test_an_archive_of_too_many_members():
