@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 from ehlectric.errors import InputError
 from ehlectric.runtime.files import refuse_unreadable
 from ehlectric.runtime.interrupts import held_back
+from ehlectric.runtime.sizes import check_netcdf_values
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -40,7 +41,8 @@ def read_dataset(path: Path, damaged: str = "is not a NetCDF file") -> xr.Datase
     Raises
     ------
     InputError
-        Where the file cannot be read, is damaged, or stays open in another program.
+        Where the file cannot be read, is damaged, or stays open in another program, or where its values are
+        too large.
     """
     import xarray as xr
 
@@ -48,8 +50,9 @@ def read_dataset(path: Path, damaged: str = "is not a NetCDF file") -> xr.Datase
     try:
         with warnings.catch_warnings(), opened(path, "r") as file:
             warnings.simplefilter("ignore")  # xarray warns about files that are refused below
+            check_netcdf_values(path, file)
             return xr.open_dataset(xr.backends.H5NetCDFStore(file)).load()
-    except InputError:
+    except (InputError, MemoryError):
         raise
     except Exception:  # HDF5 and its wrappers raise errors of many types for damaged files
         raise InputError(path, damaged) from None

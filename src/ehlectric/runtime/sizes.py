@@ -1,0 +1,145 @@
+"""Sizes of files and of their values, which are checked before anything is read.
+
+A small file can hold values that fill the memory: a sparse file takes no room on the disk, and a compressed
+variable takes a thousandth of its values. Every reader therefore has a bound, and the available memory is a
+second one.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ehlectric.errors import InputError
+from ehlectric.runtime.files import reading
+from ehlectric.runtime.memory import available_memory, in_bytes
+
+# Largest size of the values of one NetCDF file [bytes]: twice those of a point contact on the finest grid.
+MOST_VALUES = 8_000_000_000
+
+# Largest ratio of the size of the values to that of their file, beyond values of a size that does no harm
+# [bytes]. Files of ehlectric are not compressed; other programs compress smooth maps at most a hundredfold.
+MOST_RATIO = 100
+HARMLESS = 64_000_000
+
+# Copies of its values that a reader makes, with the one that it keeps.
+_COPIES = 2
+
+# Memory of one text in Python [bytes].
+_TEXT = 100
+
+
+def check_file_size(path: Path, most: int, *, copies: float = 1.0) -> int:
+    """Refuse a file that is too large to be read, before it is opened.
+
+    Parameters
+    ----------
+    path : Path
+        File that will be read.
+    most : int
+        Largest size that a file of its kind has [bytes].
+    copies : float
+        Ratio of the memory that its reader needs to the size of the file.
+
+    Returns
+    -------
+    int
+        Size of the file [bytes]; zero for a folder, a device and other files without a size.
+
+    Raises
+    ------
+    InputError
+        Where the file does not exist, is larger than ``most``, or does not fit into the memory.
+
+    Examples
+    --------
+    >>> from tempfile import NamedTemporaryFile
+    >>> with NamedTemporaryFile() as file:
+    ...     _ = file.truncate(20 * 10**9)
+    ...     try:
+    ...         check_file_size(Path(file.name), 1_000_000)
+    ...     except InputError as error:
+    ...         print(error.text)
+    is 20 GB long; expected at most 1 MB
+    """
+    with reading(path):
+        size = path.stat().st_size
+    if size > most:
+        raise InputError(path, f"is {in_bytes(size)} long", takes=f"at most {in_bytes(most)}")
+    check_memory_for(path, copies * size, f"is {in_bytes(size)} long")
+    return size
+
+
+def check_memory_for(path: object, needed: float, says: str) -> None:
+    """Refuse what needs more memory than is available.
+
+    Parameters
+    ----------
+    path : object
+        Name of the file, or of the key, in the error.
+    needed : float
+        Memory that its reader needs [bytes].
+    says : str
+        Words of the error about the file.
+
+    Raises
+    ------
+    InputError
+        Where less memory is available.
+    """
+    available = available_memory()
+    if needed > available:
+        raise InputError(
+            path,
+            f"{says} and needs {in_bytes(needed)} of memory",
+            takes=f"at most {in_bytes(available)}, which are available",
+        )
+
+
+def check_netcdf_values(path: Path, file: Any) -> None:
+    """Refuse a NetCDF file whose values are too large to be read; only its header is looked at.
+
+    Parameters
+    ----------
+    path : Path
+        The file, for its size and for the error.
+    file : h5netcdf.File
+        The same file, open.
+
+    Raises
+    ------
+    InputError
+        Where the values of all variables exceed ``MOST_VALUES``, are more than ``MOST_RATIO`` times larger
+        than the file, or do not fit into the memory.
+    """
+    declared = sum(_declared(variable) for variable in _variables(file))
+    with reading(path):
+        size = path.stat().st_size
+    says = f"holds {in_bytes(declared)} of values in {in_bytes(size)}"
+    most = min(MOST_VALUES, HARMLESS + MOST_RATIO * size)
+    if declared > most:
+        raise InputError(path, says, takes=f"at most {in_bytes(most)} in a file of its size")
+    if declared > HARMLESS:
+        check_memory_for(path, _COPIES * declared, says)
+
+
+def _variables(group: Any) -> Iterator[Any]:
+    """Variables of a group of an open file and of all groups in it."""
+    yield from group.variables.values()
+    for inner in group.groups.values():
+        yield from _variables(inner)
+
+
+def _declared(variable: Any) -> int:
+    """Size of the values of a variable, or of one chunk of it where that is larger [bytes].
+
+    A chunk is always read as a whole, so that a large one fills the memory also for a few values.
+    """
+    kind = variable.dtype
+    each = _TEXT if kind is str or np.dtype(kind).hasobject else np.dtype(kind).itemsize
+    chunk = variable.chunks or ()
+    return each * max(math.prod(map(int, variable.shape)), math.prod(map(int, chunk)) if chunk else 0)
