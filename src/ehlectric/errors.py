@@ -133,6 +133,21 @@ class MemoryLimitError(InputError):
     """Error of a solution that does not fit into the memory of this machine; a larger one may solve it."""
 
 
+class DamagedError(InputError):
+    """Error of a stored file that is not as it was written, or does not hold what it must."""
+
+    @classmethod
+    def of(cls, path: object, what: str) -> Self:
+        """Error of a file, with what is wrong in it.
+
+        Examples
+        --------
+        >>> str(DamagedError.of("result.nc", "pressure is missing"))
+        'result.nc: is damaged: pressure is missing; compute it again'
+        """
+        return cls(path, f"is damaged: {what}; compute it again")
+
+
 class LostError(RuntimeError):
     """Error of a sweep whose cluster or worker processes were lost; the solved points are saved."""
 

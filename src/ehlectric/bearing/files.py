@@ -9,9 +9,11 @@ from typing import TYPE_CHECKING
 from ehlectric.bearing.impedance import impedance_of
 from ehlectric.bearing.result import BearingResult, contact_units
 from ehlectric.bearing.solver import check_bearing, solve_bearing
-from ehlectric.bearing.storage.dataset import solution_of
+from ehlectric.bearing.storage.dataset import SCHEMA, solution_of
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.errors import InputError
+from ehlectric.runtime.checks.schema import refusing
+from ehlectric.runtime.checks.seal import seal
 from ehlectric.runtime.files import clear, prepare, whole, write_json
 from ehlectric.runtime.netcdf import read_dataset
 from ehlectric.runtime.outcome import RunOutcome
@@ -124,6 +126,7 @@ def save(result: BearingResult, folder: str | Path) -> list[Path]:
         written.append(IMPEDANCE)
     with whole(folder / NETCDF) as path:
         result.to_xarray().to_netcdf(path, engine="h5netcdf")
+        seal(path)
     return [folder / name for name in (*written, NETCDF)]
 
 
@@ -168,8 +171,10 @@ def result_of(dataset: xr.Dataset, path: Path) -> BearingResult:
     ------
     InputError
         Where the dataset is not the result of a bearing.
+    DamagedError
+        Where its content is not as it was written.
     """
-    try:
+    if dataset.attrs.get("schema") != SCHEMA:
+        raise InputError(path, "is not the result of a bearing of ehlectric")
+    with refusing(path):
         return BearingResult(solution_of(dataset))
-    except (InputError, ArithmeticError, AttributeError, LookupError, TypeError, ValueError):
-        raise InputError(path, "is not the result of a bearing of ehlectric, or damaged") from None

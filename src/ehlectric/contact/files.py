@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import json
-import tomllib
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ehlectric.cases.case import Case
-from ehlectric.contact.dataset import field_parts, film_columns, film_parts, roughness_of, smooth_of
+from ehlectric.contact.dataset import check, field_parts, film_columns, film_parts, roughness_of, smooth_of
 from ehlectric.contact.kinds import KINDS
 from ehlectric.contact.problems import scales_of
 from ehlectric.contact.results import RESULTS, PointResult, Result
 from ehlectric.contact.solution import Smooth
 from ehlectric.errors import InputError
+from ehlectric.runtime.checks.schema import case_of, refusing
+from ehlectric.runtime.checks.seal import seal
 from ehlectric.runtime.files import prepare, whole, write_json
 from ehlectric.runtime.netcdf import read_dataset
 from ehlectric.runtime.stored_warnings import of_attributes
@@ -60,6 +61,7 @@ def save(result: Result | PointResult, folder: str | Path) -> list[Path]:
     write_json(files[0], result.summary())
     with whole(files[1]) as path:
         result.to_xarray().to_netcdf(path, engine="h5netcdf")
+        seal(path)
     with whole(files[2]) as path:
         columns = film_columns(result.film)
         header = ",".join(f"{_CSV.get(name, name)} [{unit or '-'}]" for name, (_, unit) in columns.items())
@@ -109,21 +111,20 @@ def result_of(dataset: xr.Dataset, path: Path) -> Result | PointResult:
     ------
     InputError
         Where the dataset is not the result of a contact.
+    DamagedError
+        Where its content is not as it was written.
     """
-    try:
+    if "case" not in dataset.attrs:
+        raise InputError(path, "is not a result of ehlectric")
+    with refusing(path):
         return _result_of(dataset)
-    except (InputError, ArithmeticError, AttributeError, LookupError, TypeError, ValueError):
-        raise InputError(path, "is not a result of ehlectric, or damaged") from None
 
 
 def _result_of(dataset: xr.Dataset) -> Result | PointResult:
-    case = Case.from_dict(tomllib.loads(dataset.attrs["case"]))
+    case = case_of(dataset.attrs, Case.from_dict)
     kind = KINDS[case.contact.geometry]
     layout = kind.layout
-    if not all(np.all(np.isfinite(variable.values)) for variable in dataset.variables.values()):
-        raise ValueError("a value is not finite")
-    if min(dataset.sizes[name] for name in {*layout.film_grid, *layout.field_grid, "s"}) < 2:
-        raise ValueError("an array is empty")
+    check(layout, dataset)
     conditions = kind.resolve(case)
     return RESULTS[case.contact.geometry](
         case=case,

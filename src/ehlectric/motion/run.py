@@ -23,6 +23,7 @@ from ehlectric.motion.file import MotionFile, Record, Row, described
 from ehlectric.motion.solver import TransientSolver
 from ehlectric.motion.stored_run import MOTION, read_motion
 from ehlectric.motion.summary import summary_of
+from ehlectric.runtime.checks.seal import seal
 from ehlectric.runtime.files import clear, now, plain, prepare, write_json
 from ehlectric.runtime.outcome import RunOutcome
 from ehlectric.runtime.progress import Progress, silent
@@ -149,6 +150,7 @@ def _solve(
             file.append(Record(step, rows, snapshot, latest, started - since))
             rows = []
             progress(step, contact.schedule.steps, "time steps")
+    seal(path)
 
 
 def _begin(file: MotionFile, solver: TransientSolver, prepared: PreparedContact) -> None:

@@ -10,8 +10,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ehlectric.errors import InputError
-from ehlectric.runtime.files import refuse_unreadable
+from ehlectric.errors import DamagedError, InputError
+from ehlectric.runtime.checks.sound import file_class, refuse_damaged
 from ehlectric.runtime.interrupts import held_back
 from ehlectric.runtime.sizes import check_netcdf_values
 
@@ -23,15 +23,13 @@ if TYPE_CHECKING:
 _PATIENCE, _AGAIN = 30.0, 0.05
 
 
-def read_dataset(path: Path, damaged: str = "is not a NetCDF file") -> xr.Dataset:
+def read_dataset(path: Path) -> xr.Dataset:
     """Read a NetCDF file into memory.
 
     Parameters
     ----------
     path : Path
         File to read; it may be growing.
-    damaged : str
-        Words of the error where the file is damaged or no NetCDF file.
 
     Returns
     -------
@@ -40,13 +38,14 @@ def read_dataset(path: Path, damaged: str = "is not a NetCDF file") -> xr.Datase
 
     Raises
     ------
+    DamagedError
+        Where the file is damaged.
     InputError
-        Where the file cannot be read, is damaged, or stays open in another program, or where its values are
+        Where the file cannot be read, is no NetCDF file, stays open in another program, or has values that are
         too large.
     """
     import xarray as xr
 
-    refuse_unreadable(path)
     try:
         with warnings.catch_warnings(), opened(path, "r") as file:
             warnings.simplefilter("ignore")  # xarray warns about files that are refused below
@@ -55,27 +54,30 @@ def read_dataset(path: Path, damaged: str = "is not a NetCDF file") -> xr.Datase
     except (InputError, MemoryError):
         raise
     except Exception:  # HDF5 and its wrappers raise errors of many types for damaged files
-        raise InputError(path, damaged) from None
+        raise DamagedError.of(path, "its header cannot be read") from None
 
 
 @contextmanager
 def opened(path: Path, mode: str) -> Iterator[Any]:
     """Context with an open file. It waits while another program has the file open.
 
-    Interrupts are held back until the file is closed, so that they leave no damaged file.
+    Interrupts are held back until the file is closed, so that they leave no damaged file. A file to be read
+    is refused before, where HDF5 cannot read it.
 
     Raises
     ------
+    DamagedError
+        Where a file to be read is damaged.
     InputError
-        Where another program keeps the file open.
+        Where the file to be read cannot be opened or is no NetCDF file, or another program keeps it open.
     """
-    import h5netcdf
-
+    if mode == "r":
+        refuse_damaged(path)
     until = time.monotonic() + _PATIENCE
     while True:
         with held_back():
             try:
-                file = h5netcdf.File(path, mode)
+                file = file_class()(path, mode)
             except BlockingIOError:
                 if time.monotonic() > until:
                     told = "is held open by another program, which must close it"
