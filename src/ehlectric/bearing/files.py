@@ -174,7 +174,7 @@ def result_of(dataset: xr.Dataset, path: Path) -> BearingResult:
     DamagedError
         Where its content is not as it was written.
     """
-    if dataset.attrs.get("schema") != SCHEMA:
+    if str(dataset.attrs.get("schema")) != SCHEMA:
         raise InputError(path, "is not the result of a bearing of ehlectric")
     with refusing(path):
         return BearingResult(solution_of(dataset))

@@ -41,8 +41,8 @@ def read_dataset(path: Path) -> xr.Dataset:
     DamagedError
         Where the file is damaged.
     InputError
-        Where the file cannot be read, is no NetCDF file, stays open in another program, or has values that are
-        too large.
+        Where the file cannot be read, is no NetCDF file, stays open in another program, or has too large
+        values.
     """
     import xarray as xr
 

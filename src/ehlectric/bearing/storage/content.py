@@ -58,6 +58,8 @@ _OF_ELEMENTS = {
     "strength_per_volt": "not negative",
     "breakdown_voltage": "positive or infinite",
 }
+# Quantities of loaded contacts; only the breakdown voltage is infinite.
+_LOADED = "positive or infinite"
 _OF_CURVES = {
     "load": "increasing",
     "error": "not negative or NaN",
@@ -88,14 +90,16 @@ def check(dataset: xr.Dataset) -> None:
     }
     for ring in RINGS:
         rules |= {
-            f"{ring}_curve_{name}": Rule(
-                (f"{ring}_load",), _OF_CURVES.get(name) or _OF_ELEMENTS.get(name, "finite"), UNITS.get(name)
-            )
+            f"{ring}_curve_{name}": Rule((f"{ring}_load",), _OF_CURVES.get(name, _LOADED), UNITS.get(name))
             for name in (*quantities, *_OF_CURVES)
         }
     check_variables(dataset, rules | _equilibrium_rules(dataset))
     if dataset.sizes["ring"] != len(RINGS):
         raise UnfitError(f"it has {dataset.sizes['ring']} rings")
+    solved = dataset["solved"].values.astype(bool)
+    for name in ("load", *quantities):
+        if not VALUES[_LOADED](dataset[name].values[solved]):
+            raise UnfitError(f"{name} of a loaded contact is not {_LOADED}")
     number_of(attributes, "seconds")
     text_of(attributes, "version")
     for name in ("contact_angle", "entrainment_speed"):

@@ -205,13 +205,10 @@ def json_of(attributes: Mapping[Any, Any], name: str, right: Callable[[Any], boo
     UnfitError
         Where the attribute is missing, or its text is no JSON or another value.
     """
+    text = text_of(attributes, name)
     try:
-        value = json.loads(text_of(attributes, name))
-    except RecursionError:
-        value = None
-    except ValueError as error:
-        if isinstance(error, UnfitError):
-            raise
+        value = json.loads(text)
+    except (RecursionError, ValueError):
         raise UnfitError(f"{name} is no JSON") from None
     if not right(value):
         raise UnfitError(f"{name} is not as it was written")

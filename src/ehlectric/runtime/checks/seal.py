@@ -1,8 +1,8 @@
 """Seals: a checksum at the end of a file, which tells later whether a byte of the file has changed.
 
 The seal follows the content as a last line of fixed length. Programs that read NetCDF or HDF5 ignore bytes
-after the end that the header of the file states. A program that opens the file to change it cuts the seal off,
-so that a file that was changed on purpose has none.
+after the end that the header of the file states. A program that opens the file to change it cuts the seal
+off, so that a file that was changed on purpose has none.
 """
 
 from __future__ import annotations
