@@ -18,6 +18,7 @@ from ehlectric.film.point import PointFilm
 from ehlectric.film.state import NewtonStep, Status
 from ehlectric.runtime.checks.schema import (
     Rule,
+    UnfitError,
     check_variables,
     check_warnings,
     is_list,
@@ -175,6 +176,9 @@ _VALUES = {
     "thin_gap_strength": "positive",
     "capacitance_density": "positive",
 }
+# Relative difference of values that are stored twice.
+_ROUNDING = 1e-6
+
 _is_time = partial(is_number, values="not negative")
 _is_positive = partial(is_number, values="positive")
 _NUMBERS: Mapping[str, Callable[[Any], bool]] = {
@@ -294,7 +298,7 @@ def attributes(layout: Layout, film: Any, field: Any) -> dict[str, str]:
 def rules(layout: Layout, *, smooth: bool) -> dict[str, Rule]:
     """Rules for the variables of a dataset, which has the films of smooth surfaces too or not."""
     found = {
-        name: Rule(dims, "increasing" if dims == (name,) else _VALUES.get(name, "finite"), unit)
+        name: Rule(dims, "increasing" if name in layout.coordinates else _VALUES.get(name, "finite"), unit)
         for table in (layout.film, layout.field)
         for name, (_, dims, _, unit) in table.items()
     }
@@ -319,11 +323,26 @@ def check(layout: Layout, dataset: xr.Dataset) -> None:
         columns = {key: _NUMBERS[key] for key in numbers if key in _NUMBERS}
         others = dict.fromkeys(numbers, is_number_or_null)
         json_of(dataset.attrs, name, partial(is_table, columns=columns, others=others))
+    _check_field(layout, dataset)
     json_of(dataset.attrs, "seconds", partial(is_list, right=_is_time))
     json_of(dataset.attrs, "rough", partial(is_list, right=lambda item: isinstance(item, dict)))
     check_warnings(dataset.attrs)
     for name in ("version", "date", "film_solver", "field_solver"):
         text_of(dataset.attrs, name)
+
+
+def _check_field(layout: Layout, dataset: xr.Dataset) -> None:
+    """Check that the field is that of its voltage and its gap, and its strength that of its components."""
+    heights = dataset[layout.coordinates[-1]].values
+    components = [dataset[name].values for name in ("field_x", "field_y", "field_z") if name in layout.field]
+    voltage = json.loads(dataset.attrs["field"])["voltage"]
+    across = dataset["thin_gap_strength"].values * (heights[..., -1] - heights[..., 0])
+    for name, found, expected in (
+        ("thin_gap_strength", across, voltage),
+        ("strength", dataset["strength"].values, np.sqrt(sum(part**2 for part in components))),
+    ):
+        if not np.allclose(found, expected, rtol=_ROUNDING, atol=0.0):
+            raise UnfitError(f"{name} does not belong to the field")
 
 
 def film_parts(layout: Layout, dataset: xr.Dataset) -> dict[str, Any]:

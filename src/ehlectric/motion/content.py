@@ -91,6 +91,9 @@ def solved_part(dataset: xr.Dataset) -> xr.Dataset:
         raise UnfitError("frame_step is not the numbers of time steps")
     part = dataset.isel(frame=slice(0, int(frames)), step=slice(0, int(recorded[-1]) + 1))
     check_variables(part, _rules(axes, stationary="stationary_thickness" in dataset), dict.fromkeys(axes, 2))
+    maps = part["strength"].values.reshape(int(frames), -1)
+    if not np.all(np.any(np.isfinite(maps), axis=1)):
+        raise UnfitError("strength has no value at an instant")
     _check_attributes(attributes)
     return part
 

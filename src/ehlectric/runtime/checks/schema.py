@@ -258,9 +258,9 @@ def case_of(attributes: Mapping[Any, Any], read: Callable[[dict[str, Any]], C]) 
 
 def is_number(value: Any, values: str = "finite") -> bool:
     """Whether a value of JSON is a number, as the words in ``values`` say; true and false are none."""
-    if not isinstance(value, int | float) or isinstance(value, bool) or abs(value) >= _LARGEST:
+    if not isinstance(value, int | float) or isinstance(value, bool) or not abs(value) < _LARGEST:
         return False
-    return VALUES[values](np.asarray(value, dtype=float))
+    return values == "finite" or VALUES[values](np.asarray(value, dtype=float))
 
 
 def is_number_or_null(value: Any) -> bool:
