@@ -27,8 +27,8 @@ if TYPE_CHECKING:
 
 C = TypeVar("C")
 
-# No quantity in SI units is larger, and squares of such numbers are finite.
-_LARGEST = 1e30
+# No quantity in SI units is larger, and no positive one smaller; squares of such numbers are finite.
+_LARGEST, _SMALLEST = 1e30, 1e-60
 
 
 class UnfitError(ValueError):
@@ -47,8 +47,8 @@ def _whole(values: Array) -> bool:
 VALUES: Mapping[str, Callable[[Array], bool]] = MappingProxyType(
     {
         "finite": _finite,
-        "positive": lambda values: _finite(values) and bool(np.all(values > 0)),
-        "positive or infinite": lambda values: bool(np.all(values > 0)),
+        "positive": lambda values: _finite(values) and bool(np.all(values > _SMALLEST)),
+        "positive or infinite": lambda values: bool(np.all(values > _SMALLEST)),
         "not negative": lambda values: _finite(values) and bool(np.all(values >= 0)),
         "finite or NaN": lambda values: _finite(values[~np.isnan(values)]),
         "not negative or NaN": lambda values: VALUES["not negative"](values[~np.isnan(values)]),

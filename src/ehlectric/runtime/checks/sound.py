@@ -103,7 +103,7 @@ def read_all(path: str, seconds: int) -> int:
     with suppress(ImportError):
         import resource
 
-        resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds))
+        resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 5))
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     try:
         with file_class()(path, "r") as file:
