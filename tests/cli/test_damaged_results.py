@@ -47,7 +47,7 @@ def test_plot_of_a_damaged_header(ehlectric, folder):
 @pytest.mark.parametrize(
     ("statement", "says"),
     [
-        ("UPDATE results SET summary = '[]'", "the summary of point 1 is not as it was written"),
+        ("UPDATE results SET summary = '[]'", "the summary of point 0 is not as it was written"),
         ("UPDATE sweep SET value = '3' WHERE name = 'axes'", "the setting axes is not as it was written"),
         ("UPDATE points SET inputs = '7'", "point 0 is not as it was written"),
     ],

@@ -174,7 +174,6 @@ _VALUES = {
     "strength": "not negative",
     "middle_strength": "not negative",
     "thin_gap_strength": "positive",
-    "capacitance_density": "positive",
 }
 # Relative difference of values that are stored twice.
 _ROUNDING = 1e-6
