@@ -298,3 +298,5 @@ def _one_line_errors(path: Path) -> Iterator[None]:
         if code == sqlite3.SQLITE_NOTADB:
             raise InputError(path, "is not a sweep of ehlectric") from None
         raise DamagedError.of(path, f"SQLite says: {error}") from None
+    except UnicodeDecodeError:  # of the text of an error that quotes damaged bytes
+        raise DamagedError.of(path, "SQLite cannot read its tables") from None

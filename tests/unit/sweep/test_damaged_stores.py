@@ -31,7 +31,7 @@ GRID = sweep_over({SPEED: [1.0, 2.0, 3.0], LOAD: [1e6, 2e6]})
 SOBOL = sweep_over(
     {SPEED: {"from": 1, "to": 4}, LOAD: {"from": 1e5, "to": 1e6, "spacing": "log"}},
     design="sobol",
-    samples=16,
+    samples=32,
 )
 COLUMNS = {
     "sweep": ("value", "name"),
@@ -221,6 +221,15 @@ def test_a_damaged_sweep_is_not_resumed(statement, databases, tmp_path):
     with Store(tmp_path) as store:  # the refusal has left no lock
         assert store.counts() == {"solved": 4, "failed": 1, "open": 1}
     assert saved_points(tmp_path) == (5, 6)
+
+
+def test_errors_of_sqlite_that_are_no_text(databases, tmp_path):
+    """SQLite quotes damaged bytes of the statement that made a table."""
+    path = tmp_path / NAME
+    content = databases["grid"].replace(b"tablepointspoints", b"table\xac\xe6\xffntspoints")
+    path.write_bytes(content.replace(b"CREATE TABLE points", b"CREATE TABLX points"))
+    with pytest.raises(InputError, match=r"is damaged: SQLite cannot read its tables; compute it again$"):
+        read_sweep(tmp_path)
 
 
 def test_a_locked_database_is_said(databases, tmp_path, monkeypatch):
