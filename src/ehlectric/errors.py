@@ -198,6 +198,21 @@ class WriteError(InputError):
     """Error of a file that cannot be written, as on a full disk."""
 
 
+class DamagedError(InputError):
+    """Error of a stored file that is not as it was written, or does not hold what it must."""
+
+    @classmethod
+    def of(cls, path: object, what: str) -> Self:
+        """Error of a file, with what is wrong in it.
+
+        Examples
+        --------
+        >>> str(DamagedError.of("result.nc", "pressure is missing"))
+        'result.nc: is damaged: pressure is missing; compute it again'
+        """
+        return cls(path, f"is damaged: {what}; compute it again")
+
+
 class LostError(RuntimeError):
     """Error of a solution that lost its worker processes, its cluster or its memory."""
 

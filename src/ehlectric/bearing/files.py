@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING
 from ehlectric.bearing.impedance import impedance_of
 from ehlectric.bearing.result import BearingResult, contact_units
 from ehlectric.bearing.solver import check_bearing, solve_bearing
-from ehlectric.bearing.storage.dataset import solution_of
+from ehlectric.bearing.storage.dataset import SCHEMA, solution_of
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.errors import InputError
+from ehlectric.runtime.checks.schema import refusing
 from ehlectric.runtime.files import Content, json_of, write_together
 from ehlectric.runtime.folders import RESULT_LOCK, alone_in
 from ehlectric.runtime.netcdf import content_of, read_dataset
@@ -168,8 +169,10 @@ def result_of(dataset: xr.Dataset, path: Path) -> BearingResult:
     ------
     InputError
         Where the dataset is not the result of a bearing.
+    DamagedError
+        Where its content is not as it was written.
     """
-    try:
+    if str(dataset.attrs.get("schema")) != SCHEMA:
+        raise InputError(path, "is not the result of a bearing of ehlectric")
+    with refusing(path):
         return BearingResult(solution_of(dataset))
-    except (InputError, ArithmeticError, AttributeError, LookupError, TypeError, ValueError):
-        raise InputError(path, "is not the result of a bearing of ehlectric, or damaged") from None

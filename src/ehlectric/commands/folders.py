@@ -137,7 +137,7 @@ def _case_of(path: Path) -> str:
     """Case of a run with moving roughness, as TOML; empty if the file does not have it."""
     from ehlectric.runtime.netcdf import opened
 
-    with opened(path, "r") as file:
+    with opened(path) as file:
         return str(file.attrs["case"]) if "case" in file.attrs else ""
 
 

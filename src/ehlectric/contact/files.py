@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import tomllib
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
@@ -12,12 +11,13 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 
 from ehlectric.cases.case import Case
-from ehlectric.contact.dataset import field_parts, film_columns, film_parts, roughness_of, smooth_of
+from ehlectric.contact.dataset import check, field_parts, film_columns, film_parts, roughness_of, smooth_of
 from ehlectric.contact.kinds import KINDS
 from ehlectric.contact.problems import scales_of
 from ehlectric.contact.results import RESULTS, PointResult, Result
 from ehlectric.contact.solution import Smooth
 from ehlectric.errors import InputError
+from ehlectric.runtime.checks.schema import case_of, refusing
 from ehlectric.runtime.files import Content, json_of, write_together
 from ehlectric.runtime.folders import RESULT_LOCK, alone_in
 from ehlectric.runtime.netcdf import content_of, read_dataset
@@ -119,21 +119,20 @@ def result_of(dataset: xr.Dataset, path: Path) -> Result | PointResult:
     ------
     InputError
         Where the dataset is not the result of a contact.
+    DamagedError
+        Where its content is not as it was written.
     """
-    try:
+    if "case" not in dataset.attrs:
+        raise InputError(path, "is not a result of ehlectric")
+    with refusing(path):
         return _result_of(dataset)
-    except (InputError, ArithmeticError, AttributeError, LookupError, TypeError, ValueError):
-        raise InputError(path, "is not a result of ehlectric, or damaged") from None
 
 
 def _result_of(dataset: xr.Dataset) -> Result | PointResult:
-    case = Case.from_dict(tomllib.loads(dataset.attrs["case"]))
+    case = case_of(dataset.attrs, Case.from_dict)
     kind = KINDS[case.contact.geometry]
     layout = kind.layout
-    if not all(np.all(np.isfinite(variable.values)) for variable in dataset.variables.values()):
-        raise ValueError("a value is not finite")
-    if min(dataset.sizes[name] for name in {*layout.film_grid, *layout.field_grid, "s"}) < 2:
-        raise ValueError("an array is empty")
+    check(layout, dataset)
     conditions = kind.resolve(case)
     return RESULTS[case.contact.geometry](
         case=case,

@@ -209,7 +209,7 @@ class MotionFile:
     def whole(self) -> bool:
         """Whether the file exists and contains a complete run of the same case."""
         try:
-            with opened(self._path, "r") as file:
+            with opened(self._path) as file:
                 return bool(file.attrs["complete"]) and self._same(file.attrs)
         except (OSError, KeyError, ValueError, RuntimeError):
             return False  # there is no file, or it is damaged or has no run
@@ -222,7 +222,7 @@ class MotionFile:
         if not self._path.is_file():
             return None
         try:
-            with opened(self._path, "r") as file:
+            with opened(self._path) as file:
                 if file.attrs["complete"] or not self._same(file.attrs):
                     return None
                 self._left, frames = _state(file), int(file.attrs["frames"])

@@ -23,6 +23,7 @@ from ehlectric.motion.file import MotionFile, Record, Row, described
 from ehlectric.motion.solver import TransientSolver
 from ehlectric.motion.stored_run import MOTION, read_motion
 from ehlectric.motion.summary import summary_of
+from ehlectric.runtime.checks.seal import seal
 from ehlectric.runtime.files import clear, now, plain, write_json
 from ehlectric.runtime.folders import FIGURE_LOCK, RESULT_LOCK, alone_in
 from ehlectric.runtime.outcome import RunOutcome
@@ -151,6 +152,7 @@ def _solve(
             file.append(Record(step, rows, snapshot, latest, started - since))
             rows = []
             progress(step, contact.schedule.steps, "time steps")
+    seal(path)
 
 
 def _begin(file: MotionFile, solver: TransientSolver, prepared: PreparedContact) -> None:

@@ -15,9 +15,11 @@ from ehlectric.cases.case import Case
 from ehlectric.contact.bodies import surface_ratios
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.errors import InputError
+from ehlectric.motion.content import solved_part
 from ehlectric.motion.field_history import FieldHistory, strength_between
 from ehlectric.motion.kinds import KINDS, AnyKind
 from ehlectric.motion.schedule import Schedule, schedule_of
+from ehlectric.runtime.checks.schema import refusing
 from ehlectric.runtime.netcdf import opened, read_dataset
 from ehlectric.runtime.values import Values
 
@@ -53,25 +55,23 @@ def read_motion(path: str | Path) -> xr.Dataset:
     Raises
     ------
     InputError
-        If the file cannot be read, is damaged, or has no transient run.
+        If the file cannot be read, or has no transient run.
+    DamagedError
+        If it is damaged.
     """
     path = Path(path)
     path = path / MOTION if path.is_dir() else path
-    damaged = "is no motion of ehlectric, or damaged"
-    dataset = read_dataset(path, damaged)
-    try:
-        Case.from_dict(tomllib.loads(dataset.attrs["case"]))
-        frames = int(dataset.attrs["frames"])
-        last = int(dataset["frame_step"].values[:frames][-1])
-    except (LookupError, TypeError, ValueError):
-        raise InputError(path, damaged) from None
-    return dataset.isel(frame=slice(0, frames), step=slice(0, last + 1))
+    dataset = read_dataset(path)
+    if "case" not in dataset.attrs or "frame_step" not in dataset:
+        raise InputError(path, "is no motion of ehlectric")
+    with refusing(path):
+        return solved_part(dataset)
 
 
 def saved_steps(path: Path) -> int:
     """Number of the last recorded time step in a file; 0 if it has none or cannot be read."""
     try:
-        with opened(path, "r") as file:
+        with opened(path) as file:
             return int(file.variables["frame_step"][: int(file.attrs["frames"])][-1])
     except (OSError, LookupError, ValueError, RuntimeError):
         return 0

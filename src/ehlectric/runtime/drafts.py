@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import io
 import os
-from typing import BinaryIO
+from collections.abc import Iterator
 
 from ehlectric.runtime.files import flush
 
@@ -120,13 +120,11 @@ class Draft:
             content += part
         return content + bytes(_PAGE - len(content))
 
-    def copy_to(self, file: BinaryIO) -> None:
-        """Write all bytes to a file.
+    def content(self) -> Iterator[memoryview]:
+        """All bytes, part by part.
 
         Raises
         ------
-        OSError
-            Where they cannot be written.
         MemoryError
             Where the draft had not enough memory.
         """
@@ -134,7 +132,7 @@ class Draft:
         for page in range(-(-self._size // _PAGE)):
             content = self._pages.get(page)
             content = self._stored(page) if content is None else content
-            file.write(memoryview(content)[: self._size - page * _PAGE])
+            yield memoryview(content)[: self._size - page * _PAGE]
 
     def apply(self) -> None:
         """Write the changes to the file on the disk.

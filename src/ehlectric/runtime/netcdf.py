@@ -13,12 +13,13 @@ from io import FileIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
 
-from ehlectric.errors import InputError
+from ehlectric.errors import DamagedError, InputError
+from ehlectric.runtime.checks.seal import seal_of
+from ehlectric.runtime.checks.sound import file_class, refuse_damaged
 from ehlectric.runtime.drafts import Draft
 from ehlectric.runtime.files import writing
 from ehlectric.runtime.interrupts import held_back
 from ehlectric.runtime.locks import take
-from ehlectric.runtime.reading import refuse_unreadable
 from ehlectric.runtime.sizes import check_netcdf_values
 
 if TYPE_CHECKING:
@@ -31,15 +32,13 @@ F = TypeVar("F", bound=AbstractContextManager[Any])
 _PATIENCE, _AGAIN = 30.0, 0.05
 
 
-def read_dataset(path: Path, damaged: str = "is not a NetCDF file") -> xr.Dataset:
+def read_dataset(path: Path) -> xr.Dataset:
     """Read a NetCDF file into memory.
 
     Parameters
     ----------
     path : Path
         File to read; it may be growing.
-    damaged : str
-        Words of the error where the file is damaged or no NetCDF file.
 
     Returns
     -------
@@ -48,26 +47,27 @@ def read_dataset(path: Path, damaged: str = "is not a NetCDF file") -> xr.Datase
 
     Raises
     ------
+    DamagedError
+        Where the file is damaged.
     InputError
-        Where the file cannot be read, is damaged, or stays open in another program, or where its values are
-        too large.
+        Where the file cannot be read, is no NetCDF file, stays open in another program, or has too large
+        values.
     """
     import xarray as xr
 
-    refuse_unreadable(path)
     try:
-        with warnings.catch_warnings(), opened(path, "r") as file:
+        with warnings.catch_warnings(), opened(path) as file:
             warnings.simplefilter("ignore")  # xarray warns about files that are refused below
             check_netcdf_values(path, file)
             return xr.open_dataset(xr.backends.H5NetCDFStore(file)).load()
     except (InputError, MemoryError):
         raise
     except Exception:  # HDF5 and its wrappers raise errors of many types for damaged files
-        raise InputError(path, damaged) from None
+        raise DamagedError.of(path, "its header cannot be read") from None
 
 
 def content_of(dataset: xr.Dataset) -> Callable[[BinaryIO], None]:
-    """Function that writes a dataset as a NetCDF file to an open file.
+    """Function that writes a dataset as a NetCDF file to an open file, with a seal.
 
     Raises
     ------
@@ -79,48 +79,47 @@ def content_of(dataset: xr.Dataset) -> Callable[[BinaryIO], None]:
     def fill(file: Any) -> None:
         dataset.dump_to_store(xr.backends.H5NetCDFStore(file))
 
-    return created(fill)
+    return created(fill, sealed=True)
 
 
-def created(fill: Callable[[Any], None]) -> Callable[[BinaryIO], None]:
+def created(fill: Callable[[Any], None], *, sealed: bool = False) -> Callable[[BinaryIO], None]:
     """Function that writes a new NetCDF file to an open file.
 
     Parameters
     ----------
     fill : callable
         Called with the ``h5netcdf.File``, to which it writes.
+    sealed : bool
+        Whether the file is complete, and ends with a seal.
     """
-    import h5netcdf
 
     def content(target: BinaryIO) -> None:
         draft = Draft()
-        with h5netcdf.File(draft, "w") as file:
+        with file_class()(draft, "w") as file:
             fill(file)
-        draft.copy_to(target)
+        for part in draft.content():
+            target.write(part)
+        if sealed:
+            target.write(seal_of(draft.content()))
 
     return content
 
 
 @contextmanager
-def opened(path: Path, mode: str = "r") -> Iterator[Any]:
+def opened(path: Path) -> Iterator[Any]:
     """Context with a file that is open for reading. It waits while another program writes to the file.
-
-    Parameters
-    ----------
-    path : Path
-        File to read.
-    mode : str
-        "r".
 
     Raises
     ------
+    DamagedError
+        Where a file to be read is damaged.
     InputError
-        Where another program keeps the file open.
+        Where the file to be read cannot be opened or is no NetCDF file, or another program keeps it open.
     """
-    import h5netcdf
+    refuse_damaged(path)
 
     def attempt() -> Any:
-        return h5netcdf.File(path, mode)
+        return file_class()(path, "r")
 
     with _patient(path, attempt) as file:
         yield file
@@ -138,7 +137,6 @@ def changed(path: Path) -> Iterator[Any]:
     InputError
         Where another program keeps the file open, or the disk is full.
     """
-    import h5netcdf
 
     def attempt() -> FileIO:
         target = FileIO(path, "r+")
@@ -150,7 +148,7 @@ def changed(path: Path) -> Iterator[Any]:
 
     with _patient(path, attempt) as target:
         draft = Draft(target.fileno())
-        with h5netcdf.File(draft, "r+") as file:
+        with file_class()(draft, "r+") as file:
             yield file
         with writing(path):
             # Some file systems need space also for what they overwrite.

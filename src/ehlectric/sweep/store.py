@@ -3,22 +3,24 @@
 from __future__ import annotations
 
 import json
+import os
 import sqlite3
-import tomllib
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import ExitStack, contextmanager, suppress
+from collections.abc import Iterable, Iterator
+from contextlib import ExitStack, closing, contextmanager, suppress
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any, Self
 
-from ehlectric.cases.any_case import AnyCase, case_of_dict
-from ehlectric.errors import InputError, WriteError
+from ehlectric.errors import DamagedError, InputError, WriteError
+from ehlectric.runtime.checks.schema import refusing
 from ehlectric.runtime.files import ADVICE, now, refuse_special
 from ehlectric.runtime.folders import locked
-from ehlectric.runtime.reading import refuse_unreadable
+from ehlectric.runtime.reading import regular
+from ehlectric.runtime.sizes import check_size
+from ehlectric.sweep.content import check_results, check_tables, results_of
 from ehlectric.sweep.inputs import Sweep
 from ehlectric.sweep.plan import Outcome, Planned
-from ehlectric.sweep.results import Point, Range, Status, SweepResults
+from ehlectric.sweep.results import SweepResults
 from ehlectric.version import __version__
 
 NAME = "sweep.sqlite"
@@ -33,6 +35,25 @@ _VERSION = 1
 
 # Error codes of SQLite for a full disk and for a write that fails, as at a limit of the size of files.
 _FULL = (sqlite3.SQLITE_FULL, sqlite3.SQLITE_IOERR_WRITE, sqlite3.SQLITE_IOERR_FSYNC)
+# Error codes of SQLite that say nothing of the content of a file, but that it is locked, or of its disk.
+_UNUSABLE = (
+    sqlite3.SQLITE_PERM,
+    sqlite3.SQLITE_ABORT,
+    sqlite3.SQLITE_BUSY,
+    sqlite3.SQLITE_LOCKED,
+    sqlite3.SQLITE_READONLY,
+    sqlite3.SQLITE_INTERRUPT,
+    sqlite3.SQLITE_IOERR,
+    sqlite3.SQLITE_FULL,
+    sqlite3.SQLITE_CANTOPEN,
+    sqlite3.SQLITE_PROTOCOL,
+    sqlite3.SQLITE_AUTH,
+    sqlite3.SQLITE_NOLFS,
+)
+
+# Largest size of a file: that of a sweep of the most points, with room to spare [bytes]. Ratio of the memory
+# that its results take to this size.
+_LARGEST, _COPIES = 8_000_000_000, 3.0
 
 # Longest time that a reader and the writer wait for each other [s].
 _PATIENCE = 60.0
@@ -79,6 +100,7 @@ class Store:
             with _one_line_errors(self._path):
                 self._file = _opened(self._path, "rwc")
                 stack.callback(self._file.close)
+                _check_stored(self._path, self._file)
                 self._file.execute("PRAGMA journal_mode = TRUNCATE")
                 self._file.execute("PRAGMA synchronous = FULL")
             self._held = stack.pop_all()
@@ -182,25 +204,16 @@ def read_sweep(folder: str | Path) -> SweepResults:
     Raises
     ------
     InputError
-        If the folder has no sweep, or its file is damaged.
+        If the folder has no sweep, or its file cannot be read.
+    DamagedError
+        If its file is damaged.
     """
     path = Path(folder) / NAME
-    refuse_unreadable(path)
-    with _one_line_errors(path):
-        file = _opened(path, "rw")
-        try:
-            file.execute("BEGIN")
-            settings = file.execute("SELECT name, value FROM sweep").fetchall()
-            rows = file.execute(
-                "SELECT number, inputs, refused, status, reason, seconds, version, summary "
-                "FROM points LEFT JOIN results USING (key) ORDER BY number"
-            ).fetchall()
-        finally:
-            file.close()
-    try:
-        return _results({name: json.loads(value) for name, value in settings}, rows)
-    except (InputError, LookupError, TypeError, ValueError):
-        raise InputError(path, "is not a sweep of ehlectric, or damaged") from None
+    with regular(path) as opened:
+        check_size(path, os.fstat(opened.fileno()).st_size, _LARGEST, copies=_COPIES)
+    with _reading(path) as file:
+        check_tables(file)
+        return results_of(file)
 
 
 def saved_points(folder: str | Path) -> tuple[int, int]:
@@ -216,63 +229,30 @@ def saved_points(folder: str | Path) -> tuple[int, int]:
     InputError
         If the file cannot be used, or is not a sweep.
     """
-    path = Path(folder) / NAME
-    with _one_line_errors(path):
-        file = _opened(path, "rw")
-        try:
-            saved, points = file.execute(
-                "SELECT count(CASE WHEN points.key IS NULL OR results.key IS NOT NULL THEN 1 END), count(*) "
-                "FROM points LEFT JOIN results USING (key)"
-            ).fetchone()
-        finally:
-            file.close()
+    with _reading(Path(folder) / NAME) as file:
+        saved, points = file.execute(
+            "SELECT count(CASE WHEN points.key IS NULL OR results.key IS NOT NULL THEN 1 END), count(*) "
+            "FROM points LEFT JOIN results USING (key)"
+        ).fetchone()
     return saved, points
 
 
-def _results(settings: Mapping[str, Any], rows: Sequence[tuple[Any, ...]]) -> SweepResults:
-    """Results of a sweep from the rows of its tables."""
-    case = case_of_dict(tomllib.loads(settings["case"]))
-    return SweepResults(
-        case=case,
-        design=settings["design"],
-        axes={key: tuple(values) for key, values in settings["axes"].items()},
-        ranges={key: Range(**over) for key, over in settings["ranges"].items()},
-        samples=settings["samples"],
-        points=tuple(_point(case, *row) for row in _parsed(rows)),
-        seed=settings["seed"],
-        title=settings["title"],
-    )
+@contextmanager
+def _reading(path: Path) -> Iterator[sqlite3.Connection]:
+    """Context with a connection that reads in a transaction; all its errors are one line."""
+    with _one_line_errors(path), closing(_opened(path, "rw")) as file:
+        file.execute("BEGIN")
+        with refusing(path):
+            yield file
 
 
-def _parsed(rows: Sequence[tuple[Any, ...]]) -> Iterator[tuple[Any, ...]]:
-    """Rows with their JSON parsed, a thousand at a time.
-
-    Summaries parsed together share the strings of their keys, which would fill the memory otherwise.
-    """
-    for start in range(0, len(rows), 1000):
-        some = rows[start : start + 1000]
-        texts = ",".join(f"[{inputs},{summary or 'null'}]" for _, inputs, *_, summary in some)
-        for (number, _, *others, _), (inputs, summary) in zip(some, json.loads(f"[{texts}]"), strict=True):
-            yield number, inputs, summary, *others
-
-
-def _point(
-    case: AnyCase,
-    number: int,
-    inputs: dict[str, Any],
-    summary: dict[str, Any] | None,
-    refused: str,
-    status: Status | None,
-    *outcome: Any,
-) -> Point:
-    """Point from a row of the tables; ``outcome`` is its reason, seconds and version."""
-    if refused or status is None:
-        return Point(number, inputs, "failed" if refused else "open", refused)
-    reason, seconds, version = outcome
-    if summary is not None:
-        # The key does not cover the title, so the summary may belong to a case with another title.
-        summary["title"] = inputs.get("title", case.title)
-    return Point(number, inputs, status, reason, summary, seconds, version)
+def _check_stored(path: Path, file: sqlite3.Connection) -> None:
+    """Check what an open file has stored before points are added to it; a new file has nothing yet."""
+    (tables,) = file.execute("SELECT count(*) FROM sqlite_master").fetchone()
+    with refusing(path):
+        if tables:
+            check_tables(file)
+            check_results(file)
 
 
 def _opened(path: Path, mode: str) -> sqlite3.Connection:
@@ -304,9 +284,15 @@ def _one_line_errors(path: Path) -> Iterator[None]:
     """Context manager in which errors of SQLite become an InputError of one line."""
     try:
         yield
-    except sqlite3.OperationalError as error:
-        if getattr(error, "sqlite_errorcode", 0) in _FULL:
+    except sqlite3.Error as error:
+        full = getattr(error, "sqlite_errorcode", 0)
+        if full in _FULL:
             raise WriteError(path, f"cannot be written to, {error}{ADVICE}") from None
-        raise InputError(path, f"cannot be used, {error}") from None
-    except sqlite3.DatabaseError as error:
-        raise InputError(path, f"is not a sweep of ehlectric, or damaged: {error}") from None
+        code = full & 0xFF
+        if code in _UNUSABLE:
+            raise InputError(path, f"cannot be used, {error}") from None
+        if code == sqlite3.SQLITE_NOTADB:
+            raise InputError(path, "is not a sweep of ehlectric") from None
+        raise DamagedError.of(path, f"SQLite says: {error}") from None
+    except UnicodeDecodeError:  # of the text of an error that quotes damaged bytes
+        raise DamagedError.of(path, "SQLite cannot read its tables") from None

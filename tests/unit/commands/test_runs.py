@@ -186,7 +186,7 @@ def test_a_file_that_is_no_result_is_not_loaded(files, tmp_path):
     with pytest.raises(InputError, match=r"contact\.toml: is not a NetCDF file$"):
         load(files["contact"])
     (tmp_path / "motion.nc").write_bytes(b"damaged")
-    with pytest.raises(InputError, match=r"motion\.nc: is no motion of ehlectric, or damaged$"):
+    with pytest.raises(InputError, match=r"motion\.nc: is not a NetCDF file$"):
         load(tmp_path)
     (tmp_path / "empty").mkdir()
     with pytest.raises(InputError, match=r"empty: has no result; expected a folder with one of result\.nc, "):

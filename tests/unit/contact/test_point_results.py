@@ -186,7 +186,7 @@ def test_damaged_results_are_refused(result, tmp_path):
     }
     for name, values in damaged.items():
         values.to_netcdf(tmp_path / name, engine="h5netcdf")
-        with pytest.raises(InputError, match="not a result of ehlectric, or damaged"):
+        with pytest.raises(InputError, match="is damaged: "):
             load(tmp_path / name)
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 import json
-import tomllib
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -12,14 +11,14 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.bearing.contacts import ContactCurve, ContactSolution, ContactValues
-from ehlectric.bearing.loads.balls import BallEquilibrium
 from ehlectric.bearing.loads.kinematics import Speeds
-from ehlectric.bearing.loads.rollers import RollerEquilibrium
 from ehlectric.bearing.loads.totals import Equilibrium
 from ehlectric.bearing.preparation import resolve_bearing
 from ehlectric.bearing.ring_contacts import RingContacts
 from ehlectric.bearing.solution import BearingSolution, Position, RingState
+from ehlectric.bearing.storage.content import EQUILIBRIA, RINGS, UNITS, check
 from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.runtime.checks.schema import UnfitError, case_of
 from ehlectric.runtime.stored_warnings import texts_and_codes, warnings_of
 
 if TYPE_CHECKING:
@@ -27,14 +26,6 @@ if TYPE_CHECKING:
 
 # Name and version of the layout of bearing.nc.
 SCHEMA = "ehlectric.bearing.solution/1"
-
-_RINGS = ("inner", "outer")
-_EQUILIBRIA = {kind.__name__: kind for kind in (BallEquilibrium, RollerEquilibrium)}
-_UNITS = {
-    "load": "N", "gap": "m", "max_pressure": "Pa", "semi_axis_x": "m", "semi_axis_y": "m",
-    "minimum_thickness": "m", "central_thickness": "m", "inside": "F", "outside_oil": "F", "outside_air": "F",
-    "plate": "F", "strength_per_volt": "1/m", "breakdown_voltage": "V",
-}  # fmt: skip
 
 
 def dataset_of(solution: BearingSolution) -> xr.Dataset:
@@ -54,7 +45,7 @@ def dataset_of(solution: BearingSolution) -> xr.Dataset:
     import xarray as xr
 
     variables: dict[str, tuple[tuple[str, ...], Array, dict[str, str]]] = {}
-    for name, curve in zip(_RINGS, solution.curves, strict=True):
+    for name, curve in zip(RINGS, solution.curves, strict=True):
         variables |= _curve_variables(name, curve)
     states = [position.rings for position in solution.positions]
     for name in ("load", "gap", "solved"):
@@ -66,7 +57,7 @@ def dataset_of(solution: BearingSolution) -> xr.Dataset:
     shape = solution.positions[0].shape
     return xr.Dataset(
         variables,
-        coords={"ring": list(_RINGS)},
+        coords={"ring": list(RINGS)},
         attrs={
             "schema": SCHEMA,
             "version": solution.version,
@@ -84,7 +75,7 @@ def dataset_of(solution: BearingSolution) -> xr.Dataset:
 
 
 def _over_elements(name: str, values: Any) -> tuple[tuple[str, ...], Array, dict[str, str]]:
-    return ("cage_position", "ring", "element"), np.array(values), {"units": _UNITS.get(name, "")}
+    return ("cage_position", "ring", "element"), np.array(values), {"units": UNITS.get(name, "")}
 
 
 def _curve_variables(ring: str, curve: ContactCurve) -> dict[str, Any]:
@@ -100,7 +91,7 @@ def _curve_variables(ring: str, curve: ContactCurve) -> dict[str, Any]:
         "converged": np.array([one.converged for one in solutions]),
     }
     return {
-        f"{ring}_curve_{name}": (dims, values, {"units": _UNITS.get(name, "")})
+        f"{ring}_curve_{name}": (dims, values, {"units": UNITS.get(name, "")})
         for name, values in (columns | others).items()
     }
 
@@ -131,31 +122,32 @@ def solution_of(dataset: xr.Dataset) -> BearingSolution:
 
     Raises
     ------
-    ValueError, LookupError, TypeError, AttributeError, ArithmeticError
-        Where the dataset is not that of a bearing; ``InputError`` is a ``ValueError``.
+    UnfitError
+        Where a variable or an attribute is missing, or is not as it was written.
+    InputError
+        Where its case cannot be resolved.
     """
     attributes = dataset.attrs
     if attributes["schema"] != SCHEMA:
-        raise ValueError("another format")
-    case = BearingCase.from_dict(tomllib.loads(attributes["case"]))
+        raise UnfitError("it has another format")
+    case = case_of(attributes, BearingCase.from_dict)
+    check(dataset)
     conditions = resolve_bearing(case)
     stored = json.loads(attributes["warnings"])
     inner, outer = (
         RingContacts(conditions, name == "inner", float(angle), float(speed))
         for name, angle, speed in zip(
-            _RINGS, attributes["contact_angle"], attributes["entrainment_speed"], strict=True
+            RINGS, attributes["contact_angle"], attributes["entrainment_speed"], strict=True
         )
     )
     inner_curve, outer_curve = (
-        _curve_of(dataset, name, texts) for name, texts in zip(_RINGS, stored, strict=True)
+        _curve_of(dataset, name, texts) for name, texts in zip(RINGS, stored, strict=True)
     )
     shape = float(attributes["weibull_shape"]) if attributes["weibull_shape"] else None
     positions = tuple(
         Position(_equilibrium_of(dataset, k), _state_of(dataset, k, 0), _state_of(dataset, k, 1), shape)
         for k in range(dataset.sizes["cage_position"])
     )
-    if not positions:
-        raise ValueError("no position of the cage")
     return BearingSolution(
         case=case,
         conditions=conditions,
@@ -216,7 +208,7 @@ def _state_of(dataset: xr.Dataset, position: int, ring: int) -> RingState:
 
 
 def _equilibrium_of(dataset: xr.Dataset, position: int) -> Equilibrium:
-    kind = _EQUILIBRIA[dataset.attrs["equilibrium"]]
+    kind = EQUILIBRIA[dataset.attrs["equilibrium"]]
 
     def at(name: str) -> Any:
         values = dataset[f"equilibrium_{name}"].values[position]

@@ -1,0 +1,64 @@
+"""Commands that are given a damaged result end with one line and status 2, and draw nothing."""
+
+import shutil
+import sqlite3
+from contextlib import closing
+
+import pytest
+
+from ehlectric.runtime.checks.seal import seal
+from tests.helpers.places import ROOT
+
+EARLIER = ROOT / "tests" / "data" / "earlier"
+
+
+@pytest.fixture
+def folder(tmp_path):
+    shutil.copytree(EARLIER, tmp_path / "out")
+    return tmp_path / "out"
+
+
+def refused(done):
+    assert (done.returncode, done.stdout) == (2, "")
+    assert "Traceback" not in done.stderr
+    text = " ".join(done.stderr.split())
+    assert text.startswith("error: ")
+    assert text.endswith("; compute it again")
+    return text
+
+
+def test_plot_of_a_damaged_header(ehlectric, folder):
+    """A byte of the header, without a seal as in files of earlier versions and with one."""
+    (folder / "sweep.sqlite").unlink()
+    path = folder / "result.nc"
+    content = bytearray(path.read_bytes())
+    content[96:104] = b"\xff" * 8
+    path.write_bytes(content)
+    assert "is damaged: HDF5 cannot read it" in refused(ehlectric("plot", "out"))
+    shutil.copy(EARLIER / "result.nc", path)
+    seal(path)
+    content = bytearray(path.read_bytes())
+    content[-5000] ^= 1
+    path.write_bytes(content)
+    assert "its bytes are not those that were written" in refused(ehlectric("plot", "out"))
+    assert sorted(one.suffix for one in folder.iterdir()) == [".json", ".md", ".nc"]
+
+
+@pytest.mark.parametrize(
+    ("statement", "says"),
+    [
+        ("UPDATE results SET summary = '[]'", "the summary of point 0 is not as it was written"),
+        ("UPDATE sweep SET value = '3' WHERE name = 'axes'", "the setting axes is not as it was written"),
+        ("UPDATE points SET inputs = '7'", "point 0 is not as it was written"),
+    ],
+)
+def test_commands_on_an_edited_sweep(statement, says, ehlectric, folder):
+    (folder / "result.nc").unlink()
+    with closing(sqlite3.connect(folder / "sweep.sqlite")) as file, file:
+        file.execute(statement)
+    for words in (("map", "out", "--x", "grid.nodes"), ("sensitivity", "out"), ("plot", "out")):
+        text = refused(ehlectric(*words))
+        assert (
+            says.replace("point 1", "point") in text.replace("point 0", "point").replace("point 1", "point")
+            or says in text
+        )

@@ -1,0 +1,172 @@
+"""Results that were damaged or edited are refused in one line, and never end in another error."""
+
+import random
+from pathlib import Path
+
+import pytest
+import xarray as xr
+
+from ehlectric import Case, InputError, load, save, solve
+from ehlectric.bearing import files as of_bearings
+from ehlectric.contact import files as of_contacts
+from ehlectric.errors import DamagedError
+from ehlectric.figures.results import draw_figures
+from ehlectric.motion.content import solved_part
+from ehlectric.motion.result import MotionResult
+from ehlectric.motion.run import run_motion
+from ehlectric.runtime.checks.schema import refusing
+from ehlectric.runtime.checks.seal import sealed
+from ehlectric.runtime.netcdf import read_dataset
+from tests.helpers.damage import with_damaged_bytes, with_edited_values
+from tests.helpers.moving_cases import moving
+
+CONTACT = {
+    "reduced_radius": "14.1 mm",
+    "reduced_modulus": "226 GPa",
+    "max_hertz_pressure": "1 GPa",
+    "entrainment_speed": "4 m/s",
+}
+BEARING = {
+    "contacts": "formula",
+    "bearing": {
+        "base": "6208",
+        "radial_load": "1 kN",
+        "inner_speed": "3000 rpm",
+        "temperature": "70 degC",
+        "radial_clearance": "10 um",
+        "composite_rq": "0.03 um",
+    },
+    "lubricant": {"base": "paper", "viscosity": "20 mPa s"},
+}
+NAMES = {"contact": "result.nc", "motion": "motion.nc", "bearing": "bearing.nc"}
+
+
+@pytest.fixture(scope="module")
+def stored(tmp_path_factory):
+    """File of a small result of each kind."""
+    folder = tmp_path_factory.mktemp("stored")
+    table = {"contact": CONTACT, "lubricant": {"base": "paper"}, "grid": {"nodes": 65}}
+    save(solve(Case.from_dict(table)), folder / "contact")
+    save(solve(BEARING), folder / "bearing")
+    run_motion(moving(motion={"passes": 0.375, "steps": 12, "record": 4}), folder / "motion")
+    return {kind: folder / kind / name for kind, name in NAMES.items()}
+
+
+def result_of(kind, dataset):
+    """Result of a dataset as it is read from a file, and what its figures are drawn from."""
+    path = Path("stored.nc")
+    if kind == "motion":
+        with refusing(path):
+            part = solved_part(dataset)
+        return MotionResult.of(part), part
+    result = (of_bearings if kind == "bearing" else of_contacts).result_of(dataset, path)
+    return result, result
+
+
+def raw(path):
+    with xr.open_dataset(path, engine="h5netcdf") as file:
+        return file.load()
+
+
+@pytest.mark.parametrize("kind", NAMES)
+def test_a_changed_byte_is_noticed(kind, stored, tmp_path):
+    """Each file has a seal, so that damage is noticed also where all numbers remain plausible."""
+    assert sealed(stored[kind])
+    content, path = stored[kind].read_bytes(), tmp_path / NAMES[kind]
+    whole, draw = load(stored[kind]), random.Random(1)
+    for _ in range(40):
+        at = draw.randrange(len(content) - 40)
+        path.write_bytes(content[:at] + bytes([content[at] ^ 1 << draw.randrange(8)]) + content[at + 1 :])
+        with pytest.raises(InputError, match=r"is (damaged: its bytes are not those|not a NetCDF file)"):
+            load(path)
+    path.write_bytes(content)
+    assert load(path) == whole
+
+
+def edit_and_use(kind, dataset, seeds, folder=None):
+    """Edit a dataset, use it, and return how many edits are refused and how many are used."""
+    counts, told = {"refused": 0, "used": 0}, []
+    for seed in seeds:
+        edited, what = with_edited_values(dataset, seed)
+        try:
+            result, drawn = result_of(kind, edited)
+            assert result.summary(), what
+            if folder is not None:
+                draw_figures(drawn, folder)
+            counts["used"] += 1
+        except InputError as error:
+            told.append(str(error))
+            counts["refused"] += 1
+    assert not [text for text in told if "\n" in text or not text.startswith("stored.nc: is ")]
+    return counts
+
+
+@pytest.mark.parametrize("kind", NAMES)
+def test_edited_values_are_refused_or_used(kind, stored):
+    counts = edit_and_use(kind, raw(stored[kind]), range(60))
+    assert min(counts.values()) > 5
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", NAMES)
+def test_edited_values_are_refused_or_drawn(kind, stored, tmp_path):
+    counts = edit_and_use(kind, raw(stored[kind]), range(1000, 1400))
+    assert min(counts.values()) > 50
+    edit_and_use(kind, raw(stored[kind]), range(2000, 2080), tmp_path)
+
+
+def read_damaged(kind, stored, path, seeds, capfd):
+    """Read files without a seal whose bytes are damaged, and count those that are refused."""
+    with stored[kind].open("rb") as file:
+        content = file.read()[:-25]  # without its seal
+    told = []
+    for seed in seeds:
+        path.write_bytes(with_damaged_bytes(content, seed))
+        try:
+            load(path).summary()
+        except InputError as error:
+            told.append(str(error))
+    assert capfd.readouterr() == ("", "")
+    assert not [text for text in told if "\n" in text]
+    return len(told)
+
+
+def test_damaged_files_without_a_seal(stored, tmp_path, capfd):
+    read_damaged("contact", stored, tmp_path / "result.nc", range(4), capfd)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", NAMES)
+def test_many_damaged_files_without_a_seal(kind, stored, tmp_path, capfd):
+    assert read_damaged(kind, stored, tmp_path / NAMES[kind], range(100, 250), capfd) > 30
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "says"),
+    [
+        ("strength", 0.0, "strength does not belong to the field"),
+        ("strength", 2.0e6, "strength does not belong to the field"),
+        ("thin_gap_strength", 3.0, "thin_gap_strength does not belong to the field"),
+        ("thickness", 0.0, "thickness is not positive"),
+        ("permittivity", -1.0, "permittivity is not positive"),
+        ("x", 1.0, "x is not increasing"),
+        ("y", 0.0, "y is not increasing"),
+        ("cavitated", 3, "cavitated is not 0 or 1"),
+    ],
+)
+def test_what_is_wrong_is_named(name, value, says, stored, tmp_path):
+    dataset = raw(stored["contact"])
+    values = dataset[name].values.copy()
+    values[...] = value
+    dataset = dataset.assign({name: (dataset[name].dims, values, dataset[name].attrs)})
+    dataset.to_netcdf(tmp_path / "result.nc", engine="h5netcdf")
+    with pytest.raises(DamagedError) as caught:
+        load(tmp_path)
+    assert str(caught.value) == f"{tmp_path / 'result.nc'}: is damaged: {says}; compute it again"
+
+
+def test_results_of_earlier_versions_have_no_seal(tmp_path):
+    dataset = read_dataset(Path(__file__).parents[2] / "data" / "earlier" / "result.nc")
+    dataset.to_netcdf(tmp_path / "result.nc", engine="h5netcdf")
+    assert not sealed(tmp_path / "result.nc")
+    assert load(tmp_path).film.x.size == 65

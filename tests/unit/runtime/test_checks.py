@@ -1,0 +1,167 @@
+"""Files that are not as they were written: seals, files on which HDF5 fails, and rules for what they hold."""
+
+import fcntl
+import threading
+
+import h5netcdf
+import numpy as np
+import pytest
+import xarray as xr
+
+from ehlectric import InputError, load
+from ehlectric.errors import DamagedError
+from ehlectric.runtime.checks import sound
+from ehlectric.runtime.checks.schema import Rule, UnfitError, check_variables, json_of, number_of, refusing
+from ehlectric.runtime.checks.seal import seal, seal_of, sealed
+from ehlectric.runtime.netcdf import read_dataset
+from tests.helpers.places import ROOT
+
+EARLIER = ROOT / "tests" / "data" / "earlier" / "result.nc"
+
+
+@pytest.fixture
+def damaged(tmp_path):
+    """Writes the result of an earlier version, which has no seal, with other bytes at a place."""
+
+    def put(at, content):
+        path, data = tmp_path / "result.nc", bytearray(EARLIER.read_bytes())
+        data[at : at + len(content)] = content
+        path.write_bytes(data)
+        return path
+
+    return put
+
+
+def test_a_seal_tells_every_changed_byte(tmp_path):
+    path = tmp_path / "file"
+    path.write_bytes(b"thin film")
+    assert not sealed(path)
+    seal(path)
+    assert sealed(path)
+    assert path.read_bytes() == b"thin film" + seal_of(b"thin film")
+    seal(path)
+    content = path.read_bytes()
+    assert content.count(b"crc32") == 1
+    for k in range(len(b"thin film")):
+        path.write_bytes(content[:k] + bytes([content[k] ^ 4]) + content[k + 1 :])
+        with pytest.raises(
+            DamagedError, match=r"is damaged: its bytes are not those that were written; compute"
+        ):
+            sealed(path)
+
+
+def test_a_seal_is_no_obstacle_to_other_programs(tmp_path):
+    path = tmp_path / "result.nc"
+    path.write_bytes(EARLIER.read_bytes())
+    seal(path)
+    with xr.open_dataset(path, engine="h5netcdf") as dataset, xr.open_dataset(EARLIER) as before:
+        assert dataset.load().identical(before.load())
+    with h5netcdf.File(path, "a") as file:
+        file.attrs["comment"] = "changed on purpose"
+    assert not sealed(path)
+    assert read_dataset(path).attrs["comment"] == "changed on purpose"
+
+
+def test_a_file_without_a_seal_is_tried_once(tmp_path, monkeypatch):
+    path = tmp_path / "result.nc"
+    path.write_bytes(EARLIER.read_bytes())
+    started = []
+    run = sound.subprocess.run
+    monkeypatch.setattr(sound.subprocess, "run", lambda *a, **k: started.append(a) or run(*a, **k))
+    assert read_dataset(path).identical(read_dataset(path))
+    assert len(started) == 1
+    seal(path)
+    read_dataset(path)
+    assert len(started) == 1
+
+
+def test_a_file_that_keeps_hdf5_busy_for_ever(damaged, monkeypatch):
+    """Zeros in the texts of attributes: HDF5 looks for the next one without end, and no signal ends it."""
+    monkeypatch.setattr(sound, "_LIMIT", 1.0)
+    path = damaged(EARLIER.read_bytes().index(b"units of p/p_h") + 14, bytes(64))
+    with pytest.raises(DamagedError, match=r"is damaged: HDF5 reads it without end; compute it again$"):
+        read_dataset(path)
+
+
+def test_a_file_on_which_hdf5_crashes(damaged, monkeypatch):
+    monkeypatch.setattr(sound, "_CODE", "import os; os.abort()")
+    with pytest.raises(DamagedError, match=r"is damaged: HDF5 crashes on it; compute it again$"):
+        read_dataset(damaged(0, b""))
+
+
+def test_a_file_that_is_held_open_by_others(damaged, monkeypatch):
+    monkeypatch.setattr(sound, "_PATIENCE", 0.0)
+    path = damaged(0, b"")
+    with path.open("r+b") as holder:
+        fcntl.flock(holder, fcntl.LOCK_EX)
+        with pytest.raises(InputError, match=r"is held open by another program, which must close it$"):
+            read_dataset(path)
+    assert read_dataset(path).sizes["x"] == 65
+
+
+@pytest.mark.parametrize("in_thread", [False, True])
+def test_nothing_of_the_library_is_printed(damaged, capfd, in_thread):
+    path, caught = damaged(96, b"\xff" * 8), []
+
+    def reads():
+        try:
+            load(path)
+        except InputError as error:
+            caught.append(str(error))
+
+    if in_thread:
+        thread = threading.Thread(target=reads)
+        thread.start()
+        thread.join()
+    else:
+        reads()
+    assert caught == [f"{path}: is damaged: HDF5 cannot read it; compute it again"]
+    assert capfd.readouterr() == ("", "")
+
+
+FILM = xr.Dataset(
+    {"x": ("x", [0.0, 1.0, 2.0]), "h": ("x", [1.0, 2.0, 3.0], {"units": "m"}), "on": ("x", [0, 1, 1])}
+)
+RULES = {"x": Rule(("x",), "increasing"), "h": Rule(("x",), "positive", "m"), "on": Rule(("x",), "0 or 1")}
+
+
+@pytest.mark.parametrize(
+    ("edited", "says"),
+    [
+        (FILM.drop_vars("h"), "h is missing"),
+        (FILM.assign(h=("x", [1.0, np.nan, 3.0])), "h is not positive"),
+        (FILM.assign(h=("x", [1.0, 0.0, 3.0])), "h is not positive"),
+        (FILM.assign(h=("x", [1.0, 1e300, 3.0])), "h is not positive"),
+        (FILM.assign(h=("x", ["1", "2", "3"])), "h is not numbers"),
+        (FILM.assign(h=("x", [1.0, 2.0, 3.0], {"units": "um"})), "h is not in m"),
+        (FILM.assign(h=(("x", "s"), np.ones((3, 2)))), "h is over (x, s), not (x)"),
+        (FILM.assign(on=("x", [0, 2, 1])), "on is not 0 or 1"),
+        (FILM.assign_coords(x=[0.0, 2.0, 1.0]), "x is not increasing"),
+        (FILM.isel(x=slice(0, 1)), "x has 1 values along x"),
+    ],
+)
+def test_a_rule_names_the_variable_that_breaks_it(edited, says):
+    check_variables(FILM, RULES, {"x": 2})
+    with pytest.raises(UnfitError) as caught:
+        check_variables(edited, RULES, {"x": 2})
+    assert str(caught.value) == says
+
+
+def test_texts_and_numbers_of_attributes(tmp_path):
+    for attributes, says in (
+        ({}, "seconds is missing"),
+        ({"seconds": 3}, "seconds is not a text"),
+        ({"seconds": "[1,"}, "seconds is no JSON"),
+        ({"seconds": "[" * 100_000}, "seconds is no JSON"),
+        ({"seconds": "7"}, "seconds is not as it was written"),
+    ):
+        with pytest.raises(UnfitError, match=f"^{says}$"):
+            json_of(attributes, "seconds", lambda value: isinstance(value, list))
+    for number, says in (("x", "a number"), ([1.0, 2.0], "a number"), (-1.0, "not negative")):
+        with pytest.raises(UnfitError, match=f"^seconds is not {says}$"):
+            number_of({"seconds": number}, "seconds")
+    with (
+        pytest.raises(DamagedError, match=r"^\S+: is damaged: its values do not fit together; compute"),
+        refusing(tmp_path / "f"),
+    ):
+        _ = 1 / 0
