@@ -1,11 +1,13 @@
 """Two commands on one folder: the second is refused, and nothing of the first is touched."""
 
+import json
 import signal
 import subprocess
 import sys
 import time
 from threading import Event, Thread
 
+import numpy as np
 import pytest
 from typer.testing import CliRunner
 
@@ -15,7 +17,7 @@ from ehlectric.commands.app import app
 from ehlectric.runtime import folders
 from ehlectric.runtime.folders import FIGURE_LOCK, RESULT_LOCK, alone_in
 from tests.cli.conftest import CASE
-from tests.cli.test_moving_run import LONG, begun, kept
+from tests.cli.test_moving_run import LONG, begun
 from tests.helpers.commands import COMMAND
 from tests.helpers.places import EXAMPLES
 
@@ -122,14 +124,15 @@ def test_a_second_moving_run_does_not_touch_the_first(tmp_path):
     done = subprocess.run(second, cwd=tmp_path, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr == f"error: {REFUSED.format('out')}\n"
-    frames = kept(tmp_path)
     assert process.poll() is None
     process.send_signal(signal.SIGKILL)
     process.communicate()
-    again = begun(tmp_path, frames + 1)
-    again.terminate()
-    assert again.communicate(timeout=30)[1].startswith("interrupted; ")
-    assert [path.name for path in (tmp_path / "out").iterdir()] == ["motion.nc"]
+    saved = package.read_motion(tmp_path / "out")["thickness"].values
+    subprocess.run(second, cwd=tmp_path, capture_output=True, check=True)
+    found = package.read_motion(tmp_path / "out")
+    assert found.attrs["complete"] == 1
+    np.testing.assert_array_equal(found["thickness"].values[: len(saved)], saved)
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["motion.nc", "summary.json"]
 
 
 TWO = """
@@ -161,9 +164,7 @@ def test_two_runs_at_once_leave_one_result(tmp_path):
     result = package.load(tmp_path / "out")
     expected = package.Case.from_toml(tmp_path / f"{first}.toml")
     assert result.case == expected
-    assert f'"max_hertz_pressure": {expected.contact.max_hertz_pressure}' in (
-        (tmp_path / "out" / "summary.json").read_text()
-    )
+    assert json.loads((tmp_path / "out" / "summary.json").read_text()) == result.summary()
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == [
         "film.csv",
         "result.nc",
@@ -172,7 +173,7 @@ def test_two_runs_at_once_leave_one_result(tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("seed", range(3))
 def test_what_a_kill_leaves_is_gone_after_the_next_run(tmp_path, seed):
     """A run that is killed at any moment leaves no hidden file behind the next one."""
     (tmp_path / "case.toml").write_text(SMALL)
@@ -181,7 +182,7 @@ def test_what_a_kill_leaves_is_gone_after_the_next_run(tmp_path, seed):
     process = subprocess.Popen(command, cwd=tmp_path)
     while not out.exists():
         time.sleep(0.005)
-    time.sleep(0.15 * seed)
+    time.sleep(0.4 * seed)
     process.kill()
     process.wait()
     subprocess.run(command, cwd=tmp_path, check=True)

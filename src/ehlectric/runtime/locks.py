@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import errno
-import sys
+from importlib import import_module
 from typing import Literal
 
 Taken = Literal["taken", "busy", "none"]
@@ -39,16 +39,14 @@ def take(number: int) -> Taken:
     return "taken"
 
 
-if sys.platform == "win32":
-
-    def _lock(number: int) -> None:
-        import msvcrt
-
-        msvcrt.locking(number, msvcrt.LK_NBLCK, 1)
-
-else:
-
-    def _lock(number: int) -> None:
-        import fcntl
-
-        fcntl.flock(number, fcntl.LOCK_EX | fcntl.LOCK_NB)
+def _lock(number: int) -> None:
+    try:
+        posix = import_module("fcntl")
+    except ModuleNotFoundError:
+        try:
+            windows = import_module("msvcrt")
+        except ModuleNotFoundError:
+            raise OSError(errno.ENOSYS, "no locks") from None
+        windows.locking(number, windows.LK_NBLCK, 1)
+    else:
+        posix.flock(number, posix.LOCK_EX | posix.LOCK_NB)
