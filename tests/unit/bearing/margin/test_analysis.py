@@ -361,3 +361,15 @@ def test_the_motor_divides_the_voltage(balls):
     for winding, margin in ((10e-12, effect.low_margin), (30e-12, effect.high_margin)):
         expected = balls.margin_analysis.margin * shaft(20e-12) / shaft(winding)
         assert margin == pytest.approx(expected, rel=2e-3, abs=0.0)
+
+
+def test_inputs_beside_the_films_solve_no_bearing_again(balls, monkeypatch):
+    """A motor divides another voltage, and roughness another film: the margins are those of new solutions."""
+    margins = FormulaMargins.of(balls.solution)
+    changes = {"motor.rotor_frame_capacitance": 5e-10}, {"bearing.composite_rq": 6e-8}
+    again = [margin_at(balls, **one) for one in changes]
+    with monkeypatch.context() as patched:
+        patched.delattr("ehlectric.bearing.margin.formula_margins.solution_of")
+        found = [margins.at(one) for one in changes]
+    assert [one.margin for one in found] == pytest.approx(again, rel=1e-3)
+    assert found[1].lambda_ratio == pytest.approx(0.5 * margins.own.lambda_ratio, rel=1e-12)
