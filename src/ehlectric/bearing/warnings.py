@@ -104,12 +104,10 @@ def _smooth(solution: BearingSolution) -> ResultWarning:
     if solution.conditions.film_factor == 1.0:
         return ResultWarning(
             "isothermal-film",
-            f"bearing.film_factor is {name}: the films are isothermal and fully flooded, without roughness, so "
+            f"bearing.film_factor is {name}: the films are isothermal, fully flooded, smooth, so "
             'breakdown voltages are upper bounds; "inlet-shear" or a number below 1 gives thinner films',
         )
-    left = (
-        "starvation and grease" if factor == "inlet-shear" else "any starvation and heat beyond this factor"
-    )
+    left = "starvation and grease" if factor == "inlet-shear" else "starvation and heat beyond it"
     return ResultWarning(
         "smooth-film",
         f"bearing.film_factor is {name}: the films are smooth, and {left} are neglected too, so breakdown "

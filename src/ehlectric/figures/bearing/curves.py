@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array
+from ehlectric.bearing.solution import CONDUCTING
 
 # Speed of the inner ring [rad/s] with the summary of the bearing at this speed.
 Speed = tuple[float, dict[str, Any]]
@@ -28,6 +29,7 @@ _KEYS = (
     "first_break",
     "through_breakdown",
     "shaft_voltage",
+    "lambda_ratio",
 )
 
 
@@ -147,6 +149,22 @@ def critical_speed_of(curves: Curves) -> float | None:
     part = -margin[k] / (margin[k + 1] - margin[k])
     low, high = np.log(curves.speed[k : k + 2])
     return float(np.exp(low + part * (high - low)))
+
+
+def opening_speed_of(curves: Curves) -> float | None:
+    """Highest speed with a lambda ratio below 1, at which contacts open and close [rad/s]; None without one.
+
+    Examples
+    --------
+    A lambda ratio of 0.5 at 10 rad/s and of 2 at 40 rad/s:
+
+    >>> values = {"lambda_ratio": np.array([0.5, 2.0])}
+    >>> round(opening_speed_of(Curves(np.array([10.0, 40.0]), values, {})), 1)
+    19.6
+    """
+    speed, ratio = curves.between("lambda_ratio")
+    low = speed[ratio < CONDUCTING]
+    return float(low[-1]) if low.size else None
 
 
 def nearly_equal(one: Array, other: Array) -> bool:

@@ -11,7 +11,14 @@ from ehlectric.bearing.impedance import impedance_of
 from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solution import lambda_ratio, lubrication
 from ehlectric.discharge.verdict import lead_of, ratio_text
-from ehlectric.figures.bearing.curves import RPM, Curves, Speed, Speeds, critical_speed_of
+from ehlectric.figures.bearing.curves import (
+    RPM,
+    Curves,
+    Speed,
+    Speeds,
+    critical_speed_of,
+    opening_speed_of,
+)
 from ehlectric.figures.bearing.impedance import magnitude_at, prefixed, read_at
 from ehlectric.figures.bearing.looks import volts
 from ehlectric.figures.bearing.pitch import capacitances, first_breakdowns, variation
@@ -30,7 +37,7 @@ def loads(result: BearingResult) -> str:
     least = prefixed(thinnest["minimum_thickness"], "m", least=0.1)
     text = f"Most loaded contact: {most['ring']}, element {most['element']}, {most['load']:.3g} N; "
     text += f"minimum film {least} (λ {lambda_ratio(result.solution):.2g})"
-    return text + (": surfaces touch" if lubrication(result.solution) in _TOUCHING else "")
+    return text + (": contacts open and close" if lubrication(result.solution) in _TOUCHING else "")
 
 
 def circuit(result: BearingResult) -> str:
@@ -38,7 +45,8 @@ def circuit(result: BearingResult) -> str:
     found, shaft = result.breaks(), result.shaft_voltage
     if found["first_break"] is None:
         value = result.capacitance(result.case.bearing.fill)
-        touch = "Surfaces touch and conduct" if lubrication(result.solution) == "conducting" else ""
+        conducting = lubrication(result.solution) == "conducting"
+        touch = "Contacts open and close: discharges likely, no voltage computed" if conducting else ""
         return touch or f"Capacitance of the bearing: {prefixed(value, 'F')}"
     first = volts(found["first_break"])
     if shaft is None:
@@ -96,6 +104,9 @@ def breakdown_over_speed(curves: Curves, own: Speed | None) -> str:
         ends = [f"{volts(curves['first_break'][k])} at {rpm_text(curves.speed[k])}" for k in first[[0, -1]]]
         return f"First breakdown at {at_own}" if at_own else f"First breakdown from {' to '.join(ends)}"
     text = _where(curves, margin[known], curves.speed[known])
+    opening = opening_speed_of(curves)
+    if opening is not None:
+        text += f"; contacts open and close below {rpm_text(opening)}"
     return f"{text} ({at_own})" if at_own else text
 
 
@@ -139,9 +150,8 @@ def film_line(result: BearingResult, *, voltages: bool) -> str:
     text += f", minimum λ {lambda_ratio(solution):.2g}"
     text += {"formula": ", contacts by formula", "solved": ", contacts solved"}[solution.case.contacts]
     if lubrication(solution) in _TOUCHING:
-        return text + ": surfaces touch"
-    bound = voltages and (factor == 1.0 or lubrication(solution) == "partial film")
-    return text + (": voltages are upper bounds" if bound else "")
+        return text + ": contacts open and close"
+    return text + (": voltages are upper bounds" if voltages else "")
 
 
 def curves_line(points: Speeds, curves: Curves, own: Speed | None) -> str:
