@@ -107,11 +107,13 @@ def _smooth(solution: BearingSolution) -> ResultWarning:
             f"bearing.film_factor is {name}: the films are isothermal, fully flooded, smooth, so "
             'breakdown voltages are upper bounds; "inlet-shear" or a number below 1 gives thinner films',
         )
-    left = "starvation and grease" if factor == "inlet-shear" else "starvation and heat beyond it"
+    left, found = "any starvation and heat beyond this factor", f"{solution.conditions.film_factor:.3g}"
+    if factor == "inlet-shear":
+        left, found = "starvation and grease", f"{found}, of the heat in the inlet"
     return ResultWarning(
         "smooth-film",
-        f"bearing.film_factor is {name}: the films are smooth, and {left} are neglected too, so breakdown "
-        "voltages are upper bounds",
+        f"the film factor is {found}: the films are smooth, and {left} are neglected as well as roughness, "
+        "so breakdown voltages are upper bounds",
     )
 
 

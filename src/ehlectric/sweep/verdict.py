@@ -26,7 +26,7 @@ from ehlectric.sweep.labels import Scale, label_of
 from ehlectric.sweep.points import SweepPoints
 
 # Reason for which a bearing with a lambda ratio below 1 has no margin.
-_TOUCH = "surfaces touch, and discharges are likely as contacts open"
+_TOUCH = "surfaces touch (discharges likely as contacts open)"
 
 
 def sweep_verdict(results: SweepPoints) -> Verdict | None:

@@ -37,7 +37,7 @@ def loads(result: BearingResult) -> str:
     least = prefixed(thinnest["minimum_thickness"], "m", least=0.1)
     text = f"Most loaded contact: {most['ring']}, element {most['element']}, {most['load']:.3g} N; "
     text += f"minimum film {least} (λ {lambda_ratio(result.solution):.2g})"
-    return text + (": contacts open and close" if lubrication(result.solution) in _TOUCHING else "")
+    return text + (": surfaces touch" if lubrication(result.solution) in _TOUCHING else "")
 
 
 def circuit(result: BearingResult) -> str:
@@ -150,7 +150,7 @@ def film_line(result: BearingResult, *, voltages: bool) -> str:
     text += f", minimum λ {lambda_ratio(solution):.2g}"
     text += {"formula": ", contacts by formula", "solved": ", contacts solved"}[solution.case.contacts]
     if lubrication(solution) in _TOUCHING:
-        return text + ": contacts open and close"
+        return text + ": surfaces touch"
     return text + (": voltages are upper bounds" if voltages else "")
 
 

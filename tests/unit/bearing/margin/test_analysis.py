@@ -123,7 +123,7 @@ def test_speeds_with_a_partial_film_are_said():
     at = {"bearing.inner_speed": speed}
     found = solve_bearing(safe.case.replace(at), workers=1).summary()["bearing"]["lambda_ratio"]
     assert found == pytest.approx(3.0, abs=0.02)
-    assert f"Below about {rpm_text(speed)} rpm surfaces may touch." in safe.verdict.text
+    assert f"Below about {rpm_text(speed)} rpm surfaces may touch, and discharge" in safe.verdict.text
 
 
 @pytest.fixture(scope="module")
@@ -213,7 +213,7 @@ def test_surfaces_that_touch_at_low_speed_are_said():
     at = {"bearing.inner_speed": speeds.touching}
     found = solve_bearing(rough.case.replace(at), workers=1).summary()["bearing"]["lambda_ratio"]
     assert found == pytest.approx(1.0, abs=5e-3)
-    assert "the surfaces touch and conduct" in rough.verdict.text
+    assert "the surfaces touch: contacts open and close, discharges are likely" in rough.verdict.text
     assert f"{0.1 * 3000:.0f} to" not in rough.verdict.text
 
 

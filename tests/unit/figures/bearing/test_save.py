@@ -353,7 +353,10 @@ def test_the_command_draws_unless_told_not_to(result, monkeypatch, tmp_path):
             {"film": 0.02e-6},
             "isothermal, fully flooded film, minimum λ 0.67, contacts solved: surfaces touch",
         ),
-        ({"bearing": {"film_factor": 0.6}}, "film factor 0.6, minimum λ 6.7, contacts solved"),
+        (
+            {"bearing": {"film_factor": 0.6}},
+            "film factor 0.6, minimum λ 6.7, contacts solved: voltages are upper bounds",
+        ),
     ],
 )
 def test_titles_say_what_the_film_is_worth(changes, text):
