@@ -108,9 +108,8 @@ def test_points_without_a_margin_leave_no_green_verdict():
     assert verdict.level == "yellow"
     assert verdict.text == (
         "Breakdown is expected at none of 2 points: the margin is 1.50 to 2.00. 3 more points have no "
-        "margin, 1 surfaces touch (discharges likely as contacts open), 1 not solved, 1 solved, but not to be "
-        "used. "
-        "Upper bound: smooth film; dielectric strength 15 V/µm is an assumption."
+        "margin, 1 surfaces touch (discharges likely as contacts open), 1 not solved, 1 solved, but not to "
+        "be used. Upper bound: smooth film; dielectric strength 15 V/µm is an assumption."
     )
     one = sweep_verdict(sweep({SPEED: speeds[:3]}, [1.5, None, 2.0], at_1={"lubrication": "conducting"}))
     assert "1 more point has no margin, surfaces touch (discharges likely as contacts open)." in one.text
@@ -135,7 +134,7 @@ def test_no_crossing_where_two_inputs_vary_or_values_are_words():
     both = SweepResults(bearing_case(BALLS), "grid", axes, {}, 0, rows)
     assert sweep_verdict(both).text == (
         "Breakdown is expected at 2 of 4 points: the margin is 0.50 to 2.00. "
-        "Dielectric strength 15 V/µm is an assumption."
+        "Upper bound: smooth film; dielectric strength 15 V/µm is an assumption."
     )
     words = sweep({"bearing.fill": ("oil", "air")}, [0.5, 2.0])
     assert "margin is below 1" not in sweep_verdict(words).text

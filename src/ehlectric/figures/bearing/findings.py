@@ -99,14 +99,14 @@ def breakdown_over_speed(curves: Curves, own: Speed | None) -> str:
         shaft = own[1]["bearing"]["shaft_voltage"]
         at_own = f"{volts(value)}" if shaft is None else f"margin {ratio_text(value / shaft)}"
         at_own += f" at {rpm_text(own[0])}"
+    opening = opening_speed_of(curves)
+    below = "" if opening is None else f"; contacts open and close below {rpm_text(opening)}"
     if not np.any(known):
         first = np.flatnonzero(np.isfinite(curves["first_break"]))
         ends = [f"{volts(curves['first_break'][k])} at {rpm_text(curves.speed[k])}" for k in first[[0, -1]]]
-        return f"First breakdown at {at_own}" if at_own else f"First breakdown from {' to '.join(ends)}"
-    text = _where(curves, margin[known], curves.speed[known])
-    opening = opening_speed_of(curves)
-    if opening is not None:
-        text += f"; contacts open and close below {rpm_text(opening)}"
+        span = f"First breakdown at {at_own}" if at_own else f"First breakdown from {' to '.join(ends)}"
+        return f"{span}{below}"
+    text = f"{_where(curves, margin[known], curves.speed[known])}{below}"
     return f"{text} ({at_own})" if at_own else text
 
 
