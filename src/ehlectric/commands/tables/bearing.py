@@ -150,7 +150,9 @@ def _leakage(summary: Mapping[str, Any]) -> Iterator[Row]:
         return
     yield Row("leakage through the oil")
     yield Row("charge relaxation time of the oil", amount(totals["relaxation_time"], "s"))
-    period = "" if frequency is None else f"period of the inverter: {amount(1.0 / frequency, 's')}"
+    period = ", compared with 50 to 250 µs of typical inverters"
+    if frequency is not None:
+        period = f", compared with a period of {amount(1.0 / frequency, 's')} of the inverter"
     yield Row("time constant of the shaft voltage", amount(totals["shaft_time_constant"], "s"), note=period)
     lines = (
         ("shaft voltage after an edge", "bearing.shaft_voltage_after_rise", "V"),
@@ -163,9 +165,9 @@ def _costs(summary: Mapping[str, Any]) -> Iterator[Row]:
     """Rows of the energy of a discharge, its pit, and the current density."""
     totals = summary["bearing"]
     texts = (
-        ("energy at the shaft voltage", "discharge_energy", "J", "all that is connected to the shaft"),
+        ("energy at the shaft voltage", "discharge_energy", "J", ", all that is connected to the shaft"),
         ("energy at the first breakdown", "breakdown_energy", "J", ""),
-        ("pit diameter at the shaft voltage", "pit_diameter", "m", "hemisphere of the melted volume"),
+        ("pit diameter at the shaft voltage", "pit_diameter", "m", ", hemisphere of the melted volume"),
         ("pit diameter at the first breakdown", "breakdown_pit_diameter", "m", ""),
     )
     rows = [
