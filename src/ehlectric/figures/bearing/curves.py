@@ -102,7 +102,7 @@ def curves_of(points: Speeds, own: Speed | None = None) -> Curves:
 
 def _column(ordered: Speeds, key: str) -> Array:
     """Values of a key of the table "bearing" at the speeds, NaN in place of None."""
-    values = [summary["bearing"][key] for _, summary in ordered]
+    values = [summary["bearing"].get(key) for _, summary in ordered]
     return np.array([np.nan if value is None else value for value in values], dtype=float)
 
 
