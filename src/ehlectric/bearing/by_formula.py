@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 from scipy.constants import epsilon_0
 
@@ -16,6 +18,7 @@ from ehlectric.bearing.ring_contacts import (
     around_roller,
     check_contact,
 )
+from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.discharge import Discharge
 from ehlectric.cases.lubricant import Lubricant, density_law, effective_alpha, permittivity_law
 from ehlectric.contact.case_warnings import line_case_warnings, point_case_warnings
@@ -25,7 +28,7 @@ from ehlectric.field.zones import areas
 from ehlectric.formulas.film_line import pan_hamrock
 from ehlectric.formulas.film_point import chittenden
 from ehlectric.formulas.hertz_line import line_gap, line_pressure
-from ehlectric.formulas.hertz_point import point_deflection, point_pressure
+from ehlectric.formulas.hertz_point import DryContact, axis_ratio, point_deflection, point_pressure
 
 # Domain along entrainment, in semi-axes of a ball's contact or half-widths of a roller's: the default domain
 # of solved contacts.
@@ -59,6 +62,43 @@ def check_formula(discharge: Discharge, lubricant: Lubricant) -> None:
             got="a strength that needs the field, with contacts by formula, which have none",
             takes="dielectric_strength, a table over temperature, or solved contacts",
         )
+
+
+def formula_case(
+    case: BearingCase, *, constant: bool = False
+) -> tuple[BearingCase | None, InputError | None]:
+    """Case of a bearing with contacts by formula, and what the formulas cannot compute.
+
+    Parameters
+    ----------
+    case : BearingCase
+        Case of the bearing.
+    constant : bool
+        Whether a constant strength takes the place of one that needs the field: the scale of a Weibull law,
+        or the first strength of a table over pressure. It cancels in ratios of voltages.
+
+    Returns
+    -------
+    case : BearingCase or None
+        Case with contacts by formula; without a dielectric strength where it needs the field, unless
+        ``constant``. None for an oil that the formulas do not describe.
+    refused : InputError or None
+        Key that the formulas cannot use, and why.
+    """
+    changed, discharge = case.replace({"contacts": "formula"}), case.discharge
+    try:
+        check_formula(discharge, case.lubricant.at(case.bearing.temperature))
+    except InputError as error:
+        if not (error.key or "").startswith("discharge"):
+            return None, error
+        strength = None
+        if constant and discharge.weibull is not None:
+            strength = discharge.weibull.scale
+        elif constant and discharge.strength_table is not None:
+            strength = discharge.strength_table.strength[0]
+        update = {"weibull": None, "strength_table": None, "dielectric_strength": strength}
+        return changed.model_copy(update={"discharge": discharge.model_copy(update=update)}), error
+    return changed, None
 
 
 # Factors by which films from formulas, and margins with them, may be off either way. Balls have the formula
@@ -116,7 +156,8 @@ def ball_by_formula(contact: BallContact) -> ContactSolution:
     x, y = b * np.linspace(*_POINT, _NODES[0]), np.linspace(-side, side, _NODES[1])
     at_x, at_y = x[:, np.newaxis], y
     rigid = at_x**2 / (2.0 * conditions.radius_x) + at_y**2 / (2.0 * conditions.radius_y)
-    opened = point_deflection(at_x, at_y, dry, conditions.reduced_modulus)
+    ratio = axis_ratio(conditions.radius_x, conditions.radius_y)
+    opened = dry.max_pressure * b / conditions.reduced_modulus * _unit_opening(ratio, conditions.side)
     gap = film.central_thickness + np.maximum(0.0, rigid + opened - dry.approach)
     pressure = dry.max_pressure * point_pressure(at_x / b, at_y / b, a / b)
     outside, mismatch = around_ball(contact, (x, y), gap)
@@ -174,6 +215,19 @@ def roller_by_formula(contact: RollerContact) -> ContactSolution:
         mismatch=0.0,
         warnings=without_regime(line_case_warnings(setup, conditions)),
     )
+
+
+@lru_cache(maxsize=32)
+def _unit_opening(ratio: float, side: float) -> Array:
+    """Deflection over p_h b/E' at the nodes of a ball's contact, shape ``_NODES``, dimensionless.
+
+    In semi-axes it depends on their ratio alone, so all loads of a ring have the same one.
+    """
+    x, y = np.linspace(*_POINT, _NODES[0]), ratio * np.linspace(-side, side, _NODES[1])
+    unit = DryContact(semi_axis_x=1.0, semi_axis_y=ratio, max_pressure=1.0, approach=0.0)
+    opened = point_deflection(x[:, np.newaxis], y, unit, 1.0)
+    opened.flags.writeable = False
+    return opened
 
 
 def _permittivity(oil: Lubricant, pressure: Array) -> Array:

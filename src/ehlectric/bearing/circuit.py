@@ -157,6 +157,40 @@ def impedance(capacitance: Array, relaxation_time: float, frequency: Array) -> A
     return z
 
 
+def leakage_conductance(
+    inner: tuple[Array, Array], outer: tuple[Array, Array], relaxation_time: float
+) -> float:
+    """Conductance of a bearing whose oil conducts, at frequencies far above the corner frequency of the oil.
+
+    Both contacts of an element are in series and share the voltage by their capacitances C. With the
+    conductances G = C_oil/tau, an element has (G_i C_o^2 + G_o C_i^2)/(C_i + C_o)^2.
+
+    Parameters
+    ----------
+    inner, outer : tuple of ndarray, shape (n,)
+        Capacitance of each element's contact with the ring, and the part of it in oil [F].
+    relaxation_time : float
+        Charge relaxation time tau = eps0 eps_r/sigma of the oil [s].
+
+    Returns
+    -------
+    float
+        Conductance [S].
+
+    Examples
+    --------
+    With oil everywhere, it is the capacitance of the bearing over tau:
+
+    >>> both = np.array([2e-10]), np.array([2e-10])
+    >>> leakage_conductance(both, both, 1.0)
+    1e-10
+    """
+    (first, first_oil), (second, second_oil) = inner, outer
+    share = second / (first + second)
+    conductances = (first_oil * share**2 + second_oil * (1.0 - share) ** 2) / relaxation_time
+    return float(np.sum(conductances))
+
+
 def leaking_admittance(
     inner: tuple[Array, Array], outer: tuple[Array, Array], relaxation_time: float, frequency: Array
 ) -> Array:

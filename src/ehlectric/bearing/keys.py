@@ -80,8 +80,8 @@ _CAPACITANCES: Keys = {
         r"$\lambda$",
     ),
     "lubrication": ResultKey(
-        'state of lubrication: "conducting" for a lambda below 1, or "touching" of ceramic elements, '
-        '"partial film" below 3, "full film"',
+        'state of lubrication: "conducting" for a lambda below 1, where contacts open and close and no '
+        'voltage is computed, or "touching" of ceramic elements, "partial film" below 3, "full film"',
         "",
         "state of lubrication",
     ),
@@ -145,6 +145,82 @@ _VOLTAGES: Keys = {
         "shaft voltage",
     ),
     "relaxation_time": ResultKey("charge relaxation time ε0 ε_r/σ; null without a conductivity", "s"),
+    "shaft_time_constant": ResultKey(
+        "time constant with which the shaft voltage decays through the oil of both bearings, right after an "
+        "edge of the inverter; null without a conductivity or a motor, for a conducting bearing and for "
+        "ceramic elements",
+        "s",
+        "time constant of the shaft voltage",
+    ),
+    "shaft_voltage_after_period": ResultKey(
+        "shaft voltage that is left after a period of the inverter; null without `motor.switching_frequency` "
+        "and as shaft_time_constant is",
+        "V",
+        "shaft voltage after a period of the inverter",
+    ),
+    "shaft_voltage_after_rise": ResultKey(
+        "shaft voltage at the end of an edge of the inverter, with leakage through the oil; null without "
+        "`motor.rise_time` and as shaft_time_constant is",
+        "V",
+        "shaft voltage after an edge of the inverter",
+    ),
+    "discharged_capacitance": ResultKey(
+        "capacitance that a discharge empties: bearing, winding and frame to rotor, and second bearing, or "
+        "`discharge.external_capacitance` without a motor; null where nothing is given, for a conducting "
+        "bearing and for ceramic elements",
+        "F",
+        "discharged capacitance",
+    ),
+    "bearing_energy": ResultKey(
+        "energy C V²/2 in the bearing alone at the shaft voltage; null without a motor",
+        "J",
+        "energy in the bearing",
+    ),
+    "discharge_energy": ResultKey(
+        "energy C V²/2 in discharged_capacitance at the shaft voltage; null without a motor",
+        "J",
+        "energy of a discharge at the shaft voltage",
+    ),
+    "breakdown_energy": ResultKey(
+        "energy C V²/2 in discharged_capacitance at the first breakdown; null as either is",
+        "J",
+        "energy of a discharge at the first breakdown",
+    ),
+    "pit_volume": ResultKey(
+        "volume of one surface that discharge_energy melts; null without `[discharge.pit]`",
+        "m**3",
+        "melted volume",
+    ),
+    "pit_diameter": ResultKey(
+        "diameter of a hemisphere of that volume; null as pit_volume is",
+        "m",
+        "diameter of the pit",
+    ),
+    "breakdown_pit_diameter": ResultKey(
+        "diameter of the hemisphere that breakdown_energy melts; null without `[discharge.pit]`",
+        "m",
+        "diameter of the pit at the first breakdown",
+    ),
+    "hertz_area": ResultKey(
+        "area of the smaller dry contact of each element that both rings load, added up, the cage in its "
+        "first position",
+        "m**2",
+        "area of the dry contacts",
+    ),
+    "current_density": ResultKey(
+        "peak current / hertz_area; null without `discharge.peak_current`", "A/m**2", "current density"
+    ),
+    "element_current_density": ResultKey(
+        "peak current / area of the smaller contact of the most loaded element, as if it alone carried the "
+        "current; null without `discharge.peak_current`",
+        "A/m**2",
+        "current density of one element",
+    ),
+    "current_density_limits": ResultKey(
+        "published limits of current_density: 0.1 to 0.3 A/mm² (doi:10.3390/lubricants12050148) and 0.8 "
+        "A/mm² (Busse et al. 1997, as quoted by doi:10.3390/lubricants10050087); null without a current",
+        "A/m**2",
+    ),
     "discretisation_error": ResultKey(
         "maximum estimated error of the solved films; null where one is not known"
     ),
@@ -241,6 +317,10 @@ CONTACT_KEYS: Keys = {
     "minimum_thickness": ResultKey("minimum film thickness, or the gap where there is no contact", "m"),
     "central_thickness": ResultKey("central film thickness, or the gap where there is no contact", "m"),
     "lambda_ratio": ResultKey("minimum_thickness / composite_rq"),
+    "regime": ResultKey(
+        '"full film" from a lambda_ratio of 3 on; "partial film" below, where asperities touch at times; '
+        '"touching" below 1, with contacts that open and close; "gap" without load'
+    ),
     "capacitance": ResultKey(
         "capacitance of the contact, with `fill` around it; null for ceramic elements", "F"
     ),

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 # Columns of the table of contacts that are no numbers with a unit.
-_LABELS = ("element", "ring", "solved")
+_LABELS = ("element", "ring", "regime", "solved")
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -211,13 +211,31 @@ def lambda_ratio(solution: BearingSolution) -> float:
 def lubrication(solution: BearingSolution) -> str:
     """State of lubrication: "conducting", "touching", "partial film" or "full film".
 
-    Below a lambda ratio of 1 the surfaces touch: the bearing is "conducting", or with ceramic elements, which
-    insulate, "touching". Below 3 it has a "partial film", and otherwise a "full film".
+    Below a lambda ratio of 1 contacts close and open all the time: the bearing is called "conducting", as no
+    voltage is computed for it, or "touching" with ceramic elements, which insulate. Below 3 it has a "partial
+    film", whose asperities touch at times, and otherwise a "full film".
     """
     ratio = lambda_ratio(solution)
     if ratio < CONDUCTING:
         return "touching" if solution.conditions.ceramic else "conducting"
     return "partial film" if ratio < PARTIAL else "full film"
+
+
+def regime(ratio: float, *, loaded: bool = True) -> str:
+    """Regime of one contact by its lambda ratio: "full film", "partial film", "touching", or "gap".
+
+    A contact without load is a "gap". From a lambda ratio of 3 on, surfaces are separated. Below 3,
+    asperities touch at times ("partial film"), and below 1 most of the time ("touching"). Contacts that open
+    and close discharge at a low voltage, for which there is no law here.
+
+    Examples
+    --------
+    >>> regime(3.2), regime(1.5), regime(0.4), regime(90.0, loaded=False)
+    ('full film', 'partial film', 'touching', 'gap')
+    """
+    if not loaded:
+        return "gap"
+    return "touching" if ratio < CONDUCTING else "partial film" if ratio < PARTIAL else "full film"
 
 
 def insulating(solution: BearingSolution) -> bool:

@@ -6,11 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from ehlectric.bearing.by_formula import check_formula
+from ehlectric.bearing.by_formula import formula_case
 from ehlectric.bearing.margin.critical_speed import LEAST, MOST
 from ehlectric.bearing.solving.contacts_and_circuit import solution_of
 from ehlectric.bearing.summary import summary_of
-from ehlectric.cases.bearing import BearingDischarge
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.units import rpm
 from ehlectric.errors import InputError, ResultWarning
@@ -57,7 +56,11 @@ def over_speed(
     >>> slow["capacitance"] > fast["capacitance"], left_out
     (True, [])
     """
-    changed, left_out = formula_case(case)
+    changed, refused = formula_case(case)
+    left_out = []
+    if refused is not None:
+        text = f"figures over speed are incomplete: {refused}"
+        left_out.append(ResultWarning("speed-left-out", text))
     if changed is None:
         return [], left_out
     points = []
@@ -71,32 +74,3 @@ def over_speed(
         else:
             points.append((speed, summary_of(solution)))
     return points, left_out
-
-
-def formula_case(case: BearingCase) -> tuple[BearingCase | None, list[ResultWarning]]:
-    """Case of a bearing with contacts by formula, and warnings of what the formulas cannot compute.
-
-    Parameters
-    ----------
-    case : BearingCase
-        Case of the bearing.
-
-    Returns
-    -------
-    case : BearingCase or None
-        Case with contacts by formula; without a dielectric strength where the formulas cannot compute
-        breakdown voltages, None where they cannot be used at all.
-    left_out : list of ResultWarning
-        Warnings of what is left out, and why.
-    """
-    lubricant = case.lubricant.at(case.bearing.temperature)
-    left_out: list[ResultWarning] = []
-    for discharge in (case.discharge, BearingDischarge(conductivity=case.discharge.conductivity)):
-        try:
-            check_formula(discharge.at(case.bearing.temperature), lubricant)
-        except InputError as error:
-            left_out = [ResultWarning("speed-left-out", f"figures over speed are incomplete: {error}")]
-        else:
-            changed = case.replace({"contacts": "formula"})
-            return changed.model_copy(update={"discharge": discharge}), left_out
-    return None, left_out

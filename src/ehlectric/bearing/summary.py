@@ -6,6 +6,8 @@ import dataclasses
 from typing import Any
 
 from ehlectric.bearing.breakdown import Breakdown, breakdown_of, strength_per_volt
+from ehlectric.bearing.discharges.energy import bearing_costs
+from ehlectric.bearing.discharges.leakage import shaft_leakage
 from ehlectric.bearing.impedance import oil_relaxation_time
 from ehlectric.bearing.loads.totals import mechanics_of
 from ehlectric.bearing.shaft_voltage import bearing_voltage_ratio, margin, shaft_voltage
@@ -16,6 +18,7 @@ from ehlectric.bearing.solution import (
     lambda_ratio,
     lubrication,
     plate_capacitance,
+    regime,
 )
 from ehlectric.bearing.warnings import bearing_warnings
 from ehlectric.runtime.files import plain
@@ -60,6 +63,7 @@ def _totals(solution: BearingSolution) -> dict[str, Any]:
     """Capacitances, voltages and error estimates of the whole bearing."""
     own, plate = capacitance(solution), plate_capacitance(solution)
     strength, shaft = strength_per_volt(solution), shaft_voltage(solution)
+    leaks = shaft_leakage(solution)
     errors = [contact.error for curve in solution.curves for contact in curve.solutions]
     known = [error for error in errors if error is not None]
     return {
@@ -78,9 +82,17 @@ def _totals(solution: BearingSolution) -> dict[str, Any]:
         "bearing_voltage_ratio": bearing_voltage_ratio(solution),
         "shaft_voltage": shaft,
         "relaxation_time": oil_relaxation_time(solution),
+        "shaft_time_constant": None if leaks is None else leaks.time_constant,
+        "shaft_voltage_after_period": _part(shaft, None if leaks is None else leaks.after_period),
+        "shaft_voltage_after_rise": _part(shaft, None if leaks is None else leaks.after_rise),
+        **dataclasses.asdict(bearing_costs(solution)),
         "discretisation_error": max(known) if len(known) == len(errors) else None,
         "interpolation_error": max(curve.interpolation_error for curve in solution.curves),
     }
+
+
+def _part(value: float | None, part: float | None) -> float | None:
+    return None if value is None or part is None else part * value
 
 
 def breaks(solution: BearingSolution) -> dict[str, Any]:
@@ -124,6 +136,7 @@ def contact_rows(solution: BearingSolution) -> list[dict[str, Any]]:
                     "minimum_thickness": values.minimum_thickness[k],
                     "central_thickness": values.central_thickness[k],
                     "lambda_ratio": values.minimum_thickness[k] / rq,
+                    "regime": regime(values.minimum_thickness[k] / rq, loaded=bool(ring.solved[k])),
                     "capacitance": None if ceramic else ring.capacitance(fill)[k],
                     "voltage_share": share[k] if insulates else None,
                     "strength_per_volt": strength,

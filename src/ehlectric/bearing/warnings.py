@@ -7,9 +7,11 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
-from ehlectric.bearing.breakdown import breakdown_of
+from ehlectric.bearing.breakdown import breakdown_of, strength_per_volt
 from ehlectric.bearing.by_formula import formula_error
 from ehlectric.bearing.contacts import ContactSolution
+from ehlectric.bearing.discharges.energy import current_warnings
+from ehlectric.bearing.discharges.leakage import leakage_warnings
 from ehlectric.bearing.limits import TAKEN, groove_ratio, shoulder_angle
 from ehlectric.bearing.shaft_voltage import shaft_voltage
 from ehlectric.bearing.solution import (
@@ -26,6 +28,7 @@ from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.library.clearance import clearance_range
 from ehlectric.cases.lubricant import Lubricant
 from ehlectric.cases.units import rpm
+from ehlectric.discharge.limits import field_warnings, strength_warnings
 from ehlectric.discharge.verdict import breakdown_warning
 from ehlectric.errors import ResultWarning
 from ehlectric.lubricant.viscosity_index import GRADE_WIDTH, LEAST_AT_100, viscosity_index
@@ -69,14 +72,7 @@ def film_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
             'and fields are V/h_min; use contacts = "solved" for design'
         )
         yield ResultWarning("formula-contacts", text)
-    if solution.conditions.film_factor == 1.0:
-        factor = solution.case.bearing.film_factor
-        name = factor if isinstance(factor, str) else f"{factor:g}"
-        text = (
-            f"bearing.film_factor is {name}: the films are isothermal and fully flooded, so breakdown "
-            'voltages are upper bounds; "inlet-shear" or a number below 1 gives thinner films'
-        )
-        yield ResultWarning("isothermal-film", text)
+    yield _smooth(solution)
     of_base = library_viscosity(solution.case.lubricant)
     if of_base is not None:
         at = f"{solution.case.bearing.temperature - 273.15:.4g} °C"
@@ -99,6 +95,26 @@ def film_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
         )
         yield ResultWarning("temperature-low", text)
     yield from clearance_warnings(solution.conditions.geometry.clearance, solution.positions[0])
+
+
+def _smooth(solution: BearingSolution) -> ResultWarning:
+    """Note about the effects that the films neglect, so that breakdown voltages are upper bounds."""
+    factor = solution.case.bearing.film_factor
+    name = factor if isinstance(factor, str) else f"{factor:g}"
+    if solution.conditions.film_factor == 1.0:
+        return ResultWarning(
+            "isothermal-film",
+            f"bearing.film_factor is {name}: the films are isothermal, fully flooded, smooth, so "
+            'breakdown voltages are upper bounds; "inlet-shear" or a number below 1 gives thinner films',
+        )
+    left, found = "any starvation and heat beyond this factor", f"{solution.conditions.film_factor:.3g}"
+    if factor == "inlet-shear":
+        left, found = "starvation and grease", f"{found}, of the heat in the inlet"
+    return ResultWarning(
+        "smooth-film",
+        f"the film factor is {found}: the films are smooth, and {left} are neglected as well as roughness, "
+        "so breakdown voltages are upper bounds",
+    )
 
 
 def library_viscosity(oil: BearingLubricant) -> float | None:
@@ -188,32 +204,51 @@ def _static_rating(bearing: Bearing) -> float:
 
 def voltage_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
     """Warnings of the capacitance and the voltages of a bearing: lubrication, ceramics, Weibull strength."""
-    state, ceramic = lubrication(solution), solution.conditions.ceramic
-    touching = f"lambda is {lambda_ratio(solution):.2g}: surfaces"
-    if state == "conducting":
-        text = (
-            f"{touching} touch and conduct, so there is no breakdown voltage and no shaft voltage; a higher "
-            "speed or viscosity separates them"
-        )
-        yield ResultWarning("touching", text)
-    elif state == "touching":
-        yield ResultWarning("touching", f"{touching} touch; only the ceramic elements insulate")
-    elif state == "partial film":
-        text = f"{touching} may touch" + ("" if ceramic else ", so breakdown voltages are upper bounds")
-        yield ResultWarning("partial-film", text)
+    yield from _contact_of_asperities(solution)
     if capacitance_is_bound(solution):
         yield ResultWarning(
             "capacitance-bound",
             "the elements are ceramic: the capacitance is an upper bound, computed as for conducting "
             "elements, and no shaft voltage follows from it; give bearing.element_capacitance",
         )
-    breakdown, shaft = breakdown_of(solution), shaft_voltage(solution)
+    breakdown, shaft, per_volt = breakdown_of(solution), shaft_voltage(solution), strength_per_volt(solution)
+    field = None if shaft is None or per_volt is None else shaft * per_volt
     if breakdown is not None and shaft is not None and breakdown.first_break < shaft and solution.converged:
         at = f"first breakdown at {breakdown.first_break:.3g} V"
-        yield breakdown_warning("shaft voltage", shaft, at, breakdown.first_break / shaft)
+        ratio = breakdown.first_break / shaft
+        scattered = solution.case.discharge.weibull is not None
+        yield breakdown_warning("shaft voltage", shaft, at, ratio, field=None if scattered else field)
+    if solution.converged:
+        yield from strength_warnings(solution.conditions.discharge)
+        yield from field_warnings(field, "the motor")
+    yield from leakage_warnings(solution)
+    yield from current_warnings(solution)
     if solution.case.discharge.weibull is not None and insulating(solution):
         text = "first and ring-to-ring breakdown voltages are those at a probability of 63.2 % (Weibull)"
         yield ResultWarning("weibull-voltage", text)
+
+
+def _contact_of_asperities(solution: BearingSolution) -> Iterator[ResultWarning]:
+    """Warning of surfaces that touch all or some of the time."""
+    state, ceramic = lubrication(solution), solution.conditions.ceramic
+    touching = f"lambda is {lambda_ratio(solution):.2g}: surfaces"
+    if state == "conducting":
+        text = (
+            f"{touching} touch, and contacts close and open all the time: they discharge at a low voltage as "
+            "they open, and arcs are likely; no breakdown voltage and no shaft voltage is computed for them, "
+            "which does not mean that the bearing is safe; a higher speed or viscosity separates the surfaces"
+        )
+        yield ResultWarning("touching", text)
+    elif state == "touching":
+        yield ResultWarning("touching", f"{touching} touch; only the ceramic elements insulate")
+    elif state == "partial film":
+        text = f"{touching} may touch"
+        if not ceramic:
+            text += (
+                " at times, and contacts discharge at a lower voltage as they open, which is not computed; "
+                "breakdown voltages are upper bounds"
+            )
+        yield ResultWarning("partial-film", text)
 
 
 def _warnings_of_contacts(solution: BearingSolution) -> Iterator[ResultWarning]:

@@ -316,8 +316,15 @@ class BearingLubricant(Lubricant):
         return derived
 
 
+# Inputs of a discharge that a bearing reads itself, and not at the temperature of its films.
+_OF_WHOLE_BEARING = {"external_capacitance", "peak_current", "pit"}
+
+
 class BearingDischarge(Discharge):
     """Discharge of a bearing; a strength table over temperature is read at the bearing's temperature."""
+
+    def _check_pit(self) -> None:
+        """Accept a pit without an external capacitance: a motor may give what is connected to the shaft."""
 
     def _check_temperature(self) -> None:
         if self.temperature is not None:
@@ -351,7 +358,7 @@ class BearingDischarge(Discharge):
         >>> BearingDischarge.from_dict({"strength_table": table}).at(343.15).temperature
         343.15
         """
-        table = self.model_dump(exclude_none=True)
+        table = self.model_dump(exclude_none=True, exclude=_OF_WHOLE_BEARING)
         if self.strength_table is not None and self.strength_table.over == "temperature":
             table["temperature"] = temperature
         try:
@@ -367,3 +374,21 @@ class Motor(Table):
     winding_rotor_capacitance: _Capacitance
     rotor_frame_capacitance: _Capacitance
     second_bearing_capacitance: _Capacitance | None = None
+    switching_frequency: (
+        Annotated[float, Quantity("Hz", least=1.0, most=1e8, reason="of the inverter")] | None
+    ) = None
+    rise_time: (
+        Annotated[float, Quantity("s", least=1e-11, most=1.0, reason="of an edge of the inverter")] | None
+    ) = None
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if self.switching_frequency is not None and self.rise_time is not None:
+            period = 1.0 / self.switching_frequency
+            if self.rise_time >= period:
+                raise InputError(
+                    "rise_time",
+                    got=f"{self.rise_time:g} s",
+                    takes=f"less than {period:.3g} s, a period of motor.switching_frequency",
+                )
+        return self

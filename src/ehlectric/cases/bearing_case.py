@@ -54,8 +54,7 @@ _DIMENSIONS = (
 _ROUNDING = 1e-9
 
 # Keys of [discharge] that a bearing file may not have.
-_NOT_OF_BEARINGS = ("length", "external_capacitance", "peak_current", "pit")
-
+_NOT_OF_BEARINGS = ("length",)
 
 # Advice for unknown keys that belong to another table, or have another name.
 _ADVICE = {
@@ -135,6 +134,7 @@ class BearingCase(Tabled, Table):
         for key in _NOT_OF_BEARINGS:
             if getattr(self.discharge, key) is not None:
                 raise InputError.worded(f"discharge.{key}", "is not used by a bearing")
+        self._check_connected()
         if self.bearing.film_factor == "inlet-shear":
             oil = self.lubricant.temperature
             if oil is None or oil.thermal_conductivity is None:
@@ -154,6 +154,22 @@ class BearingCase(Tabled, Table):
                     takes=f"a range that contains the value of the file, {value:.6g} (in SI units)",
                 )
         return self
+
+    def _check_connected(self) -> None:
+        """Check that one table says what is connected to the shaft, where a pit needs it."""
+        external = self.discharge.external_capacitance
+        if external is not None and self.motor is not None:
+            raise InputError(
+                "discharge.external_capacitance",
+                got=f"{external:g} F beside [motor]",
+                takes="one of the two: the capacitances of a motor are discharged, too",
+            )
+        if self.discharge.pit is not None and external is None and self.motor is None:
+            raise InputError.worded(
+                "discharge.external_capacitance",
+                "missing; pit needs it or [motor]: a discharge also drains what is connected to the shaft; 0 "
+                "where nothing is",
+            )
 
     def _headline(self) -> str:
         """Title, bearing, loads and speed on one line."""

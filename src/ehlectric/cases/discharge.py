@@ -116,14 +116,17 @@ class Discharge(Table):
         if len(present) > 1:
             together, takes = " and ".join(present), ", ".join(names)
             raise InputError(present[0], got=f"{together} together", takes=f"one of {takes}")
+        self._check_pit()
+        self._check_temperature()
+        return self
+
+    def _check_pit(self) -> None:
         if self.pit is not None and self.external_capacitance is None:
             raise InputError.worded(
                 "external_capacitance",
                 "missing; pit needs it: a discharge also drains what is connected to the contact; 0 "
                 "where nothing is",
             )
-        self._check_temperature()
-        return self
 
     def _check_temperature(self) -> None:
         table = self.strength_table

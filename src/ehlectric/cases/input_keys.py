@@ -62,6 +62,8 @@ INPUT_NAMES: Mapping[str, tuple[str, str]] = {
     "motor.common_mode_voltage": ("common-mode voltage", ""),
     "motor.winding_rotor_capacitance": ("capacitance from winding to rotor", r"$C_\mathrm{wr}$"),
     "motor.rotor_frame_capacitance": ("capacitance from rotor to frame", r"$C_\mathrm{rf}$"),
+    "motor.switching_frequency": ("switching frequency", "$f$"),
+    "motor.rise_time": ("rise time", r"$t_\mathrm{r}$"),
     "discharge.dielectric_strength": ("dielectric strength", ""),
     "discharge.weibull.scale": ("Weibull scale", "$E_0$"),
     "discharge.weibull.shape": ("Weibull shape", "$m$"),

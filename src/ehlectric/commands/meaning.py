@@ -151,13 +151,14 @@ def _breakdown_rows(estimate: Mapping[str, Any]) -> Iterator[Row]:
 
 @check.register
 def _check_bearing(case: BearingCase) -> Meaning:
-    from ehlectric.bearing.by_formula import formula_error
+    from ehlectric.bearing.by_formula import formula_case, formula_error
     from ehlectric.bearing.solver import check_bearing
     from ehlectric.commands.tables.bearing import input_rows, outcome_rows
 
     check_bearing(case)
-    judged, reason = _by_formula(case)
+    judged, refused = formula_case(case)
     if judged is None:
+        reason = "film formulas need a piezoviscous oil; ehlectric bearing solves the contacts"
         return _without_films(case, reason)
     result = _solved_by_formula(judged)
     summary = {**result.summary(), "by_formula": True}
@@ -166,26 +167,9 @@ def _check_bearing(case: BearingCase) -> Meaning:
         "accuracy of all that follows", note=f"films may be {formula_error(case.bearing.kind)} off"
     )
     rows = [*input_rows(summary), *_dry(summary), accuracy, *totals]
-    if reason:
-        rows.append(Row("breakdown voltage", note=reason))
+    if refused is not None:
+        rows.append(Row("breakdown voltage", note="needs solved contacts for this strength"))
     return Meaning(case.title, tuple(rows), summary, result.warnings, result.verdict)
-
-
-def _by_formula(case: BearingCase) -> tuple[BearingCase | None, str]:
-    """Case with contacts by formula, and what the formulas leave out; None where they give nothing."""
-    from ehlectric.bearing.by_formula import check_formula
-    from ehlectric.bearing.preparation import resolve_bearing
-
-    conditions = resolve_bearing(case)
-    formula = case.replace({"contacts": "formula"})
-    try:
-        check_formula(conditions.discharge, conditions.lubricant)
-    except InputError as error:
-        if (error.key or "").startswith("discharge"):
-            bare = case.discharge.model_copy(update={"weibull": None, "strength_table": None})
-            return formula.model_copy(update={"discharge": bare}), "needs solved contacts for this strength"
-        return None, "film formulas need a piezoviscous oil; ehlectric bearing solves the contacts"
-    return formula, ""
 
 
 def _solved_by_formula(case: BearingCase) -> BearingResult:

@@ -16,9 +16,6 @@ from ehlectric.field.poisson import ATOM
 from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
 
-# Field strength above which any insulator breaks down [V/m].
-_NO_INSULATOR = 1e9
-
 # Maximum number of positions that the warning about touching surfaces lists.
 _NAMED = 8
 
@@ -149,15 +146,4 @@ def point_result_warnings(setup: Case | Setup, film: PointFilm, field: PointFiel
         yield ResultWarning(
             "field-range-too-narrow",
             "the maximum field is at an edge of grid.field_range or grid.field_side; widen this range",
-        )
-
-
-def field_warnings(max_strength: float) -> Iterator[ResultWarning]:
-    """Warning about a maximum field strength [V/m] that no insulator withstands."""
-    if max_strength > _NO_INSULATOR:
-        yield ResultWarning(
-            "field-above-insulators",
-            f"the maximum field is {max_strength / 1e6:.3g} V/µm, but no insulator withstands more than "
-            f"about {_NO_INSULATOR / 1e6:g} V/µm: the film breaks down at a lower voltage; check the "
-            "potentials",
         )

@@ -22,11 +22,12 @@ from ehlectric.contact.kinds import KINDS
 from ehlectric.contact.memory import check_grid
 from ehlectric.contact.problems import heights_of
 from ehlectric.contact.refinement import refined
-from ehlectric.contact.result_warnings import field_warnings, film_warnings
+from ehlectric.contact.result_warnings import film_warnings
 from ehlectric.contact.results import RESULTS, PointResult, Result
 from ehlectric.contact.setup import Setup
 from ehlectric.contact.solution import Smooth
 from ehlectric.discharge.assessment import discharge_warnings, margin_warnings
+from ehlectric.discharge.limits import field_warnings
 from ehlectric.errors import ConvergenceError, InputError
 from ehlectric.film.state import Progress
 from ehlectric.runtime.files import now
@@ -269,7 +270,7 @@ def _solved(
             *kind.result_warnings(case, film, field),
             *discharge_warnings(case.discharge, film),
             *margin_warnings(case.discharge, conditions.semi_axes, film, field),
-            *field_warnings(field.max_strength),
+            *field_warnings(field.max_strength, "the potentials"),
         ),
         film_solver=solvers.name,
         field_solver=field_solvers.name,

@@ -17,6 +17,7 @@ from ehlectric.discharge.contact_size import Size
 from ehlectric.discharge.energy import DischargeCosts, discharge_costs
 from ehlectric.discharge.laws import SOURCES, TUNNELLING
 from ehlectric.discharge.leakage import Leakage, leakage
+from ehlectric.discharge.limits import strength_warnings
 from ehlectric.discharge.utilisation import FieldUtilisation
 from ehlectric.discharge.verdict import breakdown_warning
 from ehlectric.errors import ResultWarning
@@ -161,7 +162,9 @@ def margin_warnings(
     found = breakdown(discharge, utilisation, field.voltage, size)
     if found.margin is not None and found.margin < 1.0:
         at = f"breakdown voltage {found.breakdown_voltage:.3g} V"
-        yield breakdown_warning("applied voltage", field.voltage, at, found.margin)
+        strongest = None if discharge.weibull is not None else field.max_strength
+        yield breakdown_warning("applied voltage", field.voltage, at, found.margin, field=strongest)
+    yield from strength_warnings(discharge)
 
 
 def discharge_warnings(discharge: Discharge | None, film: Film | PointFilm) -> Iterator[ResultWarning]:

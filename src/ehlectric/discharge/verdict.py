@@ -63,6 +63,8 @@ DOUBTS = (
     "temperature-low",
     "viscosity-of-base",
     "load-low",
+    "field-above-insulators",
+    "strength-above-liquids",
 )
 
 
@@ -237,7 +239,9 @@ def weibull_part(shape: float, probability: float) -> float:
     return math.pow(-math.log1p(-probability), 1.0 / shape)
 
 
-def breakdown_warning(kind: str, voltage: float, at: str, margin: float) -> ResultWarning:
+def breakdown_warning(
+    kind: str, voltage: float, at: str, margin: float, *, field: float | None = None
+) -> ResultWarning:
     """Warning of a margin below 1.
 
     Parameters
@@ -250,6 +254,10 @@ def breakdown_warning(kind: str, voltage: float, at: str, margin: float) -> Resu
         Clause with the voltage at which the film breaks down.
     margin : float
         Margin, dimensionless.
+    field : float, optional
+        Maximum field strength at this voltage [V/m], which exceeds the dielectric strength.
     """
     text = f"breakdown is expected: {kind} {voltage:.3g} V, {at} (margin {ratio_text(margin)})"
+    if field is not None:
+        text += f"; the maximum field of {field / 1e6:.3g} V/µm exceeds the dielectric strength"
     return ResultWarning("breakdown-expected", text)

@@ -11,8 +11,8 @@ from typing import Any
 import xarray as xr
 from matplotlib.figure import Figure
 
+from ehlectric.bearing.by_formula import formula_case
 from ehlectric.bearing.result import BearingResult
-from ehlectric.bearing.speeds import formula_case
 from ehlectric.cases.table import nearest
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.errors import InputError, ResultWarning, shown

@@ -13,6 +13,7 @@ from ehlectric.arrays import Array, IntArray, Mask
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.input_keys import kind_of
 from ehlectric.cases.quantity import Count, Quantity
+from ehlectric.cases.row import value_at
 from ehlectric.cases.table import nearest
 from ehlectric.errors import InputError, short, shown
 from ehlectric.runtime.values import is_number
@@ -79,6 +80,12 @@ class Slice:
     def doubtful(self) -> Mask:
         """Mask of the points that are solved, but have a severe warning, shape (points,)."""
         return np.array([point.doubtful for point in self.points])
+
+    @property
+    def intermittent(self) -> Mask:
+        """Mask of bearings with a lambda ratio below 1, whose contacts open and close, shape (points,)."""
+        states = [value_at(point.summary or {}, "bearing.lubrication") for point in self.points]
+        return np.asarray(self.of("solved") & np.array([state == "conducting" for state in states]))
 
     @property
     def of_discharge(self) -> bool:

@@ -26,6 +26,9 @@ from ehlectric.runtime.values import is_number
 from ehlectric.sweep.labels import Scale, label_of
 from ehlectric.sweep.points import SweepPoints
 
+# Reason for which a bearing with a lambda ratio below 1 has no margin.
+_TOUCH = "surfaces touch (discharges likely as contacts open)"
+
 
 def sweep_verdict(results: SweepPoints) -> Verdict | None:
     """Verdict on a sweep from the margins of its points.
@@ -41,12 +44,12 @@ def sweep_verdict(results: SweepPoints) -> Verdict | None:
         Green where no margin is below 1, red where all are, else yellow. It is not green where points have no
         margin: they are not solved or must not be used, or their surfaces touch. Nor is it green or red where
         the margin of a point may lie on the other side of 1, by the accuracy of formulas, by its warnings, or
-        at a strength that differs by 20 %. None where no point has a margin.
+        at a strength that differs by 20 %. None where no point has a margin, and no contacts open and close.
     """
     usable = _margins(results)
     known = usable[np.isfinite(usable)]
     if not known.size:
-        return None
+        return _without_voltages(results)
     below, missing = int(np.sum(known < 1.0)), usable.size - known.size
     lowest, highest = float(np.min(known)), float(np.max(known))
     count = str(below) if below else "none"
@@ -62,6 +65,19 @@ def sweep_verdict(results: SweepPoints) -> Verdict | None:
     if doubts:
         level = "yellow"
     return Verdict(level, " ".join([*sentences, *doubts, *_assumptions(results)]), lowest)
+
+
+def _without_voltages(results: SweepPoints) -> Verdict | None:
+    """Verdict on points without a margin: yellow where contacts open and close, None where none do."""
+    states = [value_at(point.summary or {}, "bearing.lubrication") for point in results.points]
+    count = states.count("conducting")
+    if not count:
+        return None
+    return Verdict(
+        "yellow",
+        f"Discharges likely: at {count} of {len(states)} points surfaces touch (lambda ratio below 1), and "
+        "contacts discharge at a low voltage as they open; no voltage is computed for that.",
+    )
 
 
 def _doubts(results: SweepPoints, margins: Array) -> Iterator[str]:
@@ -103,8 +119,11 @@ def _assumptions(results: SweepPoints) -> Iterator[str]:
     """Sentence about the assumptions behind the margins."""
     bound = ""
     factors = {value_at(point.summary or {}, "bearing.film_factor") for point in results.points}
-    if factors & {1.0} or not isinstance(results.case, BearingCase):
+    if not isinstance(results.case, BearingCase):
         bound = "Upper bound: isothermal, fully flooded film; "
+    else:
+        heat = "isothermal, fully flooded, smooth film" if factors & {1.0} else "smooth film"
+        bound = f"Upper bound: {heat}; "
     discharge = results.case.discharge
     if discharge is None or not discharge.has_strength:
         return
@@ -140,7 +159,7 @@ def _why(results: SweepPoints, margins: Array) -> str:
         elif point.doubtful:
             reason = "solved, but not to be used"
         else:
-            reason = "surfaces touch" if state == "conducting" else "no breakdown voltage or no voltage"
+            reason = _TOUCH if state == "conducting" else "no breakdown voltage or no voltage"
         counts[reason] = counts.get(reason, 0) + 1
     if len(counts) == 1:
         return next(iter(counts))

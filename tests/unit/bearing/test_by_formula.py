@@ -8,9 +8,10 @@ from scipy.constants import epsilon_0
 from scipy.integrate import quad
 from scipy.special import ellipe, ellipk
 
+from ehlectric.bearing.by_formula import _unit_opening
 from ehlectric.bearing.gaps.groove import LoadedContact, Raceway, outside_capacitance
 from ehlectric.bearing.gaps.roller import RollerRaceway, roller_tails
-from ehlectric.formulas.hertz_point import DryContact, point_deflection
+from ehlectric.formulas.hertz_point import DryContact, axis_ratio, dry_contact, point_deflection
 from tests.helpers.bearings import (
     BALLS,
     ROLLERS,
@@ -187,3 +188,14 @@ def test_a_ball_that_hardly_presses_is_nearly_a_rigid_one(inner):
 def test_without_a_strength_nothing_breaks_by_formula():
     for tables in (BALLS, ROLLERS):
         assert by_formula(tables, 500.0, inner=True, discharge=None).values.breakdown_voltage == np.inf
+
+
+def test_the_gap_of_all_loads_is_the_same_in_semi_axes():
+    """The scaled deflection is the one at the nodes of the contact itself, in metres."""
+    for load in (20.0, 900.0):
+        dry = dry_contact(load, 5e-3, 0.14, 226e9)
+        b, a = dry.semi_axis_x, dry.semi_axis_y
+        x, y = b * np.linspace(-4.5, 1.5, 97), 1.7 * a * np.linspace(-1.0, 1.0, 65)
+        own = point_deflection(x[:, np.newaxis], y, dry, 226e9)
+        scaled = dry.max_pressure * b / 226e9 * _unit_opening(axis_ratio(5e-3, 0.14), 1.7)
+        np.testing.assert_allclose(scaled, own, rtol=1e-12)

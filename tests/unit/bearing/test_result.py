@@ -191,10 +191,10 @@ BREAKS = (
 @pytest.mark.parametrize(
     ("ratio", "lubrication", "text"),
     [
-        (0.5, "conducting", "surfaces touch and conduct"),
-        (0.99, "conducting", "surfaces touch and conduct"),
-        (1.01, "partial film", "surfaces may touch, so breakdown voltages are upper bounds"),
-        (2.99, "partial film", "surfaces may touch, so breakdown voltages are upper bounds"),
+        (0.5, "conducting", "which does not mean that the bearing is safe"),
+        (0.99, "conducting", "which does not mean that the bearing is safe"),
+        (1.01, "partial film", "surfaces may touch at times, and contacts discharge at a lower voltage"),
+        (2.99, "partial film", "surfaces may touch at times, and contacts discharge at a lower voltage"),
         (3.01, "full film", None),
     ],
 )
@@ -345,6 +345,8 @@ def test_film_factor_is_told(rollers):
     conditions = dataclasses.replace(rollers.solution.conditions, film_factor=0.7)
     lean = BearingResult(dataclasses.replace(rollers.solution, conditions=conditions))
     assert not any(text.startswith("bearing.film_factor is none:") for text in map(str, lean.warnings))
+    (smooth,) = (one.text for one in lean.warnings if one.code == "smooth-film")
+    assert smooth.startswith("the film factor is 0.7: the films are smooth")
     assert lean.summary()["bearing"]["film_factor"] == 0.7
     # A one that is given is told as what it is.
     one = with_bearing(rollers, film_factor=1.0)

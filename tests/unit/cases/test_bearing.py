@@ -170,7 +170,10 @@ MISTAKES = [
     ({"lubricant__temperature__density_15": "870 g/m^3"}, "lubricant.temperature.density_15: got '870"),
     # Discharge and motor.
     ({"discharge__length": "10 mm"}, "discharge.length: is not used by a bearing"),
-    ({"discharge__external_capacitance": "1 nF"}, "discharge.external_capacitance: is not used by a bearing"),
+    (
+        {"discharge__external_capacitance": "1 nF"},
+        "discharge.external_capacitance: got 1e-09 F beside [motor]; expected one of the two",
+    ),
     (
         {"discharge__dielectric_strength": None, "discharge__temperature": "40 degC"},
         "discharge.temperature: got 313.15 K for a bearing; expected bearing.temperature in its place",

@@ -28,6 +28,10 @@ TEXTS = json.loads((EARLIER / "warnings.json").read_text(encoding="utf-8"))
 # codes gave them.
 UNSTORED = {
     "breakdown-expected",
+    "strength-above-liquids",
+    "smooth-film",
+    "shaft-leaks",
+    "current-density-high",
     "radius-large",
     "speed-high",
     "temperature-extreme",

@@ -52,7 +52,7 @@ def test_where_the_margin_falls_below_one():
         assert verdict.text == (
             "Breakdown is expected at 2 of 4 points: the margin is 0.40 to 2.42. "
             "Below about 1380 rpm the margin is below 1: breakdown is expected. "
-            "Dielectric strength 15 V/µm is an assumption."
+            "Upper bound: smooth film; dielectric strength 15 V/µm is an assumption."
         )
         assert verdict.margin == pytest.approx(min(margins))
 
@@ -108,15 +108,21 @@ def test_points_without_a_margin_leave_no_green_verdict():
     assert verdict.level == "yellow"
     assert verdict.text == (
         "Breakdown is expected at none of 2 points: the margin is 1.50 to 2.00. 3 more points have no "
-        "margin, 1 surfaces touch, 1 not solved, 1 solved, but not to be used. "
-        "Dielectric strength 15 V/µm is an assumption."
+        "margin, 1 surfaces touch (discharges likely as contacts open), 1 not solved, 1 solved, but not to "
+        "be used. Upper bound: smooth film; dielectric strength 15 V/µm is an assumption."
     )
     one = sweep_verdict(sweep({SPEED: speeds[:3]}, [1.5, None, 2.0], at_1={"lubrication": "conducting"}))
-    assert "1 more point has no margin, surfaces touch." in one.text
+    assert "1 more point has no margin, surfaces touch (discharges likely as contacts open)." in one.text
 
 
 def test_sweeps_without_margins_have_no_verdict():
     assert sweep_verdict(sweep({SPEED: (1.0, 2.0)}, [None, None])) is None
+
+
+def test_points_of_which_all_touch_do_not_read_as_safe():
+    verdict = sweep_verdict(sweep({SPEED: (1.0, 2.0)}, [None, None], at_1={"lubrication": "conducting"}))
+    assert (verdict.level, verdict.margin) == ("yellow", None)
+    assert verdict.text.startswith("Discharges likely: at 1 of 2 points surfaces touch")
 
 
 def test_no_crossing_where_two_inputs_vary_or_values_are_words():
@@ -128,7 +134,7 @@ def test_no_crossing_where_two_inputs_vary_or_values_are_words():
     both = SweepResults(bearing_case(BALLS), "grid", axes, {}, 0, rows)
     assert sweep_verdict(both).text == (
         "Breakdown is expected at 2 of 4 points: the margin is 0.50 to 2.00. "
-        "Dielectric strength 15 V/µm is an assumption."
+        "Upper bound: smooth film; dielectric strength 15 V/µm is an assumption."
     )
     words = sweep({"bearing.fill": ("oil", "air")}, [0.5, 2.0])
     assert "margin is below 1" not in sweep_verdict(words).text

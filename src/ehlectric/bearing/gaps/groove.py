@@ -310,7 +310,9 @@ def match_film(
     # film's domain, so a few rounds suffice.
     for _ in range(12):
         missing = thickness - opened - groove_gap(race, offset, x, y)
-        offset += float(weights @ missing)
+        before, offset = offset, offset + float(weights @ missing)
+        if offset == before:
+            break
     missing = thickness - opened - groove_gap(race, offset, x, y)
     return LoadedContact(dry, modulus, offset, float(np.max(np.abs(missing) / thickness)))
 

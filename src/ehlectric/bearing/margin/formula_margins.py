@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from ehlectric.bearing.breakdown import breakdown_of
+from ehlectric.bearing.by_formula import formula_case
 from ehlectric.bearing.shaft_voltage import margin, shaft_voltage
 from ehlectric.bearing.solution import BearingSolution, insulating, lambda_ratio
 from ehlectric.bearing.solving.contacts_and_circuit import solution_of
-from ehlectric.cases.bearing import BearingDischarge
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.errors import InputError
 
 # Number of positions of the cage: fewer than in a solution, because only ratios of margins are used.
 _POSITIONS = 2
+
+# Tables and keys on which neither films nor breakdown voltages of contacts depend.
+_BESIDE_FILMS = ("motor.", "discharge.conductivity", "bearing.composite_rq")
 
 # Inputs of strength laws that contacts by formula replace by a constant strength.
 _NOT_BY_FORMULA = ("discharge.weibull.shape", "discharge.weibull.reference_area")
@@ -49,6 +52,8 @@ class FormulaMargins:
         Margin and lambda ratio of the solution.
     margin_factor, lambda_factor : float
         Margin and lambda ratio of the solution divided by those by formula, dimensionless.
+    by_formula : BearingSolution
+        Solution by formula at the inputs of the case.
 
     Notes
     -----
@@ -60,6 +65,7 @@ class FormulaMargins:
     own: FormulaPoint
     margin_factor: float
     lambda_factor: float
+    by_formula: BearingSolution = field(repr=False)
 
     @classmethod
     def of(cls, solution: BearingSolution) -> FormulaMargins:
@@ -74,11 +80,12 @@ class FormulaMargins:
         solved = None if breakdown is None else margin(breakdown.first_break, shaft_voltage(solution))
         if solved is None:
             raise InputError.worded(None, "the bearing has no margin")
-        own, by_formula = FormulaPoint(solved, lambda_ratio(solution)), _point(solution.case)
-        if by_formula.margin == 0.0:
+        own, by_formula = FormulaPoint(solved, lambda_ratio(solution)), _solved(solution.case)
+        point = _point(by_formula)
+        if point.margin == 0.0:
             raise InputError.worded(None, "by film formulas the surfaces touch already in the case itself")
-        ratios = own.margin / by_formula.margin, own.lambda_ratio / by_formula.lambda_ratio
-        return cls(solution.case, own, *ratios)
+        ratios = own.margin / point.margin, own.lambda_ratio / point.lambda_ratio
+        return cls(solution.case, own, *ratios, by_formula)
 
     def at(self, changes: Mapping[str, Any]) -> FormulaPoint:
         """Margin and lambda ratio with changed inputs, scaled to the solution.
@@ -101,14 +108,24 @@ class FormulaMargins:
         for key in changes:
             if key in _NOT_BY_FORMULA:
                 raise InputError.worded(key, "has an effect that contacts by formula do not have")
-        point = _point(self.case.replace(changes))
+        case = self.case.replace(changes)
+        beside = all(key.startswith(_BESIDE_FILMS) for key in changes)
+        point = _point(replace(self.by_formula, case=case) if beside else _solved(case))
         ratio = self.lambda_factor * point.lambda_ratio
         return FormulaPoint(self.margin_factor * point.margin, ratio)
 
 
-def _point(case: BearingCase) -> FormulaPoint:
-    """Margin and lambda ratio of a case by formula."""
-    solution = solution_of(_by_formula(case), positions=_POSITIONS)
+def _solved(case: BearingCase) -> BearingSolution:
+    """Solution of a case with contacts by formula, with a constant strength where formulas need one."""
+    by_formula, refused = formula_case(case, constant=True)
+    if by_formula is None:
+        assert refused is not None
+        raise refused
+    return solution_of(by_formula, positions=_POSITIONS)
+
+
+def _point(solution: BearingSolution) -> FormulaPoint:
+    """Margin and lambda ratio of a solution by formula."""
     ratio, breakdown = lambda_ratio(solution), breakdown_of(solution)
     if not insulating(solution):
         return FormulaPoint(0.0, ratio)
@@ -116,18 +133,3 @@ def _point(case: BearingCase) -> FormulaPoint:
     if value is None:
         raise InputError.worded(None, "the bearing has no margin")
     return FormulaPoint(value, ratio)
-
-
-def _by_formula(case: BearingCase) -> BearingCase:
-    """Case with contacts by formula, and with a strength for which they have a breakdown voltage."""
-    discharge, constant = case.discharge, None
-    if discharge.weibull is not None:
-        constant = discharge.weibull.scale
-    elif discharge.strength_table is not None and discharge.strength_table.over == "pressure":
-        constant = discharge.strength_table.strength[0]
-    changes: dict[str, Any] = {"contacts": "formula"}
-    if constant is not None:
-        changes["discharge"] = BearingDischarge(
-            dielectric_strength=constant, conductivity=discharge.conductivity
-        )
-    return case.model_copy(update=changes)

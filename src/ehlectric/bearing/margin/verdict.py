@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from ehlectric.bearing.breakdown import Breakdown, breakdown_of
 from ehlectric.bearing.by_formula import formula_error, formula_factor
+from ehlectric.bearing.discharges.leakage import leakage_warnings
 from ehlectric.bearing.margin.analysis import MarginAnalysis
 from ehlectric.bearing.margin.critical_speed import SpeedRange
 from ehlectric.bearing.shaft_voltage import shaft_voltage
@@ -26,6 +27,12 @@ from ehlectric.discharge.verdict import (
     unusable,
     weibull_part,
 )
+
+# Sentence about oil that conducts.
+_LEAKS = "The oil discharges the shaft within a period of the inverter: its voltage is an upper bound."
+
+# Sentence about contacts of asperities, without its full stop.
+_OPENING = "Contacts discharge at a low voltage as they open"
 
 
 def bearing_verdict(solution: BearingSolution, analysis: MarginAnalysis) -> Verdict:
@@ -66,9 +73,9 @@ def bearing_verdict(solution: BearingSolution, analysis: MarginAnalysis) -> Verd
     if state == "conducting":
         return Verdict(
             "yellow",
-            f"Surfaces touch {_at(solution)} (lambda ratio {lambda_ratio(solution):.2g}): the bearing "
-            "conducts and has no breakdown voltage. This is no protection: current passes, and contacts that "
-            "open may spark.",
+            f"Discharges likely: surfaces touch {_at(solution)} (lambda ratio {lambda_ratio(solution):.2g}), "
+            f"and contacts are intermittent. {_OPENING}, and no voltage is computed for that. This is no "
+            "protection: current passes, and arcs are likely.",
         )
     breakdown, shaft = breakdown_of(solution), shaft_voltage(solution)
     if breakdown is None:
@@ -111,7 +118,9 @@ def _judged(
         f"{breakdown.first_break:.3g} V (margin {ratio_text(margin)}{interval}) {_at(solution)}."
     )
     speeds = list(_speeds(analysis.speeds, level))
-    return Verdict(level, " ".join([text, *speeds, *reasons, _assumptions(solution)]), margin)
+    leaks = _LEAKS if any(leakage_warnings(solution)) else ""
+    sentences = filter(None, [text, *speeds, *reasons, leaks, _assumptions(solution)])
+    return Verdict(level, " ".join(sentences), margin)
 
 
 def _possible(solution: BearingSolution, analysis: MarginAnalysis, margin: float) -> tuple[float, float]:
@@ -142,7 +151,10 @@ def film_error(solution: BearingSolution) -> float:
 def _doubts(solution: BearingSolution, analysis: MarginAnalysis, margin: float) -> Iterator[str]:
     """Sentences for which the margin may be lower than it is computed to be."""
     if lubrication(solution) == "partial film":
-        yield f"Surfaces may touch (lambda ratio {lambda_ratio(solution):.2g}): voltages are upper bounds."
+        yield (
+            f"Surfaces may touch at times (lambda ratio {lambda_ratio(solution):.2g}), and contacts are "
+            f"intermittent: voltages are upper bounds. {_OPENING}, which is not computed."
+        )
     if solution.case.ranges and analysis.low is None:
         yield "The range of the margin could not be computed from the stated ranges of inputs."
     if analysis.low == 0.0:
@@ -181,9 +193,12 @@ def _speeds(speeds: SpeedRange | None, level: Level) -> Iterator[str]:
     elif speeds.minimum is not None:
         yield f"The margin is at least {ratio_text(speeds.minimum)} {within}."
     if speeds.partial is not None and speeds.partial > max(lowest, speeds.critical or 0.0):
-        yield f"Below about {rpm_text(speeds.partial)} rpm surfaces may touch."
+        yield f"Below about {rpm_text(speeds.partial)} rpm surfaces may touch, and discharge as they part."
     if speeds.touching is not None:
-        yield f"Below about {rpm_text(speeds.touching)} rpm the surfaces touch and conduct."
+        yield (
+            f"Below about {rpm_text(speeds.touching)} rpm the surfaces touch: contacts open and close, "
+            "discharges are likely, and no voltage is computed."
+        )
 
 
 def _interval(low: float | None, high: float | None) -> str:
@@ -204,12 +219,12 @@ def _at(solution: BearingSolution) -> str:
 
 def _assumptions(solution: BearingSolution) -> str:
     """Sentence about the assumptions behind the breakdown voltage."""
-    case, bound = solution.case, ""
-    if solution.conditions.film_factor == 1.0:
-        bound = "Upper bound: isothermal, fully flooded film; "
+    case, factor = solution.case, solution.conditions.film_factor
+    films = f"smooth film with the given film factor {factor:.3g}, which alone stands for starvation and heat"
+    if factor == 1.0:
+        films = "isothermal, fully flooded, smooth film"
     elif case.bearing.film_factor == "inlet-shear":
-        bound = "Upper bound: fully flooded film with inlet shear heating; "
+        films = "fully flooded, smooth film with inlet shear heating"
     stated = {one.key: (one.low, one.high) for one in case.ranges or ()}
     clause = assumption_of(case.discharge, stated.get("discharge.dielectric_strength"))
-    text = f"{bound}{clause}."
-    return text[0].upper() + text[1:]
+    return f"Upper bound: {films}; {clause}."

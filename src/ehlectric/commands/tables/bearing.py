@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from ehlectric.bearing.keys import BEARING_KEYS
 from ehlectric.bearing.margin.sensitivity import OF_TABLE
 from ehlectric.cases.input_keys import unit_of
-from ehlectric.cases.row import Row, rows_of
+from ehlectric.cases.row import Row, amount, rows_of
 from ehlectric.cases.units import rpm_text
 from ehlectric.discharge.verdict import ratio_text
 from ehlectric.sweep.labels import Scale, scale_for
@@ -126,8 +126,66 @@ def outcome_rows(summary: Mapping[str, Any]) -> list[Row]:
         *rows_of(BEARING_KEYS, summary, capacitances),
         Row("breakdown"),
         *rows_of(BEARING_KEYS, summary, voltages),
+        *_intermittent(totals["lubrication"]),
         *_margin(summary),
+        *_leakage(summary),
+        *_costs(summary),
     ]
+
+
+def _intermittent(state: str) -> Iterator[Row]:
+    """Row that says where no voltage is computed, so that nothing reads as safe."""
+    if state == "conducting":
+        note = "computed: lambda below 1, contacts open and close and discharge at a low voltage"
+        yield Row("first breakdown voltage", "none", note=note, alarm=True)
+    elif state == "partial film":
+        note = "lambda below 3, discharges at a lower voltage as contacts open are not computed"
+        yield Row("contacts of asperities", "at times", note=note)
+
+
+def _leakage(summary: Mapping[str, Any]) -> Iterator[Row]:
+    """Rows of the decay of the shaft voltage through the oil, beside the period of the inverter."""
+    totals, frequency = summary["bearing"], summary["inputs"].get("motor", {}).get("switching_frequency")
+    if totals.get("shaft_time_constant") is None:
+        return
+    yield Row("leakage through the oil")
+    yield Row("charge relaxation time of the oil", amount(totals["relaxation_time"], "s"))
+    period = ", compared with 50 to 250 µs of typical inverters"
+    if frequency is not None:
+        period = f", compared with a period of {amount(1.0 / frequency, 's')} of the inverter"
+    yield Row("time constant of the shaft voltage", amount(totals["shaft_time_constant"], "s"), note=period)
+    lines = (
+        ("shaft voltage after an edge", "bearing.shaft_voltage_after_rise", "V"),
+        ("shaft voltage after a period", "bearing.shaft_voltage_after_period", "V"),
+    )
+    yield from rows_of(BEARING_KEYS, summary, lines)
+
+
+def _costs(summary: Mapping[str, Any]) -> Iterator[Row]:
+    """Rows of the energy of a discharge, its pit, and the current density."""
+    totals = summary["bearing"]
+    texts = (
+        ("energy at the shaft voltage", "discharge_energy", "J", ", all that is connected to the shaft"),
+        ("energy at the first breakdown", "breakdown_energy", "J", ""),
+        ("pit diameter at the shaft voltage", "pit_diameter", "m", ", hemisphere of the melted volume"),
+        ("pit diameter at the first breakdown", "breakdown_pit_diameter", "m", ""),
+    )
+    rows = [
+        Row(name, amount(totals[key], unit), note=note)
+        for name, key, unit, note in texts
+        if totals.get(key) is not None
+    ]
+    density = totals.get("current_density")
+    if density is not None:
+        low, high = (f"{1e-6 * totals['current_density_limits'][k]:g}" for k in (0, -1))
+        over = density > totals["current_density_limits"][0]
+        note = f"A/mm², published limits {low} to {high} A/mm²"
+        rows.append(Row("apparent current density", f"{1e-6 * density:.3g}", note=note, alarm=over))
+        one = f"{1e-6 * totals['element_current_density']:.3g}"
+        rows.append(Row("through one element alone", one, note="A/mm²"))
+    if rows:
+        yield Row("discharge")
+        yield from rows
 
 
 # How the contacts were obtained, in words.
@@ -211,7 +269,8 @@ def _speeds(analysis: Mapping[str, Any], *, broken: bool) -> Iterator[Row]:
         beyond = f"above {high}" if broken else f"below {low}"
         yield Row("critical speed", beyond, note=f"rpm: none from {low} to {high} rpm")
     if analysis["touching_speed"] is not None:
-        yield Row("surfaces touch below", rpm_text(analysis["touching_speed"]), note="rpm")
+        note = "rpm: contacts open and close, discharges are likely"
+        yield Row("surfaces touch below", rpm_text(analysis["touching_speed"]), note=note)
 
 
 def _between(low: float, high: float) -> str:

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array
+from ehlectric.bearing.solution import CONDUCTING
 
 # Speed of the inner ring [rad/s] with the summary of the bearing at this speed.
 Speed = tuple[float, dict[str, Any]]
@@ -28,6 +29,7 @@ _KEYS = (
     "first_break",
     "through_breakdown",
     "shaft_voltage",
+    "lambda_ratio",
 )
 
 
@@ -100,7 +102,7 @@ def curves_of(points: Speeds, own: Speed | None = None) -> Curves:
 
 def _column(ordered: Speeds, key: str) -> Array:
     """Values of a key of the table "bearing" at the speeds, NaN in place of None."""
-    values = [summary["bearing"][key] for _, summary in ordered]
+    values = [summary["bearing"].get(key) for _, summary in ordered]
     return np.array([np.nan if value is None else value for value in values], dtype=float)
 
 
@@ -139,14 +141,33 @@ def critical_speed_of(curves: Curves) -> float | None:
     """
     if curves.critical is not None:
         return curves.critical
-    margin = np.log(curves["first_break"] / curves["shaft_voltage"])
-    below = np.flatnonzero((margin[:-1] < 0.0) & (margin[1:] >= 0.0))
+    return _last_rise(curves.speed, np.log(curves["first_break"] / curves["shaft_voltage"]))
+
+
+def _last_rise(speed: Array, value: Array) -> float | None:
+    """Highest speed at which a value rises through 0, interpolated over the logarithm of the speed."""
+    below = np.flatnonzero((value[:-1] < 0.0) & (value[1:] >= 0.0))
     if not below.size:
         return None
     k = below[-1]
-    part = -margin[k] / (margin[k + 1] - margin[k])
-    low, high = np.log(curves.speed[k : k + 2])
+    part = -value[k] / (value[k + 1] - value[k])
+    low, high = np.log(speed[k : k + 2])
     return float(np.exp(low + part * (high - low)))
+
+
+def opening_speed_of(curves: Curves) -> float | None:
+    """Speed below which the lambda ratio is below 1, so that contacts open and close [rad/s], or None.
+
+    Examples
+    --------
+    A lambda ratio of 0.5 at 10 rad/s and of 2 at 40 rad/s:
+
+    >>> values = {"lambda_ratio": np.array([0.5, 2.0])}
+    >>> round(opening_speed_of(Curves(np.array([10.0, 40.0]), values, {})), 6)
+    20.0
+    """
+    ratio = np.log(curves["lambda_ratio"] / CONDUCTING)
+    return float(curves.speed[-1]) if ratio[-1] < 0.0 else _last_rise(curves.speed, ratio)
 
 
 def nearly_equal(one: Array, other: Array) -> bool:

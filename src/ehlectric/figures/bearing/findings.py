@@ -11,7 +11,14 @@ from ehlectric.bearing.impedance import impedance_of
 from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solution import lambda_ratio, lubrication
 from ehlectric.discharge.verdict import lead_of, ratio_text
-from ehlectric.figures.bearing.curves import RPM, Curves, Speed, Speeds, critical_speed_of
+from ehlectric.figures.bearing.curves import (
+    RPM,
+    Curves,
+    Speed,
+    Speeds,
+    critical_speed_of,
+    opening_speed_of,
+)
 from ehlectric.figures.bearing.impedance import magnitude_at, prefixed, read_at
 from ehlectric.figures.bearing.looks import volts
 from ehlectric.figures.bearing.pitch import capacitances, first_breakdowns, variation
@@ -38,7 +45,8 @@ def circuit(result: BearingResult) -> str:
     found, shaft = result.breaks(), result.shaft_voltage
     if found["first_break"] is None:
         value = result.capacitance(result.case.bearing.fill)
-        touch = "Surfaces touch and conduct" if lubrication(result.solution) == "conducting" else ""
+        conducting = lubrication(result.solution) == "conducting"
+        touch = "Contacts open and close: discharges likely, no voltage computed" if conducting else ""
         return touch or f"Capacitance of the bearing: {prefixed(value, 'F')}"
     first = volts(found["first_break"])
     if shaft is None:
@@ -91,11 +99,14 @@ def breakdown_over_speed(curves: Curves, own: Speed | None) -> str:
         shaft = own[1]["bearing"]["shaft_voltage"]
         at_own = f"{volts(value)}" if shaft is None else f"margin {ratio_text(value / shaft)}"
         at_own += f" at {rpm_text(own[0])}"
+    opening = opening_speed_of(curves)
+    below = "" if opening is None else f"; contacts open and close below {rpm_text(opening)}"
     if not np.any(known):
         first = np.flatnonzero(np.isfinite(curves["first_break"]))
         ends = [f"{volts(curves['first_break'][k])} at {rpm_text(curves.speed[k])}" for k in first[[0, -1]]]
-        return f"First breakdown at {at_own}" if at_own else f"First breakdown from {' to '.join(ends)}"
-    text = _where(curves, margin[known], curves.speed[known])
+        span = f"First breakdown at {at_own}" if at_own else f"First breakdown from {' to '.join(ends)}"
+        return f"{span}{below}"
+    text = f"{_where(curves, margin[known], curves.speed[known])}{below}"
     return f"{text} ({at_own})" if at_own else text
 
 
@@ -140,8 +151,7 @@ def film_line(result: BearingResult, *, voltages: bool) -> str:
     text += {"formula": ", contacts by formula", "solved": ", contacts solved"}[solution.case.contacts]
     if lubrication(solution) in _TOUCHING:
         return text + ": surfaces touch"
-    bound = voltages and (factor == 1.0 or lubrication(solution) == "partial film")
-    return text + (": voltages are upper bounds" if bound else "")
+    return text + (": voltages are upper bounds" if voltages else "")
 
 
 def curves_line(points: Speeds, curves: Curves, own: Speed | None) -> str:

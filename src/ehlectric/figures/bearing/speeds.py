@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.patheffects import withStroke
 
 from ehlectric.arrays import Array, Mask
+from ehlectric.bearing.solution import CONDUCTING, PARTIAL
 from ehlectric.cases import units
 from ehlectric.cases.quantity import unit_for
 from ehlectric.discharge.verdict import ratio_text
@@ -24,6 +25,9 @@ from ehlectric.figures.bearing.curves import (
 )
 from ehlectric.figures.bearing.looks import FIRST, SHAFT, THROUGH, label_ends, volts
 from ehlectric.figures.style import BLUE, GREY, ORANGE, axes_or_new, legend_above
+
+# Legend entry of speeds at which no voltage is computed.
+_OPENING = r"$\lambda$ < 1: contacts open and close, discharges likely"
 
 # Height of the room that a label between curves needs, as part of the axes.
 _GAP = 0.2
@@ -75,6 +79,7 @@ def capacitance_over_speed(points: Speeds, ax: Axes | None = None, *, own: Speed
         ax.set_ylim(0.0, 1.1 * float(np.nanmax(everything)))
     label_ends(ax, ends)
     _lubrication(points, ax, speed)
+    _contacts_open(curves, ax)
     return ax
 
 
@@ -123,7 +128,26 @@ def breakdown_over_speed(points: Speeds, ax: Axes | None = None, *, own: Speed |
     _own_margin(own, ax)
     label_ends(ax, ends)
     _lubrication(points, ax, speed)
+    _contacts_open(curves, ax)
     return ax
+
+
+def _contacts_open(curves: Curves, ax: Axes) -> None:
+    """Shade the speeds with a lambda ratio below 1 and, lighter, below 3: they must not read as safe."""
+    speed, ratio = curves.between("lambda_ratio")
+    looks: tuple[tuple[float, float, dict[str, Any]], ...] = (
+        (0.0, CONDUCTING, {"facecolor": (ORANGE, 0.18), "edgecolor": (ORANGE, 0.5), "hatch": "xxx"}),
+        (CONDUCTING, PARTIAL, {"facecolor": (GREY, 0.12), "edgecolor": "none"}),
+    )
+    for low, high, look in looks:
+        within = (ratio >= low) & (ratio < high)
+        # Up to the next node, so that no gap is left between both.
+        within[1:] |= within[:-1] & np.isfinite(ratio[1:])
+        if np.any(within):
+            edge = ax.get_xaxis_transform()
+            ax.fill_between(
+                speed * RPM, 0.0, 1.0, where=list(within), transform=edge, lw=0.0, zorder=0.0, **look
+            )
 
 
 def _danger(curves: Curves, ax: Axes) -> None:
@@ -241,8 +265,12 @@ def _lubrication(points: Speeds, ax: Axes, speed: Array) -> None:
     """Draw markers along the lower edge at speeds at which the lambda ratio is below 3."""
     states = [summary["bearing"]["lubrication"] for _, summary in sorted(points, key=lambda point: point[0])]
     kinds: tuple[tuple[tuple[str, ...], str, dict[str, Any]], ...] = (
-        (("conducting", "touching"), r"$\lambda$ < 1: surfaces touch", {"color": ORANGE, "marker": "X"}),
-        (("partial film",), r"$\lambda$ from 1 to 3: surfaces may touch", {"color": GREY, "marker": "^"}),
+        (
+            ("conducting", "touching"),
+            _OPENING,
+            {"color": ORANGE, "marker": "X"},
+        ),
+        (("partial film",), r"$\lambda$ from 1 to 3: contacts at times", {"color": GREY, "marker": "^"}),
     )
     handles = []
     for names, label, look in kinds:

@@ -28,9 +28,21 @@ def of_slice(results: SweepResults, selection: Slice) -> str:
         low, high = (f"{scale.of(float(of(finite))):.3g}" for of in (np.min, np.max))
         ends = low if low == high else f"{low} to {high}"
         return f"{label.name[:1].upper()}{label.name[1:]}: {ends} {scale.unit}".rstrip()
+    return _of_margins(results, selection, margin) + _intermittent(selection)
+
+
+def _intermittent(selection: Slice) -> str:
+    """Clause: the number of points at which contacts open and close, so that no voltage is computed."""
+    count = int(np.sum(selection.intermittent))
+    return f"; at {count} more, contacts open and close (λ < 1), discharges are likely" if count else ""
+
+
+def _of_margins(results: SweepResults, selection: Slice, margin: Array) -> str:
+    """Sentence: where breakdown is expected, from the margins of the points that have one."""
     below = int(np.sum(margin < 1.0))
     applied = f"{selection.breakdown.voltage_name} {voltage_text(selection)}"
-    everywhere = f"at all {margin.size} points" if margin.size > 1 else "at the point"
+    points = f"{margin.size} points" + " with a voltage" * bool(np.any(selection.intermittent))
+    everywhere = f"at all {points}" if margin.size > 1 else "at the point"
     least, most = (ratio_text(float(of(margin))) for of in (np.min, np.max))
     if not below:
         return f"No breakdown expected {everywhere}: minimum margin {least} ({applied})"

@@ -18,7 +18,7 @@ from matplotlib.tri import Triangulation
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.figures.axes import COLOURS, by_logarithm, colour_bar, is_wide, levels_of, norm_of, scale_axis
-from ehlectric.figures.style import GREY, axes_or_new, legend_above
+from ehlectric.figures.style import GREY, ORANGE, axes_or_new, legend_above
 from ehlectric.figures.sweep.line_labels import ON_BOX, ON_COLOURS, label_lines
 from ehlectric.figures.sweep.points import (
     dot_size,
@@ -34,7 +34,8 @@ from ehlectric.sweep.labels import Scale
 from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.slices import Slice, take
 
-_BREAKS = "////"
+# Hatches where the film breaks down, and where contacts open and close.
+_BREAKS, _OPENING = "////", "xxx"
 
 # Colours of values on both sides of zero.
 DIVERGING = colormaps["RdBu_r"]
@@ -175,7 +176,7 @@ def _fill(between: _Between, ax: Axes) -> list[Artist]:
     levels = levels_of(values, log=log)
     norm, colours = colours_of(levels, log=log)
     nodes, whole = between.values()
-    handles: list[Artist] = []
+    handles = _intermittent(between, whole, ax)
     if np.any(whole):
         drawn = between.triangles(whole), scale.of(nodes)
         # A value equal to the last level, such as a probability of 1, would be outside the colour scale.
@@ -192,6 +193,23 @@ def _fill(between: _Between, ax: Axes) -> list[Artist]:
         handles += _dots(selection, ax, at, alone, look, beside=bool(np.any(whole)))
     colour_bar(ax, norm, label.axis(scale), levels, colours)
     return handles
+
+
+def _intermittent(between: _Between, whole: Mask, ax: Axes) -> list[Artist]:
+    """Shade cells without a value at whose corners contacts open and close; returns the legend entry.
+
+    Without it, the map would be white there, as if nothing could happen.
+    """
+    selection = between.selection
+    opening = selection.intermittent & ~np.isfinite(selection.values)
+    some = np.any(opening[between.surface.corners], axis=1)
+    if not np.any(some & ~whole):
+        return []
+    ones = np.ones_like(between.surface.x)
+    look: dict[str, Any] = {"colors": [ORANGE], "alpha": 0.25, "hatches": [_OPENING]}
+    ax.tricontourf(between.triangles(some & ~whole), ones, levels=[0.5, 1.5], **look)
+    label = r"at or near $\lambda$ < 1: discharges likely, no voltage computed"
+    return [Patch(facecolor=(ORANGE, 0.25), edgecolor=GREY, hatch=_OPENING, lw=0.0, label=label)]
 
 
 def colours_of(levels: Array, *, log: bool) -> tuple[Normalize, Colormap]:

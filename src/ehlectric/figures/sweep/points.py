@@ -22,6 +22,7 @@ from ehlectric.sweep.slices import Slice
 _MARKS: dict[str, dict[str, Any]] = {
     "solved": {"marker": "o", "ms": 2.6, "color": "black", "mew": 0.0},
     "less accurate": {"marker": "o", "ms": 6.5, "color": ORANGE, "mfc": "none", "mew": 0.9},
+    "intermittent": {"marker": "X", "ms": 5.0, "color": ORANGE, "mec": "black", "mew": 0.4},
     "without this value": {"marker": "s", "ms": 4.0, "color": GREY, "mfc": "none", "mew": 0.8},
     "do not use": {"marker": "D", "ms": 4.2, "color": ORANGE, "mfc": "none", "mew": 1.2},
     "not converged": {"marker": "+", "ms": 7.0, "color": "black", "mew": 1.3},
@@ -69,15 +70,21 @@ LESS_ACCURATE = frozenset(
 )
 
 # Names of kinds in legends, where they differ from the kind.
-_NAMES = {"solved": "points", "do not use": "must not be used"}
+_NAMES = {
+    "solved": "points",
+    "do not use": "must not be used",
+    "intermittent": r"with $\lambda$ < 1: contacts open and close",
+}
 
 
 def kinds(selection: Slice) -> dict[str, Mask]:
     """Mask of the points of each kind of mark, shape (points,); kinds without points are left out."""
-    known = np.isfinite(selection.values)
+    known, intermittent = np.isfinite(selection.values), selection.intermittent
+    without = selection.of("solved") & ~known & ~selection.doubtful
     masks = {
         "solved": selection.of("solved") & known,
-        "without this value": selection.of("solved") & ~known & ~selection.doubtful,
+        "intermittent": without & intermittent,
+        "without this value": without & ~intermittent,
         "do not use": selection.doubtful,
         "not converged": selection.of("not converged"),
         "failed": selection.of("failed"),

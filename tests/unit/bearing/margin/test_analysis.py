@@ -123,7 +123,7 @@ def test_speeds_with_a_partial_film_are_said():
     at = {"bearing.inner_speed": speed}
     found = solve_bearing(safe.case.replace(at), workers=1).summary()["bearing"]["lambda_ratio"]
     assert found == pytest.approx(3.0, abs=0.02)
-    assert f"Below about {rpm_text(speed)} rpm surfaces may touch." in safe.verdict.text
+    assert f"Below about {rpm_text(speed)} rpm surfaces may touch, and discharge" in safe.verdict.text
 
 
 @pytest.fixture(scope="module")
@@ -213,7 +213,7 @@ def test_surfaces_that_touch_at_low_speed_are_said():
     at = {"bearing.inner_speed": speeds.touching}
     found = solve_bearing(rough.case.replace(at), workers=1).summary()["bearing"]["lambda_ratio"]
     assert found == pytest.approx(1.0, abs=5e-3)
-    assert "the surfaces touch and conduct" in rough.verdict.text
+    assert "the surfaces touch: contacts open and close, discharges are likely" in rough.verdict.text
     assert f"{0.1 * 3000:.0f} to" not in rough.verdict.text
 
 
@@ -361,3 +361,15 @@ def test_the_motor_divides_the_voltage(balls):
     for winding, margin in ((10e-12, effect.low_margin), (30e-12, effect.high_margin)):
         expected = balls.margin_analysis.margin * shaft(20e-12) / shaft(winding)
         assert margin == pytest.approx(expected, rel=2e-3, abs=0.0)
+
+
+def test_inputs_beside_the_films_solve_no_bearing_again(balls, monkeypatch):
+    """A motor divides another voltage, and roughness another film: the margins are those of new solutions."""
+    margins = FormulaMargins.of(balls.solution)
+    changes = {"motor.rotor_frame_capacitance": 5e-10}, {"bearing.composite_rq": 6e-8}
+    again = [margin_at(balls, **one) for one in changes]
+    with monkeypatch.context() as patched:
+        patched.delattr("ehlectric.bearing.margin.formula_margins.solution_of")
+        found = [margins.at(one) for one in changes]
+    assert [one.margin for one in found] == pytest.approx(again, rel=1e-3)
+    assert found[1].lambda_ratio == pytest.approx(0.5 * margins.own.lambda_ratio, rel=1e-12)

@@ -8,7 +8,9 @@ from ehlectric.bearing.margin.analysis import MarginAnalysis
 from ehlectric.bearing.margin.critical_speed import SpeedRange
 from ehlectric.bearing.margin.verdict import bearing_verdict
 from ehlectric.bearing.result import BearingResult
+from ehlectric.bearing.solution import lambda_ratio
 from ehlectric.bearing.solver import solve_bearing
+from ehlectric.bearing.summary import summary_of
 from ehlectric.errors import ResultWarning
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case
 
@@ -57,7 +59,7 @@ def test_a_bearing_that_holds_its_voltage(balls):
         f"{totals['first_break']:.3g} V (margin {totals['margin']:.2f}) at 3000 rpm, 70 °C. Below about "
     )
     assert verdict.text.endswith(
-        "Upper bound: isothermal, fully flooded film; dielectric strength 15 V/µm is an assumption."
+        "Upper bound: isothermal, fully flooded, smooth film; dielectric strength 15 V/µm is an assumption."
     )
     assert "breakdown-expected" not in found["warning_codes"]
 
@@ -152,13 +154,14 @@ def test_a_doubt_leaves_no_green_verdict(balls):
     assert "The maximum field is at an edge of the field range." in verdict.text
     partial = judged(as_solved(solved(bearing__composite_rq="0.1 um")))
     assert partial.level == "yellow"
-    assert "Surfaces may touch (lambda ratio " in partial.text
+    assert "Surfaces may touch at times (lambda ratio " in partial.text
 
 
 def test_surfaces_that_touch_do_not_read_as_safe():
     verdict = solved(bearing__inner_speed="30 rpm").verdict
     assert verdict.level == "yellow"
-    assert verdict.text.startswith("Surfaces touch at 30 rpm, 70 °C (lambda ratio 0.")
+    assert verdict.text.startswith("Discharges likely: surfaces touch at 30 rpm, 70 °C (lambda ratio 0.")
+    assert "Contacts discharge at a low voltage as they open, and no voltage is computed" in verdict.text
     assert "This is no protection" in verdict.text
     assert verdict.margin is None
 
@@ -188,9 +191,43 @@ def test_without_a_motor_the_voltage_is_said_that_it_withstands(balls):
 
 def test_a_film_factor_is_said(balls):
     grease = judged(solved(bearing__film_factor=0.7))
-    assert grease.text.endswith("Dielectric strength 15 V/µm is an assumption.")
-    assert "Upper bound" not in grease.text
+    bound = (
+        "Upper bound: smooth film with the given film factor 0.7, which alone stands for starvation and heat"
+    )
+    assert grease.text.endswith(f"{bound}; dielectric strength 15 V/µm is an assumption.")
     oil = "lubricant__temperature__thermal_conductivity"
     sheared = judged(solved(bearing__film_factor="inlet-shear", **{oil: "0.14 W/m/K"}))
-    assert "fully flooded film with inlet shear heating" in sheared.text
+    assert "Upper bound: fully flooded, smooth film with inlet shear heating" in sheared.text
     assert sheared.margin < balls.breaks()["margin"]
+
+
+def test_across_a_lambda_ratio_of_one_nothing_turns_safe():
+    """A little rougher, and the 5.80 V are gone: the verdict stays yellow, and says what happens there."""
+    above, below = (solved(bearing__composite_rq=rq) for rq in ("0.19 um", "0.2 um"))
+    ratios = [lambda_ratio(one.solution) for one in (above, below)]
+    assert ratios[0] > 1.0 > ratios[1]
+    assert above.breaks()["first_break"] == pytest.approx(5.80, abs=0.01)
+    assert below.breaks()["first_break"] is None
+    for result in (above, below):
+        assert result.verdict.level == "yellow"
+        assert "Contacts discharge at a low voltage as they open" in result.verdict.text
+    for code, result in (("partial-film", above), ("touching", below)):
+        (text,) = (one.text for one in result.warnings if one.code == code)
+        assert "discharge at a low" in text
+    assert {row["regime"] for row in below.contacts()} == {"touching", "partial film", "gap"}
+
+
+def test_a_field_beyond_any_liquid_is_a_warning():
+    """100 kV of common mode: more than 3300 V/um in the film, above its strength and above 1000 V/um."""
+    result = solved(motor__common_mode_voltage="100 kV")
+    field = summary_of(result.solution)["bearing"]["max_strength"]
+    assert field > 3.3e9
+    texts = {one.code: one.text for one in result.warnings}
+    assert (
+        f"the maximum field of {field / 1e6:.3g} V/µm exceeds the dielectric" in texts["breakdown-expected"]
+    )
+    assert f"the maximum field is {field / 1e6:.3g} V/µm, but no insulator" in texts["field-above-insulators"]
+    assert "strength-above-liquids" not in texts
+    strong = solved(discharge__dielectric_strength="3300 V/um")
+    assert "strength-above-liquids" in {one.code for one in strong.warnings}
+    assert strong.verdict.level == "yellow"

@@ -144,6 +144,7 @@ def at_speed(rpm, capacitance, first, shaft, *, lubrication="full film", fill="o
         "through_breakdown": None if first is None else 1.5 * first,
         "shaft_voltage": shaft,
         "lubrication": lubrication,
+        "lambda_ratio": {"conducting": 0.5, "partial film": 1.5, "full film": 6.0}[lubrication],
     }
     table = {"bearing": bearing, "converged": True, "inputs": {"bearing": {"fill": fill}}}
     return rpm * np.pi / 30.0, table
@@ -353,7 +354,10 @@ def test_the_command_draws_unless_told_not_to(result, monkeypatch, tmp_path):
             {"film": 0.02e-6},
             "isothermal, fully flooded film, minimum λ 0.67, contacts solved: surfaces touch",
         ),
-        ({"bearing": {"film_factor": 0.6}}, "film factor 0.6, minimum λ 6.7, contacts solved"),
+        (
+            {"bearing": {"film_factor": 0.6}},
+            "film factor 0.6, minimum λ 6.7, contacts solved: voltages are upper bounds",
+        ),
     ],
 )
 def test_titles_say_what_the_film_is_worth(changes, text):
@@ -461,7 +465,7 @@ def test_capacitance_over_speed_has_its_bounds(points):
     np.testing.assert_allclose(line(ax, "oil").get_ydata(), [600.0, 400.0, 230.0, 160.0])
     np.testing.assert_allclose(line(ax, "air").get_ydata(), [540.0, 360.0, 207.0, 144.0])
     assert line(ax, "oil").get_linewidth() > line(ax, "air").get_linewidth()
-    (band,) = ax.collections
+    band = ax.collections[0]
     up = band.get_paths()[0].vertices[:, 1]
     heights = up.min(), up.max()
     np.testing.assert_allclose(heights, [0.9 * 160.0, 600.0])
@@ -488,7 +492,7 @@ def test_the_crossing_is_marked_named_and_in_the_title(points):
     named = f"{float(f'{CROSSING:.3g}'):g} rpm"
     assert named in [text.get_text().strip() for text in ax.texts]
     assert title_of(drawn) == [
-        f"Breakdown expected below about {named}",
+        f"Breakdown expected below about {named}; contacts open and close below 774 rpm",
         "By hand",
         "curves: contacts by formula",
     ]
@@ -498,7 +502,9 @@ def test_a_critical_speed_of_the_summary_is_that_of_the_figure(points):
     own = at_speed(3000.0, 2.3e-10, 5.6, 4.0)
     own[1]["margin"] = {"critical_speed": 1234.0 / RPM}
     drawn = speed_figure(points, SPEED_FIGURE_FILES[1], own=own)
-    assert said(drawn).startswith("Breakdown expected below about 1230 rpm (margin 1.40 at 3000 rpm)")
+    assert said(drawn).startswith(
+        "Breakdown expected below about 1230 rpm; contacts open and close below 774 rpm (margin 1.40"
+    )
     (mark,) = [found for found in drawn.axes[0].get_lines() if found.get_markerfacecolor() == "white"]
     assert mark.get_xdata()[0] == pytest.approx(1234.0)
 
@@ -552,11 +558,32 @@ def test_breakdown_over_speed_shades_where_the_shaft_has_more(points):
     np.testing.assert_allclose([first[0], *first[-1:]], [np.nan, 9.0])
     dots = next(f for f in ax.get_lines() if f.get_marker() == "o" and f.get_color() == "black")
     np.testing.assert_array_equal(dots.get_ydata(), [np.nan, 2.5, 5.6, 9.0])
-    (band,) = ax.collections
+    (band,) = (found for found in ax.collections if found.get_label() == "breakdown expected")
     across = band.get_paths()[0].vertices[:, 0]
     np.testing.assert_allclose((across.min(), across.max()), [1000.0, CROSSING], rtol=2e-3)
     assert list(line(ax, r"$\lambda$ < 1").get_xdata()) == pytest.approx([500.0])
     assert list(line(ax, r"$\lambda$ from 1 to 3").get_xdata()) == pytest.approx([1000.0])
+
+
+def test_speeds_at_which_contacts_open_are_shaded_and_in_the_title(points):
+    """A lambda ratio of 0.5 at 500, 1.5 at 1000, 6 at 3000 rpm, and powers of the speed between them."""
+    opening, parted = 500.0 * 2.0 ** (np.log(2.0) / np.log(3.0)), 1000.0 * 3.0**0.5
+    for draw in (bearing_speed_plot.breakdown_over_speed, bearing_speed_plot.capacitance_over_speed):
+        touching, partial = draw(points).collections[-2:]
+        ends = [
+            (
+                float(np.min(band.get_paths()[0].vertices[:, 0])),
+                float(np.max(band.get_paths()[0].vertices[:, 0])),
+            )
+            for band in (touching, partial)
+        ]
+        assert ends[0] == (pytest.approx(500.0), pytest.approx(opening, rel=0.03))
+        assert ends[1] == (pytest.approx(opening, rel=0.03), pytest.approx(parted, rel=0.03))
+        assert ends[0][1] >= ends[1][0]
+        assert touching.get_hatch()
+    assert f"contacts open and close below {float(f'{opening:.3g}'):g} rpm" in said(
+        speed_figure(points, SPEED_FIGURE_FILES[1])
+    )
 
 
 def test_curves_are_scaled_to_a_bearing_of_solved_contacts(points):

@@ -1,0 +1,1 @@
+"""Discharges of a bearing beside its breakdown voltages: energy, pit, current density, and leakage."""
