@@ -197,6 +197,7 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "stationary-differs": Cause("The moving roughness differs from the stationary one."),
         "stationary-not-converged": Cause("The film with stationary roughness did not converge."),
         "stationary-error": Cause("The stationary film has a discretisation error above 1 %."),
+        "steps-too-long": Cause("The time steps of a motion do not resolve the waves that pass the oil."),
         "steps-halved": Cause("Some time steps had to be halved.", "note"),
         # Bearings
         "formula-contacts": Cause("The contacts of the bearing are computed by formulas."),

@@ -31,6 +31,7 @@ UNSTORED = {
     "field-unresolved",
     "radius-large",
     "speed-high",
+    "steps-too-long",
     "temperature-extreme",
     "viscosity-high",
     "viscosity-of-base",
