@@ -116,7 +116,7 @@ _FIELD: Keys = {
     "max_strength_error": ResultKey(
         "estimated relative error of max_strength by the grid of the field; null if unknown",
         "",
-        "discretisation error of the maximum field",
+        "error of the maximum field",
     ),
     "degree": ResultKey(
         "polynomial degree of the potential across the film; above `grid.field_degree` where short waves "

@@ -69,7 +69,7 @@ _FIELD: Keys = {
         "maximum over the recorded instants of the estimated relative error of the maximum field by the grid "
         "of the field; null if unknown",
         "",
-        "discretisation error of the maximum field",
+        "error of the maximum field",
     ),
     "max_strength_position": ResultKey("position of max_strength", "m"),
     "max_thin_gap_strength": ResultKey("voltage / minimum film thickness of all steps", "V/m"),

@@ -42,7 +42,7 @@ def _breakdown(breakdown: Breakdown, applied: float) -> Iterator[Row]:
     yield Row("breakdown voltage", voltage, "V", f", at {condition}")
     error = breakdown.breakdown_field_error
     if error is not None and error > _SMALL:
-        yield Row("error of the breakdown voltage by the field", error, "%", digits=".1g")
+        yield Row("breakdown voltage, error by the field", error, "%", digits=".1g")
     low, high = breakdown.breakdown_voltage_low, breakdown.breakdown_voltage_high
     if low is not None and high is not None:
         yield Row("breakdown voltage, 5 to 95 %", f"{low:.4g} to {high:.4g}", "V")
