@@ -180,9 +180,7 @@ def inaccurate_field(
     if degree is not None and sufficient is not None and sufficient > degree:
         advice = f"raise grid.field_degree to {min(sufficient, MOST_DEGREE)}, or {advice}"
         if degree >= MOST_DEGREE:
-            advice = (
-                "the waves are far shorter than the film is thick; a coarser cutoff_short leaves them out"
-            )
+            advice = "the waves are far shorter than the film is thick"
     return ResultWarning(
         "field-unresolved",
         f"the error of the maximum field is estimated at {100 * error:.2g} %, because the grid of the field "

@@ -11,7 +11,7 @@ from ehlectric.contact.results import PointResult, Result
 from ehlectric.errors import ResultWarning
 from ehlectric.field.poisson import ATOM
 from ehlectric.motion.contact import TransientContact
-from ehlectric.surfaces.warnings import shortest_wave
+from ehlectric.surfaces.warnings import LEAST_IN_SHAPE, shortest_wave
 
 # Part of its height by which moving roughness may differ from the stationary one without a warning.
 _ALIKE = 1e-3
@@ -64,11 +64,10 @@ def motion_warnings(contact: TransientContact, still: Result | PointResult) -> I
 
 
 def step_warnings(contact: TransientContact) -> Iterator[ResultWarning]:
-    """Warning about time steps of the case that do not resolve the roughness that oil passes.
+    """Warning about time steps that do not resolve the roughness that oil passes.
 
     Roughness that moves with the oil is carried along exactly. What the steps must resolve is the passage of
-    waves relative to the oil, at the difference between the speeds of their surface and of entrainment. The
-    steps that follow from the grid resolve each wave that the grid resolves.
+    waves relative to the oil, at the difference between the speeds of their surface and of entrainment.
 
     Parameters
     ----------
@@ -80,31 +79,30 @@ def step_warnings(contact: TransientContact) -> Iterator[ResultWarning]:
     ResultWarning
         The warning, with the number of steps that is sufficient.
     """
-    schedule, motion = contact.schedule, contact.case.motion
-    if motion is None or motion.steps is None:
-        return
-    passages = [
-        (_steps_of_passage(contact, number), table.surface)
-        for number, table in enumerate(contact.case.roughness)
-    ]
-    fewest, surface = min(passages)
+    steps, motion, case = contact.schedule.steps, contact.case.motion, contact.case
+    assert motion is not None
+    spacing = contact.kind.contact.spacings(case, contact.conditions)[0]
+    passages = []
+    for number, table in enumerate(case.roughness):
+        wave = shortest_wave(table, contact.roughness.surfaces[number])
+        # A wave that the grid does not resolve has a warning of its own, and needs nodes rather than steps.
+        if motion.steps is not None or wave >= LEAST_IN_SHAPE * spacing:
+            passages.append((wave / _passed(contact, table.surface), table.surface))
+    fewest, surface = min(passages, default=(math.inf, 0))
     if fewest < LEAST_STEPS:
-        enough = math.ceil(schedule.steps * SUFFICIENT_STEPS / fewest)
+        enough = math.ceil(steps * SUFFICIENT_STEPS / fewest)
         yield ResultWarning(
             "steps-too-long",
-            f"the {schedule.steps} time steps are too long: the shortest waves of surface {surface} move "
-            f"past the oil in {fewest:.2g} steps, and the ripples of the film are probably wrong by 3 % or "
-            f"more; use at least {enough} motion.steps, or leave motion.steps out",
+            f"the {steps} time steps are too long: the shortest waves of surface {surface} move past the oil "
+            f"in {fewest:.2g} steps, and the ripples of the film are probably wrong by 3 % or more; use at "
+            f"least {enough} motion.steps",
         )
 
 
-def _steps_of_passage(contact: TransientContact, number: int) -> float:
-    """Number of time steps in which the shortest wave of a rough surface moves past the oil."""
-    schedule, table = contact.schedule, contact.case.roughness[number]
-    beside_oil = abs(schedule.speed_of(table.surface) - 1.0) * schedule.step * contact.half_width
-    if beside_oil == 0.0:
-        return math.inf
-    return shortest_wave(table, contact.roughness.surfaces[number]) / beside_oil
+def _passed(contact: TransientContact, surface: int) -> float:
+    """Distance by which a surface moves past the oil in a time step [m]; tiny for one that moves with it."""
+    schedule = contact.schedule
+    return max(abs(schedule.speed_of(surface) - 1.0), 1e-12) * schedule.step * contact.half_width
 
 
 def _unlike(contact: TransientContact, still: Result | PointResult) -> Iterator[ResultWarning]:
