@@ -24,7 +24,7 @@ _CLEAR = 2.0
 _LONGER = ("form", "cutoff_long", "cutoff_short", "rescale_rq", "truncate")
 
 # Number of time steps in which a wave moves past the oil. Below the first number the amplitude of the ripples
-# in the film is wrong by 2 to 7 %, and there is a warning; from the second on by less than 1 %.
+# in the film is wrong by 2 % and more, and there is a warning; from the second on by less than 1 %.
 LEAST_STEPS, SUFFICIENT_STEPS = 8.0, 20.0
 
 
@@ -94,8 +94,8 @@ def step_warnings(contact: TransientContact) -> Iterator[ResultWarning]:
         yield ResultWarning(
             "steps-too-long",
             f"the {steps} time steps are too long: the shortest waves of surface {surface} move past the oil "
-            f"in {fewest:.2g} steps, and the ripples of the film are probably wrong by 2 to 7 %; use at "
-            f"least {enough} motion.steps",
+            f"in {fewest:.2g} steps, and the ripples of the film are probably wrong by 2 % or more; use "
+            f"at least {enough} motion.steps",
         )
 
 
