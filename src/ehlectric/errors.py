@@ -272,6 +272,7 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "domain-far-too-small": Cause("The domain of a point contact is far too small.", "severe"),
         # Electric field and discharge
         "field-grid-too-coarse": Cause("The grid of the field is coarser than that of the film."),
+        "field-unresolved": Cause("The estimated error of the maximum field is above 2 %."),
         "field-range-too-narrow": Cause("The maximum field is at an edge of the field range."),
         "field-above-insulators": Cause("The maximum field is higher than any insulator withstands."),
         "breakdown-expected": Cause("The margin is below 1: breakdown is expected."),
@@ -282,6 +283,7 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "stationary-differs": Cause("The moving roughness differs from the stationary one."),
         "stationary-not-converged": Cause("The film with stationary roughness did not converge."),
         "stationary-error": Cause("The stationary film has a discretisation error above 1 %."),
+        "steps-too-long": Cause("The time steps of a motion do not resolve the waves that pass the oil."),
         "steps-halved": Cause("Some time steps had to be halved.", "note"),
         # Bearings
         "formula-contacts": Cause("The contacts of the bearing are computed by formulas."),

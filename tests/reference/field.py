@@ -26,6 +26,25 @@ def sinusoidal_wall(amplitude, wavenumber, gap):
     return crest, flat, capacitance
 
 
+def sinusoidal_crest(amplitude, wavenumber, gap, *, waves=24):
+    """Field relative to V/h at the crest of one wall y = A cos(q x), the other y = h; any slope up to 0.4.
+
+    The potential is a sum of solutions of Laplace's equation that vanish on the flat wall and decay from the
+    wavy wall; collocation on that wall gives their factors.
+    """
+    q, order = wavenumber, np.arange(1, waves + 1)
+    x = np.arange(4 * waves) * 2 * np.pi / q / (4 * waves)
+    y = (amplitude * np.cos(q * x))[:, np.newaxis]
+    flat = 1 - np.exp(-2 * order * q * gap)
+    parts = np.exp(-order * q * y) * (1 - np.exp(-2 * order * q * (gap - y))) / flat
+    columns = np.hstack([1 - y / gap, parts * np.cos(order * q * x[:, np.newaxis])])
+    factors, *_ = np.linalg.lstsq(columns, -np.ones(x.size), rcond=None)
+    assert np.max(np.abs(columns @ factors + 1)) < 1e-8
+    at = amplitude
+    slopes = -order * q * np.exp(-order * q * at) * (1 + np.exp(-2 * order * q * (gap - at))) / flat
+    return gap * abs(-factors[0] / gap + slopes @ factors[1:])
+
+
 def cylinder_potential(x, y, radius, gap):
     """Potential between a grounded plane y = 0 and a cylinder at 1 V, in bipolar coordinates."""
     focus = np.sqrt(gap**2 + 2 * gap * radius)

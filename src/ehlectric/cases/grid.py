@@ -35,6 +35,9 @@ class Electric(Table):
         return abs(self.potential_2 - self.potential_1)
 
 
+# Largest polynomial degree across the film: it resolves waves down to a fortieth of the film thickness.
+MOST_DEGREE = 40
+
 # Smallest number of film nodes in the field range that resolve the field.
 _LEAST_COLUMNS = 16
 _FieldEnd = Annotated[float, Quantity("", least=-100.0, most=100.0, reason="in half-widths")]
@@ -85,7 +88,7 @@ class Grid(Table):
     field_nodes_y: (
         Annotated[int, Count(17, _MOST_AXIS, "fewer do not resolve the sides, more fill the memory")] | None
     ) = None
-    field_degree: Annotated[int, Count(2, 20, "the potential is nearly linear across the film")] = 6
+    field_degree: Annotated[int, Count(2, MOST_DEGREE, "the potential is nearly linear across the film")] = 6
     refine: (
         Annotated[
             float,

@@ -108,7 +108,14 @@ FILM_NUMBERS = (
     "discretisation_error",
     "inlet_deficit",
 )
-FIELD_NUMBERS = ("voltage", "capacitance", "capacitance_by_charge", "thin_gap_capacitance")
+FIELD_NUMBERS = (
+    "voltage",
+    "capacitance",
+    "capacitance_by_charge",
+    "thin_gap_capacitance",
+    "strength_error",
+    "sufficient_degree",
+)
 LINE_LAYOUT = Layout(
     title="Film and electric field of a line contact",
     film={**X, **on_nodes("x")},

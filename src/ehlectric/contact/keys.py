@@ -113,6 +113,15 @@ _FIELD: Keys = {
         'place of max_strength across the film: "surface 1", "mid-film" or "surface 2"'
     ),
     "solver": ResultKey('solver of the field: "ehlectric" or "paper"'),
+    "max_strength_error": ResultKey(
+        "estimated relative error of max_strength by the grid of the field; null if unknown",
+        "",
+        "error of the maximum field",
+    ),
+    "degree": ResultKey(
+        "polynomial degree of the potential across the film; above `grid.field_degree` where short waves "
+        "need it"
+    ),
     "columns": ResultKey("columns of the field's grid"),
 }
 _LINE_FIELD: Keys = {

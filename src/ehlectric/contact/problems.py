@@ -10,8 +10,10 @@ from scipy.interpolate import PchipInterpolator
 
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
+from ehlectric.cases.grid import MOST_DEGREE
 from ehlectric.cases.lubricant import Lubricant, density_law, permittivity_law, viscosity_law
 from ehlectric.contact.conditions import Conditions, PointConditions
+from ehlectric.contact.memory import FIELD_BYTES, POINT_FIELD_BYTES
 from ehlectric.contact.setup import Setup
 from ehlectric.field.poisson import ATOM, FieldProblem
 from ehlectric.field.poisson_3d import PointFieldProblem
@@ -37,6 +39,9 @@ WIDEST = 100.0
 
 # Largest number of parts into which an interval between film nodes is divided for the field.
 _MOST_PARTS = 32
+
+# Memory up to which the degree of a field may be raised beyond ``grid.field_degree`` [bytes].
+_FIELD_MEMORY = 1e9
 
 # Largest distance, in node spacings, at which a film node counts as an end of the field range.
 _SAME_NODE = 1e-6
@@ -144,6 +149,7 @@ def point_field_problem(
         potential_1=setup.electric.potential_1,
         potential_2=setup.electric.potential_2,
         degree=grid.field_degree,
+        most_degree=max(grid.field_degree, _most_degree(POINT_FIELD_BYTES * x.size * y.size, 1)),
     )
 
 
@@ -286,7 +292,16 @@ def field_problem(setup: Case | Setup, conditions: Conditions, film: Film, rough
         potential_1=setup.electric.potential_1,
         potential_2=setup.electric.potential_2,
         degree=setup.grid.field_degree,
+        most_degree=max(setup.grid.field_degree, _most_degree(FIELD_BYTES * x.size, 2)),
     )
+
+
+def _most_degree(memory: float, power: int) -> int:
+    """Largest degree to which the degree of a field may be raised.
+
+    The field needs ``memory`` [bytes] times (degree + 1) to a power, and may take ``_FIELD_MEMORY``.
+    """
+    return min(MOST_DEGREE, int((_FIELD_MEMORY / memory) ** (1.0 / power)) - 1)
 
 
 def _columns(setup: Case | Setup, conditions: Conditions, film: Film, *, refine: bool) -> Array:

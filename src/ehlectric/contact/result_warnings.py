@@ -8,6 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from ehlectric.cases.case import Case
+from ehlectric.cases.grid import MOST_DEGREE, Grid
 from ehlectric.contact.setup import Setup
 from ehlectric.errors import ResultWarning
 from ehlectric.field.line import Field
@@ -15,6 +16,9 @@ from ehlectric.field.point import PointField
 from ehlectric.field.poisson import ATOM
 from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
+
+# Estimated relative error of the maximum field above which there is a warning.
+FIELD_ERROR = 0.02
 
 # Maximum number of positions that the warning about touching surfaces lists.
 _NAMED = 8
@@ -147,3 +151,36 @@ def point_result_warnings(setup: Case | Setup, film: PointFilm, field: PointFiel
             "field-range-too-narrow",
             "the maximum field is at an edge of grid.field_range or grid.field_side; widen this range",
         )
+
+
+def accuracy_warnings(grid: Grid, field: Field | PointField) -> Iterator[ResultWarning]:
+    """Warning about a maximum field whose estimated error is large."""
+    if field.strength_error is not None and field.strength_error > FIELD_ERROR:
+        yield inaccurate_field(grid, field.strength_error, field.s.size - 1, field.sufficient_degree)
+
+
+def inaccurate_field(
+    grid: Grid, error: float, degree: int | None = None, sufficient: int | None = None
+) -> ResultWarning:
+    """Warning about an error of the maximum field.
+
+    Parameters
+    ----------
+    grid : Grid
+        Grid of the film and of the field.
+    error : float
+        Estimated relative error of the maximum field.
+    degree, sufficient : int, optional
+        Polynomial degree of the field across the film, and the one that would be sufficient.
+    """
+    advice = "use more grid.nodes" if grid.field_nodes is None else "use more grid.nodes and grid.field_nodes"
+    if degree is not None and sufficient is not None and sufficient > degree:
+        advice = f"raise grid.field_degree to {min(sufficient, MOST_DEGREE)}, or {advice}"
+        if degree >= MOST_DEGREE:
+            advice = "the waves are far shorter than the film is thick"
+    return ResultWarning(
+        "field-unresolved",
+        f"the error of the maximum field is estimated at {100 * error:.2g} %, because the grid of the field "
+        "does not resolve the waves of the surfaces; a breakdown voltage is off by as much, and probably "
+        f"too high; {advice}",
+    )

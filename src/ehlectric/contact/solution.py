@@ -144,6 +144,7 @@ class Solution(Shown, Generic[ConditionsT, FilmT, FieldT]):
             self.field.voltage,
             warnings=self.warnings,
             error=self.film.discretisation_error,
+            field_error=self.field.strength_error,
             flooded=self.conditions.film_factor == 1.0,
         )
 

@@ -22,7 +22,7 @@ from ehlectric.contact.kinds import KINDS
 from ehlectric.contact.memory import check_grid
 from ehlectric.contact.problems import heights_of
 from ehlectric.contact.refinement import refined
-from ehlectric.contact.result_warnings import film_warnings
+from ehlectric.contact.result_warnings import accuracy_warnings, film_warnings
 from ehlectric.contact.results import RESULTS, PointResult, Result
 from ehlectric.contact.setup import Setup
 from ehlectric.contact.solution import Smooth
@@ -271,6 +271,7 @@ def _solved(
             *discharge_warnings(case.discharge, film),
             *margin_warnings(case.discharge, conditions.semi_axes, film, field),
             *field_warnings(field.max_strength, "the potentials"),
+            *(accuracy_warnings(films.setup.grid, field) if film.converged else ()),
         ),
         film_solver=solvers.name,
         field_solver=field_solvers.name,

@@ -87,6 +87,8 @@ def _field(solution: Solution[Any, Any, Any]) -> dict[str, Any]:
         "thin_gap_error": solution.thin_gap_error,
         "max_strength_wall": field.max_strength_wall,
         "solver": solution.field_solver,
+        "max_strength_error": field.strength_error,
+        "degree": field.s.size - 1,
     }
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from operator import attrgetter
 from typing import Any
 
@@ -61,6 +61,7 @@ class Assessment:
     breakdown_voltage_high = property(attrgetter("breakdown.breakdown_voltage_high"))
     margin = property(attrgetter("breakdown.margin"))
     probability = property(attrgetter("breakdown.probability"))
+    breakdown_field_error = property(attrgetter("breakdown.breakdown_field_error"))
     zone_position = property(attrgetter("zone.zone_position"))
     zone_size = property(attrgetter("zone.zone_size"))
     zone_area = property(attrgetter("zone.zone_area"))
@@ -137,6 +138,8 @@ def assess(
     size = Size.of(semi_axes, discharge)
     utilisation = FieldUtilisation.of(discharge, film, field)
     voltages = breakdown(discharge, utilisation, field.voltage, size)
+    if voltages.breakdown_voltage is not None:
+        voltages = replace(voltages, breakdown_field_error=field.strength_error)
     by_zone = capacitances(discharge, lubricant, semi_axes, film, field)
     return Assessment(
         breakdown=voltages,

@@ -37,6 +37,9 @@ class Breakdown:
         Breakdown voltage over the voltage of the case, dimensionless.
     probability : float or None
         Probability of breakdown at the voltage of the case; 0 or 1 unless the law is a Weibull law.
+    breakdown_field_error : float or None
+        Estimated relative error of the breakdown voltage that is due to the field, the error of the largest
+        field strength. The error of the film comes on top. None if it is not known.
     """
 
     strength_law: str | None = None
@@ -46,6 +49,7 @@ class Breakdown:
     breakdown_voltage_high: float | None = None
     margin: float | None = None
     probability: float | None = None
+    breakdown_field_error: float | None = None
 
 
 def breakdown(discharge: Discharge, utilisation: FieldUtilisation, voltage: float, size: Size) -> Breakdown:

@@ -47,6 +47,10 @@ _BREAKDOWN: Keys = {
         "",
         "probability of breakdown",
     ),
+    "breakdown_field_error": ResultKey(
+        "relative error of breakdown_voltage that is due to the field, `field.max_strength_error`; the error "
+        "of the film comes on top; null if unknown"
+    ),
 }
 _ZONE: Keys = {
     "zone_position": ResultKey(

@@ -168,6 +168,7 @@ def contact_verdict(
     warnings: Iterable[ResultWarning],
     error: float | None,
     flooded: bool,
+    field_error: float | None = None,
 ) -> Verdict:
     """Verdict on a solved contact.
 
@@ -185,6 +186,9 @@ def contact_verdict(
         Estimated discretisation error of the film, relative; None where it is not known.
     flooded : bool
         Whether the film is that of isothermal, fully flooded oil.
+    field_error : float or None
+        Estimated error of the largest field strength by the grid of the field, relative; None where it is
+        not known.
 
     Returns
     -------
@@ -204,7 +208,8 @@ def contact_verdict(
             "No verdict: no dielectric strength given, no breakdown voltage. "
             f"The applied voltage is {voltage:.3g} V.",
         )
-    off = error or 0.0
+    of_film, of_field = error or 0.0, field_error or 0.0
+    off = of_film + of_field
     low, doubts = margin * (1.0 - off), doubts_of(warnings)
     span, spread = "", ""
     lowest, highest = breakdown.breakdown_voltage_low, breakdown.breakdown_voltage_high
@@ -218,7 +223,8 @@ def contact_verdict(
     if doubts and level == "green":
         level = "yellow"
     if level == "yellow" and off > 0.0 and abs(margin - 1.0) <= off:
-        doubts.insert(0, f"The film may be {100.0 * off:.2g} % off on this grid.")
+        part, name = (of_film, "film") if of_film >= of_field else (of_field, "maximum field")
+        doubts.insert(0, f"The {name} may be {100.0 * part:.2g} % off on this grid.")
     bound = "Upper bound: isothermal, fully flooded film; " if flooded else ""
     last = f"{bound}{assumption_of(discharge)}."
     text = (

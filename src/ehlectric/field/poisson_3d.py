@@ -55,6 +55,9 @@ class PointFieldProblem:
         Potentials of the walls [V]; they must differ.
     degree : int
         Polynomial degree across the gap, at least 2.
+    most_degree : int, optional
+        Degree up to which ``solve_point_field`` may raise the degree, where the largest field would else be
+        more than 0.5 % off; ``degree`` by default.
     charge_density : ndarray, shape (nx, ny, degree + 1), optional
         Density of free charge [C/m^3] at the nodes s = ``lobatto_nodes(degree)``; no charge by default.
     side_potentials : tuple of four ndarray or None, optional
@@ -70,8 +73,20 @@ class PointFieldProblem:
     potential_1: float
     potential_2: float
     degree: int = 6
+    most_degree: int | None = None
     charge_density: Array | None = None
     side_potentials: SidePotentials | None = None
+
+    @property
+    def positions(self) -> dict[str, Array]:
+        """Positions of the columns [m], by the name of their axis."""
+        return {"x": self.x, "y": self.y}
+
+    @property
+    def plain(self) -> bool:
+        """Whether the permittivity is constant across the gap, and nothing but the walls is prescribed."""
+        prescribed = self.charge_density is not None or self.side_potentials is not None
+        return self.permittivity.ndim == self.lower.ndim and not prescribed
 
     @property
     def given_sides(self) -> SidePotentials:

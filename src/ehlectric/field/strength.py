@@ -17,10 +17,16 @@ class GapField(Values):
         abs(E) at the nodes [V/m]; the last axis runs across the gap.
     middle_strength : ndarray, shape (nx,) or (nx, ny)
         abs(E) at mid-film [V/m].
+    strength_error : float or None
+        Estimated relative error of the largest field strength; None if it is not known.
+    sufficient_degree : int or None
+        Polynomial degree across the gap at which its part of that error is below 0.5 %.
     """
 
     strength: Array
     middle_strength: Array
+    strength_error: float | None
+    sufficient_degree: int | None
 
     @property
     def column_strength(self) -> Array:

@@ -9,6 +9,7 @@ single precision. The films from which a run is resumed are stored in double pre
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -47,6 +48,7 @@ _FRAMES = {
     "max_strength_x": ("position of the maximum field strength, along entrainment", "m"),
     "max_strength_y": ("position of the maximum field strength, across entrainment", "m"),
     "capacitance": ("capacitance within the field range", "F/m or F"),
+    "max_strength_error": ("estimated relative error of the maximum field strength, NaN if unknown", "1"),
 }
 _MAPS = {
     "pressure": ("pressure", "Pa"),
@@ -246,6 +248,7 @@ def _numbers(record: Record) -> dict[str, float]:
         "frame_step": record.step,
         "max_strength": field.max_strength,
         "capacitance": field.capacitance,
+        "max_strength_error": math.nan if field.strength_error is None else field.strength_error,
     } | _place("max_strength", field.max_strength_position)
 
 

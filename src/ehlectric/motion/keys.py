@@ -65,6 +65,12 @@ _FIELD: Keys = {
         r"$|E|_\mathrm{max}$",
     ),
     "max_strength_time": ResultKey("time of max_strength", "s"),
+    "max_strength_error": ResultKey(
+        "maximum over the recorded instants of the estimated relative error of the maximum field by the grid "
+        "of the field; null if unknown",
+        "",
+        "error of the maximum field",
+    ),
     "max_strength_position": ResultKey("position of max_strength", "m"),
     "max_thin_gap_strength": ResultKey("voltage / minimum film thickness of all steps", "V/m"),
     "share_above_90": ResultKey(
@@ -84,6 +90,10 @@ _DISCHARGE: Keys = {
         "minimum breakdown voltage of the recorded instants", "V", "breakdown voltage", r"$V_\mathrm{b}$"
     ),
     "breakdown_time": ResultKey("time of breakdown_voltage", "s"),
+    "breakdown_field_error": ResultKey(
+        "relative error of breakdown_voltage that is due to the field, `field.max_strength_error`; the error "
+        "of the film comes on top; null if unknown"
+    ),
     "breakdown_voltage_before": ResultKey("breakdown voltage before the motion", "V"),
     "breakdown_voltage_median": ResultKey("median of the breakdown voltage over time", "V"),
     "margin": ResultKey(

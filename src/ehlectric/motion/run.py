@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import json
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
-
-import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
@@ -16,13 +14,13 @@ from ehlectric.contact.check import PreparedContact, check_case
 from ehlectric.contact.files import FILES, SUMMARY
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.contact.solver import solve
-from ehlectric.errors import ConvergenceError, ResultWarning
-from ehlectric.field.poisson import ATOM
+from ehlectric.errors import ConvergenceError
 from ehlectric.motion.contact import TransientContact
 from ehlectric.motion.file import MotionFile, Record, Row, described
 from ehlectric.motion.solver import TransientSolver
 from ehlectric.motion.stored_run import MOTION, read_motion
 from ehlectric.motion.summary import summary_of
+from ehlectric.motion.warnings import motion_warnings
 from ehlectric.runtime.checks.seal import seal
 from ehlectric.runtime.files import clear, now, plain, write_json
 from ehlectric.runtime.folders import FIGURE_LOCK, RESULT_LOCK, alone_in
@@ -33,10 +31,6 @@ from ehlectric.version import __version__
 
 if TYPE_CHECKING:
     import xarray as xr
-
-
-# Part of its height by which moving roughness may differ from the stationary one without a warning.
-_ALIKE = 1e-3
 
 
 def run(
@@ -171,7 +165,7 @@ def _begin(file: MotionFile, solver: TransientSolver, prepared: PreparedContact)
         "rough": described(contact),
         "seconds": 0.0,
     }
-    attributes |= as_attributes(_warnings(contact, still))
+    attributes |= as_attributes(motion_warnings(contact, still))
     rows, seconds = [Row.of(solver, history)], time.perf_counter() - started
     record = Record(0, rows, first, history, seconds)
     file.create(record, attributes | contact.schedule.moments(), _maps(contact, still))
@@ -198,44 +192,3 @@ def _numbers(still: Result | PointResult) -> dict[str, Any] | None:
         "capacitance": still.field.capacitance,
         "discretisation_error": still.film.discretisation_error,
     }
-
-
-def _warnings(contact: TransientContact, still: Result | PointResult) -> Iterator[ResultWarning]:
-    """Warnings about the case, its surfaces and the film with stationary roughness."""
-    kind, conditions, travelled = contact.kind.contact, contact.conditions, contact.travelled
-    domain, spacings = kind.domain(travelled, conditions), kind.spacings(contact.case, conditions)
-    yield from kind.case_warnings(contact.case, conditions)
-    yield from kind.surface_warnings(travelled.roughness, contact.roughness.surfaces, domain, *spacings)
-    yield from _unlike(contact, still)
-    if not still.converged:
-        text = (
-            f"the film with stationary roughness did not converge ({still.film.status}), so there is no "
-            "comparison with the moving roughness; try more grid.nodes"
-        )
-        yield ResultWarning("stationary-not-converged", text)
-    elif (error := still.film.discretisation_error) is not None and error > 0.01:
-        text = (
-            f"the discretisation error of the film with stationary roughness is estimated at "
-            f"{100.0 * error:.2g} %, and with moving roughness it is probably similar; use more grid.nodes"
-        )
-        yield ResultWarning("stationary-error", text)
-
-
-def _unlike(contact: TransientContact, still: Result | PointResult) -> Iterator[ResultWarning]:
-    """Warning that the moving roughness differs from the stationary one.
-
-    Moving roughness is made or read over a longer distance, from which form and Rq are then determined.
-    """
-    coincident = contact.schedule.coincident
-    if not np.isfinite(coincident):
-        return
-    axes = [position / contact.half_width for position in still.film.axes]
-    inside = np.abs(axes[0]) <= 1.0
-    away = (contact.roughness.heights(coincident, *axes) - still.roughness)[:, inside]
-    part = np.max(np.abs(away)) / max(np.max(np.abs(still.roughness[:, inside])), ATOM)
-    if part > _ALIKE:
-        yield ResultWarning(
-            "stationary-differs",
-            f"the moving roughness differs from the stationary one by up to {100.0 * part:.2g} % of its "
-            "height: form and rescale_rq are applied to the longer profile that moves through the contact",
-        )

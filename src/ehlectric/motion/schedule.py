@@ -193,9 +193,11 @@ def _time_grid(case: Case, conditions: Conditions | PointConditions) -> Schedule
         )
     if motion.steps is None:
         # In each step the oil travels from one node to the next. A surface that is several times faster
-        # should also travel about one grid spacing a step, so each step is divided by a whole number.
+        # should also travel about one grid spacing a step, by itself and relative to the oil, so each step is
+        # divided by a whole number.
         end = steps * spacing
-        fastest = max(abs(ratios[surface - 1]) for surface in rough)
+        speeds = [ratios[surface - 1] for surface in rough]
+        fastest = max(max(abs(speed), abs(speed - 1.0)) for speed in speeds)
         steps *= max(1, math.ceil(fastest - 0.5))
     courant = end / steps / spacing
     if courant > MOST_COURANT * (1.0 + 1e-9):

@@ -10,6 +10,7 @@ import numpy as np
 from scipy.ndimage import maximum_filter
 
 from ehlectric.arrays import Array, Mask
+from ehlectric.contact.result_warnings import FIELD_ERROR, inaccurate_field
 from ehlectric.discharge.utilisation import dielectric_strength
 from ehlectric.errors import ResultWarning
 from ehlectric.motion.stored_run import MotionRun
@@ -61,7 +62,7 @@ def summary_of(dataset: xr.Dataset) -> dict[str, Any]:
         "version": str(attributes["version"]),
         "title": run.case.title,
         "converged": complete,
-        **texts_and_codes([*of_attributes(attributes), *_halved(run)]),
+        **texts_and_codes([*of_attributes(attributes), *_halved(run), *_inaccurate(run)]),
         "inputs": run.case.to_dict(),
         "motion": _course(run),
         "film": _film(run),
@@ -84,6 +85,25 @@ def _halved(run: MotionRun) -> Iterator[ResultWarning]:
             f"{np.count_nonzero(halvings)} time steps did not converge and were halved, "
             f"{int(halvings.sum())} times in all; more motion.steps or more grid.nodes may help",
         )
+
+
+def _inaccurate(run: MotionRun) -> Iterator[ResultWarning]:
+    """Warning about a maximum field of a recorded instant whose estimated error is large."""
+    error = _field_error(run)
+    if error is not None and error > FIELD_ERROR:
+        yield inaccurate_field(run.case.grid, error)
+
+
+def _field_error(run: MotionRun) -> float | None:
+    """Largest estimated error of the maximum field of the recorded instants.
+
+    None if none is known; runs of earlier versions have no estimates.
+    """
+    if "max_strength_error" not in run.dataset:
+        return None
+    errors = run.dataset["max_strength_error"].values
+    known = errors[np.isfinite(errors)]
+    return float(np.max(known)) if known.size else None
 
 
 def _course(run: MotionRun) -> dict[str, Any]:
@@ -126,6 +146,7 @@ def _field(run: MotionRun) -> dict[str, Any]:
         "max_strength": strength[largest],
         "max_strength_time": time[largest],
         "max_strength_position": _position(run, "max_strength", largest),
+        "max_strength_error": _field_error(run),
         "max_thin_gap_strength": np.max(dataset["thin_gap_strength"].values),
         "share_above_90": history.share_near_maximum,
         "time_above_90": history.share_near_maximum * history.settled_time,
@@ -182,6 +203,7 @@ def _discharge(run: MotionRun) -> dict[str, Any] | None:
     return {
         "breakdown_voltage": voltages[least],
         "breakdown_time": dataset["frame_time"].values[least],
+        "breakdown_field_error": _field_error(run),
         "breakdown_voltage_before": voltages[0],
         "breakdown_voltage_median": np.median(voltages[counted(run)]),
         "margin": voltages[least] / voltage,

@@ -105,11 +105,7 @@ def _map_warnings(
     table: Roughness, surface: RoughMap, last: Map, domain: Domain, spacing: tuple[float, float]
 ) -> Iterator[ResultWarning]:
     """Warnings about a map that is finer than the grid along one of the axes of the grid."""
-    parameters = statistics(last)
-    inverse = 1.0 / parameters.correlation_length_x**2, 1.0 / parameters.correlation_length_y**2
-    turn = np.deg2rad(surface.orientation)
-    squares = np.cos(turn) ** 2, np.sin(turn) ** 2
-    lengths = [float((squares[k] * inverse[0] + squares[1 - k] * inverse[1]) ** -0.5) for k in (0, 1)]
+    lengths = _correlation_lengths(last, surface.orientation)
     worst = max((0, 1), key=lambda k: spacing[k] / lengths[k])
     if spacing[worst] > lengths[worst] / LEAST_IN_CORRELATION:
         whose = f"the map of surface {surface.surface}, whose correlation length along {'xy'[worst]}"
@@ -124,6 +120,42 @@ def _map_warnings(
             f"{100 * missed:.2g} % of the variance of surface {surface.surface}, in waves shorter than two "
             f"spacings; use more grid.nodes, or a cutoff_short of at least {4e6 * coarser:.3g} µm",
         )
+
+
+def _correlation_lengths(last: Map, orientation: float) -> list[float]:
+    """Correlation lengths along the axes of the grid of a map that is turned [m]."""
+    parameters = statistics(last)
+    inverse = 1.0 / parameters.correlation_length_x**2, 1.0 / parameters.correlation_length_y**2
+    turn = np.deg2rad(orientation)
+    squares = np.cos(turn) ** 2, np.sin(turn) ** 2
+    return [float((squares[k] * inverse[0] + squares[1 - k] * inverse[1]) ** -0.5) for k in (0, 1)]
+
+
+def shortest_wave(table: Roughness, rough: RoughSurface | RoughMap) -> float:
+    """Length along entrainment that stands for the shortest wave of a rough surface [m].
+
+    It is the wavelength, the width of a pit or an asperity, half of it if the pit has a rim, or four
+    correlation lengths. It is infinite for a surface that is uniform along entrainment.
+
+    Parameters
+    ----------
+    table : Roughness
+        Table ``[[roughness]]`` of the surface.
+    rough : RoughSurface or RoughMap
+        Surface made from the table.
+    """
+    if table.wavelength is not None:
+        along = abs(np.cos(np.deg2rad(table.orientation or 0.0)))
+        return table.wavelength / along if along > 1e-6 else np.inf
+    if table.width is not None:
+        return 0.5 * table.width if table.rim else table.width
+    last, in_correlation = rough.steps[-1][1], LEAST_IN_SHAPE / LEAST_IN_CORRELATION
+    if isinstance(last, Map):
+        assert isinstance(rough, RoughMap)
+        return in_correlation * _correlation_lengths(last, rough.orientation)[0]
+    if isinstance(rough, RoughMap) and table.direction == "y":
+        return np.inf
+    return in_correlation * profiles_statistics(last).correlation_length
 
 
 def _inside(table: Roughness, last: Map, domain: Domain) -> Map:

@@ -133,6 +133,9 @@ def test_half_a_symmetric_field_mirrored_is_the_whole():
         if attribute.name == "iterations":
             continue
         value, exact = (getattr(field, attribute.name) for field in (mirrored, whole))
+        if exact is None:
+            assert value is None, attribute.name
+            continue
         if attribute.name.startswith("field_"):
             exact, atol = np.asarray(exact), 1e-9 * whole.max_strength
         else:

@@ -58,7 +58,7 @@ def test_a_duration_is_rounded_to_whole_steps_or_taken_as_it_is():
 
 @pytest.mark.parametrize(
     ("slide", "surfaces", "parts"),
-    [(0.0, (1,), 1), (0.8, (1,), 1), (2.0, (1,), 2), (4.0, (1,), 3), (4.0, (2,), 1), (-6.0, (1, 2), 4)],
+    [(0.0, (1,), 1), (0.8, (1,), 1), (2.0, (1,), 2), (4.0, (1,), 3), (4.0, (2,), 2), (-6.0, (1, 2), 4)],
 )
 def test_steps_are_shorter_for_surfaces_that_move_fast(slide, surfaces, parts):
     """u1 = 1 + s/2 and u2 = 1 - s/2 mean speeds: the rough one travels about a grid spacing in a step."""

@@ -293,6 +293,7 @@ def test_breakdown_over_time():
         # Of 10, 12 and 15 V, since the contact is covered.
         "breakdown_voltage_median": pytest.approx(12.0),
         "margin": pytest.approx(2.5),
+        "breakdown_field_error": None,
     }
 
 

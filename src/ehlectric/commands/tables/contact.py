@@ -210,6 +210,8 @@ def _field(result: Result | PointResult) -> Iterator[Row]:
         at += f", {field.max_strength_wall}"
     yield Row("electric field")
     yield Row("maximum field", field.max_strength, "V/µm", at)
+    name, error = "error of the maximum field", field.strength_error
+    yield Row(name, "unknown") if error is None else Row(name, error, "%", digits=".1g")
     name = "maximum field / parallel-plate field"
     yield Row(name, result.max_dimensionless, note="(parallel plates: V/h_min)", digits=".4f")
     if result.thin_gap_error is not None:

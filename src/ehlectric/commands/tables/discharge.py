@@ -15,6 +15,9 @@ from ehlectric.discharge.leakage import Leakage
 # Unit of a capacitance by the geometry of the contact: a line has it per length.
 _CAPACITANCE = {"line": "nF/m", "point": "pF"}
 
+# Relative error of the field up to which the table does not repeat it for the breakdown voltage.
+_SMALL = 0.002
+
 
 def discharge_rows(result: Result | PointResult) -> Iterator[Row]:
     """Rows of the discharge of a solved contact; none where its case has no discharge."""
@@ -37,6 +40,9 @@ def _breakdown(breakdown: Breakdown, applied: float) -> Iterator[Row]:
     condition = "63.2 % probability" if strength is None else f"{strength / 1e6:.4g} V/µm"
     yield Row("applied voltage", applied, "V")
     yield Row("breakdown voltage", voltage, "V", f", at {condition}")
+    error = breakdown.breakdown_field_error
+    if error is not None and error > _SMALL:
+        yield Row("breakdown voltage, error by the field", error, "%", digits=".1g")
     low, high = breakdown.breakdown_voltage_low, breakdown.breakdown_voltage_high
     if low is not None and high is not None:
         yield Row("breakdown voltage, 5 to 95 %", f"{low:.4g} to {high:.4g}", "V")

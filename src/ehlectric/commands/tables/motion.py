@@ -90,6 +90,7 @@ def _entries(summary: Mapping[str, Any]) -> Iterator[tuple[str, tuple[tuple[str,
         "electric field",
         (
             ("maximum field, moving roughness", "field.max_strength", "V/µm", field_at),
+            ("error of the maximum field", "field.max_strength_error", "%"),
             ("maximum field, stationary roughness", "stationary.max_strength", "V/µm"),
             ("maximum field before the motion", "field.before", "V/µm"),
             ("time above 90 % of the maximum field", "field.share_above_90", "%", " of the evaluated time"),

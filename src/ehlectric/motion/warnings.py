@@ -1,0 +1,140 @@
+"""Warnings about a contact with moving roughness, known before its first time step."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from ehlectric.contact.results import PointResult, Result
+from ehlectric.errors import ResultWarning
+from ehlectric.field.poisson import ATOM
+from ehlectric.motion.contact import TransientContact
+from ehlectric.surfaces.warnings import LEAST_IN_SHAPE, shortest_wave
+
+# Part of its height by which moving roughness may differ from the stationary one without a warning.
+_ALIKE = 1e-3
+
+# Distance of the end of the domain behind which the front of moving roughness leaves the Hertz zone
+# undisturbed [half-widths]: the half-width of the zone, and the length of the front.
+_CLEAR = 2.0
+
+# Processing steps of a surface whose effect depends on its length.
+_LONGER = ("form", "cutoff_long", "cutoff_short", "rescale_rq", "truncate")
+
+# Number of time steps in which a wave moves past the oil. Below the first number the amplitude of the ripples
+# in the film is wrong by 2 % and more, and there is a warning; from the second on by less than 1 %.
+LEAST_STEPS, SUFFICIENT_STEPS = 8.0, 20.0
+
+
+def motion_warnings(contact: TransientContact, still: Result | PointResult) -> Iterator[ResultWarning]:
+    """Warnings about the case, its surfaces, its time steps and the film with stationary roughness.
+
+    Parameters
+    ----------
+    contact : TransientContact
+        Contact with moving roughness.
+    still : Result or PointResult
+        Solution of the same contact with stationary roughness.
+
+    Yields
+    ------
+    ResultWarning
+        Warnings that are known before the first time step.
+    """
+    kind, conditions, travelled = contact.kind.contact, contact.conditions, contact.travelled
+    domain, spacings = kind.domain(travelled, conditions), kind.spacings(contact.case, conditions)
+    yield from kind.case_warnings(contact.case, conditions)
+    yield from kind.surface_warnings(travelled.roughness, contact.roughness.surfaces, domain, *spacings)
+    yield from step_warnings(contact)
+    yield from _unlike(contact, still)
+    if not still.converged:
+        text = (
+            f"the film with stationary roughness did not converge ({still.film.status}), so there is no "
+            "comparison with the moving roughness; try more grid.nodes"
+        )
+        yield ResultWarning("stationary-not-converged", text)
+    elif (error := still.film.discretisation_error) is not None and error > 0.01:
+        text = (
+            f"the discretisation error of the film with stationary roughness is estimated at "
+            f"{100.0 * error:.2g} %, and with moving roughness it is probably similar; use more grid.nodes"
+        )
+        yield ResultWarning("stationary-error", text)
+
+
+def step_warnings(contact: TransientContact) -> Iterator[ResultWarning]:
+    """Warning about time steps that do not resolve the roughness that oil passes.
+
+    Roughness that moves with the oil is carried along exactly. What the steps must resolve is the passage of
+    waves relative to the oil, at the difference between the speeds of their surface and of entrainment.
+
+    Parameters
+    ----------
+    contact : TransientContact
+        Contact with moving roughness.
+
+    Yields
+    ------
+    ResultWarning
+        The warning, with the number of steps that is sufficient.
+    """
+    steps, motion, case = contact.schedule.steps, contact.case.motion, contact.case
+    assert motion is not None
+    spacing = contact.kind.contact.spacings(case, contact.conditions)[0]
+    passages = []
+    for number, table in enumerate(case.roughness):
+        wave = shortest_wave(table, contact.roughness.surfaces[number])
+        # A wave that the grid does not resolve has a warning of its own, and needs nodes rather than steps.
+        if motion.steps is not None or wave >= LEAST_IN_SHAPE * spacing:
+            passages.append((wave / _passed(contact, table.surface), table.surface))
+    fewest, surface = min(passages, default=(math.inf, 0))
+    if fewest < LEAST_STEPS:
+        enough = math.ceil(steps * SUFFICIENT_STEPS / fewest)
+        yield ResultWarning(
+            "steps-too-long",
+            f"the {steps} time steps are too long: the shortest waves of surface {surface} move past the oil "
+            f"in {fewest:.2g} steps, and the ripples of the film are probably wrong by 2 % or more; use "
+            f"at least {enough} motion.steps",
+        )
+
+
+def _passed(contact: TransientContact, surface: int) -> float:
+    """Distance by which a surface moves past the oil in a time step [m]; tiny for one that moves with it."""
+    schedule = contact.schedule
+    return max(abs(schedule.speed_of(surface) - 1.0), 1e-12) * schedule.step * contact.half_width
+
+
+def _unlike(contact: TransientContact, still: Result | PointResult) -> Iterator[ResultWarning]:
+    """Warning that the moving roughness differs from the stationary one, with the causes that apply."""
+    coincident = contact.schedule.coincident
+    if not np.isfinite(coincident):
+        return
+    axes = [position / contact.half_width for position in still.film.axes]
+    inside = np.abs(axes[0]) <= 1.0
+    away = (contact.roughness.heights(coincident, *axes) - still.roughness)[:, inside]
+    part = np.max(np.abs(away)) / max(np.max(np.abs(still.roughness[:, inside])), ATOM)
+    if part > _ALIKE:
+        yield ResultWarning(
+            "stationary-differs",
+            f"the moving roughness differs from the stationary one by up to {100.0 * part:.2g} % of its "
+            f"height: {'; '.join(_causes(contact))}",
+        )
+
+
+def _causes(contact: TransientContact) -> Iterator[str]:
+    """Causes of a difference between moving and stationary roughness, with the keys that decide them."""
+    schedule = contact.schedule
+    inlet, outlet = schedule.domain
+    forwards = any(speed > 0.0 for speed in schedule.moving_speeds)
+    if forwards and outlet < _CLEAR:
+        yield f"its front, one half-width long, is still in the Hertz zone; raise grid.outlet to {_CLEAR:g}"
+    if inlet > -_CLEAR and any(speed < 0.0 for speed in schedule.moving_speeds):
+        yield f"its front, one half-width long, is still in the Hertz zone; lower grid.inlet to {-_CLEAR:g}"
+    moving = [table for table in contact.case.roughness if schedule.speed_of(table.surface)]
+    keys = [key for key in _LONGER if any(getattr(table, key) not in (None, "none") for table in moving)]
+    if keys:
+        are = "is" if len(keys) == 1 else "are"
+        yield f"{' and '.join(keys)} {are} applied to the longer surface that moves through the contact"
+    elif any(table.seed is not None for table in moving):
+        yield "a longer surface is generated for the motion"

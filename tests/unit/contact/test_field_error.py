@@ -1,0 +1,96 @@
+"""Error of the maximum field in results: summary, warnings, table, verdict and files."""
+
+import dataclasses
+
+import pytest
+
+from ehlectric import Case, load, save, solve
+from ehlectric.cases.grid import Grid
+from ehlectric.commands.tables.contact import result_rows
+from ehlectric.contact.result_warnings import accuracy_warnings, inaccurate_field
+
+CONTACT = {
+    "reduced_radius": "14.1 mm",
+    "reduced_modulus": "226 GPa",
+    "max_hertz_pressure": "0.5 GPa",
+    "entrainment_speed": "26 m/s",
+}
+
+
+@pytest.fixture(scope="module")
+def result():
+    tables = {"contact": CONTACT | {"entrainment_speed": "4 m/s"}, "lubricant": {"base": "paper"}}
+    discharge = {"dielectric_strength": "1.5 V/um"}
+    return solve(Case.from_dict(tables | {"grid": {"nodes": 401}, "discharge": discharge}))
+
+
+def with_error(result, error, degree=6):
+    field = dataclasses.replace(result.field, strength_error=error, sufficient_degree=degree)
+    return dataclasses.replace(result, field=field)
+
+
+def test_a_smooth_contact_has_a_small_error_that_its_summary_states(result):
+    summary = result.summary()
+    assert 0.0 < summary["field"]["max_strength_error"] < 1e-3
+    assert summary["field"]["degree"] == 6
+    assert summary["discharge"]["breakdown_field_error"] == summary["field"]["max_strength_error"]
+
+
+def test_the_error_is_saved_and_is_unknown_in_files_without_it(result, tmp_path):
+    save(result, tmp_path)
+    assert load(tmp_path / "result.nc").field.strength_error == result.field.strength_error
+    unknown = with_error(result, None, None)
+    save(unknown, tmp_path)
+    again = load(tmp_path / "result.nc")
+    assert again.field.strength_error is None
+    assert again.summary()["discharge"]["breakdown_field_error"] is None
+    rows = {row.name: row for row in result_rows(again)}
+    assert rows["error of the maximum field"].value == "unknown"
+
+
+def test_the_table_has_the_error_and_its_share_of_the_breakdown_voltage(result):
+    rows = {row.name: row for row in result_rows(with_error(result, 0.031))}
+    assert rows["error of the maximum field"].value == 0.031
+    assert rows["breakdown voltage, error by the field"].value == 0.031
+    assert "breakdown voltage, error by the field" not in {row.name for row in result_rows(result)}
+
+
+def test_an_error_above_two_percent_is_a_warning(result):
+    grid = result.case.grid
+    assert not list(accuracy_warnings(grid, with_error(result, 0.019).field))
+    (warning,) = accuracy_warnings(grid, with_error(result, 0.031, 14).field)
+    assert warning.code == "field-unresolved"
+    assert "the error of the maximum field is estimated at 3.1 %" in warning.text
+    assert warning.text.endswith("raise grid.field_degree to 14, or use more grid.nodes")
+    (warning,) = accuracy_warnings(grid, with_error(result, 0.031, 6).field)
+    assert warning.text.endswith("too high; use more grid.nodes")
+    assert "grid.field_nodes" in inaccurate_field(Grid(field_nodes=801), 0.03).text
+    assert inaccurate_field(grid, 0.03, 40, 48).text.endswith("far shorter than the film is thick")
+
+
+def test_a_margin_within_the_error_of_the_field_is_possible_only(result):
+    margin = result.verdict.margin
+    strength = 1.5e6 / margin * 1.01
+    case = result.case.replace({"discharge.dielectric_strength": strength})
+    near = dataclasses.replace(result, case=case)
+    assert near.verdict.margin == pytest.approx(1.01)
+    assert "maximum field may be" not in near.verdict.text
+    wide = dataclasses.replace(near, field=with_error(near, 0.03).field)
+    assert wide.verdict.level == "yellow"
+    assert "The maximum field may be 3 % off on this grid." in wide.verdict.text
+
+
+@pytest.mark.slow
+def test_waves_of_a_quarter_of_the_film_have_the_right_field():
+    """20 nm waves of 0.7 um in a film of 2.6 um: the field of degree 6 is 5.5 % too low."""
+    wave = {"surface": 1, "generator": "sinusoid", "amplitude": "20 nm", "wavelength": "0.7 um"}
+    tables = {"contact": CONTACT, "lubricant": {"base": "paper"}, "roughness": [wave]}
+    given = {"grid": {"nodes": 8601}, "discharge": {"dielectric_strength": "15 V/um"}}
+    found = solve(Case.from_dict(tables | given), beside_smooth=False)
+    fine = solve(
+        Case.from_dict(tables | given | {"grid": {"nodes": 8601, "field_degree": 30}}), beside_smooth=False
+    )
+    assert found.field.s.size == 15
+    assert found.field.strength_error < 0.01
+    assert found.field.max_strength == pytest.approx(fine.field.max_strength, rel=0.005)
+    assert not any(warning.code == "field-unresolved" for warning in found.warnings)
