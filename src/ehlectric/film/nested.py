@@ -74,6 +74,32 @@ def nested_iteration(problem: FilmProblem, progress: Progress | None) -> list[Gr
     return solutions
 
 
+def second_order_film(problem: FilmProblem, nodes: int, start: State) -> GridSolution:
+    """Solution with the second-order wedge term, from a solution with the first-order term.
+
+    Parameters
+    ----------
+    problem : FilmProblem
+        Dimensionless problem of the contact.
+    nodes : int
+        Number of nodes along x: that of the problem or that of the next coarser grid.
+    start : State
+        Initial guess on this grid.
+
+    Returns
+    -------
+    GridSolution
+        Last iterate on the grid with ``nodes`` nodes. Its tolerance is that of the coarser grids of the
+        nested iteration.
+    """
+    width = problem.width
+    if width is not None and nodes != problem.nodes:
+        width = width.coarser()
+    posed = replace(problem, nodes=nodes, width=width, second_order=True, tolerance=NESTED_TOLERANCE)
+    levels = _levels(posed, roughness=1.0)
+    return _solve_grid(posed, levels, start, None, spike=True)
+
+
 def _grids(problem: FilmProblem) -> list[list[Level]]:
     """Grids of the nested iteration from the finest on, each with the coarser grids of its preconditioner.
 
