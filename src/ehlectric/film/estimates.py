@@ -43,10 +43,10 @@ def richardson(fine: tuple[Mesh, Array], coarse: tuple[Mesh, Array], *, order: i
     >>> round(richardson((fine, np.full((5, 1), 1.01)), (coarse, np.full((3, 1), 1.02)), order=1) * 1.01, 3)
     0.01
     """
-    return float(np.max(_gaps_of_grids(fine, coarse, order=order)))
+    return float(np.max(_grid_differences(fine, coarse, order=order)))
 
 
-def _gaps_of_grids(fine: tuple[Mesh, Array], coarse: tuple[Mesh, Array], *, order: int) -> Array:
+def _grid_differences(fine: tuple[Mesh, Array], coarse: tuple[Mesh, Array], *, order: int) -> Array:
     """Richardson estimates of the relative errors of the minimum and the central film thickness, (2,)."""
     gains = (coarse[0].dx / fine[0].dx) ** np.array([min(order, MINIMUM_ORDER), order]) - 1.0
     on_fine, on_coarse = (_key_thicknesses(*film) for film in (fine, coarse))
@@ -59,39 +59,40 @@ def _key_thicknesses(mesh: Mesh, thickness: Array) -> Array:
     return np.array([np.min(thickness), at_centre(mesh, thickness)])
 
 
-def first_order_error(
-    problem: FilmProblem, fine: tuple[Mesh, State], coarse: tuple[Mesh, State]
-) -> float | None:
-    """Relative discretisation error of a film with the first-order wedge term.
+def film_error(problem: FilmProblem, fine: tuple[Mesh, State], coarse: tuple[Mesh, State]) -> float | None:
+    """Relative discretisation error of a film, estimated from its converged states on two grids.
 
     Parameters
     ----------
     problem : FilmProblem
         Dimensionless problem of the contact.
     fine, coarse : pair of Mesh and State
-        Grid and first-order solution, on the grid of the problem and on the next coarser grid.
+        Grid and state of the film, on the grid of the problem and on the next coarser grid.
 
     Returns
     -------
     float or None
         Relative error of the minimum or of the central film thickness, whichever is larger. None if the
-        second-order wedge term does not converge on either grid.
+        wedge term is of first order, and the second-order term does not converge on either grid.
 
     Notes
     -----
-    The error of the wedge term and the other errors of a first-order film have opposite signs, so that the
-    film thickness is not monotone in the number of nodes and Richardson's estimate may vanish. The film is
-    therefore solved with the second-order wedge term too, from the first-order film as initial guess. The
-    estimate is the difference between both films on the fine grid plus the Richardson estimate of the
-    second-order film.
+    With the second-order wedge term, this is Richardson's estimate. With the first-order term, the error of
+    the wedge and the other errors may have opposite signs. The film thickness is then not monotone in the
+    number of nodes, and Richardson's estimate may vanish. The film is therefore solved with the second-order
+    term on both grids too, from the first-order film as initial guess. The estimate is the difference of both
+    films on the fine grid plus Richardson's estimate of the second-order film.
     """
+    films = [(mesh, state.thickness) for mesh, state in (fine, coarse)]
+    if problem.second_order:
+        return richardson(films[0], films[1], order=2)
     second = [second_order_film(problem, mesh.x.size, state) for mesh, state in (fine, coarse)]
     if any(solution.status != "converged" for solution in second):
         return None
-    films = [(solution.level.mesh, solution.state.thickness) for solution in second]
-    better, first = _key_thicknesses(*films[0]), _key_thicknesses(fine[0], fine[1].thickness)
-    others = _gaps_of_grids(films[0], films[1], order=2)
-    return float(np.max(np.abs(first - better) / better + others))
+    better = [(solution.level.mesh, solution.state.thickness) for solution in second]
+    first_order, second_order = (_key_thicknesses(*film) for film in (films[0], better[0]))
+    of_wedge = np.abs(first_order - second_order) / second_order
+    return float(np.max(of_wedge + _grid_differences(better[0], better[1], order=2)))
 
 
 def discretisation_error(
@@ -99,16 +100,11 @@ def discretisation_error(
 ) -> float | None:
     """Relative discretisation error of a film, estimated from its solutions on two grids.
 
-    None if there is no coarser grid, or if either solution did not converge.
+    None if there is no coarser grid, or if either solution did not converge; see ``film_error``.
     """
     if coarse is None or fine.status != "converged" or coarse.status != "converged":
         return None
-    if not problem.second_order:
-        return first_order_error(
-            problem, (fine.level.mesh, fine.state), (coarse.level.mesh, coarse.state)
-        )
-    of_fine, of_coarse = ((g.level.mesh, g.state.thickness) for g in (fine, coarse))
-    return richardson(of_fine, of_coarse, order=problem.order)
+    return film_error(problem, (fine.level.mesh, fine.state), (coarse.level.mesh, coarse.state))
 
 
 def inlet_deficit(fluid: Fluid, geometry: Geometry, mesh: Mesh, pressure: Array, mass: Array) -> float:

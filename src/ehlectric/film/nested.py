@@ -187,6 +187,8 @@ def _solve_grid(
         state,
         tolerance=problem.tolerance if finest else max(problem.tolerance, NESTED_TOLERANCE),
         max_iterations=problem.max_iterations,
+        # The residual of an interpolated film may be small although the film is that of the coarser grid.
+        min_iterations=1,
         progress=progress,
         # The spike of a point contact is a ridge, of which no single line can be solved separately.
         eliminate_spike=spike and problem.width is None,

@@ -13,7 +13,7 @@ import numpy as np
 from scipy.sparse.linalg import LinearOperator, gcrotmk
 
 from ehlectric.arrays import Array
-from ehlectric.film.cavitation import full_film_nodes
+from ehlectric.film.cavitation import full_film_nodes, with_refilled_nodes
 from ehlectric.film.flow import Fluid, flow
 from ehlectric.film.gap import Gap
 from ehlectric.film.levels import Level
@@ -39,6 +39,9 @@ LINEAR_TOLERANCE = 1e-3
 
 # Largest number of GMRES iterations per Newton step.
 KRYLOV_LIMIT = 60
+
+# Residual below which a film that ruptures too early is filled over many nodes at a time.
+_NEAR = 1e-3
 
 # Weight of the relative load imbalance in the residual: the load is balanced ten times as closely as the
 # Reynolds equation.
@@ -105,9 +108,16 @@ def newton(
         assessed = assess(fluid, level, candidate)
         if not (np.isfinite(assessed.norm) and np.min(candidate.thickness) > _SMALLEST_GAP):
             return GridSolution(level, state, now, tuple(steps), "diverged")
-        state, now = candidate, assessed
+        state, now = candidate, assessed if assessed.norm <= tolerance else _refilled(assessed)
     status: Status = "converged" if now.norm <= tolerance else "stalled"
     return GridSolution(level, state, now, tuple(steps), status)
+
+
+def _refilled(now: Residual) -> Residual:
+    """Residual with a full film at the cavitated nodes that a surplus of oil fills, near a solution only."""
+    if not now.norm < _NEAR:
+        return now
+    return replace(now, full_film=with_refilled_nodes(now.full_film, now.reynolds))
 
 
 def assess(fluid: Fluid, level: Level, state: State) -> Residual:
