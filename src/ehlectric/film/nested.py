@@ -61,8 +61,8 @@ def nested_iteration(problem: FilmProblem, progress: Progress | None) -> list[Gr
     -----
     If the solution on a grid does not converge, this grid and the next finer grid start from the Hertz
     pressure. If a rough film does not converge on a coarse grid either way, its roughness is raised in steps
-    on this grid. Where the film then collapses at less than a fifth of the roughness, the finer grids are left
-    out: the iteration ends with a collapsed film.
+    on this grid. Where the film then collapses at less than a fifth of the roughness, the finer grids are
+    left out: the iteration ends with a collapsed film.
     """
     solutions: list[GridSolution] = []
     tried = problem.added_gap is None
