@@ -201,7 +201,7 @@ tables = st.fixed_dictionaries(
         "electric": st.fixed_dictionaries({"potential_1": volts[0], "potential_2": volts[1]}),
         "discharge": discharges,
         "grid": grids,
-        "solver": st.fixed_dictionaries({"tolerance": st.floats(1e-11, 1e-3)}),
+        "solver": st.fixed_dictionaries({"tolerance": st.floats(1e-11, 1e-6)}),
     },
 )
 point_tables = st.fixed_dictionaries(

@@ -9,6 +9,7 @@ from ehlectric.cases.case import Case
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.kinds import KINDS, AnyKind
 from ehlectric.contact.memory import check_memory
+from ehlectric.contact.problems import check_tolerance
 from ehlectric.contact.setup import Setup
 from ehlectric.errors import ResultWarning
 from ehlectric.surfaces.domain import Domain
@@ -69,11 +70,12 @@ def check_case(case: Case) -> PreparedContact:
     Raises
     ------
     InputError
-        If the values contradict each other, a surface cannot be used, or the case needs more than the
-        available memory.
+        If the values contradict each other, the tolerance is too large, a surface cannot be used, or the
+        case needs more than the available memory.
     """
     kind = KINDS[case.contact.geometry]
     conditions = kind.resolve(case)
+    check_tolerance(case.solver)
     check_memory(case)
     domain = kind.domain(case, conditions)
     return PreparedContact(case, conditions, domain, kind.rough(case.roughness, domain))

@@ -10,11 +10,12 @@ from scipy.interpolate import PchipInterpolator
 
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
-from ehlectric.cases.grid import MOST_DEGREE
+from ehlectric.cases.grid import MOST_DEGREE, Solver
 from ehlectric.cases.lubricant import Lubricant, density_law, permittivity_law, viscosity_law
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.memory import FIELD_BYTES, POINT_FIELD_BYTES
 from ehlectric.contact.setup import Setup
+from ehlectric.errors import InputError
 from ehlectric.field.poisson import ATOM, FieldProblem
 from ehlectric.field.poisson_3d import PointFieldProblem
 from ehlectric.film.deflection import Geometry, point_geometry
@@ -45,6 +46,10 @@ _FIELD_MEMORY = 1e9
 
 # Largest distance, in node spacings, at which a film node counts as an end of the field range.
 _SAME_NODE = 1e-6
+
+# Largest tolerance at which a film is solved. Up to here its error was at most 3e-5 in 200 random contacts;
+# larger residuals may belong to films that are wrong by per cents.
+LARGEST_TOLERANCE = 1e-6
 
 
 def domain_of(setup: Case | Setup, conditions: PointConditions) -> Domain:
@@ -211,6 +216,19 @@ def spacing(setup: Case | Setup, conditions: Conditions) -> float:
     return conditions.half_width * (setup.grid.outlet - setup.grid.inlet) / (setup.grid.nodes - 1)
 
 
+def check_tolerance(solver: Solver) -> None:
+    """Raise an InputError if the tolerance of the film solver is too large for a film to be right.
+
+    The bound is that of solving, and not of a case, so that stored results with a larger one can be read.
+    """
+    if solver.tolerance > LARGEST_TOLERANCE:
+        raise InputError(
+            "solver.tolerance",
+            got=f"{solver.tolerance:g}",
+            takes=f"at most {LARGEST_TOLERANCE:g}: with a larger residual a film may be wrong by per cents",
+        )
+
+
 def film_problem(
     setup: Case | Setup, conditions: Conditions, rough: Sequence[RoughSurface] = ()
 ) -> FilmProblem:
@@ -227,8 +245,10 @@ def smooth_problem(
 ) -> FilmProblem:
     """Film problem of a smooth line contact, and the basis of the film problem of all other contacts.
 
-    ``expected`` is the film thickness from a formula; its central value [m] scales the initial guess.
+    ``expected`` is the film thickness from a formula; its central value [m] scales the initial guess. An
+    InputError is raised for a tolerance that is too large.
     """
+    check_tolerance(setup.solver)
     grid, guess = setup.grid, expected.central_thickness
     return FilmProblem(
         fluid=fluid_of(setup.lubricant, conditions.max_pressure, conditions.velocity_parameter),

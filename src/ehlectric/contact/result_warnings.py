@@ -23,6 +23,9 @@ FIELD_ERROR = 0.02
 # Maximum number of positions that the warning about touching surfaces lists.
 _NAMED = 8
 
+# Newton steps that films at high L may need.
+_MANY_STEPS = 200
+
 # Relative loss of film thickness, caused by a domain that is too small, above which a point contact gets a
 # warning. The loss in the default domain is about 0.01.
 _LOSS = 0.02
@@ -37,7 +40,7 @@ def film_warnings(setup: Case | Setup, film: Film | PointFilm) -> Iterator[Resul
         yield ResultWarning(
             "not-converged",
             f"do not use this film: the iteration did not converge ({film.status} at a residual of "
-            f"{film.residual:.1e}); try more grid.nodes, a lower grid.inlet, or more solver.max_iterations",
+            f"{film.residual:.1e}); {_advice(setup, film)}",
         )
     places = film.collapsed_positions / film.scales.length
     if len(places):
@@ -66,8 +69,9 @@ def film_warnings(setup: Case | Setup, film: Film | PointFilm) -> Iterator[Resul
     elif film.converged and error is None:
         yield ResultWarning(
             "coarser-grid-unsolved",
-            "do not use this film: the next coarser grid was not solved, so the discretisation error is "
-            "unknown and probably large; use more grid.nodes",
+            "do not use this film: the next coarser grid was not solved"
+            + ("" if setup.grid.wedge == "second-order" else ", or not with the second-order wedge")
+            + ", so the discretisation error is unknown and probably large; use more grid.nodes",
         )
     elif error is not None and error > max(0.01, setup.grid.refine or 0.0):
         code, advice = "grid-too-coarse", ""
@@ -79,6 +83,24 @@ def film_warnings(setup: Case | Setup, film: Film | PointFilm) -> Iterator[Resul
         yield ResultWarning(
             "outlet-too-short", "the film does not cavitate before the end of the domain; raise grid.outlet"
         )
+
+
+def _advice(setup: Case | Setup, film: Film | PointFilm) -> str:
+    """What to do about a film that did not converge.
+
+    A film thicker than the grid spacing, both in dimensionless units, is resolved. At high L, Newton's
+    method needs more steps for such a film. Thinner films need a finer grid.
+    """
+    if setup.roughness:
+        return (
+            "lower the roughness, or raise speed or viscosity; more grid.nodes help only if they are too few "
+            "for the roughness"
+        )
+    spacing = float(film.x[1] - film.x[0]) / film.scales.length
+    resolved = film.central_thickness > spacing * film.scales.thickness
+    if film.status == "stalled" and resolved and setup.solver.max_iterations < _MANY_STEPS:
+        return f"set solver.max_iterations to {_MANY_STEPS}"
+    return "try more grid.nodes, a lower grid.inlet, or more solver.max_iterations"
 
 
 def line_result_warnings(setup: Case | Setup, film: Film, field: Field) -> Iterator[ResultWarning]:

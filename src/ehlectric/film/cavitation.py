@@ -24,6 +24,9 @@ from ehlectric.arrays import Array, Mask
 # would become cavitated.
 _WEDGE_PART = 20.0
 
+# Largest number of cavitated nodes behind a rupture that are filled at a time.
+_MOST_REFILLED = 200
+
 
 def full_film_nodes(
     excess: Array, residual: Array, *, poiseuille: Array, rate: float, thickness: Array, inner: Mask
@@ -67,3 +70,52 @@ def full_film_nodes(
     c = 1.0 / np.maximum(_WEDGE_PART * rate * thickness, poiseuille)
     full: Mask = (excess - c * residual >= 0.0) & inner
     return full
+
+
+def with_refilled_nodes(full_film: Mask, residual: Array) -> Mask:
+    """Mask of the full-film nodes, extended by the cavitated nodes that a surplus of oil fills.
+
+    A cavitated node with r < 0 receives more oil than it passes on. ``full_film_nodes`` gives such a node a
+    full film, but not the nodes behind it. The rupture of a film that ends too early would then move by one
+    node per Newton step. This function carries the surplus -r along entrainment, and fills the cavitated
+    nodes behind until they have used it up.
+
+    Parameters
+    ----------
+    full_film : ndarray of bool, shape (nx, ny)
+        Nodes with a full film, as ``full_film_nodes`` returns them.
+    residual : ndarray, shape (nx, ny)
+        Residual r of the Reynolds equation at the iterate.
+
+    Returns
+    -------
+    ndarray of bool, shape (nx, ny)
+        True where the film is full; the nodes on the edges of the domain are unchanged.
+
+    Notes
+    -----
+    Where the pressure gradient at the rupture is s instead of zero, the surplus is eps s/dX, and each node
+    behind uses up d(rho H)/dX. The rupture therefore moves by eps s/(d(rho H)/dX), which is a Newton step for
+    its position. At most 200 nodes are filled at a time.
+
+    Examples
+    --------
+    The first cavitated node has a surplus of 0.5, which the next two nodes use up:
+
+    >>> full = np.array([[True], [True], [False], [False], [False], [False]])
+    >>> r = np.array([[0.0], [-0.5], [0.2], [0.2], [0.2], [0.0]])
+    >>> with_refilled_nodes(full, r)[:, 0]
+    array([ True,  True,  True,  True, False, False])
+    """
+    filled: Mask = full_film.copy()
+    cavitated = ~full_film
+    cavitated[[0, -1]] = False
+    surplus = np.where(full_film, np.maximum(-residual, 0.0), 0.0)
+    for _ in range(_MOST_REFILLED):
+        surplus[1:] = surplus[:-1] - residual[1:]
+        surplus[0] = 0.0
+        surplus[~(cavitated & (surplus > 0.0))] = 0.0
+        if not surplus.any():
+            break
+        filled |= surplus > 0.0
+    return filled

@@ -8,8 +8,9 @@ from ehlectric.arrays import Array
 from ehlectric.film.deflection import Geometry
 from ehlectric.film.flow import Fluid
 from ehlectric.film.mesh import Mesh, at_centre
+from ehlectric.film.nested import second_order_film
 from ehlectric.film.problem import FilmProblem
-from ehlectric.film.state import GridSolution
+from ehlectric.film.state import GridSolution, State
 
 # Lowest order of convergence of the minimum film thickness observed with the scheme of second order.
 MINIMUM_ORDER = 1.25
@@ -42,9 +43,56 @@ def richardson(fine: tuple[Mesh, Array], coarse: tuple[Mesh, Array], *, order: i
     >>> round(richardson((fine, np.full((5, 1), 1.01)), (coarse, np.full((3, 1), 1.02)), order=1) * 1.01, 3)
     0.01
     """
+    return float(np.max(_grid_differences(fine, coarse, order=order)))
+
+
+def _grid_differences(fine: tuple[Mesh, Array], coarse: tuple[Mesh, Array], *, order: int) -> Array:
+    """Richardson estimates of the relative errors of the minimum and the central film thickness, (2,)."""
     gains = (coarse[0].dx / fine[0].dx) ** np.array([min(order, MINIMUM_ORDER), order]) - 1.0
-    on_fine, on_coarse = (np.array([np.min(h), at_centre(mesh, h)]) for mesh, h in (fine, coarse))
-    return float(np.max(np.abs(on_fine - on_coarse) / (gains * on_fine)))
+    on_fine, on_coarse = (_key_thicknesses(*film) for film in (fine, coarse))
+    estimates: Array = np.abs(on_fine - on_coarse) / (gains * on_fine)
+    return estimates
+
+
+def _key_thicknesses(mesh: Mesh, thickness: Array) -> Array:
+    """Minimum and central film thickness, shape (2,), in the unit of ``thickness`` (nx, ny)."""
+    return np.array([np.min(thickness), at_centre(mesh, thickness)])
+
+
+def film_error(problem: FilmProblem, fine: tuple[Mesh, State], coarse: tuple[Mesh, State]) -> float | None:
+    """Relative discretisation error of a film, estimated from its converged states on two grids.
+
+    Parameters
+    ----------
+    problem : FilmProblem
+        Dimensionless problem of the contact.
+    fine, coarse : pair of Mesh and State
+        Grid and state of the film, on the grid of the problem and on the next coarser grid.
+
+    Returns
+    -------
+    float or None
+        Relative error of the minimum or of the central film thickness, whichever is larger. None if the
+        wedge term is of first order, and the second-order term does not converge on either grid.
+
+    Notes
+    -----
+    With the second-order wedge term, this is Richardson's estimate. With the first-order term, the error of
+    the wedge and the other errors may have opposite signs. The film thickness is then not monotone in the
+    number of nodes, and Richardson's estimate may vanish. The film is therefore solved with the second-order
+    term on both grids too, from the first-order film as initial guess. The estimate is the difference of both
+    films on the fine grid plus Richardson's estimate of the second-order film.
+    """
+    films = [(mesh, state.thickness) for mesh, state in (fine, coarse)]
+    if problem.second_order:
+        return richardson(films[0], films[1], order=2)
+    second = [second_order_film(problem, mesh.x.size, state) for mesh, state in (fine, coarse)]
+    if any(solution.status != "converged" for solution in second):
+        return None
+    better = [(solution.level.mesh, solution.state.thickness) for solution in second]
+    first_order, second_order = (_key_thicknesses(*film) for film in (films[0], better[0]))
+    of_wedge = np.abs(first_order - second_order) / second_order
+    return float(np.max(of_wedge + _grid_differences(better[0], better[1], order=2)))
 
 
 def discretisation_error(
@@ -52,12 +100,11 @@ def discretisation_error(
 ) -> float | None:
     """Relative discretisation error of a film, estimated from its solutions on two grids.
 
-    None if there is no coarser grid, or if either solution did not converge.
+    None if there is no coarser grid, or if either solution did not converge; see ``film_error``.
     """
     if coarse is None or fine.status != "converged" or coarse.status != "converged":
         return None
-    of_fine, of_coarse = ((g.level.mesh, g.state.thickness) for g in (fine, coarse))
-    return richardson(of_fine, of_coarse, order=problem.order)
+    return film_error(problem, (fine.level.mesh, fine.state), (coarse.level.mesh, coarse.state))
 
 
 def inlet_deficit(fluid: Fluid, geometry: Geometry, mesh: Mesh, pressure: Array, mass: Array) -> float:

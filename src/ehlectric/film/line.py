@@ -9,8 +9,8 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.film.nested import nested_iteration
 from ehlectric.film.problem import FilmProblem
-from ehlectric.film.solution import COLLAPSED, FilmSolution, quiet_solution, stationary_film
-from ehlectric.film.state import Progress
+from ehlectric.film.solution import FilmSolution, quiet_solution, stationary_film
+from ehlectric.film.state import COLLAPSED, Progress
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -7,17 +7,17 @@ contact still does not converge, its roughness is raised from zero in steps (con
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from ehlectric.film.levels import Level, hierarchy
 from ehlectric.film.mesh import Mesh, at_centre
-from ehlectric.film.newton import newton
+from ehlectric.film.newton import assess, newton
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.reynolds import wedge_stencil
-from ehlectric.film.state import GridSolution, Progress, State
+from ehlectric.film.state import GridSolution, Progress, State, film_touches
 
 # Tolerance of the residual on the coarser grids, far below their discretisation error.
 NESTED_TOLERANCE = 1e-6
@@ -32,6 +32,13 @@ _FIRST_GRID_POINT = 33
 _FIRST_RISE = 0.2
 _LEAST_RISE = 0.01
 _RISE_TOLERANCE = 1e-3
+
+# Smallest grids, in a line and in a point contact, that show whether a rough film collapses; and the part of
+# the roughness below which a film that collapses there is not tried on finer grids. Films that collapsed at
+# half of the roughness on the coarse grid converged on finer ones.
+_TRIAL_GRID = 801
+_TRIAL_GRID_POINT = 65
+_HOPELESS = 0.2
 
 
 def nested_iteration(problem: FilmProblem, progress: Progress | None) -> list[GridSolution]:
@@ -53,9 +60,12 @@ def nested_iteration(problem: FilmProblem, progress: Progress | None) -> list[Gr
     Notes
     -----
     If the solution on a grid does not converge, this grid and the next finer grid start from the Hertz
-    pressure.
+    pressure. If a rough film does not converge on a coarse grid either way, its roughness is raised in steps
+    on this grid. Where the film then collapses at less than a fifth of the roughness, the finer grids are
+    left out: the iteration ends with a collapsed film.
     """
     solutions: list[GridSolution] = []
+    tried = problem.added_gap is None
     for levels in reversed(_grids(problem)):
         best = None
         if solutions and solutions[-1].status == "converged":
@@ -68,10 +78,41 @@ def nested_iteration(problem: FilmProblem, progress: Progress | None) -> list[Gr
             *others, best = sorted(attempts, key=lambda solution: -solution.final.norm)
             solutions.extend(others)
         solutions.append(best)
+        if not tried and _is_trial_grid(problem, best):
+            tried = True
+            raised = _raise_roughness(_on_grid(problem, levels[0].mesh), progress)
+            solutions += raised.solutions
+            if raised.collapses:
+                return [*solutions, _collapsed(problem, raised.solutions[-1])]
     if problem.added_gap is not None and solutions[-1].final.norm > NESTED_TOLERANCE:
-        smooth = nested_iteration(replace(problem, added_gap=None), progress)
-        solutions += [*smooth, *_raise_roughness(problem, smooth[-1], progress)]
+        solutions += _raise_roughness(problem, progress).solutions
     return solutions
+
+
+def second_order_film(problem: FilmProblem, nodes: int, start: State) -> GridSolution:
+    """Solution with the second-order wedge term, from a solution with the first-order term.
+
+    Parameters
+    ----------
+    problem : FilmProblem
+        Dimensionless problem of the contact.
+    nodes : int
+        Number of nodes along x: that of the problem or that of the next coarser grid.
+    start : State
+        Initial guess on this grid.
+
+    Returns
+    -------
+    GridSolution
+        Last iterate on the grid with ``nodes`` nodes. Its tolerance is that of the coarser grids of the
+        nested iteration.
+    """
+    width = problem.width
+    if width is not None and nodes != problem.nodes:
+        width = width.coarser()
+    posed = replace(problem, nodes=nodes, width=width, second_order=True, tolerance=NESTED_TOLERANCE)
+    levels = _levels(posed, roughness=1.0)
+    return _solve_grid(posed, levels, start, None, spike=True)
 
 
 def _grids(problem: FilmProblem) -> list[list[Level]]:
@@ -109,16 +150,61 @@ def _levels(problem: FilmProblem, *, roughness: float) -> list[Level]:
     )
 
 
-def _raise_roughness(
-    problem: FilmProblem, smooth: GridSolution, progress: Progress | None
-) -> Iterator[GridSolution]:
+def _is_trial_grid(problem: FilmProblem, solution: GridSolution) -> bool:
+    """Whether a rough film failed on a grid that is coarse, but fine enough to show that it collapses."""
+    nodes = solution.level.nodes
+    least = _TRIAL_GRID if problem.width is None else _TRIAL_GRID_POINT
+    return least <= nodes < problem.nodes and solution.final.norm > NESTED_TOLERANCE
+
+
+def _on_grid(problem: FilmProblem, mesh: Mesh) -> FilmProblem:
+    """Film problem on another grid of the nested iteration."""
+    width = problem.width
+    while width is not None and width.y.size > mesh.y.size:
+        width = width.coarser()
+    return replace(problem, nodes=mesh.x.size, width=width)
+
+
+def _collapsed(problem: FilmProblem, coarse: GridSolution) -> GridSolution:
+    """Solution of a collapsed film on the finest grid, interpolated from a coarser grid.
+
+    The film is lifted until a thousandth of its central thickness is left where the surfaces would touch.
+    """
+    level = _levels(problem, roughness=1.0)[0]
+    state = _interpolated(level, coarse)
+    centre, least = at_centre(level.mesh, state.thickness), float(state.thickness.min())
+    # With a lift of d, least + d is a thousandth of centre + d.
+    state = State.of(level, state.pressure, state.h00 + (1e-3 * centre - least) / (1.0 - 1e-3))
+    return GridSolution(level, state, assess(problem.fluid, level, state), (), "diverged")
+
+
+@dataclass(frozen=True)
+class _Raised:
+    """Solutions with raised roughness, and the largest part of the roughness at which the film converged.
+
+    The part is None if the smooth film did not converge.
+    """
+
+    solutions: list[GridSolution]
+    part: float | None
+
+    @property
+    def collapses(self) -> bool:
+        """Whether the film gets too thin far below the full roughness, although the smooth film converged."""
+        last = self.solutions[-1]
+        touches = film_touches(last.level.mesh, last.state.thickness)
+        return self.part is not None and self.part < _HOPELESS and touches
+
+
+def _raise_roughness(problem: FilmProblem, progress: Progress | None) -> _Raised:
     """Solutions with the roughness raised in steps from zero to its full height (continuation).
 
-    Each converged solution is the initial guess of the next. An increment that does not converge is halved.
-    The continuation ends if the smallest increment does not converge; the last solution is then not
-    converged.
+    The first solutions are those of smooth surfaces. Each converged solution is the initial guess of the
+    next. An increment that does not converge is halved. The continuation ends if the smallest increment does
+    not converge; the last solution is then not converged.
     """
-    best, reached, step = smooth, 0.0, _FIRST_RISE
+    solutions = nested_iteration(replace(problem, added_gap=None), progress)
+    best, reached, step = solutions[-1], 0.0, _FIRST_RISE
     while best.status == "converged" and reached < 1.0:
         part = min(1.0, reached + step)
         levels = _levels(problem, roughness=part)
@@ -133,12 +219,14 @@ def _raise_roughness(
         )
         if solution.status == "converged":
             best, reached, step = solution, part, 1.5 * step
-            yield solution
         elif step > _LEAST_RISE:
             step *= 0.5
-        else:
-            yield solution
-            return
+            continue
+        solutions.append(solution)
+        if solution.status != "converged":
+            break
+    smooth = best.status == "converged" or reached > 0.0
+    return _Raised(solutions, reached if smooth else None)
 
 
 def _solve_grid(
@@ -161,6 +249,8 @@ def _solve_grid(
         state,
         tolerance=problem.tolerance if finest else max(problem.tolerance, NESTED_TOLERANCE),
         max_iterations=problem.max_iterations,
+        # The residual of an interpolated film may be small although the film is that of the coarser grid.
+        min_iterations=1,
         progress=progress,
         # The spike of a point contact is a ridge, of which no single line can be solved separately.
         eliminate_spike=spike and problem.width is None,
@@ -174,13 +264,18 @@ def _from_coarser(
 
     The coarse solution is interpolated by a monotone cubic, which is smooth and does not overshoot.
     """
-    level, of = levels[0], coarse.level.mesh
+    state = _interpolated(levels[0], coarse)
+    state = state.lifted(0.5 * float(coarse.state.thickness.min()))
+    return _solve_grid(problem, levels, state, progress, spike=True)
+
+
+def _interpolated(level: Level, coarse: GridSolution) -> State:
+    """State on a grid with the pressure of a coarser grid, interpolated by a monotone cubic."""
+    of = coarse.level.mesh
     pressure = PchipInterpolator(of.x, coarse.state.pressure, axis=0)(level.mesh.x)
     if of.y.size > 1:
         pressure = PchipInterpolator(of.whole_y, of.mirrored(pressure), axis=1)(level.mesh.y)
-    state = State.of(level, pressure, coarse.state.h00)
-    state = state.lifted(0.5 * float(coarse.state.thickness.min()))
-    return _solve_grid(problem, levels, state, progress, spike=True)
+    return State.of(level, pressure, coarse.state.h00)
 
 
 def _from_hertz(

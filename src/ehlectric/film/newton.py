@@ -13,7 +13,7 @@ import numpy as np
 from scipy.sparse.linalg import LinearOperator, gcrotmk
 
 from ehlectric.arrays import Array
-from ehlectric.film.cavitation import full_film_nodes
+from ehlectric.film.cavitation import full_film_nodes, with_refilled_nodes
 from ehlectric.film.flow import Fluid, flow
 from ehlectric.film.gap import Gap
 from ehlectric.film.levels import Level
@@ -39,6 +39,9 @@ LINEAR_TOLERANCE = 1e-3
 
 # Largest number of GMRES iterations per Newton step.
 KRYLOV_LIMIT = 60
+
+# Residual below which a film that has grown in two successive steps is filled over many nodes at a time.
+_NEAR = 1e-3
 
 # Weight of the relative load imbalance in the residual: the load is balanced ten times as closely as the
 # Reynolds equation.
@@ -91,6 +94,7 @@ def newton(
     # The residual contains differences of H over dX, so that rounding of H causes a residual of this size.
     tolerance = max(tolerance, ROUNDING * level.rate)
     steps: list[NewtonStep] = []
+    grown = 0  # successive steps in which the full film has grown
     now = assess(fluid, level, state)
     while len(steps) < min_iterations or (now.norm > tolerance and len(steps) < max_iterations):
         if progress is not None:
@@ -105,9 +109,17 @@ def newton(
         assessed = assess(fluid, level, candidate)
         if not (np.isfinite(assessed.norm) and np.min(candidate.thickness) > _SMALLEST_GAP):
             return GridSolution(level, state, now, tuple(steps), "diverged")
+        grown = grown + 1 if np.sum(assessed.full_film) > np.sum(now.full_film) else 0
+        if grown > 1 and tolerance < assessed.norm < _NEAR:
+            assessed = _refilled(assessed)
         state, now = candidate, assessed
     status: Status = "converged" if now.norm <= tolerance else "stalled"
     return GridSolution(level, state, now, tuple(steps), status)
+
+
+def _refilled(now: Residual) -> Residual:
+    """Residual with a full film also at the cavitated nodes that a surplus of oil fills."""
+    return replace(now, full_film=with_refilled_nodes(now.full_film, now.reynolds))
 
 
 def assess(fluid: Fluid, level: Level, state: State) -> Residual:

@@ -12,15 +12,11 @@ from numpy.typing import NDArray
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.film.estimates import discretisation_error, inlet_deficit
-from ehlectric.film.mesh import Mesh, at_centre
+from ehlectric.film.mesh import Mesh
 from ehlectric.film.problem import FilmProblem, Scales
-from ehlectric.film.state import GridSolution, NewtonStep, State, Status
+from ehlectric.film.state import GridSolution, NewtonStep, State, Status, film_touches
 from ehlectric.runtime.threads import one_blas_thread
 from ehlectric.runtime.values import Values
-
-# A film that did not converge counts as collapsed where it is thinner than this fraction of its central
-# thickness.
-COLLAPSED = 1e-2
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -179,6 +175,6 @@ def film_status(status: Status, mesh: Mesh, thickness: Array) -> Status:
     It is "film collapsed" if the film did not converge and is thinner somewhere than 1 % of its central
     thickness. Otherwise it is the status of the iteration.
     """
-    if status != "converged" and float(np.min(thickness)) < COLLAPSED * at_centre(mesh, thickness):
+    if status != "converged" and film_touches(mesh, thickness):
         return "film collapsed"
     return status

@@ -12,6 +12,11 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.film.flow import Coefficients, Flow
 from ehlectric.film.gap import Gap
 from ehlectric.film.levels import Level
+from ehlectric.film.mesh import Mesh, at_centre
+
+# A film that did not converge counts as collapsed where it is thinner than this fraction of its central
+# thickness.
+COLLAPSED = 1e-2
 
 Status: TypeAlias = Literal["converged", "stalled", "diverged", "film collapsed"]
 
@@ -132,3 +137,8 @@ class GridSolution:
     final: Residual
     steps: tuple[NewtonStep, ...]
     status: Status
+
+
+def film_touches(mesh: Mesh, thickness: Array) -> bool:
+    """Whether a film (nx, ny) in any unit is thinner somewhere than 1 % of its central thickness."""
+    return float(np.min(thickness)) < COLLAPSED * at_centre(mesh, thickness)

@@ -13,14 +13,14 @@ import numpy as np
 
 from ehlectric.errors import InputError
 from ehlectric.film.deflection import LINE
-from ehlectric.film.estimates import inlet_deficit, richardson
+from ehlectric.film.estimates import film_error, inlet_deficit
 from ehlectric.film.line import Film
 from ehlectric.film.mesh import Mesh
 from ehlectric.film.nested import FIRST_GRID, NESTED_TOLERANCE
 from ehlectric.film.newton import ROUNDING
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.solution import film_status
-from ehlectric.film.state import NewtonStep, Progress, Status
+from ehlectric.film.state import NewtonStep, Progress, State, Status
 from ehlectric.formulas.hertz_line import line_pressure
 from ehlectric.paper.film_equations import FilmEquations, Iterate
 from ehlectric.paper.relaxation import relax, solve_coarsest
@@ -280,9 +280,7 @@ def _film(
         status = "diverged"
     error = None
     if coarser is not None and status == "converged":
-        films = ((finest, c), (coarser[0], coarser[0].coefficients(coarser[1])))
-        of_fine, of_coarse = ((_mesh(of), c.thickness[:, np.newaxis]) for of, c in films)
-        error = richardson(of_fine, of_coarse, order=problem.order)
+        error = film_error(problem, _state_on(finest, at), _state_on(*coarser))
     cavitated = at.pressure <= fluid.ambient_pressure
     pressure = np.maximum(scales.pressure * at.pressure, scales.ambient_pressure)
     return Film(
@@ -308,6 +306,12 @@ def _film(
             (c.density * c.thickness)[:, np.newaxis],
         ),
     )
+
+
+def _state_on(equations: FilmEquations, at: Iterate) -> tuple[Mesh, State]:
+    """Mesh of one grid, and the state of the film on it."""
+    thickness = equations.coefficients(at).thickness[:, np.newaxis]
+    return _mesh(equations), State(at.pressure[:, np.newaxis], at.h00, thickness)
 
 
 def _mesh(equations: FilmEquations) -> Mesh:

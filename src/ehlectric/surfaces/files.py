@@ -19,7 +19,7 @@ from ehlectric.runtime.reading import read_bytes, regular
 from ehlectric.surfaces.instrument_files import MOST_POINTS, HeightMap, read_al3d, read_x3p
 from ehlectric.surfaces.maps import Map
 from ehlectric.surfaces.profiles import LEAST_POINTS, Profile
-from ehlectric.surfaces.text_files import is_text, read_text
+from ehlectric.surfaces.text_files import NoProfileError, is_text, read_text
 from ehlectric.surfaces.voids import filled, without_void_borders
 
 # Largest credible slope between neighbours: no instrument measures a flank steeper than 5 (79 degrees).
@@ -232,7 +232,7 @@ def read_surface(path: str | Path, *, x_unit: str | None = None, z_unit: str | N
     ----------
     path : str or Path
         Text profile (.csv, .txt, .asc, .dat, .hfm), .x3p or .al3d file. SurfaceTopography reads other
-        formats.
+        formats, also text with a matrix of heights.
     x_unit, z_unit : str, optional
         Units of positions and heights in a text file that does not state them. They must not contradict the
         file.
@@ -257,8 +257,7 @@ def read_surface(path: str | Path, *, x_unit: str | None = None, z_unit: str | N
     elif suffix == ".al3d" or content.startswith(b"AliconaImaging"):
         surface = _of_map(path, read_al3d(path, content), x_unit, z_unit)
     elif is_text(content):
-        text = read_text(path, content, x_unit, z_unit)
-        surface = Surface(text.heights[np.newaxis], text.spacing, None, str(path), text.warnings)
+        surface = _of_text(path, content, x_unit, z_unit)
     else:
         surface = _of_map(path, _read_other(path), x_unit, z_unit)
     _check_scale(surface)
@@ -271,6 +270,15 @@ def _content(path: Path) -> bytes:
         text = is_text(file.read(4096))
     most, copies = (MOST_TEXT, _TEXT_COPIES) if text else (MOST_BINARY, 1.0)
     return read_bytes(path, most=most, copies=copies)
+
+
+def _of_text(path: Path, content: bytes, x_unit: str | None, z_unit: str | None) -> Surface:
+    """Surface of a text: a profile, or another format that the package SurfaceTopography reads."""
+    try:
+        text = read_text(path, content, x_unit, z_unit)
+    except NoProfileError as error:
+        return _of_map(path, _read_other(path, error.text), x_unit, z_unit)
+    return Surface(text.heights[np.newaxis], text.spacing, None, str(path), text.warnings)
 
 
 def _of_map(path: Path, heights: HeightMap, x_unit: str | None, z_unit: str | None) -> Surface:
@@ -300,14 +308,16 @@ def _check_scale(surface: Surface) -> None:
         )
 
 
-def _read_other(path: Path) -> HeightMap:
-    """Heights and spacings of a file in a format that the package SurfaceTopography reads."""
+def _read_other(path: Path, otherwise: str = "is no text profile, X3P or AL3D") -> HeightMap:
+    """Heights and spacings of a file in a format that the package SurfaceTopography reads.
+
+    ``otherwise`` says why the readers of this package do not read it.
+    """
     try:
         from SurfaceTopography import open_topography  # type: ignore[import-not-found]
     except ImportError:
-        raise InputError(
-            path, "is neither text, X3P nor AL3D; other formats take the extra ehlectric[instruments]"
-        ) from None
+        text = f"{otherwise}; other formats take the extra ehlectric[instruments]"
+        raise InputError(path, text) from None
     try:
         reader = open_topography(str(path))
         # The sizes in the header are known before the heights are read.
@@ -320,7 +330,8 @@ def _read_other(path: Path) -> HeightMap:
     except (InputError, MemoryError):
         raise
     except Exception as error:  # the readers of forty formats raise exceptions of any kind
-        raise InputError(path, f"cannot be read by SurfaceTopography, {str(error)[:80]}") from None
+        text = f"{otherwise}; it cannot be read by SurfaceTopography either, {str(error)[:80]}"
+        raise InputError(path, text) from None
     if heights.ndim == 1:
         return heights[np.newaxis], float(spacing[0]), None
     return heights.T, float(spacing[0]), float(spacing[1])

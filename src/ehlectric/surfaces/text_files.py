@@ -42,8 +42,15 @@ _BRACKETED_FIELD = re.compile(r"[^\[\]()]*+[\[(][^\[\]()]*+[\])]")
 _BRACKETED_FIELDS = re.compile(rf"(?:{_BRACKETED_FIELD.pattern})++")
 _VALIDITY = re.compile(r"valid(ity)?", re.IGNORECASE)
 
+# Largest number of columns of a text profile: position, height and validity.
+_PROFILE_COLUMNS = 3
+
 # Largest position and height that are credible for a surface [m].
 _FARTHEST = 10.0
+
+
+class NoProfileError(InputError):
+    """Error of a text that has other contents than the two columns of a profile, such as a matrix."""
 
 
 @dataclass(frozen=True)
@@ -119,6 +126,8 @@ def read_text(path: Path, content: bytes, x_unit: str | None, z_unit: str | None
 
     Raises
     ------
+    NoProfileError
+        If the file is not two columns of numbers; another reader may know its format.
     InputError
         If the file cannot be read or can be read in two ways, or if its units are unknown or contradict the
         arguments.
@@ -128,7 +137,7 @@ def read_text(path: Path, content: bytes, x_unit: str | None, z_unit: str | None
         raise InputError(path, f"has {len(block.rows)} points", takes=f"at least {LEAST_POINTS}")
     width = len(block.rows[0])
     if width > 2 and not (width == 3 and _has_validity(block)):
-        raise InputError(
+        raise NoProfileError(
             path, f"has {width} columns", takes="two, position and height, and perhaps a third headed 'valid'"
         )
     stated = _stated_units(block, width)
@@ -188,7 +197,7 @@ def _no_columns(path: Path, lines: list[str]) -> InputError:
     single = [line for line in lines if _SINGLE.fullmatch(line)]
     if len(single) > 1:
         return InputError(path, "contains one column of numbers", takes="two, position and height")
-    return InputError(path, "does not contain two columns of numbers", takes="position and height")
+    return NoProfileError(path, "does not contain two columns of numbers", takes="position and height")
 
 
 def _separator(line: str) -> str | None:
@@ -204,6 +213,8 @@ def _separator(line: str) -> str | None:
 def _bad_line(path: Path, below: list[tuple[int, str]], layouts: list[_Layout]) -> InputError:
     for number, line in below:
         if not any(layout.is_row(line) for layout in layouts):
+            if len(layouts[0].fields(below[0][1])) > _PROFILE_COLUMNS:
+                return NoProfileError(path, f"line {number} is not of numbers only", takes="two columns")
             text = shown(line.strip())
             return InputError(path, f"line {number} is {text}", takes="numbers of one kind down to the end")
     return InputError(path, "mixes decimal points and decimal commas", takes="one of the two")

@@ -123,18 +123,6 @@ def test_thin_gap_error_without_the_minimum(paper_case):
     assert result.summary()["field"]["central_dimensionless"] is None
 
 
-@pytest.mark.parametrize(("wedge", "orders"), [("first-order", (1, 1)), ("second-order", (1.25, 2))])
-def test_discretisation_error_is_richardsons(paper_case, wedge, orders):
-    """From two solutions of their own."""
-    case = paper_case.replace({"grid.wedge": wedge})
-    fine, coarse = (solve(case.replace({"grid.nodes": n})).film for n in (1601, 801))
-    estimates = [
-        abs(getattr(fine, name) - getattr(coarse, name)) / (2**order - 1) / getattr(fine, name)
-        for name, order in zip(("minimum_thickness", "central_thickness"), orders, strict=True)
-    ]
-    assert fine.discretisation_error == pytest.approx(max(estimates), rel=1e-4, abs=0.0)
-
-
 @pytest.mark.parametrize("speed", [4.0, 16.0])
 def test_inlet_deficit_is_what_the_film_lacks(paper_case, speed):
     """Against a domain ten times as long; a film goes with some 3/4 power of its inlet integral."""

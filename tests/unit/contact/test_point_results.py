@@ -106,19 +106,26 @@ def test_definitions_of_the_summary(result):
     assert film.y[-1] == pytest.approx(result.conditions.side * a, rel=1e-12, abs=0.0)
 
 
-@pytest.mark.parametrize(
-    ("wedge", "orders"), [SLOW("first-order", (1, 1)), pytest.param("second-order", (1.25, 2))]
-)
-def test_discretisation_error_is_richardsons(wedge, orders):
-    """From two solutions of their own, one on half the intervals of the other."""
-    cases = [ellipse(n, nodes_y=n, wedge=wedge) for n in (129, 65)]
-    fine, coarse = (solve_point_film(point_film_problem(case, resolve_point(case))) for case in cases)
-    estimates = [
-        abs(getattr(coarse, name) / getattr(fine, name) - 1.0) / (2.0**order - 1.0)
-        for name, order in zip(("minimum_thickness", "central_thickness"), orders, strict=True)
-    ]
+def thicknesses(film):
+    return np.array([film.minimum_thickness, film.central_thickness])
+
+
+@pytest.mark.parametrize("wedge", [SLOW("first-order"), "second-order"])
+def test_discretisation_error_is_richardsons(wedge):
+    """From two solutions of their own; of first order with the distance from the second order."""
+
+    def film(nodes, wedge):
+        case = ellipse(nodes, nodes_y=nodes, wedge=wedge)
+        return solve_point_film(point_film_problem(case, resolve_point(case)))
+
+    fine, coarse = (film(nodes, "second-order") for nodes in (129, 65))
+    estimates = np.abs(thicknesses(coarse) / thicknesses(fine) - 1.0) / (2.0 ** np.array([1.25, 2.0]) - 1.0)
+    found = fine
+    if wedge == "first-order":
+        found = film(129, wedge)
+        estimates += np.abs(thicknesses(found) / thicknesses(fine) - 1.0)
     # The coarser of one solution is solved less closely than one for itself.
-    assert fine.discretisation_error == pytest.approx(max(estimates), rel=1e-3, abs=0.0)
+    assert found.discretisation_error == pytest.approx(max(estimates), rel=1e-3, abs=0.0)
 
 
 def test_dataset_has_dimensions_and_units(rough_result):
@@ -239,8 +246,9 @@ def test_any_result_survives_the_disk(table, tmp_path_factory):
 
 
 WARNINGS = [
-    ({"grid.inlet": -1.6}, "the domain is too small: .* % of the pressure would build up upstream",
+    ({"grid.inlet": -2.2}, "the domain is too small: .* % of the pressure would build up upstream",
      "domain-too-small"),
+    SLOW({"grid.inlet": -1.5}, "the domain is too small: .* do not use this film", "domain-far-too-small"),
     SLOW({"grid.side": 1.3, "grid.field_side": 1.2}, "too small: .* lower grid.inlet and raise grid.side",
          "domain-too-small"),
     ({"grid.outlet": 1.01, "grid.field_range": [-1.1, 1.0]}, "does not cavitate", "outlet-too-short"),

@@ -3,6 +3,9 @@
 The real file is from the public repository ContactEngineering/SurfaceTopography, MIT licence.
 """
 
+import sys
+from types import ModuleType
+
 import numpy as np
 import pytest
 
@@ -92,10 +95,76 @@ def test_real_al3d():
 @pytest.mark.parametrize("name", ["x3p-2-half.x3p", "al3d-1.al3d"])
 def test_readers_agree_with_surface_topography(name):
     pytest.importorskip("SurfaceTopography", exc_type=ImportError)
-    ours, theirs = read_surface(DATA / name), _read_other(DATA / name)
-    assert ours.spacing_x == pytest.approx(theirs.spacing_x)
-    differences = (ours.heights - ours.heights.mean()) - (theirs.heights - theirs.heights.mean())
+    ours, (heights, spacing_x, _) = read_surface(DATA / name), _read_other(DATA / name)
+    assert ours.spacing_x == pytest.approx(spacing_x)
+    differences = (ours.heights - np.nanmean(ours.heights)) - (heights - np.nanmean(heights))
     np.testing.assert_allclose(differences, 0.0, atol=1e-15)
+
+
+MATRIX = "# Channel: Height\n# Width: 40 um\n# Height: 24 um\n# Value units: nm\n"
+
+
+def matrix_file(path):
+    """Text matrix of Gwyddion: 24 rows and 40 columns of heights, one node a micrometre."""
+    rows, columns = np.indices((24, 40))
+    heights = 10.0 * np.sin(0.3 * columns) + rows
+    lines = ["\t".join(f"{z:.6e}" for z in row) for row in heights]
+    path.write_text(MATRIX + "\n".join(lines))
+    return path, 1e-9 * heights
+
+
+class Topography:
+    """Stand-in for a file of SurfaceTopography: heights (columns, rows) and the distances of its points."""
+
+    def __init__(self, path):
+        self._heights, self.pixel_size = np.loadtxt(path).T * 1e-9, (1e-6, 1e-6)
+
+    def topography(self):
+        return self
+
+    def to_unit(self, unit):
+        assert unit == "m"
+        return self
+
+    def heights(self):
+        return self._heights
+
+
+def test_text_matrix_goes_to_the_other_reader(tmp_path, monkeypatch):
+    """By a stand-in for the package, which need not be installed."""
+    package = ModuleType("SurfaceTopography")
+    package.open_topography = Topography
+    monkeypatch.setitem(sys.modules, "SurfaceTopography", package)
+    path, heights = matrix_file(tmp_path / "matrix.txt")
+    surface = read_surface(path)
+    np.testing.assert_allclose(surface.heights, heights, atol=1e-14)
+    assert (surface.spacing_x, surface.spacing_y) == (1e-6, 1e-6)
+    assert surface.map().heights.shape == (40, 24)
+    with pytest.raises(InputError, match=r"z_unit: got 'nm', but .* has its own unit"):
+        read_surface(path, z_unit="nm")
+
+
+def test_text_matrix_by_surface_topography(tmp_path):
+    pytest.importorskip("SurfaceTopography", exc_type=ImportError)
+    path, heights = matrix_file(tmp_path / "matrix.txt")
+    surface = read_surface(path)
+    np.testing.assert_allclose(surface.heights, heights, atol=1e-14)
+    assert surface.spacing_x == pytest.approx(1e-6, rel=1e-9, abs=0.0)
+
+
+def test_text_matrix_without_the_package_says_what_reads_it(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "SurfaceTopography", None)  # an import of it fails
+    path, _ = matrix_file(tmp_path / "matrix.txt")
+    with pytest.raises(
+        InputError, match=r"has 40 columns; expected two, .*; other formats take the extra ehlectric\[ins"
+    ):
+        read_surface(path)
+    path.write_text(path.read_text().replace("1.000000e+00", "BAD"))
+    with pytest.raises(
+        InputError,
+        match=r"line 6 is not of numbers only; expected two columns; .* take the extra ehlectric\[ins",
+    ):
+        read_surface(path)
 
 
 def text_file(path, *, header="x [um];z [nm]", rows=40, separator=";", change=lambda lines: lines):
@@ -184,7 +253,7 @@ def test_files_that_are_cut_or_wrong(tmp_path):
     for name, message in (
         ("cut.x3p", "not a complete X3P"),
         ("no.x3p", "not a complete X3P"),
-        ("binary.opd", "neither text, X3P nor AL3D|cannot be read by SurfaceTopography"),
+        ("binary.opd", "no text profile, X3P or AL3D; other formats|cannot be read by SurfaceTopography"),
         ("words.csv", "two columns of numbers"),
         ("short.al3d", "bytes long; expected 513000"),
         ("nowhere.csv", "no such file"),
