@@ -94,6 +94,7 @@ FILM_NUMBERS = (
     "newton_iterations",
     "discretisation_error",
     "inlet_deficit",
+    "max_pressure_error",
 )
 FIELD_NUMBERS = ("voltage", "capacitance", "capacitance_by_charge", "thin_gap_capacitance")
 LINE_LAYOUT = Layout(
