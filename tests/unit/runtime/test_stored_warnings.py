@@ -28,6 +28,7 @@ TEXTS = json.loads((EARLIER / "warnings.json").read_text(encoding="utf-8"))
 # codes gave them.
 UNSTORED = {
     "breakdown-expected",
+    "local-plastic-deformation",
     "radius-large",
     "speed-high",
     "temperature-extreme",

@@ -1,1 +1,1 @@
-"""Error estimates that look at places of the film: rough films between their nodes, and the maximum pressure."""
+"""Error estimates of rough films and of the maximum pressure, which look between the nodes of the grid."""

@@ -8,8 +8,7 @@ from scipy.interpolate import make_interp_spline
 from ehlectric.arrays import Array
 from ehlectric.film.mesh import Mesh
 
-# Distance from a position, in spacings of the coarser grid, within which values are compared. Half of it
-# misses minima that move from grid to grid; twice as much makes the estimates of rough films half as wide again.
+# Distance from a position, in spacings of the coarser grid, within which values are compared.
 _REACH = 4.0
 
 # Nodal values (nx, ny) on a grid.

@@ -1,4 +1,4 @@
-"""Error estimate of a rough film: the film near its minimum on two grids, and the roughness between the nodes."""
+"""Error estimate of a rough film: its change from the coarser grid, and the roughness between the nodes."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.film.accuracy.between_grids import Values, change_near, interpolated, position
+from ehlectric.film.accuracy.between_grids import Values, change_near, interpolated
 from ehlectric.film.estimates import MINIMUM_ORDER, discretisation_error
 from ehlectric.film.mesh import Mesh, at_centre
 from ehlectric.film.problem import FilmProblem
@@ -45,9 +45,10 @@ def rough_film_error(problem: FilmProblem, fine: GridSolution, coarse: GridSolut
     -----
     The estimate of a rough film is the sum of two parts.
 
-    - The film near its minimum, and near the centre, on both grids. The minimum jumps from one valley of the
-      roughness to another, so the two minima may agree by chance. The largest difference of the two films
-      within four coarse spacings of either minimum replaces it in Richardson's estimate.
+    - The film at its minimum, and near the centre, on both grids. The minimum jumps from one valley of the
+      roughness to another, so the two minima may agree by chance. In Richardson's estimate their difference
+      is replaced by the largest difference of the two films at any node that it might make the minimum: at
+      the minima themselves, and wherever the film less the difference is below the minimum.
     - The roughness between the nodes. Waves that are short compared with the contact are not flattened
       (amplitude reduction, doi:10.1016/S0167-8922(08)70440-1): they keep their amplitude in the film. What
       the heights of the surface between the nodes exceed the line through the nodes, the film loses.
@@ -63,11 +64,44 @@ def rough_film_error(problem: FilmProblem, fine: GridSolution, coarse: GridSolut
 def _of_two_grids(fine: Values, coarse: Values, *, order: int) -> float:
     """Richardson's estimate with the largest changes of the film near its minima and near the centre."""
     ratio = coarse[0].dx / fine[0].dx
-    minima = [position(mesh, int(np.argmin(film))) for mesh, film in (fine, coarse)]
-    of_minimum = change_near(fine, coarse, minima) / float(np.min(fine[1]))
+    of_minimum = change_of_minimum(fine, coarse) / float(np.min(fine[1]))
     of_centre = change_near(fine, coarse, [(0.0, 0.0)]) / at_centre(*fine)
     of_minimum /= ratio ** min(order, MINIMUM_ORDER) - 1.0
     return max(of_minimum, of_centre / (ratio**order - 1.0))
+
+
+def change_of_minimum(fine: Values, coarse: Values) -> float:
+    """Largest difference between a film on two grids at any node that it might make the minimum.
+
+    Parameters
+    ----------
+    fine, coarse : pair of Mesh and ndarray
+        Grid and film thickness (nx, ny), on a grid and on the next coarser grid over the same domain.
+
+    Returns
+    -------
+    float
+        Largest absolute difference, in the unit of the film thickness.
+
+    Examples
+    --------
+    Two valleys change places, so that the minimum stays the same:
+
+    >>> import numpy as np
+    >>> fine, coarse = Mesh.over(5, -1.0, 1.0), Mesh.over(3, -1.0, 1.0)
+    >>> on_fine = fine, np.array([[1.0], [2.0], [1.3], [2.0], [9.0]])
+    >>> on_coarse = coarse, np.array([[1.3], [1.0], [5.0]])
+    >>> round(change_of_minimum(on_fine, on_coarse), 3)
+    0.3
+    """
+    mesh, film = coarse
+    there = interpolated(*fine, mesh.x, mesh.y)
+    change = np.abs(there - film)
+    lowest = float(np.min(fine[1]))
+    candidates = there - change <= lowest
+    for whole in (there, film):
+        candidates.flat[int(np.argmin(whole))] = True
+    return max(abs(lowest - float(np.min(film))), float(np.max(change, where=candidates, initial=0.0)))
 
 
 def roughness_between_nodes(
