@@ -10,9 +10,9 @@ from ehlectric.film.accuracy.between_grids import change_near, position
 from ehlectric.film.mesh import Mesh
 from ehlectric.film.state import GridSolution
 
-# Part of the fourth difference by which a peak between the nodes may exceed its node. On 660 grids of 166
-# random rough contacts the true error was above the estimate in 3 % with one half, in 9 % with one third.
-_PART = 0.5
+# Part of the fourth difference by which a peak between the nodes may exceed its node. On 692 grids of random
+# rough contacts the true error exceeded the estimate in 6 % with 0.33, in 4 % with 0.4, in 2.5 % with 0.5.
+_PART = 0.4
 
 
 def max_pressure_error(fine: GridSolution, coarse: GridSolution | None) -> float | None:
@@ -41,9 +41,10 @@ def max_pressure_error(fine: GridSolution, coarse: GridSolution | None) -> float
 
     The estimate is therefore taken from one grid, too. Where the grid resolves a peak, the fourth difference
     of the pressure falls by 16 from grid to grid. At a spike or step from one node to the next it is several
-    times the height of the step. Half of it is added to the pressure of every node. The estimate is what the
-    largest sum exceeds the maximum, or the change of the maximum, or of the pressure near it, from the
-    coarser grid, whichever is largest.
+    times the height of the step. Two fifths of it are added to the pressure of every node, with the most by which
+    the peak of a parabola through three nodes exceeds them, an eighth of the second difference. The estimate
+    is what the largest sum exceeds the maximum, or the change of the maximum, or of the pressure near it,
+    from the coarser grid, whichever is largest.
     """
     if coarse is None or fine.status != "converged" or coarse.status != "converged":
         return None
@@ -71,22 +72,24 @@ def between_nodes(mesh: Mesh, pressure: Array) -> float:
 
     Examples
     --------
-    A parabola is resolved; a step of 0.5 next to the maximum is not:
+    A parabola exceeds its nodes by an eighth of its second difference; a step of 0.5 is not resolved:
 
     >>> import numpy as np
     >>> mesh = Mesh.over(101, -1.0, 1.0)
     >>> parabola = 1.0 - mesh.x[:, np.newaxis] ** 2
-    >>> round(between_nodes(mesh, parabola), 3)
-    0.0
+    >>> round(between_nodes(mesh, parabola), 6)
+    0.0001
     >>> round(between_nodes(mesh, np.where(mesh.x[:, np.newaxis] < 0.01, 1.0, 0.5)), 3)
-    0.75
+    0.662
     """
     whole = mesh.mirrored(pressure)
-    difference = np.zeros_like(whole)
-    if mesh.x.size > 4:
-        difference[2:-2] = np.abs(np.diff(whole, 4, axis=0))
-    if whole.shape[1] > 4:
-        across = np.abs(np.diff(whole, 4, axis=1))
-        difference[:, 2:-2] = np.maximum(difference[:, 2:-2], across)
+    of_parabola, difference = np.zeros_like(whole), np.zeros_like(whole)
+    for values, parabola, fourth in (
+        (whole, of_parabola, difference),
+        (whole.T, of_parabola.T, difference.T),
+    ):
+        if len(values) > 4:
+            parabola[1:-1] += np.abs(np.diff(values, 2, axis=0)) / 8.0
+            fourth[2:-2] = np.maximum(fourth[2:-2], np.abs(np.diff(values, 4, axis=0)))
     near = maximum_filter(difference, size=(3, 1 if whole.shape[1] == 1 else 3))
-    return max(0.0, float(np.max(whole + _PART * near)) - float(np.max(whole)))
+    return max(0.0, float(np.max(whole + of_parabola + _PART * near)) - float(np.max(whole)))
