@@ -41,8 +41,8 @@ def max_pressure_error(fine: GridSolution, coarse: GridSolution | None) -> float
 
     The estimate is therefore taken from one grid, too. Where the grid resolves a peak, the fourth difference
     of the pressure falls by 16 from grid to grid. At a spike or step from one node to the next it is several
-    times the height of the step. Two fifths of it are added to the pressure of every node, with the most by which
-    the peak of a parabola through three nodes exceeds them, an eighth of the second difference. The estimate
+    times the height of the step. Two fifths of it are added to the pressure of every node. An eighth of the
+    second difference is added too, by which the peak of a parabola exceeds three nodes at most. The estimate
     is what the largest sum exceeds the maximum, or the change of the maximum, or of the pressure near it,
     from the coarser grid, whichever is largest.
     """
@@ -79,8 +79,8 @@ def between_nodes(mesh: Mesh, pressure: Array) -> float:
     >>> parabola = 1.0 - mesh.x[:, np.newaxis] ** 2
     >>> round(between_nodes(mesh, parabola), 6)
     0.0001
-    >>> round(between_nodes(mesh, np.where(mesh.x[:, np.newaxis] < 0.01, 1.0, 0.5)), 3)
-    0.662
+    >>> round(between_nodes(mesh, np.where(mesh.x[:, np.newaxis] < 0.01, 1.0, 0.5)), 4)
+    0.6625
     """
     whole = mesh.mirrored(pressure)
     of_parabola, difference = np.zeros_like(whole), np.zeros_like(whole)
