@@ -19,8 +19,8 @@ _PARTS = 32
 _PARTS_POINT = 4
 _BLOCK = 64
 
-# Multiple of its change from the coarser grid by which a film must fall at a node to become the minimum there,
-# if the node counts. With one, a point contact on 65 nodes had an error of 2.5 times its estimate; with three
+# Multiple of its change from the coarser grid by which the film at a node must fall to become the minimum, for
+# the node to count. With one, a point contact on 65 nodes had an error of 2.5 times its estimate; with three
 # the estimates of point contacts are twice as wide.
 _CANDIDATE = 2.0
 
@@ -96,7 +96,7 @@ def change_of_minimum(fine: Values, coarse: Values) -> float:
     >>> import numpy as np
     >>> fine, coarse = Mesh.over(5, -1.0, 1.0), Mesh.over(3, -1.0, 1.0)
     >>> on_fine = fine, np.array([[1.0], [2.0], [1.3], [2.0], [9.0]])
-    >>> on_coarse = coarse, np.array([[1.3], [1.0], [5.0]])
+    >>> on_coarse = coarse, np.array([[1.3], [1.0], [8.0]])
     >>> round(change_of_minimum(on_fine, on_coarse), 3)
     0.3
     """
