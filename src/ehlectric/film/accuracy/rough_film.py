@@ -19,9 +19,9 @@ _PARTS = 32
 _PARTS_POINT = 4
 _BLOCK = 64
 
-# Multiple of its change from the coarser grid by which the film at a node must fall to become the minimum, for
-# the node to count. With one, a point contact on 65 nodes had an error of 2.5 times its estimate; with three
-# the estimates of point contacts are twice as wide.
+# Multiple of its change from the coarser grid by which the film at a node must fall to become the minimum,
+# for the node to count. With one, a point contact on 65 nodes had an error of 2.5 times its estimate. With
+# three, the estimates of line contacts are no better.
 _CANDIDATE = 2.0
 
 # Distance from the centre, in spacings, within which roughness between the nodes changes the film there.
