@@ -265,6 +265,7 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "coarser-grid-unsolved": Cause("The discretisation error is unknown and probably large.", "severe"),
         "grid-too-coarse": Cause("The estimated discretisation error of the film is large."),
         "grid-far-too-coarse": Cause("The discretisation error of the film is above 10 %.", "severe"),
+        "local-plastic-deformation": Cause("The local pressure deforms bearing steel permanently."),
         "outlet-too-short": Cause("The film does not cavitate within the domain."),
         "inlet-too-short": Cause("Some of the inlet pressure builds up upstream of the domain."),
         "inlet-far-too-short": Cause("Above 20 % of the inlet pressure builds up upstream.", "severe"),

@@ -15,7 +15,7 @@ from ehlectric.formulas import film_line as film_formulas
 from ehlectric.formulas import film_point as point_formulas
 
 # Hertz pressure at which bearing steel deforms permanently in line contacts (ISO 76) [Pa].
-_LINE_PERMANENT = 4e9
+LINE_PERMANENT = 4e9
 
 # Radius of contact above which a unit is probably wrong: the largest rolls and gears are near it [m].
 _LARGEST = 1.0
@@ -25,7 +25,7 @@ _LARGEST = 1.0
 _RIGID_INLET = 14.0
 
 # Hertz pressure at which bearing steel deforms permanently in point contacts (ISO 76) [Pa].
-_POINT_PERMANENT = 4.2e9
+POINT_PERMANENT = 4.2e9
 
 
 def line_case_warnings(setup: Case | Setup, conditions: Conditions) -> Iterator[ResultWarning]:
@@ -33,7 +33,7 @@ def line_case_warnings(setup: Case | Setup, conditions: Conditions) -> Iterator[
     yield from radius_warnings("reduced_radius", conditions.reduced_radius)
     yield from regime_warnings(conditions)
     width = (setup.grid.outlet - setup.grid.inlet) / (0.5 * np.pi)
-    yield from pressure_warnings(setup.lubricant, conditions.max_pressure, width, "line", _LINE_PERMANENT)
+    yield from pressure_warnings(setup.lubricant, conditions.max_pressure, width, "line", LINE_PERMANENT)
 
 
 def radius_warnings(key: str, radius: float) -> Iterator[ResultWarning]:
@@ -101,7 +101,7 @@ def point_case_warnings(setup: Case | Setup, conditions: PointConditions) -> Ite
     yield from point_regime_warnings(conditions)
     area = (setup.grid.outlet - setup.grid.inlet) * 2.0 * conditions.side
     domain = area / (2.0 * np.pi / 3.0)
-    yield from pressure_warnings(setup.lubricant, conditions.max_pressure, domain, "point", _POINT_PERMANENT)
+    yield from pressure_warnings(setup.lubricant, conditions.max_pressure, domain, "point", POINT_PERMANENT)
 
 
 def point_regime_warnings(conditions: PointConditions) -> Iterator[ResultWarning]:

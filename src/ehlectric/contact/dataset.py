@@ -107,6 +107,7 @@ FILM_NUMBERS = (
     "newton_iterations",
     "discretisation_error",
     "inlet_deficit",
+    "max_pressure_error",
 )
 FIELD_NUMBERS = (
     "voltage",

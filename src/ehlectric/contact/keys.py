@@ -61,9 +61,14 @@ _FILM: Keys = {
     "residual": ResultKey("maximum scaled residual of the film equations"),
     "newton_iterations": ResultKey("Newton iterations on the finest grid; V-cycles with `--solver paper`"),
     "discretisation_error": ResultKey(
-        "relative error by Richardson's estimate, the larger of the errors of h_min and h(0)",
+        "estimated relative error, the larger of the errors of h_min and h(0)",
         "",
         "discretisation error of the film",
+    ),
+    "max_pressure_error": ResultKey(
+        "estimated relative error of max_pressure; above about 0.3 the grid does not resolve its peak",
+        "",
+        "error of the maximum pressure",
     ),
     "solver": ResultKey('solver of the film: "ehlectric" or "paper"'),
     "nodes": ResultKey("nodes of the film; with `grid.refine` those of the last grid"),

@@ -9,6 +9,7 @@ import numpy as np
 
 from ehlectric.cases.case import Case
 from ehlectric.cases.grid import MOST_DEGREE, Grid
+from ehlectric.contact.case_warnings import LINE_PERMANENT, POINT_PERMANENT
 from ehlectric.contact.setup import Setup
 from ehlectric.errors import ResultWarning
 from ehlectric.field.line import Field
@@ -29,6 +30,11 @@ _MANY_STEPS = 200
 # Relative loss of film thickness, caused by a domain that is too small, above which a point contact gets a
 # warning. The loss in the default domain is about 0.01.
 _LOSS = 0.02
+
+# Share of the estimated error of the maximum pressure that is added to it for the warning about yielding
+# steel. On 692 grids of random rough contacts it missed 4 of 48 films above the limit, and warned of 17
+# others.
+_LIKELY_RISE = 1.0 / 3.0
 
 # Share of the pressure that builds up upstream of the domain, above which a line contact gets a warning.
 _DEFICIT = 0.01
@@ -79,6 +85,7 @@ def film_warnings(setup: Case | Setup, film: Film | PointFilm) -> Iterator[Resul
             code, advice = "grid-far-too-coarse", "do not use this film, "
         text = f"the discretisation error of the film is estimated at {100 * error:.2g} % and may be larger"
         yield ResultWarning(code, f"{text}; {advice}use more grid.nodes")
+    yield from _local_pressure(film, rough=bool(setup.roughness))
     if not film.cavitates:
         yield ResultWarning(
             "outlet-too-short", "the film does not cavitate before the end of the domain; raise grid.outlet"
@@ -101,6 +108,34 @@ def _advice(setup: Case | Setup, film: Film | PointFilm) -> str:
     if film.status == "stalled" and resolved and setup.solver.max_iterations < _MANY_STEPS:
         return f"set solver.max_iterations to {_MANY_STEPS}"
     return "try more grid.nodes, a lower grid.inlet, or more solver.max_iterations"
+
+
+def _local_pressure(film: Film | PointFilm, *, rough: bool) -> Iterator[ResultWarning]:
+    """Warning about a local pressure at which bearing steel deforms permanently.
+
+    Steel begins to yield below a smooth contact at a maximum pressure of 0.6 times its hardness
+    (K. L. Johnson, Contact Mechanics, 1985, sect. 6.2), which is 4.2 GPa for the 7 GPa of hardened bearing
+    steel. The limits of ISO 76 for the Hertz pressure are about the same. The peak pressure of a rough film
+    may lie between the nodes, so a share of its estimated error is added. A Hertz pressure above the limit
+    has its own warning.
+    """
+    limit = LINE_PERMANENT if film.thickness.ndim == 1 else POINT_PERMANENT
+    error = (film.max_pressure_error or 0.0) if rough else 0.0
+    largest = film.max_pressure * (1.0 + error)
+    likely = film.max_pressure * (1.0 + _LIKELY_RISE * error)
+    if not film.converged or film.scales.pressure > limit or likely <= limit:
+        return
+    what, advice = "the pressure spike", "check load and radii"
+    if rough:
+        what = "the local pressure of the rough film"
+        advice = "asperities would be flattened; use a surface after running-in, or a longer cutoff_short"
+    reach = f", or up to {largest / 1e9:.2g} GPa between the nodes," if error > 0.01 else ""
+    yield ResultWarning(
+        "local-plastic-deformation",
+        f"{what} is {film.max_pressure / 1e9:.3g} GPa{reach} at a Hertz pressure of "
+        f"{film.scales.pressure / 1e9:.3g} GPa: bearing steel yields above about {limit / 1e9:g} GPa, but "
+        f"the model is elastic; {advice}",
+    )
 
 
 def line_result_warnings(setup: Case | Setup, film: Film, field: Field) -> Iterator[ResultWarning]:

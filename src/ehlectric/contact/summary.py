@@ -72,6 +72,7 @@ def _film(solution: Solution[Any, Any, Any]) -> dict[str, Any]:
         "residual",
         "newton_iterations",
         "discretisation_error",
+        "max_pressure_error",
     )
     return {name: getattr(film, name) for name in names} | {"solver": solution.film_solver}
 

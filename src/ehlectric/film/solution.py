@@ -11,7 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.film.estimates import discretisation_error, inlet_deficit
+from ehlectric.film.accuracy.max_pressure import max_pressure_error
+from ehlectric.film.accuracy.rough_film import rough_film_error
+from ehlectric.film.estimates import inlet_deficit
 from ehlectric.film.mesh import Mesh
 from ehlectric.film.problem import FilmProblem, Scales
 from ehlectric.film.state import GridSolution, NewtonStep, State, Status, film_touches
@@ -58,11 +60,14 @@ class FilmSolution(Values):
     steps : tuple of NewtonStep
         Newton steps on all grids, in their order.
     discretisation_error : float or None
-        Richardson estimate of the relative error of the minimum or the central film thickness, whichever is
-        larger. None if there is no estimate.
+        Estimate of the relative error of the minimum or the central film thickness, whichever is larger. None
+        if there is no estimate.
     inlet_deficit : float or None
         Share of the reduced pressure that is missing because it would build up upstream of the domain. None
         for an instant of a transient film.
+    max_pressure_error : float or None
+        Estimate of the relative error of the maximum pressure; above about 0.3 the grid does not resolve the
+        highest peak of the pressure. None if there is no estimate.
     """
 
     x: Array
@@ -80,6 +85,7 @@ class FilmSolution(Values):
     steps: tuple[NewtonStep, ...] = ()
     discretisation_error: float | None = None
     inlet_deficit: float | None = None
+    max_pressure_error: float | None = None
 
     @property
     def converged(self) -> bool:
@@ -132,6 +138,7 @@ def stationary_film(problem: FilmProblem, solutions: list[GridSolution], shaped:
     state, final, level = finest.state, finest.final, finest.level
     steps = tuple(step for solution in solutions for step in solution.steps)
     mass = final.coefficients.density * state.thickness
+    coarser = _comparable(problem, solutions)
     return FilmSolution(
         x=scales.length * level.mesh.x,
         pressure=shaped(pressure_of(scales, state, final.full_film)),
@@ -146,8 +153,9 @@ def stationary_film(problem: FilmProblem, solutions: list[GridSolution], shaped:
         residual=final.norm,
         newton_iterations=sum(step.nodes == problem.nodes for step in steps),
         steps=steps,
-        discretisation_error=discretisation_error(problem, finest, _comparable(problem, solutions)),
+        discretisation_error=rough_film_error(problem, finest, coarser),
         inlet_deficit=inlet_deficit(problem.fluid, problem.geometry, level.mesh, state.pressure, mass),
+        max_pressure_error=max_pressure_error(finest, coarser),
     )
 
 

@@ -33,6 +33,7 @@ UNSTORED = {
     "shaft-leaks",
     "current-density-high",
     "field-unresolved",
+    "local-plastic-deformation",
     "radius-large",
     "speed-high",
     "steps-too-long",

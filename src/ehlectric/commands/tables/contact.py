@@ -21,6 +21,9 @@ _FORMULAS: Mapping[str, Mapping[str, Formula[Any]]] = {"line": LINE_FORMULAS, "p
 # Names of the film thicknesses that formulas give, by their attribute.
 _FILMS = {"minimum_thickness": "minimum film", "central_thickness": "central film"}
 
+# Error of the maximum pressure above which its number would claim a peak that the grid does not resolve.
+_RESOLVED = 0.3
+
 
 def case_rows(case: Case, conditions: Conditions | PointConditions) -> list[Row]:
     """Rows of a contact before it is solved: its conditions, dry contact, and film thicknesses by formulas.
@@ -167,7 +170,7 @@ def _film(result: Result | PointResult) -> Iterator[Row]:
     yield Row("minimum film thickness h_min", film.minimum_thickness, "µm", at)
     yield Row("central film thickness", film.central_thickness, "µm")
     yield Row("mean film thickness", film.mean_thickness, "µm", f", in the {zone}")
-    yield Row("maximum pressure", film.max_pressure, "GPa")
+    yield Row("maximum pressure", film.max_pressure, "GPa", _pressure_error(film.max_pressure_error))
     nodes = " x ".join(str(count) for count in film.thickness.shape)
     name, grid, error = "discretisation error of the film", f", {nodes} nodes", film.discretisation_error
     yield Row(name, "unknown", note=grid) if error is None else Row(name, error, "%", grid, digits=".2g")
@@ -175,6 +178,13 @@ def _film(result: Result | PointResult) -> Iterator[Row]:
     after = f"after {film.newton_iterations} {steps}"
     yield Row("residual of the film equations", film.residual, note=after, digits=".1e")
     yield Row("residual of the load balance", film.load_residual, digits=".1e")
+
+
+def _pressure_error(error: float | None) -> str:
+    """Note with the error of the maximum pressure; empty if the error is unknown."""
+    if error is None:
+        return ""
+    return f", error {100 * error:.2g} %" if error <= _RESOLVED else ", not resolved by the grid"
 
 
 def _at(result: Result | PointResult, position: float | tuple[float, float]) -> str:
