@@ -43,11 +43,12 @@ def test_summary_has_the_agreed_keys(ehlectric, case_file, tmp_path):
     assert set(summary["film"]) == {
         "minimum_thickness", "minimum_position", "central_thickness", "mean_thickness", "max_pressure",
         "load_residual", "residual", "newton_iterations", "discretisation_error", "solver", "nodes",
+        "max_pressure_error",
     }  # fmt: skip
     assert set(summary["field"]) == {
         "voltage", "max_strength", "max_strength_position", "max_dimensionless", "central_dimensionless",
         "high_field_width", "capacitance_per_length", "thin_gap_error", "columns", "max_strength_wall",
-        "solver",
+        "solver", "max_strength_error", "degree",
     }  # fmt: skip
     assert set(summary["film_formulas"]) == {"dowson_higginson", "dowson_toyoda", "pan_hamrock", "moes"}
     for formula in summary["film_formulas"].values():

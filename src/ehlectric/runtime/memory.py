@@ -9,6 +9,7 @@ from __future__ import annotations
 import errno
 import os
 from collections.abc import Iterator
+from importlib import import_module
 from pathlib import Path, PurePosixPath
 
 from ehlectric.errors import MemoryLimitError
@@ -80,8 +81,8 @@ def left_of_process(status: Path = Path("/proc/self/status")) -> float:
         limits.
     """
     try:
-        import resource
-    except ImportError:  # Windows
+        resource = import_module("resource")
+    except ModuleNotFoundError:  # Windows
         return float("inf")
     left = float("inf")
     for limit, used in ((resource.RLIMIT_AS, "VmSize"), (resource.RLIMIT_DATA, "VmData")):

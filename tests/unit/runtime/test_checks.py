@@ -38,7 +38,7 @@ def test_a_seal_tells_every_changed_byte(tmp_path):
     assert not sealed(path)
     seal(path)
     assert sealed(path)
-    assert path.read_bytes() == b"thin film" + seal_of(b"thin film")
+    assert path.read_bytes() == b"thin film" + seal_of([b"thin film"])
     seal(path)
     content = path.read_bytes()
     assert content.count(b"crc32") == 1

@@ -42,9 +42,7 @@ def test_a_draft_is_a_file(seed, tmp_path, monkeypatch):
             assert draft.seek(0, io.SEEK_END) == len(expected.getvalue())
             draft.seek(expected.tell())
         assert path.read_bytes() == content
-        copy = io.BytesIO()
-        draft.copy_to(copy)
-        assert copy.getvalue() == expected.getvalue()
+        assert b"".join(draft.content()) == expected.getvalue()
         draft.apply()
     assert path.read_bytes() == expected.getvalue()
 

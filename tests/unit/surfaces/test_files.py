@@ -118,6 +118,7 @@ class Topography:
 
     def __init__(self, path):
         self._heights, self.pixel_size = np.loadtxt(path).T * 1e-9, (1e-6, 1e-6)
+        self.channels, self.nb_grid_pts = [self], self._heights.shape
 
     def topography(self):
         return self

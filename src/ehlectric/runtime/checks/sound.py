@@ -15,6 +15,7 @@ import sys
 import time
 from contextlib import suppress
 from functools import cache, lru_cache
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -100,9 +101,8 @@ def read_all(path: str, seconds: int) -> int:
 
     The kernel ends the process after some computing time, where it has such limits.
     """
-    with suppress(ImportError):
-        import resource
-
+    with suppress(ModuleNotFoundError):
+        resource = import_module("resource")
         resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 5))
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     try:
