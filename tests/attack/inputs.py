@@ -332,7 +332,7 @@ def words(stock: Stock, folder: Path, draw: random.Random) -> Iterator[Words]:
     # Such a change may leave a command that is right, which then does what it does.
     for _ in range(draw.choice((1, 1, 2))):
         at, choice = draw.randrange(1, len(command)), draw.random()
-        if command[at] in ("-o", "out", "--workers"):
+        if command[at] == "-o" or command[at].startswith("out") or command[at] == "--workers":
             continue  # it must go on writing where it is told to
         if choice < 0.6:
             command[at] = _word(draw)

@@ -16,6 +16,7 @@ import sys
 import time
 import traceback
 from collections.abc import Callable
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -37,21 +38,27 @@ _CHANGING = {
 _WRITING = os.O_WRONLY | os.O_RDWR | os.O_CREAT | os.O_TRUNC | os.O_APPEND
 
 
+# What commands import when they need it. Forks find it loaded.
+_LOADED = (
+    "h5py", "matplotlib.animation", "matplotlib.backends.backend_agg", "matplotlib.pyplot", "PIL.Image",
+    "pint", "xarray", "pyarrow.parquet", "scipy.stats.qmc", "rich.table", "ehlectric.bearing.files",
+    "ehlectric.commands.app", "ehlectric.commands.drawing", "ehlectric.commands.meaning",
+    "ehlectric.commands.runs", "ehlectric.commands.tables.bearing", "ehlectric.commands.tables.contact",
+    "ehlectric.commands.tables.motion", "ehlectric.commands.tables.sweep", "ehlectric.figures.bearing.save",
+    "ehlectric.figures.motion.save", "ehlectric.figures.results", "ehlectric.figures.surface",
+    "ehlectric.figures.sweep.save", "ehlectric.figures.sweep.sensitivity", "ehlectric.motion.run",
+    "ehlectric.paper.reproduce", "ehlectric.surfaces.files", "ehlectric.sweep.run",
+)  # fmt: skip
+
+
 def _preload() -> None:
-    """Import what commands import, so that forks have it."""
+    """Import what commands import, and make what they make once, so that forks have it."""
     import matplotlib
 
     matplotlib.use("agg")
-    import h5py  # noqa: F401
-    import matplotlib.animation
-    import matplotlib.backends.backend_agg
-    import matplotlib.pyplot
-    import PIL.Image
-    import pint  # noqa: F401
-    import xarray  # noqa: F401
-
-    PIL.Image.init()
-    from ehlectric.cases.case import Case
+    for name in _LOADED:
+        import_module(name)
+    from ehlectric import Case
 
     Case.from_toml(Path(__file__).parents[2] / "examples" / "line_contact.toml")
 
