@@ -63,10 +63,17 @@ def files_of_results(folder: str | Path, *, keep: tuple[str, ...] = ()) -> tuple
     """
     from ehlectric.bearing.files import FILES as OF_BEARINGS
     from ehlectric.contact.files import FILES as OF_CONTACTS
-    from ehlectric.motion.stored_run import MOTION
     from ehlectric.sweep.tables import FILES as OF_SWEEPS
 
-    names = (*OF_CONTACTS, MOTION, *OF_BEARINGS, *OF_SWEEPS, SENSITIVITY, *in_formats(_FIGURES, FORMATS))
+    names = (
+        *OF_CONTACTS,
+        MOTION,
+        redo_file(Path(MOTION)).name,
+        *OF_BEARINGS,
+        *OF_SWEEPS,
+        SENSITIVITY,
+        *in_formats(_FIGURES, FORMATS),
+    )
     return tuple(name for name in dict.fromkeys((*names, *_maps(Path(folder)))) if name not in keep)
 
 

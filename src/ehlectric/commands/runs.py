@@ -175,7 +175,7 @@ def run_motion(
 ) -> RunOutcome[xr.Dataset]:
     """Solve a transient contact, and write its results; the only solver is "ehlectric"."""
     from ehlectric.motion.run import run
-    from ehlectric.motion.stored_run import MOTION
+    from ehlectric.motion.stored_run import MOTION_FILES
     from ehlectric.paper.solvers import SOLVERS
 
     _check_solver(solver, tuple(SOLVERS))
@@ -183,7 +183,7 @@ def run_motion(
         raise InputError("--solver", got=f"{shown(solver)} for a case with motion", takes="'ehlectric'")
     with alone_in(folder, locks=[RESULT_LOCK]) as folder:
         protect(folder, case)
-        return run(case, folder, progress, others=files_of_results(folder, keep=(MOTION,)))
+        return run(case, folder, progress, others=files_of_results(folder, keep=MOTION_FILES))
 
 
 def _check_solver(solver: str, known: tuple[str, ...]) -> None:

@@ -21,6 +21,7 @@ from ehlectric.motion.kinds import KINDS, AnyKind
 from ehlectric.motion.schedule import Schedule, schedule_of
 from ehlectric.runtime.checks.schema import refusing
 from ehlectric.runtime.netcdf import opened, read_dataset
+from ehlectric.runtime.redo import redo_file
 from ehlectric.runtime.values import Values
 
 if TYPE_CHECKING:
@@ -28,6 +29,9 @@ if TYPE_CHECKING:
 
 
 MOTION = "motion.nc"
+
+# This file, and the list of its changes that a kill in the middle of a write leaves.
+MOTION_FILES = (MOTION, redo_file(Path(MOTION)).name)
 _NEEDED = (
     "time",
     "minimum_thickness",

@@ -8,9 +8,12 @@ from __future__ import annotations
 
 import io
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 
 from ehlectric.runtime.files import flush
+from ehlectric.runtime.redo import make
+
+WriteDown = Callable[[int, Sequence[tuple[int, memoryview]]], None]
 
 # Size of a page [bytes].
 _PAGE = 1 << 16
@@ -134,10 +137,15 @@ class Draft:
             content = self._stored(page) if content is None else content
             yield memoryview(content)[: self._size - page * _PAGE]
 
-    def apply(self) -> None:
+    def apply(self, write_down: WriteDown | None = None) -> None:
         """Write the changes to the file on the disk.
 
         What makes the file longer is written first: where the disk is full, the file stays as it was.
+
+        Parameters
+        ----------
+        write_down : callable, optional
+            Called with the new size and the parts that replace others, before any of them is written.
 
         Raises
         ------
@@ -149,28 +157,30 @@ class Draft:
         self._check()
         assert self._number is not None
         before = os.fstat(self._number).st_size
-        try:
-            # Also pages that nothing was written to: in a hole, a later change could find the disk full.
-            for page in range(before // _PAGE, -(-self._size // _PAGE)):
-                self._put(page, max(page * _PAGE, before), min((page + 1) * _PAGE, self._size))
-            flush(self._number)
-        except OSError:
-            os.ftruncate(self._number, before)
-            raise
         # Pages behind a part that was cut off are zeros, where nothing was written to them.
         cut = range(-(-self._old // _PAGE), -(-min(before, self._size) // _PAGE))
-        for page in sorted({*self._pages, *cut}):
-            self._put(page, page * _PAGE, min((page + 1) * _PAGE, before, self._size))
-        os.ftruncate(self._number, self._size)
+        replaced = self._parts(sorted({*self._pages, *cut}), 0, min(before, self._size))
+        try:
+            # Also pages that nothing was written to: in a hole, a later change could find the disk full.
+            pages = range(before // _PAGE, -(-self._size // _PAGE))
+            make(self._number, max(before, self._size), self._parts(pages, before, self._size))
+            flush(self._number)
+            if write_down is not None:
+                write_down(self._size, replaced)
+        except Exception:
+            os.ftruncate(self._number, before)
+            raise
+        make(self._number, self._size, replaced)
 
-    def _put(self, page: int, start: int, end: int) -> None:
-        """Write a part of a page to the disk."""
-        assert self._number is not None
-        if start < end:
-            os.lseek(self._number, start, os.SEEK_SET)
-            view = memoryview(self._pages.get(page, bytes(_PAGE)))[start - page * _PAGE : end - page * _PAGE]
-            while view:
-                view = view[os.write(self._number, view) :]
+    def _parts(self, pages: Iterable[int], start: int, end: int) -> list[tuple[int, memoryview]]:
+        """Places and content of pages, as far as they lie between two places of the file."""
+        parts = []
+        for page in pages:
+            first, last = max(page * _PAGE, start), min((page + 1) * _PAGE, end)
+            if first < last:
+                content = memoryview(self._pages.get(page, bytes(_PAGE)))
+                parts.append((first, content[first - page * _PAGE : last - page * _PAGE]))
+        return parts
 
     @property
     def changed(self) -> int:

@@ -9,6 +9,7 @@ import time
 import warnings
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager
+from functools import partial
 from io import FileIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
@@ -20,6 +21,7 @@ from ehlectric.runtime.drafts import Draft
 from ehlectric.runtime.files import writing
 from ehlectric.runtime.interrupts import held_back
 from ehlectric.runtime.locks import take
+from ehlectric.runtime.redo import finish, redo_file, write_down
 from ehlectric.runtime.sizes import check_netcdf_values
 
 if TYPE_CHECKING:
@@ -116,6 +118,9 @@ def opened(path: Path) -> Iterator[Any]:
     InputError
         Where the file to be read cannot be opened or is no NetCDF file, or another program keeps it open.
     """
+    if redo_file(path).is_file() and path.is_file():
+        with writing(path), _to_change(path):
+            pass
     refuse_damaged(path)
 
     def attempt() -> Any:
@@ -127,7 +132,7 @@ def opened(path: Path) -> Iterator[Any]:
 
 @contextmanager
 def changed(path: Path) -> Iterator[Any]:
-    """Context with a file that is open for changes, which are written all or not at all.
+    """Context with a file that is open for changes, which are written all or not at all, also after a kill.
 
     It waits while another program has the file open. Interrupts are held back until the file is closed, so
     that they leave no damaged file.
@@ -137,6 +142,21 @@ def changed(path: Path) -> Iterator[Any]:
     InputError
         Where another program keeps the file open, or the disk is full.
     """
+    with _to_change(path) as target:
+        draft = Draft(target.fileno())
+        with file_class()(draft, "r+") as file:
+            yield file
+        with writing(path):
+            # Some file systems need space also for what they overwrite.
+            if shutil.disk_usage(path.parent).free < draft.changed:
+                raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+            draft.apply(partial(write_down, path, target.fileno()))
+            redo_file(path).unlink()
+
+
+@contextmanager
+def _to_change(path: Path) -> Iterator[FileIO]:
+    """Context with a file that is locked for changes; those that a kill has interrupted are made."""
 
     def attempt() -> FileIO:
         target = FileIO(path, "r+")
@@ -147,14 +167,9 @@ def changed(path: Path) -> Iterator[Any]:
         return target
 
     with _patient(path, attempt) as target:
-        draft = Draft(target.fileno())
-        with file_class()(draft, "r+") as file:
-            yield file
-        with writing(path):
-            # Some file systems need space also for what they overwrite.
-            if shutil.disk_usage(path.parent).free < draft.changed:
-                raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
-            draft.apply()
+        with writing(path, redo_file(path)):
+            finish(path, target.fileno())
+        yield target
 
 
 @contextmanager

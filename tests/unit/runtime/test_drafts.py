@@ -11,6 +11,7 @@ import pytest
 from ehlectric import InputError
 from ehlectric.runtime import drafts, netcdf
 from ehlectric.runtime.drafts import Draft
+from ehlectric.runtime.redo import redo_file
 
 
 @pytest.mark.parametrize("seed", range(8))
@@ -99,7 +100,7 @@ def test_a_file_for_which_the_disk_has_no_room_stays_as_it_was(grown, monkeypatc
         return written
 
     with monkeypatch.context() as patch:
-        patch.setattr("ehlectric.runtime.drafts.os.write", limited)
+        patch.setattr("os.write", limited)
         with pytest.raises(InputError, match=r"maps\.nc: cannot be written to, no space left on device; f"):
             grow(1)
     assert path.read_bytes() == before
@@ -125,6 +126,64 @@ def test_a_file_is_read_where_a_kill_came_before_its_old_part_was_changed(grown,
     assert frames(path) == [0]
     grow(1)
     assert frames(path) == [0, 1]
+
+
+def test_a_kill_at_any_write_leaves_the_old_or_the_new_file(grown, monkeypatch):
+    """Each write of a change is the last one in turn; the next reader finds the file before or after it."""
+    path, grow = grown
+    grow(0)
+    before, seen = path.read_bytes(), []
+
+    class KilledError(BaseException):
+        pass
+
+    for last in range(100):
+        calls = iter(range(last))
+        put = os.write
+
+        def until(number, content, calls=calls, put=put):
+            if next(calls, None) is None:
+                put(number, memoryview(content)[: len(content) // 2])  # a part of it arrives
+                raise KilledError
+            return put(number, content)
+
+        with monkeypatch.context() as patch:
+            patch.setattr("os.write", until)
+            try:
+                grow(1)
+            except KilledError:
+                ended = False
+            else:
+                ended = True
+        with netcdf.opened(path) as file:
+            seen.append(np.asarray(file.variables["time"][:]).tolist())
+            assert np.asarray(file.variables["map"][:])[:, 0].tolist() == seen[-1]
+        assert [entry.name for entry in path.parent.iterdir()] == ["maps.nc"]
+        if ended:
+            break
+        path.write_bytes(before)
+    assert ended
+    # First the file as it was; once the changes are written down, the new one.
+    assert seen == sorted(seen)
+    assert seen[0] == [0.0]
+    assert seen[-2] == [0.0, 1.0]
+
+
+def test_changes_of_a_file_that_was_replaced_are_forgotten(grown, monkeypatch):
+    path, grow = grown
+    grow(0)
+    replaced = path.with_name("other.nc")
+    replaced.write_bytes(path.read_bytes())
+    monkeypatch.setattr(drafts, "make", lambda *_: None)  # a kill before the changes, but behind their list
+    monkeypatch.setattr("ehlectric.runtime.netcdf.redo_file", lambda _: path.with_name("nothing"))
+    path.with_name("nothing").touch()
+    grow(1)
+    monkeypatch.undo()
+    assert redo_file(path).is_file()
+    replaced.replace(path)
+    with netcdf.opened(path) as file:
+        assert np.asarray(file.variables["time"][:]).tolist() == [0.0]
+    assert not redo_file(path).exists()
 
 
 def test_a_disk_that_is_nearly_full_is_refused_before_anything_is_written(grown, monkeypatch):

@@ -97,6 +97,8 @@ def check(dataset: xr.Dataset) -> None:
     if dataset.sizes["ring"] != len(RINGS):
         raise UnfitError(f"it has {dataset.sizes['ring']} rings")
     solved = dataset["solved"].values.astype(bool)
+    if not solved.any(axis=dataset["solved"].get_axis_num("element")).all():
+        raise UnfitError("no contact of a ring is loaded")
     for name in ("load", *quantities):
         if not VALUES[_LOADED](dataset[name].values[solved]):
             raise UnfitError(f"{name} of a loaded contact is not {_LOADED}")
