@@ -67,8 +67,7 @@ def files_of_results(folder: str | Path, *, keep: tuple[str, ...] = ()) -> tuple
 
     names = (
         *OF_CONTACTS,
-        MOTION,
-        redo_file(Path(MOTION)).name,
+        *MOTION_FILES,
         *OF_BEARINGS,
         *OF_SWEEPS,
         SENSITIVITY,
