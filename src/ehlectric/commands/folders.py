@@ -63,6 +63,7 @@ def files_of_results(folder: str | Path, *, keep: tuple[str, ...] = ()) -> tuple
     """
     from ehlectric.bearing.files import FILES as OF_BEARINGS
     from ehlectric.contact.files import FILES as OF_CONTACTS
+    from ehlectric.motion.stored_run import MOTION_FILES
     from ehlectric.sweep.tables import FILES as OF_SWEEPS
 
     names = (
