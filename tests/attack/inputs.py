@@ -188,7 +188,8 @@ def _edit(file: h5py.File, draw: random.Random) -> None:
     elif choice < 0.65 and data.dtype.kind in "fiu" and data.size:
         values = np.array(data[()])
         which = draw.randrange(values.size)
-        values.flat[which] = _fitting(values.dtype, draw)
+        with np.errstate(over="ignore"):
+            values.flat[which] = _fitting(values.dtype, draw)
         data[()] = values if draw.random() < 0.6 else np.zeros_like(values)
     elif choice < 0.75:
         del file[name]
@@ -351,12 +352,12 @@ def _word(draw: random.Random) -> str:
 
 KINDS: Mapping[str, Kind] = MappingProxyType(
     {
-        "case": Kind(case, 2000),
-        "bearing": Kind(bearing, 500),
-        "sweep": Kind(sweep, 700),
-        "surface": Kind(surface, 700),
-        "result": Kind(result, 500),
-        "database": Kind(database, 400),
-        "words": Kind(words, 200),
+        "case": Kind(case, 2300),
+        "bearing": Kind(bearing, 250),
+        "sweep": Kind(sweep, 750),
+        "surface": Kind(surface, 750),
+        "result": Kind(result, 450),
+        "database": Kind(database, 350),
+        "words": Kind(words, 150),
     }
 )

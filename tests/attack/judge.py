@@ -67,7 +67,7 @@ def _message_faults(outcome: Outcome) -> Iterator[str]:
     if outcome.status == 2 and outcome.err.splitlines()[-1:] != errors[-1:]:
         yield "ends with status 2, and its last line is no error"
     longest = max(map(len, outcome.err.splitlines()), default=0)
-    if longest > 2000:
+    if longest > 5000:
         yield f"prints a line of {longest} characters"
 
 

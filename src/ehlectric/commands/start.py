@@ -90,13 +90,13 @@ def init(
         if geometry and geometry not in _GEOMETRIES:
             takes = f"{' or '.join(_GEOMETRIES)}; other kinds are written with --kind"
             raise InputError("--geometry", got=shown(geometry), takes=takes)
-        from ehlectric.runtime.files import prepare, refuse_special
+        from ehlectric.runtime.files import clear_left_behind, prepare, refuse_special
 
         source = template(geometry or kind)
         refuse_special(path)
         if path.exists() and not force:
             raise InputError(path, "already exists; use --force to overwrite")
-        prepare(path.parent)
+        clear_left_behind(prepare(path.parent))
         _copy(source, path)
         command = _command(path)
     if not quiet:
@@ -138,14 +138,14 @@ def examples(
         files = list(dict.fromkeys(file for name in wanted for file in _needed(f"{name}.toml")))
         target = output or Path()
 
-        from ehlectric.runtime.files import prepare, refuse_special
+        from ehlectric.runtime.files import clear_left_behind, prepare, refuse_special
 
         for file in files:
             refuse_special(target / file)
             if (target / file).exists() and not force:
                 raise InputError(target / file, "already exists; use --force to overwrite")
         for file in files:
-            prepare((target / file).parent)
+            clear_left_behind(prepare((target / file).parent))
             _copy(examples_folder() / file, target / file)
     if not quiet:
         echo_files(target / file for file in files)
