@@ -15,7 +15,7 @@ from ehlectric.errors import InputError
 from ehlectric.runtime.checks.schema import refusing
 from ehlectric.runtime.files import Content, json_of, write_together
 from ehlectric.runtime.folders import RESULT_LOCK, alone_in
-from ehlectric.runtime.netcdf import content_of, read_dataset
+from ehlectric.runtime.netcdf import content_of, load_library, read_dataset
 from ehlectric.runtime.outcome import RunOutcome
 from ehlectric.runtime.progress import Progress, silent
 from ehlectric.runtime.tables import column_head, csv_of
@@ -77,6 +77,7 @@ def run(
     >>> outcome.converged, [path.name for path in outcome.files]
     (True, ['summary.json', 'contacts.csv', 'bearing.nc'])
     """
+    load_library()
     check_bearing(case)
     names = (*FILES, *others)
     with alone_in(folder, names) as folder:

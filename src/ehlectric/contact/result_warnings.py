@@ -15,6 +15,7 @@ from ehlectric.errors import ResultWarning
 from ehlectric.field.line import Field
 from ehlectric.field.point import PointField
 from ehlectric.field.poisson import ATOM
+from ehlectric.film.accuracy.max_pressure import UNRESOLVED
 from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
 
@@ -129,7 +130,9 @@ def _local_pressure(film: Film | PointFilm, *, rough: bool) -> Iterator[ResultWa
     if rough:
         what = "the local pressure of the rough film"
         advice = "asperities would be flattened; use a surface after running-in, or a longer cutoff_short"
-    reach = f", or up to {largest / 1e9:.2g} GPa between the nodes," if error > 0.01 else ""
+    reach = f", or about {largest / 1e9:.2g} GPa between the nodes," if error > 0.01 else ""
+    if error > UNRESOLVED:
+        reach = ", or several times more, as the grid does not resolve it,"
     yield ResultWarning(
         "local-plastic-deformation",
         f"{what} is {film.max_pressure / 1e9:.3g} GPa{reach} at a Hertz pressure of "

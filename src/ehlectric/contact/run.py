@@ -11,6 +11,7 @@ from ehlectric.contact.files import FILES, save
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.contact.solver import OWN, Solvers, solve
 from ehlectric.runtime.folders import alone_in
+from ehlectric.runtime.netcdf import load_library
 from ehlectric.runtime.outcome import RunOutcome
 from ehlectric.runtime.progress import Progress, silent
 
@@ -60,6 +61,7 @@ def run(
     >>> outcome.converged, [path.name for path in outcome.files]
     (True, ['summary.json', 'result.nc', 'film.csv'])
     """
+    load_library()
     prepared = check_case(case)
     solvers.check(case)
     names = (*FILES, *others)

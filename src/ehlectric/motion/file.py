@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.errors import InputError
+from ehlectric.errors import DamagedError, InputError
 from ehlectric.film.unsteady import History
 from ehlectric.motion.contact import TransientContact
 from ehlectric.motion.kinds import AnyKind
@@ -220,6 +220,11 @@ class MotionFile:
         """Last recorded step of an unfinished run of the same case, and the films to resume it from.
 
         None if the file does not exist, or does not contain such a run.
+
+        Raises
+        ------
+        DamagedError
+            Where the file is damaged: it may have a run of hours, which is not replaced without a word.
         """
         if not self._path.is_file():
             return None
@@ -230,8 +235,11 @@ class MotionFile:
                 self._left, frames = _state(file), int(file.attrs["frames"])
                 history = kept(file, frames)
                 return None if history is None else (int(file.variables["frame_step"][frames - 1]), history)
+        except DamagedError as error:
+            text = error.text.replace("compute it again", "remove it to solve the case from its start")
+            raise DamagedError(self._path, text) from None
         except (OSError, KeyError, ValueError, RuntimeError):
-            return None  # the file is damaged or has no run: the run is solved from the start
+            return None  # the file has no run: the run is solved from the start
 
     def _same(self, attributes: Mapping[str, Any]) -> bool:
         """Whether the attributes of a file state the same case, the same surfaces and this version."""

@@ -10,6 +10,7 @@ import warnings
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager
 from functools import partial
+from importlib import import_module
 from io import FileIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
@@ -68,6 +69,20 @@ def read_dataset(path: Path) -> xr.Dataset:
         raise DamagedError.of(path, "its header cannot be read") from None
 
 
+def load_library() -> None:
+    """Load the library of NetCDF files.
+
+    Whoever solves for long calls it before: afterwards there may be no memory for the library. An error of
+    its own says so, which the packages above it replace by other words.
+
+    Raises
+    ------
+    ImportError
+        Where the library cannot be loaded.
+    """
+    import_module("h5py")
+
+
 def content_of(dataset: xr.Dataset) -> Callable[[BinaryIO], None]:
     """Function that writes a dataset as a NetCDF file to an open file, with a seal.
 
@@ -77,6 +92,8 @@ def content_of(dataset: xr.Dataset) -> Callable[[BinaryIO], None]:
         By the function, where the file cannot be written.
     """
     import xarray as xr
+
+    load_library()
 
     def fill(file: Any) -> None:
         dataset.dump_to_store(xr.backends.H5NetCDFStore(file))

@@ -19,6 +19,9 @@ from ehlectric.cases.quantity import length_unit, to_si
 from ehlectric.errors import InputError, ResultWarning, shown
 from ehlectric.surfaces.profiles import LEAST_POINTS
 
+# Most lines of a text, of which each is looked at: twice those of the longest profiles of instruments.
+MOST_LINES = 2_000_000
+
 _EXPONENT = r"(?:[eE][-+]?[0-9]{1,4})?"
 # Repetitions that are never given up, "++" and "*+", keep the time proportional to the length of a line.
 _NUMBER = {
@@ -170,6 +173,8 @@ def _decoded(path: Path, content: bytes) -> str:
 def _block(path: Path, text: str) -> _Block:
     """Block of numbers at the end of a file, with the header above it."""
     lines = text.splitlines()
+    if len(lines) > MOST_LINES:
+        raise InputError(path, f"has {len(lines)} lines", takes=f"at most {MOST_LINES}")
     separator = _separator(next((line for line in reversed(lines) if line.strip()), ""))
     layouts = [_Layout(separator, decimal) for decimal in ("." if separator == "," else ".,")]
     rows = ((n, line) for n, line in enumerate(lines) if any(layout.is_row(line) for layout in layouts))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import sqlite3
+import zlib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from itertools import zip_longest
@@ -27,6 +28,9 @@ _COLUMNS: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "results": ("key", "status", "reason", "again", "summary", "seconds", "version", "date"),
     }
 )
+# Table of the checksums of outcomes, which earlier versions do not have.
+SEALS = "seals"
+
 _DESIGNS = ("grid", "paired", "sobol")
 
 # Most levels of a summary; those that are written have five.
@@ -62,6 +66,33 @@ def check_tables(file: sqlite3.Connection) -> None:
     (found,) = file.execute("PRAGMA integrity_check(1)").fetchone()
     if found != "ok":
         raise UnfitError("its pages do not fit together")
+
+
+def seal_of_row(row: Sequence[Any]) -> int:
+    """Checksum of the outcome of a point, the values of its row in the table of results.
+
+    Examples
+    --------
+    >>> seal_of_row(["a key", "solved", 1.5]) == seal_of_row(["a key", "solved", 9.5])
+    False
+    """
+    return zlib.crc32(json.dumps(list(row), default=repr).encode())
+
+
+def check_seals(file: sqlite3.Connection) -> None:
+    """Check that outcomes are those that were written; those of earlier versions have no checksum.
+
+    Raises
+    ------
+    UnfitError
+        Where an outcome has changed.
+    """
+    if not file.execute("SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = ?", (SEALS,)).fetchone():
+        return
+    columns = ", ".join(_COLUMNS["results"])
+    for seal, *row in file.execute(f"SELECT seal, {columns} FROM results JOIN {SEALS} USING (key)"):
+        if seal_of_row(row) != seal:
+            raise UnfitError(f"the outcome {str(row[0])[:12]} is not as it was written")
 
 
 def check_results(file: sqlite3.Connection) -> None:

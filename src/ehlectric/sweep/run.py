@@ -12,6 +12,7 @@ from typing import Any
 from ehlectric.errors import InputError, LostError, shown
 from ehlectric.runtime.files import clear
 from ehlectric.runtime.folders import FIGURE_LOCK, LONG, RESULT_LOCK, alone_in
+from ehlectric.runtime.netcdf import load_library
 from ehlectric.runtime.outcome import RunOutcome
 from ehlectric.runtime.progress import Progress, silent, told_to
 from ehlectric.runtime.workers import Crew, cores, crew_of, processes
@@ -133,6 +134,7 @@ def run(
         Where the crew no longer works. The points solved so far are saved, and the same call solves the
         others.
     """
+    load_library()
     planned = planned_points(sweep)
     with alone_in(folder, (NAME, *FILES, *others), locks=[RESULT_LOCK]) as folder, ExitStack() as crews:
         working = crews.enter_context(crew(None, None) if solvers is None else solvers)

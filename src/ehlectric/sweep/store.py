@@ -17,7 +17,7 @@ from ehlectric.runtime.files import ADVICE, now, refuse_special
 from ehlectric.runtime.folders import locked
 from ehlectric.runtime.reading import regular
 from ehlectric.runtime.sizes import check_size
-from ehlectric.sweep.content import check_results, check_tables, results_of
+from ehlectric.sweep.content import SEALS, check_results, check_seals, check_tables, results_of, seal_of_row
 from ehlectric.sweep.inputs import Sweep
 from ehlectric.sweep.plan import Outcome, Planned
 from ehlectric.sweep.results import SweepResults
@@ -66,6 +66,7 @@ CREATE TABLE IF NOT EXISTS results (
     key TEXT PRIMARY KEY, status TEXT NOT NULL, reason TEXT NOT NULL, again INTEGER NOT NULL, summary TEXT,
     seconds REAL NOT NULL, version TEXT NOT NULL, date TEXT NOT NULL
 );
+CREATE TABLE IF NOT EXISTS seals (key TEXT PRIMARY KEY, seal INTEGER NOT NULL);
 """
 
 # SQL condition for an outcome that is final. A failed point is tried again if its process was killed or
@@ -165,7 +166,7 @@ class Store:
         """Commit the outcomes of points, given with their keys."""
         values = [
             (
-                key, outcome.status, outcome.reason, outcome.again,
+                key, outcome.status, outcome.reason, int(outcome.again),
                 None if outcome.summary is None else json.dumps(outcome.summary, allow_nan=False),
                 outcome.seconds, outcome.version, outcome.date,
             )
@@ -173,6 +174,8 @@ class Store:
         ]  # fmt: skip
         with self._transaction():
             self._file.executemany("INSERT OR REPLACE INTO results VALUES (?, ?, ?, ?, ?, ?, ?, ?)", values)
+            seals = [(row[0], seal_of_row(row)) for row in values]
+            self._file.executemany(f"INSERT OR REPLACE INTO {SEALS} VALUES (?, ?)", seals)
 
     @contextmanager
     def _transaction(self) -> Iterator[None]:
@@ -213,7 +216,9 @@ def read_sweep(folder: str | Path) -> SweepResults:
         check_size(path, os.fstat(opened.fileno()).st_size, _LARGEST, copies=_COPIES)
     with _reading(path) as file:
         check_tables(file)
-        return results_of(file)
+        results = results_of(file)
+        check_seals(file)
+    return results
 
 
 def saved_points(folder: str | Path) -> tuple[int, int]:
@@ -253,6 +258,7 @@ def _check_stored(path: Path, file: sqlite3.Connection) -> None:
         if tables:
             check_tables(file)
             check_results(file)
+            check_seals(file)
 
 
 def _opened(path: Path, mode: str) -> sqlite3.Connection:

@@ -8,6 +8,7 @@ from contextlib import suppress
 from threading import Thread, Timer
 
 import h5netcdf
+import h5py
 import numpy as np
 import pytest
 
@@ -284,6 +285,18 @@ def test_another_case_is_not_gone_on_with(stopped, changes):
     assert found(path, CASE.replace(changes)) is None
 
 
+def test_a_damaged_run_is_not_replaced_without_a_word(stopped):
+    path = stopped(4)
+    with h5py.File(path) as file:
+        place = file["pressure"].id.get_chunk_info(0).byte_offset
+    content = bytearray(path.read_bytes())
+    content[place + 20] ^= 0x20
+    path.write_bytes(content)
+    with pytest.raises(DamagedError, match=r"HDF5 cannot read it; remove it to solve the case from its"):
+        found(path, CASE)
+    assert path.read_bytes() == content
+
+
 def test_another_case_is_solved_in_the_place_of_the_first(tmp_path, stopped):
     stopped(4)
     other = CASE.replace({"electric.potential_2": 3.0})
@@ -315,17 +328,21 @@ def test_a_run_that_is_complete_is_solved_anew(tmp_path, stopped):
 
 
 @pytest.mark.parametrize("size", [0, 100, 20_000])
-def test_a_file_cut_short_is_solved_anew(tmp_path, stopped, size):
+def test_a_file_cut_short_is_refused_and_an_empty_one_replaced(tmp_path, stopped, size):
     path = stopped(4)
     path.write_bytes(path.read_bytes()[:size])
     with pytest.raises(
         InputError, match=r": is (not a NetCDF file|damaged: HDF5 cannot read it; compute.*)$"
     ):
         read_motion(tmp_path)
-    assert found(path, CASE) is None
-    if size == 20_000:
-        assert run(CASE, tmp_path, 0) == ANEW[:2]
-        assert read_motion(path).sizes["frame"] == 1
+    if not size:
+        assert found(path, CASE) is None
+        return
+    for _ in range(2):  # the file is left as it is
+        with pytest.raises(DamagedError, match=r"remove it to solve the case from its start$"):
+            run(CASE, tmp_path, 0)
+    path.unlink()
+    assert run(CASE, tmp_path, 0) == ANEW[:2]
 
 
 def test_what_cannot_be_read_is_said(tmp_path):

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from ehlectric import InputError
+from ehlectric.surfaces import text_files
 from ehlectric.surfaces.files import read_surface
 from tests.unit.surfaces.test_files import DEKTAK
 
@@ -175,3 +176,11 @@ def test_rounded_positions_are_no_gap(tmp_path):
     (tmp_path / "a.csv").write_bytes(b"".join(lines[:5000] + lines[5001:]))
     with pytest.raises(InputError, match="spacing is not uniform"):
         read_surface(tmp_path / "a.csv")
+
+
+def test_a_text_of_too_many_lines(tmp_path, monkeypatch):
+    monkeypatch.setattr(text_files, "MOST_LINES", 50)
+    path = tmp_path / "a.csv"
+    path.write_text("\n" * 51 + "1;2\n")
+    with pytest.raises(InputError, match=r"a\.csv: has 52 lines; expected at most 50$"):
+        read_surface(path)

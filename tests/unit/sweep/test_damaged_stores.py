@@ -223,6 +223,20 @@ def test_a_damaged_sweep_is_not_resumed(statement, databases, tmp_path):
     assert saved_points(tmp_path) == (5, 6)
 
 
+def test_a_plausible_number_in_an_outcome_is_noticed(databases, tmp_path):
+    """The checksum of the row tells it, when it is drawn and when the sweep goes on."""
+    path = tmp_path / NAME
+    path.write_bytes(databases["grid"])
+    with closing(sqlite3.connect(path)) as file:
+        key, summary = file.execute("SELECT key, summary FROM results WHERE summary IS NOT NULL").fetchone()
+    table = json.loads(summary)
+    table["film"]["minimum_thickness"] *= 1.1
+    changed(path, "UPDATE results SET summary = ? WHERE key = ?", json.dumps(table), key)
+    for use_it in (read_sweep, Store):
+        with pytest.raises(DamagedError, match=rf"the outcome {key[:12]} is not as it was written"):
+            use_it(path.parent)
+
+
 def test_errors_of_sqlite_that_are_no_text(databases, tmp_path):
     """SQLite quotes damaged bytes of the statement that made a table."""
     path = tmp_path / NAME
@@ -247,5 +261,6 @@ def test_summaries_of_earlier_versions_need_no_codes(databases, tmp_path):
     path = tmp_path / NAME
     path.write_bytes(databases["grid"])
     old = {name: value for name, value in SUMMARY.items() if name != "warning_codes"}
+    changed(path, "DROP TABLE seals")
     changed(path, "UPDATE results SET summary = ? WHERE summary IS NOT NULL", json.dumps(old))
     assert read_sweep(tmp_path).points[0].warnings[0].code == "inlet-too-short"

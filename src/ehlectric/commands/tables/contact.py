@@ -10,6 +10,7 @@ from ehlectric.cases.row import Row
 from ehlectric.commands.tables.discharge import discharge_rows
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.results import PointResult, Result
+from ehlectric.film.accuracy.max_pressure import UNRESOLVED
 from ehlectric.formulas.film_line import FORMULAS as LINE_FORMULAS
 from ehlectric.formulas.film_line import Formula, Thickness
 from ehlectric.formulas.film_line import regime as line_regime
@@ -20,9 +21,6 @@ _FORMULAS: Mapping[str, Mapping[str, Formula[Any]]] = {"line": LINE_FORMULAS, "p
 
 # Names of the film thicknesses that formulas give, by their attribute.
 _FILMS = {"minimum_thickness": "minimum film", "central_thickness": "central film"}
-
-# Error of the maximum pressure above which its number would claim a peak that the grid does not resolve.
-_RESOLVED = 0.3
 
 
 def case_rows(case: Case, conditions: Conditions | PointConditions) -> list[Row]:
@@ -184,7 +182,7 @@ def _pressure_error(error: float | None) -> str:
     """Note with the error of the maximum pressure; empty if the error is unknown."""
     if error is None:
         return ""
-    return f", error {100 * error:.2g} %" if error <= _RESOLVED else ", not resolved by the grid"
+    return f", error {100 * error:.2g} %" if error <= UNRESOLVED else ", not resolved by the grid"
 
 
 def _at(result: Result | PointResult, position: float | tuple[float, float]) -> str:

@@ -14,6 +14,9 @@ from ehlectric.film.state import GridSolution
 # rough contacts the true error exceeded the estimate in 6 % with 0.33, in 4 % with 0.4, in 2.5 % with 0.5.
 _PART = 0.4
 
+# Estimated relative error above which the grid does not resolve the maximum pressure.
+UNRESOLVED = 0.3
+
 
 def max_pressure_error(fine: GridSolution, coarse: GridSolution | None) -> float | None:
     """Relative error of the maximum pressure of a film.
