@@ -107,6 +107,8 @@ def _rules(axes: tuple[str, ...], *, stationary: bool) -> dict[str, Rule]:
         found |= {name: Rule(dims, *what) for name, what in table.items() if name not in lacking}
     if stationary:
         found |= {f"stationary_{name}": Rule(axes, *what) for name, what in _MAPS.items()}
+    # Runs of earlier versions have no estimate of it.
+    found["max_strength_error"] = Rule(("frame",), "not negative or NaN", "1", needed=False)
     return found
 
 

@@ -110,7 +110,12 @@ def refuse_special(path: Path) -> None:
     InputError
         Where ``path`` exists and is no regular file.
     """
-    if os.path.lexists(path) and not path.is_file():
+    try:
+        # One look at it: another command may remove a file of its own between two.
+        mode = path.lstat().st_mode
+    except (OSError, ValueError):
+        return
+    if not (stat.S_ISREG(mode) or (stat.S_ISLNK(mode) and path.is_file())):
         raise InputError(path, "cannot be written to, it is no regular file")
 
 

@@ -23,6 +23,9 @@ def column_head(name: str, unit: str) -> str:
 # First characters of a text that a spreadsheet takes for a formula.
 _FORMULA = re.compile(r"'*+[=+\-@\t\r\n＝＋－＠]")
 
+# A number, which no spreadsheet takes for anything else.
+_NUMBER = re.compile(r"[-+]?[0-9]++(?:\.[0-9]++)?(?:e[-+]?[0-9]++)?")
+
 
 def csv_text(text: str) -> str:
     """Text for a cell of a CSV file, which no spreadsheet takes for a formula.
@@ -51,8 +54,8 @@ def text_of_csv(cell: str) -> str:
 
 
 def _cell(value: Any) -> Any:
-    """Value for a cell: a number is unchanged, and a text is no formula."""
-    return csv_text(value) if isinstance(value, str) else value
+    """Value for a cell: a number is unchanged, also one as text, and another text is no formula."""
+    return csv_text(value) if isinstance(value, str) and not _NUMBER.fullmatch(value) else value
 
 
 def csv_of(

@@ -56,7 +56,8 @@ class Breakdown:
             point has no breakdown voltage.
         """
         margin = results.values(self.margin)
-        ratio = results.values(self.value) / results.values(self.voltage)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            ratio = results.values(self.value) / results.values(self.voltage)
         return np.where(np.isfinite(margin), margin, ratio)
 
 

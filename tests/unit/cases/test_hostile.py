@@ -20,6 +20,7 @@ from ehlectric.commands import folders
 from ehlectric.errors import InputError
 from ehlectric.figures.names import _OF_UNIT
 from ehlectric.runtime.tables import _FORMULA
+from ehlectric.runtime.tables import _NUMBER as _NUMBER_OF_CELL
 from ehlectric.surfaces import text_files
 from ehlectric.surfaces.files import read_surface
 from ehlectric.sweep.inputs import Sweep
@@ -149,6 +150,7 @@ PATTERNS = {
     "bracketed fields": text_files._BRACKETED_FIELDS.fullmatch,
     "number of a unit": _OF_UNIT.findall,
     "csv": _FORMULA.match,
+    "number of a csv": _NUMBER_OF_CELL.fullmatch,
 }
 PARTS = (
     *(
@@ -208,7 +210,7 @@ def test_every_regular_expression_of_the_package_is_known():
         "figures/names.py": 2,
         "runtime/checks/seal.py": 1,  # of the last bytes of a file
         "runtime/files.py": 1,  # names of files, at most 255 characters
-        "runtime/tables.py": 1,
+        "runtime/tables.py": 2,
         "surfaces/text_files.py": 12,
         "sweep/slices.py": 1,
     }
