@@ -251,7 +251,7 @@ def _solved(
     field_solvers = solvers if film.converged else OWN
     started = time.perf_counter()
     field = field_solvers.field[geometry](kind.field_problem(case, conditions, film, roughness))
-    smooth = None
+    own, smooth = field_solvers.name == OWN.name, None
     if rough and beside_smooth:
         smooth = _smooth(replace(contact, case=films.setup), field.axes, solvers)
     return RESULTS[geometry](

@@ -133,7 +133,7 @@ def test_an_error_of_the_field_that_is_unknown_at_an_instant_is_a_warning():
     dataset = made(CASE, times=[0.0, 1.0, 2.0, 3.0])
 
     def unresolved(errors):
-        found = summary_of(MotionRun.of(dataset.assign(max_strength_error=("frame", errors))))
+        found = summary_of(dataset.assign(max_strength_error=("frame", errors)))
         texts = zip(found["warning_codes"], found["warnings"], strict=True)
         return found["field"]["max_strength_error"], [
             text for code, text in texts if code == "field-unresolved"
