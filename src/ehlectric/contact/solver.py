@@ -271,11 +271,7 @@ def _solved(
             *discharge_warnings(case.discharge, film),
             *margin_warnings(case.discharge, conditions.semi_axes, film, field),
             *field_warnings(field.max_strength, "the potentials"),
-            *(
-                accuracy_warnings(films.setup.grid, field, estimated=solvers.name == OWN.name)
-                if film.converged
-                else ()
-            ),
+            *(accuracy_warnings(films.setup.grid, field, estimated=own) if film.converged else ()),
         ),
         film_solver=solvers.name,
         field_solver=field_solvers.name,

@@ -8,6 +8,8 @@ from ehlectric import Case, load, save, solve
 from ehlectric.cases.grid import Grid
 from ehlectric.commands.tables.contact import result_rows
 from ehlectric.contact.result_warnings import accuracy_warnings, inaccurate_field
+from ehlectric.contact.solver import OWN
+from ehlectric.contact.solver import solve as solve_with
 from ehlectric.errors import ConvergenceError
 
 CONTACT = {
@@ -98,6 +100,20 @@ def test_a_margin_within_the_error_of_the_field_is_possible_only(result):
     wide = dataclasses.replace(near, field=with_error(near, 0.03).field)
     assert wide.verdict.level == "yellow"
     assert "The maximum field may be 3 % off on this grid." in wide.verdict.text
+
+
+def test_a_solver_without_an_estimate_says_unknown_and_does_not_warn(result):
+    """The field solver of this stand-in is ours, but it drops the estimate, as the paper's has none."""
+
+    def without(problem):
+        field = OWN.field["line"](problem)
+        return dataclasses.replace(field, strength_error=None, sufficient_degree=None)
+
+    other = dataclasses.replace(OWN, name="paper", field={"line": without})
+    found = solve_with(result.case, solvers=other)
+    assert not any(warning.code == "field-unresolved" for warning in found.warnings)
+    rows = {row.name: row for row in result_rows(found)}
+    assert rows["error of the maximum field"].value == "unknown"
 
 
 @pytest.mark.slow
