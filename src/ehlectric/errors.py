@@ -273,7 +273,7 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "domain-far-too-small": Cause("The domain of a point contact is far too small.", "severe"),
         # Electric field and discharge
         "field-grid-too-coarse": Cause("The grid of the field is coarser than that of the film."),
-        "field-unresolved": Cause("The estimated error of the maximum field is above 2 %."),
+        "field-unresolved": Cause("The estimated error of the maximum field is above 2 %, or unknown."),
         "field-range-too-narrow": Cause("The maximum field is at an edge of the field range."),
         "field-above-insulators": Cause("The maximum field is higher than any insulator withstands."),
         "breakdown-expected": Cause("The margin is below 1: breakdown is expected."),

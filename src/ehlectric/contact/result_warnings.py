@@ -213,10 +213,34 @@ def point_result_warnings(setup: Case | Setup, film: PointFilm, field: PointFiel
         )
 
 
-def accuracy_warnings(grid: Grid, field: Field | PointField) -> Iterator[ResultWarning]:
-    """Warning about a maximum field whose estimated error is large."""
+def accuracy_warnings(
+    grid: Grid, field: Field | PointField, *, estimated: bool = True
+) -> Iterator[ResultWarning]:
+    """Warning about a maximum field whose estimated error is large, or unknown after an attempt.
+
+    Parameters
+    ----------
+    grid : Grid
+        Grid of the film and of the field.
+    field : Field or PointField
+        Solved field.
+    estimated : bool
+        Whether the solver of the field estimates its error. The paper's solver does not.
+    """
     if field.strength_error is not None and field.strength_error > FIELD_ERROR:
         yield inaccurate_field(grid, field.strength_error, field.s.size - 1, field.sufficient_degree)
+    if field.strength_error is None and estimated:
+        yield unknown_error()
+
+
+def unknown_error(where: str = "") -> ResultWarning:
+    """Warning about a maximum field whose error is not known, ``where`` of several fields."""
+    return ResultWarning(
+        "field-unresolved",
+        f"the error of the maximum field is not known{where}, because a finer solution near the maximum did "
+        "not converge; a breakdown voltage may be too high; check the slopes of the surfaces, or use more "
+        "grid.nodes and compare",
+    )
 
 
 def inaccurate_field(

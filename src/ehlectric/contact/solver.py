@@ -251,7 +251,7 @@ def _solved(
     field_solvers = solvers if film.converged else OWN
     started = time.perf_counter()
     field = field_solvers.field[geometry](kind.field_problem(case, conditions, film, roughness))
-    smooth = None
+    own, smooth = field_solvers.name == OWN.name, None
     if rough and beside_smooth:
         smooth = _smooth(replace(contact, case=films.setup), field.axes, solvers)
     return RESULTS[geometry](
@@ -271,7 +271,7 @@ def _solved(
             *discharge_warnings(case.discharge, film),
             *margin_warnings(case.discharge, conditions.semi_axes, film, field),
             *field_warnings(field.max_strength, "the potentials"),
-            *(accuracy_warnings(films.setup.grid, field) if film.converged else ()),
+            *(accuracy_warnings(films.setup.grid, field, estimated=own) if film.converged else ()),
         ),
         film_solver=solvers.name,
         field_solver=field_solvers.name,

@@ -1,29 +1,30 @@
-"""Error estimate of the largest field strength of a gap, by finer solutions around its highest peaks.
+"""Error estimate of the largest field strength of a gap, by finer solutions where it may be largest.
 
 A wave on a wall raises the field next to it. This rise decays within 1/k from the wall, where k is the wave
 number. If the gap is much wider than the wave, the polynomial across the gap must resolve a boundary layer.
 The columns must resolve the wave along the gap. Both errors are estimated in windows of a few gaps around
-the columns with the highest field, so that the estimate costs little.
+the places where the field may be largest, so that the estimate costs little.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, Generic, Protocol, TypeVar
+from typing import Any, Generic, TypeVar
 
 import numpy as np
 from scipy.interpolate import Akima1DInterpolator
 
 from ehlectric.arrays import Array
 from ehlectric.errors import ConvergenceError
+from ehlectric.field.peaks import HIGHER_ORDER, GapProblem, Place, around, places
 from ehlectric.field.strength import GapField
 
-# Number of peaks of the field that are solved again. A field that is too coarse may hide which is highest.
-_PEAKS = 3
+# Largest number of windows, by the number of axes.
+_MOST_WINDOWS = {1: 8, 2: 5}
 
-# A peak lower than this fraction of the largest field is not solved again.
-_LOW = 0.7
+# Relative rise above the largest corrected field that does not need a further window.
+_NEGLIGIBLE = 1e-3
 
 # Distance of the ends of a window from its peak, in gaps. The disturbance by an end decays with
 # exp(-pi distance/gap), and cancels between solutions in the same window.
@@ -47,38 +48,6 @@ _HALVED = 5.0 / 3.0
 TOLERANCE = 5e-3
 
 
-class GapProblem(Protocol):
-    """Attributes that the field problems of line and of point contacts share."""
-
-    @property
-    def lower(self) -> Array:
-        """Height of the lower wall [m]."""
-
-    @property
-    def upper(self) -> Array:
-        """Height of the upper wall [m]."""
-
-    @property
-    def permittivity(self) -> Array:
-        """Relative permittivity, one value per column."""
-
-    @property
-    def positions(self) -> dict[str, Array]:
-        """Positions of the columns along each axis [m], by the name of the attribute."""
-
-    @property
-    def degree(self) -> int:
-        """Polynomial degree across the gap."""
-
-    @property
-    def most_degree(self) -> int | None:
-        """Degree up to which the degree may be raised."""
-
-    @property
-    def plain(self) -> bool:
-        """Whether the permittivity is constant across the gap, and nothing but the walls is prescribed."""
-
-
 ProblemT = TypeVar("ProblemT", bound=GapProblem)
 FieldT = TypeVar("FieldT", bound=GapField)
 
@@ -93,14 +62,14 @@ class StrengthError:
         Part from the polynomial degree across the gap, and part from the spacing of the columns.
     degree : int
         Polynomial degree at which the first part is below ``TOLERANCE``, as far as the estimate can tell.
-    by_that_degree : float
-        First part at that degree.
+    total_there : float
+        Both parts at that degree.
     """
 
     by_degree: float
     by_columns: float
     degree: int
-    by_that_degree: float
+    total_there: float
 
     @property
     def total(self) -> float:
@@ -129,55 +98,59 @@ def strength_error(
 
     Notes
     -----
-    In a window around each of the highest peaks, the degree is raised until the field settles; then the
-    distances of the columns are halved. The magnitudes of both changes are added. A lower peak counts with
-    the part of its rise by which it exceeds the largest field.
+    In a window, the degree is raised until the field settles; then the distances of the columns are halved.
+    The magnitudes of both changes are added. The first window lies around the largest field. The next one
+    lies where the field of first order, which does not depend on the degree, promises the highest field.
+    This goes on until no other place promises more than the largest corrected field, or to a number of
+    windows; then the best promise counts as error. A lower place counts with the part of its rise by which
+    it exceeds the largest field.
     """
-    largest = float(np.max(strength))
-    worst = StrengthError(0.0, 0.0, problem.degree, 0.0)
     try:
-        degrees = tuple(range(problem.degree, _MOST_DEGREE + 1, _DEGREE_STEP))
-        for peak in _peaks(problem, strength):
-            found, degrees = _peak_error(_Window.around(problem, peak), degrees, solve)
-            height = float(strength[peak]) / largest
-            rise = height * (1.0 + found.total) - 1.0
-            if rise > worst.total:
-                part = rise / found.total
-                worst = StrengthError(
-                    part * found.by_degree, part * found.by_columns, found.degree, found.by_that_degree
-                )
+        return _error_of(problem, strength, solve)
     except ConvergenceError:
         return None
+
+
+def _error_of(problem: ProblemT, strength: Array, solve: Callable[[ProblemT], GapField]) -> StrengthError:
+    largest = float(np.max(strength))
+    degrees: Sequence[int] = range(problem.degree, _MOST_DEGREE + 1, _DEGREE_STEP)
+    first, *left = places(problem, strength)
+    tried: list[tuple[Place, StrengthError]] = []
+    worst, highest = StrengthError(0.0, 0.0, problem.degree, 0.0), largest
+    place: Place | None = first
+    while place is not None:
+        found, degrees = _peak_error(_Window.around(problem, place.column), degrees, solve)
+        tried.append((place, found))
+        corrected = place.strength * (1.0 + found.total)
+        if corrected > highest:
+            highest = corrected
+            part = (corrected / largest - 1.0) / found.total
+            worst = replace(found, by_degree=part * found.by_degree, by_columns=part * found.by_columns)
+        place = max(left, key=lambda one: _promise(one, tried), default=None)
+        excess = 0.0 if place is None else _promise(place, tried) / highest - 1.0
+        if place is None or excess <= _NEGLIGIBLE:
+            break
+        if len(tried) == _MOST_WINDOWS[strength.ndim]:
+            missed = excess * highest / largest
+            return replace(worst, by_degree=worst.by_degree + missed, total_there=worst.total_there + excess)
+        left.remove(place)
     return worst
 
 
-def _peaks(problem: GapProblem, strength: Array) -> Iterator[tuple[int, ...]]:
-    """Indices of the highest columns, each at least one gap away from all higher ones."""
-    left, floor = strength.copy(), _LOW * float(np.max(strength))
-    for _ in range(_PEAKS):
-        peak = tuple(int(k) for k in np.unravel_index(np.argmax(left), left.shape))
-        if left[peak] <= floor:
-            return
-        yield peak
-        left[_around(problem, peak, reach=1.0, least=1)] = 0.0
+def _promise(place: Place, tried: Sequence[tuple[Place, StrengthError]]) -> float:
+    """Field strength that a finer solution may have at a place [V/m].
 
-
-def _around(
-    problem: GapProblem, peak: tuple[int, ...], *, reach: float, least: int, most: int | None = None
-) -> tuple[slice, ...]:
-    """Indices of the columns within ``reach`` gaps of a peak along every axis.
-
-    There are at least ``least`` and at most ``most`` columns on either side of the peak.
+    It lacks the same share of the rise of first order as places that lack at least half as much. The error
+    by the columns is at least that of the other places.
     """
-    distance = reach * float(problem.upper[peak] - problem.lower[peak])
-    parts = []
-    for at, axis in zip(peak, problem.positions.values(), strict=True):
-        start, stop = np.searchsorted(axis, [axis[at] - distance, axis[at] + distance])
-        start, stop = min(int(start), at - least), max(int(stop), at + least + 1)
-        if most is not None:
-            start, stop = max(start, at - most), min(stop, at + most + 1)
-        parts.append(slice(max(start, 0), min(stop, axis.size)))
-    return tuple(parts)
+    shares = [
+        found.total / other.missing
+        for other, found in tried
+        if other.missing > 0.0 and other.missing >= 0.5 * place.missing
+    ]
+    share = max(shares, default=HIGHER_ORDER)
+    columns = max(found.by_columns for _, found in tried)
+    return place.strength * (1.0 + max(share * place.missing, columns))
 
 
 def _replaced(problem: ProblemT, **changes: Any) -> ProblemT:
@@ -196,9 +169,9 @@ class _Window(Generic[ProblemT]):
     @classmethod
     def around(cls, problem: ProblemT, peak: tuple[int, ...]) -> _Window[ProblemT]:
         most = _MOST_COLUMNS[len(peak)]
-        parts = _around(problem, peak, reach=_REACH, least=_LEAST_COLUMNS, most=most)
+        parts = around(problem, peak, reach=_REACH, least=_LEAST_COLUMNS, most=most)
         axes = {name: axis[part] for (name, axis), part in zip(problem.positions.items(), parts, strict=True)}
-        center = _around(problem, peak, reach=0.5, least=1, most=most // 2)
+        center = around(problem, peak, reach=0.5, least=1, most=most // 2)
         inside = [axis[part] for axis, part in zip(problem.positions.values(), center, strict=True)]
         return cls(
             _replaced(
@@ -247,8 +220,8 @@ class _Window(Generic[ProblemT]):
 
 def _peak_error(
     window: _Window[ProblemT], degrees: Sequence[int], solve: Callable[[ProblemT], GapField]
-) -> tuple[StrengthError, tuple[int, ...]]:
-    """Estimated error of the field at one peak, and the degrees to compare at other peaks.
+) -> tuple[StrengthError, Sequence[int]]:
+    """Estimated error of the field at one place, and the degrees to compare at other places.
 
     The first of ``degrees`` is that of the solution; the others are tried until the field settles.
     """
@@ -260,13 +233,14 @@ def _peak_error(
     last, tried = strengths[-1], degrees[: len(strengths)]
     near = [abs(last / strength - 1.0) <= TOLERANCE for strength in strengths].index(True)
     halved = window.of_degree(tried[near]).halved().strength(solve)
+    by_columns = _HALVED * abs(halved / strengths[near] - 1.0)
     found = StrengthError(
         by_degree=abs(last / strengths[0] - 1.0),
-        by_columns=_HALVED * abs(halved / strengths[near] - 1.0),
+        by_columns=by_columns,
         degree=tried[near],
-        by_that_degree=abs(last / strengths[near] - 1.0),
+        total_there=abs(last / strengths[near] - 1.0) + by_columns,
     )
-    return found, tuple(sorted({degrees[0], tried[near], tried[-1]}))
+    return found, sorted({degrees[0], tried[near], tried[-1], *degrees[len(tried) :]})
 
 
 def with_error(problem: ProblemT, solve: Callable[[ProblemT], FieldT]) -> FieldT:
@@ -294,11 +268,13 @@ def with_error(problem: ProblemT, solve: Callable[[ProblemT], FieldT]) -> FieldT
         problem = _replaced(problem, degree=min(found.degree, most))
         field = solve(problem)
         if problem.degree == found.degree:
-            found = replace(found, by_degree=found.by_that_degree)
-        else:
-            found = strength_error(problem, field.column_strength, solve)
-    if found is None:
-        return field
-    known = {"strength_error": found.total, "sufficient_degree": found.degree}
+            return _with(field, found.total_there, found.degree)
+        found = strength_error(problem, field.column_strength, solve)
+    return field if found is None else _with(field, found.total, found.degree)
+
+
+def _with(field: FieldT, error: float, degree: int) -> FieldT:
+    """Field with its error and its sufficient degree."""
+    known = {"strength_error": error, "sufficient_degree": degree}
     checked: FieldT = replace(field, **known)  # type: ignore[type-var]
     return checked

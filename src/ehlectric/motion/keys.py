@@ -67,7 +67,7 @@ _FIELD: Keys = {
     "max_strength_time": ResultKey("time of max_strength", "s"),
     "max_strength_error": ResultKey(
         "maximum over the recorded instants of the estimated relative error of the maximum field by the grid "
-        "of the field; null if unknown",
+        "of the field; null if it is unknown at one of them",
         "",
         "error of the maximum field",
     ),

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.ndimage import maximum_filter
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.contact.result_warnings import FIELD_ERROR, inaccurate_field
+from ehlectric.contact.result_warnings import FIELD_ERROR, inaccurate_field, unknown_error
 from ehlectric.discharge.utilisation import dielectric_strength
 from ehlectric.errors import ResultWarning
 from ehlectric.motion.stored_run import MotionRun
@@ -88,22 +88,30 @@ def _halved(run: MotionRun) -> Iterator[ResultWarning]:
 
 
 def _inaccurate(run: MotionRun) -> Iterator[ResultWarning]:
-    """Warning about a maximum field of a recorded instant whose estimated error is large."""
-    error = _field_error(run)
-    if error is not None and error > FIELD_ERROR:
-        yield inaccurate_field(run.case.grid, error)
+    """Warnings about maximum fields of recorded instants whose estimated error is large or unknown."""
+    errors = _field_errors(run)
+    known = errors[np.isfinite(errors)]
+    if known.size and np.max(known) > FIELD_ERROR:
+        yield inaccurate_field(run.case.grid, float(np.max(known)))
+    if known.size < errors.size:
+        yield unknown_error(f" at {errors.size - known.size} of {errors.size} recorded instants")
+
+
+def _field_errors(run: MotionRun) -> Array:
+    """Estimated errors of the maximum field of the recorded instants, NaN where one is unknown.
+
+    Runs of earlier versions have none.
+    """
+    if "max_strength_error" not in run.dataset:
+        return np.empty(0)
+    errors: Array = run.dataset["max_strength_error"].values
+    return errors
 
 
 def _field_error(run: MotionRun) -> float | None:
-    """Largest estimated error of the maximum field of the recorded instants.
-
-    None if none is known; runs of earlier versions have no estimates.
-    """
-    if "max_strength_error" not in run.dataset:
-        return None
-    errors = run.dataset["max_strength_error"].values
-    known = errors[np.isfinite(errors)]
-    return float(np.max(known)) if known.size else None
+    """Largest estimated error of the maximum field of the recorded instants, None if one is unknown."""
+    errors = _field_errors(run)
+    return float(np.max(errors)) if errors.size and np.all(np.isfinite(errors)) else None
 
 
 def _course(run: MotionRun) -> dict[str, Any]:

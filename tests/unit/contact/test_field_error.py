@@ -8,6 +8,9 @@ from ehlectric import Case, load, save, solve
 from ehlectric.cases.grid import Grid
 from ehlectric.commands.tables.contact import result_rows
 from ehlectric.contact.result_warnings import accuracy_warnings, inaccurate_field
+from ehlectric.contact.solver import OWN
+from ehlectric.contact.solver import solve as solve_with
+from ehlectric.errors import ConvergenceError
 
 CONTACT = {
     "reduced_radius": "14.1 mm",
@@ -68,6 +71,25 @@ def test_an_error_above_two_percent_is_a_warning(result):
     assert inaccurate_field(grid, 0.03, 40, 48).text.endswith("far shorter than the film is thick")
 
 
+def test_an_error_that_should_be_known_but_is_not_is_a_warning(result):
+    unknown = with_error(result, None, None).field
+    (warning,) = accuracy_warnings(result.case.grid, unknown)
+    assert warning.code == "field-unresolved"
+    assert warning.text.startswith("the error of the maximum field is not known, because a finer solution")
+    assert not list(accuracy_warnings(result.case.grid, unknown, estimated=False))
+
+
+def test_a_contact_whose_windows_do_not_converge_has_the_warning(result, monkeypatch):
+    def failing(*_arguments):
+        raise ConvergenceError("the electric field did not converge")
+
+    monkeypatch.setattr("ehlectric.field.accuracy._peak_error", failing)
+    found = solve(result.case)
+    assert found.field.strength_error is None
+    assert found.field.max_strength == pytest.approx(result.field.max_strength, rel=1e-9)
+    assert [w.code for w in found.warnings].count("field-unresolved") == 1
+
+
 def test_a_margin_within_the_error_of_the_field_is_possible_only(result):
     margin = result.verdict.margin
     strength = 1.5e6 / margin * 1.01
@@ -78,6 +100,20 @@ def test_a_margin_within_the_error_of_the_field_is_possible_only(result):
     wide = dataclasses.replace(near, field=with_error(near, 0.03).field)
     assert wide.verdict.level == "yellow"
     assert "The maximum field may be 3 % off on this grid." in wide.verdict.text
+
+
+def test_a_solver_without_an_estimate_says_unknown_and_does_not_warn(result):
+    """The field solver of this stand-in is ours, but it drops the estimate, as the paper's has none."""
+
+    def without(problem):
+        field = OWN.field["line"](problem)
+        return dataclasses.replace(field, strength_error=None, sufficient_degree=None)
+
+    other = dataclasses.replace(OWN, name="paper", field={"line": without})
+    found = solve_with(result.case, solvers=other)
+    assert not any(warning.code == "field-unresolved" for warning in found.warnings)
+    rows = {row.name: row for row in result_rows(found)}
+    assert rows["error of the maximum field"].value == "unknown"
 
 
 @pytest.mark.slow

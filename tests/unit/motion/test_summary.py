@@ -129,6 +129,26 @@ def test_local_maxima_of_a_line():
     assert local_maxima(MotionRun.of(dataset), np.array([False, True, False])).size == 0
 
 
+def test_an_error_of_the_field_that_is_unknown_at_an_instant_is_a_warning():
+    dataset = made(CASE, times=[0.0, 1.0, 2.0, 3.0])
+
+    def unresolved(errors):
+        found = summary_of(dataset.assign(max_strength_error=("frame", errors)))
+        texts = zip(found["warning_codes"], found["warnings"], strict=True)
+        return found["field"]["max_strength_error"], [
+            text for code, text in texts if code == "field-unresolved"
+        ]
+
+    assert unresolved([0.001, 0.002, 0.0, 0.0]) == (0.002, [])
+    error, (text,) = unresolved([0.001, np.nan, 0.0, 0.0])
+    assert error is None
+    assert "is not known at 1 of 4 recorded instants" in text
+    error, texts = unresolved([0.031, np.nan, np.nan, 0.0])
+    assert error is None
+    assert "is estimated at 3.1 %" in texts[0]
+    assert "is not known at 2 of 4 recorded instants" in texts[1]
+
+
 def test_a_maximum_beside_the_zone_hides_what_is_lower_in_it():
     x = np.array([-1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5])
     strength = [[1.0, 9.0, 8.0, 1.0, 2.0, 1.0, 5.0]]
