@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.patheffects import withStroke
 
@@ -123,11 +125,11 @@ def breakdown_over_speed(points: Speeds, ax: Axes | None = None, *, own: Speed |
             ax.plot(at * RPM, between, label=text.replace("\n", " "), **look)
             ax.plot(speed, values, ls="none", marker="o", ms=3.5, color=look["color"])
             ends.append((float(values[known[-1]]), text, look["color"]))
-    _danger(curves, ax)
+    danger = _danger(curves, ax)
     _critical(curves, ax)
     _own_margin(own, ax)
     label_ends(ax, ends)
-    _lubrication(points, ax, speed)
+    _lubrication(points, ax, speed, danger)
     _contacts_open(curves, ax)
     return ax
 
@@ -150,27 +152,18 @@ def _contacts_open(curves: Curves, ax: Axes) -> None:
             )
 
 
-def _danger(curves: Curves, ax: Axes) -> None:
-    """Shade the area between first breakdown and shaft voltage where the shaft voltage is higher."""
+def _danger(curves: Curves, ax: Axes) -> list[Artist]:
+    """Shade the area between first breakdown and shaft voltage where the latter is higher, and return it."""
     speed, first = curves.between("first_break")
     _, shaft = curves.between("shaft_voltage")
     over: Mask = shaft > first
     if not np.any(over):
-        return
+        return []
     look: dict[str, Any] = {"color": ORANGE, "alpha": 0.2, "lw": 0.0, "label": "breakdown expected"}
-    ax.fill_between(speed * RPM, first, shaft, where=list(over), interpolate=True, **look)
+    area = ax.fill_between(speed * RPM, first, shaft, where=list(over), interpolate=True, **look)
     low, high = float(speed[over][0]) * RPM, float(speed[over][-1]) * RPM
     ax.axvspan(low, high, color=ORANGE, alpha=0.06, lw=0.0, zorder=0.0)
-    ax.text(
-        (low * high) ** 0.5 if ax.get_xscale() == "log" else 0.5 * (low + high),
-        0.97,
-        "breakdown\nexpected",
-        transform=ax.get_xaxis_transform(),
-        ha="center",
-        va="top",
-        color=ORANGE,
-        fontsize="small",
-    )
+    return [area]
 
 
 def _critical(curves: Curves, ax: Axes) -> None:
@@ -261,8 +254,8 @@ def _speed_axis(curves: Curves, ax: Axes) -> Array:
     return speed
 
 
-def _lubrication(points: Speeds, ax: Axes, speed: Array) -> None:
-    """Draw markers along the lower edge at speeds at which the lambda ratio is below 3."""
+def _lubrication(points: Speeds, ax: Axes, speed: Array, areas: Sequence[Artist] = ()) -> None:
+    """Draw markers along the lower edge where the lambda ratio is below 3; a legend of them and of areas."""
     states = [summary["bearing"]["lubrication"] for _, summary in sorted(points, key=lambda point: point[0])]
     kinds: tuple[tuple[tuple[str, ...], str, dict[str, Any]], ...] = (
         (
@@ -272,7 +265,7 @@ def _lubrication(points: Speeds, ax: Axes, speed: Array) -> None:
         ),
         (("partial film",), r"$\lambda$ from 1 to 3: contacts at times", {"color": GREY, "marker": "^"}),
     )
-    handles = []
+    handles = list(areas)
     for names, label, look in kinds:
         on = np.array([state in names for state in states])
         if np.any(on):
