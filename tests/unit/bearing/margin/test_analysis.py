@@ -2,13 +2,16 @@
 
 import dataclasses
 import math
+import re
 
 import pytest
 
 from ehlectric.bearing.files import load, save
-from ehlectric.bearing.margin.critical_speed import SpeedRange
+from ehlectric.bearing.margin.analysis import MarginAnalysis
+from ehlectric.bearing.margin.critical_speed import SpeedRange, speed_range
 from ehlectric.bearing.margin.formula_margins import FormulaMargins
 from ehlectric.bearing.margin.sensitivity import OF_TABLE, Effect
+from ehlectric.bearing.margin.verdict import bearing_verdict
 from ehlectric.bearing.solver import solve_bearing
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.units import rpm_text
