@@ -254,7 +254,8 @@ _MECHANICS: Keys = {
 _MARGIN: Keys = {
     "level": ResultKey(
         'colour of the verdict: "green", "yellow" where the margin may lie on either side of 1 or surfaces '
-        'touch, "red", or "grey" where there is nothing to compare'
+        'may touch, "red" where breakdown is expected or surfaces touch under a voltage, or "grey" where '
+        "there is nothing to compare"
     ),
     "critical_speed": ResultKey(
         "speed of the inner ring at which the margin is 1, and below which breakdown is expected; by film "

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
 
 from ehlectric.bearing.by_formula import formula_case
 from ehlectric.bearing.margin.critical_speed import LEAST, MOST
+from ehlectric.bearing.solution import CONDUCTING
 from ehlectric.bearing.solving.contacts_and_circuit import solution_of
 from ehlectric.bearing.summary import summary_of
 from ehlectric.cases.bearing_case import BearingCase
@@ -17,10 +19,14 @@ from ehlectric.errors import InputError, ResultWarning
 # Number of speeds in a geometric series.
 COUNT = 9
 
+# Speed of the inner ring [rad/s] with the summary of the bearing at this speed.
+Speed = tuple[float, dict[str, Any]]
 
-def over_speed(
-    case: BearingCase, count: int = COUNT
-) -> tuple[list[tuple[float, dict[str, Any]]], list[ResultWarning]]:
+# Logarithm of the lambda ratio that is looked for where surfaces part, and how often it is.
+_ABOVE, _TRIES = 1e-3, 4
+
+
+def over_speed(case: BearingCase, count: int = COUNT) -> tuple[list[Speed], list[ResultWarning]]:
     """Summaries of a bearing at speeds around that of its case, with contacts by formula.
 
     Parameters
@@ -33,7 +39,8 @@ def over_speed(
     Returns
     -------
     points : list of (float, dict)
-        Speeds of the inner ring [rad/s] with their summaries.
+        Speeds of the inner ring [rad/s] with their summaries, in increasing order. Where the lambda ratio
+        rises through 1 between two of them, one more lies there: the lowest speed that has voltages.
     left_out : list of ResultWarning
         Warnings of what could not be computed, and why: single speeds, breakdown voltages, or everything.
 
@@ -67,10 +74,38 @@ def over_speed(
     for part in np.geomspace(LEAST, MOST, count):
         speed = case.bearing.inner_speed * float(part)
         try:
-            solution = solution_of(changed.replace({"bearing.inner_speed": speed}))
+            points.append(_point(changed, speed))
         except InputError as error:
             text = f"figures over speed leave out {rpm(speed):.4g} rpm: {error}"
             left_out.append(ResultWarning("speed-left-out", text))
-        else:
-            points.append((speed, summary_of(solution)))
+    touch = [k for k, (_, summary) in enumerate(points) if _is_conducting(summary)]
+    if touch and touch[-1] + 1 < len(points):
+        low, high = points[touch[-1] : touch[-1] + 2]
+        parted = _parted(changed, low, high)
+        points[touch[-1] + 1 : touch[-1] + 1] = [] if parted is None else [parted]
     return points, left_out
+
+
+def _point(case: BearingCase, speed: float) -> Speed:
+    """Speed [rad/s] with the summary of a bearing at it."""
+    return speed, summary_of(solution_of(case.replace({"bearing.inner_speed": speed})))
+
+
+def _is_conducting(summary: dict[str, Any]) -> bool:
+    """Whether the surfaces touch, so that no voltage is computed."""
+    return bool(summary["bearing"]["lubrication"] == "conducting")
+
+
+def _parted(case: BearingCase, low: Speed, high: Speed) -> Speed | None:
+    """Point just above a lambda ratio of 1 between two speeds on either side of it; None where not found.
+
+    Between two speeds the lambda ratio is nearly a power of the speed.
+    """
+    for _ in range(_TRIES):
+        ratios = [math.log(summary["bearing"]["lambda_ratio"] / CONDUCTING) for _, summary in (low, high)]
+        part = (_ABOVE - ratios[0]) / (ratios[1] - ratios[0])
+        found = _point(case, low[0] * (high[0] / low[0]) ** part)
+        if not _is_conducting(found[1]):
+            return found
+        low = found
+    return None

@@ -12,7 +12,7 @@ from ehlectric.discharge.breakdown import Breakdown
 from ehlectric.errors import CODES, ResultWarning
 
 # "green": no breakdown expected; "yellow": breakdown possible within what is uncertain; "red": breakdown
-# expected; "grey": nothing to compare the breakdown voltage with.
+# expected, or surfaces that touch under a voltage; "grey": nothing to compare the breakdown voltage with.
 Level = Literal["green", "yellow", "red", "grey"]
 
 
@@ -24,7 +24,8 @@ class Verdict:
     ----------
     level : str
         "green": no breakdown expected; "yellow": breakdown is possible within what is uncertain; "red":
-        breakdown expected; "grey": there is no voltage or no strength to judge by.
+        breakdown expected, or surfaces that touch under a voltage; "grey": there is no voltage or no
+        strength to judge by.
     text : str
         The answer in whole sentences, with the numbers that decide and the assumptions behind them.
     margin : float or None

@@ -44,7 +44,9 @@ def sweep_verdict(results: SweepPoints) -> Verdict | None:
         Green where no margin is below 1, red where all are, else yellow. It is not green where points have no
         margin: they are not solved or must not be used, or their surfaces touch. Nor is it green or red where
         the margin of a point may lie on the other side of 1, by the accuracy of formulas, by its warnings, or
-        at a strength that differs by 20 %. None where no point has a margin, and no contacts open and close.
+        at a strength that differs by 20 %. Without any margin it is red where the surfaces touch at all
+        points of a bearing with a motor, yellow where they touch at some or without a motor, and None where
+        they touch at none.
     """
     usable = _margins(results)
     known = usable[np.isfinite(usable)]
@@ -68,16 +70,24 @@ def sweep_verdict(results: SweepPoints) -> Verdict | None:
 
 
 def _without_voltages(results: SweepPoints) -> Verdict | None:
-    """Verdict on points without a margin: yellow where contacts open and close, None where none do."""
+    """Verdict on points without a margin: red where contacts open and close at all, None where at none."""
     states = [value_at(point.summary or {}, "bearing.lubrication") for point in results.points]
     count = states.count("conducting")
     if not count:
         return None
+    sure = all(point.solved and not point.doubtful for point in results.points)
+    everywhere = sure and count == len(states) and _driven(results)
     return Verdict(
-        "yellow",
+        "red" if everywhere else "yellow",
         f"Discharges likely: at {count} of {len(states)} points surfaces touch (lambda ratio below 1), and "
         "contacts discharge at a low voltage as they open; no voltage is computed for that.",
     )
+
+
+def _driven(results: SweepPoints) -> bool:
+    """Whether all points have a motor, whose common-mode voltage lies on the shaft."""
+    case = results.case
+    return isinstance(case, BearingCase) and case.motor is not None
 
 
 def _doubts(results: SweepPoints, margins: Array) -> Iterator[str]:

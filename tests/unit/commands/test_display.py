@@ -94,6 +94,16 @@ def test_a_notebook_shows_the_rows_of_the_command(results, kind, rows_of):
         assert html.count("warning: ") + html.count("note: ") == len(result.warnings)
 
 
+def test_a_lambda_ratio_below_one_says_that_surfaces_touch():
+    """Three digits, and no word that reads as a state of the oil."""
+    slow = bearing_case(BALLS, contacts="formula", bearing__inner_speed="30 rpm")
+    summary = solve(slow).summary()
+    (row,) = (row for row in total_rows(summary) if row.name == "minimum lambda ratio")
+    ratio = summary["bearing"]["lambda_ratio"]
+    assert ratio < 1.0
+    assert row.text == f"{ratio:.3g}, surfaces touch (no voltage computed)"
+
+
 def test_titles_are_no_markup(results):
     html = results["line"]._repr_html_()
     assert "A &lt;b&gt; &amp; c" in html

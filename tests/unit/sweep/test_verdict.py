@@ -125,6 +125,18 @@ def test_points_of_which_all_touch_do_not_read_as_safe():
     assert verdict.text.startswith("Discharges likely: at 1 of 2 points surfaces touch")
 
 
+def test_a_sweep_of_which_all_points_touch_is_as_red_as_its_points():
+    """Not milder than a margin below 1; yellow without a motor, and where a point is not solved."""
+    axes, touch = {SPEED: (1.0, 2.0)}, {"lubrication": "conducting"}
+    verdict = sweep_verdict(sweep(axes, [None, None], at_0=touch, at_1=touch))
+    assert (verdict.level, verdict.margin) == ("red", None)
+    assert verdict.text.startswith("Discharges likely: at 2 of 2 points surfaces touch")
+    alone = bearing_case(BALLS, motor=None)
+    assert sweep_verdict(sweep(axes, [None, None], case=alone, at_0=touch, at_1=touch)).level == "yellow"
+    failed = touch | {"status": "not converged"}
+    assert sweep_verdict(sweep(axes, [None, None], at_0=touch, at_1=failed)).level == "yellow"
+
+
 def test_no_crossing_where_two_inputs_vary_or_values_are_words():
     inputs = [{SPEED: a, TEMPERATURE: b} for a in (100.0, 200.0) for b in (330.0, 350.0)]
     rows = tuple(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -26,6 +26,10 @@ _PARTS, _TOLERANCE = (LEAST, 0.3, 2.0, MOST), 2e-3
 _FINE_PARTS = tuple(float(part) for part in np.geomspace(LEAST, MOST, 14))
 
 
+# Intervals of speed [rad/s]; None in place of an end of the range of speeds.
+Intervals = tuple[tuple[float | None, float | None], ...]
+
+
 @dataclass(frozen=True)
 class SpeedRange:
     """Margin of a bearing over its shaft speed, at one temperature.
@@ -38,9 +42,9 @@ class SpeedRange:
         Speeds at which the margin crosses 1 [rad/s], in increasing order.
     touching : float or None
         Speed below which the surfaces touch [rad/s]; None where they do not touch in the range.
-    partial : float or None
-        Speed below which surfaces may touch [rad/s], because their lambda ratio is below 3. None where it
-        is not in the range; the highest speed of the range where it still is there.
+    partial : tuple of (float or None, float or None)
+        Intervals of speed in which surfaces may touch, because their lambda ratio is below 3 [rad/s]; None
+        in place of an end of the range.
     above : bool
         Whether the margin at the highest speed is at least 1.
     minimum : float or None
@@ -53,28 +57,23 @@ class SpeedRange:
     highest: float
     crossings: tuple[float, ...]
     touching: float | None
-    partial: float | None
+    partial: Intervals
     above: bool
     minimum: float | None
     left_out: tuple[str, ...] = ()
 
     @property
-    def broken(self) -> tuple[tuple[float | None, float | None], ...]:
+    def broken(self) -> Intervals:
         """Intervals of speed with a margin below 1 [rad/s]; None in place of an end of the range.
 
         Examples
         --------
         A margin that rises through 1 at 100 rad/s and falls through it at 900 rad/s:
 
-        >>> SpeedRange(10.0, 1e3, (100.0, 900.0), None, None, above=False, minimum=0.5).broken
+        >>> SpeedRange(10.0, 1e3, (100.0, 900.0), None, (), above=False, minimum=0.5).broken
         ((None, 100.0), (900.0, None))
         """
-        ends: list[float | None] = [*self.crossings]
-        if not self.above:
-            ends.append(None)
-        if len(ends) % 2:
-            ends.insert(0, None)
-        return tuple(zip(ends[::2], ends[1::2], strict=True))
+        return _below(self.crossings, above=self.above)
 
     @property
     def critical(self) -> float | None:
@@ -122,9 +121,8 @@ def speed_range(margins: FormulaMargins) -> SpeedRange:
     logs = sorted(known)
     lowest, highest = logs[0], logs[-1]
     touching = _last_rise(logs, lambda log: at(log).lambda_ratio - CONDUCTING)
-    partial = _last_rise(logs, lambda log: at(log).lambda_ratio - PARTIAL)
-    if at(highest).lambda_ratio < PARTIAL:
-        partial = highest
+    parted = _crossings(logs, lambda log: math.log(at(log).lambda_ratio / PARTIAL))
+    separated = at(highest).lambda_ratio >= PARTIAL
     if touching is not None:
         # At the crossing itself the surfaces may touch by rounding.
         logs = [touching + _TOLERANCE, *(log for log in logs if log > touching + _TOLERANCE)]
@@ -136,11 +134,21 @@ def speed_range(margins: FormulaMargins) -> SpeedRange:
         math.exp(highest),
         tuple(math.exp(log) for log in crossings),
         None if touching is None else math.exp(touching),
-        None if partial is None else math.exp(partial),
+        _below([math.exp(log) for log in parted], above=separated),
         at(highest).margin >= 1.0,
         min((at(log).margin for log in logs), default=None),
         tuple(left_out),
     )
+
+
+def _below(crossings: Sequence[float], *, above: bool) -> Intervals:
+    """Intervals of speed with a value below a limit: its crossings, and its side at the highest speed."""
+    ends: list[float | None] = [*crossings]
+    if not above:
+        ends.append(None)
+    if len(ends) % 2:
+        ends.insert(0, None)
+    return tuple(zip(ends[::2], ends[1::2], strict=True))
 
 
 def _last_rise(logs: list[float], value: Callable[[float], float]) -> float | None:

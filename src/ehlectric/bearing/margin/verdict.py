@@ -8,7 +8,7 @@ from ehlectric.bearing.breakdown import Breakdown, breakdown_of
 from ehlectric.bearing.by_formula import formula_error, formula_factor
 from ehlectric.bearing.discharges.leakage import leakage_warnings
 from ehlectric.bearing.margin.analysis import MarginAnalysis
-from ehlectric.bearing.margin.critical_speed import SpeedRange
+from ehlectric.bearing.margin.critical_speed import Intervals, SpeedRange
 from ehlectric.bearing.shaft_voltage import shaft_voltage
 from ehlectric.bearing.solution import BearingSolution, lambda_ratio, lubrication
 from ehlectric.bearing.warnings import bearing_warnings
@@ -49,7 +49,9 @@ def bearing_verdict(solution: BearingSolution, analysis: MarginAnalysis) -> Verd
     -------
     Verdict
         Grey where the numbers must not be used, for ceramic elements, and without a strength or a shaft
-        voltage. Yellow where surfaces touch or may touch, and where the margin may lie on either side of 1.
+        voltage. Red where surfaces touch and the case has a common-mode voltage, yellow where they touch
+        without one. At most yellow where they may touch, and yellow where the margin may lie on either side
+        of 1.
 
     Notes
     -----
@@ -71,8 +73,9 @@ def bearing_verdict(solution: BearingSolution, analysis: MarginAnalysis) -> Verd
             "No verdict: the ceramic elements insulate, and their own breakdown is not computed." + touching,
         )
     if state == "conducting":
+        # A thinner film than one that breaks down is not safer.
         return Verdict(
-            "yellow",
+            "yellow" if solution.case.motor is None else "red",
             f"Discharges likely: surfaces touch {_at(solution)} (lambda ratio {lambda_ratio(solution):.2g}), "
             f"and contacts are intermittent. {_OPENING}, and no voltage is computed for that. This is no "
             "protection: current passes, and arcs are likely.",
@@ -186,19 +189,26 @@ def _speeds(speeds: SpeedRange | None, level: Level) -> Iterator[str]:
     if speeds.crossings:
         # A verdict that is not sure at the speed of the case is not sure at others.
         word = "likely" if level == "yellow" else "expected"
-        where = " and ".join(_interval(low, high) for low, high in speeds.broken)
-        yield f"{where[0].upper()}{where[1:]} breakdown is {word}."
+        yield f"{_intervals(speeds.broken)} breakdown is {word}."
     elif not speeds.above:
         yield f"The margin is below 1 {within}."
     elif speeds.minimum is not None:
         yield f"The margin is at least {ratio_text(speeds.minimum)} {within}."
-    if speeds.partial is not None and speeds.partial > max(lowest, speeds.critical or 0.0):
-        yield f"Below about {rpm_text(speeds.partial)} rpm surfaces may touch, and discharge as they part."
+    if speeds.partial == ((None, None),):
+        yield f"Surfaces may touch, and discharge as they part, {within}."
+    elif speeds.partial:
+        yield f"{_intervals(speeds.partial)} surfaces may touch, and discharge as they part."
     if speeds.touching is not None:
         yield (
             f"Below about {rpm_text(speeds.touching)} rpm the surfaces touch: contacts open and close, "
             "discharges are likely, and no voltage is computed."
         )
+
+
+def _intervals(ranges: Intervals) -> str:
+    """Start of a sentence with intervals of speed [rad/s]."""
+    where = " and ".join(_interval(low, high) for low, high in ranges)
+    return f"{where[0].upper()}{where[1:]}"
 
 
 def _interval(low: float | None, high: float | None) -> str:

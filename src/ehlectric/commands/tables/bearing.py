@@ -96,7 +96,6 @@ def outcome_rows(summary: Mapping[str, Any]) -> list[Row]:
     totals = summary["bearing"]
     first = f", {totals['first_break_at']}" if totals["first_break_at"] else ""
     films = (
-        ("minimum lambda ratio", "bearing.lambda_ratio", "", totals["lubrication"]),
         ("film factor", "bearing.film_factor", "", _film_factor(summary)),
         ("discretisation error of the films", "bearing.discretisation_error", "%"),
         ("interpolation error over the load", "bearing.interpolation_error", "%"),
@@ -120,6 +119,7 @@ def outcome_rows(summary: Mapping[str, Any]) -> list[Row]:
     )
     return [
         Row(f"films, contacts {_HOW[totals['contacts']]}"),
+        _lambda_ratio(totals),
         *rows_of(BEARING_KEYS, summary, films),
         Row("computing time", summary["seconds"], "s", digits=".3g"),
         Row("capacitance"),
@@ -131,6 +131,21 @@ def outcome_rows(summary: Mapping[str, Any]) -> list[Row]:
         *_leakage(summary),
         *_costs(summary),
     ]
+
+
+def _lambda_ratio(totals: Mapping[str, Any]) -> Row:
+    """Row of the smallest lambda ratio, with what it means."""
+    state, ratio = totals["lubrication"], totals["lambda_ratio"]
+    if state not in _TOUCH:
+        return Row("minimum lambda ratio", ratio, note=state)
+    return Row("minimum lambda ratio", ratio, note=_TOUCH[state], digits=".3g", alarm=True)
+
+
+# What a lambda ratio below 1 means, by the state of lubrication.
+_TOUCH = {
+    "conducting": ", surfaces touch (no voltage computed)",
+    "touching": ", surfaces touch",
+}
 
 
 def _intermittent(state: str) -> Iterator[Row]:

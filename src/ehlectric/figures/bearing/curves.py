@@ -48,12 +48,15 @@ class Curves:
         Factors by which the values were multiplied to agree with the bearing itself; 1 where none is known.
     critical : float, optional
         Speed of the summary of the bearing itself below which breakdown is expected [rad/s].
+    touching : float, optional
+        Speed of this summary below which the surfaces touch [rad/s].
     """
 
     speed: Array
     values: Mapping[str, Array]
     scaled: Mapping[str, float]
     critical: float | None = None
+    touching: float | None = None
 
     def __getitem__(self, key: str) -> Array:
         return self.values[key]
@@ -96,8 +99,9 @@ def curves_of(points: Speeds, own: Speed | None = None) -> Curves:
     if own is None:
         return plain
     factors = {key: _factor(plain, key, own) for key in _KEYS}
-    critical = (own[1].get("margin") or {}).get("critical_speed")
-    return Curves(speed, {key: factors[key] * plain[key] for key in _KEYS}, factors, critical)
+    analysis = own[1].get("margin") or {}
+    ends = (analysis.get(key) for key in ("critical_speed", "touching_speed"))
+    return Curves(speed, {key: factors[key] * plain[key] for key in _KEYS}, factors, *ends)
 
 
 def _column(ordered: Speeds, key: str) -> Array:
@@ -158,6 +162,8 @@ def _last_rise(speed: Array, value: Array) -> float | None:
 def opening_speed_of(curves: Curves) -> float | None:
     """Speed below which the lambda ratio is below 1, so that contacts open and close [rad/s], or None.
 
+    It is that of the summary of the bearing itself or, where this has none, that of the curves.
+
     Examples
     --------
     A lambda ratio of 0.5 at 10 rad/s and of 2 at 40 rad/s:
@@ -166,6 +172,8 @@ def opening_speed_of(curves: Curves) -> float | None:
     >>> round(opening_speed_of(Curves(np.array([10.0, 40.0]), values, {})), 6)
     20.0
     """
+    if curves.touching is not None:
+        return curves.touching
     ratio = np.log(curves["lambda_ratio"] / CONDUCTING)
     return float(curves.speed[-1]) if ratio[-1] < 0.0 else _last_rise(curves.speed, ratio)
 

@@ -117,7 +117,8 @@ def _where(
 ) -> str:
     """Clause: the speeds at which breakdown is expected."""
     critical = critical_speed_of(curves)
-    span = f"from {rpm_text(float(speed[0]))} to {rpm_text(float(speed[-1]))}"
+    lowest = curves.touching or max(float(speed[0]), opening_speed_of(curves) or 0.0)
+    span = f"from {rpm_text(lowest)} to {rpm_text(float(speed[-1]))}"
     if critical is None:
         if np.all(margin >= 1.0):
             return f"No breakdown expected {span}"

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.patheffects import withStroke
 
@@ -24,13 +26,19 @@ from ehlectric.figures.bearing.curves import (
     nearly_equal,
 )
 from ehlectric.figures.bearing.looks import FIRST, SHAFT, THROUGH, label_ends, volts
-from ehlectric.figures.style import BLUE, GREY, ORANGE, axes_or_new, legend_above
+from ehlectric.figures.style import BLUE, GREY, ORANGE, axes_or_new, figure_of, legend_above
 
 # Legend entry of speeds at which no voltage is computed.
 _OPENING = r"$\lambda$ < 1: contacts open and close, discharges likely"
 
 # Height of the room that a label between curves needs, as part of the axes.
 _GAP = 0.2
+
+# Place from which on the name of a speed is left of its line, as part of the axes.
+_RIGHTMOST = 0.85
+
+# Width of the label of the margin with its distance from its arrow [pt].
+_WIDTH = 75.0
 
 _STAR: dict[str, Any] = {"ls": "none", "marker": "*", "ms": 12.0, "color": "black", "mec": "white"}
 
@@ -123,11 +131,11 @@ def breakdown_over_speed(points: Speeds, ax: Axes | None = None, *, own: Speed |
             ax.plot(at * RPM, between, label=text.replace("\n", " "), **look)
             ax.plot(speed, values, ls="none", marker="o", ms=3.5, color=look["color"])
             ends.append((float(values[known[-1]]), text, look["color"]))
-    _danger(curves, ax)
+    danger = _danger(curves, ax)
     _critical(curves, ax)
-    _own_margin(own, ax)
+    _own_margin(own, curves, ax)
     label_ends(ax, ends)
-    _lubrication(points, ax, speed)
+    _lubrication(points, ax, speed, danger)
     _contacts_open(curves, ax)
     return ax
 
@@ -150,27 +158,18 @@ def _contacts_open(curves: Curves, ax: Axes) -> None:
             )
 
 
-def _danger(curves: Curves, ax: Axes) -> None:
-    """Shade the area between first breakdown and shaft voltage where the shaft voltage is higher."""
+def _danger(curves: Curves, ax: Axes) -> list[Artist]:
+    """Shade the area between first breakdown and shaft voltage where the latter is higher, and return it."""
     speed, first = curves.between("first_break")
     _, shaft = curves.between("shaft_voltage")
     over: Mask = shaft > first
     if not np.any(over):
-        return
+        return []
     look: dict[str, Any] = {"color": ORANGE, "alpha": 0.2, "lw": 0.0, "label": "breakdown expected"}
-    ax.fill_between(speed * RPM, first, shaft, where=list(over), interpolate=True, **look)
+    area = ax.fill_between(speed * RPM, first, shaft, where=list(over), interpolate=True, **look)
     low, high = float(speed[over][0]) * RPM, float(speed[over][-1]) * RPM
     ax.axvspan(low, high, color=ORANGE, alpha=0.06, lw=0.0, zorder=0.0)
-    ax.text(
-        (low * high) ** 0.5 if ax.get_xscale() == "log" else 0.5 * (low + high),
-        0.97,
-        "breakdown\nexpected",
-        transform=ax.get_xaxis_transform(),
-        ha="center",
-        va="top",
-        color=ORANGE,
-        fontsize="small",
-    )
+    return [area]
 
 
 def _critical(curves: Curves, ax: Axes) -> None:
@@ -191,10 +190,12 @@ def _critical(curves: Curves, ax: Axes) -> None:
         mew=1.6,
         zorder=5.5,
     )
+    inside = (ax.transData + ax.transAxes.inverted()).transform((rpm, 1.0))[0] < _RIGHTMOST
     ax.text(
         rpm,
         0.03,
-        f" {rpm_text(critical)}",
+        f" {rpm_text(critical)} ",
+        ha="left" if inside else "right",
         transform=ax.get_xaxis_transform(),
         color=ORANGE,
         va="bottom",
@@ -213,7 +214,7 @@ def rpm_text(speed: float) -> str:
     return f"{units.rpm_text(speed)} rpm"
 
 
-def _own_margin(own: Speed | None, ax: Axes) -> None:
+def _own_margin(own: Speed | None, curves: Curves, ax: Axes) -> None:
     """Mark the breakdown voltage of the bearing itself, and write its margin beside an arrow."""
     if own is None or (first := own[1]["bearing"]["first_break"]) is None:
         return
@@ -232,21 +233,27 @@ def _own_margin(own: Speed | None, ax: Axes) -> None:
         fontsize="small",
         zorder=6.0,
         path_effects=[withStroke(linewidth=2.0, foreground="white")],
-        **_beside(ax, low=min(first, shaft), high=max(first, shaft)),
+        **_beside(ax, curves, rpm, first=first, shaft=shaft),
     )
 
 
-def _beside(ax: Axes, *, low: float, high: float) -> dict[str, Any]:
+def _beside(ax: Axes, curves: Curves, rpm: float, *, first: float, shaft: float) -> dict[str, Any]:
     """Place of a label at two rising curves [V]: between them, below both, or above both where there is room.
 
     Offset of the label in points, and its alignment. Right of a speed, the curves are above their values at
-    this speed, and left of it below them.
+    this speed, and left of it below them. Where the first breakdown is the lower one, it rises faster than
+    the shaft voltage, and may reach a label on the right.
     """
-    below, above = (
-        float(ax.transAxes.inverted().transform(ax.transData.transform((1.0, value)))[1])
-        for value in (low, high)
-    )
+    to_axes = ax.transData + ax.transAxes.inverted()
+    below, above = (float(to_axes.transform((rpm, value))[1]) for value in sorted((first, shaft)))
     if above - below > _GAP:
+        figure = figure_of(ax)
+        width = 72.0 * figure.get_figwidth() * ax.get_position().width
+        at = float(to_axes.transform((rpm, first))[0])
+        end = to_axes.inverted().transform((min(1.0, at + _WIDTH / width), 0.0))[0] / RPM
+        reached = float(to_axes.transform((rpm, curves.at("first_break", end)))[1])
+        if first < shaft and reached > 0.5 * (below + above) - 0.5 * _GAP:
+            return {"xytext": (-6.0, 0.0), "va": "center", "ha": "right"}
         return {"xytext": (6.0, 0.0), "va": "center"}
     pointer = {"arrowstyle": "-", "color": GREY, "lw": 0.6, "shrinkA": 0.0, "shrinkB": 4.0}
     if below > _GAP:
@@ -261,8 +268,8 @@ def _speed_axis(curves: Curves, ax: Axes) -> Array:
     return speed
 
 
-def _lubrication(points: Speeds, ax: Axes, speed: Array) -> None:
-    """Draw markers along the lower edge at speeds at which the lambda ratio is below 3."""
+def _lubrication(points: Speeds, ax: Axes, speed: Array, areas: Sequence[Artist] = ()) -> None:
+    """Draw markers along the lower edge where the lambda ratio is below 3; a legend of them and of areas."""
     states = [summary["bearing"]["lubrication"] for _, summary in sorted(points, key=lambda point: point[0])]
     kinds: tuple[tuple[tuple[str, ...], str, dict[str, Any]], ...] = (
         (
@@ -272,7 +279,7 @@ def _lubrication(points: Speeds, ax: Axes, speed: Array) -> None:
         ),
         (("partial film",), r"$\lambda$ from 1 to 3: contacts at times", {"color": GREY, "marker": "^"}),
     )
-    handles = []
+    handles = list(areas)
     for names, label, look in kinds:
         on = np.array([state in names for state in states])
         if np.any(on):

@@ -2,13 +2,16 @@
 
 import dataclasses
 import math
+import re
 
 import pytest
 
 from ehlectric.bearing.files import load, save
-from ehlectric.bearing.margin.critical_speed import SpeedRange
+from ehlectric.bearing.margin.analysis import MarginAnalysis
+from ehlectric.bearing.margin.critical_speed import SpeedRange, speed_range
 from ehlectric.bearing.margin.formula_margins import FormulaMargins
 from ehlectric.bearing.margin.sensitivity import OF_TABLE, Effect
+from ehlectric.bearing.margin.verdict import bearing_verdict
 from ehlectric.bearing.solver import solve_bearing
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.units import rpm_text
@@ -119,11 +122,37 @@ def test_without_a_crossing_there_is_no_critical_speed():
 def test_speeds_with_a_partial_film_are_said():
     """Below the speed of a lambda ratio of 3 no sentence reads as safe."""
     safe = solved(discharge__dielectric_strength="300 V/um")
-    speed = safe.margin_analysis.speeds.partial
+    ((_, speed),) = safe.margin_analysis.speeds.partial
     at = {"bearing.inner_speed": speed}
     found = solve_bearing(safe.case.replace(at), workers=1).summary()["bearing"]["lambda_ratio"]
     assert found == pytest.approx(3.0, abs=0.02)
     assert f"Below about {rpm_text(speed)} rpm surfaces may touch, and discharge" in safe.verdict.text
+
+
+def said_of_speeds(rpm):
+    """Verdict on the example at a speed [rpm], and the speeds of its analysis."""
+    case = BearingCase.from_toml(EXAMPLES / "bearing_6208.toml")
+    changes = {"contacts": "formula", "bearing.inner_speed": f"{rpm} rpm"}
+    result = solve_bearing(case.replace(changes), workers=1)
+    speeds = speed_range(FormulaMargins.of(result.solution))
+    analysis = MarginAnalysis(result.breaks()["margin"], speeds)
+    return result, speeds, bearing_verdict(result.solution, analysis).text
+
+
+def test_the_speed_below_which_surfaces_may_touch_is_that_of_a_lambda_ratio_of_three():
+    """From a lambda ratio of 1.2, of 1.7 and of 3.9; at 200 rpm it is beyond the range of 20 to 800 rpm."""
+    for n in (250, 400, 1400):
+        result, _, text = said_of_speeds(n)
+        found = re.search(r"Below about (\d+) rpm surfaces may touch, and discharge as they part", text)
+        at = {"bearing.inner_speed": f"{found[1]} rpm"}
+        ratio = solve_bearing(result.case.replace(at), workers=1).summary()["bearing"]["lambda_ratio"]
+        # The film grows with the speed to the power of about 0.67: 2 % of the speed are 1.3 % of it.
+        assert ratio == pytest.approx(3.0, rel=0.013)
+    _, speeds, text = said_of_speeds(200)
+    assert speeds.partial == ((None, None),)
+    span = f"at all speeds computed, {rpm_text(speeds.touching)} to 800 rpm"
+    assert f"Surfaces may touch, and discharge as they part, {span}." in text
+    assert f"The margin is below 1 {span}." in text
 
 
 @pytest.fixture(scope="module")
@@ -171,7 +200,7 @@ def test_a_margin_that_falls_at_high_speed_has_two_critical_speeds(sheared):
     ],
 )
 def test_intervals_with_a_margin_below_one(crossings, above, broken, critical, upper):
-    speeds = SpeedRange(1.0, 10.0, crossings, None, None, above, 0.5)
+    speeds = SpeedRange(1.0, 10.0, crossings, None, (), above, 0.5)
     assert (speeds.broken, speeds.critical, speeds.upper) == (broken, critical, upper)
 
 

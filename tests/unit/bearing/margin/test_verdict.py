@@ -11,10 +11,12 @@ from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solution import lambda_ratio
 from ehlectric.bearing.solver import solve_bearing
 from ehlectric.bearing.summary import summary_of
+from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.errors import ResultWarning
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case
+from tests.helpers.places import EXAMPLES
 
-NO_SPEEDS = SpeedRange(31.4159265, 1256.637, (144.5,), None, None, above=True, minimum=0.4)
+NO_SPEEDS = SpeedRange(31.4159265, 1256.637, (144.5,), None, (), above=True, minimum=0.4)
 
 
 def solved(**changes):
@@ -106,7 +108,7 @@ def test_words_for_other_speeds_are_no_surer_than_the_verdict(balls):
     assert "Below about 1380 rpm breakdown is expected." in judged(balls).text
     unsure = judged(balls, low=0.9, high=2.0)
     assert "Below about 1380 rpm breakdown is likely." in unsure.text
-    alone = SpeedRange(300.0, 300.0, (), None, None, above=True, minimum=1.5)
+    alone = SpeedRange(300.0, 300.0, (), None, (), above=True, minimum=1.5)
     margin = balls.breaks()["margin"]
     assert "at all speeds" not in bearing_verdict(balls.solution, MarginAnalysis(margin, alone)).text
 
@@ -159,11 +161,29 @@ def test_a_doubt_leaves_no_green_verdict(balls):
 
 def test_surfaces_that_touch_do_not_read_as_safe():
     verdict = solved(bearing__inner_speed="30 rpm").verdict
-    assert verdict.level == "yellow"
+    assert verdict.level == "red"
     assert verdict.text.startswith("Discharges likely: surfaces touch at 30 rpm, 70 °C (lambda ratio 0.")
     assert "Contacts discharge at a low voltage as they open, and no voltage is computed" in verdict.text
     assert "This is no protection" in verdict.text
     assert verdict.margin is None
+    unknown = solved(bearing__inner_speed="30 rpm", motor=None).verdict
+    assert (unknown.level, unknown.text) == ("yellow", verdict.text)
+
+
+def test_a_thinner_film_has_no_milder_verdict():
+    """The level does not fall from speed to speed, across a margin of 1 and a lambda ratio of 1."""
+    case = BearingCase.from_toml(EXAMPLES / "bearing_6208.toml").replace({"contacts": "formula"})
+    levels, ratios = [], []
+    for n in (3000, 1800, 1400, 400, 200, 150, 100, 60):
+        result = solve_bearing(case.replace({"bearing.inner_speed": f"{n} rpm"}), workers=1)
+        # The verdict depends on the analysis where there is a margin; without ranges its speeds are enough.
+        levels.append(bearing_verdict(result.solution, MarginAnalysis(result.breaks()["margin"])).level)
+        ratios.append(lambda_ratio(result.solution))
+    ranks = [("green", "yellow", "red").index(level) for level in levels]
+    assert ranks == sorted(ranks)
+    assert set(ranks) == {0, 1, 2}
+    assert min(ratios) < 0.5
+    assert sum(ratio < 1.0 for ratio in ratios) == 3
 
 
 def test_ceramic_elements_have_no_verdict():
@@ -202,14 +222,14 @@ def test_a_film_factor_is_said(balls):
 
 
 def test_across_a_lambda_ratio_of_one_nothing_turns_safe():
-    """A little rougher, and the 5.80 V are gone: the verdict stays yellow, and says what happens there."""
+    """A little rougher, and the 5.80 V are gone: the verdict turns red, and says what happens there."""
     above, below = (solved(bearing__composite_rq=rq) for rq in ("0.19 um", "0.2 um"))
     ratios = [lambda_ratio(one.solution) for one in (above, below)]
     assert ratios[0] > 1.0 > ratios[1]
     assert above.breaks()["first_break"] == pytest.approx(5.80, abs=0.01)
     assert below.breaks()["first_break"] is None
-    for result in (above, below):
-        assert result.verdict.level == "yellow"
+    for result, level in ((above, "yellow"), (below, "red")):
+        assert result.verdict.level == level
         assert "Contacts discharge at a low voltage as they open" in result.verdict.text
     for code, result in (("partial-film", above), ("touching", below)):
         (text,) = (one.text for one in result.warnings if one.code == code)

@@ -1,5 +1,6 @@
 """Figures of a bearing, of contacts made by hand: what they show, and what they leave out."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -15,6 +16,7 @@ from ehlectric.bearing.preparation import equilibria_of, resolve_bearing
 from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.ring_contacts import RingContacts
 from ehlectric.bearing.solution import BearingSolution, Position, ring_state
+from ehlectric.bearing.speeds import over_speed
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.commands.app import app
 from ehlectric.discharge.verdict import Verdict
@@ -34,6 +36,7 @@ from ehlectric.figures.bearing.save import (
 from ehlectric.figures.names import BEARING_FIGURE_FILES, SPEED_FIGURE_FILES
 from ehlectric.figures.style import BLUE
 from tests.helpers.bearings import BALLS, bearing_case, contact_solution
+from tests.helpers.places import EXAMPLES
 from tests.helpers.titles import title_of
 
 LOADS, CIRCUIT, PITCH, IMPEDANCE = BEARING_FIGURE_FILES
@@ -536,6 +539,40 @@ def test_a_doubtful_margin_is_no_promise(result, monkeypatch):
         assert said(figure(result, CIRCUIT)).startswith(f"{lead} 1.")
 
 
+def example_at(n):
+    """The example with contacts by formula at a speed [rpm]."""
+    case = BearingCase.from_toml(EXAMPLES / "bearing_6208.toml")
+    changes = {"contacts": "formula", "bearing.inner_speed": f"{n} rpm"}
+    return solve_bearing(case.replace(changes), workers=1)
+
+
+def test_curves_begin_where_the_surfaces_part():
+    """At 100 rpm, lambda 0.65: voltages from a lambda ratio of 1 on, no speed without curve or hatch."""
+    slow = example_at(100)
+    points, left_out = over_speed(slow.case)
+    assert left_out == []
+    first = next(point for point in points if point[1]["bearing"]["first_break"] is not None)
+    assert first[1]["bearing"]["lambda_ratio"] == pytest.approx(1.0, abs=5e-3)
+    assert first[1]["bearing"]["lambda_ratio"] >= 1.0
+    assert [at for at, _ in points] == sorted(at for at, _ in points)
+    named = f"{float(f'{first[0] * RPM:.3g}'):g} rpm"
+    drawn = speed_figure(points, SPEED_FIGURE_FILES[1], own=(slow.case.bearing.inner_speed, slow.summary()))
+    assert title_of(drawn)[0].startswith(f"Breakdown expected at all speeds from {named} to 400 rpm;")
+    assert f"below {named}" in said(drawn)
+    # What the shading means stands above the axes, not on a curve.
+    (ax,) = drawn.axes
+    assert not [text for text in ax.texts if "expected" in text.get_text()]
+    assert "breakdown expected" in [text.get_text() for text in ax.get_legend().get_texts()]
+
+
+def test_title_and_verdict_name_one_range_of_speeds():
+    """At 200 rpm, lambda 1.04, the margin is below 1 from the speed where surfaces part to 800 rpm."""
+    result = example_at(200)
+    low, high = re.search(r"below 1 at all speeds computed, (\d+) to (\d+) rpm", str(result.verdict)).groups()
+    text = f"Breakdown expected at all speeds from {low} rpm to {high} rpm; contacts open and close"
+    assert said(figure(result, SPEED_FIGURE_FILES[1])).startswith(text)
+
+
 @pytest.mark.parametrize(
     ("voltages", "text"),
     [
@@ -612,7 +649,17 @@ def test_no_curve_runs_through_the_label_of_the_margin(points, first):
     """Whether the first breakdown is far above the shaft voltage of 4 V, a little, or below it."""
     own = at_speed(3000.0, 1.8e-10, first, 4.0)
     own[1]["bearing"]["through_breakdown"] = first
-    drawn = speed_figure(points, SPEED_FIGURE_FILES[1], own=own)
+    no_curve_in_labels(speed_figure(points, SPEED_FIGURE_FILES[1], own=own))
+
+
+@pytest.mark.parametrize("n", [300, 400])
+def test_no_curve_runs_through_a_label_where_the_margin_is_below_one(n):
+    """The first breakdown rises towards the shaft voltage on the right of the label."""
+    no_curve_in_labels(figure(example_at(n), SPEED_FIGURE_FILES[1]))
+
+
+def no_curve_in_labels(drawn):
+    """No curve passes the label of the margin, and this lies within the axes."""
     drawn.draw_without_rendering()
     (ax,) = drawn.axes
     (label,) = (text for text in ax.texts if text.get_text().startswith("margin"))
