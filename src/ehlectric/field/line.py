@@ -110,7 +110,7 @@ class Field(GapField):
         """
         gap = self.voltage / self.thin_gap_strength
         inner: Mask = (self.x > self.x[0] + 3.0 * gap[0]) & (self.x < self.x[-1] - 3.0 * gap[-1])
-        return inner
+        return inner if inner.any() else np.ones_like(inner)  # a range of few gaps has none
 
     @property
     def high_field_zone(self) -> tuple[float, float]:

@@ -121,7 +121,7 @@ class PointField(GapField):
         along_x = (x > x[0] + far[0]) & (x < x[-1] - far[-1])
         along_y = (y > y[0] + far[:, :1]) & (y < y[-1] - far[:, -1:])
         inner: Mask = along_x & along_y
-        return inner
+        return inner if inner.any() else np.ones_like(inner)  # a range of few gaps has none
 
     @property
     def high_field_area(self) -> float:

@@ -24,7 +24,7 @@ def column_head(name: str, unit: str) -> str:
 _FORMULA = re.compile(r"'*+[=+\-@\t\r\n＝＋－＠]")
 
 # A number, which no spreadsheet takes for anything else.
-_NUMBER = re.compile(r"[-+]?[0-9]++(?:\.[0-9]++)?(?:e[-+]?[0-9]++)?")
+_NUMBER = re.compile(r"-?[0-9]++(?:\.[0-9]++)?(?:e[-+]?[0-9]++)?")
 
 
 def csv_text(text: str) -> str:

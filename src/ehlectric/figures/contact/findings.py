@@ -131,8 +131,7 @@ def disagreement(result: AnyContact) -> float:
     field = result.field
     sections = np.stack([field.strength[..., 0], field.middle_strength, field.strength[..., -1]])
     apart: Array = (np.max(sections, axis=0) - np.min(sections, axis=0)) / np.max(sections, axis=0)
-    # Few columns, as of a narrow range of the field, may all lie at its ends.
-    return float(np.max(apart, initial=0.0, where=field.inner))
+    return float(np.max(apart[field.inner]))
 
 
 def deviation_text(result: AnyContact) -> str:
