@@ -177,7 +177,7 @@ def test_a_study_that_is_stopped_stops(tmp_path, number):
     assert process.returncode in (128 + number, -number)
     assert "Traceback" not in errors
     assert gone(workers)
-    assert not list((tmp_path / "out").iterdir())
+    assert not list((tmp_path / "out").glob("*"))  # nor a folder, if the run has made it
 
 
 def test_workers_do_not_outlive_a_study_that_is_killed(tmp_path):
