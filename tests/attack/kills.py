@@ -112,14 +112,14 @@ SCENARIOS: Mapping[str, Scenario] = MappingProxyType(
         "motion": Scenario(
             _RUN,
             lambda stock, folder, _: _titled("case.toml", _MOVING)(stock, folder, "kept"),
-            progress=_saved_steps,
+            kills=40, progress=_saved_steps,
         ),
         "bearing": Scenario(
             ("bearing", "bearing_6208.toml", "-o", "out", "--contacts", "formula", "--no-plots"),
             _linked("bearing_6208.toml"),
         ),
         "sweep": Scenario(
-            ("sweep", "sweep.toml", "-o", "out", "--workers", "1"), _swept, progress=_saved_points
+            ("sweep", "sweep.toml", "-o", "out", "--workers", "1"), _swept, kills=25, progress=_saved_points
         ),
         "map": Scenario(
             ("map", "grid", "-o", "out", "--x", SPEED, "--y", "contact.load_per_length"),

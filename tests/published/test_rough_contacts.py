@@ -193,7 +193,9 @@ def test_steel_yields_under_the_asperities():
     """At a Hertz pressure of 2 GPa, half of what steel bears; a spike of a smooth contact does not matter."""
     result = solve(rough_case(speed=1.0, nodes=1601), beside_smooth=False)
     (warning,) = [w for w in result.warnings if w.code == "local-plastic-deformation"]
-    assert warning.text.startswith("the local pressure of the rough film is 3.44 GPa, or several times more, ")
+    assert warning.text.startswith(
+        "the local pressure of the rough film is 3.44 GPa, or several times more, "
+    )
     assert "above about 4 GPa" in warning.text
     mild = solve(rough_case(load=1e5, nodes=1601), beside_smooth=False)
     assert mild.film.max_pressure < 2e9
