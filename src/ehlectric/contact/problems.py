@@ -47,7 +47,7 @@ _FIELD_MEMORY = 1e9
 # Largest distance, in node spacings, at which a film node counts as an end of the field range.
 _SAME_NODE = 1e-6
 
-# Largest tolerance at which a film is solved. Up to here its error was at most 3e-5 in 200 random contacts;
+# Largest tolerance at which a film is solved. Up to here its error was at most 3e-5 in 123 random contacts;
 # larger residuals may belong to films that are wrong by per cents.
 LARGEST_TOLERANCE = 1e-6
 

@@ -112,7 +112,7 @@ def test_edited_values_are_refused_or_used(kind, stored):
 def test_edited_values_are_refused_or_drawn(kind, stored, tmp_path):
     counts = edit_and_use(kind, raw(stored[kind]), range(1000, 1400))
     assert min(counts.values()) > 50
-    edit_and_use(kind, raw(stored[kind]), range(2000, 2080), tmp_path)
+    edit_and_use(kind, raw(stored[kind]), range(2000, 2030), tmp_path)
 
 
 def read_damaged(kind, stored, path, seeds, capfd):
@@ -138,7 +138,7 @@ def test_damaged_files_without_a_seal(stored, tmp_path, capfd):
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", NAMES)
 def test_many_damaged_files_without_a_seal(kind, stored, tmp_path, capfd):
-    assert read_damaged(kind, stored, tmp_path / NAMES[kind], range(100, 250), capfd) > 30
+    assert read_damaged(kind, stored, tmp_path / NAMES[kind], range(100, 150), capfd) > 10
 
 
 @pytest.mark.parametrize(
