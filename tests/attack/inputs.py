@@ -352,12 +352,12 @@ def _word(draw: random.Random) -> str:
 
 KINDS: Mapping[str, Kind] = MappingProxyType(
     {
-        "case": Kind(case, 2300),
-        "bearing": Kind(bearing, 250),
-        "sweep": Kind(sweep, 750),
-        "surface": Kind(surface, 750),
-        "result": Kind(result, 450),
-        "database": Kind(database, 350),
-        "words": Kind(words, 150),
+        "case": Kind(case, 2000),
+        "bearing": Kind(bearing, 100),
+        "sweep": Kind(sweep, 1300),
+        "surface": Kind(surface, 1150),
+        "result": Kind(result, 150),
+        "database": Kind(database, 200),
+        "words": Kind(words, 100),
     }
 )

@@ -117,6 +117,7 @@ SCENARIOS: Mapping[str, Scenario] = MappingProxyType(
         "bearing": Scenario(
             ("bearing", "bearing_6208.toml", "-o", "out", "--contacts", "formula", "--no-plots"),
             _linked("bearing_6208.toml"),
+            kills=40,
         ),
         "sweep": Scenario(
             ("sweep", "sweep.toml", "-o", "out", "--workers", "1"), _swept, kills=25, progress=_saved_points

@@ -48,7 +48,7 @@ _LONG = (
 )
 
 # Part of the tables that keep their keys, with values that are larger or smaller.
-GENTLE = 0.4
+GENTLE = 0.25
 
 _NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?")
 
