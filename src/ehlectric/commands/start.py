@@ -138,7 +138,7 @@ def examples(
         files = list(dict.fromkeys(file for name in wanted for file in _needed(f"{name}.toml")))
         target = output or Path()
 
-        from ehlectric.runtime.files import prepare, refuse_special
+        from ehlectric.runtime.files import clear_left_behind, prepare, refuse_special
         from ehlectric.runtime.folders import alone_in
 
         for file in files:
@@ -147,7 +147,7 @@ def examples(
                 raise InputError(target / file, "already exists; use --force to overwrite")
         with alone_in(target, files):
             for file in files:
-                prepare((target / file).parent)
+                clear_left_behind(prepare((target / file).parent))
                 _copy(examples_folder() / file, target / file)
     if not quiet:
         echo_files(target / file for file in files)

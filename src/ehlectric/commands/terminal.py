@@ -64,7 +64,7 @@ def user_errors() -> Iterator[None]:
             text = out_of_memory(error)
         elif isinstance(error, OSError):
             reason = f"cannot be used, {(error.strerror or str(error)).lower()}"
-            text = f"a file {reason}" if error.filename is None else f"{error.filename}: {reason}"
+            text = f"a file {reason}" if error.filename is None else str(InputError(error.filename, reason))
         else:
             raise
     else:
