@@ -166,8 +166,8 @@ def kill(name: str, kills: int, seed: int, stock: Stock, home: Path, runner: Run
     draw = random.Random(f"{seed} {name}")
     whole = {title: _reference(scenario, stock, home / f"{name}-{title}", title, runner) for title in "AB"}
     span = max(seconds for _, seconds in whole.values())
-    # A run that ends before its kill does not count; there are twice as many runs at most.
-    for turn in range(-(-2 * kills // _BETWEEN)):
+    # A run that ends before its kill does not count; there are four times as many runs at most.
+    for turn in range(-(-4 * kills // _BETWEEN)):
         if report.inputs >= kills:
             break
         folder = home / f"kill-{name}-{seed}-{turn}"
