@@ -5,15 +5,18 @@ BIN := $(VENV)/bin
 RESULTS := results/line_contact
 POINT_RESULTS := results/ball_contact
 BEARING_RESULTS := results/bearing_6208
+BROWSERS := chromium chromium-browser google-chrome google-chrome-stable chrome
 
 export PIP_CONSTRAINT := $(CURDIR)/requirements.lock
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
 .DEFAULT_GOAL := help
-.PHONY: help install run test slow lint check format docs figures bench bench-public lock clean
+.PHONY: help install run app browser test slow lint check format docs figures screenshots bench bench-public lock clean
 
 help:
 	@echo "make run     install and solve a contact and a bearing, with figures"
+	@echo "make app     install and open the web app; options with: make app OPTIONS='--port 8100'"
+	@echo "make browser install what the tests of the web app and of reports need: Chromium, pdftotext"
 	@echo "make test    install and run the tests"
 	@echo "make slow    run the long tests"
 	@echo "make check   format, lint, types, import contract and tests"
@@ -21,6 +24,7 @@ help:
 	@echo "make format  format the code"
 	@echo "make docs    build the documentation, run its gallery; warnings are errors"
 	@echo "make figures draw the figures of the README again"
+	@echo "make screenshots  take the pictures of the web app for the documentation again"
 	@echo "make bench   run the benchmarks and print their tables"
 	@echo "make bench-public  solve a point contact with public packages too; takes them from the registry"
 
@@ -31,6 +35,10 @@ $(BIN)/python:
 
 $(VENV)/.run: $(BIN)/python pyproject.toml requirements.lock
 	$(BIN)/python -m pip install --quiet --editable .
+	@touch $@
+
+$(VENV)/.app: $(BIN)/python pyproject.toml requirements.lock
+	$(BIN)/python -m pip install --quiet --editable ".[app]"
 	@touch $@
 
 $(VENV)/.test: $(BIN)/python pyproject.toml requirements.lock
@@ -48,12 +56,28 @@ $(VENV)/.docs: $(BIN)/python pyproject.toml requirements.lock
 # All extras in one step, in place of one step for each command below.
 install: $(BIN)/python pyproject.toml requirements.lock
 	$(BIN)/python -m pip install --quiet --editable ".[dev,docs]"
-	@touch $(VENV)/.run $(VENV)/.test $(VENV)/.dev $(VENV)/.docs
+	@touch $(VENV)/.run $(VENV)/.app $(VENV)/.test $(VENV)/.dev $(VENV)/.docs
 
 run: $(VENV)/.run
 	$(BIN)/ehlectric run examples/line_contact.toml -o $(RESULTS)
 	$(BIN)/ehlectric bearing examples/bearing_6208.toml --contacts formula -o $(BEARING_RESULTS)
 	@echo "The figures are in $(CURDIR)/results:" && ls $(RESULTS)/*.png $(BEARING_RESULTS)/*.png
+
+app: $(VENV)/.app
+	$(BIN)/ehlectric app $(OPTIONS)
+
+# Tests in a browser are skipped without one, unless EHLECTRIC_BROWSER is "required"; tests that read a PDF are
+# skipped without pdftotext.
+browser:
+	@missing=" chromium fonts-dejavu-core"; \
+	for name in $(BROWSERS); do if command -v $$name; then missing=; break; fi; done; \
+	command -v pdftotext || missing="$$missing poppler-utils"; \
+	if [ -z "$$missing" ]; then exit; fi; \
+	if [ "$$(id -u)" = 0 ] && command -v apt-get > /dev/null; then \
+	  apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -qq --no-install-recommends $$missing; \
+	else \
+	  echo "missing on this machine:$$missing; install them, as with: sudo apt-get install$$missing"; exit 1; \
+	fi
 
 test: $(VENV)/.test
 	$(BIN)/python -m pytest
@@ -89,6 +113,10 @@ figures: $(VENV)/.run
 	$(BIN)/ehlectric bearing examples/bearing_6208.toml --contacts formula -o $(BEARING_RESULTS) --quiet
 	cp $(BEARING_RESULTS)/breakdown_over_speed.png docs/figures
 
+screenshots: $(VENV)/.test
+	EHLECTRIC_SCREENSHOTS=$(CURDIR)/docs/figures/app EHLECTRIC_BROWSER=required \
+	  $(BIN)/python -m pytest -q -n 0 -m slow tests/browser/test_screenshots.py
+
 bench: $(VENV)/.dev
 	$(BIN)/python benchmarks/table.py
 
@@ -96,7 +124,7 @@ bench-public: $(VENV)/.dev
 	$(BIN)/python benchmarks/public_solvers.py
 
 lock:
-	uv pip compile pyproject.toml --extra dev --extra docs --extra instruments --extra parquet --extra cluster --universal --python-version 3.11 --no-header --quiet --output-file requirements.lock
+	uv pip compile pyproject.toml --extra dev --extra docs --extra instruments --extra parquet --extra cluster --extra app --universal --python-version 3.11 --no-header --quiet --output-file requirements.lock
 
 clean:
 	rm -rf $(VENV) results docs/_build docs/_generated docs/auto_gallery docs/api/generated .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .coverage

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from benchmarks.measure import best, processor
 from ehlectric.bearing.solver import solve_bearing
-from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.bearings.case import BearingCase
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "bearing_6208.toml"
 

@@ -107,7 +107,7 @@ PACKAGES = (
 def contact() -> dict[str, Any]:
     """The contact of the example, SI units; ``along`` and ``across`` in half-widths of the dry contact."""
     case = Case.from_toml(cases.EXAMPLES / "ball_contact.toml")
-    conditions, oil = resolve_point(case), case.lubricant
+    conditions, oil = resolve_point(case), case.oil
     return {
         "load": conditions.load,
         "radius": conditions.radius_x,

@@ -17,10 +17,12 @@ version = release = __version__
 
 extensions = [
     "architecture",
-    "bearing_figures",
+    "example_figures",
     "from_code",
+    "measured_figures",
     "myst_parser",
     "numpydoc",
+    "oil_figures",
     "sketches",
     "sphinx.ext.autodoc",
     "sphinx.ext.autosummary",
@@ -80,7 +82,7 @@ html_extra_path = ["_generated/extra"]  # filled before anything is read
 html_css_files = ["ehlectric.css"]
 html_show_sourcelink = False
 html_copy_source = False
-html_sidebars = {"verification": [], "paper": []}  # they have no pages below them
+html_sidebars = {"verification": [], "measurement": [], "paper": []}  # they have no pages below them
 html_theme_options = {
     "header_links_before_dropdown": 9,
     "navigation_with_keys": False,

@@ -3,12 +3,17 @@
 import signal
 
 import pytest
+from hypothesis import settings
 
 from ehlectric import Case, solve
 
 # Jobs in the background of a shell may have interrupts ignored, which commands under test would inherit.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
+
+# How long an example takes depends on what else the machine does.
+settings.register_profile("untimed", deadline=None)
+settings.load_profile("untimed")
 
 PAPER_CONTACT = {
     "reduced_radius": "14.1 mm",

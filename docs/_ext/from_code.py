@@ -8,6 +8,7 @@ ends the build.
 from __future__ import annotations
 
 import inspect
+import math
 import re
 import tomllib
 from collections.abc import Iterable, Iterator, Mapping
@@ -18,6 +19,7 @@ from typing import Any, Literal, get_args, get_origin
 
 import numpy as np
 import typer
+from oil_tables import oil_pages
 from result_keys import summary_pages
 from scipy.constants import epsilon_0
 from sphinx.application import Sphinx
@@ -25,13 +27,16 @@ from sphinx.errors import ExtensionError
 
 import ehlectric
 from ehlectric import Case, solve
+from ehlectric.bearing.loads import ratings
 from ehlectric.cases import contact as contact_inputs
 from ehlectric.cases import library
 from ehlectric.cases import roughness as roughness_inputs
 from ehlectric.cases import table as validation
 from ehlectric.cases.input_keys import TABLES, descriptions
+from ehlectric.cases.library.bearing_catalogue import CatalogueBearing, bearing_catalogue
 from ehlectric.cases.library.grade import Grade
-from ehlectric.cases.lubricant import LAWS, density_law, permittivity_law
+from ehlectric.cases.library.sources import Source
+from ehlectric.cases.oils.laws import LAWS
 from ehlectric.cases.quantity import Count, Quantities, Quantity
 from ehlectric.commands.app import app as commands
 from ehlectric.errors import CODES
@@ -46,8 +51,12 @@ _TABLES = {**TABLES, "sweep": sweep_inputs.Sweep}
 _NAMES: dict[str, Iterable[str]] = {
     **LAWS,
     "generator": roughness_inputs.GENERATORS,
-    "element_material": library.solid_names(),
-    "ring_material": [name for name in library.solid_names() if library.solid(name)["conducting"]],
+    "element_material": library.solid_names(rolling=True),
+    "ring_material": [
+        name for name in library.solid_names(rolling=True) if library.solid(name)["conducting"]
+    ],
+    "shaft_material": library.solid_names(),
+    "housing_material": library.solid_names(),
 }
 # What a small contact of each kind has of its own, and units as they are printed.
 _CONTACTS = {"line": {"reduced_radius": 0.01}, "point": {"radius_x": 0.01, "radius_y": 0.01}}
@@ -169,6 +178,8 @@ def _command(name: str, command: Any) -> Iterator[str]:
             ", ".join(f"`{o}`" for o in [*p.opts, *p.secondary_opts]) if p in options else f"`{_word(p)}`"
         )
         default = "" if p.default in (None, False, "") or p.required else f"`{p.default}`"
+        # Words in place of a default that the machine decides.
+        default = p.show_default if isinstance(getattr(p, "show_default", None), str) else default
         rows.append([written, getattr(p, "help", None) or "", "on" if p.default is True else default])
     yield _table(["argument or option", "what it does", "default"], rows)
 
@@ -198,7 +209,9 @@ def _write(app: Sphinx) -> None:
     pages["commands"] = "\n".join(
         text for name, command in group.commands.items() for text in _command(name, command)
     )
-    pages |= {f"library_{kind}": _library(kind) for kind in ("bearings", "solids")}
+    pages |= {f"library_{kind}": _library(kind) for kind in ("solids", "coatings")}
+    pages |= {"catalogue": _catalogue()}
+    pages["catalogue_sources"] = _catalogue_sources()
     for name, file in (("bearing", "bearing_6208"), ("motion", "moving_roughness")):
         pages[f"{name}_example"] = _example(Path(app.srcdir).parent / "examples" / f"{file}.toml")
     pages["warning_codes"] = _table(
@@ -209,7 +222,7 @@ def _write(app: Sphinx) -> None:
         result = solve(_small(geometry))
         pages[f"variables_{geometry}"] = _variables(result.to_xarray())
     pages["variables_motion"] = _variables(_moved(_small("line")))
-    pages |= summary_pages()
+    pages |= summary_pages() | oil_pages()
     for name, text in pages.items():
         path = folder / f"{name}.md"
         if not path.exists() or path.read_text(encoding="utf-8") != text:
@@ -257,7 +270,7 @@ def _example(path: Path) -> str:
 
 
 def _library(kind: str) -> str:
-    """Bearings or solids of the library, with where their numbers are from."""
+    """Solids or coatings of the library, with where their numbers are from."""
     rows = []
     for name in getattr(library, f"{kind[:-1]}_names")():
         path = resources.files(library) / kind / f"{name}.toml"
@@ -266,6 +279,63 @@ def _library(kind: str) -> str:
         source = table["source"]
         rows.append([f'`"{name}"`', values, source["citation"], source.get("assumption", "\N{EN DASH}")])
     return _table(["name", "values", "source", "assumption"], rows)
+
+
+def _catalogue() -> str:
+    """Bearings of the library: dimensions, and both load ratings, printed and computed."""
+    rows = []
+    for bearing in bearing_catalogue():
+        lengths = (bearing.bore, bearing.outer_diameter, bearing.width)
+        sizes = filter(None, (bearing.element_diameter, bearing.roller_length))
+        elements = " × ".join([str(bearing.elements), *(f"{1e3 * size:.5g}" for size in sizes)])
+        angle = f"{math.degrees(bearing.contact_angle):.4g}°" if bearing.contact_angle else ""
+        cells = [f'`"{bearing.name}"`', *(f"{1e3 * size:.4g}" for size in lengths), elements]
+        cells += [f"{1e3 * bearing.pitch_diameter:.5g}", angle]
+        rows.append([*cells, *_ratings(bearing), bearing.internal_kind or ""])
+    head = ["name", "bore", "outer", "width", "elements", "pitch", "angle", "$C$", "$C_0$", "elements are"]
+    return _table(head, rows)
+
+
+def _ratings(bearing: CatalogueBearing) -> list[str]:
+    """Printed ratings [kN], each with the deviation of the computed one."""
+    if bearing.rating is None:
+        return ["", ""]
+    sizes = (bearing.elements, bearing.element_diameter, bearing.pitch_diameter)
+    if bearing.roller_length is None:
+        last, found = bearing.contact_angle, (ratings.ball_dynamic_rating, ratings.ball_static_rating)
+    else:
+        last, found = bearing.roller_length, (ratings.roller_dynamic_rating, ratings.roller_static_rating)
+    printed = (bearing.rating.dynamic, bearing.rating.static)
+    return [
+        f"{1e-3 * force:.4g} ({_deviation(rate(*sizes, last) / force - 1)})"
+        for force, rate in zip(printed, found, strict=True)
+    ]
+
+
+def _deviation(relative: float) -> str:
+    """Deviation in per cent with its sign, or 0 where it is rounded to 0; it is not broken into two lines."""
+    rounded = round(100.0 * relative, 1)
+    text = f"{rounded:+.1f}".replace("-", "\N{MINUS SIGN}") if rounded else "0"
+    return f"{text}\N{NO-BREAK SPACE}%"
+
+
+def _catalogue_sources() -> str:
+    """Sources of the values of the bearings; a source of several bearings is one row."""
+    names: dict[Source, list[str]] = {}
+    for bearing in bearing_catalogue():
+        for source in bearing.sources:
+            names.setdefault(source, []).append(f"`{bearing.name}`")
+    rows = [
+        [
+            ", ".join(given),
+            ", ".join(f"`{key}`" for key in source.keys),
+            source.kind,
+            " ".join(filter(None, (source.citation, source.doi and f"doi:{source.doi}"))),
+            source.note,
+        ]
+        for source, given in sorted(names.items(), key=lambda item: -len(item[1]))
+    ]
+    return _table(["bearings", "values", "kind", "source", "note"], rows)
 
 
 def _value(value: Any) -> str:
@@ -324,9 +394,10 @@ def _uniform_film(result: Any) -> float:
     By the midpoint rule over t, with X = cos(t) and p = p_h sin(t).
     """
     sines = np.sin(np.pi * (np.arange(1000) + 0.5) / 1000)
-    oil, b = result.case.lubricant, result.conditions.half_width
-    density, _ = density_law(oil)(result.conditions.max_pressure * sines)
-    width = np.pi * b * float(np.mean(permittivity_law(oil)(density) * sines))
+    oil, b = result.case.oil, result.conditions.half_width
+    pressure = result.conditions.max_pressure * sines
+    permittivity = oil.permittivity(pressure, oil.density_ratio(pressure)[0])
+    width = np.pi * b * float(np.mean(permittivity * sines))
     return float(epsilon_0 * width / result.film.central_thickness)
 
 
@@ -362,12 +433,31 @@ has the map.
 
 # Headings of the page of the public names, each with its names in the order of their use.
 _GROUPS = {
-    "Solve": ("solve", "solve_many", "solve_bearing", "solve_motion", "run_sweep", "run_motion"),
+    "Solve": (
+        "solve",
+        "solve_many",
+        "solve_bearing",
+        "solve_motion",
+        "run_sweep",
+        "run_motion",
+        "film_factors",
+    ),
     "Cases": ("Case", "LineCase", "PointCase", "BearingCase", "Sweep"),
-    "Results": ("Result", "PointResult", "BearingResult", "MotionResult", "SweepResults", "Solved"),
+    "Oils": ("oil",),
+    "Results": (
+        "Result",
+        "PointResult",
+        "BearingResult",
+        "MotionResult",
+        "SweepResults",
+        "Laws",
+        "FilmFactors",
+        "Solved",
+    ),
     "Warnings and verdicts": ("ResultWarning", "Verdict"),
     "Files": ("save", "load", "read_sweep", "read_motion"),
     "Figures": ("figure", "figure_names", "save_figures"),
+    "Reports": ("write_report",),
     "Errors": ("InputError", "ConvergenceError", "LostError"),
 }
 

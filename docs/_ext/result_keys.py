@@ -9,12 +9,14 @@ from ehlectric.cases.result_key import Keys
 from ehlectric.contact import keys as contact
 from ehlectric.motion import keys as motion
 
-_DISCHARGE, _SURFACES = "discharge", "rough"
+_DISCHARGE, _METER, _SURFACES = "discharge", "meter", "rough"
 
 
 def summary_pages() -> dict[str, str]:
-    """Text of each table by the name of its file: of contacts, their discharge, bearings and motions."""
-    line, point = _without(contact.LINE_KEYS, _DISCHARGE), _without(contact.POINT_KEYS, _DISCHARGE)
+    """Text of each table by the name of its file: of contacts, discharge, meter, bearings and motions."""
+    line, point = (
+        _without(_without(keys, _DISCHARGE), _METER) for keys in (contact.LINE_KEYS, contact.POINT_KEYS)
+    )
     other = {name: key for name, key in point.items() if line.get(name) != key}
     discharges = [_within(keys, _DISCHARGE) for keys in contact.CONTACT_KEYS.values()]
     # What was done to each rough surface has the keys of the surfaces of a contact.
@@ -23,6 +25,7 @@ def summary_pages() -> dict[str, str]:
         "summary_line": _table(line),
         "summary_point": _table(other),
         "summary_discharge": _table(*discharges),
+        "summary_meter": _table(_within(contact.POINT_KEYS, _METER)),
         "summary_bearing": _table(BEARING_KEYS),
         "summary_motion": _table(*motions),
     }

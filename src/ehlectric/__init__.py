@@ -13,11 +13,10 @@ from ehlectric.version import __version__
 if TYPE_CHECKING:
     from ehlectric.bearing.result import BearingResult
     from ehlectric.bearing.solver import solve_bearing
-    from ehlectric.cases.bearing_case import BearingCase
+    from ehlectric.cases.bearings.case import BearingCase
     from ehlectric.cases.case import Case, LineCase, PointCase
-    from ehlectric.commands.results import load, save
-    from ehlectric.commands.solve import solve, solve_motion
-    from ehlectric.commands.solve_many import Solved, solve_many
+    from ehlectric.cases.measurements.factors import FilmFactors
+    from ehlectric.cases.oils.named import oil
     from ehlectric.contact.results import PointResult, Result
     from ehlectric.discharge.verdict import Verdict
     from ehlectric.errors import ConvergenceError, InputError, LostError, ResultWarning
@@ -25,6 +24,11 @@ if TYPE_CHECKING:
     from ehlectric.motion.result import MotionResult
     from ehlectric.motion.run import run_motion
     from ehlectric.motion.stored_run import read_motion
+    from ehlectric.report.files import write_report
+    from ehlectric.runs.film_factors import film_factors
+    from ehlectric.runs.results import load, save
+    from ehlectric.runs.solve import solve, solve_motion
+    from ehlectric.runs.solve_many import Solved, solve_many
     from ehlectric.sweep.inputs import Sweep
     from ehlectric.sweep.results import SweepResults
     from ehlectric.sweep.run import run_sweep
@@ -36,10 +40,12 @@ __all__ = [  # noqa: RUF022
     "solve_many",
     "solve_bearing",
     "solve_motion",
+    "film_factors",
     "Case",
     "LineCase",
     "PointCase",
     "BearingCase",
+    "oil",
     "Sweep",
     "run_sweep",
     "run_motion",
@@ -50,11 +56,14 @@ __all__ = [  # noqa: RUF022
     "figure",
     "figure_names",
     "save_figures",
+    "write_report",
     "Result",
     "PointResult",
     "BearingResult",
     "MotionResult",
     "SweepResults",
+    "Laws",
+    "FilmFactors",
     "Solved",
     "Verdict",
     "ResultWarning",
@@ -65,30 +74,35 @@ __all__ = [  # noqa: RUF022
 ]
 
 _HOMES = {
-    "solve": "commands.solve",
-    "solve_many": "commands.solve_many",
+    "solve": "runs.solve",
+    "solve_many": "runs.solve_many",
     "solve_bearing": "bearing.solver",
-    "solve_motion": "commands.solve",
+    "solve_motion": "runs.solve",
+    "film_factors": "runs.film_factors",
     "Case": "cases.case",
     "LineCase": "cases.case",
     "PointCase": "cases.case",
-    "BearingCase": "cases.bearing_case",
+    "BearingCase": "cases.bearings.case",
+    "oil": "cases.oils.named",
     "Sweep": "sweep.inputs",
     "run_sweep": "sweep.run",
     "run_motion": "motion.run",
     "read_sweep": "sweep.store",
     "read_motion": "motion.stored_run",
-    "load": "commands.results",
-    "save": "commands.results",
+    "load": "runs.results",
+    "save": "runs.results",
     "figure": "figures.results",
     "figure_names": "figures.results",
     "save_figures": "figures.results",
+    "write_report": "report.files",
     "Result": "contact.results",
     "PointResult": "contact.results",
     "BearingResult": "bearing.result",
     "MotionResult": "motion.result",
     "SweepResults": "sweep.results",
-    "Solved": "commands.solve_many",
+    "Laws": "lubricant.own",
+    "FilmFactors": "cases.measurements.factors",
+    "Solved": "runs.solve_many",
     "Verdict": "discharge.verdict",
     "ResultWarning": "errors",
     "InputError": "errors",

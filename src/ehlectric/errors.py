@@ -27,6 +27,11 @@ _UNSEEN = frozenset({"Cc", "Cf", "Zl", "Zp", "Cs"})
 # obtained.
 Severity = Literal["note", "warning", "severe"]
 
+# First words of a warning by its severity, as a page or a report shows it.
+SEVERITY_WORDS: Mapping[str, str] = MappingProxyType(
+    {"note": "Note", "warning": "Warning", "severe": "Do not use"}
+)
+
 
 def unseen(letter: str) -> bool:
     """Whether a character is a control or format character, or a line separator.
@@ -248,6 +253,9 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "plastic-deformation": Cause("The Hertz pressure deforms bearing steel permanently."),
         "law-range": Cause("A law of the lubricant is not reliable at this Hertz pressure."),
         "roelands-z": Cause("The exponent roelands_z does not fit the viscosity and its coefficient."),
+        "estimated-alpha": Cause(
+            "The pressure-viscosity coefficient is estimated from the type of base oil."
+        ),
         # Rough surfaces
         "spacing-irregular": Cause("Samples may be missing in a file of heights."),
         "voids-filled": Cause("Voids in a measured surface were filled.", "note"),
@@ -280,6 +288,8 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "strength-above-liquids": Cause("No liquid has a dielectric strength as high as the given one."),
         "tunnelling": Cause("The film is so thin that electrons tunnel through it."),
         "strength-table-exceeded": Cause("The film pressure exceeds the range of discharge.strength_table."),
+        "roughness-factor-rough": Cause("The film is too thin for a roughness factor of its capacitance."),
+        "coating-in-series": Cause("Field and discharge are those of the film, without its coating.", "note"),
         # Transient contacts
         "stationary-differs": Cause("The moving roughness differs from the stationary one."),
         "stationary-not-converged": Cause("The film with stationary roughness did not converge."),
@@ -289,7 +299,7 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         # Bearings
         "formula-contacts": Cause("The contacts of the bearing are computed by formulas."),
         "isothermal-film": Cause("The films are isothermal and fully flooded.", "note"),
-        "temperature-unused": Cause("The films use a given viscosity, not bearing.temperature.", "note"),
+        "temperature-unused": Cause("The films use a given viscosity at any temperature.", "note"),
         "viscosity-of-base": Cause("The viscosity is that of a lubricant of the library at any temperature."),
         "temperature-low": Cause("The viscosity is extrapolated to below 0 °C."),
         "speed-high": Cause("The speed is above that of ordinary bearings of this size."),
@@ -297,6 +307,8 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "temperature-extreme": Cause("Bearing steel or oil do not stand this temperature."),
         "viscosity-high": Cause("The oil is so viscous that it hardly flows."),
         "clearance-class": Cause("The clearance is that of a class, before the bearing is mounted."),
+        "clearance-negative": Cause("Fits and temperatures preload the bearing.", "note"),
+        "fit-loose": Cause("A ring that is fitted tight is loose at the temperatures of operation."),
         "viscosity-grade": Cause(
             "The viscosity is the middle of a grade, which allows 10 % either way.", "note"
         ),
@@ -306,6 +318,7 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "partial-film": Cause("The lambda ratio is below 3: surfaces may touch, and discharge then."),
         "smooth-film": Cause("The films are smooth, with the film factor of the case.", "note"),
         "shaft-leaks": Cause("The oil discharges the shaft within a period of the inverter."),
+        "coating-breakdown": Cause("The shaft voltage is above the breakdown voltage of the coating."),
         "current-density-high": Cause("The apparent current density is above published limits."),
         "capacitance-bound": Cause("The capacitance of a bearing with ceramic elements is an upper bound."),
         "weibull-voltage": Cause("Breakdown voltages are those at a probability of 63.2 %.", "note"),
@@ -318,6 +331,14 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "rows-dropped": Cause("Rows of a Sobol design were left out of its sensitivity indices."),
         "rows-not-usable": Cause("Rows of a Sobol design use films that must not be used."),
         "intervals-wide": Cause("The confidence intervals of sensitivity indices are wide."),
+        # Measurements beside a case
+        "formula-films": Cause("The films beside a measurement are those of a formula."),
+        "columns-ignored": Cause("Columns of a measurement are not known and were ignored.", "note"),
+        "rows-without-factor": Cause("Rows of a measurement have no film factor."),
+        "scatter-only": Cause("The interval of a film factor is from the scatter of the rows only."),
+        "scatter-large": Cause("Film factors scatter more than the measurement states."),
+        "factor-varies": Cause("The film factor changes with the speed."),
+        "range-left-out": Cause("The uncertainty of a film factor leaves out the range of an input."),
         # Files of other versions
         "not-usable": Cause("Another version of the program says not to use the numbers.", "severe"),
         "unclassified": Cause("Another version of the program gave this warning."),

@@ -42,9 +42,9 @@ _WRITING = os.O_WRONLY | os.O_RDWR | os.O_CREAT | os.O_TRUNC | os.O_APPEND
 _LOADED = (
     "h5py", "matplotlib.animation", "matplotlib.backends.backend_agg", "matplotlib.pyplot", "PIL.Image",
     "pint", "xarray", "pyarrow.parquet", "scipy.stats.qmc", "rich.table", "ehlectric.bearing.files",
-    "ehlectric.commands.app", "ehlectric.commands.drawing", "ehlectric.commands.meaning",
-    "ehlectric.commands.runs", "ehlectric.commands.tables.bearing", "ehlectric.commands.tables.contact",
-    "ehlectric.commands.tables.motion", "ehlectric.commands.tables.sweep", "ehlectric.figures.bearing.save",
+    "ehlectric.commands.app", "ehlectric.commands.drawing", "ehlectric.runs.meaning",
+    "ehlectric.runs.by_kind", "ehlectric.tables.bearing", "ehlectric.tables.contact",
+    "ehlectric.tables.motion", "ehlectric.tables.sweep", "ehlectric.figures.bearing.save",
     "ehlectric.figures.motion.save", "ehlectric.figures.results", "ehlectric.figures.surface",
     "ehlectric.figures.sweep.save", "ehlectric.figures.sweep.sensitivity", "ehlectric.motion.run",
     "ehlectric.paper.reproduce", "ehlectric.surfaces.files", "ehlectric.sweep.run",

@@ -163,7 +163,7 @@ def test_json_on_request(ehlectric, bearing_file, tmp_path):
             'contact_angle = "15 deg"',
             (
                 "bearing.radial_clearance: missing; a bearing of kind 'cylindrical roller' needs it: the "
-                "clearance in operation, or clearance_class with bore"
+                "clearance in operation, clearance_class with bore, or [bearing.fits]"
             ),
         ),
         (
@@ -178,8 +178,8 @@ def test_json_on_request(ehlectric, bearing_file, tmp_path):
             "[lubricant]\n",
             '[lubricant]\nviscosity = "0.02 Pa s"\n',
             (
-                "lubricant.viscosity: got viscosity and temperature together; expected either viscosity or "
-                "[lubricant.temperature]"
+                "lubricant.viscosity: got viscosity and temperature together; expected either viscosity, "
+                "[lubricant.temperature] or atmospheric_law"
             ),
         ),
     ],

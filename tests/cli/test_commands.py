@@ -35,8 +35,8 @@ def test_summary_has_the_agreed_keys(ehlectric, case_file, tmp_path):
     assert summary["schema"] == "ehlectric.summary/1"
     assert summary["converged"] is True
     assert set(summary) == {
-        "schema", "version", "title", "converged", "status", "warnings", "warning_codes", "inputs", "groups",
-        "hertz", "film", "field", "film_formulas", "seconds",
+        "schema", "version", "title", "converged", "status", "warnings", "warning_codes", "inputs",
+        "lubricant", "groups", "hertz", "film", "field", "film_formulas", "seconds",
     }  # fmt: skip
     assert set(summary["groups"]) == {"moes_m", "moes_l"}
     assert set(summary["hertz"]) == {"half_width", "max_pressure"}

@@ -1,6 +1,7 @@
 """Outputs printed in the guide are those of the commands: every line and every sentence of a block."""
 
 import re
+import shlex
 
 import pytest
 
@@ -41,9 +42,18 @@ def tutorial(tmp_path):
     return tmp_path
 
 
+def test_the_page_of_oils_has_the_output_of_its_command(tmp_path):
+    (block,) = (block for block in blocks("oils.md", "text") if block.startswith("$"))
+    command, *lines = block.splitlines()
+    printed = printed_by(*shlex.split(command.removeprefix("$ ehlectric ")), cwd=tmp_path)
+    assert len(lines) > 10
+    for line in lines:
+        assert words(line) in printed
+
+
 @pytest.mark.slow
 def test_the_bearing_page_has_the_output_of_its_command(bearing_output):
-    verdict, totals, contacts = blocks("bearing.md", "text")
+    verdict, totals, contacts, _clearances = blocks("bearing.md", "text")
     assert words(verdict) in bearing_output
     for line in (*totals.splitlines(), *contacts.splitlines()):
         assert words(line) in bearing_output
@@ -70,6 +80,25 @@ def test_the_tutorial_has_the_output_of_check_with_the_thicker_oil(tutorial):
 def test_the_tutorial_has_the_verdict_of_the_solved_bearing(tutorial):
     printed = printed_by("bearing", "bearing.toml", "--no-plots", "-o", "out", cwd=tutorial)
     assert words(blocks("first_bearing.md", "text")[2]) in printed
+
+
+def test_the_meter_page_has_the_output_of_its_example(tmp_path):
+    example = str(ROOT / "examples" / "oil_contact.toml")
+    printed = printed_by("run", example, "--no-plots", "-o", "o", cwd=tmp_path)
+    for line in blocks("meter.md", "text")[0].splitlines():
+        assert words(line) in printed
+
+
+def test_the_oils_and_temperatures_of_the_guide_can_be_swept(tmp_path):
+    (sweep,) = (block for block in blocks("oils.md", "toml") if "[vary]" in block)
+    example = (ROOT / "examples" / "oil_contact.toml").read_text(encoding="utf-8")
+    # A grid for the sweep to be quick; the numbers of the page are those of the grid of the example.
+    (tmp_path / "oil_contact.toml").write_text(example.replace("nodes = 193", "nodes = 65"), encoding="utf-8")
+    (tmp_path / "oils.toml").write_text(sweep, encoding="utf-8")
+    assert "points solved 6 of 6" in printed_by("sweep", "oils.toml", "-o", "oils", cwd=tmp_path)
+    value = ("--value", "film.central_thickness")
+    along = ("--x", "contact.temperature", "--y", "lubricant.base")
+    assert "lines_film.central_thickness.png" in printed_by("map", "oils", *along, *value, cwd=tmp_path)
 
 
 def test_the_discharge_page_has_the_output_of_its_case(tmp_path):

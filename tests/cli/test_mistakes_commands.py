@@ -115,7 +115,7 @@ WRONG = [
     pytest.param(
         ("examples", "bering"),
         "examples: got 'bering'; expected one of ball_bearing, ball_contact, bearing_6208, discharge, "
-        "line_contact, moving_roughness, roller_bearing, rough_contact, sweep, uncertainty",
+        "line_contact, moving_roughness, oil_contact, roller_bearing, rough_contact, sweep, uncertainty",
         id="examples",
     ),
 ]
@@ -216,7 +216,7 @@ def test_a_sweep_is_checked_with_its_first_point(ehlectric, files):
     (files / "sweep.toml").write_text(factors)
     refused = json.loads(ehlectric("check", "sweep.toml", "--json").stdout)["sweep"]
     assert (refused["points"], refused["points_refused"]) == (3, 1)
-    assert refused["reason"].startswith("lubricant.temperature.thermal_conductivity: missing")
+    assert refused["reason"].startswith("lubricant.viscosity: is one for all temperatures")
 
 
 def test_the_breakdown_of_a_contact_is_estimated_by_formula(ehlectric, files):

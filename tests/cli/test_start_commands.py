@@ -1,6 +1,7 @@
 """The commands that one begins with: init, examples, help, completion, and a start without POSIX."""
 
 import ast
+import json
 import os
 import subprocess
 import sys
@@ -8,11 +9,11 @@ import tomllib
 
 import pytest
 
-from ehlectric.commands.kinds import kind_of_file
-from ehlectric.commands.meaning import check
 from ehlectric.commands.options import files_ending
-from ehlectric.commands.runs import RUNS
 from ehlectric.commands.start import TEMPLATES
+from ehlectric.runs.by_kind import RUNS
+from ehlectric.runs.kinds import kind_of_file
+from ehlectric.runs.meaning import check
 from tests.cli.conftest import CASE
 from tests.helpers.places import EXAMPLES, ROOT
 
@@ -66,7 +67,7 @@ def test_the_examples_are_in_the_wheel():
     """Where the command looks for them in an installed package."""
     table = tomllib.loads((ROOT / "pyproject.toml").read_text())
     included = table["tool"]["hatch"]["build"]["targets"]["wheel"]["force-include"]
-    assert included == {"examples": "ehlectric/commands/examples"}
+    assert included == {"examples": "ehlectric/runs/examples"}
 
 
 def test_examples_are_listed_and_copied_with_what_they_need(ehlectric, tmp_path):
@@ -88,8 +89,8 @@ def test_examples_are_listed_and_copied_with_what_they_need(ehlectric, tmp_path)
 
 
 ORDER = [
-    "init", "examples", "check", "run", "bearing", "sweep", "map", "sensitivity", "plot", "animate",
-    "surface", "reproduce",
+    "init", "examples", "check", "run", "bearing", "bearings", "oils", "oil", "sweep", "map", "sensitivity",
+    "plot", "report", "animate", "surface", "app", "reproduce",
 ]  # fmt: skip
 
 
@@ -219,7 +220,7 @@ LACKING = {
     },
 }
 # Within a try that takes an AttributeError.
-GUARDED = {("memory.py", "sysconf")}
+GUARDED = {("memory.py", "sysconf"), ("processes.py", "killpg"), ("processes.py", "SIGKILL")}
 
 
 def test_no_name_that_windows_lacks_is_used_unguarded():
@@ -233,3 +234,16 @@ def test_no_name_that_windows_lacks_is_used_unguarded():
                 names = {alias.name for alias in node.names} | {getattr(node, "module", None)}
                 assert not names & {"fcntl", "resource", "termios", "pwd", "grp", "pty", "tty"}, path
     assert found == GUARDED
+
+
+def test_bearings_of_the_library_are_listed(ehlectric):
+    """The 6208 as a person and as a program reads it; nothing is cut at the width of 80 characters."""
+    done = ehlectric("bearings")
+    assert done.returncode == 0, done.stderr
+    assert "…" not in done.stdout
+    (line,) = (line.split() for line in done.stdout.splitlines() if line.startswith("6208 "))
+    assert line == ["6208", "40", "80", "18", "9", "x", "11.906", "60", "29.1", "17.9", "published"]
+    listed = json.loads(ehlectric("bearings", "--json").stdout)
+    (found,) = (bearing for bearing in listed if bearing["name"] == "nu-205")
+    assert (found["elements"], found["roller_length"], found["static_rating"]) == (13, 0.008, 27700.0)
+    assert (found["rating_of"], found["internal_geometry"]) == ("NSK NU 205 EW", "by rule")

@@ -7,7 +7,7 @@ from ehlectric.bearing.contacts import ContactSolution, ContactValues
 from ehlectric.bearing.kinds import kind_of
 from ehlectric.bearing.preparation import resolve_bearing
 from ehlectric.bearing.ring_contacts import RingContacts
-from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.grid import Solver
 
@@ -112,10 +112,11 @@ def contact_case(ring, load, solver):
     else:
         contact |= {"radius_1": radii.ring_x, "radius_2": radii.element_x, "load_per_length": load / length}
         discharge = {"length": length}
+    oil = {key: value for key, value in conditions.oil.inputs.items() if key != "base"}
     return Case.from_dict(
         {
-            "contact": contact | {"entrainment_speed": ring.speed},
-            "lubricant": conditions.lubricant.model_dump(exclude_none=True, exclude={"base"}),
+            "contact": contact | {"entrainment_speed": ring.speed, "temperature": conditions.oil.temperature},
+            "lubricant": {**oil, "ambient_pressure": 0.0},
             "grid": kind_of(ring).grid(contact_of(ring, load)).model_dump(exclude_none=True),
             "discharge": conditions.discharge.model_dump(exclude_none=True) | discharge,
             "solver": solver,
@@ -144,8 +145,9 @@ def rigid_capacitance(ring, gap):
 
 
 def contact_solution(**numbers):
-    """Invented solution of a contact from all of its attributes, including its values."""
+    """Invented solution of a contact from all of its attributes; half of ``inside`` is the Hertz area's."""
     names = {field.name for field in dataclasses.fields(ContactValues)}
+    numbers.setdefault("hertz", 0.5 * numbers["inside"])
     values = ContactValues(**{name: numbers.pop(name) for name in names})
     return ContactSolution(values=values, **numbers)
 

@@ -8,7 +8,6 @@ from scipy.constants import epsilon_0
 from scipy.integrate import quad
 
 from ehlectric import solve
-from ehlectric.cases.lubricant import density_law, permittivity_law
 from tests.reference.field import near
 
 LOADS = {"1 GPa": 3.925e5, "2 GPa": 1.57e6}
@@ -48,15 +47,15 @@ def test_dry_contact_with_a_film_is_nearly_it(solved, load, u_s):
     result = solved[load, u_s]
     b, radius = result.conditions.half_width, result.conditions.reduced_radius
     least, pressure = result.film.central_thickness, result.conditions.max_pressure
-    lubricant = result.case.lubricant
+    oil = result.case.oil
 
     def dense(at):
         at = abs(at)
         outside = math.sqrt(max(0.0, at**2 - 1.0))
         gap = 0.5 * b**2 / radius * (at * outside - math.log(at + outside)) if at > 1.0 else 0.0
         of_hertz = np.array([max(1e5, pressure * math.sqrt(max(0.0, 1.0 - at**2)))])
-        density = density_law(lubricant)(of_hertz)[0]
-        return float(permittivity_law(lubricant)(density)[0]) / (least + gap)
+        density = oil.density_ratio(of_hertz)[0]
+        return float(oil.permittivity(of_hertz, density)[0]) / (least + gap)
 
     exact = epsilon_0 * b * quad(dense, -4.0, 2.0, points=[-1.0, 1.0], epsabs=0.0, epsrel=1e-6, limit=200)[0]
     assert result.discharge.capacitance == near(exact, 0.03)
@@ -64,13 +63,13 @@ def test_dry_contact_with_a_film_is_nearly_it(solved, load, u_s):
 
 def hertz_zone(result):
     """X over abs(X) <= 1, the film h there and h(0), the permittivity and that at the Hertz pressure."""
-    film, lubricant = result.film, result.case.lubricant
+    film, oil = result.film, result.case.oil
     b, pressure = result.conditions.half_width, result.conditions.max_pressure
     x = np.linspace(-1.0, 1.0, 20_001)
     thickness = np.interp(b * x, film.x, film.thickness)
-    solved = permittivity_law(lubricant)(np.interp(b * x, film.x, film.density))
+    solved = oil.permittivity(np.interp(b * x, film.x, film.pressure), np.interp(b * x, film.x, film.density))
     of_hertz = np.maximum(1e5, pressure * np.sqrt(np.maximum(0.0, 1.0 - x**2)))
-    dry = permittivity_law(lubricant)(density_law(lubricant)(of_hertz)[0])
+    dry = oil.permittivity(of_hertz, oil.density_ratio(of_hertz)[0])
     return x, thickness, film.central_thickness, solved, dry
 
 
@@ -100,7 +99,7 @@ def test_spike_and_constriction_hardly_matter(solved, load, u_s):
     assert 0.005 < integral(solved_eps) / central / whole - 1.0 < 0.02
     assert 0.0 < integral(dry / film) / whole - 1.0 < 0.01
     assert 0.01 < integral(dry) / central / whole - 1.0 < 0.02
-    ambient = result.case.lubricant.relative_permittivity
+    ambient = result.case.oil.relative_permittivity
     assert 0.8 < integral(ambient / film) / whole < 0.86
 
 

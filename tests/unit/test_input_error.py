@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 import ehlectric
 from ehlectric.bearing.ring_contacts import error_of_contact
+from ehlectric.cases import library
 from ehlectric.cases.case import Case
 from ehlectric.errors import InputError, MemoryLimitError, WriteError
 from ehlectric.surfaces.files import read_surface
@@ -27,6 +28,7 @@ CASE = {
     },
     "lubricant": {"base": "paper"},
 }
+OILS = ", ".join(library.lubricant_names())
 # A contact of the inner ring, as an error names it.
 INNER = SimpleNamespace(ring=SimpleNamespace(name="inner"), load=800.0)
 # Any text, and what a line or a key may not hold.
@@ -138,8 +140,12 @@ def test_every_error_is_one_line_that_starts_with_its_key(
         ("potential_2", 4, ("potential_2", None, "electric.potential_2")),
         ("grid", {"wedge": "third"}, ("grid.wedge", "'third'", "'second-order' or 'first-order'")),
         ("grid", {"node": 4}, ("grid.node", None, "grid.nodes")),
-        ("lubricant", {}, ("lubricant.viscosity", None, "a value")),
-        ("lubricant", {"base": "tar"}, ("lubricant.base", "'tar'", "a name of the library: paper")),
+        ("lubricant", {}, ("lubricant.viscosity_law", None, "a value")),
+        (
+            "lubricant",
+            {"base": "tar"},
+            ("lubricant.base", "'tar'", f"a name of the library: {OILS}"),
+        ),
         (
             "motion",
             {"passes": 1, "duration": 1},

@@ -1,4 +1,4 @@
-"""Sketches of the theory pages, drawn before every build: zones of a contact, grooves, circuit, breakdown."""
+"""Sketches of the theory pages, drawn before every build: contact, grooves, circuit, breakdown, oil laws."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from sketches.breakdown import two_steps
 from sketches.circuit import circuit
 from sketches.contact import line_contact, point_contact
 from sketches.groove import groove
+from sketches.laws import laws
 
 SKETCHES: dict[str, Callable[[], Figure]] = {
     "line_contact": line_contact,
@@ -21,6 +22,7 @@ SKETCHES: dict[str, Callable[[], Figure]] = {
     "groove": groove,
     "circuit": circuit,
     "breakdown": two_steps,
+    "laws": laws,
 }
 # The same bytes at every build, and a light ground that also reads on a dark page.
 _SVG = {"svg.hashsalt": "ehlectric", "font.family": "DejaVu Sans", "mathtext.fontset": "dejavusans"}

@@ -8,6 +8,7 @@ import numpy as np
 from scipy.constants import epsilon_0
 
 from ehlectric.arrays import Array
+from ehlectric.bearing.conditions import gap_breakdown
 from ehlectric.bearing.contacts import ContactSolution, ContactValues, without_regime
 from ehlectric.bearing.domain import ball_grid, roller_grid
 from ehlectric.bearing.ring_contacts import (
@@ -18,9 +19,8 @@ from ehlectric.bearing.ring_contacts import (
     around_roller,
     check_contact,
 )
-from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.discharge import Discharge
-from ehlectric.cases.lubricant import Lubricant, density_law, effective_alpha, permittivity_law
 from ehlectric.contact.case_warnings import line_case_warnings, point_case_warnings
 from ehlectric.contact.setup import Setup
 from ehlectric.errors import InputError, ResultWarning
@@ -29,6 +29,7 @@ from ehlectric.formulas.film_line import pan_hamrock
 from ehlectric.formulas.film_point import chittenden
 from ehlectric.formulas.hertz_line import line_gap, line_pressure
 from ehlectric.formulas.hertz_point import DryContact, axis_ratio, point_deflection, point_pressure
+from ehlectric.lubricant.oil import Oil
 
 # Domain along entrainment, in semi-axes of a ball's contact or half-widths of a roller's: the default domain
 # of solved contacts.
@@ -38,8 +39,14 @@ _POINT, _LINE = (-4.5, 1.5), (-4.0, 2.0)
 _NODES = 97, 65
 _LINE_NODES = 1601
 
+# Pressures of a dry contact over its maximum, and the parts of its area that have them. Over an ellipse the
+# part with ratios up to t is t^2; over a strip the ratio is the cosine of an angle whose sine is the place.
+_RATIO, _WEIGHT = np.polynomial.legendre.leggauss(24)
+_ELLIPSE = 0.5 * (_RATIO + 1.0), 0.5 * (_RATIO + 1.0) * _WEIGHT
+_STRIP = np.sqrt(1.0 - _RATIO**2), 0.5 * _WEIGHT
 
-def check_formula(discharge: Discharge, lubricant: Lubricant) -> None:
+
+def check_formula(discharge: Discharge, oil: Oil) -> None:
     """Refuse an oil or a dielectric strength for which contacts by formula have no result.
 
     Raises
@@ -48,10 +55,10 @@ def check_formula(discharge: Discharge, lubricant: Lubricant) -> None:
         For a Weibull law and for a strength over pressure, which need the field in the whole film; for a
         viscosity that does not grow with pressure.
     """
-    if effective_alpha(lubricant) == 0.0:
+    if oil.alpha == 0.0:
         raise InputError(
             "lubricant.viscosity_law",
-            got=f"{lubricant.viscosity_law!r} with contacts by formula, which are for piezoviscous oils;",
+            got=f"{oil.laws['viscosity']!r} with contacts by formula, which are for piezoviscous oils;",
             takes="another law, or solved contacts",
         )
     table = discharge.strength_table
@@ -85,9 +92,9 @@ def formula_case(
     refused : InputError or None
         Key that the formulas cannot use, and why.
     """
-    changed, discharge = case.replace({"contacts": "formula"}), case.discharge
+    changed, discharge, bearing = case.replace({"contacts": "formula"}), case.discharge, case.bearing
     try:
-        check_formula(discharge, case.lubricant.at(case.bearing.temperature))
+        check_formula(discharge, case.lubricant.at(bearing.oil_temperature, bearing.temperature_key()))
     except InputError as error:
         if not (error.key or "").startswith("discharge"):
             return None, error
@@ -149,7 +156,7 @@ def ball_by_formula(contact: BallContact) -> ContactSolution:
     minimum film thickness.
     """
     check_contact(contact)
-    conditions, dry, oil = contact.conditions, contact.dry, contact.ring.conditions.lubricant
+    conditions, dry, oil = contact.conditions, contact.dry, contact.ring.oil
     b, a = dry.semi_axis_x, dry.semi_axis_y
     film = chittenden(conditions.contact)
     side = a * conditions.side
@@ -160,15 +167,17 @@ def ball_by_formula(contact: BallContact) -> ContactSolution:
     opened = dry.max_pressure * b / conditions.reduced_modulus * _unit_opening(ratio, conditions.side)
     gap = film.central_thickness + np.maximum(0.0, rigid + opened - dry.approach)
     pressure = dry.max_pressure * point_pressure(at_x / b, at_y / b, a / b)
+    area = np.pi * a * b
     outside, mismatch = around_ball(contact, (x, y), gap)
-    setup = Setup(lubricant=oil, grid=ball_grid(contact))
+    setup = Setup(oil=oil, grid=ball_grid(contact))
     return _solution(
         contact,
         semi_axes=(b, a),
         films=(film.minimum_thickness, film.central_thickness),
         inside=float(np.vdot(areas((x, y)), _permittivity(oil, pressure) / gap)),
         outside=outside,
-        area=np.pi * a * b,
+        area=area,
+        hertz=_mean_permittivity(oil, dry.max_pressure, _ELLIPSE) * area / film.central_thickness,
         mismatch=mismatch,
         warnings=without_regime(point_case_warnings(setup, conditions)),
     )
@@ -199,19 +208,21 @@ def roller_by_formula(contact: RollerContact) -> ContactSolution:
     pressure; the largest field strength is the voltage over the minimum film thickness.
     """
     check_contact(contact)
-    conditions, length, oil = contact.conditions, contact.length, contact.ring.conditions.lubricant
+    conditions, length, oil = contact.conditions, contact.length, contact.ring.oil
     b, film = conditions.half_width, pan_hamrock(conditions.contact)
     x = np.linspace(*_LINE, _LINE_NODES)
     gap = film.central_thickness + b**2 / conditions.reduced_radius * line_gap(x)
     permittivity = _permittivity(oil, conditions.max_pressure * line_pressure(x))
-    setup = Setup(lubricant=oil, grid=roller_grid(contact))
+    area = 2.0 * b * length
+    setup = Setup(oil=oil, grid=roller_grid(contact))
     return _solution(
         contact,
         semi_axes=(b, 0.5 * length),
         films=(film.minimum_thickness, film.central_thickness),
         inside=length * float(np.vdot(areas((b * x,)), permittivity / gap)),
         outside=around_roller(contact.ring, b, b * x, gap),
-        area=2.0 * b * length,
+        area=area,
+        hertz=_mean_permittivity(oil, conditions.max_pressure, _STRIP) * area / film.central_thickness,
         mismatch=0.0,
         warnings=without_regime(line_case_warnings(setup, conditions)),
     )
@@ -230,9 +241,15 @@ def _unit_opening(ratio: float, side: float) -> Array:
     return opened
 
 
-def _permittivity(oil: Lubricant, pressure: Array) -> Array:
+def _permittivity(oil: Oil, pressure: Array) -> Array:
     """Relative permittivity of the oil under pressure [Pa], dimensionless."""
-    return permittivity_law(oil)(density_law(oil)(pressure)[0])
+    return oil.permittivity(pressure, oil.density_ratio(pressure)[0])
+
+
+def _mean_permittivity(oil: Oil, pressure: float, part: tuple[Array, Array]) -> float:
+    """Mean relative permittivity over a Hertz area with a maximum pressure [Pa]."""
+    ratio, weights = part
+    return float(np.vdot(weights, _permittivity(oil, pressure * ratio)))
 
 
 def _solution(
@@ -243,12 +260,13 @@ def _solution(
     inside: float,
     outside: float,
     area: float,
+    hertz: float,
     mismatch: float,
     warnings: tuple[ResultWarning, ...],
 ) -> ContactSolution:
-    """Numbers of a contact; ``inside`` is the integral of eps_r dA/h over the domain [m]."""
-    conditions, groups = contact.ring.conditions, contact.conditions.contact
-    eps_r = conditions.lubricant.relative_permittivity
+    """Numbers of a contact: integrals of eps_r dA/h over the domain, ``inside``, and the Hertz area [m]."""
+    ring, groups = contact.ring, contact.conditions.contact
+    eps_r = ring.conditions.oil.relative_permittivity
     values = ContactValues(
         max_pressure=contact.conditions.max_pressure,
         semi_axis_x=semi_axes[0],
@@ -258,9 +276,10 @@ def _solution(
         inside=epsilon_0 * inside,
         outside_oil=outside * eps_r,
         outside_air=outside,
-        plate=epsilon_0 * eps_r * area / films[1],
+        plate=epsilon_0 * ring.oil.relative_permittivity * area / films[1],
         strength_per_volt=1.0 / films[0],
-        breakdown_voltage=conditions.gap_breakdown(films[0]),
+        breakdown_voltage=gap_breakdown(ring.discharge, films[0]),
+        hertz=epsilon_0 * hertz,
     )
     return ContactSolution(
         load=contact.load,

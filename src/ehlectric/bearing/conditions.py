@@ -1,4 +1,4 @@
-"""Conditions that all contacts of a bearing share: geometry, materials, and oil at its temperature."""
+"""Conditions that the contacts of a bearing share: geometry, materials, and oil at its temperatures."""
 
 from __future__ import annotations
 
@@ -7,14 +7,15 @@ from typing import Any, Generic, TypeVar
 
 import numpy as np
 
+from ehlectric.bearing.fits.mounted import MountedClearance
 from ehlectric.bearing.loads.geometry import ContactRadii, Geometry
 from ehlectric.cases import library
-from ehlectric.cases.bearing import Bearing
+from ehlectric.cases.bearings.bearing import Bearing
 from ehlectric.cases.discharge import Discharge
-from ehlectric.cases.lubricant import Lubricant
 from ehlectric.cases.quantity import to_si
 from ehlectric.discharge.utilisation import dielectric_strength
 from ehlectric.formulas import hertz_line as hertz
+from ehlectric.lubricant.oil import Oil
 
 # Geometry of the bearing: BallBearing or RollerBearing.
 G_co = TypeVar("G_co", bound=Geometry, covariant=True)
@@ -59,6 +60,28 @@ class Solid:
 
 
 @dataclass(frozen=True)
+class RingConditions:
+    """Conditions of the contacts with one ring: their films form at the temperature of the surfaces.
+
+    Attributes
+    ----------
+    temperature : float
+        Temperature of the ring [K].
+    oil : Oil
+        Oil at this temperature, with an ambient pressure of 0: pressures are those above the ambient one.
+    discharge : Discharge
+        Dielectric strength and conductivity at this temperature.
+    film_factor : float
+        Film thickness over that of isothermal, fully flooded oil, dimensionless, at most 1.
+    """
+
+    temperature: float
+    oil: Oil
+    discharge: Discharge
+    film_factor: float
+
+
+@dataclass(frozen=True)
 class BearingConditions(Generic[G_co]):
     """Conditions that all contacts of a bearing share, SI units.
 
@@ -72,13 +95,15 @@ class BearingConditions(Generic[G_co]):
         Materials.
     modulus : float
         Reduced modulus E' of element and ring [Pa].
-    lubricant : Lubricant
-        Oil at the temperature of the bearing. Its ambient pressure is 0: the ambient pressure acts on the
+    oil : Oil
+        Oil outside the films, at its temperature. Its ambient pressure is 0: the ambient pressure acts on the
         bodies from all sides, and pressures in the contacts are those above it.
     discharge : Discharge
-        Dielectric strength and conductivity at the temperature of the bearing.
-    film_factor : float
-        Film thickness over that of isothermal, fully flooded oil, dimensionless, at most 1.
+        Dielectric strength and conductivity of the oil outside the films.
+    inner, outer : RingConditions
+        Oil, strength and film factor in the contacts with the inner and with the outer ring.
+    clearance : MountedClearance or None
+        Clearances before mounting, mounted and in operation; None where that in operation is given.
     """
 
     bearing: Bearing
@@ -86,9 +111,16 @@ class BearingConditions(Generic[G_co]):
     element: Solid
     ring: Solid
     modulus: float
-    lubricant: Lubricant
+    oil: Oil
     discharge: Discharge
-    film_factor: float
+    inner: RingConditions
+    outer: RingConditions
+    clearance: MountedClearance | None = None
+
+    @property
+    def film_factor(self) -> float:
+        """Film factor of the ring whose films it reduces more, dimensionless, at most 1."""
+        return min(self.inner.film_factor, self.outer.film_factor)
 
     @property
     def ceramic(self) -> bool:
@@ -105,6 +137,14 @@ class BearingConditions(Generic[G_co]):
         return self.geometry.radii(angle, inner=inner)
 
     def gap_breakdown(self, thickness: float) -> float:
-        """Breakdown voltage [V] of a uniform gap of a thickness [m]; infinite without a strength."""
-        strength = float(dielectric_strength(self.discharge, np.zeros(1))[0])
-        return strength * thickness if self.discharge.has_strength else np.inf
+        """Breakdown voltage [V] of a gap of a thickness [m] without a film; infinite without a strength."""
+        return gap_breakdown(self.discharge, thickness)
+
+
+def gap_breakdown(discharge: Discharge, thickness: float) -> float:
+    """Breakdown voltage [V] of a uniform gap of a thickness [m]; infinite without a strength.
+
+    The strength is the one at ambient pressure.
+    """
+    strength = float(dielectric_strength(discharge, np.zeros(1))[0])
+    return strength * thickness if discharge.has_strength else np.inf

@@ -51,6 +51,8 @@ class ContactValues(Values, Generic[N]):
         Maximum field strength per volt on the contact [1/m].
     breakdown_voltage : float or ndarray, shape (n,)
         Voltage on the contact at which its film breaks down [V]; infinite without a strength.
+    hertz : float or ndarray, shape (n,)
+        Part of ``inside`` over the Hertz area [F]; NaN of a result that does not have it.
     """
 
     max_pressure: N
@@ -64,6 +66,7 @@ class ContactValues(Values, Generic[N]):
     plate: N
     strength_per_volt: N
     breakdown_voltage: N
+    hertz: N
 
     def columns(self) -> tuple[N, ...]:
         """All quantities, in the order of the attributes."""
@@ -123,13 +126,11 @@ def solve_ball(contact: BallContact, solver: Solver) -> ContactSolution:
     InputError
         As ``check_contact`` does.
     """
-    grid, bearing = ball_grid(contact), contact.ring.conditions
+    grid, ring = ball_grid(contact), contact.ring
     check_contact(contact, grid)
     assert grid.side is not None
     conditions = replace(contact.conditions, side=grid.side)
-    result = solve_contact(
-        conditions, bearing.lubricant, grid=grid, solver=solver, discharge=bearing.discharge
-    )
+    result = solve_contact(conditions, ring.oil, grid=grid, solver=solver, discharge=ring.discharge)
     assert isinstance(result, PointResult)
     film = result.film
     outside, mismatch = around_ball(contact, (film.x, film.y), film.thickness)
@@ -157,11 +158,11 @@ def solve_roller(contact: RollerContact, solver: Solver) -> ContactSolution:
     InputError
         As ``check_contact`` does.
     """
-    grid, bearing, length = roller_grid(contact), contact.ring.conditions, contact.length
+    grid, ring, length = roller_grid(contact), contact.ring, contact.length
     check_contact(contact, grid)
     conditions = contact.conditions
-    discharge = bearing.discharge.model_copy(update={"length": length})
-    result = solve_contact(conditions, bearing.lubricant, grid=grid, solver=solver, discharge=discharge)
+    discharge = ring.discharge.model_copy(update={"length": length})
+    result = solve_contact(conditions, ring.oil, grid=grid, solver=solver, discharge=discharge)
     assert isinstance(result, Result)
     film = result.film
     outside = around_roller(contact.ring, conditions.half_width, film.x, film.thickness)
@@ -189,11 +190,12 @@ def _solution(
         minimum_thickness=result.film.minimum_thickness,
         central_thickness=result.film.central_thickness,
         inside=length * discharge.capacitance,
-        outside_oil=outside * contact.ring.conditions.lubricant.relative_permittivity,
+        outside_oil=outside * contact.ring.conditions.oil.relative_permittivity,
         outside_air=outside,
         plate=length * discharge.capacitance_plate,
         strength_per_volt=result.field.max_strength / result.field.voltage,
         breakdown_voltage=np.inf if breakdown is None else breakdown,
+        hertz=length * discharge.capacitance_hertz,
     )
     return ContactSolution(
         load=contact.load,
@@ -240,8 +242,8 @@ class ContactCurve(Values):
 
     def at(self, load: Array) -> ContactValues[Array]:
         """Quantities at loads [N], interpolated in the logarithms of load and quantity."""
-        loads = self.loads
-        return ContactValues(*(_interpolated(loads, column, load) for column in self.stack().columns()))
+        columns = np.stack(self.stack().columns(), axis=-1)
+        return ContactValues(*_interpolated(self.loads, columns, load))
 
     @property
     def interpolation_error(self) -> float:
@@ -251,25 +253,27 @@ class ContactCurve(Values):
         is therefore expected to be smaller.
         """
         worst, loads, stack = 0.0, self.loads, self.stack()
+        values = np.stack([stack.inside, stack.breakdown_voltage], axis=-1)
         for k in range(1, loads.size - 1):
-            for values in (stack.inside, stack.breakdown_voltage):
-                if np.isfinite(values[k]):
-                    left = _interpolated(np.delete(loads, k), np.delete(values, k), loads[k : k + 1])[0]
-                    worst = max(worst, abs(left / values[k] - 1.0))
+            known = np.isfinite(values[k])
+            others = np.delete(values[:, known], k, axis=0)
+            left = _interpolated(np.delete(loads, k), others, loads[k : k + 1])
+            worst = max([worst, *np.abs(left[:, 0] / values[k, known] - 1.0)])
         return float(worst)
 
 
 def _interpolated(loads: Array, values: Array, load: Array) -> Array:
-    """Monotone interpolation of values over the load [N] in the logarithms of both.
+    """Monotone interpolation of columns of values over the load [N] in the logarithms of both.
 
-    The result is infinite at all loads where one of the values is infinite.
+    Of m loads it has the values of n columns, in shape (n, m). A column with a value that is infinite is so
+    at all loads.
     """
-    if not np.all(np.isfinite(values)):
-        return np.full(np.shape(load), np.inf)
+    finite = np.all(np.isfinite(values), axis=0)
+    found = np.full((values.shape[1], np.size(load)), np.inf)
     if loads.size == 1:
-        return np.full(np.shape(load), values[0])
+        found[finite] = values[:, finite].T
+        return found
     known = np.log(loads)
-    between: Array = np.exp(
-        PchipInterpolator(known, np.log(values))(np.clip(np.log(load), known[0], known[-1]))
-    )
-    return between
+    between = PchipInterpolator(known, np.log(values[:, finite]))
+    found[finite] = np.exp(between(np.clip(np.log(load), known[0], known[-1]))).T
+    return found

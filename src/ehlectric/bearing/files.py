@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,7 +10,7 @@ from ehlectric.bearing.impedance import impedance_of
 from ehlectric.bearing.result import BearingResult, contact_units
 from ehlectric.bearing.solver import check_bearing, solve_bearing
 from ehlectric.bearing.storage.dataset import SCHEMA, solution_of
-from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.errors import InputError
 from ehlectric.runtime.checks.schema import refusing
 from ehlectric.runtime.files import Content, json_of, write_together
@@ -34,6 +34,7 @@ def run(
     *,
     workers: int | None = None,
     others: Sequence[str] = (),
+    further: Mapping[str, Content] | None = None,
 ) -> RunOutcome[BearingResult]:
     """Solve a whole bearing, and write summary.json, contacts.csv, impedance.csv and bearing.nc.
 
@@ -50,6 +51,8 @@ def run(
     others : sequence of str, optional
         Names of other files in the folder that belong to its result, such as figures. Those of an earlier
         result are removed when the bearing is solved.
+    further : mapping of str to bytes or callable, optional
+        Content of further files by their names, which are written together with the others.
 
     Returns
     -------
@@ -79,15 +82,21 @@ def run(
     """
     load_library()
     check_bearing(case)
-    names = (*FILES, *others)
+    names = (*FILES, *(further or ()), *others)
     with alone_in(folder, names) as folder:
         result = solve_bearing(case, progress=progress, workers=workers)
-        files = save(result, folder, replaced=names)
+        files = save(result, folder, replaced=names, further=further)
     failure = None if result.converged else "not converged: a contact of the bearing"
     return RunOutcome(result, result.summary(), tuple(files), result.warnings, failure)
 
 
-def save(result: BearingResult, folder: str | Path, *, replaced: Sequence[str] = ()) -> list[Path]:
+def save(
+    result: BearingResult,
+    folder: str | Path,
+    *,
+    replaced: Sequence[str] = (),
+    further: Mapping[str, Content] | None = None,
+) -> list[Path]:
     """Save the result of a bearing: summary.json, contacts.csv, bearing.nc and impedance.csv, all or none.
 
     The file impedance.csv is written only if the bearing has an impedance.
@@ -100,6 +109,8 @@ def save(result: BearingResult, folder: str | Path, *, replaced: Sequence[str] =
         Folder of the files; it is made if it does not exist.
     replaced : sequence of str
         Names of further files of an earlier result there, which are removed.
+    further : mapping of str to bytes or callable, optional
+        Content of further files by their names, which are written together with the others.
 
     Returns
     -------
@@ -125,6 +136,7 @@ def save(result: BearingResult, folder: str | Path, *, replaced: Sequence[str] =
         heads = [column_head(*one) for one in units.items()]
         contents[IMPEDANCE] = csv_of(heads, zip(*columns, strict=True))
     contents[NETCDF] = content_of(result.to_xarray())
+    contents |= further or {}
     with alone_in(folder, FILES, locks=[RESULT_LOCK]) as folder:
         return write_together(folder, contents, (*FILES, *replaced))
 

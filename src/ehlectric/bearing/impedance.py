@@ -1,4 +1,4 @@
-"""Impedance of a solved bearing over frequency, with the conductivity of its oil. SI units."""
+"""Impedance of a solved bearing from shaft to housing over frequency, with the conductivity of its oil."""
 
 from __future__ import annotations
 
@@ -8,8 +8,9 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.bearing.circuit import leaking_admittance
+from ehlectric.bearing.meter.reading import shaft_path
 from ehlectric.bearing.solution import BearingSolution, lubrication
-from ehlectric.discharge.laws import relaxation_time
+from ehlectric.discharge.leakage import leakage
 
 # Frequencies reach up to at least _HIGHEST [Hz], and down to _BELOW_CORNER times the corner frequency of the
 # oil; _COUNT is their number.
@@ -25,10 +26,11 @@ class Impedance:
     frequency : ndarray, shape (n,)
         Frequencies [Hz].
     values : ndarray of complex, shape (n,)
-        Impedance from the mean admittance over the positions of the cage [Ohm].
+        Impedance from shaft to housing, from the mean admittance of the films over the positions of the cage,
+        a coating in series, and a parallel capacitance [Ohm].
     corner : float
         Corner frequency 1/(2 pi tau) of the oil alone [Hz]. A bearing filled with oil has the same corner
-        frequency; with air around the films, which does not conduct, that of the bearing is lower.
+        frequency; air around the films, which does not conduct, and a parallel capacitance make it lower.
     """
 
     frequency: Array
@@ -48,13 +50,11 @@ class Impedance:
 
 def oil_relaxation_time(solution: BearingSolution) -> float | None:
     """Charge relaxation time eps0 eps_r/sigma of a bearing's oil [s]; None without a conductivity."""
-    conductivity = solution.case.discharge.conductivity
-    permittivity = solution.conditions.lubricant.relative_permittivity
-    return None if conductivity is None else relaxation_time(permittivity, conductivity)
+    return leakage(solution.case.discharge, solution.conditions.oil).relaxation_time
 
 
 def impedance_of(solution: BearingSolution) -> Impedance | None:
-    """Impedance of a solved bearing, with oil or air around its films according to ``fill``.
+    """Impedance of a solved bearing, with ``fill`` around its films, a coating and a parallel capacitance.
 
     Parameters
     ----------
@@ -74,9 +74,7 @@ def impedance_of(solution: BearingSolution) -> Impedance | None:
     fill = solution.case.bearing.fill
     y = np.zeros(frequency.shape, dtype=complex)
     for position in solution.positions:
-        inner, outer = (
-            (ring.capacitance(fill), ring.capacitance("oil") if fill == "oil" else ring.values.inside)
-            for ring in position.rings
-        )
+        inner, outer = ((ring.capacitance(fill), ring.oil_capacitance(fill)) for ring in position.rings)
         y = y + leaking_admittance(inner, outer, tau, frequency)
-    return Impedance(frequency, len(solution.positions) / y, corner)
+    films = y / len(solution.positions)
+    return Impedance(frequency, 1.0 / shaft_path(solution).admittance(films, frequency), corner)

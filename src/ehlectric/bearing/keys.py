@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from ehlectric.bearing.fits.keys import CLEARANCE_KEYS
+from ehlectric.bearing.meter.keys import METER_KEYS
+from ehlectric.cases.oils.keys import OIL_KEYS
 from ehlectric.cases.result_key import Keys, ResultKey, under
 
 _ABOUT: Keys = {
@@ -23,24 +26,39 @@ _ABOUT: Keys = {
     "inputs": ResultKey("the bearing file, its base resolved"),
 }
 _LUBRICANT: Keys = {
+    **OIL_KEYS,
     "temperature": ResultKey(
-        "temperature of the oil in the contacts; that of `bearing.temperature`, not the input table of that "
-        "name",
+        "temperature of the oil outside the films; that of `bearing.temperature`, not the input table of "
+        "that name",
         "K",
         "temperature of the oil",
     ),
-    "viscosity": ResultKey("viscosity of the oil at that temperature", "Pa*s", "viscosity", r"$\eta_0$"),
-    "pressure_viscosity_coefficient": ResultKey(
-        "pressure-viscosity coefficient of the oil at that temperature",
-        "1/Pa",
-        "pressure-viscosity coefficient",
-        r"$\alpha$",
+    "inner_temperature": ResultKey(
+        "temperature of the inner ring and of the oil in its contacts", "K", "temperature of the inner ring"
     ),
+    "inner_viscosity": ResultKey(
+        "viscosity of the oil in the inner contacts", "Pa*s", "viscosity at the inner ring"
+    ),
+    "inner_film_factor": ResultKey("film factor of the inner contacts", "", "film factor at the inner ring"),
+    "outer_temperature": ResultKey(
+        "temperature of the outer ring and of the oil in its contacts", "K", "temperature of the outer ring"
+    ),
+    "outer_viscosity": ResultKey(
+        "viscosity of the oil in the outer contacts", "Pa*s", "viscosity at the outer ring"
+    ),
+    "outer_film_factor": ResultKey("film factor of the outer contacts", "", "film factor at the outer ring"),
     "expansion": ResultKey(
         "coefficient of thermal expansion; null without `[lubricant.temperature]`",
         "1/K",
         "thermal expansion of the oil",
         "$a$",
+    ),
+    "conductivity": ResultKey(
+        "electrical conductivity of the oil: `discharge.conductivity`, or that of the lubricant at the "
+        "temperature; null without both",
+        "S/m",
+        "conductivity of the oil",
+        r"$\sigma$",
     ),
     "film_factor": ResultKey(
         "the same as `bearing.film_factor`, under a key that no input has: a sweep over that input has both",
@@ -52,8 +70,8 @@ _LUBRICANT: Keys = {
 _CAPACITANCES: Keys = {
     "contacts": ResultKey('how films and fields were obtained: "solved" or "formula"'),
     "capacitance": ResultKey(
-        "capacitance, mean over the positions of the cage, with `fill` around the films; of ceramic elements "
-        "an upper bound, or what the file gives",
+        "capacitance of the smooth films from ring to ring, mean over the positions of the cage, with `fill` "
+        "around the films; of ceramic elements an upper bound, or what the file gives",
         "F",
         "capacitance of the bearing",
         "$C$",
@@ -85,13 +103,17 @@ _CAPACITANCES: Keys = {
         "",
         "state of lubrication",
     ),
-    "film_factor": ResultKey('factor on the isothermal, fully flooded film; 1 for "none"', "", "film factor"),
+    "film_factor": ResultKey(
+        'factor on the isothermal, fully flooded film; 1 for "none"; of the ring whose films it reduces more',
+        "",
+        "film factor",
+    ),
 }
 _VOLTAGES: Keys = {
     "first_break": ResultKey(
-        "bearing voltage at which the first contact breaks down, minimum over the positions; by a Weibull "
-        "strength that at which one of all has with a probability of 63.2 %; null without a strength, for a "
-        "conducting bearing and for ceramic elements",
+        "bearing voltage, from ring to ring, at which the first contact breaks down, minimum over the "
+        "positions; by a Weibull strength that at which one of all has with a probability of 63.2 %; null "
+        "without a strength, for a conducting bearing and for ceramic elements",
         "V",
         "first breakdown voltage",
     ),
@@ -115,10 +137,12 @@ _VOLTAGES: Keys = {
         "ring-to-ring breakdown voltage, mean over a pitch",
     ),
     "margin": ResultKey(
-        "first_break / shaft voltage; null without a motor", "", "margin (first breakdown / shaft voltage)"
+        "shaft_first_break / shaft voltage; null without a motor",
+        "",
+        "margin (first breakdown / shaft voltage)",
     ),
     "through_margin": ResultKey(
-        "through_breakdown / shaft voltage; null without a motor",
+        "shaft_through_breakdown / shaft voltage; null without a motor",
         "",
         "margin (ring-to-ring breakdown / shaft voltage)",
     ),
@@ -166,18 +190,20 @@ _VOLTAGES: Keys = {
     ),
     "discharged_capacitance": ResultKey(
         "capacitance that a discharge empties: bearing, winding and frame to rotor, and second bearing, or "
-        "`discharge.external_capacitance` without a motor; null where nothing is given, for a conducting "
-        "bearing and for ceramic elements",
+        "`discharge.external_capacitance` without a motor, all but the bearing in series with its coating; "
+        "null where nothing is given, for a conducting bearing and for ceramic elements",
         "F",
         "discharged capacitance",
     ),
     "bearing_energy": ResultKey(
-        "energy C V²/2 in the bearing alone at the shaft voltage; null without a motor",
+        "energy C V²/2 in the films alone at the shaft voltage, of which film_voltage is across them; null "
+        "without a motor",
         "J",
         "energy in the bearing",
     ),
     "discharge_energy": ResultKey(
-        "energy C V²/2 in discharged_capacitance at the shaft voltage; null without a motor",
+        "energy C V²/2 in discharged_capacitance at the shaft voltage, with V = film_voltage; null without a "
+        "motor",
         "J",
         "energy of a discharge at the shaft voltage",
     ),
@@ -350,8 +376,10 @@ CONTACT_KEYS: Keys = {
 BEARING_KEYS: Keys = {
     **_ABOUT,
     **under("lubricant", _LUBRICANT),
+    **under("bearing", CLEARANCE_KEYS),
     **under("bearing", _CAPACITANCES),
     **under("bearing", _VOLTAGES),
+    **under("bearing", METER_KEYS),
     **under("margin", _MARGIN),
     **under("margin.effects", EFFECT_KEYS),
     **under("mechanics", _MECHANICS),

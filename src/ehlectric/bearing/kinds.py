@@ -21,7 +21,7 @@ from ehlectric.bearing.ring_contacts import (
     rigid_ball,
     rigid_roller,
 )
-from ehlectric.cases.bearing import ANGULAR, ROLLERS, Bearing
+from ehlectric.cases.bearings.bearing import ANGULAR, ROLLERS, Bearing
 from ehlectric.cases.grid import Grid, Solver
 
 G = TypeVar("G", BallBearing, RollerBearing)

@@ -11,7 +11,7 @@ from ehlectric.bearing.conditions import BearingConditions
 from ehlectric.bearing.loads.geometry import Geometry
 from ehlectric.bearing.loads.totals import Equilibrium
 from ehlectric.bearing.ring_contacts import Contact
-from ehlectric.cases.bearing import Bearing
+from ehlectric.cases.bearings.bearing import Bearing
 from ehlectric.errors import InputError
 
 # Contacts with less than this part of the largest load may have their centre beyond the shoulder.
@@ -110,7 +110,7 @@ def check_film(contact: Contact) -> None:
     """
     film, most, ring = contact.film, contact.thickest_film, contact.ring
     if film > most:
-        oil = ring.conditions.lubricant.viscosity
+        oil = ring.oil.viscosity
         raise InputError(
             "bearing",
             got=f"an {ring.name} film of {1e6 * film:.3g} um, at {contact.load:.3g} N, "

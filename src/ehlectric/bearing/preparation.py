@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from ehlectric.bearing.by_formula import check_formula
-from ehlectric.bearing.conditions import BearingConditions, Solid
+from ehlectric.bearing.conditions import BearingConditions, RingConditions, Solid
+from ehlectric.bearing.fits.mounted import MountedClearance, mounted_clearance
 from ehlectric.bearing.kinds import KINDS, kind_of
 from ehlectric.bearing.limits import check_film, check_load, check_shoulders
 from ehlectric.bearing.loads.geometry import Geometry
@@ -19,10 +20,12 @@ from ehlectric.bearing.loads.kinematics import rolling_speeds
 from ehlectric.bearing.loads.ring import Operation
 from ehlectric.bearing.loads.totals import Equilibrium
 from ehlectric.bearing.ring_contacts import RingContacts
-from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.cases.lubricant import Lubricant
+from ehlectric.cases.bearings.bearing import Bearing
+from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.cases.oils.resolution import temperature_coefficient
 from ehlectric.errors import InputError
 from ehlectric.formulas.hertz_line import reduced_modulus
+from ehlectric.lubricant.oil import Oil
 from ehlectric.lubricant.temperature import inlet_shear_factor
 
 # Number of loads that are solved for each ring, without those of light elements, and the least of these loads
@@ -68,7 +71,7 @@ class PreparedBearing:
 
 
 def resolve_bearing(case: BearingCase) -> BearingConditions[Any]:
-    """Conditions of a bearing file: geometry and materials, oil and strength at the bearing's temperature.
+    """Conditions of a bearing file: geometry and materials, oil and strength at its temperatures.
 
     Raises
     ------
@@ -77,20 +80,41 @@ def resolve_bearing(case: BearingCase) -> BearingConditions[Any]:
     """
     bearing, kind = case.bearing, KINDS[case.bearing.kind]
     element, ring = Solid.of(bearing.element_material), Solid.of(bearing.ring_material)
-    lubricant = case.lubricant.at(bearing.temperature)
     with _keys_of_bearing():
-        geometry = kind.geometry(bearing)
+        clearance = mounted_clearance(bearing)
+        geometry = kind.geometry(_in_operation(bearing, clearance))
     return BearingConditions(
         bearing=bearing,
         geometry=geometry,
         element=element,
         ring=ring,
         modulus=reduced_modulus(element.compliance, ring.compliance),
-        # The ambient pressure acts on the bodies from all sides: pressures are those above it.
-        lubricant=lubricant.model_copy(update={"ambient_pressure": 0.0}),
-        discharge=case.discharge.at(bearing.temperature),
-        film_factor=_film_factor(case, geometry, lubricant),
+        oil=_oil(case, bearing.oil_temperature, bearing.temperature_key()),
+        discharge=case.discharge.at(bearing.oil_temperature, bearing.temperature_key()),
+        inner=_ring_conditions(case, geometry, inner=True),
+        outer=_ring_conditions(case, geometry, inner=False),
+        clearance=clearance,
     )
+
+
+def _oil(case: BearingCase, temperature: float, key: str) -> Oil:
+    """Oil at a temperature [K]; the ambient pressure acts on the bodies from all sides, and is left out."""
+    return replace(case.lubricant.at(temperature, key), ambient_pressure=0.0)
+
+
+def _ring_conditions(case: BearingCase, geometry: Geometry, *, inner: bool) -> RingConditions:
+    """Conditions of the contacts with a ring, at its temperature."""
+    temperature, key = case.bearing.ring_temperature(inner=inner), case.bearing.temperature_key(inner=inner)
+    oil = _oil(case, temperature, key)
+    factor = _film_factor(case, geometry, oil, temperature)
+    return RingConditions(temperature, oil, case.discharge.at(temperature, key), factor)
+
+
+def _in_operation(bearing: Bearing, clearance: MountedClearance | None) -> Bearing:
+    """Bearing with its radial clearance in operation."""
+    if clearance is None:
+        return bearing
+    return bearing.model_copy(update={"radial_clearance": clearance.running.clearance})
 
 
 @contextmanager
@@ -102,15 +126,13 @@ def _keys_of_bearing() -> Iterator[None]:
         raise error.under("bearing") from None
 
 
-def _film_factor(case: BearingCase, geometry: Geometry, lubricant: Lubricant) -> float:
-    """Film thickness over that of isothermal, fully flooded oil, dimensionless, by the file."""
+def _film_factor(case: BearingCase, geometry: Geometry, oil: Oil, temperature: float) -> float:
+    """Film thickness over that of isothermal, fully flooded oil at a temperature [K], by the file."""
     factor = case.bearing.film_factor
     if isinstance(factor, float):
         return factor
     if factor == "none":
         return 1.0
-    oil = case.lubricant.temperature
-    assert oil is not None and oil.thermal_conductivity is not None
     bearing = case.bearing
     # Speed at the free contact angle: it differs little from the speed at the loaded contact angle.
     speeds = rolling_speeds(
@@ -119,10 +141,9 @@ def _film_factor(case: BearingCase, geometry: Geometry, lubricant: Lubricant) ->
         bearing.inner_speed,
         contact_angle=geometry.free_angle,
     )
-    slope = case.lubricant.walther().slope(case.bearing.temperature) + oil.expansion
-    return inlet_shear_factor(
-        lubricant.viscosity, slope, float(speeds.inner_entrainment), oil.thermal_conductivity
-    )
+    slope = temperature_coefficient(case.lubricant, temperature)
+    assert slope is not None and oil.thermal_conductivity is not None
+    return inlet_shear_factor(oil.viscosity, slope, float(speeds.inner_entrainment), oil.thermal_conductivity)
 
 
 def equilibria_of(conditions: BearingConditions[Any], positions: int) -> tuple[Equilibrium, ...]:
@@ -163,7 +184,7 @@ def prepare_bearing(case: BearingCase, positions: int) -> PreparedBearing:
     """
     conditions = resolve_bearing(case)
     if case.contacts == "formula":
-        check_formula(conditions.discharge, conditions.lubricant)
+        check_formula(conditions.discharge, conditions.oil)
     check_load(conditions)
     equilibria = equilibria_of(conditions, positions)
     for at in equilibria:
@@ -173,6 +194,38 @@ def prepare_bearing(case: BearingCase, positions: int) -> PreparedBearing:
     for ring in prepared.rings:
         check_film(kind_of(ring).contact(ring, largest_load(prepared, ring)))
     return prepared
+
+
+def with_film_factor(prepared: PreparedBearing, factor: float) -> PreparedBearing:
+    """Bearing whose films are thinner or thicker by a factor; loads and speeds do not depend on it.
+
+    Parameters
+    ----------
+    prepared : PreparedBearing
+        Bearing with any film factor.
+    factor : float
+        Film thickness over that of isothermal, fully flooded oil, dimensionless, > 0. Other than in a file it
+        may be above 1.
+
+    Returns
+    -------
+    PreparedBearing
+        Bearing with the same equilibria.
+
+    Raises
+    ------
+    InputError
+        Where the films leave no room between the bodies.
+    """
+    at = prepared.conditions
+    conditions = replace(
+        at, inner=replace(at.inner, film_factor=factor), outer=replace(at.outer, film_factor=factor)
+    )
+    inner, outer = (replace(ring, conditions=conditions) for ring in prepared.rings)
+    changed = replace(prepared, conditions=conditions, inner=inner, outer=outer)
+    for ring in changed.rings:
+        check_film(kind_of(ring).contact(ring, largest_load(changed, ring)))
+    return changed
 
 
 def _contacts_with(conditions: BearingConditions[Any], at: Equilibrium, *, inner: bool) -> RingContacts[Any]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 from ehlectric.bearing.keys import BEARING_KEYS, CONTACT_KEYS
 from ehlectric.bearing.margin.analysis import MarginAnalysis, analyse_margin
@@ -14,7 +14,7 @@ from ehlectric.bearing.solution import BearingSolution, capacitance
 from ehlectric.bearing.storage.dataset import dataset_of
 from ehlectric.bearing.summary import breaks, contact_rows, summary_of
 from ehlectric.bearing.warnings import bearing_warnings
-from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.result_key import key_of
 from ehlectric.cases.row import amount
 from ehlectric.cases.units import rpm
@@ -22,6 +22,7 @@ from ehlectric.discharge.verdict import Verdict
 from ehlectric.errors import InputError, ResultWarning, shown
 from ehlectric.runtime.display import Shown, headline
 from ehlectric.runtime.files import plain
+from ehlectric.runtime.values import is_number
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -79,13 +80,14 @@ class BearingResult(Shown):
         """
         return shaft_voltage(self.solution)
 
-    def capacitance(self, fill: Literal["oil", "air"] | None = None) -> float:
-        """Capacitance of the bearing, mean over the positions of the cage.
+    def capacitance(self, fill: float | str | None = None) -> float:
+        """Capacitance of the bearing from ring to ring, with smooth films, mean over cage positions.
 
         Parameters
         ----------
-        fill : str, optional
-            "oil" or "air" around the films; by default ``bearing.fill`` of the case.
+        fill : str or float, optional
+            "oil" or "air" around the films, or the part of the area filled with oil, from 0 to 1; by default
+            ``bearing.fill`` of the case.
 
         Returns
         -------
@@ -95,10 +97,12 @@ class BearingResult(Shown):
         Raises
         ------
         InputError
-            If ``fill`` is neither "oil" nor "air".
+            If ``fill`` is none of these.
         """
-        if fill not in (None, "oil", "air"):
-            raise InputError("fill", got=shown(fill), takes="'oil', 'air', or None for the fill of the case")
+        part = is_number(fill) and 0.0 <= fill <= 1.0
+        if fill not in (None, "oil", "air") and not part:
+            takes = "'oil', 'air', a part from 0 to 1, or None for the fill of the case"
+            raise InputError("fill", got=shown(fill), takes=takes)
         return capacitance(self.solution, fill)
 
     def breaks(self) -> dict[str, Any]:

@@ -9,12 +9,12 @@ from typing import Generic, TypeAlias
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.bearing.conditions import BearingConditions, G_co
+from ehlectric.bearing.conditions import BearingConditions, G_co, RingConditions
 from ehlectric.bearing.gaps.groove import Raceway, groove_capacitance, match_film, outside_capacitance
 from ehlectric.bearing.gaps.roller import RollerRaceway, roller_capacitance, roller_tails
 from ehlectric.bearing.loads.geometry import BallBearing, ContactRadii, RollerBearing
+from ehlectric.cases.discharge import Discharge
 from ehlectric.cases.grid import Grid
-from ehlectric.cases.lubricant import effective_alpha
 from ehlectric.contact.bodies import check_pressure, check_width
 from ehlectric.contact.conditions import Conditions, PointConditions, default_side
 from ehlectric.contact.memory import check_grid
@@ -23,6 +23,7 @@ from ehlectric.formulas.film_line import moes
 from ehlectric.formulas.film_point import nijenbanning_venner_moes
 from ehlectric.formulas.hertz_line import line_half_width, line_max_pressure
 from ehlectric.formulas.hertz_point import DryContact, dry_contact
+from ehlectric.lubricant.oil import Oil
 
 # Largest film thickness over (f - 1/2) D, the difference of the radii of groove and ball, at which the film
 # does not change contact angle and gap. For a roller, the largest length sqrt(2 R h) over which the film
@@ -61,6 +62,25 @@ class RingContacts(Generic[G_co]):
         return "inner" if self.inner else "outer"
 
     @property
+    def _own(self) -> RingConditions:
+        return self.conditions.inner if self.inner else self.conditions.outer
+
+    @property
+    def oil(self) -> Oil:
+        """Oil in the contacts, at the temperature of the ring."""
+        return self._own.oil
+
+    @property
+    def discharge(self) -> Discharge:
+        """Dielectric strength and conductivity in the contacts, at the temperature of the ring."""
+        return self._own.discharge
+
+    @property
+    def film_factor(self) -> float:
+        """Film thickness over that of isothermal, fully flooded oil, dimensionless, at most 1."""
+        return self._own.film_factor
+
+    @property
     def radii(self) -> ContactRadii:
         """Radii of element and ring at the contact angle [m]."""
         return self.conditions.radii(self.angle, inner=self.inner)
@@ -90,7 +110,7 @@ class BallContact:
     @cached_property
     def conditions(self) -> PointConditions:
         """Operating conditions of the point contact, which ``check_contact`` may still refuse."""
-        bearing, radii, dry = self.ring.conditions, self.ring.radii, self.dry
+        bearing, oil, radii, dry = self.ring.conditions, self.ring.oil, self.ring.radii, self.dry
         return PointConditions(
             radius_x=radii.radius_x,
             radius_y=radii.radius_y,
@@ -98,14 +118,14 @@ class BallContact:
             load=self.load,
             entrainment_speed=self.ring.speed,
             slide_to_roll_ratio=0.0,
-            viscosity=bearing.lubricant.viscosity,
-            pressure_viscosity_coefficient=effective_alpha(bearing.lubricant),
+            viscosity=oil.viscosity,
+            pressure_viscosity_coefficient=oil.alpha_star,
             semi_axis_x=dry.semi_axis_x,
             semi_axis_y=dry.semi_axis_y,
             max_pressure=dry.max_pressure,
             side=default_side(dry.semi_axis_y / dry.semi_axis_x),
             compliance_share=bearing.ring_share,
-            film_factor=bearing.film_factor,
+            film_factor=self.ring.film_factor,
         )
 
     @property
@@ -153,7 +173,7 @@ class RollerContact:
     @cached_property
     def conditions(self) -> Conditions:
         """Operating conditions of the line contact, which ``check_contact`` may still refuse."""
-        bearing, radii = self.ring.conditions, self.ring.radii
+        bearing, oil, radii = self.ring.conditions, self.ring.oil, self.ring.radii
         radius, modulus, load_per_length = radii.radius_x, bearing.modulus, self.load / self.length
         return Conditions(
             reduced_radius=radius,
@@ -161,13 +181,13 @@ class RollerContact:
             load_per_length=load_per_length,
             entrainment_speed=self.ring.speed,
             slide_to_roll_ratio=0.0,
-            viscosity=bearing.lubricant.viscosity,
-            pressure_viscosity_coefficient=effective_alpha(bearing.lubricant),
+            viscosity=oil.viscosity,
+            pressure_viscosity_coefficient=oil.alpha_star,
             half_width=line_half_width(load_per_length, radius, modulus),
             max_pressure=line_max_pressure(load_per_length, radius, modulus),
             curvature_share=radius / radii.ring_x,
             compliance_share=bearing.ring_share,
-            film_factor=bearing.film_factor,
+            film_factor=self.ring.film_factor,
         )
 
     @property
@@ -214,7 +234,7 @@ def check_contact(contact: Contact, grid: Grid | None = None) -> None:
         _check_speed(conditions.contact.entrainment_speed)
         for half_width, radius in contact.widths:
             check_width(half_width, radius)
-        check_pressure(conditions.max_pressure, contact.ring.conditions.lubricant)
+        check_pressure(conditions.max_pressure, contact.ring.oil)
         if grid is not None:
             check_grid(conditions.geometry, grid, rough=False)
     except InputError as error:

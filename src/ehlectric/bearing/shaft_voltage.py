@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from ehlectric.bearing.solution import BearingSolution, capacitance, capacitance_is_bound, lubrication
+from ehlectric.bearing.meter.reading import film_share, shaft_capacitance
+from ehlectric.bearing.solution import BearingSolution, capacitance_is_bound, lubrication
 
 
 def voltage_ratio(winding_rotor: float, rotor_frame: float, first: float, second: float) -> float:
@@ -15,7 +16,7 @@ def voltage_ratio(winding_rotor: float, rotor_frame: float, first: float, second
     winding_rotor, rotor_frame : float
         Capacitance C_wr from winding to rotor, and C_rf from rotor to frame [F].
     first, second : float
-        Capacitances C_DE and C_NDE of the bearings at the drive end and the non-drive end [F].
+        Capacitances C_DE and C_NDE from shaft to housing at the drive end and the non-drive end [F].
 
     Returns
     -------
@@ -31,7 +32,7 @@ def voltage_ratio(winding_rotor: float, rotor_frame: float, first: float, second
 
 
 def bearing_voltage_ratio(solution: BearingSolution) -> float | None:
-    """Share of the motor's common-mode voltage that lies on a solved bearing, dimensionless.
+    """Share of the motor's common-mode voltage between shaft and housing of a solved bearing.
 
     None without a motor, where surfaces touch and conduct, and where only an upper bound of the capacitance
     is known.
@@ -39,7 +40,7 @@ def bearing_voltage_ratio(solution: BearingSolution) -> float | None:
     motor = solution.case.motor
     if motor is None or lubrication(solution) == "conducting" or capacitance_is_bound(solution):
         return None
-    own = capacitance(solution)
+    own = shaft_capacitance(solution)
     second = motor.second_bearing_capacitance
     return voltage_ratio(
         motor.winding_rotor_capacitance,
@@ -55,6 +56,12 @@ def shaft_voltage(solution: BearingSolution) -> float | None:
     return None if motor is None or ratio is None else ratio * motor.common_mode_voltage
 
 
+def film_voltage(solution: BearingSolution) -> float | None:
+    """Part of the shaft voltage across the films, from ring to ring [V]; None as ``shaft_voltage``."""
+    shaft, share = shaft_voltage(solution), film_share(solution)
+    return None if shaft is None or share is None else share * shaft
+
+
 def margin(voltage: float, shaft: float | None) -> float | None:
-    """Breakdown voltage [V] over shaft voltage [V], dimensionless; None without a shaft voltage."""
+    """Shaft voltage at breakdown [V] over shaft voltage [V], dimensionless; None without a shaft voltage."""
     return None if shaft is None else voltage / shaft

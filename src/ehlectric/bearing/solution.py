@@ -14,12 +14,15 @@ from ehlectric.bearing.contacts import ContactCurve, ContactValues
 from ehlectric.bearing.kinds import kind_of
 from ehlectric.bearing.loads.totals import Equilibrium
 from ehlectric.bearing.ring_contacts import RingContacts
-from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.runtime.values import Values
 from ehlectric.version import __version__
 
 # Lambda ratios below which surfaces touch, and below which they touch at times.
 CONDUCTING, PARTIAL = 1.0, 3.0
+
+# Part of the area around the films that is filled with oil, by the name of the filling.
+_PARTS = {"oil": 1.0, "air": 0.0}
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -42,10 +45,28 @@ class RingState(Values):
     solved: Mask
     values: ContactValues[Array]
 
-    def capacitance(self, fill: str) -> Array:
-        """Capacitance of each contact with "oil" or "air" around the film, shape (n,) [F]."""
-        values = self.values
-        return values.inside + (values.outside_oil if fill == "oil" else values.outside_air)
+    def capacitance(self, fill: float | str) -> Array:
+        """Capacitance of each contact with a filling around the film, shape (n,) [F].
+
+        The filling is "oil", "air", or the part of the area around the film that is filled with oil.
+        """
+        values, part = self.values, oil_part(fill)
+        return values.inside + part * values.outside_oil + (1.0 - part) * values.outside_air
+
+    def oil_capacitance(self, fill: float | str) -> Array:
+        """Part of ``capacitance`` that is filled with oil, and leaks as it does, shape (n,) [F]."""
+        return self.values.inside + oil_part(fill) * self.values.outside_oil
+
+
+def oil_part(fill: float | str) -> float:
+    """Part of the area around the films that is filled with oil: 1 for "oil", 0 for "air", or a number.
+
+    Examples
+    --------
+    >>> oil_part("oil"), oil_part("air"), oil_part(0.3)
+    (1.0, 0.0, 0.3)
+    """
+    return _PARTS[fill] if isinstance(fill, str) else fill
 
 
 def ring_state(ring: RingContacts[Any], curve: ContactCurve, *, load: Array, gap: Array) -> RingState:
@@ -108,11 +129,12 @@ def _unloaded(ring: RingContacts[Any], curve: ContactCurve, gap: Array) -> Conta
         minimum_thickness=apart,
         central_thickness=apart,
         inside=none,
-        outside_oil=vacuum * conditions.lubricant.relative_permittivity,
+        outside_oil=vacuum * conditions.oil.relative_permittivity,
         outside_air=vacuum,
         plate=none,
         strength_per_volt=1.0 / apart,
         breakdown_voltage=np.array([conditions.gap_breakdown(float(thickness)) for thickness in apart]),
+        hertz=none,
     )
 
 
@@ -140,8 +162,8 @@ class Position(Values):
         """Contacts with the inner and with the outer ring."""
         return self.inner, self.outer
 
-    def circuit(self, fill: str) -> Circuit:
-        """Circuit of the bearing with "oil" or "air" around the films."""
+    def circuit(self, fill: float | str) -> Circuit:
+        """Circuit of the bearing with "oil" or "air" around the films, or a part of it oil."""
         return Circuit(
             self.inner.capacitance(fill),
             self.outer.capacitance(fill),
@@ -193,9 +215,10 @@ class BearingSolution(Values):
         """Whether the films of all contacts are converged."""
         return all(contact.converged for curve in self.curves for contact in curve.solutions)
 
-    def circuits(self, fill: str | None = None) -> list[Circuit]:
+    def circuits(self, fill: float | str | None = None) -> list[Circuit]:
         """Circuit at each position, with "oil" or "air" around the films; by default ``fill`` of the case."""
-        return [position.circuit(fill or self.case.bearing.fill) for position in self.positions]
+        around = self.case.bearing.fill if fill is None else fill
+        return [position.circuit(around) for position in self.positions]
 
 
 def lambda_ratio(solution: BearingSolution) -> float:
@@ -243,8 +266,8 @@ def insulating(solution: BearingSolution) -> bool:
     return not solution.conditions.ceramic and lubrication(solution) != "conducting"
 
 
-def capacitance(solution: BearingSolution, fill: str | None = None) -> float:
-    """Capacitance of a solved bearing, mean over the positions of the cage.
+def capacitance(solution: BearingSolution, fill: float | str | None = None) -> float:
+    """Capacitance of the smooth films of a solved bearing, mean over the positions of the cage.
 
     For ceramic elements it follows from ``element_capacitance``, or is an upper bound without this key.
 
@@ -252,8 +275,8 @@ def capacitance(solution: BearingSolution, fill: str | None = None) -> float:
     ----------
     solution : BearingSolution
         Solved bearing.
-    fill : str, optional
-        "oil" or "air" around the films; by default ``fill`` of the case.
+    fill : str or float, optional
+        "oil" or "air" around the films, or the part filled with oil; by default ``fill`` of the case.
 
     Returns
     -------

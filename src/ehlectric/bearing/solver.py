@@ -7,7 +7,7 @@ from ehlectric.bearing.preparation import largest_load, prepare_bearing
 from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.ring_contacts import check_contact
 from ehlectric.bearing.solving.contacts_and_circuit import solution_of
-from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.runtime.progress import Progress
 
 

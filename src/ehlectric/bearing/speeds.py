@@ -12,7 +12,7 @@ from ehlectric.bearing.margin.critical_speed import LEAST, MOST
 from ehlectric.bearing.solution import CONDUCTING
 from ehlectric.bearing.solving.contacts_and_circuit import solution_of
 from ehlectric.bearing.summary import summary_of
-from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.units import rpm
 from ehlectric.errors import InputError, ResultWarning
 

@@ -6,11 +6,19 @@ import dataclasses
 from typing import Any
 
 from ehlectric.bearing.breakdown import Breakdown, breakdown_of, strength_per_volt
+from ehlectric.bearing.conditions import BearingConditions
 from ehlectric.bearing.discharges.energy import bearing_costs
 from ehlectric.bearing.discharges.leakage import shaft_leakage
 from ehlectric.bearing.impedance import oil_relaxation_time
 from ehlectric.bearing.loads.totals import mechanics_of
-from ehlectric.bearing.shaft_voltage import bearing_voltage_ratio, margin, shaft_voltage
+from ehlectric.bearing.meter.reading import (
+    film_share,
+    meter_reading,
+    rough_capacitance,
+    shaft_capacitance,
+    shaft_path,
+)
+from ehlectric.bearing.shaft_voltage import bearing_voltage_ratio, film_voltage, margin, shaft_voltage
 from ehlectric.bearing.solution import (
     BearingSolution,
     capacitance,
@@ -21,6 +29,7 @@ from ehlectric.bearing.solution import (
     regime,
 )
 from ehlectric.bearing.warnings import bearing_warnings
+from ehlectric.discharge.leakage import conductivity_of
 from ehlectric.runtime.files import plain
 from ehlectric.runtime.stored_warnings import texts_and_codes
 
@@ -44,13 +53,13 @@ def summary_of(solution: BearingSolution) -> dict[str, Any]:
             **texts_and_codes(bearing_warnings(solution)),
             "inputs": case.to_dict(),
             "lubricant": {
-                "temperature": case.bearing.temperature,
-                "viscosity": conditions.lubricant.viscosity,
-                "pressure_viscosity_coefficient": conditions.lubricant.pressure_viscosity_coefficient,
+                **conditions.oil.summary(),
+                **_of_rings(conditions),
                 "expansion": None if oil is None else oil.expansion,
+                "conductivity": conductivity_of(case.discharge, conditions.oil),
                 "film_factor": conditions.film_factor,
             },
-            "bearing": _totals(solution),
+            "bearing": clearances_of(conditions) | _totals(solution),
             "mechanics": mechanics_of(solution.positions[0].equilibrium),
             "contacts": contact_rows(solution),
             "seconds": solution.seconds,
@@ -59,11 +68,37 @@ def summary_of(solution: BearingSolution) -> dict[str, Any]:
     return summary
 
 
+def _of_rings(conditions: BearingConditions[Any]) -> dict[str, float]:
+    """Temperatures [K], viscosities [Pa s] and film factors of the oil in the contacts with both rings."""
+    rings = (("inner", conditions.inner), ("outer", conditions.outer))
+    values = {}
+    for name, own in rings:
+        values[f"{name}_temperature"] = own.temperature
+        values[f"{name}_viscosity"] = own.oil.viscosity
+        values[f"{name}_film_factor"] = own.film_factor
+    return values
+
+
+def clearances_of(conditions: BearingConditions[Any]) -> dict[str, float | None]:
+    """Clearances, interferences [m] and pressures of the fits [Pa] as in summary.json; None without fits."""
+    clearance = conditions.clearance
+    running = None if clearance is None else clearance.running
+    return {
+        "unmounted_clearance": None if clearance is None else clearance.unmounted,
+        "mounted_clearance": None if clearance is None else clearance.mounted.clearance,
+        "running_clearance": conditions.geometry.clearance,
+        "running_shaft_interference": None if running is None else running.shaft_interference,
+        "running_housing_interference": None if running is None else running.housing_interference,
+        "shaft_pressure": None if running is None else running.shaft_pressure,
+        "housing_pressure": None if running is None else running.housing_pressure,
+    }
+
+
 def _totals(solution: BearingSolution) -> dict[str, Any]:
     """Capacitances, voltages and error estimates of the whole bearing."""
     own, plate = capacitance(solution), plate_capacitance(solution)
-    strength, shaft = strength_per_volt(solution), shaft_voltage(solution)
-    leaks = shaft_leakage(solution)
+    strength, shaft, across = strength_per_volt(solution), shaft_voltage(solution), film_voltage(solution)
+    leaks, rough = shaft_leakage(solution), rough_capacitance(solution)
     errors = [contact.error for curve in solution.curves for contact in curve.solutions]
     known = [error for error in errors if error is not None]
     return {
@@ -73,22 +108,50 @@ def _totals(solution: BearingSolution) -> dict[str, Any]:
         "capacitance_air": capacitance(solution, "air"),
         "capacitance_plate": plate,
         "capacitance_ratio": None if plate is None else own / plate,
+        "capacitance_rough": rough,
+        "roughness_factor": None if rough is None else rough / own,
+        **_outside(solution, rough),
         "lambda_ratio": lambda_ratio(solution),
         "lubrication": lubrication(solution),
         "film_factor": solution.conditions.film_factor,
         **breaks(solution),
         "strength_per_volt": strength,
-        "max_strength": None if strength is None or shaft is None else strength * shaft,
+        "max_strength": None if strength is None or across is None else strength * across,
         "bearing_voltage_ratio": bearing_voltage_ratio(solution),
         "shaft_voltage": shaft,
+        "film_voltage": across,
         "relaxation_time": oil_relaxation_time(solution),
         "shaft_time_constant": None if leaks is None else leaks.time_constant,
+        "film_time_constant": None if leaks is None else leaks.film_time_constant,
+        "switching_period": _period(solution),
         "shaft_voltage_after_period": _part(shaft, None if leaks is None else leaks.after_period),
+        "film_voltage_after_period": _part(across, None if leaks is None else leaks.film_after_period),
         "shaft_voltage_after_rise": _part(shaft, None if leaks is None else leaks.after_rise),
         **dataclasses.asdict(bearing_costs(solution)),
         "discretisation_error": max(known) if len(known) == len(errors) else None,
         "interpolation_error": max(curve.interpolation_error for curve in solution.curves),
     }
+
+
+def _outside(solution: BearingSolution, rough: float | None) -> dict[str, Any]:
+    """Coating and parallel capacitance, and the capacitances from shaft to housing."""
+    path, share, shaft = shaft_path(solution), film_share(solution), shaft_voltage(solution)
+    return {
+        "coating_capacitance": path.coating if path.coated else None,
+        "coating_breakdown": path.coating_breakdown,
+        "coating_margin": margin(path.coating_breakdown, shaft) if path.coating_breakdown else None,
+        "film_share": share,
+        "coating_share": None if share is None or not path.coated else 1.0 - share,
+        "parallel_capacitance": path.parallel,
+        "shaft_capacitance": shaft_capacitance(solution),
+        "meter_capacitance": meter_reading(solution, rough),
+    }
+
+
+def _period(solution: BearingSolution) -> float | None:
+    """Period of the inverter [s]; None without a switching frequency."""
+    motor = solution.case.motor
+    return None if motor is None or motor.switching_frequency is None else 1.0 / motor.switching_frequency
 
 
 def _part(value: float | None, part: float | None) -> float | None:
@@ -104,14 +167,14 @@ def breaks(solution: BearingSolution) -> dict[str, Any]:
     if breakdown is None:
         return dict.fromkeys((*_VOLTAGES, "margin", "through_margin"))
     return dataclasses.asdict(breakdown) | {
-        "margin": margin(breakdown.first_break, shaft),
-        "through_margin": margin(breakdown.through_breakdown, shaft),
+        "margin": margin(breakdown.shaft_first_break, shaft),
+        "through_margin": margin(breakdown.shaft_through_breakdown, shaft),
     }
 
 
 def contact_rows(solution: BearingSolution) -> list[dict[str, Any]]:
     """Table of contacts, a row per element and ring, with the cage at its first position, SI units."""
-    position, circuit, shaft = solution.positions[0], solution.circuits()[0], shaft_voltage(solution)
+    position, circuit, across = solution.positions[0], solution.circuits()[0], film_voltage(solution)
     at, insulates, ceramic = position.equilibrium, insulating(solution), solution.conditions.ceramic
     fill, rq = solution.case.bearing.fill, solution.case.bearing.composite_rq
     rows = []
@@ -140,7 +203,7 @@ def contact_rows(solution: BearingSolution) -> list[dict[str, Any]]:
                     "capacitance": None if ceramic else ring.capacitance(fill)[k],
                     "voltage_share": share[k] if insulates else None,
                     "strength_per_volt": strength,
-                    "max_strength": None if strength is None or shaft is None else strength * shaft,
+                    "max_strength": None if strength is None or across is None else strength * across,
                     "breakdown_voltage": own,
                     "bearing_breakdown_voltage": None if own is None else own / share[k],
                     "solved": bool(ring.solved[k]),

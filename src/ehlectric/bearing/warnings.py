@@ -12,8 +12,10 @@ from ehlectric.bearing.by_formula import formula_error
 from ehlectric.bearing.contacts import ContactSolution
 from ehlectric.bearing.discharges.energy import current_warnings
 from ehlectric.bearing.discharges.leakage import leakage_warnings
+from ehlectric.bearing.fits.warnings import class_warnings, fit_warnings
 from ehlectric.bearing.limits import TAKEN, groove_ratio, shoulder_angle
-from ehlectric.bearing.shaft_voltage import shaft_voltage
+from ehlectric.bearing.meter.reading import shaft_path
+from ehlectric.bearing.shaft_voltage import film_voltage, shaft_voltage
 from ehlectric.bearing.solution import (
     BearingSolution,
     Position,
@@ -23,10 +25,11 @@ from ehlectric.bearing.solution import (
     lubrication,
 )
 from ehlectric.cases import library
-from ehlectric.cases.bearing import ROLLERS, Bearing, BearingLubricant, OilTemperature
-from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.cases.library.clearance import clearance_range
-from ehlectric.cases.lubricant import Lubricant
+from ehlectric.cases.bearings.bearing import ROLLERS, Bearing
+from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.cases.oils.lubricant import Lubricant
+from ehlectric.cases.oils.resolution import viscosity_over_temperature
+from ehlectric.cases.oils.temperature import OilTemperature
 from ehlectric.cases.units import rpm
 from ehlectric.discharge.limits import field_warnings, strength_warnings
 from ehlectric.discharge.verdict import breakdown_warning
@@ -53,7 +56,7 @@ _COLD = 273.15
 
 def bearing_warnings(solution: BearingSolution) -> list[ResultWarning]:
     """Warnings that tell where the result of a bearing is unreliable, each once."""
-    inputs = input_warnings(solution.case, solution.conditions.lubricant.viscosity)
+    inputs = input_warnings(solution.case, solution.conditions.oil.viscosity)
     warnings = [
         *inputs,
         *film_warnings(solution),
@@ -75,26 +78,35 @@ def film_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
     yield _smooth(solution)
     of_base = library_viscosity(solution.case.lubricant)
     if of_base is not None:
-        at = f"{solution.case.bearing.temperature - 273.15:.4g} °C"
+        at = f"{solution.case.bearing.oil_temperature - 273.15:.4g} °C"
         text = (
             f"the viscosity is the {1e3 * of_base:.4g} mPa s of base {solution.case.lubricant.base!r} in the "
             f"library, at any temperature; give lubricant.viscosity at {at}, or [lubricant.temperature]"
         )
         yield ResultWarning("viscosity-of-base", text)
-    elif solution.case.lubricant.temperature is None:
+    elif viscosity_over_temperature(solution.case.lubricant) is None:
+        given = [f"bearing.{key}" for key in solution.case.bearing.temperatures()]
+        ignored = f"{' and '.join(given)} {'is' if len(given) == 1 else 'are'} ignored"
         text = (
-            "bearing.temperature is ignored for the films, because lubricant.viscosity is given; give the "
-            "viscosities at 40 and 100 °C instead to use it"
+            f"{ignored} for the viscosity of the films, because lubricant.viscosity is given; give the "
+            "viscosities at 40 and 100 °C instead"
         )
         yield ResultWarning("temperature-unused", text)
-    elif solution.case.bearing.temperature < _COLD:
-        cold = solution.case.bearing.temperature - 273.15
-        text = (
-            f"bearing.temperature is {cold:.3g} °C: the viscosity is extrapolated from 40 and 100 °C and may "
-            "be wrong by a large factor; give lubricant.viscosity at this temperature"
-        )
-        yield ResultWarning("temperature-low", text)
+    elif solution.case.lubricant.temperature_range is None:
+        yield from _cold(solution.case.bearing)
+    yield from fit_warnings(solution.conditions.clearance)
     yield from clearance_warnings(solution.conditions.geometry.clearance, solution.positions[0])
+
+
+def _cold(bearing: Bearing) -> Iterator[ResultWarning]:
+    """Warnings of temperatures at which the viscosity is extrapolated far."""
+    for key, temperature in bearing.temperatures().items():
+        if temperature < _COLD:
+            text = (
+                f"bearing.{key} is {temperature - 273.15:.3g} °C: the viscosity is extrapolated from 40 and "
+                "100 °C and may be wrong by a large factor; give lubricant.viscosity at this temperature"
+            )
+            yield ResultWarning("temperature-low", text)
 
 
 def _smooth(solution: BearingSolution) -> ResultWarning:
@@ -117,9 +129,11 @@ def _smooth(solution: BearingSolution) -> ResultWarning:
     )
 
 
-def library_viscosity(oil: BearingLubricant) -> float | None:
+def library_viscosity(oil: Lubricant) -> float | None:
     """Viscosity of a lubricant [Pa s] if it is the one that its base has in the library, else None."""
     if oil.temperature is not None or oil.base is None:
+        return None
+    if "viscosity" not in library.lubricant(oil.base):
         return None
     of_base = Lubricant.from_dict(library.lubricant(oil.base)).viscosity
     return of_base if oil.viscosity == of_base else None
@@ -136,7 +150,7 @@ def input_warnings(case: BearingCase, viscosity: float) -> Iterator[ResultWarnin
         Dynamic viscosity of the oil at the temperature of the bearing [Pa s].
     """
     bearing = case.bearing
-    turns, celsius = rpm(bearing.inner_speed), bearing.temperature - 273.15
+    turns, celsius = rpm(bearing.inner_speed), bearing.oil_temperature - 273.15
     factor = turns * 1e3 * bearing.pitch_diameter
     if factor > _MOST_SPEED:
         yield ResultWarning(
@@ -152,26 +166,20 @@ def input_warnings(case: BearingCase, viscosity: float) -> Iterator[ResultWarnin
             f"the load of {load:.3g} N is below a thousandth of the static load rating, about "
             f"{rating:.2g} N; is the unit of the load right?",
         )
-    if not _COLDEST <= celsius <= _HOTTEST:
-        yield ResultWarning(
-            "temperature-extreme",
-            f"bearing.temperature is {celsius:.4g} °C: ordinary bearing steel and oils are for "
-            f"{_COLDEST:g} to {_HOTTEST:g} °C",
-        )
+    for key, temperature in bearing.temperatures().items():
+        if not _COLDEST <= temperature - 273.15 <= _HOTTEST:
+            yield ResultWarning(
+                "temperature-extreme",
+                f"bearing.{key} is {temperature - 273.15:.4g} °C: ordinary bearing steel and oils are for "
+                f"{_COLDEST:g} to {_HOTTEST:g} °C",
+            )
     if viscosity > _MOST_VISCOUS:
         yield ResultWarning(
             "viscosity-high",
             f"the oil has {viscosity:.3g} Pa s at {celsius:.4g} °C: above {_MOST_VISCOUS:g} Pa s it hardly "
             "flows, and the contacts are not fully flooded",
         )
-    if bearing.clearance_class is not None and bearing.bore is not None:
-        allowed = clearance_range(bearing.kind, bearing.clearance_class, bearing.bore)
-        low, high, middle = (1e6 * value for value in (allowed.least, allowed.most, allowed.middle))
-        yield ResultWarning(
-            "clearance-class",
-            f"clearance class {bearing.clearance_class} is {low:.3g} to {high:.3g} µm before mounting; "
-            f"computed with {middle:.3g} µm, which fits and a warm inner ring make smaller",
-        )
+    yield from class_warnings(bearing)
     oil = case.lubricant.temperature
     if oil is not None and oil.iso_vg is not None:
         low, high = (1e6 * oil.at_40() * (1.0 + part) for part in (-GRADE_WIDTH, GRADE_WIDTH))
@@ -212,20 +220,34 @@ def voltage_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
             "elements, and no shaft voltage follows from it; give bearing.element_capacitance",
         )
     breakdown, shaft, per_volt = breakdown_of(solution), shaft_voltage(solution), strength_per_volt(solution)
-    field = None if shaft is None or per_volt is None else shaft * per_volt
-    if breakdown is not None and shaft is not None and breakdown.first_break < shaft and solution.converged:
-        at = f"first breakdown at {breakdown.first_break:.3g} V"
-        ratio = breakdown.first_break / shaft
+    across = film_voltage(solution)
+    field = None if across is None or per_volt is None else across * per_volt
+    first = None if breakdown is None else breakdown.shaft_first_break
+    if first is not None and shaft is not None and first < shaft and solution.converged:
+        at = f"first breakdown at {first:.3g} V"
+        ratio = first / shaft
         scattered = solution.case.discharge.weibull is not None
         yield breakdown_warning("shaft voltage", shaft, at, ratio, field=None if scattered else field)
     if solution.converged:
         yield from strength_warnings(solution.conditions.discharge)
         yield from field_warnings(field, "the motor")
+    yield from _coating_warnings(solution, shaft)
     yield from leakage_warnings(solution)
     yield from current_warnings(solution)
     if solution.case.discharge.weibull is not None and insulating(solution):
         text = "first and ring-to-ring breakdown voltages are those at a probability of 63.2 % (Weibull)"
         yield ResultWarning("weibull-voltage", text)
+
+
+def _coating_warnings(solution: BearingSolution, shaft: float | None) -> Iterator[ResultWarning]:
+    """Warning of a coating that a shaft voltage [V] breaks down, alone after the films have broken down."""
+    withstands = shaft_path(solution).coating_breakdown
+    if withstands is not None and shaft is not None and withstands < shaft:
+        yield ResultWarning(
+            "coating-breakdown",
+            f"the coating breaks down at {withstands:.3g} V, and the shaft voltage is {shaft:.3g} V: once a "
+            "film has broken down, the coating carries nearly all of it; use a thicker coating",
+        )
 
 
 def _contact_of_asperities(solution: BearingSolution) -> Iterator[ResultWarning]:

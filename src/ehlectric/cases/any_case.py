@@ -6,8 +6,9 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.cases.case import Case, find_files
+from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.cases.case import Case
+from ehlectric.cases.roughness import find_files
 from ehlectric.cases.table import read_toml
 
 AnyCase = Case | BearingCase

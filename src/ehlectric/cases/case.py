@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar, Unpack
 
-from pydantic import model_validator
+from pydantic import PrivateAttr, model_validator
 
 from ehlectric.cases.changes import displace_alternatives, drop_geometry, flattened, set_keys
 from ehlectric.cases.contact import Contact
@@ -20,13 +20,16 @@ from ehlectric.cases.discharge import Discharge
 from ehlectric.cases.grid import POINT_GRID_KEYS, Electric, Grid, Solver, point_grid
 from ehlectric.cases.keywords.constructors import tables, takes
 from ehlectric.cases.keywords.types import Keys, LineKeys, PointKeys
-from ehlectric.cases.lubricant import Lubricant
+from ehlectric.cases.meter import Meter
 from ehlectric.cases.motion import Motion
-from ehlectric.cases.roughness import Roughness, check_geometry
+from ehlectric.cases.oils.lubricant import Lubricant
+from ehlectric.cases.roughness import Roughness, check_geometry, find_files
 from ehlectric.cases.row import amount
 from ehlectric.cases.table import Table, read_toml
 from ehlectric.cases.title import Title
 from ehlectric.errors import InputError, shown
+from ehlectric.lubricant.oil import Oil
+from ehlectric.lubricant.own import SampledLaws
 from ehlectric.runtime.display import Tabled, headline
 
 # Units of the numbers in the representation of a case, by their key in the table ``contact``.
@@ -50,7 +53,7 @@ class Case(Tabled, Table):
         Title of tables and figures.
     roughness : sequence of mapping, optional
         Tables of the rough surfaces.
-    electric, discharge, motion, grid, solver : mapping, optional
+    electric, discharge, meter, motion, grid, solver : mapping, optional
         Further tables, as in a case file.
 
     Raises
@@ -86,15 +89,18 @@ class Case(Tabled, Table):
             roughness: Sequence[Roughness | Keys] = ...,
             electric: Electric | Keys = ...,
             discharge: Discharge | Keys | None = ...,
+            meter: Meter | Keys | None = ...,
             motion: Motion | Keys | None = ...,
             grid: Grid | Keys = ...,
             solver: Solver | Keys = ...,
         ) -> None: ...
 
     ADVICE: ClassVar = {
-        f"lubricant.{key}": "a contact expects the viscosity at its temperature, lubricant.viscosity"
-        for key in ("temperature", "iso_vg", "viscosity_grade", "viscosity_index")
-    }
+        f"lubricant.{key}": "it belongs to the table [lubricant.temperature]"
+        for key in ("iso_vg", "viscosity_index", "density_15")
+    } | {"lubricant.viscosity_grade": "the viscosity grade is lubricant.temperature.iso_vg"}
+
+    _laws: SampledLaws | None = PrivateAttr(default=None)
 
     title: Title = ""
     contact: Contact
@@ -102,6 +108,7 @@ class Case(Tabled, Table):
     roughness: tuple[Roughness, ...] = ()
     electric: Electric = Electric()
     discharge: Discharge | None = None
+    meter: Meter | None = None
     motion: Motion | None = None
     grid: Grid = Grid()
     solver: Solver = Solver()
@@ -125,25 +132,34 @@ class Case(Tabled, Table):
                     raise InputError.worded(
                         f"grid.{key}", "is not used by a line contact, only where contact.geometry is 'point'"
                     )
+        self.lubricant.at(self.contact.temperature)
         check_geometry(self.roughness, self.contact.geometry)
         if self.discharge is not None:
             self.discharge.check_geometry(self.contact.geometry)
-        self._check_motion()
+        if self.meter is not None:
+            length = None if self.discharge is None else self.discharge.length
+            moves = self.motion is not None
+            self.meter.check(self.contact, length, rough=bool(self.roughness), moves=moves)
+        if self.motion is not None:
+            self.motion.check(self.grid, rough=bool(self.roughness))
         return self
 
-    def _check_motion(self) -> None:
-        if self.motion is None:
-            return
-        if not self.roughness:
-            raise InputError.worded("motion", "needs a rough surface: roughness is what moves")
-        if self.grid.wedge != "second-order":
-            raise InputError("grid.wedge", got=f"{self.grid.wedge!r} beside motion", takes="'second-order'")
-        if self.grid.refine is not None:
-            raise InputError.worded(
-                "grid.refine",
-                "is not used with [motion], which has a single grid; give grid.nodes",
-                takes="grid.nodes",
-            )
+    @property
+    def oil(self) -> Oil:
+        """Oil at the temperature of the contact: its numbers and its laws over pressure."""
+        oil = self.lubricant.at(self.contact.temperature)
+        return oil if self._laws is None else self._laws.applied(oil)
+
+    @property
+    def own_laws(self) -> SampledLaws | None:
+        """Laws of the user's own that replace those of the lubricant; None without any."""
+        return self._laws
+
+    def with_laws(self, laws: SampledLaws) -> Self:
+        """Copy of the case whose oil has laws of the user's own; they are not part of its file."""
+        case = self.model_copy()
+        object.__setattr__(case, "__pydantic_private__", {"_laws": laws})
+        return case
 
     def __eq__(self, other: object) -> bool:
         # A LineCase is equal to a Case with the same values, as a result has once it is loaded.
@@ -166,6 +182,7 @@ class Case(Tabled, Table):
         roughness: Sequence[Roughness | Keys] = (),
         electric: Electric | Keys | None = None,
         discharge: Discharge | Keys | None = None,
+        meter: Meter | Keys | None = None,
         grid: Grid | Keys | None = None,
         solver: Solver | Keys | None = None,
         **contact: Unpack[LineKeys],
@@ -178,7 +195,7 @@ class Case(Tabled, Table):
             Name of a lubricant of the library, or its table.
         title : str, optional
             Title of tables and figures.
-        roughness, electric, discharge, grid, solver : optional
+        roughness, electric, discharge, meter, grid, solver : optional
             Further tables, as in a case file.
         **contact
             Keys of the table ``contact``: floats in SI units, texts with units, or quantities of pint; see
@@ -206,7 +223,8 @@ class Case(Tabled, Table):
         >>> case.contact.reduced_radius
         0.0141
         """
-        given = tables(lubricant=lubricant, electric=electric, discharge=discharge, grid=grid, solver=solver)
+        given = tables(lubricant=lubricant, electric=electric, discharge=discharge)
+        given |= tables(meter=meter, grid=grid, solver=solver)
         table = {"geometry": "line", **contact}
         return LineCase.from_dict({"title": title, "contact": table, "roughness": roughness, **given})
 
@@ -220,6 +238,7 @@ class Case(Tabled, Table):
         roughness: Sequence[Roughness | Keys] = (),
         electric: Electric | Keys | None = None,
         discharge: Discharge | Keys | None = None,
+        meter: Meter | Keys | None = None,
         grid: Grid | Keys | None = None,
         solver: Solver | Keys | None = None,
         **contact: Unpack[PointKeys],
@@ -232,7 +251,7 @@ class Case(Tabled, Table):
             Name of a lubricant of the library, or its table.
         title : str, optional
             Title of tables and figures.
-        roughness, electric, discharge, grid, solver : optional
+        roughness, electric, discharge, meter, grid, solver : optional
             Further tables, as in a case file.
         **contact
             Keys of the table ``contact``: floats in SI units, texts with units, or quantities of pint; see
@@ -261,7 +280,8 @@ class Case(Tabled, Table):
         >>> ball
         <PointCase point contact, load 20 N, entrainment_speed 2 m/s>
         """
-        given = tables(lubricant=lubricant, electric=electric, discharge=discharge, grid=grid, solver=solver)
+        given = tables(lubricant=lubricant, electric=electric, discharge=discharge)
+        given |= tables(meter=meter, grid=grid, solver=solver)
         table = {"geometry": "point", **contact}
         return PointCase.from_dict({"title": title, "contact": table, "roughness": roughness, **given})
 
@@ -367,19 +387,6 @@ def _of_kind(case: C, geometry: str) -> C:
     if case.motion is not None:
         raise InputError.worded("motion", f"is no table of a {name}; Case.from_dict takes it")
     return case
-
-
-def find_files(table: dict[str, Any], folder: Path) -> None:
-    """Make the names of roughness files absolute; in a case file they are relative to its ``folder``.
-
-    They then stay valid if the case is written to another folder.
-    """
-    rough = table.get("roughness")
-    for surface in rough if isinstance(rough, list) else []:
-        if not isinstance(surface, dict) or not isinstance(surface.get("file"), str):
-            continue
-        if not Path(surface["file"]).is_absolute():
-            surface["file"] = str((folder / surface["file"]).absolute())
 
 
 def _geometry(contact: Any) -> Any:

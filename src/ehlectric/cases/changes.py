@@ -9,6 +9,8 @@ from pydantic import BaseModel
 
 from ehlectric.cases.contact import CONTACT_ALTERNATIVES, ONLY
 from ehlectric.cases.discharge import STRENGTHS, TABLES
+from ehlectric.cases.meter import FILLINGS
+from ehlectric.cases.oils.alternatives import displace_oil
 from ehlectric.errors import InputError, shown
 
 # Groups of alternative keys in one table. A group is a tuple of rows, and a table has the keys of one row.
@@ -104,6 +106,22 @@ def displace(table: dict[str, Any], changes: Mapping[str, Any], alternatives: Ma
         _displace_in(table.get(name, {}), _names_in(name, changes), groups)
 
 
+def nested(changes: Mapping[str, Any], table: str) -> dict[str, Any]:
+    """Changed values of one table, with those of its own tables nested once.
+
+    Examples
+    --------
+    >>> nested({"lubricant.temperature.iso_vg": 46, "lubricant.viscosity": None}, "lubricant")
+    {'temperature': {'iso_vg': 46}, 'viscosity': None}
+    """
+    found: dict[str, Any] = {}
+    for key, value in flattened(changes).items():
+        first, _, rest = key.removeprefix(f"{table}.").partition(".")
+        if key.startswith(f"{table}."):
+            found[first] = {**found.get(first, {}), rest: value} if rest else value
+    return found
+
+
 def _names_in(table: str, changes: Mapping[str, Any]) -> set[str]:
     """Changed keys of one table, without the name of the table."""
     return {key.removeprefix(f"{table}.") for key in flattened(changes) if key.startswith(f"{table}.")}
@@ -145,6 +163,7 @@ def drop_geometry(table: dict[str, Any], geometry: str) -> None:
     for key in ONLY[geometry]:
         drop(table["contact"], key)
     drop(table, "discharge.length")
+    drop(table, "meter.length")
     table["grid"] = {key: value for key, value in table["grid"].items() if key in _GRID_OF_ANY}
 
 
@@ -158,6 +177,8 @@ def displace_alternatives(table: dict[str, Any], changes: Mapping[str, Any], geo
             (("slide_to_roll_ratio",), ("speed_1", "speed_2")),
         ),
         "discharge": (STRENGTHS, TABLES),
+        "meter": (FILLINGS,),
         "motion": ((("passes",), ("duration",)),),
     }
     displace(table, changes, alternatives)
+    displace_oil(table.get("lubricant", {}), nested(changes, "lubricant"))

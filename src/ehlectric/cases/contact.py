@@ -92,6 +92,10 @@ class Contact(Table):
         ]
         | None
     ) = None
+    temperature: (
+        Annotated[float, Quantity("K", least=200.0, most=700.0, reason="absolute, of the oil in the inlet")]
+        | None
+    ) = None
     slide_to_roll_ratio: (
         Annotated[float, Quantity("", least=-1e3, most=1e3, reason="(u1 - u2)/entrainment_speed")] | None
     ) = None

@@ -11,14 +11,21 @@ from typing import Any, get_args, get_origin
 
 from pydantic.fields import FieldInfo
 
-from ehlectric.cases.bearing import Bearing, Motor, OilTemperature
-from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.bearings.bearing import Bearing
+from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.cases.bearings.coating import Coating as RingCoating
+from ehlectric.cases.bearings.fits import Fits
+from ehlectric.cases.bearings.motor import Motor
 from ehlectric.cases.case import Case
 from ehlectric.cases.contact import Body, Contact
 from ehlectric.cases.discharge import Discharge, Pit, StrengthTable, Weibull
 from ehlectric.cases.grid import Electric, Grid, Solver
-from ehlectric.cases.lubricant import Lubricant, law_parameters
+from ehlectric.cases.meter import Coating, Meter
 from ehlectric.cases.motion import Motion
+from ehlectric.cases.oils.laws import law_parameters
+from ehlectric.cases.oils.lubricant import Lubricant
+from ehlectric.cases.oils.over_temperature import ConductivityTable, PermittivityTable
+from ehlectric.cases.oils.temperature import OilTemperature
 from ehlectric.cases.quantity import Count, Quantities, Quantity
 from ehlectric.cases.roughness import Roughness
 from ehlectric.cases.table import Table, nearest, nearest_key, table_of
@@ -32,6 +39,7 @@ INPUT_NAMES: Mapping[str, tuple[str, str]] = {
     "contact.entrainment_speed": ("entrainment speed", r"$(u_1 + u_2)/2$"),
     "contact.speed_1": ("speed of surface 1", "$u_1$"),
     "contact.speed_2": ("speed of surface 2", "$u_2$"),
+    "contact.temperature": ("temperature", "$T$"),
     "contact.slide_to_roll_ratio": ("slide-to-roll ratio", ""),
     "contact.load": ("load", "$F$"),
     "contact.load_per_length": ("load per length", "$w$"),
@@ -48,11 +56,27 @@ INPUT_NAMES: Mapping[str, tuple[str, str]] = {
     "bearing.radial_load": ("radial load", r"$F_\mathrm{r}$"),
     "bearing.axial_load": ("axial load", r"$F_\mathrm{a}$"),
     "bearing.temperature": ("temperature", ""),
+    "bearing.inner_ring_temperature": ("temperature of the inner ring", r"$T_\mathrm{i}$"),
+    "bearing.outer_ring_temperature": ("temperature of the outer ring", r"$T_\mathrm{o}$"),
     "bearing.composite_rq": ("composite roughness", r"$R_\mathrm{q}$"),
     "bearing.radial_clearance": ("radial clearance", ""),
     "bearing.clearance_class": ("clearance class", ""),
+    "bearing.fits.unmounted_clearance": ("radial clearance before mounting", ""),
+    "bearing.fits.shaft_interference": ("interference on the shaft", r"$\Delta_\mathrm{s}$"),
+    "bearing.fits.housing_interference": ("interference in the housing", r"$\Delta_\mathrm{h}$"),
+    "bearing.fits.shaft_bore": ("bore of the shaft", ""),
+    "bearing.fits.housing_diameter": ("outer diameter of the housing", ""),
+    "bearing.fits.element_temperature": ("temperature of the elements", r"$T_\mathrm{e}$"),
+    "bearing.fits.shaft_temperature": ("temperature of the shaft", r"$T_\mathrm{s}$"),
+    "bearing.fits.housing_temperature": ("temperature of the housing", r"$T_\mathrm{h}$"),
     "bearing.contact_angle": ("free contact angle", ""),
     "bearing.film_factor": ("film factor", ""),
+    "bearing.fill": ("filling around the films", ""),
+    "bearing.parallel_capacitance": ("parallel capacitance", r"$C_\mathrm{p}$"),
+    "bearing.coating.thickness": ("thickness of the coating", "$d$"),
+    "bearing.coating.relative_permittivity": ("permittivity of the coating", r"$\varepsilon_\mathrm{c}$"),
+    "bearing.coating.area": ("area of the coating", "$A$"),
+    "bearing.coating.strength": ("strength of the coating", ""),
     "bearing.inner_groove": ("inner groove radius / ball diameter", r"$f_\mathrm{i}$"),
     "bearing.outer_groove": ("outer groove radius / ball diameter", r"$f_\mathrm{o}$"),
     "lubricant.temperature.kinematic_viscosity_40": ("kinematic viscosity at 40 °C", r"$\nu_{40}$"),
@@ -75,6 +99,14 @@ INPUT_NAMES: Mapping[str, tuple[str, str]] = {
     "discharge.pit.efficiency": ("part of the energy that melts", r"$\zeta$"),
     "discharge.pit.melting_energy": ("heat to melt a volume", "$q$"),
     "discharge.length": ("length of the contact", ""),
+    "meter.fill": ("share of the outer gap filled with oil", ""),
+    "meter.oil_radius": ("radius of the oil around the contact", ""),
+    "meter.length": ("length across entrainment", ""),
+    "meter.parallel_capacitance": ("capacitance in parallel", r"$C_\mathrm{p}$"),
+    "meter.rq": ("composite roughness", r"$R_\mathrm{q}$"),
+    "meter.coating.thickness": ("thickness of the coating", ""),
+    "meter.coating.relative_permittivity": ("relative permittivity of the coating", ""),
+    "meter.coating.strength": ("dielectric strength of the coating", ""),
     "grid.nodes": ("nodes", ""),
 }
 
@@ -91,11 +123,17 @@ TABLES: Mapping[str, type[Table]] = {
     "discharge.strength_table": StrengthTable,
     "discharge.weibull": Weibull,
     "discharge.pit": Pit,
+    "meter": Meter,
+    "meter.coating": Coating,
     "motion": Motion,
     "grid": Grid,
     "solver": Solver,
     "bearing": Bearing,
+    "bearing.fits": Fits,
+    "bearing.coating": RingCoating,
     "lubricant.temperature": OilTemperature,
+    "lubricant.permittivity_table": PermittivityTable,
+    "lubricant.conductivity_table": ConductivityTable,
     "motor": Motor,
 }
 
@@ -183,10 +221,12 @@ _LATEX = {
     r"\\omega": "ω",
     r"\\sigma": "σ",
     r"\\alpha": "α",
+    r"\\beta": "β",
+    r"\\epsilon": "ϵ",
     r"\\rho": "ρ",
     r"\\zeta": "ζ",
     r"\\lambda": "λ",
-    r"\\varepsilon": "ε",
+    r"\\(?:var)?epsilon": "ε",
     r"\\ln": "ln ",
     r"\^2": "²",
     r"[${}`]": "",
@@ -230,8 +270,7 @@ def input_field(key: str) -> FieldInfo:
     False
     """
     names = key.split(".")
-    of_bearing = names[0] in _OF_BEARINGS or names[:2] == ["lubricant", "temperature"]
-    model: type[Table] = BearingCase if of_bearing else Case
+    model: type[Table] = BearingCase if names[0] in _OF_BEARINGS else Case
     within: list[str] = []
     if names[0] == "roughness":
         if len(names) < 3 or not names[1].isdecimal():

@@ -6,6 +6,7 @@ from typing import Annotated, Self
 
 from pydantic import model_validator
 
+from ehlectric.cases.grid import Grid
 from ehlectric.cases.quantity import Count, Quantity
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError
@@ -34,3 +35,29 @@ class Motion(Table):
             both = None if self.passes is None else "passes and duration together"
             raise InputError("passes", got=both, takes="either passes or duration")
         return self
+
+    def check(self, grid: Grid, *, rough: bool) -> None:
+        """Check that a case of moving roughness has a rough surface, and a grid that the motion can use.
+
+        Parameters
+        ----------
+        grid : Grid
+            Table ``grid`` of the case.
+        rough : bool
+            Whether a surface is rough.
+
+        Raises
+        ------
+        InputError
+            If no surface is rough, the wedge is not of second order, or the grid is refined.
+        """
+        if not rough:
+            raise InputError.worded("motion", "needs a rough surface: roughness is what moves")
+        if grid.wedge != "second-order":
+            raise InputError("grid.wedge", got=f"{grid.wedge!r} beside motion", takes="'second-order'")
+        if grid.refine is not None:
+            raise InputError.worded(
+                "grid.refine",
+                "is not used with [motion], which has a single grid; give grid.nodes",
+                takes="grid.nodes",
+            )

@@ -173,6 +173,8 @@ class Quantity:
         Reason for the bounds, or a description of the quantity, for messages.
     fraction : bool
         Whether the value may be a string in percent.
+    difference : bool
+        Whether the value is a difference of temperatures, which has no zero of a scale.
     """
 
     unit: str
@@ -182,6 +184,7 @@ class Quantity:
     most: float = math.inf
     reason: str = ""
     fraction: bool = False
+    difference: bool = False
 
     def __get_pydantic_core_schema__(self, _: Any, __: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.with_info_plain_validator_function(_with_context(self.parse))
@@ -254,13 +257,15 @@ class Quantity:
                 ),
             )
         coldest = _COLDEST_BARE if typed else self.least
-        if self.unit == "K" and -_COLDEST_BARE < number < min(coldest, _COLDEST_BARE):
+        if self.unit == "K" and not self.difference and -_COLDEST_BARE < number < min(coldest, _COLDEST_BARE):
             raise InputError(
                 got=shown(entry),
                 takes=f"a temperature with its unit, as '{entry} °C': a bare number would be in kelvin",
             )
 
     def _number(self, entry: object) -> float:
+        if self.difference and units.on_scale(entry):
+            raise ValueError("it is a difference of temperatures, not a temperature")
         if isinstance(entry, str) and self.unit:
             return to_si(entry, self.unit)
         if isinstance(entry, str) and self.fraction:
@@ -280,6 +285,7 @@ class Quantity:
     def takes(self) -> str:
         """Description of the values that are allowed, for messages."""
         text = f"a number in {self.unit} or a string with its unit" if self.unit else "a number"
+        text = "a number in K or a string such as '20 K'" if self.difference else text
         if self.unit == units.ROTATION:
             text = "a string with its unit, as '3000 rpm'"
         text += " or a string in percent" if self.fraction else ""

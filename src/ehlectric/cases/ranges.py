@@ -53,7 +53,7 @@ def ranges_of(tables: Any, model: type[Table]) -> tuple[InputRange, ...]:
 
     Examples
     --------
-    >>> from ehlectric.cases.bearing_case import BearingCase
+    >>> from ehlectric.cases.bearings.case import BearingCase
     >>> ranges_of({"bearing.radial_load": ["1 kN", "2 kN"]}, BearingCase)
     (InputRange(key='bearing.radial_load', low=1000.0, high=2000.0),)
     """

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Annotated, Literal, Self
+from pathlib import Path
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import AfterValidator, model_validator
 
@@ -159,3 +160,16 @@ def check_geometry(tables: Iterable[Roughness], geometry: str) -> None:
             table.check_geometry(geometry)
         except InputError as error:
             raise error.under("roughness") from None
+
+
+def find_files(table: dict[str, Any], folder: Path) -> None:
+    """Make the names of roughness files absolute; in a case file they are relative to its ``folder``.
+
+    They then stay valid if the case is written to another folder.
+    """
+    rough = table.get("roughness")
+    for surface in rough if isinstance(rough, list) else []:
+        if not isinstance(surface, dict) or not isinstance(surface.get("file"), str):
+            continue
+        if not Path(surface["file"]).is_absolute():
+            surface["file"] = str((folder / surface["file"]).absolute())

@@ -20,6 +20,7 @@ UNITS: Mapping[str, tuple[str, float]] = MappingProxyType(
         "N": ("N", 1.0),
         "MN/m": ("N/m", 1e-6),
         "GPa": ("Pa", 1e-9),
+        "1/GPa": ("1/Pa", 1e9),
         "m/s": ("m/s", 1.0),
         "rpm": ("rad/s", 30.0 / math.pi),
         "deg": ("rad", 180.0 / math.pi),
@@ -39,6 +40,11 @@ UNITS: Mapping[str, tuple[str, float]] = MappingProxyType(
         "nF/m": ("F/m", 1e9),
         "nJ": ("J", 1e9),
         "A/mm²": ("A/m**2", 1e-6),
+        "kg/m³": ("kg/m**3", 1.0),
+        "S/m": ("S/m", 1.0),
+        "W/m/K": ("W/m/K", 1.0),
+        "MJ/m³/K": ("J/m**3/K", 1e-6),
+        "Pa s": ("Pa*s", 1.0),
     }
 )
 

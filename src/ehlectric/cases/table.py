@@ -140,17 +140,27 @@ def read_toml(path: str | Path) -> dict[str, Any]:
     InputError
         If the file cannot be read or is not TOML.
     """
-    text = read_text(path)
+    return tables_of_text(read_text(path), path)
+
+
+def tables_of_text(text: str, name: object) -> dict[str, Any]:
+    """Nested tables of a text in TOML, which errors name as the file ``name``.
+
+    Raises
+    ------
+    InputError
+        If the text is not TOML.
+    """
     try:
         refuse_long_keys(text)
         table = tomllib.loads(text)
         refuse_deep(table)
     except InputError as error:
-        raise InputError(path, str(error)) from None
+        raise InputError(name, str(error)) from None
     except tomllib.TOMLDecodeError as error:
-        raise InputError(path, f"is not TOML, {_syntax(str(error), text)}") from None
+        raise InputError(name, f"is not TOML, {_syntax(str(error), text)}") from None
     except (ValueError, RecursionError):
-        raise InputError(path, "is not TOML that can be read, some value is too long or too deep") from None
+        raise InputError(name, "is not TOML that can be read, some value is too long or too deep") from None
     return table
 
 

@@ -9,12 +9,15 @@ from typing import Annotated
 
 import typer
 
-from ehlectric.commands.bearing import bearing
+from ehlectric.commands.bearing import bearing, bearings
 from ehlectric.commands.check import check
 from ehlectric.commands.contact import plot, run
+from ehlectric.commands.library.oils import oil, oils
 from ehlectric.commands.maps import draw_maps, sensitivity
 from ehlectric.commands.motion import animate
+from ehlectric.commands.report import report
 from ehlectric.commands.reproduce import reproduce
+from ehlectric.commands.serve import app as serve_app
 from ehlectric.commands.start import examples, init
 from ehlectric.commands.surface import surface
 from ehlectric.commands.sweep import sweep
@@ -45,6 +48,14 @@ _COMMANDS = (
     ("check", check, "Check a file without solving it.", ("check bearing.toml", "check sweep.toml --json")),
     ("run", run, "Solve a contact.", ("run case.toml -o results", "run case.toml --format pdf --format svg")),
     ("bearing", bearing, "Solve a whole rolling bearing.", ("bearing bearing.toml --contacts formula",)),
+    ("bearings", bearings, "List the bearings of the library.", ("bearings", "bearings --json")),
+    ("oils", oils, "List the oils of the library.", ("oils", "oils --json")),
+    (
+        "oil",
+        oil,
+        "Show all that is known of an oil.",
+        ("oil fva-3", 'oil fva-3 --temperature "90 degC" --pressure "1 GPa" -o fva-3', "oil bearing.toml"),
+    ),
     ("sweep", sweep, "Solve a case over varied inputs.", ("sweep sweep.toml -o sweep --plots",)),
     (
         "map",
@@ -57,6 +68,12 @@ _COMMANDS = (
     ),
     ("sensitivity", sensitivity, "Rank the inputs of a Sobol design.", ("sensitivity uncertainty",)),
     ("plot", plot, "Draw the figures of a result again.", ("plot results --style journal --format pdf",)),
+    (
+        "report",
+        report,
+        "Write the report of a result.",
+        ("report results", "report bearing -o bearing_6208.pdf"),
+    ),
     ("animate", animate, "Animate a moving-roughness run.", ("animate results -o moving.gif",)),
     (
         "surface",
@@ -64,6 +81,7 @@ _COMMANDS = (
         "Show a measured surface.",
         ('surface profile.csv --form line --cutoff-long "80 um"',),
     ),
+    ("app", serve_app, "Open the web app.", ("app", "app --port 8100 --no-browser")),
     ("reproduce", reproduce, "Reproduce the paper.", ("reproduce", "reproduce --figure 7")),
 )
 

@@ -28,12 +28,12 @@ def check(
     Exit status 0: the file can be solved. 2: the input is wrong.
     """
     with user_errors():
-        from ehlectric.commands import runs
-        from ehlectric.commands.kinds import expect
-        from ehlectric.commands.meaning import check as check_meaning
+        from ehlectric.runs import by_kind
+        from ehlectric.runs.kinds import expect
+        from ehlectric.runs.meaning import check as check_meaning
 
         kind = expect(file, "contact", "motion", "bearing", "sweep")
-        meaning = check_meaning(runs.RUNS[kind].read(file))
+        meaning = check_meaning(by_kind.RUNS[kind].read(file))
     if as_json:
         typer.echo(json.dumps(meaning.summary, indent=2))
     elif not quiet:

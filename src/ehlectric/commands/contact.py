@@ -14,10 +14,12 @@ from ehlectric.commands.options import (
     CaseFile,
     Formats,
     Json,
+    Measured,
     Output,
     Plots,
     Quiet,
     Style,
+    Uncertainty,
     figure_options,
     file_argument,
     one_of,
@@ -52,10 +54,15 @@ def run(
             autocompletion=one_of("ehlectric", "paper"),
         ),
     ] = "ehlectric",
+    measured: Measured = None,
+    uncertainty: Uncertainty = None,
     quiet: Quiet = False,
     as_json: Json = False,
 ) -> None:
     """Solve a contact; write summary.json, result.nc, film.csv and figures.
+
+    With --measured, film thicknesses over the entrainment speed give the film factor that explains them: in
+    measured.json, measured.csv and a figure.
 
     A case with [motion] writes summary.json, motion.nc and figures. If it is interrupted, run the same
     command to resume it.
@@ -69,12 +76,16 @@ def run(
     with user_errors():
         look = figure_options(formats, style)
 
-        from ehlectric.commands import runs
-        from ehlectric.commands.kinds import expect
+        from ehlectric.runs import by_kind
+        from ehlectric.runs.film_factors import MeasuredFile
+        from ehlectric.runs.kinds import expect
 
         kind = expect(case_file, "contact", "motion")
-        case = runs.read_case(case_file)
-        solve = partial(runs.run_and_draw, kind, case, output, draw=plots, solver=solver, **look)
+        case = by_kind.read_case(case_file)
+        data = MeasuredFile.of(measured, None, uncertainty)
+        solve = partial(
+            by_kind.run_and_draw, kind, case, output, draw=plots, solver=solver, measured=data, **look
+        )
         if kind == "contact":
             with progress_line(shown=not quiet) as progress:
                 outcome = solve(progress)
@@ -87,20 +98,22 @@ def run(
 
 def _tables(outcome: RunOutcome[Result | PointResult]) -> Iterator[Table]:
     """Tables of a stationary contact: its rough surfaces and its key figures."""
-    from ehlectric.commands.tables.contact import result_rows
-    from ehlectric.commands.tables.layout import table_of
-    from ehlectric.commands.tables.surface import surface_table
+    from ehlectric.tables.contact import result_rows
+    from ehlectric.tables.layout import table_of
+    from ehlectric.tables.measured import measured_tables
+    from ehlectric.tables.surface import surface_table
 
     for rough in outcome.result.rough:
         if rough["steps"]:
             yield surface_table(rough)
     yield table_of(result_rows(outcome.result), outcome.result.case.title)
+    yield from measured_tables(outcome)
 
 
 def _transient_tables(outcome: RunOutcome[object]) -> Iterator[Table]:
     """Table of a transient contact."""
-    from ehlectric.commands.tables.layout import table_of
-    from ehlectric.commands.tables.motion import run_rows
+    from ehlectric.tables.layout import table_of
+    from ehlectric.tables.motion import run_rows
 
     yield table_of(run_rows(outcome.summary), outcome.summary["title"])
 
@@ -131,8 +144,8 @@ def plot(
         look = figure_options(formats, style)
 
         from ehlectric.commands.drawing import load_and_draw
-        from ehlectric.commands.folders import stored_result
-        from ehlectric.commands.kinds import refuse_input
+        from ehlectric.runs.folders import stored_result
+        from ehlectric.runs.kinds import refuse_input
 
         refuse_input(result)
         file = stored_result(result)

@@ -56,7 +56,7 @@ def load_and_draw(
         If the file is not a result, the folder cannot be used, another command draws into it, or a sweep
         varies too many keys for a map.
     """
-    from ehlectric.commands.folders import stored_result
+    from ehlectric.runs.folders import stored_result
 
     path = stored_result(path)
     with alone_in(folder, locks=[FIGURE_LOCK]) as folder:
@@ -66,8 +66,8 @@ def load_and_draw(
 def _load_and_draw(path: Path, folder: Path, formats: Sequence[str], style: str) -> Files:
     """Draw the figures of a result from its NetCDF file or database."""
     from ehlectric.bearing.result import BearingResult
-    from ehlectric.commands.results import load
     from ehlectric.motion.stored_run import MOTION, read_motion
+    from ehlectric.runs.results import load
     from ehlectric.runtime.stored_warnings import of_attributes
     from ehlectric.sweep.store import NAME, read_sweep
 

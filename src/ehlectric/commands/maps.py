@@ -126,10 +126,10 @@ def sensitivity(
     with user_errors():
         look = figure_options(formats, style)
 
-        from ehlectric.commands.folders import SENSITIVITY
         from ehlectric.figures.names import SENSITIVITY_FIGURE, in_formats
         from ehlectric.figures.style import style as styled
         from ehlectric.figures.sweep.sensitivity import save_sensitivity
+        from ehlectric.runs.folders import SENSITIVITY
         from ehlectric.runtime.files import write_json
         from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
         from ehlectric.sweep.breakdown_keys import breakdown_of
@@ -144,8 +144,8 @@ def sensitivity(
             drawn = save_sensitivity(results, indices, target / SENSITIVITY_FIGURE, look["formats"])
         files = [target / SENSITIVITY, *drawn]
     if not quiet:
-        from ehlectric.commands.tables.sensitivity import indices_table, spread_rows
         from ehlectric.sweep.warnings import sensitivity_warnings
+        from ehlectric.tables.sensitivity import indices_table, spread_rows
 
         print_rows(spread_rows(results, indices), results.title)
         print_table(indices_table(results, indices))

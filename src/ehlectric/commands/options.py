@@ -89,6 +89,36 @@ Style = Annotated[
 ]
 
 
+Measured = Annotated[
+    Path | None,
+    typer.Option(
+        "--measured",
+        metavar="DATA",
+        help="Compare with a measurement, a text file of columns with units, and give its film factor.",
+        show_default=False,
+        autocompletion=files_ending(".csv", ".txt", ".dat"),
+    ),
+]
+Background = Annotated[
+    str | None,
+    typer.Option(
+        "--background",
+        metavar="C",
+        help='Capacitance of leads and cage in parallel, as "1.3 pF", taken off the measured one.',
+        show_default=False,
+    ),
+]
+Uncertainty = Annotated[
+    str | None,
+    typer.Option(
+        "--uncertainty",
+        metavar="PART",
+        help='Standard uncertainty of the measured values, as "3 %"; a column of the file wins.',
+        show_default=False,
+    ),
+]
+
+
 class Look(TypedDict):
     """Formats and style of figures, as functions that draw take them."""
 

@@ -13,6 +13,7 @@ import typer
 from ehlectric.commands.options import Quiet, one_of
 from ehlectric.commands.terminal import echo_files, say, user_errors
 from ehlectric.errors import InputError, shown
+from ehlectric.runs.example_files import examples_folder
 
 _HERE = Path(__file__).parent
 
@@ -31,22 +32,11 @@ TEMPLATES: Mapping[str, str] = MappingProxyType(
 )
 _GEOMETRIES = ("line", "point")
 
+# Measurements that belong to an example, by the name of its file.
+_MEASUREMENTS = {"bearing_6208.toml": "measurements/bearing_6208_capacitance.csv"}
+
 # Folder of the examples that holds the surfaces of rough contacts.
 _SURFACES = "surfaces"
-
-
-def examples_folder() -> Path:
-    """Folder of the examples: in an installed package beside this module, else that of the repository.
-
-    Raises
-    ------
-    InputError
-        If neither exists, as in a package that was copied without its data.
-    """
-    for folder in (_HERE / "examples", *(parent / "examples" for parent in _HERE.parents[2:3])):
-        if (folder / "line_contact.toml").is_file():
-            return folder
-    raise InputError("examples", "are not part of this installation", takes="one by pip, or the repository")
 
 
 def template(kind: str) -> Path:
@@ -124,7 +114,7 @@ def examples(
     force: Annotated[bool, typer.Option("--force", help="Overwrite files that exist.")] = False,
     quiet: Quiet = False,
 ) -> None:
-    """List the examples, or copy them with the surfaces and cases that they need.
+    """List the examples, or copy them with the files that belong to them.
 
     Without arguments, the examples are listed. With names or with --output they are copied.
     """
@@ -182,6 +172,8 @@ def _needed(file: str) -> Iterator[str]:
     """File of an example and the files that it names, relative to the folder of the examples."""
     yield file
     table = tomllib.loads((examples_folder() / file).read_text(encoding="utf-8"))
+    if file in _MEASUREMENTS:
+        yield _MEASUREMENTS[file]
     if isinstance(table.get("case"), str):
         yield from _needed(table["case"])
     for surface in table.get("roughness", ()):
@@ -198,7 +190,7 @@ def _copy(source: Path, target: Path) -> None:
 
 def _command(path: Path) -> str:
     """Command that solves a file."""
-    from ehlectric.commands.kinds import kind_of_file
+    from ehlectric.runs.kinds import kind_of_file
 
     kind = kind_of_file(path)
     return kind if kind in ("bearing", "sweep") else "run"

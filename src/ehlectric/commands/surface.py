@@ -98,10 +98,10 @@ def surface(
     }  # fmt: skip
     with user_errors():
         from ehlectric.cases.roughness import Roughness
-        from ehlectric.commands.tables.surface import surface_table
         from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
         from ehlectric.surfaces.rough_maps import whole_map
         from ehlectric.surfaces.rough_profiles import measured
+        from ehlectric.tables.surface import surface_table
 
         keys = {key: value for key, value in table.items() if value is not None}
         look = figure_options(formats, style)

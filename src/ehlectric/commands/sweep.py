@@ -84,18 +84,18 @@ def sweep(
         options = {"workers": _workers(workers, scheduler), "scheduler": scheduler}
         look = figure_options(formats, style)
 
-        from ehlectric.commands import runs
-        from ehlectric.commands.kinds import expect
+        from ehlectric.runs import by_kind
+        from ehlectric.runs.kinds import expect
 
         expect(sweep_file, "sweep")
-        asked = runs.read_sweep_file(sweep_file)
+        asked = by_kind.read_sweep_file(sweep_file)
         with _tell_where_it_stops(output) as begun, _shown(begun, quiet=quiet) as progress:
-            outcome = runs.RUNS["sweep"].run(asked, output, progress, **options)
+            outcome = by_kind.RUNS["sweep"].run(asked, output, progress, **options)
         wanted = (plots or bool(formats)) and outcome.converged
         drawn, told = _drawn(output, look) if wanted else ((), ())
     if not quiet:
-        from ehlectric.commands.tables.sweep import sweep_rows
         from ehlectric.sweep.verdict import sweep_verdict
+        from ehlectric.tables.sweep import sweep_rows
 
         print_rows(sweep_rows(outcome.result))
         echo_files((*outcome.files, *drawn))

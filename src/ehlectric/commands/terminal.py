@@ -167,7 +167,7 @@ def refuse_failure(outcome: RunOutcome[Any]) -> None:
 
 def print_rows(rows: Iterable[Row], title: str = "") -> None:
     """Print rows of data as a table on stdout."""
-    from ehlectric.commands.tables.layout import table_of
+    from ehlectric.tables.layout import table_of
 
     print_table(table_of(rows, title))
 

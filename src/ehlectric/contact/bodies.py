@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from ehlectric.cases.contact import Body, Contact
-from ehlectric.cases.lubricant import Lubricant, density_law, permittivity_law
 from ehlectric.errors import InputError
 from ehlectric.formulas import hertz_line as hertz
+from ehlectric.lubricant.oil import Oil
 
 
 def modulus_of(contact: Contact) -> tuple[float, float]:
@@ -58,19 +58,20 @@ def check_width(half_width: float, radius: float) -> None:
         )
 
 
-def check_pressure(pressure: float, lubricant: Lubricant) -> None:
+def check_pressure(pressure: float, oil: Oil) -> None:
     """Raise an InputError if the Hertz pressure [Pa] is near the ambient pressure.
 
     An InputError is also raised if the permittivity law has no value at this pressure.
     """
-    least = max(1e4, 10.0 * lubricant.ambient_pressure)
+    least = max(1e4, 10.0 * oil.ambient_pressure)
     if pressure < least:
         raise InputError(
             "contact",
             f"the Hertz pressure would be {pressure:.3g} Pa",
             takes=f"a load that gives at least {least:.3g} Pa, well above the ambient "
-            f"{lubricant.ambient_pressure:.3g} Pa",
+            f"{oil.ambient_pressure:.3g} Pa",
         )
     # A permittivity law that has no value at the Hertz pressure raises its error here. A law that fails only
     # at the higher pressure spike raises it after the film has been computed.
-    permittivity_law(lubricant)(density_law(lubricant)(np.array([pressure]))[0])
+    at = np.array([pressure])
+    oil.permittivity(at, oil.density_ratio(at)[0])

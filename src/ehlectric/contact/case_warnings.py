@@ -7,12 +7,13 @@ from collections.abc import Iterator
 import numpy as np
 
 from ehlectric.cases.case import Case
-from ehlectric.cases.lubricant import Lubricant, law_warnings
+from ehlectric.cases.oils.resolution import viscosity_over_temperature
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.setup import Setup
 from ehlectric.errors import ResultWarning
 from ehlectric.formulas import film_line as film_formulas
 from ehlectric.formulas import film_point as point_formulas
+from ehlectric.lubricant.oil import Oil
 
 # Hertz pressure at which bearing steel deforms permanently in line contacts (ISO 76) [Pa].
 LINE_PERMANENT = 4e9
@@ -31,9 +32,24 @@ POINT_PERMANENT = 4.2e9
 def line_case_warnings(setup: Case | Setup, conditions: Conditions) -> Iterator[ResultWarning]:
     """Warnings about the operating conditions of a line contact, known before it is solved."""
     yield from radius_warnings("reduced_radius", conditions.reduced_radius)
+    yield from temperature_warnings(setup)
     yield from regime_warnings(conditions)
     width = (setup.grid.outlet - setup.grid.inlet) / (0.5 * np.pi)
-    yield from pressure_warnings(setup.lubricant, conditions.max_pressure, width, "line", LINE_PERMANENT)
+    yield from pressure_warnings(setup.oil, conditions.max_pressure, width, "line", LINE_PERMANENT)
+
+
+def temperature_warnings(setup: Case | Setup) -> Iterator[ResultWarning]:
+    """Note about a temperature of the contact on which the oil of its case does not depend."""
+    if not isinstance(setup, Case) or setup.contact.temperature is None:
+        return
+    if viscosity_over_temperature(setup.lubricant) is None:
+        celsius = f"{setup.contact.temperature - 273.15:.4g} °C"
+        yield ResultWarning(
+            "temperature-unused",
+            f"the viscosity of {1e3 * setup.oil.viscosity:.4g} mPa s is a given one, and contact.temperature "
+            f"does not change it: it must be that at {celsius}; give [lubricant.temperature] or "
+            "lubricant.atmospheric_law for a viscosity that follows the temperature",
+        )
 
 
 def radius_warnings(key: str, radius: float) -> Iterator[ResultWarning]:
@@ -71,15 +87,15 @@ def rigid_warning(length: str, lengths: str, reach: float) -> ResultWarning:
 
 
 def pressure_warnings(
-    lubricant: Lubricant, pressure: float, domain: float, kind: str, permanent: float
+    oil: Oil, pressure: float, domain: float, kind: str, permanent: float
 ) -> Iterator[ResultWarning]:
-    """Warnings that follow from the Hertz pressure of a contact and from its lubricant.
+    """Warnings that follow from the Hertz pressure of a contact and from its oil.
 
     ``pressure`` is the Hertz pressure [Pa]. ``domain`` is the load that the Hertz pressure would
     carry if it acted on the whole domain, divided by the load of the contact. ``permanent`` is the Hertz
     pressure above which bearing steel deforms permanently in contacts of this ``kind`` [Pa].
     """
-    ambient_load = lubricant.ambient_pressure / pressure * domain
+    ambient_load = oil.ambient_pressure / pressure * domain
     if ambient_load > 0.01:
         yield ResultWarning(
             "ambient-pressure",
@@ -92,16 +108,17 @@ def pressure_warnings(
             f"the Hertz pressure is {pressure / 1e9:.3g} GPa, but bearing steel deforms permanently above "
             f"{permanent / 1e9:g} GPa in {kind} contacts, and the model is elastic; check load and radii",
         )
-    yield from law_warnings(lubricant, pressure)
+    yield from oil.warnings(pressure)
 
 
 def point_case_warnings(setup: Case | Setup, conditions: PointConditions) -> Iterator[ResultWarning]:
     """Warnings about the operating conditions of a point contact, known before it is solved."""
     yield from radius_warnings("radius_x", conditions.radius_x)
+    yield from temperature_warnings(setup)
     yield from point_regime_warnings(conditions)
     area = (setup.grid.outlet - setup.grid.inlet) * 2.0 * conditions.side
     domain = area / (2.0 * np.pi / 3.0)
-    yield from pressure_warnings(setup.lubricant, conditions.max_pressure, domain, "point", POINT_PERMANENT)
+    yield from pressure_warnings(setup.oil, conditions.max_pressure, domain, "point", POINT_PERMANENT)
 
 
 def point_regime_warnings(conditions: PointConditions) -> Iterator[ResultWarning]:

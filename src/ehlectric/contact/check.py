@@ -12,6 +12,7 @@ from ehlectric.contact.memory import check_memory
 from ehlectric.contact.problems import check_tolerance
 from ehlectric.contact.setup import Setup
 from ehlectric.errors import ResultWarning
+from ehlectric.lubricant.own import OF_STRENGTH, Laws
 from ehlectric.surfaces.domain import Domain
 from ehlectric.surfaces.rough_maps import RoughMap
 from ehlectric.surfaces.rough_profiles import RoughSurface
@@ -79,3 +80,35 @@ def check_case(case: Case) -> PreparedContact:
     check_memory(case)
     domain = kind.domain(case, conditions)
     return PreparedContact(case, conditions, domain, kind.rough(case.roughness, domain))
+
+
+def with_laws(case: Case, laws: Laws) -> Case:
+    """Case of a contact with laws of the user's own in place of those of its tables.
+
+    A dielectric strength becomes the strength table of the case.
+
+    Parameters
+    ----------
+    case : Case
+        Case whose contact has a temperature.
+    laws : Laws
+        Functions of pressure and temperature.
+
+    Returns
+    -------
+    Case
+        Case whose ``oil`` has these laws at the temperature of the contact.
+
+    Raises
+    ------
+    InputError
+        If the contact has no temperature, or a law has no valid values at its pressures.
+    """
+    conditions = KINDS[case.contact.geometry].resolve(case)
+    sampled = laws.sampled(case.contact.temperature, conditions.max_pressure)
+    strength = sampled.samples.get("strength")
+    if strength is not None:
+        places = slice(None, None, OF_STRENGTH)
+        table = {"pressure": strength.pressure[places].tolist(), "strength": strength.values[places].tolist()}
+        case = case.replace({"discharge.strength_table": table})
+    return case.with_laws(sampled)

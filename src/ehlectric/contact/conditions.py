@@ -6,13 +6,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ehlectric.cases.lubricant import Lubricant, effective_alpha
 from ehlectric.contact.bodies import check_pressure, check_width
 from ehlectric.film.problem import velocity_parameter
 from ehlectric.formulas import hertz_line as hertz
 from ehlectric.formulas import hertz_point
 from ehlectric.formulas.film_line import LineContact
 from ehlectric.formulas.film_point import PointContact
+from ehlectric.lubricant.oil import Oil
 
 # Half of the domain's width across entrainment, in semi-axes across: 1.6 for a long ellipse, whose sides
 # hardly matter; 3.0 for a circle; at most 4.5, as long as the inlet, for an ellipse that is short across.
@@ -36,7 +36,7 @@ class Conditions:
     slide_to_roll_ratio : float
         (u1 - u2)/entrainment_speed, dimensionless.
     viscosity, pressure_viscosity_coefficient : float
-        eta0 [Pa s] and alpha [1/Pa] of the oil at ambient pressure.
+        Viscosity eta0 at ambient pressure [Pa s], and reciprocal asymptotic coefficient alpha* [1/Pa].
     half_width, max_pressure : float
         Half-width b [m] and Hertz pressure p_h [Pa] of the dry contact.
     curvature_share, compliance_share : float
@@ -104,7 +104,7 @@ class Conditions:
 
 
 def line_conditions(
-    lubricant: Lubricant,
+    oil: Oil,
     *,
     reduced_radius: float,
     reduced_modulus: float,
@@ -120,8 +120,8 @@ def line_conditions(
 
     Parameters
     ----------
-    lubricant : Lubricant
-        Lubricant; its viscosity, ambient pressure and laws are used.
+    oil : Oil
+        Oil at the temperature of the contact.
     reduced_radius, reduced_modulus, load_per_length : float
         R [m], E' [Pa] and w [N/m].
     entrainment_speed, slide_to_roll_ratio : float
@@ -143,7 +143,8 @@ def line_conditions(
 
     Examples
     --------
-    >>> oil = Lubricant.from_dict({"base": "paper"})
+    >>> from ehlectric.cases.oils.lubricant import Lubricant
+    >>> oil = Lubricant.from_dict({"base": "paper"}).at(None)
     >>> inputs = {"reduced_radius": 0.01, "reduced_modulus": 226e9, "load_per_length": 3e5}
     >>> conditions = line_conditions(oil, **inputs, entrainment_speed=2.0)
     >>> round(conditions.max_pressure / 1e9, 3)
@@ -152,15 +153,15 @@ def line_conditions(
     half_width = hertz.line_half_width(load_per_length, reduced_radius, reduced_modulus)
     max_pressure = hertz.line_max_pressure(load_per_length, reduced_radius, reduced_modulus)
     check_width(half_width, min([reduced_radius, *bodies]))
-    check_pressure(max_pressure, lubricant)
+    check_pressure(max_pressure, oil)
     return Conditions(
         reduced_radius=reduced_radius,
         reduced_modulus=reduced_modulus,
         load_per_length=load_per_length,
         entrainment_speed=entrainment_speed,
         slide_to_roll_ratio=slide_to_roll_ratio,
-        viscosity=lubricant.viscosity,
-        pressure_viscosity_coefficient=effective_alpha(lubricant),
+        viscosity=oil.viscosity,
+        pressure_viscosity_coefficient=oil.alpha_star,
         half_width=half_width,
         max_pressure=max_pressure,
         curvature_share=curvature_share,
@@ -186,7 +187,7 @@ class PointConditions:
     slide_to_roll_ratio : float
         (u1 - u2)/entrainment_speed, dimensionless.
     viscosity, pressure_viscosity_coefficient : float
-        eta0 [Pa s] and alpha [1/Pa] of the oil at ambient pressure.
+        Viscosity eta0 at ambient pressure [Pa s], and reciprocal asymptotic coefficient alpha* [1/Pa].
     semi_axis_x, semi_axis_y, max_pressure : float
         Semi-axes b along and a across entrainment [m], and Hertz pressure p_h [Pa] of the dry contact.
     side : float
@@ -269,7 +270,7 @@ class PointConditions:
 
 
 def point_conditions(
-    lubricant: Lubricant,
+    oil: Oil,
     *,
     radii: tuple[float, float],
     reduced_modulus: float,
@@ -285,8 +286,8 @@ def point_conditions(
 
     Parameters
     ----------
-    lubricant : Lubricant
-        Lubricant; its viscosity, ambient pressure and laws are used.
+    oil : Oil
+        Oil at the temperature of the contact.
     radii : tuple of float
         Reduced radii along and across entrainment [m].
     reduced_modulus, load : float
@@ -313,7 +314,8 @@ def point_conditions(
 
     Examples
     --------
-    >>> oil = Lubricant.from_dict({"base": "paper"})
+    >>> from ehlectric.cases.oils.lubricant import Lubricant
+    >>> oil = Lubricant.from_dict({"base": "paper"}).at(None)
     >>> inputs = {"radii": (0.01, 0.01), "reduced_modulus": 226e9, "load": 20.0}
     >>> conditions = point_conditions(oil, **inputs, entrainment_speed=2.0)
     >>> round(conditions.max_pressure / 1e9, 3)
@@ -322,7 +324,7 @@ def point_conditions(
     dry = hertz_point.dry_contact(load, *radii, reduced_modulus)
     check_width(dry.semi_axis_x, min([radii[0], *bodies[0]]))
     check_width(dry.semi_axis_y, min([radii[1], *bodies[1]]))
-    check_pressure(dry.max_pressure, lubricant)
+    check_pressure(dry.max_pressure, oil)
     return PointConditions(
         radius_x=radii[0],
         radius_y=radii[1],
@@ -330,8 +332,8 @@ def point_conditions(
         load=load,
         entrainment_speed=entrainment_speed,
         slide_to_roll_ratio=slide_to_roll_ratio,
-        viscosity=lubricant.viscosity,
-        pressure_viscosity_coefficient=effective_alpha(lubricant),
+        viscosity=oil.viscosity,
+        pressure_viscosity_coefficient=oil.alpha_star,
         semi_axis_x=dry.semi_axis_x,
         semi_axis_y=dry.semi_axis_y,
         max_pressure=dry.max_pressure,

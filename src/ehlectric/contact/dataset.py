@@ -16,6 +16,7 @@ from ehlectric.contact.solution import Solution
 from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
 from ehlectric.film.state import NewtonStep, Status
+from ehlectric.lubricant.own import is_laws
 from ehlectric.runtime.checks.schema import (
     Rule,
     UnfitError,
@@ -248,6 +249,7 @@ def dataset_of(solution: Solution[Any, Any, Any], layout: Layout, summary: Mappi
 
     smooth = None if solution.smooth is None else vars(solution.smooth)
     case, made_by = solution.case, f"ehlectric {solution.version}"
+    own = case.own_laws if isinstance(case, Case) else None
     return (
         xr.Dataset(
             variables(layout, solution.film, solution.field, solution.roughness, smooth),
@@ -260,6 +262,7 @@ def dataset_of(solution: Solution[Any, Any, Any], layout: Layout, summary: Mappi
                 "date": solution.date,
                 "converged": int(solution.converged),
                 **({"case": case.to_toml()} if isinstance(case, Case) else {}),
+                **({} if own is None else {"laws": json.dumps(own.stored())}),
                 "summary": json.dumps(summary),
                 **as_attributes(solution.warnings),
                 "rough": json.dumps(plain(solution.rough)),
@@ -334,6 +337,8 @@ def check(layout: Layout, dataset: xr.Dataset) -> None:
     json_of(dataset.attrs, "seconds", partial(is_list, right=_is_time))
     json_of(dataset.attrs, "rough", partial(is_list, right=lambda item: isinstance(item, dict)))
     check_warnings(dataset.attrs)
+    if "laws" in dataset.attrs:
+        json_of(dataset.attrs, "laws", is_laws)
     for name in ("version", "date", "film_solver", "field_solver"):
         text_of(dataset.attrs, name)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
@@ -17,7 +17,9 @@ from ehlectric.contact.problems import scales_of
 from ehlectric.contact.results import RESULTS, PointResult, Result
 from ehlectric.contact.solution import Smooth
 from ehlectric.errors import InputError
+from ehlectric.lubricant.own import SampledLaws, is_laws
 from ehlectric.runtime.checks.schema import case_of, refusing
+from ehlectric.runtime.checks.schema import json_of as attribute
 from ehlectric.runtime.files import Content, json_of, write_together
 from ehlectric.runtime.folders import RESULT_LOCK, alone_in
 from ehlectric.runtime.netcdf import content_of, read_dataset
@@ -36,7 +38,13 @@ FILES = (SUMMARY, NETCDF, FILM)
 _CSV = {"density": "density ratio"}
 
 
-def save(result: Result | PointResult, folder: str | Path, *, replaced: Sequence[str] = ()) -> list[Path]:
+def save(
+    result: Result | PointResult,
+    folder: str | Path,
+    *,
+    replaced: Sequence[str] = (),
+    further: Mapping[str, Content] | None = None,
+) -> list[Path]:
     """Write summary.json, result.nc and film.csv, all of them or none.
 
     Parameters
@@ -47,6 +55,8 @@ def save(result: Result | PointResult, folder: str | Path, *, replaced: Sequence
         Folder of the files; it is made if it does not exist.
     replaced : sequence of str
         Names of further files of an earlier result there, which are removed.
+    further : mapping of str to bytes or callable, optional
+        Content of further files by their names, which are written together with the others.
 
     Returns
     -------
@@ -65,6 +75,7 @@ def save(result: Result | PointResult, folder: str | Path, *, replaced: Sequence
         SUMMARY: json_of(result.summary()),
         NETCDF: content_of(result.to_xarray()),
         FILM: partial(_write_film, result),
+        **(further or {}),
     }
     with alone_in(folder, FILES, locks=[RESULT_LOCK]) as folder:
         return write_together(folder, contents, replaced)
@@ -130,6 +141,8 @@ def result_of(dataset: xr.Dataset, path: Path) -> Result | PointResult:
 
 def _result_of(dataset: xr.Dataset) -> Result | PointResult:
     case = case_of(dataset.attrs, Case.from_dict)
+    if "laws" in dataset.attrs:
+        case = case.with_laws(SampledLaws.restored(attribute(dataset.attrs, "laws", is_laws)))
     kind = KINDS[case.contact.geometry]
     layout = kind.layout
     check(layout, dataset)

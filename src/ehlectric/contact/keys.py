@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from ehlectric.cases.oils.keys import OIL_KEYS
 from ehlectric.cases.result_key import Keys, ResultKey, under
+from ehlectric.contact.meter.keys import METER_KEYS
 from ehlectric.discharge import keys as discharge_keys
 from ehlectric.surfaces.keys import LINE_SURFACE, MAP_STATISTICS, POINT_SURFACE, PROFILE_STATISTICS
 
@@ -215,6 +217,7 @@ def _statistics(where: str, keys: Keys) -> Keys:
 
 LINE_KEYS: Keys = {
     **_ABOUT,
+    **under("lubricant", OIL_KEYS),
     **under("groups", _GROUPS),
     **under("hertz", _LINE_HERTZ),
     **under("film", _FILM),
@@ -222,12 +225,14 @@ LINE_KEYS: Keys = {
     **under("film_formulas", _FORMULAS),
     **under("seconds", _SECONDS),
     **under("discharge", discharge_keys.LINE_KEYS),
+    **under("meter", METER_KEYS),
     **under("roughness", _roughness("Hertz zone")),
     **under("roughness.surfaces", LINE_SURFACE),
     **under("roughness.combined", _statistics("Hertz zone", PROFILE_STATISTICS)),
 }
 POINT_KEYS: Keys = {
     **_ABOUT,
+    **under("lubricant", OIL_KEYS),
     **under("groups", _GROUPS),
     **under("hertz", _POINT_HERTZ),
     **under("film", _POINT_FILM),
@@ -235,6 +240,7 @@ POINT_KEYS: Keys = {
     **under("film_formulas", _FORMULAS),
     **under("seconds", _SECONDS),
     **under("discharge", discharge_keys.POINT_KEYS),
+    **under("meter", METER_KEYS),
     **under("roughness", _roughness("Hertz ellipse")),
     **under("roughness.surfaces", POINT_SURFACE),
     **under("roughness.combined", _statistics("rectangle around the Hertz ellipse", MAP_STATISTICS)),

@@ -11,7 +11,6 @@ from scipy.interpolate import PchipInterpolator
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
 from ehlectric.cases.grid import MOST_DEGREE, Solver
-from ehlectric.cases.lubricant import Lubricant, density_law, permittivity_law, viscosity_law
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.memory import FIELD_BYTES, POINT_FIELD_BYTES
 from ehlectric.contact.setup import Setup
@@ -27,6 +26,7 @@ from ehlectric.film.problem import FilmProblem, Scales
 from ehlectric.formulas.film_line import CentralThickness, moes
 from ehlectric.formulas.film_point import nijenbanning_venner_moes
 from ehlectric.lubricant.law import PressureLaw
+from ehlectric.lubricant.oil import Oil
 from ehlectric.surfaces.domain import Domain
 from ehlectric.surfaces.rough_maps import RoughMap
 from ehlectric.surfaces.rough_profiles import RoughSurface
@@ -150,7 +150,7 @@ def point_field_problem(
         y=y,
         lower=middle - 0.5 * gap,
         upper=middle + 0.5 * gap,
-        permittivity=_resampled(film, permittivity_law(setup.lubricant)(film.density), x, y),
+        permittivity=_resampled(film, setup.oil.permittivity(film.pressure, film.density), x, y),
         potential_1=setup.electric.potential_1,
         potential_2=setup.electric.potential_2,
         degree=grid.field_degree,
@@ -195,13 +195,13 @@ def _dimensionless(law: PressureLaw, scale: float) -> FluidLaw:
     return of_dimensionless
 
 
-def fluid_of(lubricant: Lubricant, max_pressure: float, velocity_parameter: float) -> Fluid:
-    """Density and viscosity of the lubricant as functions of the pressure P = p/``max_pressure``."""
+def fluid_of(oil: Oil, max_pressure: float, velocity_parameter: float) -> Fluid:
+    """Density and viscosity of the oil as functions of the pressure P = p/``max_pressure``."""
     return Fluid(
-        density=_dimensionless(density_law(lubricant), max_pressure),
-        log_viscosity=_dimensionless(viscosity_law(lubricant), max_pressure),
+        density=_dimensionless(oil.density_ratio, max_pressure),
+        log_viscosity=_dimensionless(oil.log_viscosity, max_pressure),
         velocity_parameter=velocity_parameter,
-        ambient_pressure=lubricant.ambient_pressure / max_pressure,
+        ambient_pressure=oil.ambient_pressure / max_pressure,
     )
 
 
@@ -251,7 +251,7 @@ def smooth_problem(
     check_tolerance(setup.solver)
     grid, guess = setup.grid, expected.central_thickness
     return FilmProblem(
-        fluid=fluid_of(setup.lubricant, conditions.max_pressure, conditions.velocity_parameter),
+        fluid=fluid_of(setup.oil, conditions.max_pressure, conditions.velocity_parameter),
         nodes=grid.nodes,
         inlet=grid.inlet,
         outlet=grid.outlet,
@@ -308,7 +308,7 @@ def field_problem(setup: Case | Setup, conditions: Conditions, film: Film, rough
         x=x,
         lower=middle - 0.5 * gap,
         upper=middle + 0.5 * gap,
-        permittivity=resampled(film.x, permittivity_law(setup.lubricant)(film.density), x),
+        permittivity=resampled(film.x, setup.oil.permittivity(film.pressure, film.density), x),
         potential_1=setup.electric.potential_1,
         potential_2=setup.electric.potential_2,
         degree=setup.grid.field_degree,
@@ -386,5 +386,5 @@ def scales_of(setup: Case | Setup, conditions: Conditions | PointConditions) -> 
         length=conditions.half_width,
         pressure=conditions.max_pressure,
         thickness=conditions.thickness_scale,
-        ambient_pressure=setup.lubricant.ambient_pressure,
+        ambient_pressure=setup.oil.ambient_pressure,
     )

@@ -42,7 +42,7 @@ def resolve(case: Case) -> Conditions:
     >>> conditions.reduced_radius, conditions.entrainment_speed, conditions.slide_to_roll_ratio
     (0.01, 2.0, 1.0)
     """
-    contact, lubricant = case.contact, case.lubricant
+    contact = case.contact
     if contact.geometry != "line":
         raise InputError(
             "contact.geometry", got=f"{contact.geometry!r}", takes="'line' for a line contact's conditions"
@@ -55,7 +55,7 @@ def resolve(case: Case) -> Conditions:
         assert contact.max_hertz_pressure is not None
         load = hertz.line_load(contact.max_hertz_pressure, radius, modulus)
     return line_conditions(
-        lubricant,
+        case.oil,
         reduced_radius=radius,
         reduced_modulus=modulus,
         load_per_length=load,
@@ -117,7 +117,7 @@ def resolve_point(case: Case) -> PointConditions:
     >>> round(conditions.radius_x, 6), round(conditions.radius_y, 6), round(conditions.ratio, 2)
     (0.0048, 0.156, 9.32)
     """
-    contact, lubricant = case.contact, case.lubricant
+    contact = case.contact
     if contact.geometry != "point":
         raise InputError(
             "contact.geometry", got=f"{contact.geometry!r}", takes="'point' for a point contact's conditions"
@@ -130,7 +130,7 @@ def resolve_point(case: Case) -> PointConditions:
         assert contact.max_hertz_pressure is not None
         load = hertz_point.point_load(contact.max_hertz_pressure, radius_x, radius_y, modulus)
     conditions = point_conditions(
-        lubricant,
+        case.oil,
         radii=(radius_x, radius_y),
         reduced_modulus=modulus,
         load=load,

@@ -66,6 +66,8 @@ def film_warnings(setup: Case | Setup, film: Film | PointFilm) -> Iterator[Resul
             "the film is thinner than an atom in places: there is no full film there, and the field is that "
             "of a gap of 0.1 nm",
         )
+    for check in setup.oil.film_checks:
+        yield from check(film.max_pressure)
     error = film.discretisation_error
     if film.converged and error is None and setup.roughness:
         yield ResultWarning(
@@ -94,7 +96,7 @@ def film_warnings(setup: Case | Setup, film: Film | PointFilm) -> Iterator[Resul
 
 
 def _advice(setup: Case | Setup, film: Film | PointFilm) -> str:
-    """What to do about a film that did not converge.
+    """Advice about a film that did not converge.
 
     A film thicker than the grid spacing, both in dimensionless units, is resolved. At high L, Newton's
     method needs more steps for such a film. Thinner films need a finer grid.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from ehlectric.cases.case import Case
@@ -10,6 +10,7 @@ from ehlectric.contact.check import check_case
 from ehlectric.contact.files import FILES, save
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.contact.solver import OWN, Solvers, solve
+from ehlectric.runtime.files import Content
 from ehlectric.runtime.folders import alone_in
 from ehlectric.runtime.netcdf import load_library
 from ehlectric.runtime.outcome import RunOutcome
@@ -23,6 +24,7 @@ def run(
     *,
     solvers: Solvers = OWN,
     others: Sequence[str] = (),
+    further: Mapping[str, Content] | None = None,
 ) -> RunOutcome[Result | PointResult]:
     """Solve a contact, and write summary.json, result.nc and film.csv.
 
@@ -39,6 +41,8 @@ def run(
     others : sequence of str, optional
         Names of other files in the folder that belong to its result, such as figures. Those of an earlier
         result are removed when the contact is solved.
+    further : mapping of str to bytes or callable, optional
+        Content of further files by their names, which are written together with the others.
 
     Returns
     -------
@@ -64,7 +68,7 @@ def run(
     load_library()
     prepared = check_case(case)
     solvers.check(case)
-    names = (*FILES, *others)
+    names = (*FILES, *(further or ()), *others)
     with alone_in(folder, names) as folder:
         result = solve(
             case,
@@ -75,6 +79,6 @@ def run(
             prepared=prepared,
         )
         progress(0, 0, "writing results")
-        files = save(result, folder, replaced=names)
+        files = save(result, folder, replaced=names, further=further)
     failure = None if result.converged else f"not converged: {result.film.status}"
     return RunOutcome(result, result.summary(), tuple(files), result.warnings, failure)

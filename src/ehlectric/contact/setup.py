@@ -8,8 +8,8 @@ from typing import Any
 from ehlectric.cases.case import Case
 from ehlectric.cases.discharge import Discharge
 from ehlectric.cases.grid import Electric, Grid, Solver
-from ehlectric.cases.lubricant import Lubricant
 from ehlectric.cases.roughness import Roughness
+from ehlectric.lubricant.oil import Oil
 
 
 @dataclass(frozen=True)
@@ -20,8 +20,8 @@ class Setup:
 
     Attributes
     ----------
-    lubricant : Lubricant
-        Lubricant with its viscosity, density and permittivity laws.
+    oil : Oil
+        Oil at the temperature of the contact.
     grid : Grid
         Grid of the film and of the field; the grid of a point contact must have a ``field_side``.
     electric : Electric
@@ -36,7 +36,7 @@ class Setup:
         Title of files and figures.
     """
 
-    lubricant: Lubricant
+    oil: Oil
     grid: Grid
     electric: Electric = field(default_factory=Electric)
     solver: Solver = field(default_factory=Solver)
@@ -48,7 +48,7 @@ class Setup:
     def of(cls, case: Case | Setup) -> Setup:
         """Make the setup of a case, or a copy of a setup."""
         return cls(
-            lubricant=case.lubricant,
+            oil=case.oil,
             grid=case.grid,
             electric=case.electric,
             solver=case.solver,
@@ -61,9 +61,9 @@ class Setup:
         """Return all values that are set as nested tables, in SI units, with the keys of a case."""
         tables = {
             name: getattr(self, name).model_dump(mode="json", exclude_none=True)
-            for name in ("lubricant", "electric", "grid", "solver")
+            for name in ("electric", "grid", "solver")
         }
         if self.discharge is not None:
             tables["discharge"] = self.discharge.model_dump(mode="json", exclude_none=True)
         rough = [table.model_dump(mode="json", exclude_none=True) for table in self.roughness]
-        return {"title": self.title, "roughness": rough} | tables
+        return {"title": self.title, "roughness": rough, "lubricant": dict(self.oil.inputs)} | tables

@@ -12,6 +12,7 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
 from ehlectric.contact.conditions import Conditions, PointConditions
+from ehlectric.contact.meter.reading import Metered, MeterReading, meter_reading
 from ehlectric.contact.setup import Setup
 from ehlectric.discharge.assessment import Assessment, assess
 from ehlectric.discharge.verdict import Verdict, contact_verdict
@@ -128,9 +129,15 @@ class Solution(Shown, Generic[ConditionsT, FilmT, FieldT]):
         """Assessment of the discharge; None if the case has no table ``discharge``."""
         if self.case.discharge is None:
             return None
-        return assess(
-            self.case.discharge, self.case.lubricant, self.conditions.semi_axes, self.film, self.field
-        )
+        return assess(self.case.discharge, self.case.oil, self.conditions.semi_axes, self.film, self.field)
+
+    @cached_property
+    def meter(self) -> MeterReading | None:
+        """Capacitance that a meter at the two bodies reads; None if the case has no table ``meter``."""
+        if not isinstance(self.case, Case) or self.case.meter is None:
+            return None
+        alone = None if self.discharge is None else self.discharge.breakdown.breakdown_voltage
+        return meter_reading(Metered(self.case, self.conditions, self.film, self.field), alone)
 
     @property
     def verdict(self) -> Verdict | None:

@@ -14,12 +14,12 @@ from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
 from ehlectric.cases.discharge import Discharge
 from ehlectric.cases.grid import Electric, Grid, Solver
-from ehlectric.cases.lubricant import Lubricant
 from ehlectric.cases.roughness import Roughness
-from ehlectric.contact.check import PreparedContact, check_case
+from ehlectric.contact.check import PreparedContact, check_case, with_laws
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.kinds import KINDS
 from ehlectric.contact.memory import check_grid
+from ehlectric.contact.meter.reading import meter_warnings
 from ehlectric.contact.problems import heights_of
 from ehlectric.contact.refinement import refined
 from ehlectric.contact.result_warnings import accuracy_warnings, film_warnings
@@ -30,6 +30,8 @@ from ehlectric.discharge.assessment import discharge_warnings, margin_warnings
 from ehlectric.discharge.limits import field_warnings
 from ehlectric.errors import ConvergenceError, InputError
 from ehlectric.film.state import Progress
+from ehlectric.lubricant.oil import Oil
+from ehlectric.lubricant.own import Laws
 from ehlectric.runtime.files import now
 from ehlectric.runtime.log import LOGGER
 from ehlectric.surfaces.rough_maps import RoughMap
@@ -76,6 +78,7 @@ def solve(
     solvers: Solvers = OWN,
     beside_smooth: bool = True,
     prepared: PreparedContact | None = None,
+    laws: Laws | None = None,
 ) -> Result | PointResult:
     """Solve the film and the electric field of a case.
 
@@ -93,6 +96,8 @@ def solve(
         Whether to solve a rough contact with smooth surfaces too, for ``Result.smooth``.
     prepared : PreparedContact, optional
         Contact of the same case as returned by ``check_case``; surface files are then not read again.
+    laws : Laws, optional
+        Laws of the user's own in place of those of the case: functions of pressure and temperature.
 
     Returns
     -------
@@ -123,6 +128,8 @@ def solve(
             got="[motion] where a stationary film is solved",
             takes="run_motion, or a case without it",
         )
+    if laws is not None:
+        case, prepared = with_laws(case, laws), None
     return _solved(
         check_case(case) if prepared is None else replace(prepared, case=case),
         progress=progress,
@@ -134,7 +141,7 @@ def solve(
 
 def solve_contact(
     conditions: Conditions | PointConditions,
-    lubricant: Lubricant,
+    oil: Oil,
     *,
     grid: Grid,
     electric: Electric | None = None,
@@ -154,8 +161,8 @@ def solve_contact(
     conditions : Conditions or PointConditions
         Operating conditions from ``line_conditions`` or ``point_conditions``; a ``film_factor`` below 1
         reduces the film thickness.
-    lubricant : Lubricant
-        Lubricant from which the operating conditions were computed.
+    oil : Oil
+        Oil from which the operating conditions were computed.
     grid : Grid
         Grid of the film and of the field; the grid of a point contact must have a ``field_side``.
     electric, solver : Electric and Solver, optional
@@ -186,7 +193,8 @@ def solve_contact(
     Examples
     --------
     >>> from ehlectric.contact.conditions import line_conditions
-    >>> oil = Lubricant.from_dict({"base": "paper"})
+    >>> from ehlectric.cases.oils.lubricant import Lubricant
+    >>> oil = Lubricant.from_dict({"base": "paper"}).at(None)
     >>> inputs = {"reduced_radius": 0.0141, "reduced_modulus": 226e9, "load_per_length": 3.92e5}
     >>> contacts = [
     ...     line_conditions(oil, **inputs, entrainment_speed=4.0, film_factor=factor) for factor in (1.0, 0.8)
@@ -197,7 +205,7 @@ def solve_contact(
     """
     kind = KINDS[conditions.geometry]
     setup = Setup(
-        lubricant=lubricant,
+        oil=oil,
         grid=grid,
         electric=electric or Electric(),
         solver=solver or Solver(),
@@ -270,6 +278,7 @@ def _solved(
             *kind.result_warnings(case, film, field),
             *discharge_warnings(case.discharge, film),
             *margin_warnings(case.discharge, conditions.semi_axes, film, field),
+            *meter_warnings(case, film),
             *field_warnings(field.max_strength, "the potentials"),
             *(accuracy_warnings(films.setup.grid, field, estimated=own) if film.converged else ()),
         ),

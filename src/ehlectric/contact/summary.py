@@ -10,6 +10,7 @@ from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.kinds import KINDS
 from ehlectric.contact.setup import Setup
 from ehlectric.contact.solution import Solution
+from ehlectric.discharge.leakage import conductivity_of
 from ehlectric.formulas.film_line import Thickness
 from ehlectric.runtime.files import plain
 from ehlectric.runtime.stored_warnings import texts_and_codes
@@ -40,6 +41,7 @@ def summary_of(solution: Solution[Any, Any, Any]) -> dict[str, Any]:
         **texts_and_codes(solution.warnings),
         **_verdict(solution),
         "inputs": inputs_of(solution.case, conditions),
+        "lubricant": oil_of(solution.case),
         "groups": groups_of(conditions),
         "hertz": hertz_of(conditions),
         "film": _film(solution) | kind.film_summary(solution),
@@ -49,6 +51,8 @@ def summary_of(solution: Solution[Any, Any, Any]) -> dict[str, Any]:
     }
     if solution.discharge is not None:
         summary["discharge"] = solution.discharge.summary()
+    if solution.meter is not None:
+        summary["meter"] = solution.meter.summary()
     if solution.rough:
         summary["roughness"] = {"surfaces": list(solution.rough)} | vars(kind.roughness(solution))
     return {key: plain(value) for key, value in summary.items()}
@@ -113,6 +117,7 @@ def case_summary(case: Case | Setup, conditions: Conditions | PointConditions) -
         "schema": SCHEMA.replace("summary", "check"),
         "title": case.title,
         "inputs": inputs_of(case, conditions),
+        "lubricant": oil_of(case),
         "groups": groups_of(conditions),
         "hertz": hertz_of(conditions),
         "velocity_parameter": conditions.velocity_parameter,
@@ -125,9 +130,17 @@ def inputs_of(case: Case | Setup, conditions: Conditions | PointConditions) -> d
     """Inputs of a contact as nested tables, with the resolved operating conditions as its contact."""
     kind, inputs = KINDS[conditions.geometry], case.to_dict()
     contact = {name: getattr(conditions, name) for name in kind.contact_keys}
+    if case.oil.temperature is not None:
+        contact["temperature"] = case.oil.temperature
     inputs["contact"] = {"geometry": conditions.geometry} | contact
     inputs["grid"] |= {name: getattr(conditions, name) for name in kind.grid_keys}
     return inputs
+
+
+def oil_of(case: Case | Setup) -> dict[str, Any]:
+    """Oil at the temperature of the contact; a conductivity of ``[discharge]`` replaces that of the oil."""
+    oil = case.oil
+    return oil.summary() | {"conductivity": conductivity_of(case.discharge, oil)}
 
 
 def groups_of(conditions: Conditions | PointConditions) -> dict[str, float]:

@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 
 from ehlectric.cases.discharge import Discharge
-from ehlectric.cases.lubricant import Lubricant
 from ehlectric.discharge.breakdown import Breakdown, BreakdownZone, breakdown, breakdown_zone
 from ehlectric.discharge.capacitance import Capacitances, capacitances
 from ehlectric.discharge.contact_size import Size
@@ -25,6 +24,7 @@ from ehlectric.field.line import Field
 from ehlectric.field.point import PointField
 from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
+from ehlectric.lubricant.oil import Oil
 
 
 @dataclass(frozen=True)
@@ -102,7 +102,7 @@ class Assessment:
 
 def assess(
     discharge: Discharge,
-    lubricant: Lubricant,
+    oil: Oil,
     semi_axes: tuple[float, ...],
     film: Film | PointFilm,
     field: Field | PointField,
@@ -113,8 +113,8 @@ def assess(
     ----------
     discharge : Discharge
         Inputs of the discharge: dielectric strength, outlet filling, external capacitance and others.
-    lubricant : Lubricant
-        Lubricant, for its relative permittivity.
+    oil : Oil
+        Oil, for its relative permittivity.
     semi_axes : tuple of float
         Half-width of a line contact, or semi-axes of a point contact along and across entrainment [m].
     film, field : Film and Field, or PointFilm and PointField
@@ -140,7 +140,7 @@ def assess(
     voltages = breakdown(discharge, utilisation, field.voltage, size)
     if voltages.breakdown_voltage is not None:
         voltages = replace(voltages, breakdown_field_error=field.strength_error)
-    by_zone = capacitances(discharge, lubricant, semi_axes, film, field)
+    by_zone = capacitances(discharge, oil, semi_axes, film, field)
     return Assessment(
         breakdown=voltages,
         zone=breakdown_zone(utilisation, size),
@@ -148,7 +148,7 @@ def assess(
         costs=discharge_costs(
             discharge, by_zone.capacitance, field.voltage, voltages.breakdown_voltage, size
         ),
-        leakage=leakage(discharge, lubricant.relative_permittivity),
+        leakage=leakage(discharge, oil),
     )
 
 

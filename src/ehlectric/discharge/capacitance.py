@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,9 +10,9 @@ from scipy.constants import epsilon_0
 
 from ehlectric.arrays import Array
 from ehlectric.cases.discharge import Discharge
-from ehlectric.cases.lubricant import Lubricant, permittivity_law
 from ehlectric.discharge.columns import at_columns
 from ehlectric.discharge.contact_size import Size
+from ehlectric.discharge.layers import BARE, Layers
 from ehlectric.discharge.outlet_filling import OUTLETS, filled_permittivity, oil_fraction
 from ehlectric.field.line import Field
 from ehlectric.field.point import PointField
@@ -20,13 +20,15 @@ from ehlectric.field.poisson import ATOM
 from ehlectric.field.zones import line_zone_areas, point_zone_areas
 from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
+from ehlectric.lubricant.oil import Oil
 
 
 def zone_capacitances(
     film: Film | PointFilm,
     field: Field | PointField,
     zones: tuple[Mapping[str, Array], Mapping[str, Array]],
-    permittivity_law: Callable[[Array], Array],
+    oil: Array,
+    layers: Layers = BARE,
 ) -> dict[str, dict[str, float]]:
     """Capacitance of each zone, for each assumption about the filling of the gap behind the exit.
 
@@ -43,8 +45,10 @@ def zone_capacitances(
     zones : pair of mapping
         Width [m] or area [m^2] of each node's part of a zone, by the name of the zone: one mapping for the
         film's nodes, and one for the columns of the field.
-    permittivity_law : callable
-        Function that gives the relative permittivity of the oil from its density ratio.
+    oil : ndarray, shape of the film
+        Relative permittivity of the oil at the film's nodes.
+    layers : Layers
+        Coating and roughness that change the capacitance of the film place by place.
 
     Returns
     -------
@@ -52,17 +56,17 @@ def zone_capacitances(
         Capacitance per length [F/m] of a line contact, or capacitance [F] of a point contact, by the filling
         ("full", "fingers", "layers") and by the name of the zone.
     """
-    oil = permittivity_law(film.density)
     fraction = oil_fraction(film.thickness, film.density, film.cavitated)
     gap = np.maximum(film.thickness, ATOM)
     by_outlet = {}
     for outlet in OUTLETS:
         permittivity = filled_permittivity(oil, fraction, outlet)
-        thin = epsilon_0 * permittivity / gap
+        thin = layers.density(epsilon_0 * permittivity / gap, permittivity)
         # The thin gap at the columns is interpolated from the film's nodes, not computed from the gap of the
         # field. It then cancels the sum over the nodes inside the field range, also if the columns are finer.
         thin_gap = at_columns(film, field, thin)
-        correction = field.capacitance_density * at_columns(film, field, permittivity / oil) - thin_gap
+        solved = field.capacitance_density * at_columns(film, field, permittivity / oil)
+        correction = layers.density(solved, at_columns(film, field, permittivity)) - thin_gap
         by_outlet[outlet] = {
             name: float(np.vdot(weights, thin) + np.vdot(zones[1][name], correction))
             for name, weights in zones[0].items()
@@ -112,7 +116,7 @@ class Capacitances:
 
 def capacitances(
     discharge: Discharge,
-    lubricant: Lubricant,
+    oil: Oil,
     semi_axes: tuple[float, ...],
     film: Film | PointFilm,
     field: Field | PointField,
@@ -123,8 +127,8 @@ def capacitances(
     ----------
     discharge : Discharge
         Inputs of the discharge, with the filling of the outlet.
-    lubricant : Lubricant
-        Lubricant, for its relative permittivity.
+    oil : Oil
+        Oil, for its relative permittivity.
     semi_axes : tuple of float
         Half-width of a line contact, or semi-axes of a point contact along and across entrainment [m].
     film, field : Film and Field, or PointFilm and PointField
@@ -137,11 +141,11 @@ def capacitances(
     """
     areas = line_zone_areas if len(semi_axes) == 1 else point_zone_areas
     zones = areas(film.axes, *semi_axes), areas(field.axes, *semi_axes)
-    by_outlet = zone_capacitances(film, field, zones, permittivity_law(lubricant))
+    by_outlet = zone_capacitances(film, field, zones, oil.permittivity(film.pressure, film.density))
     chosen = by_outlet[discharge.outlet]
     total = {name: sum(parts.values()) for name, parts in by_outlet.items()}
     hertz = Size.of(semi_axes, discharge).hertz
-    plate = epsilon_0 * lubricant.relative_permittivity * hertz / film.central_thickness
+    plate = epsilon_0 * oil.relative_permittivity * hertz / film.central_thickness
     return Capacitances(
         capacitance=total[discharge.outlet],
         capacitance_hertz=chosen["hertz"],

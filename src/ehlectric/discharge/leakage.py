@@ -7,9 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ehlectric.cases.discharge import Discharge
-from ehlectric.discharge.laws import (
-    relaxation_time,
-)
+from ehlectric.discharge.laws import relaxation_time
+from ehlectric.lubricant.oil import Oil
 
 
 @dataclass(frozen=True)
@@ -28,9 +27,16 @@ class Leakage:
     corner_frequency: float | None = None
 
 
-def leakage(discharge: Discharge, permittivity: float) -> Leakage:
-    """Leakage of charge through an oil with this relative permittivity and the conductivity of the case."""
-    if discharge.conductivity is None:
+def conductivity_of(discharge: Discharge | None, oil: Oil) -> float | None:
+    """Electrical conductivity [S/m] of the table ``discharge``, or else of the oil; None without one."""
+    given = None if discharge is None else discharge.conductivity
+    return oil.conductivity if given is None else given
+
+
+def leakage(discharge: Discharge, oil: Oil) -> Leakage:
+    """Leakage of charge through an oil at ambient pressure."""
+    conductivity = conductivity_of(discharge, oil)
+    if conductivity is None:
         return Leakage()
-    time = relaxation_time(permittivity, discharge.conductivity)
+    time = relaxation_time(oil.relative_permittivity, conductivity)
     return Leakage(relaxation_time=time, corner_frequency=1.0 / (2.0 * np.pi * time))

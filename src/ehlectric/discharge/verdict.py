@@ -63,6 +63,7 @@ DOUBTS = (
     "shoulder-reached",
     "temperature-low",
     "viscosity-of-base",
+    "estimated-alpha",
     "load-low",
     "field-above-insulators",
     "strength-above-liquids",

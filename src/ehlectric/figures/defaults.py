@@ -6,10 +6,11 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from ehlectric.bearing.result import BearingResult
+from ehlectric.cases.measurements.factors import FilmFactors
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.errors import InputError
 from ehlectric.figures.bearing.save import bearing_figures_of
-from ehlectric.figures.names import SENSITIVITY_FIGURE, map_files
+from ehlectric.figures.names import MEASURED_FIGURE, SENSITIVITY_FIGURE, map_files
 from ehlectric.motion.result import MotionResult
 from ehlectric.sweep.breakdown_keys import breakdown_of
 from ehlectric.sweep.results import SweepResults
@@ -121,4 +122,5 @@ _CHOICES: Mapping[type, Callable[[Any, Mapping[str, Any]], _Default]] = {
     BearingResult: _of_bearing,
     MotionResult: _of_motion,
     SweepResults: _of_sweep,
+    FilmFactors: lambda _factors, _options: (MEASURED_FIGURE, {}),
 }

@@ -19,8 +19,8 @@ _OF_UNIT = re.compile(
 FORMATS = ("png", "svg", "pdf")
 STYLES = ("screen", "journal")
 
-# Figures of contacts. The roughness is drawn of rough contacts only, and the breakdown of contacts with a
-# dielectric strength only.
+# Figures of contacts. The roughness is drawn of rough contacts only, the breakdown of contacts with a
+# dielectric strength only, and the capacitance at a meter of cases with a table meter only.
 FIGURE_FILES = (
     "film.png",
     "field_strength.png",
@@ -35,11 +35,18 @@ POINT_FIGURE_FILES = (
     "field_sections.png",
     "cuts.png",
 )
-ROUGHNESS_FIGURE, BREAKDOWN_FIGURE = "roughness.png", "breakdown.png"
+ROUGHNESS_FIGURE, BREAKDOWN_FIGURE, METER_FIGURE = "roughness.png", "breakdown.png", "meter.png"
 
 # Figures of stationary contacts, line or point. Earlier versions drew the potential of line contacts too.
 ALL_FIGURES = tuple(
-    dict.fromkeys((*FIGURE_FILES, *POINT_FIGURE_FILES, ROUGHNESS_FIGURE, BREAKDOWN_FIGURE, "potential.png"))
+    dict.fromkeys(
+        (
+            *FIGURE_FILES,
+            *POINT_FIGURE_FILES,
+            *(ROUGHNESS_FIGURE, BREAKDOWN_FIGURE, METER_FIGURE),
+            "potential.png",
+        )
+    )
 )
 
 # Figures of transient contacts: over time, over position and time, and compared with stationary roughness.
@@ -55,6 +62,12 @@ BEARING_FIGURE_FILES = (
 
 # Figures of bearings over the speed of the shaft.
 SPEED_FIGURE_FILES = ("capacitance_over_speed.png", "breakdown_over_speed.png")
+
+# Figures of an oil.
+OIL_FIGURE_FILES = ("oil_over_pressure.png", "oil_over_temperature.png")
+
+# Figure of a measurement beside computed values.
+MEASURED_FIGURE = "measured_and_computed.png"
 
 # Figure of the sensitivity of a sweep; maps and lines of a sweep are named by the value that they show.
 SENSITIVITY_FIGURE = "sensitivity.png"

@@ -13,12 +13,14 @@ from matplotlib.figure import Figure
 
 from ehlectric.bearing.by_formula import formula_case
 from ehlectric.bearing.result import BearingResult
+from ehlectric.cases.measurements.factors import FilmFactors
 from ehlectric.cases.table import nearest
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.errors import InputError, ResultWarning, shown
 from ehlectric.figures.bearing import save as bearing
 from ehlectric.figures.contact import save as contact
 from ehlectric.figures.defaults import default_axes
+from ehlectric.figures.measured import save as measured
 from ehlectric.figures.motion import save as motion
 from ehlectric.figures.names import (
     BEARING_FIGURE_FILES,
@@ -35,7 +37,7 @@ from ehlectric.sweep.labels import label_of
 from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.slices import known_values
 
-AnyResult = Result | PointResult | BearingResult | xr.Dataset | MotionRun | SweepResults
+AnyResult = Result | PointResult | BearingResult | xr.Dataset | MotionRun | SweepResults | FilmFactors
 
 
 @dataclass(frozen=True)
@@ -59,8 +61,8 @@ def figure(result: AnyResult, name: str, *, style: str = "screen", **options: An
 
     Parameters
     ----------
-    result : Result, PointResult, BearingResult, Dataset, MotionRun or SweepResults
-        Result of a contact, bearing, transient contact or sweep.
+    result : Result, PointResult, BearingResult, Dataset, MotionRun, SweepResults or FilmFactors
+        Result of a contact, bearing, transient contact, sweep or measurement.
     name : str
         Name of its file, such as "film.png" of a line contact, or "film" for short; ``figure_names`` lists
         the names.
@@ -108,8 +110,8 @@ def figure_names(result: AnyResult) -> list[str]:
 
     Parameters
     ----------
-    result : Result, PointResult, BearingResult, Dataset, MotionRun or SweepResults
-        Result of a contact, bearing, transient contact or sweep.
+    result : Result, PointResult, BearingResult, Dataset, MotionRun, SweepResults or FilmFactors
+        Result of a contact, bearing, transient contact, sweep or measurement.
 
     Returns
     -------
@@ -126,8 +128,8 @@ def draw_figures(
 
     Parameters
     ----------
-    result : Result, PointResult, BearingResult, Dataset, MotionRun or SweepResults
-        Result of a contact, bearing, transient contact or sweep.
+    result : Result, PointResult, BearingResult, Dataset, MotionRun, SweepResults or FilmFactors
+        Result of a contact, bearing, transient contact, sweep or measurement.
     folder : str or Path
         Folder of the files; it is made if it does not exist.
     formats : sequence of str
@@ -159,8 +161,8 @@ def save_figures(
 
     Parameters
     ----------
-    result : Result, PointResult, BearingResult, Dataset, MotionRun or SweepResults
-        Result of a contact, bearing, transient contact or sweep.
+    result : Result, PointResult, BearingResult, Dataset, MotionRun, SweepResults or FilmFactors
+        Result of a contact, bearing, transient contact, sweep or measurement.
     folder : str or Path
         Folder of the files; it is made if it does not exist.
     formats : sequence of str
@@ -204,6 +206,10 @@ def _save_bearing(result: BearingResult, folder: Path, formats: Sequence[str]) -
 def _save_motion(result: xr.Dataset | MotionRun, folder: Path, formats: Sequence[str]) -> Drawn:
     dataset = result.dataset if isinstance(result, MotionRun) else result
     return Drawn(tuple(motion.save_motion_figures(dataset, folder, formats)))
+
+
+def _save_measured(factors: FilmFactors, folder: Path, formats: Sequence[str]) -> Drawn:
+    return Drawn(tuple(measured.save_measured_figures(factors, folder, formats)))
 
 
 def _names_of_bearing(result: BearingResult) -> list[str]:
@@ -283,6 +289,7 @@ _DRAWS: dict[type, _Draws] = {
     Result: _CONTACT,
     PointResult: _CONTACT,
     BearingResult: _Draws(bearing.figure, _names_of_bearing, _save_bearing),
+    FilmFactors: _Draws(measured.figure, measured.measured_figures_of, _save_measured),
     xr.Dataset: _MOTION,
     MotionRun: _MOTION,
     SweepResults: _Draws(sweep.figure, _names_of_sweep, lambda _results, _folder, _formats: Drawn(())),

@@ -99,7 +99,8 @@ class LineContact:
     viscosity : float
         Viscosity eta0 at zero pressure [Pa s].
     pressure_viscosity_coefficient : float
-        Slope alpha of ln(eta) at zero pressure [1/Pa]; zero for an isoviscous lubricant.
+        Reciprocal asymptotic coefficient alpha of the oil's law [1/Pa], which is the slope of ln(eta)
+        for Barus' law; zero for an isoviscous lubricant.
     """
 
     reduced_radius: float

@@ -216,3 +216,30 @@ def line_gap(x: ArrayLike) -> Array:
     root = np.sqrt(distance**2 - 1.0)
     gap: Array = 0.5 * (distance * root - np.log(distance + root))
     return gap
+
+
+def line_opening(x: ArrayLike, half_width: float, radius: float) -> Array:
+    """Elastic deflection of a dry line contact: the distance by which it opens the gap of two parabolas.
+
+    Parameters
+    ----------
+    x : array_like, shape (...)
+        Position [m].
+    half_width, radius : float
+        Half-width b of the dry contact and reduced radius R [m].
+
+    Returns
+    -------
+    ndarray, shape (...)
+        Deflection [m], up to a constant: it is zero at x = 0.
+
+    Examples
+    --------
+    Inside the contact the deflection makes the parabolas flat:
+
+    >>> round(float(line_opening(1e-4, 2e-4, 0.01) / (1e-4**2 / (2 * 0.01))), 6)
+    -1.0
+    """
+    position = np.asarray(x, dtype=float)
+    opening: Array = half_width**2 / radius * line_gap(position / half_width) - 0.5 * position**2 / radius
+    return opening

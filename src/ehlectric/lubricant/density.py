@@ -1,4 +1,4 @@
-"""Density laws of the lubricant: density ratio over pressure and temperature."""
+"""Density laws of the lubricant: density over that at zero pressure and the same temperature."""
 
 from __future__ import annotations
 
@@ -6,7 +6,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array
-from ehlectric.lubricant.law import Law, Parameter
+from ehlectric.errors import InputError
+from ehlectric.lubricant.equation_of_state import MURNAGHAN, TAIT
+from ehlectric.lubricant.law import Law, Parameter, refused
 
 
 def dowson_higginson(
@@ -44,6 +46,40 @@ def dowson_higginson(
     p = np.asarray(pressure, dtype=float)
     total = density_c1 + p
     return (density_c1 + density_c2 * p) / total, (density_c2 - 1.0) * density_c1 / total**2
+
+
+def dowson_higginson_pressure(
+    density_ratio: ArrayLike, temperature: ArrayLike | None = None, *, density_c1: float, density_c2: float
+) -> Array:
+    """Pressure [Pa] of a density ratio after Dowson and Higginson; the inverse of ``dowson_higginson``.
+
+    Parameters
+    ----------
+    density_ratio : array_like, shape (...)
+        Density over that at zero pressure, dimensionless, from 1 to below C2.
+    temperature : array_like, optional
+        Temperature [K]. The law is isothermal and ignores it.
+    density_c1, density_c2 : float
+        Parameters of ``dowson_higginson``.
+
+    Raises
+    ------
+    InputError
+        If no pressure has the density ratio.
+
+    Examples
+    --------
+    >>> round(float(dowson_higginson_pressure(1.2138, density_c1=0.59e9, density_c2=1.34)) / 1e9, 2)
+    1.0
+    """
+    ratio = np.asarray(density_ratio, dtype=float)
+    if wrong := refused(ratio, (ratio >= 1.0) & (ratio < density_c2), ""):
+        raise InputError(
+            "density_ratio",
+            got=f"{wrong};",
+            takes=f"from 1 to below {density_c2:g}, the range of density_law 'dowson-higginson'",
+        )
+    return density_c1 * (ratio - 1.0) / (density_c2 - ratio)
 
 
 def incompressible(pressure: ArrayLike, temperature: ArrayLike | None = None) -> tuple[Array, Array]:
@@ -92,6 +128,8 @@ _C2 = Parameter(
 )
 
 DENSITY_LAWS = {
-    "dowson-higginson": Law(dowson_higginson, (_C1, _C2)),
+    "dowson-higginson": Law(dowson_higginson, (_C1, _C2), inverse=dowson_higginson_pressure),
     "incompressible": Law(incompressible),
+    "tait": TAIT,
+    "murnaghan": MURNAGHAN,
 }

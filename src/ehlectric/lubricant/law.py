@@ -1,15 +1,18 @@
 """Description of a lubricant law: its function, its parameters, and warnings about its range.
 
-A law of viscosity or density is ``law(pressure, temperature, *, parameters...) -> (value, derivative by
-pressure)``. A law of permittivity is ``law(density_ratio, temperature, *, parameters...) -> value``. The
-temperature [K] broadcasts with the first argument. Without a temperature, a law returns its value at the
-temperature for which the case gives the parameters. An isothermal law always does so, in the shape of the
-first argument.
+A law of viscosity, density, thermal conductivity or heat capacity is ``law(pressure, temperature, *,
+parameters...) -> (value, derivative by pressure)``. A law of permittivity is ``law(density_ratio,
+temperature, *, parameters...) -> value``. A law at ambient pressure, of viscosity or electrical conductivity,
+is ``law(temperature, *, parameters...) -> value``. The temperature [K] broadcasts with the first argument.
+Without a temperature, a law returns its value at the temperature for which the case gives the parameters. An
+isothermal law always does so, in the shape of the first argument. A law that changes with temperature raises
+``InputError`` without one.
 
 To add a law, write its function and add a ``Law`` to the table of its module: ``VISCOSITY_LAWS``,
-``DENSITY_LAWS`` or ``PERMITTIVITY_LAWS``. Add a ``Parameter`` to that entry for each new parameter. Nothing
-else needs an edit: the keys of ``[lubricant]``, their bounds and messages, the labels of figures and the
-table of keys in the documentation are all read from these tables.
+``ATMOSPHERIC_LAWS``, ``DENSITY_LAWS``, ``PERMITTIVITY_LAWS``, ``CONDUCTIVITY_LAWS``,
+``THERMAL_CONDUCTIVITY_LAWS`` or ``HEAT_CAPACITY_LAWS``. Add a ``Parameter`` to that entry for each new
+parameter. Nothing else needs an edit: the keys of ``[lubricant]``, their bounds and messages, the labels of
+figures and the table of keys in the documentation are all read from these tables.
 """
 
 from __future__ import annotations
@@ -19,10 +22,11 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, Protocol
 
+import numpy as np
 from numpy.typing import ArrayLike
 
-from ehlectric.arrays import Array
-from ehlectric.errors import ResultWarning
+from ehlectric.arrays import Array, Mask
+from ehlectric.errors import InputError, ResultWarning
 
 
 class PressureLaw(Protocol):
@@ -33,14 +37,6 @@ class PressureLaw(Protocol):
 
         The value is dimensionless: the density ratio, or the logarithm of the relative viscosity.
         """
-        ...
-
-
-class DensityRatioLaw(Protocol):
-    """Law of permittivity with fixed parameters, as a function of density ratio and temperature."""
-
-    def __call__(self, density_ratio: ArrayLike, temperature: ArrayLike | None = None, /) -> Array:
-        """Relative permittivity, dimensionless, at a density ratio, dimensionless, and a temperature [K]."""
         ...
 
 
@@ -83,6 +79,8 @@ class Parameter:
     derivation : Derivation, optional
         For a parameter that changes with temperature: the relation that gives its value at the temperature of
         a bearing, if the bearing file does not contain it.
+    difference : bool
+        Whether the parameter is a difference of temperatures, for which a degree Celsius is a kelvin.
 
     Examples
     --------
@@ -102,6 +100,7 @@ class Parameter:
     below: float = math.inf
     reason: str = ""
     derivation: Derivation | None = None
+    difference: bool = False
 
 
 @dataclass(frozen=True)
@@ -115,11 +114,26 @@ class Law:
     parameters : tuple of Parameter
         Parameters that the case must give.
     warnings : callable, optional
-        ``warnings(max_pressure, viscosity, **parameters)`` yields a ``ResultWarning`` for each reason not to
-        trust the law in a contact with this Hertz pressure [Pa] and viscosity eta0 [Pa s].
+        ``warnings(max_pressure, viscosity, temperature, **parameters)`` yields a ``ResultWarning`` for each
+        reason not to trust the law in a contact with this Hertz pressure [Pa], viscosity eta0 [Pa s] and
+        temperature [K]. The temperature is None where the case gives none.
     hint : callable, optional
         ``hint(viscosity, given)`` returns a text for the end of the error message about missing parameters.
         ``given`` has the values of the parameters in the case, by name.
+    needs_temperature : bool
+        Whether the law has no value without a temperature.
+    atmospheric : callable, optional
+        ``atmospheric(temperature, **parameters)`` returns the viscosity eta0 [Pa s] at zero pressure and a
+        temperature [K], for a viscosity law that has one of its own.
+    thermal_expansion : str, optional
+        Name of the parameter of a density law that is the thermal expansion of the volume at zero pressure.
+    coefficient : callable, optional
+        ``coefficient(temperature, **parameters)`` returns the temperature coefficient -d ln(eta0)/dT [1/K] at
+        zero pressure, for a law that gives the viscosity at zero pressure.
+    inverse : callable, optional
+        ``inverse(value, **parameters)`` returns the temperature [K] at which a law at ambient pressure has a
+        value. For a law of density it is ``inverse(ratio, temperature, **parameters)`` and returns the
+        pressure [Pa] of a density ratio.
 
     Examples
     --------
@@ -131,3 +145,66 @@ class Law:
     parameters: tuple[Parameter, ...] = ()
     warnings: Callable[..., Iterator[ResultWarning]] | None = None
     hint: Callable[[float, Mapping[str, float]], str] | None = None
+    needs_temperature: bool = False
+    atmospheric: Callable[..., Array] | None = None
+    thermal_expansion: str | None = None
+    coefficient: Callable[..., Array] | None = None
+    inverse: Callable[..., Array] | None = None
+
+
+def required(temperature: ArrayLike | None, law: str) -> Array:
+    """Temperature [K] that a law needs, as an array.
+
+    Parameters
+    ----------
+    temperature : array_like or None
+        Temperature [K].
+    law : str
+        Key and name of the law, for the message.
+
+    Raises
+    ------
+    InputError
+        If the temperature is None.
+
+    Examples
+    --------
+    >>> float(required(313.15, "viscosity_law 'yasutomi'"))
+    313.15
+    """
+    if temperature is None:
+        raise InputError.worded("temperature", f"missing; {law} needs it", takes="a temperature")
+    return np.asarray(temperature, dtype=float)
+
+
+def refused(values: Array, allowed: Mask, unit: str) -> str:
+    """First value that a law does not allow, with its unit, for a message; empty if all are allowed.
+
+    Examples
+    --------
+    >>> refused(np.array([1.0, -2.0]), np.array([True, False]), "Pa s")
+    '-2 Pa s'
+    """
+    wrong = values[~allowed]
+    return f"{float(wrong.flat[0]):.5g} {unit}".strip() if wrong.size else ""
+
+
+def within(temperature: Array, law: str, least: float, most: float, reason: str) -> None:
+    """Check that temperatures [K] lie in the range of a law, whose ends are not part of it.
+
+    Raises
+    ------
+    InputError
+        If a temperature is outside; the message names the law and its range.
+
+    Examples
+    --------
+    >>> within(np.array(313.15), "viscosity_law 'yasutomi'", 190.0, np.inf, "its glass transition")
+    """
+    if wrong := refused(temperature, (temperature > least) & (temperature < most), "K"):
+        ends = [f"above {least:.5g} K"] * math.isfinite(least) + [f"below {most:.5g} K"] * math.isfinite(most)
+        raise InputError(
+            "temperature",
+            got=f"{wrong};",
+            takes=f"{' and '.join(ends)}, the range of {law}: {reason}",
+        )

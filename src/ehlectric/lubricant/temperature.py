@@ -1,11 +1,17 @@
-"""Temperature dependence of an oil: viscosity, density and the effect of inlet shear heating, in SI units."""
+"""Temperature dependence of an oil: viscosity, density, measured tables, and inlet shear heating."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ehlectric.arrays import Array
 from ehlectric.errors import InputError
+from ehlectric.lubricant.law import refused
 
 # 15, 40 and 100 degC as absolute temperatures [K].
 REFERENCE = 288.15
@@ -49,13 +55,13 @@ class Walther:
         """
         if not at_40 > at_100:
             raise InputError(
-                "lubricant.temperature.kinematic_viscosity_100",
+                "temperature.kinematic_viscosity_100",
                 got=f"{at_100:g} m^2/s",
                 takes=f"less than kinematic_viscosity_40, {at_40:g} m^2/s",
             )
         if at_100 < 1e-6 * _LEAST:
             raise InputError(
-                "lubricant.temperature.kinematic_viscosity_100",
+                "temperature.kinematic_viscosity_100",
                 got=f"{at_100:g} m^2/s",
                 takes=f"at least {1e-6 * _LEAST:g} m^2/s, for which ASTM D341 holds in its short form",
             )
@@ -73,11 +79,11 @@ class Walther:
         """
         double = math.pow(10.0, self.a - self.b * math.log10(temperature))
         if double > 300.0:
-            raise InputError("bearing.temperature", got=f"{temperature:g} K, at which the oil is solid")
+            raise InputError("temperature", got=f"{temperature:g} K, at which the oil is solid")
         nu = math.pow(10.0, double) - _ADDED
         if nu < _LEAST:
             raise InputError(
-                "bearing.temperature",
+                "temperature",
                 got=f"{temperature:g} K, at which the oil has {nu:.3g} mm^2/s;",
                 takes=f"one at which it has {_LEAST:g} mm^2/s or more, for which ASTM D341 holds in its "
                 "short form",
@@ -113,6 +119,58 @@ def density(at_15: float, expansion: float, temperature: float) -> float:
     838.9
     """
     return at_15 * (1.0 - expansion * (temperature - REFERENCE))
+
+
+def interpolated(
+    temperature: ArrayLike,
+    temperatures: Sequence[float],
+    values: Sequence[float],
+    *,
+    table: str,
+    arrhenius: bool = False,
+) -> Array:
+    """Property of an oil at a temperature, from a table over temperature.
+
+    Parameters
+    ----------
+    temperature : array_like, shape (...)
+        Temperature [K].
+    temperatures : sequence of float, shape (n,)
+        Temperatures of the table [K], increasing.
+    values : sequence of float, shape (n,)
+        Values of the property; with ``arrhenius`` above zero.
+    table : str
+        Name of the table, for the message.
+    arrhenius : bool, optional
+        Whether the logarithm of the value is interpolated linearly over 1/T, as for an electrical
+        conductivity. Without it, the value is interpolated linearly over T.
+
+    Returns
+    -------
+    ndarray, shape (...)
+        Values of the property at the temperatures.
+
+    Raises
+    ------
+    InputError
+        If a temperature is outside the table; nothing is extrapolated.
+
+    Examples
+    --------
+    >>> round(float(interpolated(323.15, [313.15, 333.15], [2.070, 2.056], table="permittivity_table")), 4)
+    2.063
+    """
+    at, known = np.asarray(temperature, dtype=float), np.asarray(temperatures, dtype=float)
+    if wrong := refused(at, (at >= known[0]) & (at <= known[-1]), "K"):
+        raise InputError(
+            "temperature",
+            got=f"{wrong};",
+            takes=f"{known[0]:.5g} to {known[-1]:.5g} K, the range of {table}",
+        )
+    if not arrhenius:
+        return np.asarray(np.interp(at, known, values))
+    # 1/T falls where T rises; np.interp takes increasing abscissae.
+    return np.asarray(np.exp(np.interp(-1.0 / at, -1.0 / known, np.log(values))))
 
 
 def inlet_shear_factor(viscosity: float, slope: float, speed: float, conductivity: float) -> float:

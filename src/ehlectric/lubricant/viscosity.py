@@ -10,7 +10,10 @@ from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array
 from ehlectric.errors import ResultWarning
+from ehlectric.lubricant.doolittle import DOOLITTLE
 from ehlectric.lubricant.law import Derivation, Law, Parameter
+from ehlectric.lubricant.modulus import MODULUS
+from ehlectric.lubricant.yasutomi import YASUTOMI
 
 # Constant of Roelands' law in ln(eta0) + 9.67, with the viscosity eta0 at zero pressure in Pa s.
 ROELANDS_CONSTANT = 9.67
@@ -191,7 +194,11 @@ def constant_viscosity(pressure: ArrayLike, temperature: ArrayLike | None = None
 
 
 def _barus_warnings(
-    max_pressure: float, viscosity: float, *, pressure_viscosity_coefficient: float
+    max_pressure: float,
+    viscosity: float,
+    temperature: float | None = None,
+    *,
+    pressure_viscosity_coefficient: float,
 ) -> Iterator[ResultWarning]:
     """Warning about Barus' law at a high Hertz pressure ``max_pressure`` [Pa]."""
     if max_pressure > 0.5e9:
@@ -205,6 +212,7 @@ def _barus_warnings(
 def _roelands_warnings(
     max_pressure: float,
     viscosity: float,
+    temperature: float | None = None,
     *,
     pressure_viscosity_coefficient: float,
     roelands_z: float,
@@ -270,5 +278,8 @@ VISCOSITY_LAWS = {
         roelands, (_ALPHA, _ROELANDS_Z, _ROELANDS_PRESSURE), warnings=_roelands_warnings, hint=_roelands_hint
     ),
     "barus": Law(barus, (_ALPHA,), warnings=_barus_warnings),
+    "modulus": MODULUS,
+    "yasutomi": YASUTOMI,
+    "doolittle": DOOLITTLE,
     "constant": Law(constant_viscosity),
 }

@@ -198,15 +198,25 @@ def local_maxima(run: MotionRun, within: Mask) -> Array:
     return peaks.astype(float)
 
 
-def _discharge(run: MotionRun) -> dict[str, Any] | None:
-    """Breakdown voltage over time; None without a constant dielectric strength."""
+def breakdown_voltages(run: MotionRun) -> Array | None:
+    """Breakdown voltage at every recorded instant, shape (frames,) [V].
+
+    None without a constant dielectric strength.
+    """
     discharge = run.case.discharge
     if discharge is None or discharge.dielectric_strength is None:
         return None
-    voltage = run.case.electric.voltage
     strength = float(dielectric_strength(discharge, np.zeros(1))[0])
-    dataset = run.dataset
-    voltages = strength * voltage / dataset["max_strength"].values
+    voltages: Array = strength * run.case.electric.voltage / run.values("max_strength")
+    return voltages
+
+
+def _discharge(run: MotionRun) -> dict[str, Any] | None:
+    """Breakdown voltage over time; None without a constant dielectric strength."""
+    voltages = breakdown_voltages(run)
+    if voltages is None:
+        return None
+    voltage, dataset = run.case.electric.voltage, run.dataset
     least = int(np.argmin(voltages))
     return {
         "breakdown_voltage": voltages[least],

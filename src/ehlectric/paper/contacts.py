@@ -5,11 +5,13 @@ from __future__ import annotations
 import csv
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib import resources
 from pathlib import Path
 
 from ehlectric.cases.case import Case
+from ehlectric.contact.results import Result
+from ehlectric.formulas.film_line import LineContact
 
 # Smooth contacts have as many nodes as in the paper. Rough ones need more: over six half-widths, 3201 nodes
 # are 0.5 to 0.9 µm apart, while the correlation length of the profile is 1.5 µm.
@@ -125,6 +127,12 @@ CONTACTS = tuple(
     for gigapascal, names in _PRINTED.items()
     for u_s, label, printed in zip((8.0, 4.0, 2.0, 1.0), "abcd", names, strict=True)
 )
+
+
+def of_paper(result: Result) -> LineContact:
+    """Contact for M and L of the paper, whose L has the slope alpha of ln(eta) at zero pressure."""
+    assert isinstance(result.case, Case)
+    return replace(result.conditions.contact, pressure_viscosity_coefficient=result.case.oil.alpha)
 
 
 @contextmanager

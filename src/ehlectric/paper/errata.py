@@ -14,7 +14,7 @@ from ehlectric.field.line import solve_field
 from ehlectric.film.problem import FilmProblem
 from ehlectric.lubricant.viscosity import roelands_exponent
 from ehlectric.paper import fas, relaxation
-from ehlectric.paper.contacts import CONTACTS, SMOOTH_NODES
+from ehlectric.paper.contacts import CONTACTS, SMOOTH_NODES, of_paper
 from ehlectric.paper.film_equations import FilmEquations, Iterate
 from ehlectric.paper.sor import ROWS
 from ehlectric.paper.study import Study, readings_differ_by
@@ -42,10 +42,11 @@ class Slip:
 def _viscosity(_: Study) -> str:
     """Check of the viscosity of Table 1 by M, L and the Roelands exponent."""
     case = CONTACTS[4].case()
-    oil, contact = case.lubricant, resolve(case).contact
+    oil = case.lubricant
+    contact = replace(resolve(case).contact, pressure_viscosity_coefficient=case.oil.alpha)
     misprinted = replace(contact, viscosity=4e-4)
     assert oil.pressure_viscosity_coefficient is not None and oil.roelands_pressure is not None
-    z = roelands_exponent(oil.viscosity, oil.pressure_viscosity_coefficient, oil.roelands_pressure)
+    z = roelands_exponent(case.oil.viscosity, oil.pressure_viscosity_coefficient, oil.roelands_pressure)
     return (
         "M and L of Table 3's first row are printed as 49.2 and 15.7: 4e-4 gives "
         f"{misprinted.moes_m:.1f} and {misprinted.moes_l:.2f}, {oil.viscosity:g} gives {contact.moes_m:.1f} "
@@ -146,7 +147,7 @@ def _square_cells(study: Study) -> str:
 
 def _m68(study: Study) -> str:
     """Check of the name M68 by the computed M."""
-    groups = study.smooth[CONTACTS[5]].conditions.contact
+    groups = of_paper(study.smooth[CONTACTS[5]])
     return f"M = {groups.moes_m:.1f}; Table 3 prints 69.6"
 
 

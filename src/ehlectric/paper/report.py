@@ -12,7 +12,7 @@ import numpy as np
 from jinja2 import Environment, StrictUndefined
 
 from ehlectric.errors import ResultWarning
-from ehlectric.paper.contacts import CONTACTS, ROUGH_NODES, SMOOTH_NODES
+from ehlectric.paper.contacts import CONTACTS, ROUGH_NODES, SMOOTH_NODES, of_paper
 from ehlectric.paper.errata import SLIPS
 from ehlectric.paper.figures import FIGURES
 from ehlectric.paper.sor import ROWS
@@ -181,7 +181,7 @@ def _range(values: list[float], digits: str) -> str:
 def _width_law(study: Study) -> tuple[tuple[float, float], float]:
     """Exponents of M and L in a power law fitted to width/b, and the largest relative deviation."""
     results = list(study.smooth.values())
-    groups = [result.conditions.contact for result in results]
+    groups = [of_paper(result) for result in results]
     logs = np.column_stack([np.ones(len(groups)), np.log([[g.moes_m, g.moes_l] for g in groups])])
     shares = np.log([r.field.high_field_width / r.conditions.half_width for r in results])
     law, *_ = np.linalg.lstsq(logs, shares, rcond=None)

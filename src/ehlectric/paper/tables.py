@@ -8,9 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ehlectric.cases.lubricant import density_law, permittivity_law
 from ehlectric.contact.results import Result
-from ehlectric.paper.contacts import PaperContact, table_3
+from ehlectric.paper.contacts import PaperContact, of_paper, table_3
 from ehlectric.paper.study import Study
 from ehlectric.runtime.files import write
 from ehlectric.runtime.tables import csv_of
@@ -118,7 +117,7 @@ def printed_table(study: Study) -> PaperTable:
                 printed["moes_m"],
                 second.conditions.contact.moes_m,
                 printed["moes_l"],
-                second.conditions.contact.moes_l,
+                of_paper(second).moes_l,
                 printed["venner_h_min"],
                 printed["venner_h_av"],
                 printed["paper_h_min"],
@@ -144,7 +143,7 @@ def printed_table(study: Study) -> PaperTable:
 
 def _row_head(contact: PaperContact, result: Result) -> tuple[str | float, ...]:
     """First cells of a row: name of the contact, M and L."""
-    groups = result.conditions.contact
+    groups = of_paper(result)
     return (contact.name, groups.moes_m, groups.moes_l)
 
 
@@ -242,14 +241,15 @@ def permittivity_table(study: Study) -> PaperTable:
     for contact, constant in study.constant.items():
         result = study.smooth[contact]
         p_h = np.array([result.conditions.max_pressure])
-        density, _ = density_law(result.case.lubricant)(p_h)
-        at_hertz = float(permittivity_law(result.case.lubricant)(density)[0])
+        oil = result.case.oil
+        density, _ = oil.density_ratio(p_h)
+        at_hertz = float(oil.permittivity(p_h, density)[0])
         inner = result.field.inner
         change = constant.field.middle_strength / result.field.middle_strength - 1.0
         rows.append(
             (
                 *_row_head(contact, result),
-                result.case.lubricant.relative_permittivity,
+                oil.relative_permittivity,
                 at_hertz,
                 1e6 * (constant.field.max_strength / result.field.max_strength - 1.0),
                 1e6 * float(np.max(np.abs(change[inner]))),

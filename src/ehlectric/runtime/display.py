@@ -1,6 +1,6 @@
 """Display of results and cases: one line, a table in a notebook, and figures by name.
 
-The tables and figures are in the packages ``commands`` and ``figures``, which lie above the results that they
+The tables and figures are in the packages ``tables`` and ``figures``, which lie above the results that they
 show. This module finds their functions by name when they are first needed, as pandas finds its plotting
 backend. It is the only place where a lower package calls an upper one.
 """
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 # Functions of upper packages: (module, name).
-_TABLE = ("ehlectric.commands.tables.html", "html_of")
+_TABLE = ("ehlectric.tables.html", "html_of")
 _FIGURE = ("ehlectric.figures.results", "figure")
 _DEFAULT = ("ehlectric.figures.defaults", "default_figure")
 

@@ -28,6 +28,8 @@ class RunOutcome(Generic[R]):
         Warnings that tell where the result is unreliable.
     failure : str or None
         One line that says what was not solved; None where the run succeeded.
+    beside : tuple of object
+        Further results with figures of their own, such as the film factors of a measurement.
 
     Examples
     --------
@@ -41,6 +43,7 @@ class RunOutcome(Generic[R]):
     files: tuple[Path, ...]
     warnings: tuple[ResultWarning, ...] = ()
     failure: str | None = None
+    beside: tuple[object, ...] = ()
 
     @property
     def converged(self) -> bool:

@@ -5,15 +5,16 @@ The processes end at once where a run is stopped, and with their parent process.
 
 from __future__ import annotations
 
-import multiprocessing
 import os
 import signal
 import threading
 from collections.abc import Callable, Iterator
-from concurrent.futures import Executor, Future, ProcessPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
+
+if TYPE_CHECKING:
+    from concurrent.futures import Executor, Future, ProcessPoolExecutor
 
 T = TypeVar("T")
 
@@ -110,6 +111,10 @@ def processes(number: int) -> Iterator[Crew]:
 
 
 def _pool(number: int) -> ProcessPoolExecutor:
+    # Every command asks for the number of cores; few start processes.
+    import multiprocessing
+    from concurrent.futures import ProcessPoolExecutor
+
     return ProcessPoolExecutor(
         number, mp_context=multiprocessing.get_context("spawn"), initializer=_prepare_process
     )
@@ -148,6 +153,7 @@ def without_interrupts() -> Iterator[None]:
 
 def end_with_parent() -> None:
     """Start a thread that ends this process as soon as its parent has ended. Processes of a pool call it."""
+    import multiprocessing
 
     def watch() -> None:
         parent = multiprocessing.parent_process()

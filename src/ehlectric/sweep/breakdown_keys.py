@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.cases.any_case import AnyCase
-from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.sweep.results import SweepResults
 
 
@@ -77,6 +77,10 @@ THROUGH = Breakdown(
     "shaft voltage",
 )
 
+# With a coating on a ring, the breakdown voltages beside the shaft voltage are those of the shaft.
+_COATED_FIRST = replace(FIRST_BREAK, value="bearing.shaft_first_break")
+_COATED_THROUGH = replace(THROUGH, value="bearing.shaft_through_breakdown")
+
 
 def breakdown_of(case: AnyCase, value: str | None = None) -> Breakdown:
     """Breakdown voltage that a value of a summary belongs to.
@@ -96,4 +100,7 @@ def breakdown_of(case: AnyCase, value: str | None = None) -> Breakdown:
     """
     if not isinstance(case, BearingCase):
         return CONTACT
+    if case.bearing.coating is not None:
+        through = value in (*THROUGH.keys, _COATED_THROUGH.value)
+        return _COATED_THROUGH if through else _COATED_FIRST
     return THROUGH if value in THROUGH.keys else FIRST_BREAK

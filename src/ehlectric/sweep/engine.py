@@ -12,7 +12,7 @@ import numpy as np
 from ehlectric.bearing.solver import solve_bearing
 from ehlectric.bearing.summary import summary_of
 from ehlectric.cases.any_case import case_of_dict
-from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.contact.solver import solve
 from ehlectric.errors import ConvergenceError, InputError, MemoryLimitError
 from ehlectric.runtime.files import now

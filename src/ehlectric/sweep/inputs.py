@@ -13,10 +13,11 @@ from pydantic import ValidationInfo, create_model, field_validator, model_valida
 from pydantic.fields import FieldInfo
 
 from ehlectric.cases.any_case import AnyCase, case_of_dict, case_of_file
-from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.cases.case import Case, find_files
+from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.cases.case import Case
 from ehlectric.cases.input_keys import input_field, kind_of, number_of
 from ehlectric.cases.quantity import WRITTEN, Count, Quantity
+from ehlectric.cases.roughness import find_files
 from ehlectric.cases.table import Table, nearest, nearest_key, read_toml
 from ehlectric.cases.title import Title
 from ehlectric.errors import InputError, printable, short, shown

@@ -10,7 +10,7 @@ from scipy.sparse import csr_array
 from scipy.spatial import Delaunay, QhullError
 
 from ehlectric.arrays import Array, IntArray, Mask
-from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.input_keys import unit_of
 from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.slices import Slice

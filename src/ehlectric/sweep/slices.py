@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array, IntArray, Mask
-from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.input_keys import kind_of
 from ehlectric.cases.quantity import Count, Quantity
 from ehlectric.cases.row import value_at

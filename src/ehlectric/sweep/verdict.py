@@ -12,7 +12,7 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.bearing.by_formula import formula_factor
 from ehlectric.cases.any_case import AnyCase
-from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.row import value_at
 from ehlectric.discharge.verdict import (
     DOUBTS,

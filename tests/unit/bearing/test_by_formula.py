@@ -22,6 +22,7 @@ from tests.helpers.bearings import (
     ring_of,
     solve_contact,
 )
+from tests.helpers.oils import alpha_star
 
 D, PITCH, LENGTH = 11.906e-3, 60e-3, 10e-3
 ROLLER = 11e-3
@@ -29,7 +30,7 @@ ROLLER = 11e-3
 UNLIKE = changed(BALLS, bearing__outer_groove=0.53)
 MODULUS = 208e9 / (1.0 - 0.3**2)
 VISCOSITY = 14.847e-6 * 838.90
-ALPHA = 0.67 * (math.log(VISCOSITY) + 9.67) / 0.198e9
+ALPHA = alpha_star(0.67 * (math.log(VISCOSITY) + 9.67) / 0.198e9)
 SPEED = 4.5
 
 

@@ -13,11 +13,12 @@ from ehlectric.formulas.film_line import LineContact, moes
 from ehlectric.formulas.film_point import PointContact, nijenbanning_venner_moes
 from ehlectric.formulas.hertz_point import dry_contact
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, changed, contact_case, contact_of, ring_of
+from tests.helpers.oils import alpha_star
 
 D, PITCH, ROLLER, LENGTH = 11.906e-3, 60e-3, 11e-3, 10e-3
 MODULUS = 208e9 / (1.0 - 0.3**2)
 VISCOSITY = 14.847e-6 * 838.90
-ALPHA = 0.67 * (math.log(VISCOSITY) + 9.67) / 0.198e9
+ALPHA = alpha_star(0.67 * (math.log(VISCOSITY) + 9.67) / 0.198e9)
 SPEED = 4.5
 UNLIKE = changed(BALLS, bearing__outer_groove=0.53)
 

@@ -89,7 +89,7 @@ def test_a_roller_is_a_parabola_as_far_as_its_film_builds_up():
     ring = ring_of(bearing_case(ROLLERS), speed=4.55)
     for load in (0.2, 0.3, 0.5):
         # Of rigid bodies without a pressure-viscosity effect (Martin), h = 4.896 eta u R L/Q.
-        film = 4.896 * ring.conditions.lubricant.viscosity * 4.55 * 4.4917e-3 * 0.01 / load
+        film = 4.896 * ring.conditions.oil.viscosity * 4.55 * 4.4917e-3 * 0.01 / load
         if film > 33.7e-6:
             with pytest.raises(InputError, match=r"for at most 33\.7 um"):
                 check_film(RollerContact(ring, load))

@@ -131,6 +131,8 @@ def test_breaks_of_strengths_that_are_anything(result):
         "first_break_mean": np.mean(firsts),
         "through_breakdown": min(throughs),
         "through_breakdown_mean": np.mean(throughs),
+        "shaft_first_break": min(firsts),
+        "shaft_through_breakdown": min(throughs),
         "margin": min(firsts) / shaft,
         "through_margin": min(throughs) / shaft,
     }

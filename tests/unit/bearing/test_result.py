@@ -342,7 +342,9 @@ def test_what_some_contacts_share_names_their_loads(rollers):
 def test_film_factor_is_told(rollers):
     assert any(text.startswith("bearing.film_factor is none:") for text in map(str, rollers.warnings))
     assert rollers.summary()["bearing"]["film_factor"] == 1.0
-    conditions = dataclasses.replace(rollers.solution.conditions, film_factor=0.7)
+    conditions = rollers.solution.conditions
+    outer = dataclasses.replace(conditions.outer, film_factor=0.7)
+    conditions = dataclasses.replace(conditions, outer=outer)
     lean = BearingResult(dataclasses.replace(rollers.solution, conditions=conditions))
     assert not any(text.startswith("bearing.film_factor is none:") for text in map(str, lean.warnings))
     (smooth,) = (one.text for one in lean.warnings if one.code == "smooth-film")
@@ -434,5 +436,7 @@ def test_a_contact_breaks_down_at_its_voltage_over_its_share():
 def test_the_fill_of_a_capacitance_is_oil_or_air():
     result = solve_bearing(bearing_case(BALLS, contacts="formula", bearing__fill="air"), workers=1)
     assert result.capacitance() == result.capacitance("air") < result.capacitance("oil")
-    with pytest.raises(InputError, match=r"^fill: got 'water'; expected 'oil', 'air', or None "):
+    with pytest.raises(
+        InputError, match=r"^fill: got 'water'; expected 'oil', 'air', a part from 0 to 1, or None "
+    ):
         result.capacitance("water")

@@ -22,11 +22,12 @@ from ehlectric.bearing.ring_contacts import (
 )
 from ehlectric.formulas.hertz_point import dry_contact, point_deflection
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, changed, rigid_capacitance, ring_of
+from tests.helpers.oils import alpha_star
 
 D, PITCH = 11.906e-3, 60e-3
 MODULUS = 208e9 / (1.0 - 0.3**2)
 VISCOSITY = 14.847e-6 * 838.90
-ALPHA = 0.67 * (math.log(VISCOSITY) + 9.67) / 0.198e9
+ALPHA = alpha_star(0.67 * (math.log(VISCOSITY) + 9.67) / 0.198e9)
 UNLIKE = changed(BALLS, bearing__outer_groove=0.53)
 RINGS = [(True, 0.52, 1.0), (False, 0.53, -1.0)]
 

@@ -191,14 +191,14 @@ def test_a_6208_as_a_whole_and_between_the_loads_that_were_solved():
     formula = solve_bearing(case.replace({"contacts": "formula"})).summary()["bearing"]
     for key in ("capacitance", "capacitance_plate", "first_break", "through_breakdown", "lambda_ratio"):
         assert formula[key] == pytest.approx(found[key], rel=0.3), key
-    oil = solution.conditions.lubricant
+    oil = solution.conditions.oil
     for race, curve in ((solution.inner, solution.inner_curve), (solution.outer, solution.outer_curve)):
         radii = race.radii
         for contact in curve.solutions:
             film = chittenden(
                 PointContact(
                     radii.radius_x, radii.radius_y, solution.conditions.modulus, contact.load, race.speed,
-                    oil.viscosity, oil.pressure_viscosity_coefficient,
+                    oil.viscosity, oil.alpha_star,
                 )
             )  # fmt: skip
             if contact.moes_m > 100.0:

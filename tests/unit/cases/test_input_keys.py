@@ -3,7 +3,7 @@
 import pytest
 
 from ehlectric import InputError
-from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.input_keys import INPUT_NAMES, TABLES, describe, descriptions, input_field
 from ehlectric.cases.table import Table, table_of

@@ -9,7 +9,7 @@ import pint
 import pytest
 
 from ehlectric import BearingCase, Case, InputError, LineCase, PointCase
-from ehlectric.cases.bearing import Bearing
+from ehlectric.cases.bearings.bearing import Bearing
 from ehlectric.cases.contact import ONLY, Contact
 from ehlectric.cases.keywords.constructors import keys_of
 from ehlectric.cases.keywords.types import BearingKeys, LineKeys, PointKeys

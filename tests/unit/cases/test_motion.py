@@ -6,9 +6,9 @@ from pathlib import Path
 import pytest
 
 from ehlectric import Case, InputError, Sweep, solve
-from ehlectric.commands.meaning import check
-from ehlectric.commands.runs import run_motion
 from ehlectric.motion.contact import TransientContact
+from ehlectric.runs.by_kind import run_motion
+from ehlectric.runs.meaning import check
 from tests.helpers.moving_cases import LINE, POINT, moving
 
 TAKES_PASSES = "expected a number, above 0 and at most 10000: lengths of the domain at the mean speed"

@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.ranges import InputRange
 from ehlectric.errors import InputError
 from tests.helpers.bearings import BALLS, bearing_case, changed

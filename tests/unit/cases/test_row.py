@@ -8,7 +8,7 @@ import pytest
 from ehlectric.cases.quantity import to_si
 from ehlectric.cases.result_key import ResultKey
 from ehlectric.cases.row import UNITS, Row, rows_of, value_at
-from ehlectric.commands.tables.layout import table_of
+from ehlectric.tables.layout import table_of
 
 KEYS = {"film.minimum_thickness": ResultKey("smallest film", "m")}
 ENTRY = ("minimum film", "film.minimum_thickness")
@@ -84,8 +84,6 @@ def test_a_terminal_shows_names_values_and_headings():
 
 @pytest.mark.parametrize("kind", ["contact", "discharge", "bearing", "motion", "sweep", "sensitivity"])
 def test_rows_are_made_without_a_terminal(kind):
-    code = (
-        f"import sys, ehlectric.commands.tables.{kind}; print('rich' in sys.modules, 'typer' in sys.modules)"
-    )
+    code = f"import sys, ehlectric.tables.{kind}; print('rich' in sys.modules, 'typer' in sys.modules)"
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert run.stdout.split() == ["False", "False"]

@@ -11,7 +11,7 @@ from ehlectric import Case, InputError
 from ehlectric.cases.contact import Body, Contact
 from ehlectric.cases.discharge import Discharge, Pit, Weibull
 from ehlectric.cases.grid import Electric, Grid, Solver
-from ehlectric.cases.lubricant import Lubricant
+from ehlectric.cases.oils.lubricant import Lubricant
 from ehlectric.cases.quantity import Count, Quantity
 from ehlectric.cases.roughness import Roughness
 from tests.conftest import PAPER_CONTACT

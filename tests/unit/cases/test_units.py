@@ -11,9 +11,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ehlectric import Case, InputError
-from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.quantity import Count, Quantities, Quantity
-from ehlectric.cases.units import comma_advice, plain
+from ehlectric.cases.units import FREQUENT, comma_advice, plain
 from ehlectric.sweep.inputs import Sweep
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, changed
 
@@ -349,6 +349,14 @@ def test_a_class_and_its_clearance():
         ),
         ({"bore": "50 mm"}, r"bearing\.bore: got 0\.05 m; expected less than the inner raceway, 0\.048094 m"),
         (
+            {"outer_diameter": "71 mm"},
+            r"bearing\.outer_diameter: got 0\.071 m; expected more than the outer raceway, 0\.071906 m",
+        ),
+        (
+            {"width": "11 mm"},
+            r"bearing\.width: got 0\.011 m; expected at least the width of an element, 0\.011906 m",
+        ),
+        (
             {
                 "kind": "angular-contact ball",
                 "radial_clearance": "C3",
@@ -419,3 +427,9 @@ def test_refused_grades(oil, message):
         bearing_case(
             BALLS, **(BOTH | {f"lubricant__temperature__{key}": value for key, value in oil.items()})
         )
+
+
+@pytest.mark.parametrize(("written", "unit"), FREQUENT)
+def test_frequent_units_are_those_of_pint(written, unit):
+    """Factors that are not asked of pint; pint is the reference."""
+    assert FREQUENT[written, unit] == UNITS.Quantity(1.0, UNITS.parse_units(written)).to(unit).magnitude

@@ -3,9 +3,9 @@
 import pytest
 from rich.console import Console
 
-from ehlectric.commands.tables.bearing import input_range
 from ehlectric.commands.terminal import print_verdict
 from ehlectric.discharge.verdict import Verdict
+from ehlectric.tables.bearing import input_range
 
 TEXT = "No breakdown expected: " + "words " * 30 + "end."
 

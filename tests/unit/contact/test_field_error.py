@@ -6,11 +6,11 @@ import pytest
 
 from ehlectric import Case, load, save, solve
 from ehlectric.cases.grid import Grid
-from ehlectric.commands.tables.contact import result_rows
 from ehlectric.contact.result_warnings import accuracy_warnings, inaccurate_field
 from ehlectric.contact.solver import OWN
 from ehlectric.contact.solver import solve as solve_with
 from ehlectric.errors import ConvergenceError
+from ehlectric.tables.contact import result_rows
 
 CONTACT = {
     "reduced_radius": "14.1 mm",

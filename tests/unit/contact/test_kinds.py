@@ -104,10 +104,10 @@ def test_a_check_reads_each_file_once(read, tmp_path, geometry):
 def test_without_a_case_the_result_is_that_of_the_case(geometry):
     case = case_of(geometry, discharge={"dielectric_strength": "15 V/um"})
     of_case = solve(case)
-    conditions = conditions_of(geometry, case.lubricant)
+    conditions = conditions_of(geometry, case.oil)
     assert conditions == of_case.conditions
     given = {"grid": case.grid, "discharge": case.discharge, "electric": case.electric}
-    result = solve_contact(conditions, case.lubricant, solver=case.solver, **given)
+    result = solve_contact(conditions, case.oil, solver=case.solver, **given)
     for part, names in (("film", ("pressure", "thickness")), ("field", ("strength", "potential"))):
         for name in names:
             values = (getattr(getattr(one, part), name) for one in (of_case, result))
@@ -119,7 +119,7 @@ def test_without_a_case_the_result_is_that_of_the_case(geometry):
 
 def test_without_a_case_nothing_is_saved_that_could_not_be_loaded(tmp_path):
     case = case_of("line")
-    result = solve_contact(conditions_of("line", case.lubricant), case.lubricant, grid=case.grid)
+    result = solve_contact(conditions_of("line", case.oil), case.oil, grid=case.grid)
     assert "case" not in result.to_xarray().attrs
     with pytest.raises(InputError, match="solve_contact"):
         save(result, tmp_path / "out")
@@ -130,10 +130,10 @@ def test_without_a_case_nothing_is_saved_that_could_not_be_loaded(tmp_path):
 def test_a_film_factor_is_that_of_a_slower_contact(geometry, exponent):
     """The formulas' films go with the speed to the power 0.69 or 0.67; the conditions keep the true speed."""
     case, factor = case_of(geometry), 0.8
-    thinned = conditions_of(geometry, case.lubricant, film_factor=factor)
-    slower = conditions_of(geometry, case.lubricant, speed_factor=factor ** (1.0 / exponent))
+    thinned = conditions_of(geometry, case.oil, film_factor=factor)
+    slower = conditions_of(geometry, case.oil, speed_factor=factor ** (1.0 / exponent))
     assert thinned.entrainment_speed == case.contact.entrainment_speed
-    films = [solve_contact(one, case.lubricant, grid=case.grid).film for one in (thinned, slower)]
+    films = [solve_contact(one, case.oil, grid=case.grid).film for one in (thinned, slower)]
     np.testing.assert_allclose(films[0].thickness, films[1].thickness, rtol=1e-12)
     assert films[0].central_thickness / solve(case).film.central_thickness == pytest.approx(factor, rel=0.02)
 

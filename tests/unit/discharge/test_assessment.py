@@ -40,7 +40,7 @@ def point_case(contact=None, **discharge):
 
 
 def assessed(case, conditions, film, field):
-    return assess(case.discharge, case.lubricant, conditions.semi_axes, film, field)
+    return assess(case.discharge, case.oil, conditions.semi_axes, film, field)
 
 
 def plates(gap, voltage, **discharge):

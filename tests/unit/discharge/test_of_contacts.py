@@ -11,14 +11,13 @@ from scipy.constants import epsilon_0
 from scipy.integrate import quad
 
 from ehlectric import Case, load, save, solve
-from ehlectric.cases.lubricant import permittivity_law
-from ehlectric.commands.tables.contact import result_rows
 from ehlectric.contact.problems import field_problem
 from ehlectric.discharge.assessment import Assessment
 from ehlectric.discharge.outlet_filling import filled_permittivity, oil_fraction
 from ehlectric.field.line import solve_field
 from ehlectric.field.zones import part_widths
 from ehlectric.paper.solvers import PAPER
+from ehlectric.tables.contact import result_rows
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.places import EXAMPLES
 from tests.reference.field import near
@@ -196,7 +195,7 @@ def test_zones_of_a_line_by_quadrature(reach):
     """
     result = solve(line({}).replace({"grid.field_range": [-reach, reach], "grid.nodes": 1601}))
     film, b = result.film, result.conditions.half_width
-    permittivity = permittivity_law(result.case.lubricant)(film.density)
+    permittivity = result.case.oil.permittivity(film.pressure, film.density)
 
     def dense(x):
         return epsilon_0 * np.interp(x, film.x, permittivity) / np.interp(x, film.x, film.thickness)
@@ -215,7 +214,7 @@ def test_outlet_is_that_of_a_field_solved_anew(outlet):
     result = solve(case)
     film, b = result.film, result.conditions.half_width
     fraction = oil_fraction(film.thickness, film.density, film.cavitated)
-    oil = permittivity_law(case.lubricant)(film.density)
+    oil = case.oil.permittivity(film.pressure, film.density)
     problem = field_problem(case, result.conditions, film, result.roughness)
     anew = solve_field(dataclasses.replace(problem, permittivity=filled_permittivity(oil, fraction, outlet)))
     behind = part_widths(film.x, b, np.inf) @ anew.capacitance_density
@@ -336,7 +335,7 @@ def test_slivers_of_film_behind_a_rough_exit_bring_no_oil():
     mass = film.thickness * film.density
     first = np.flatnonzero(film.cavitated & (film.x > 0.9 * result.conditions.half_width))[0]
     least = np.where(film.x > film.x[first], np.minimum(1.0, mass[first] / mass), 1.0)
-    oil = permittivity_law(case.lubricant)(film.density)
+    oil = case.oil.permittivity(film.pressure, film.density)
     eps = np.where(film.x > film.x[first], 1.0 / (least / oil + 1.0 - least), oil)
     outside = film.x >= result.conditions.half_width
     expected = np.trapezoid(epsilon_0 * (eps / film.thickness)[outside], film.x[outside])

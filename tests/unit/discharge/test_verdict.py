@@ -113,7 +113,10 @@ def test_numbers_that_must_not_be_used_have_no_verdict(code):
         assert found.text.startswith("No verdict: the numbers must not be used.")
 
 
-@pytest.mark.parametrize("code", ["surfaces-touch", "tunnelling", "error-unknown", "field-range-too-narrow"])
+@pytest.mark.parametrize(
+    "code",
+    ["surfaces-touch", "tunnelling", "error-unknown", "field-range-too-narrow", "estimated-alpha"],
+)
 def test_a_doubt_leaves_no_green_verdict(code):
     warned = (ResultWarning(code, "somewhere"),)
     assert verdict(2.0, warnings=warned).level == "yellow"

@@ -109,7 +109,7 @@ LAWS = [law for table in TABLES for law in table.values()]
 def test_parameters_of_an_entry_are_the_keywords_of_its_functions(law):
     """So that a law is called with what its case gives, and a warning of it too."""
     names = {parameter.name for parameter in law.parameters}
-    for function, first in ((law.function, 2), (law.warnings, 2)):
+    for function, first in ((law.function, 2), (law.warnings, 3)):
         if function is not None:
             kinds = [parameter.kind for parameter in signature(function).parameters.values()]
             assert kinds.count(Kind.KEYWORD_ONLY) == len(kinds) - first == len(names)

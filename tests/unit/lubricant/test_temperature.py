@@ -56,13 +56,13 @@ def test_slope_is_the_derivative(temperature):
     ],
 )
 def test_oils_that_are_none(at_40, at_100, text):
-    with pytest.raises(InputError, match=f"^lubricant.temperature.kinematic_viscosity_100: got .*{text}"):
+    with pytest.raises(InputError, match=f"^temperature.kinematic_viscosity_100: got .*{text}"):
         Walther.of(at_40, at_100)
 
 
 @pytest.mark.parametrize(("temperature", "text"), [(573.15, "has 0.814 mm"), (60.0, "solid")])
 def test_temperatures_that_are_none(temperature, text):
-    with pytest.raises(InputError, match=f"^bearing.temperature: got {temperature:g} K, .*{text}"):
+    with pytest.raises(InputError, match=f"^temperature: got {temperature:g} K, .*{text}"):
         VG46.viscosity(temperature)
 
 

@@ -12,7 +12,7 @@ from ehlectric import solve
 from ehlectric.field.line import solve_field
 from ehlectric.field.poisson import FieldProblem, lobatto_nodes
 from ehlectric.paper import errata, fas, report
-from ehlectric.paper.contacts import CONTACTS, LOADS, measured_profile
+from ehlectric.paper.contacts import CONTACTS, LOADS, measured_profile, of_paper
 from ehlectric.paper.figures import FIGURES
 from ehlectric.paper.study import Placed, Study, readings_differ_by, straight_line
 from ehlectric.paper.tables import TABLES, agrees, amplitude, printed_table
@@ -52,7 +52,7 @@ def verdicts(study):
 def test_names_are_the_printed_ones_but_one(smooth):
     odd = []
     for contact, result in smooth.items():
-        groups = result.conditions.contact
+        groups = of_paper(result)
         moes_m, moes_l = (float(part) for part in contact.printed[1:].split("L"))
         assert np.floor(groups.moes_l) == moes_l
         if np.floor(groups.moes_m) != moes_m:

@@ -17,8 +17,6 @@ from rich.console import Console
 
 from ehlectric.cases.case import Case
 from ehlectric.cases.row import Row
-from ehlectric.commands.tables.html import html_of
-from ehlectric.commands.tables.layout import table_of
 from ehlectric.commands.terminal import echo_files, say, warn
 from ehlectric.errors import InputError, ResultWarning, printable, short, shown, unseen
 from ehlectric.figures.names import literal
@@ -29,6 +27,8 @@ from ehlectric.runtime.tables import csv_of, csv_text, text_of_csv
 from ehlectric.sweep.inputs import Sweep
 from ehlectric.sweep.results import Point
 from ehlectric.sweep.tables import write_tables
+from ehlectric.tables.html import html_of
+from ehlectric.tables.layout import table_of
 from tests.helpers.sweep_models import SPEED, grid
 
 # Characters that a terminal obeys or that are not seen, by name.

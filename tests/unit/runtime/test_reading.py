@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 
 from ehlectric.cases.any_case import case_of_file
-from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.case import Case
-from ehlectric.commands.kinds import expect
 from ehlectric.errors import InputError
+from ehlectric.runs.kinds import expect
 from ehlectric.runtime.reading import MOST_TEXT, read_bytes, read_text, refuse_unreadable
 from ehlectric.surfaces.files import read_surface
 from ehlectric.sweep.inputs import Sweep

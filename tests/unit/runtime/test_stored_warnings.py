@@ -27,9 +27,12 @@ TEXTS = json.loads((EARLIER / "warnings.json").read_text(encoding="utf-8"))
 # Codes of warnings that no file has without its code: the commands alone tell them, or no version without
 # codes gave them.
 UNSTORED = {
+    "coating-breakdown",
     "breakdown-expected",
     "strength-above-liquids",
     "smooth-film",
+    "roughness-factor-rough",
+    "coating-in-series",
     "shaft-leaks",
     "current-density-high",
     "field-unresolved",
@@ -40,8 +43,11 @@ UNSTORED = {
     "temperature-extreme",
     "viscosity-high",
     "viscosity-of-base",
+    "estimated-alpha",
     "load-low",
     "clearance-class",
+    "clearance-negative",
+    "fit-loose",
     "viscosity-grade",
     "speed-left-out",
     "points-with-warnings",
@@ -51,6 +57,13 @@ UNSTORED = {
     "rows-dropped",
     "rows-not-usable",
     "intervals-wide",
+    "formula-films",
+    "columns-ignored",
+    "rows-without-factor",
+    "scatter-only",
+    "scatter-large",
+    "factor-varies",
+    "range-left-out",
 }
 
 

@@ -24,14 +24,16 @@ EVERYTHING = {
     "peak_current": "1 A", "pit": {"efficiency": 0.2, "melting_energy": "10 GJ/m^3"},
 }  # fmt: skip
 LENGTHS = {"line": {"length": "10 mm"}, "point": {}}
+METER = {"fill": "oil", "coating": {"thickness": "1 um", "relative_permittivity": 9}}
 KINDS = ["line", "point", "balls", "rollers", "moving line", "moving point"]
 DATA = Path(__file__).parent / "labels.csv"
 
 
 def contact(kind):
-    """A small rough contact with a discharge."""
+    """A small rough contact with a discharge and a meter."""
     tables = {name: table for name, table in TABLES[kind].items() if name != "motion"}
-    return Case.from_dict(tables | {"roughness": [ROUGH], "discharge": EVERYTHING | LENGTHS[kind]})
+    discharge = EVERYTHING | LENGTHS[kind]
+    return Case.from_dict(tables | {"roughness": [ROUGH], "discharge": discharge, "meter": METER})
 
 
 def case_of(kind):

@@ -9,9 +9,10 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.bearing.breakdown import breakdown_of
-from ehlectric.bearing.shaft_voltage import shaft_voltage
+from ehlectric.bearing.meter.reading import shaft_capacitance, shaft_path
+from ehlectric.bearing.shaft_voltage import film_voltage
 from ehlectric.bearing.solution import BearingSolution, RingState, capacitance, insulating
-from ehlectric.cases.bearing import ROLLERS
+from ehlectric.cases.bearings.bearing import ROLLERS
 from ehlectric.cases.discharge import Pit
 from ehlectric.discharge.laws import CURRENT_DENSITY_LIMITS, melted_volume, pit_diameter, stored_energy
 from ehlectric.errors import ResultWarning
@@ -27,12 +28,12 @@ class BearingCosts:
     Attributes
     ----------
     discharged_capacitance : float or None
-        Capacitance that a discharge through the bearing empties [F]: that of the bearing, and those between
-        the shaft and everything else.
+        Capacitance that a discharge through the films empties [F]: that of the films, and those between the
+        shaft and everything else, which a coating on a ring puts in series with its own.
     bearing_energy : float or None
-        Energy C V^2/2 that is stored in the bearing alone, at the shaft voltage [J].
+        Energy C V^2/2 that is stored in the films alone, at the shaft voltage [J].
     discharge_energy : float or None
-        Energy C V^2/2 that is stored in ``discharged_capacitance``, at the shaft voltage [J].
+        Energy C V^2/2 of ``discharged_capacitance`` at the shaft voltage, of which V is across the films [J].
     breakdown_energy : float or None
         Energy C V^2/2 that is stored in ``discharged_capacitance``, at the first breakdown [J].
     pit_volume : float or None
@@ -84,11 +85,15 @@ def bearing_costs(solution: BearingSolution) -> BearingCosts:
     One discharge empties all of the charge. Winding and frame have fixed potentials meanwhile, so that their
     capacitances to the rotor and those of both bearings are parallel. If the first breakdown leaves the other
     contact of its element intact, the energy flows only at the ring-to-ring breakdown.
+
+    Behind a coating of the capacitance C_c, a discharge of films of the capacitance C at the voltage V moves
+    the charge of all other capacitances C_s of the shaft only as far as the coating lets it pass. The energy
+    that the discharge releases is V^2/2 [C + C_s C_c/(C_s + C_c)].
     """
     case, breakdown = solution.case, breakdown_of(solution)
-    shaft = shaft_voltage(solution) if insulating(solution) else None
+    across = film_voltage(solution) if insulating(solution) else None
     total, pit = _discharged(solution), case.discharge.pit
-    discharged, at_break = _energy(total, shaft), None
+    discharged, at_break = _energy(total, across), None
     if breakdown is not None:
         at_break = _energy(total, breakdown.first_break)
     areas = _areas(solution)
@@ -98,7 +103,7 @@ def bearing_costs(solution: BearingSolution) -> BearingCosts:
     at_first = _melted(pit, at_break)
     return BearingCosts(
         discharged_capacitance=total,
-        bearing_energy=None if shaft is None else stored_energy(capacitance(solution), shaft),
+        bearing_energy=None if across is None else stored_energy(capacitance(solution), across),
         discharge_energy=discharged,
         breakdown_energy=at_break,
         pit_volume=volume,
@@ -115,13 +120,13 @@ def _discharged(solution: BearingSolution) -> float | None:
     """Capacitance that a discharge empties [F]; None where nothing says what is connected to the bearing."""
     if not insulating(solution):
         return None
-    case, own = solution.case, capacitance(solution)
+    case, own, path = solution.case, capacitance(solution), shaft_path(solution)
     motor, external = case.motor, case.discharge.external_capacitance
     if motor is not None:
         second = motor.second_bearing_capacitance
-        beside = motor.winding_rotor_capacitance + motor.rotor_frame_capacitance
-        return own + beside + (own if second is None else second)
-    return None if external is None else own + external
+        beside = motor.winding_rotor_capacitance + motor.rotor_frame_capacitance + path.parallel
+        return own + path.behind_coating(beside + (shaft_capacitance(solution) if second is None else second))
+    return None if external is None else own + path.behind_coating(external + path.parallel)
 
 
 def _energy(total: float | None, voltage: float | None) -> float | None:

@@ -10,7 +10,7 @@ the outer ring and -1 at the inner ring,
     abs(Q - O)^2 = (r + h0)^2 + 4 r_g e sin^2(u/2) + 4 R R_o sin^2(phi/2).
 
 This form avoids differences of large numbers. The gap at Q is measured along the radius of the ball,
-abs(Q - O) - r. ``ehlectric.bearing.gaps.thin.charge_density`` gives the charge on the raceway. It is
+abs(Q - O) - r. ``ehlectric.formulas.thin_gap.charge_density`` gives the charge on the raceway. It is
 integrated across the groove from shoulder to shoulder. Along rolling, it is integrated over the part that
 half of the ball faces: to where the normal of the raceway is tangent to the ball.
 
@@ -28,9 +28,9 @@ import numpy as np
 from scipy.constants import epsilon_0
 
 from ehlectric.arrays import Array
-from ehlectric.bearing.gaps.thin import charge_density, stretched
 from ehlectric.errors import InputError, shown
 from ehlectric.formulas.hertz_point import DryContact, point_deflection
+from ehlectric.formulas.thin_gap import charge_density, matched_offset, stretched
 
 # Quadrature nodes along rolling and across the groove; tests check that the integral is accurate to 1e-8.
 _ALONG, _ACROSS = 40, 64
@@ -304,17 +304,12 @@ def match_film(
         Bodies around the film, with offset and mismatch.
     """
     opened = point_deflection(x, y, dry, modulus)
-    weights = thickness**-2.0 / np.sum(thickness**-2.0)
-    offset = 0.0
-    # Fixed-point iteration. The gap changes with the offset by the cosine of an angle that is small over the
-    # film's domain, so a few rounds suffice.
-    for _ in range(12):
-        missing = thickness - opened - groove_gap(race, offset, x, y)
-        before, offset = offset, offset + float(weights @ missing)
-        if offset == before:
-            break
-    missing = thickness - opened - groove_gap(race, offset, x, y)
-    return LoadedContact(dry, modulus, offset, float(np.max(np.abs(missing) / thickness)))
+
+    def missing(offset: float) -> Array:
+        return thickness - opened - groove_gap(race, offset, x, y)
+
+    offset, mismatch = matched_offset(missing, thickness)
+    return LoadedContact(dry, modulus, offset, mismatch)
 
 
 def _closed(x: Array, y: Array) -> Array:

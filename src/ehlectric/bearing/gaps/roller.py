@@ -8,7 +8,7 @@ point Q on the raceway at the azimuth phi
     abs(Q - O)^2 = (r + h0)^2 + 4 R R_o sin^2(phi/2).
 
 The gap at Q is measured along the radius of the roller, abs(Q - O) - r.
-``ehlectric.bearing.gaps.thin.charge_density`` gives the charge on the raceway. It is integrated over the part
+``ehlectric.formulas.thin_gap.charge_density`` gives the charge on the raceway. It is integrated over the part
 that half of the roller faces: to where the normal of the raceway is tangent to the roller. The field around
 the ends of the roller is neglected.
 """
@@ -21,8 +21,8 @@ import numpy as np
 from scipy.constants import epsilon_0
 
 from ehlectric.arrays import Array
-from ehlectric.bearing.gaps.thin import charge_density, stretched
-from ehlectric.formulas.hertz_line import line_gap, reduced_radius
+from ehlectric.formulas.hertz_line import line_opening, reduced_radius
+from ehlectric.formulas.thin_gap import charge_density, stretched
 
 # Quadrature nodes on each side of the contact; tests check that the integral is accurate to 1e-8.
 _NODES = 48
@@ -160,8 +160,7 @@ def roller_tails(
 
 def _opening(race: RollerRaceway, half_width: float, x: Array) -> Array:
     """Gap of the dry contact less that of undeflected parabolas, up to a constant [m]."""
-    radius = reduced_radius(race.roller_radius, -1.0 / race.curvature)
-    return half_width**2 / radius * line_gap(x / half_width) - 0.5 * x**2 / radius
+    return line_opening(x, half_width, reduced_radius(race.roller_radius, -1.0 / race.curvature))
 
 
 def _charge(race: RollerRaceway, gap: Array, tilt: Array, weights: Array) -> float:

@@ -79,7 +79,7 @@ def analyse_margin(solution: BearingSolution) -> MarginAnalysis:
         Without values where the bearing has no margin, or where its films must not be used.
     """
     breakdown = breakdown_of(solution)
-    margin = None if breakdown is None else margin_of(breakdown.first_break, shaft_voltage(solution))
+    margin = None if breakdown is None else margin_of(breakdown.shaft_first_break, shaft_voltage(solution))
     if margin is None or not solution.converged:
         return MarginAnalysis(margin)
     try:

@@ -11,14 +11,21 @@ from ehlectric.bearing.by_formula import formula_case
 from ehlectric.bearing.shaft_voltage import margin, shaft_voltage
 from ehlectric.bearing.solution import BearingSolution, insulating, lambda_ratio
 from ehlectric.bearing.solving.contacts_and_circuit import solution_of
-from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.errors import InputError
 
 # Number of positions of the cage: fewer than in a solution, because only ratios of margins are used.
 _POSITIONS = 2
 
 # Tables and keys on which neither films nor breakdown voltages of contacts depend.
-_BESIDE_FILMS = ("motor.", "discharge.conductivity", "bearing.composite_rq")
+_BESIDE_FILMS = (
+    "motor.",
+    "discharge.conductivity",
+    "bearing.composite_rq",
+    "bearing.fill",
+    "bearing.parallel_capacitance",
+    "bearing.coating",
+)
 
 # Inputs of strength laws that contacts by formula replace by a constant strength.
 _NOT_BY_FORMULA = ("discharge.weibull.shape", "discharge.weibull.reference_area")
@@ -77,7 +84,7 @@ class FormulaMargins:
             Where the solution has no margin, or the formulas have none for the same inputs.
         """
         breakdown = breakdown_of(solution)
-        solved = None if breakdown is None else margin(breakdown.first_break, shaft_voltage(solution))
+        solved = None if breakdown is None else margin(breakdown.shaft_first_break, shaft_voltage(solution))
         if solved is None:
             raise InputError.worded(None, "the bearing has no margin")
         own, by_formula = FormulaPoint(solved, lambda_ratio(solution)), _solved(solution.case)
@@ -129,7 +136,7 @@ def _point(solution: BearingSolution) -> FormulaPoint:
     ratio, breakdown = lambda_ratio(solution), breakdown_of(solution)
     if not insulating(solution):
         return FormulaPoint(0.0, ratio)
-    value = None if breakdown is None else margin(breakdown.first_break, shaft_voltage(solution))
+    value = None if breakdown is None else margin(breakdown.shaft_first_break, shaft_voltage(solution))
     if value is None:
         raise InputError.worded(None, "the bearing has no margin")
     return FormulaPoint(value, ratio)

@@ -8,10 +8,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from ehlectric.bearing.margin.formula_margins import FormulaMargins
-from ehlectric.cases.bearing import Bearing
-from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.bearings.bearing import Bearing
+from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.input_keys import INPUT_NAMES
 from ehlectric.cases.library.clearance import clearance_range
+from ehlectric.cases.oils.resolution import depends_on_temperature
 from ehlectric.cases.row import value_at
 from ehlectric.discharge.verdict import STRENGTH_UNKNOWN
 from ehlectric.errors import InputError
@@ -66,14 +67,22 @@ class Effect:
 
 @dataclass(frozen=True)
 class _Change:
-    """Two values of an input, and the changes of the case that make them."""
+    """Two values of an input, and the changes of the case that make them.
+
+    With ``factor_of_load`` both loads change in proportion; the inputs ``shift_of`` change by one step.
+    """
 
     key: str
     label: str
     ends: tuple[float, float]
     factor_of_load: bool = False
+    shift_of: tuple[str, ...] = ()
 
     def changes(self, case: BearingCase, end: float) -> dict[str, Any]:
+        if self.shift_of:
+            table = case.to_dict()
+            step = end - value_at(table, self.key)
+            return {key: value_at(table, key) + step for key in self.shift_of}
         if not self.factor_of_load:
             return {self.key: end}
         bearing, factor = case.bearing, end / value_at(case.to_dict(), self.key)
@@ -126,10 +135,11 @@ def _margin(
 
 
 def _temperature_is_unused(case: BearingCase) -> bool:
-    """Whether the temperature has no effect: neither the viscosity nor the strength depends on it."""
+    """Whether the temperature has no effect: oil, strength and clearance do not depend on it."""
     strengths = case.discharge.strength_table
     over_temperature = strengths is not None and strengths.over == "temperature"
-    return case.lubricant.temperature is None and not over_temperature
+    constant = not depends_on_temperature(case.lubricant)
+    return constant and not over_temperature and case.bearing.fits is None
 
 
 def _changes(
@@ -154,13 +164,15 @@ def _standard(case: BearingCase, table: Mapping[str, Any]) -> Iterator[_Change]:
     if case.discharge.strength_table is not None:
         yield _Change(OF_TABLE, "factor on the dielectric strength", _part(1.0, STRENGTH_UNKNOWN))
     if not _temperature_is_unused(case):
-        yield _Change("bearing.temperature", "temperature", _around(bearing.temperature, TEMPERATURE))
+        yield _temperature(bearing)
     oil = case.lubricant.temperature
     if oil is not None and oil.iso_vg is not None:
         label = f"{INPUT_NAMES[_AT_40][0]} (limits of ISO VG {oil.iso_vg})"
         yield _Change(_AT_40, label, _part(oil.at_40(), GRADE_WIDTH))
-    if bearing.radial_clearance is not None:
-        yield _Change("bearing.radial_clearance", *_clearance(bearing))
+    if bearing.unmounted_clearance is not None:
+        yield _Change("bearing.fits.unmounted_clearance", *_clearance(bearing, bearing.unmounted_clearance))
+    elif bearing.radial_clearance is not None:
+        yield _Change("bearing.radial_clearance", *_clearance(bearing, bearing.radial_clearance))
     if bearing.contact_angle is not None:
         yield _Change("bearing.contact_angle", "free contact angle", _around(bearing.contact_angle, ANGLE))
     radial = bearing.radial_load >= bearing.axial_load
@@ -178,13 +190,20 @@ def _standard(case: BearingCase, table: Mapping[str, Any]) -> Iterator[_Change]:
         yield _Change(key, f"{name.replace('_', '-')} capacitance", _part(value_at(table, key), MOTOR))
 
 
-def _clearance(bearing: Bearing) -> tuple[str, tuple[float, float]]:
-    """Name of the clearance and its two values: those of its class, or a step either way."""
-    assert bearing.radial_clearance is not None
+def _temperature(bearing: Bearing) -> _Change:
+    """Change of the temperature of the oil, and by the same step of all other parts that have their own."""
+    keys = tuple(f"bearing.{key}" for key in bearing.all_temperatures())
+    label = "temperature" if len(keys) == 1 else "temperature (of all parts by the same)"
+    return _Change(keys[0], label, _around(bearing.oil_temperature, TEMPERATURE), shift_of=keys)
+
+
+def _clearance(bearing: Bearing, clearance: float) -> tuple[str, tuple[float, float]]:
+    """Name of the clearance [m] and its two values: those of its class, or a step either way."""
+    name = "radial clearance" if bearing.fits is None else "radial clearance before mounting"
     if bearing.clearance_class is None or bearing.bore is None:
-        return "radial clearance", _around(bearing.radial_clearance, CLEARANCE)
+        return name, _around(clearance, CLEARANCE)
     limits = clearance_range(bearing.kind, bearing.clearance_class, bearing.bore)
-    return f"radial clearance (limits of class {bearing.clearance_class})", (limits.least, limits.most)
+    return f"{name} (limits of class {bearing.clearance_class})", (limits.least, limits.most)
 
 
 def _part(value: float, part: float) -> tuple[float, float]:

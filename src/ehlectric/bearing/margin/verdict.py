@@ -6,12 +6,14 @@ from collections.abc import Iterator
 
 from ehlectric.bearing.breakdown import Breakdown, breakdown_of
 from ehlectric.bearing.by_formula import formula_error, formula_factor
-from ehlectric.bearing.discharges.leakage import leakage_warnings
+from ehlectric.bearing.discharges.leakage import leakage_warnings, shaft_leakage
 from ehlectric.bearing.margin.analysis import MarginAnalysis
 from ehlectric.bearing.margin.critical_speed import Intervals, SpeedRange
+from ehlectric.bearing.meter.reading import film_share, shaft_path
 from ehlectric.bearing.shaft_voltage import shaft_voltage
 from ehlectric.bearing.solution import BearingSolution, lambda_ratio, lubrication
 from ehlectric.bearing.warnings import bearing_warnings
+from ehlectric.cases.row import amount
 from ehlectric.cases.units import rpm, rpm_text
 from ehlectric.discharge.verdict import (
     UNLIKELY,
@@ -27,9 +29,6 @@ from ehlectric.discharge.verdict import (
     unusable,
     weibull_part,
 )
-
-# Sentence about oil that conducts.
-_LEAKS = "The oil discharges the shaft within a period of the inverter: its voltage is an upper bound."
 
 # Sentence about contacts of asperities, without its full stop.
 _OPENING = "Contacts discharge at a low voltage as they open"
@@ -84,7 +83,7 @@ def bearing_verdict(solution: BearingSolution, analysis: MarginAnalysis) -> Verd
     if breakdown is None:
         known = "" if shaft is None else f" The shaft voltage is {shaft:.3g} V {_at(solution)}."
         return Verdict("grey", f"No verdict: no dielectric strength given, no breakdown voltage.{known}")
-    first = f"first breakdown at {breakdown.first_break:.3g} V"
+    first = f"first breakdown at {breakdown.shaft_first_break:.3g} V"
     if shaft is None:
         return Verdict(
             "grey",
@@ -98,7 +97,7 @@ def _judged(
     solution: BearingSolution, analysis: MarginAnalysis, breakdown: Breakdown, shaft: float
 ) -> Verdict:
     """Verdict on a bearing with a margin."""
-    margin = breakdown.first_break / shaft
+    margin = breakdown.shaft_first_break / shaft
     low, high = _possible(solution, analysis, margin)
     strength = _strength_is_open(solution)
     if strength:
@@ -118,12 +117,40 @@ def _judged(
         )
     text = (
         f"{lead_of(level, margin)}: shaft voltage {shaft:.3g} V, first breakdown at "
-        f"{breakdown.first_break:.3g} V (margin {ratio_text(margin)}{interval}) {_at(solution)}."
+        f"{breakdown.shaft_first_break:.3g} V (margin {ratio_text(margin)}{interval}) {_at(solution)}."
     )
     speeds = list(_speeds(analysis.speeds, level))
-    leaks = _LEAKS if any(leakage_warnings(solution)) else ""
-    sentences = filter(None, [text, *speeds, *reasons, leaks, _assumptions(solution)])
+    shares, leaks = _coating(solution, shaft), _leaks(solution)
+    sentences = filter(None, [text, shares, *speeds, *reasons, leaks, _assumptions(solution)])
     return Verdict(level, " ".join(sentences), margin)
+
+
+def _coating(solution: BearingSolution, shaft: float) -> str:
+    """Sentence about the share of a coating in the shaft voltage [V]; empty without one."""
+    share = film_share(solution)
+    if share is None or not shaft_path(solution).coated:
+        return ""
+    return (
+        f"Of the shaft voltage {share * shaft:.3g} V ({100.0 * share:.3g} %) are across the films at high "
+        "frequency, and the coating has the rest."
+    )
+
+
+def _leaks(solution: BearingSolution) -> str:
+    """Sentence about films that discharge through the oil within a period; empty where they do not."""
+    found = shaft_leakage(solution)
+    if found is None or not any(leakage_warnings(solution)):
+        return ""
+    motor = solution.case.motor
+    frequency = None if motor is None else motor.switching_frequency
+    period = "the period of a common PWM inverter"
+    if frequency is not None:
+        period = f"one PWM period of {amount(1.0 / frequency, 's')}"
+    time = amount(found.film_time_constant, "s")
+    return (
+        f"The film discharges through the oil within {period} (time constant {time}): its voltage is an "
+        "upper bound."
+    )
 
 
 def _possible(solution: BearingSolution, analysis: MarginAnalysis, margin: float) -> tuple[float, float]:
@@ -223,7 +250,7 @@ def _interval(low: float | None, high: float | None) -> str:
 def _at(solution: BearingSolution) -> str:
     """Speed and temperature of a bearing as text."""
     bearing = solution.case.bearing
-    speed, temperature = rpm(bearing.inner_speed), bearing.temperature - 273.15
+    speed, temperature = rpm(bearing.inner_speed), bearing.oil_temperature - 273.15
     return f"at {float(f'{speed:.4g}'):g} rpm, {float(f'{temperature:.3g}'):g} °C"
 
 

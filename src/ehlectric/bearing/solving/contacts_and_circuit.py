@@ -11,7 +11,7 @@ from ehlectric.bearing.kinds import kind_of
 from ehlectric.bearing.loads.totals import Equilibrium
 from ehlectric.bearing.preparation import PreparedBearing, loads_to_solve, prepare_bearing
 from ehlectric.bearing.solution import BearingSolution, Position, ring_state
-from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.runtime.progress import Progress, silent
 from ehlectric.runtime.tasks import run_all
 from ehlectric.runtime.workers import cores
@@ -52,8 +52,38 @@ def solution_of(
     LostError
         Where the process of a contact was killed twice, as by a system out of memory.
     """
+    return solution_of_prepared(case, prepare_bearing(case, positions), progress=progress, workers=workers)
+
+
+def solution_of_prepared(
+    case: BearingCase,
+    prepared: PreparedBearing,
+    *,
+    progress: Progress | None = None,
+    workers: int | None = None,
+) -> BearingSolution:
+    """Solve the contacts of a prepared bearing, and join them to its circuit.
+
+    Parameters
+    ----------
+    case : BearingCase
+        Bearing file; its ``contacts`` says how they are solved.
+    prepared : PreparedBearing
+        Conditions, equilibria and contacts of the case.
+    progress, workers : optional
+        As for ``solution_of``.
+
+    Returns
+    -------
+    BearingSolution
+        Solution at the positions of the prepared bearing.
+
+    Raises
+    ------
+    InputError, LostError
+        As ``solution_of`` raises them.
+    """
     started = time.perf_counter()
-    prepared = prepare_bearing(case, positions)
     tasks = [_tasks(case, prepared, inner=inner) for inner in (True, False)]
     processes = 1 if case.contacts == "formula" else workers or cores()
     solutions = _solved([*tasks[0], *tasks[1]], progress or silent, processes)

@@ -38,7 +38,7 @@ EQUILIBRIA: Mapping[str, type[Equilibrium]] = {
 UNITS = {
     "load": "N", "gap": "m", "max_pressure": "Pa", "semi_axis_x": "m", "semi_axis_y": "m",
     "minimum_thickness": "m", "central_thickness": "m", "inside": "F", "outside_oil": "F", "outside_air": "F",
-    "plate": "F", "strength_per_volt": "1/m", "breakdown_voltage": "V",
+    "plate": "F", "strength_per_volt": "1/m", "breakdown_voltage": "V", "hertz": "F",
 }  # fmt: skip
 
 # What values of variables are; any others are finite.
@@ -57,6 +57,7 @@ _OF_ELEMENTS = {
     "plate": "not negative",
     "strength_per_volt": "not negative",
     "breakdown_voltage": "positive or infinite",
+    "hertz": "not negative or NaN",
 }
 # Quantities of loaded contacts; only the breakdown voltage is infinite.
 _LOADED = "positive or infinite"
@@ -67,7 +68,11 @@ _OF_CURVES = {
     "moes_l": "not negative",
     "mismatch": "finite or NaN",
     "converged": "0 or 1",
+    "hertz": "not negative or NaN",
 }
+
+# Quantities that files of earlier versions do not have. They are NaN there.
+LATER = {"hertz"}
 
 # Dimensions of quantities of an equilibrium, beside the positions of the cage.
 _OF_EQUILIBRIA = ((), ("element",), ("slice",), ("element", "slice"))
@@ -85,12 +90,14 @@ def check(dataset: xr.Dataset) -> None:
     over = ("cage_position", "ring", "element")
     quantities = [field.name for field in dataclasses.fields(ContactValues)]
     rules = {
-        name: Rule(over, _OF_ELEMENTS.get(name, "finite"), UNITS.get(name))
+        name: Rule(over, _OF_ELEMENTS.get(name, "finite"), UNITS.get(name), needed=name not in LATER)
         for name in ("load", "gap", "solved", *quantities)
     }
     for ring in RINGS:
         rules |= {
-            f"{ring}_curve_{name}": Rule((f"{ring}_load",), _OF_CURVES.get(name, _LOADED), UNITS.get(name))
+            f"{ring}_curve_{name}": Rule(
+                (f"{ring}_load",), _OF_CURVES.get(name, _LOADED), UNITS.get(name), needed=name not in LATER
+            )
             for name in (*quantities, *_OF_CURVES)
         }
     check_variables(dataset, rules | _equilibrium_rules(dataset))
@@ -99,7 +106,7 @@ def check(dataset: xr.Dataset) -> None:
     solved = dataset["solved"].values.astype(bool)
     if not solved.any(axis=dataset["solved"].get_axis_num("element")).all():
         raise UnfitError("no contact of a ring is loaded")
-    for name in ("load", *quantities):
+    for name in ("load", *(quantity for quantity in quantities if quantity not in LATER)):
         if not VALUES[_LOADED](dataset[name].values[solved]):
             raise UnfitError(f"{name} of a loaded contact is not {_LOADED}")
     number_of(attributes, "seconds")

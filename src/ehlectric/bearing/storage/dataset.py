@@ -17,7 +17,7 @@ from ehlectric.bearing.preparation import resolve_bearing
 from ehlectric.bearing.ring_contacts import RingContacts
 from ehlectric.bearing.solution import BearingSolution, Position, RingState
 from ehlectric.bearing.storage.content import EQUILIBRIA, RINGS, UNITS, check
-from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.runtime.checks.schema import UnfitError, case_of
 from ehlectric.runtime.stored_warnings import texts_and_codes, warnings_of
 
@@ -162,10 +162,8 @@ def solution_of(dataset: xr.Dataset) -> BearingSolution:
 
 
 def _curve_of(dataset: xr.Dataset, ring: str, stored: Sequence[Mapping[str, Any]]) -> ContactCurve:
-    columns = {
-        name: dataset[f"{ring}_curve_{name}"].values
-        for name in (*ContactValues.__dataclass_fields__, "load", "error", "moes_m", "moes_l", "mismatch")
-    }
+    names = (*ContactValues.__dataclass_fields__, "load", "error", "moes_m", "moes_l", "mismatch")
+    columns = {name: _known(dataset, f"{ring}_curve_{name}", f"{ring}_curve_load") for name in names}
     converged = dataset[f"{ring}_curve_converged"].values
     return ContactCurve(
         tuple(
@@ -177,6 +175,13 @@ def _curve_of(dataset: xr.Dataset, ring: str, stored: Sequence[Mapping[str, Any]
             for k, texts in enumerate(stored)
         )
     )
+
+
+def _known(dataset: xr.Dataset, name: str, other: str) -> Array:
+    """Values of a variable; NaN, in the shape of another variable, where an earlier version has none."""
+    if name in dataset:
+        return np.asarray(dataset[name].values)
+    return np.full(dataset[other].shape, np.nan)
 
 
 def _contact_of(
@@ -197,7 +202,7 @@ def _contact_of(
 
 def _state_of(dataset: xr.Dataset, position: int, ring: int) -> RingState:
     def at(name: str) -> Array:
-        return np.asarray(dataset[name].values[position, ring])
+        return np.asarray(_known(dataset, name, "load")[position, ring])
 
     return RingState(
         load=at("load"),

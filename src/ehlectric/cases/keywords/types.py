@@ -45,6 +45,8 @@ class LineKeys(TypedDict, total=False):
         Load per length [N/m] or Hertz pressure [Pa].
     entrainment_speed, slide_to_roll_ratio, speed_1, speed_2 : float, str or quantity
         Mean speed of the surfaces [m/s] with the slide-to-roll ratio, or the speeds of both [m/s].
+    temperature : float, str or quantity
+        Absolute temperature of oil and surfaces [K]; write "70 degC" for degrees Celsius.
     """
 
     reduced_radius: Value
@@ -56,6 +58,7 @@ class LineKeys(TypedDict, total=False):
     load_per_length: Value
     max_hertz_pressure: Value
     entrainment_speed: Value
+    temperature: Value
     slide_to_roll_ratio: Value
     speed_1: Value
     speed_2: Value
@@ -77,6 +80,8 @@ class PointKeys(TypedDict, total=False):
         Load [N] or Hertz pressure [Pa].
     entrainment_speed, slide_to_roll_ratio, speed_1, speed_2 : float, str or quantity
         Mean speed of the surfaces [m/s] with the slide-to-roll ratio, or the speeds of both [m/s].
+    temperature : float, str or quantity
+        Absolute temperature of oil and surfaces [K]; write "70 degC" for degrees Celsius.
     """
 
     radius_x: Value
@@ -87,6 +92,7 @@ class PointKeys(TypedDict, total=False):
     load: Value
     max_hertz_pressure: Value
     entrainment_speed: Value
+    temperature: Value
     slide_to_roll_ratio: Value
     speed_1: Value
     speed_2: Value
@@ -97,11 +103,11 @@ class BearingKeys(TypedDict, total=False):
 
     Attributes
     ----------
-    base, kind, profile, element_material, ring_material, fill : str
-        Names: bearing of the library, kind of the bearing, profile of rollers, materials, "oil" or "air".
+    base, kind, profile, element_material, ring_material : str
+        Names: bearing of the library, kind of the bearing, profile of rollers, materials.
     elements : int
         Number of rolling elements.
-    bore, element_diameter, pitch_diameter, roller_length : float, str or quantity
+    bore, outer_diameter, width, element_diameter, pitch_diameter, roller_length : float, str or quantity
         Geometry [m].
     inner_groove, outer_groove : float
         Groove radii divided by the ball diameter.
@@ -115,18 +121,28 @@ class BearingKeys(TypedDict, total=False):
         Loads [N].
     inner_speed : float, str or quantity
         Rotational speed of the inner ring: "3000 rpm", or a float in rad/s; a whole number is refused.
-    temperature : float, str or quantity
-        Absolute temperature of the oil [K]; write "70 degC" for degrees Celsius.
+    temperature, inner_ring_temperature, outer_ring_temperature : float, str or quantity
+        Absolute temperatures of the oil and of the rings [K]; write "70 degC" for degrees Celsius.
     composite_rq : float, str or quantity
         Rq of both surfaces together [m].
+    fill : str or float
+        "oil" or "air" around the films, or the part filled with oil, from 0 to 1.
     film_factor : float or str
         Factor on the isothermal, fully flooded film, "none" or "inlet-shear".
+    fits : mapping
+        Clearance before mounting, interferences, shaft and housing, in place of ``radial_clearance``.
+    parallel_capacitance : float, str or quantity
+        Capacitance of cage, shields and wiring [F].
+    coating : mapping
+        Table of an insulating coating on a ring.
     """
 
     base: str
     kind: str
     elements: int
     bore: Value
+    outer_diameter: Value
+    width: Value
     element_diameter: Value
     pitch_diameter: Value
     inner_groove: Value
@@ -144,6 +160,11 @@ class BearingKeys(TypedDict, total=False):
     axial_load: Value
     inner_speed: Value
     temperature: Value
+    inner_ring_temperature: Value
+    outer_ring_temperature: Value
     composite_rq: Value
-    fill: str
+    fill: float | str
     film_factor: float | str
+    fits: Keys
+    parallel_capacitance: Value
+    coating: Keys

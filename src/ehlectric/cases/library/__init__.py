@@ -1,4 +1,4 @@
-"""Library of named lubricants, solids and bearings: one TOML file each, with the sources of its numbers."""
+"""Library of lubricants, solids, bearings and coatings: one TOML file each, with its sources."""
 
 from __future__ import annotations
 
@@ -14,9 +14,14 @@ def _names(kind: str) -> list[str]:
     return sorted(file.name.removesuffix(".toml") for file in (_FOLDER / f"{kind}s").iterdir())
 
 
-def _table(kind: str, name: str) -> dict[str, Any]:
+def tables(kind: str, name: str) -> dict[str, Any]:
+    """All tables of a file: "lubricant", "solid" or "bearing", with its sources."""
     path = _FOLDER / f"{kind}s" / f"{name}.toml"
-    table: dict[str, Any] = tomllib.loads(path.read_text(encoding="utf-8"))[kind]
+    return tomllib.loads(path.read_text(encoding="utf-8"))
+
+
+def _table(kind: str, name: str) -> dict[str, Any]:
+    table: dict[str, Any] = tables(kind, name)[kind]
     return table
 
 
@@ -30,13 +35,16 @@ def lubricant(name: str) -> dict[str, Any]:
     return _table("lubricant", name)
 
 
-def solid_names() -> list[str]:
-    """Names of solids that a bearing file can use as materials."""
-    return _names("solid")
+def solid_names(*, rolling: bool = False) -> list[str]:
+    """Names of solids that a bearing file can use as materials; only of rings and elements if ``rolling``."""
+    return [name for name in _names("solid") if not rolling or solid(name)["rolling"]]
 
 
 def solid(name: str) -> dict[str, Any]:
-    """Elastic constants and density of a named solid, as texts with units, and whether it conducts."""
+    """Elastic constants, density and thermal expansion of a named solid, and whether it conducts and rolls.
+
+    Quantities are texts with units. A solid rolls if it is hard enough for rings and rolling elements.
+    """
     return _table("solid", name)
 
 
@@ -48,3 +56,13 @@ def bearing_names() -> list[str]:
 def bearing(name: str) -> dict[str, Any]:
     """Table ``bearing`` of a named bearing, with those dimensions that are published."""
     return _table("bearing", name)
+
+
+def coating_names() -> list[str]:
+    """Names of coated rings that a bearing file can use as ``bearing.coating.base``."""
+    return _names("coating")
+
+
+def coating(name: str) -> dict[str, Any]:
+    """Table ``bearing.coating`` of a named coated ring, with those values that its maker states."""
+    return _table("coating", name)

@@ -106,9 +106,12 @@ def with_class(table: Mapping[str, Any]) -> Mapping[str, Any]:
 
 
 def with_clearance(table: Mapping[str, Any]) -> Mapping[str, Any]:
-    """Table with the radial clearance that follows from ``clearance_class``, the middle of its range."""
+    """Table with the radial clearance that follows from ``clearance_class``, the middle of its range.
+
+    With a table ``fits`` the class is the clearance before mounting, and the table stays as it is.
+    """
     name, kind = table.get("clearance_class"), table.get("kind")
-    if name not in CLASSES or kind not in {row["kind"] for row in _rows()}:
+    if table.get("fits") is not None or name not in CLASSES or kind not in {row["kind"] for row in _rows()}:
         return table
     if table.get("bore") is None:
         raise InputError.worded("bore", f"missing; clearance_class {name!r} needs the diameter of the bore")

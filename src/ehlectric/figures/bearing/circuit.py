@@ -9,11 +9,12 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
+from ehlectric.bearing.meter.reading import shaft_path
 from ehlectric.bearing.result import BearingResult
 from ehlectric.cases.quantity import unit_for
 from ehlectric.figures.axes import is_wide, round_numbers
 from ehlectric.figures.bearing.curves import nearly_equal
-from ehlectric.figures.bearing.looks import FIRST, SHAFT, THROUGH, label_ends, volts
+from ehlectric.figures.bearing.looks import FIRST, SHAFT, THROUGH, fill_text, label_ends, volts
 from ehlectric.figures.style import BLUE, ORANGE, axes_or_new, figure_of, legend_above
 
 # Largest number of elements that have a tick on the axis of a figure of this width [inches]. Fewer have one
@@ -48,7 +49,7 @@ def contact_capacitances(result: BearingResult, ax: Axes | None = None) -> Axes:
     # The capacitance in summary.json is the mean over a pitch, that of this position another one.
     here, mean = circuit.capacitance, result.capacitance(fill)
     total, of = unit_for(mean, "F", least=1.0)
-    text = f"bearing, {fill} fill: mean {total * mean:.4g} {of}\n"
+    text = f"bearing, {fill_text(fill)}: mean {total * mean:.4g} {of}\n"
     text += f"at this cage position {total * here:.4g} {of}"
     ax.set_ylim(0.0, 1.4 * ax.dataLim.ymax)
     ax.text(0.5, 0.97, text, transform=ax.transAxes, ha="center", va="top", fontsize="small")
@@ -58,6 +59,8 @@ def contact_capacitances(result: BearingResult, ax: Axes | None = None) -> Axes:
 
 def breakdown_voltages(result: BearingResult, ax: Axes | None = None) -> Axes:
     """Draw the bearing voltage at which each contact breaks down under its share of the voltage.
+
+    With a coating on a ring it is the shaft voltage, of which the coating has a part.
 
     Parameters
     ----------
@@ -76,10 +79,10 @@ def breakdown_voltages(result: BearingResult, ax: Axes | None = None) -> Axes:
     ax = axes_or_new(ax)
     circuit, position = result.solution.circuits()[0], result.solution.positions[0]
     at = np.arange(circuit.inner.size)
-    shaft = result.shaft_voltage
-    everything = np.concatenate(
-        [circuit.inner_breaks, circuit.outer_breaks, [] if shaft is None else [shaft]]
-    )
+    shaft, path = result.shaft_voltage, shaft_path(result.solution)
+    share = path.film_share(circuit.capacitance)
+    inner, outer = circuit.inner_breaks / share, circuit.outer_breaks / share
+    everything = np.concatenate([inner, outer, [] if shaft is None else [shaft]])
     if is_wide(everything):
         ax.set_yscale("log")
         ax.set_ylim(0.6 * np.min(everything), 1.5 * np.max(everything))
@@ -99,8 +102,8 @@ def breakdown_voltages(result: BearingResult, ax: Axes | None = None) -> Axes:
             fontsize="small",
         )
     for name, values, ring, shift, marker, colour in (
-        ("inner", circuit.inner_breaks, position.inner, -0.12, "o", BLUE),
-        ("outer", circuit.outer_breaks, position.outer, 0.12, "s", ORANGE),
+        ("inner", inner, position.inner, -0.12, "o", BLUE),
+        ("outer", outer, position.outer, 0.12, "s", ORANGE),
     ):
         look: dict[str, Any] = {"ls": "none", "ms": 6.0, "zorder": 4.0, "marker": marker, "color": colour}
         ax.plot(at + shift, values, label=f"{name} contact", **look)
@@ -110,7 +113,7 @@ def breakdown_voltages(result: BearingResult, ax: Axes | None = None) -> Axes:
                 (at + shift)[free], values[free], **(look | {"mfc": "white", "label": f"{name}, unloaded"})
             )
     _levels(result, ax)
-    ax.set_ylabel("bearing voltage at\nbreakdown [V]")
+    ax.set_ylabel(f"{'shaft' if path.coated else 'bearing'} voltage at\nbreakdown [V]")
     _elements(result, ax)
     legend_above(ax, [line for line in ax.get_lines() if line.get_marker() != "None"], columns=4)
     return ax
@@ -119,7 +122,7 @@ def breakdown_voltages(result: BearingResult, ax: Axes | None = None) -> Axes:
 def _levels(result: BearingResult, ax: Axes) -> None:
     """Draw lines at the voltages of the whole bearing, as far as there are any, and name them at the edge."""
     breaks, shaft = result.breaks(), result.shaft_voltage
-    first, through = breaks["first_break"], breaks["through_breakdown"]
+    first, through = breaks["shaft_first_break"], breaks["shaft_through_breakdown"]
     levels = [("first\nbreakdown", first, FIRST), ("ring-to-ring\nbreakdown", through, THROUGH)]
     if nearly_equal(np.array([first]), np.array([through])):
         levels = [("first and\nring-to-ring\nbreakdown", first, FIRST)]

@@ -19,6 +19,9 @@ Speeds = Sequence[Speed]
 # Factor from rad/s to revolutions per minute.
 RPM = 30.0 / np.pi
 
+# Keys that are drawn in place of others, where a summary has them: voltages on the shaft, with a coating.
+_ON_SHAFT = {"first_break": "shaft_first_break", "through_breakdown": "shaft_through_breakdown"}
+
 # Number of nodes of a curve between two speeds.
 _PARTS = 32
 
@@ -104,15 +107,26 @@ def curves_of(points: Speeds, own: Speed | None = None) -> Curves:
     return Curves(speed, {key: factors[key] * plain[key] for key in _KEYS}, factors, *ends)
 
 
+def value_of(summary: Mapping[str, Any], key: str) -> Any:
+    """Value of a key of the table "bearing"; of a breakdown that on the shaft, with its coating."""
+    totals = summary["bearing"]
+    return totals.get(_ON_SHAFT.get(key, key), totals.get(key))
+
+
+def is_coated(points: Speeds) -> bool:
+    """Whether a bearing has a coating on a ring."""
+    return any(summary["bearing"].get("coating_capacitance") is not None for _, summary in points)
+
+
 def _column(ordered: Speeds, key: str) -> Array:
     """Values of a key of the table "bearing" at the speeds, NaN in place of None."""
-    values = [summary["bearing"].get(key) for _, summary in ordered]
+    values = [value_of(summary, key) for _, summary in ordered]
     return np.array([np.nan if value is None else value for value in values], dtype=float)
 
 
 def _factor(curves: Curves, key: str, own: Speed) -> float:
     """Ratio of a value of the bearing itself to the curve at its speed; 1 where one of them is missing."""
-    value = own[1]["bearing"].get(key)
+    value = value_of(own[1], key)
     inside = curves.speed[0] <= own[0] <= curves.speed[-1]
     ratio = value / float(curves.at(key, own[0])) if value is not None and inside else 1.0
     return ratio if np.isfinite(ratio) else 1.0

@@ -8,6 +8,7 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.bearing.impedance import impedance_of
+from ehlectric.bearing.meter.reading import shaft_capacitance
 from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solution import lambda_ratio, lubrication
 from ehlectric.discharge.verdict import lead_of, ratio_text
@@ -18,6 +19,7 @@ from ehlectric.figures.bearing.curves import (
     Speeds,
     critical_speed_of,
     opening_speed_of,
+    value_of,
 )
 from ehlectric.figures.bearing.impedance import magnitude_at, prefixed, read_at
 from ehlectric.figures.bearing.looks import volts
@@ -48,7 +50,7 @@ def circuit(result: BearingResult) -> str:
         conducting = lubrication(result.solution) == "conducting"
         touch = "Contacts open and close: discharges likely, no voltage computed" if conducting else ""
         return touch or f"Capacitance of the bearing: {prefixed(value, 'F')}"
-    first = volts(found["first_break"])
+    first = volts(found["shaft_first_break"])
     if shaft is None:
         return f"First breakdown at {first}: {found['first_break_at']}"
     verdict, margin = result.verdict, found["margin"]
@@ -73,7 +75,7 @@ def impedance(result: BearingResult) -> str:
     """Sentence: the capacitance that the bearing is above its corner frequency, and its impedance there."""
     found = impedance_of(result.solution)
     assert found is not None
-    value = prefixed(result.capacitance(result.case.bearing.fill), "F")
+    value = prefixed(shaft_capacitance(result.solution), "F")
     values = [f"{prefixed(magnitude_at(found, at), 'Ω')} at {prefixed(at, 'Hz')}" for at in read_at(result)]
     return f"A capacitor of {value} above {prefixed(found.corner, 'Hz')}: |Z| = {', '.join(values)}"
 
@@ -95,7 +97,7 @@ def breakdown_over_speed(curves: Curves, own: Speed | None) -> str:
     margin = curves["first_break"] / curves["shaft_voltage"]
     known = np.isfinite(margin)
     at_own = ""
-    if own is not None and (value := own[1]["bearing"]["first_break"]) is not None:
+    if own is not None and (value := value_of(own[1], "first_break")) is not None:
         shaft = own[1]["bearing"]["shaft_voltage"]
         at_own = f"{volts(value)}" if shaft is None else f"margin {ratio_text(value / shaft)}"
         at_own += f" at {rpm_text(own[0])}"
@@ -137,7 +139,7 @@ def case_lines(result: BearingResult, *, voltages: bool) -> list[str]:
         for load, way in ((bearing.radial_load, "radial"), (bearing.axial_load, "axial"))
         if load
     ]
-    duty += [f"{bearing.inner_speed * RPM:.4g} rpm", f"{bearing.temperature - 273.15:.4g} °C"]
+    duty += [f"{bearing.inner_speed * RPM:.4g} rpm", f"{bearing.oil_temperature - 273.15:.4g} °C"]
     parts = [part for part in duty if part not in title]
     line = ", ".join([*filter(None, [textwrap.shorten(title, 70, placeholder=" ...")]), *parts])
     return [line, film_line(result, voltages=voltages)]

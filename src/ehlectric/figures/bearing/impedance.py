@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ehlectric.arrays import Array
+from ehlectric.bearing.discharges.leakage import shaft_leakage
 from ehlectric.bearing.impedance import Impedance, impedance_of
 from ehlectric.bearing.result import BearingResult
 from ehlectric.cases.quantity import unit_for
@@ -147,8 +148,22 @@ def _over_frequency(result: BearingResult, ax: Axes) -> None:
         ax.text(
             impedance.corner, 0.04, text, transform=ax.get_xaxis_transform(), fontsize="small", color=GREY
         )
+    _mark_period(result, ax)
     ax.set(xlabel="frequency $f$ [Hz]", xlim=(_low(impedance), frequency[-1]))
     ax.grid(color="0.9", lw=0.6)
+
+
+def _mark_period(result: BearingResult, ax: Axes) -> None:
+    """Mark the switching frequency, and name its period with the time constant of the films."""
+    motor, leaks = result.case.motor, shaft_leakage(result.solution)
+    if motor is None or motor.switching_frequency is None or leaks is None:
+        return
+    at, time = motor.switching_frequency, leaks.film_time_constant
+    ax.axvline(at, color=ORANGE, lw=0.9, ls=":")
+    text = f" PWM period {prefixed(1.0 / at, 's')},\n films discharge in {prefixed(time, 's')}"
+    if ax.get_yscale() == "log":
+        # Above the name of the corner frequency, and in the upper panel only.
+        ax.text(at, 0.24, text, transform=ax.get_xaxis_transform(), fontsize="small", color=ORANGE)
 
 
 def _low(impedance: Impedance) -> float:

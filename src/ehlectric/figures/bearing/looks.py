@@ -56,3 +56,14 @@ def label_ends(ax: Axes, ends: Sequence[tuple[float, str, str]]) -> None:
         heights[k] = max(heights[k], heights[k - 1] + 0.5 * (rooms[k] + rooms[k - 1]))
     for height, (_, text, colour) in zip(heights, ordered, strict=True):
         ax.text(1.015, height, text, transform=ax.transAxes, va="center", color=colour, fontsize="small")
+
+
+def fill_text(fill: float | str) -> str:
+    """Text about what fills the gap around the films.
+
+    Examples
+    --------
+    >>> fill_text("air"), fill_text(0.3)
+    ('air fill', '30 % oil fill')
+    """
+    return f"{fill} fill" if isinstance(fill, str) else f"{100.0 * fill:.3g} % oil fill"

@@ -8,6 +8,8 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ehlectric.arrays import Array
+from ehlectric.bearing.meter.path import shaft_first_break, shaft_through_breakdown
+from ehlectric.bearing.meter.reading import shaft_path
 from ehlectric.bearing.result import BearingResult
 from ehlectric.cases.quantity import unit_for
 from ehlectric.figures.bearing.curves import nearly_equal
@@ -18,14 +20,15 @@ from ehlectric.figures.style import BLUE, GREY, axes_or_new, legend_above
 LEAST_VARIATION = 0.01
 
 
-def capacitances(result: BearingResult, fill: str) -> Array:
+def capacitances(result: BearingResult, fill: float | str) -> Array:
     """Capacitance of the bearing at each position of the cage, with "oil" or "air" around the films [F]."""
     return np.array([circuit.capacitance for circuit in result.solution.circuits(fill)])
 
 
 def first_breakdowns(result: BearingResult) -> Array:
-    """Bearing voltage of the first breakdown at each position of the cage [V]."""
-    return np.array([circuit.first_break for circuit in result.solution.circuits()])
+    """Voltage of the first breakdown at each position of the cage, on the bearing with its coating [V]."""
+    path = shaft_path(result.solution)
+    return np.array([shaft_first_break(circuit, path) for circuit in result.solution.circuits()])
 
 
 def variation(values: Array) -> float:
@@ -84,7 +87,8 @@ def breakdown_over_pitch(result: BearingResult, ax: Axes | None = None) -> Axes:
     """
     ax = axes_or_new(ax)
     first = first_breakdowns(result)
-    through = np.array([circuit.through_breakdown for circuit in result.solution.circuits()])
+    path = shaft_path(result.solution)
+    through = np.array([shaft_through_breakdown(circuit, path) for circuit in result.solution.circuits()])
     lines = [("ring-to-ring\nbreakdown", through, THROUGH), ("first\nbreakdown", first, FIRST)]
     if nearly_equal(first, through):
         lines = [("first and\nring-to-ring\nbreakdown", first, FIRST)]
@@ -99,7 +103,7 @@ def breakdown_over_pitch(result: BearingResult, ax: Axes | None = None) -> Axes:
         ax.axhline(shaft, label="shaft voltage", **SHAFT)
         ends.append((shaft, f"shaft voltage\n{volts(shaft)}", SHAFT["color"]))
     ax.set_ylim(0.0, 1.15 * max(float(np.max(through)), shaft or 0.0))
-    ax.set_ylabel("bearing voltage [V]")
+    ax.set_ylabel(f"{'shaft' if path.coated else 'bearing'} voltage [V]")
     label_ends(ax, ends)
     return ax
 

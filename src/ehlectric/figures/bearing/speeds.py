@@ -23,7 +23,9 @@ from ehlectric.figures.bearing.curves import (
     Speeds,
     critical_speed_of,
     curves_of,
+    is_coated,
     nearly_equal,
+    value_of,
 )
 from ehlectric.figures.bearing.looks import FIRST, SHAFT, THROUGH, label_ends, volts
 from ehlectric.figures.style import BLUE, GREY, ORANGE, axes_or_new, figure_of, legend_above
@@ -73,7 +75,7 @@ def capacitance_over_speed(points: Speeds, ax: Axes | None = None, *, own: Speed
         look: dict[str, Any] = {"lw": 1.4, "marker": "o", "ms": 4.0} if fill == used else {"lw": 0.7}
         ax.plot(speed, factor * values, color=BLUE, label=f"{fill} around the films", **look)
         ends.append((float(factor * values[-1]), f"{fill} around\nthe films", BLUE))
-    if not used:
+    if used not in ("oil", "air"):
         look = {"lw": 1.4, "marker": "o", "ms": 4.0}
         ax.plot(
             speed, factor * curves["capacitance"], color="black", label="capacitance of the bearing", **look
@@ -119,7 +121,8 @@ def breakdown_over_speed(points: Speeds, ax: Axes | None = None, *, own: Speed |
     names += [("shaft\nvoltage", "shaft_voltage", SHAFT)]
     everything = np.concatenate([first, through, shaft])
     log = is_wide(everything)
-    scale_axis(ax.yaxis, "bearing voltage [V]", values=everything, log=log)
+    name = "shaft" if is_coated(points) else "bearing"
+    scale_axis(ax.yaxis, f"{name} voltage [V]", values=everything, log=log)
     if not log:
         ax.set_ylim(0.0, 1.1 * float(np.nanmax(everything)))
     ends = []
@@ -216,7 +219,7 @@ def rpm_text(speed: float) -> str:
 
 def _own_margin(own: Speed | None, curves: Curves, ax: Axes) -> None:
     """Mark the breakdown voltage of the bearing itself, and write its margin beside an arrow."""
-    if own is None or (first := own[1]["bearing"]["first_break"]) is None:
+    if own is None or (first := value_of(own[1], "first_break")) is None:
         return
     rpm, shaft = own[0] * RPM, own[1]["bearing"]["shaft_voltage"]
     ax.plot([rpm], [first], zorder=6.0, **_STAR)

@@ -12,7 +12,7 @@ from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.discharge.utilisation import FieldUtilisation
 from ehlectric.discharge.verdict import lead_of, ratio_text
-from ehlectric.figures.names import BREAKDOWN_FIGURE, ROUGHNESS_FIGURE
+from ehlectric.figures.names import BREAKDOWN_FIGURE, METER_FIGURE, ROUGHNESS_FIGURE
 
 AnyContact = Result | PointResult
 
@@ -222,6 +222,15 @@ def breakdown_text(result: AnyContact) -> str:
     return f"{lead} at {applied}: breakdown voltage {breaking}{where} ({margin})"
 
 
+def meter_text(result: AnyContact) -> str:
+    """Capacitance that a meter reads, and how much of it is outside the Hertz zone and the film's domain."""
+    reading = result.meter
+    assert reading is not None
+    parts = f"{per_cent(reading.share_of_hertz)} in the Hertz zone"
+    parts += f", {per_cent(reading.share_of_outside)} outside the film's domain"
+    return f"The meter reads {with_unit(reading.capacitance, 'F', least=1.0)}: {parts}"
+
+
 LINE_FINDINGS: Mapping[str, Callable[[Result], str]] = {
     "film.png": film_text,
     "field_strength.png": strength_text,
@@ -229,6 +238,7 @@ LINE_FINDINGS: Mapping[str, Callable[[Result], str]] = {
     "field_deviation.png": deviation_text,
     ROUGHNESS_FIGURE: roughness_text,
     BREAKDOWN_FIGURE: breakdown_text,
+    METER_FIGURE: meter_text,
 }
 POINT_FINDINGS: Mapping[str, Callable[[PointResult], str]] = {
     "film_map.png": film_text,
@@ -239,6 +249,7 @@ POINT_FINDINGS: Mapping[str, Callable[[PointResult], str]] = {
     "cuts.png": cuts_text,
     ROUGHNESS_FIGURE: roughness_text,
     BREAKDOWN_FIGURE: breakdown_text,
+    METER_FIGURE: meter_text,
 }
 
 

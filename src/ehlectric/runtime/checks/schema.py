@@ -21,6 +21,7 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.errors import DamagedError, InputError
 from ehlectric.runtime.stored_warnings import CODES_OF_TEXTS, TEXTS
+from ehlectric.runtime.values import is_number as is_python_number
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -82,7 +83,7 @@ def refusing(path: Path) -> Iterator[None]:
 
 @dataclass(frozen=True)
 class Rule:
-    """What a variable of a file must be.
+    """Rule that a variable of a file follows.
 
     Attributes
     ----------
@@ -258,7 +259,7 @@ def case_of(attributes: Mapping[Any, Any], read: Callable[[dict[str, Any]], C]) 
 
 def is_number(value: Any, values: str = "finite") -> bool:
     """Whether a value of JSON is a number, as the words in ``values`` say; true and false are none."""
-    if not isinstance(value, int | float) or isinstance(value, bool) or not abs(value) < _LARGEST:
+    if not is_python_number(value) or not abs(value) < _LARGEST:
         return False
     return values == "finite" or VALUES[values](np.asarray(value, dtype=float))
 

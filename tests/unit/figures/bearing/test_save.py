@@ -17,7 +17,7 @@ from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.ring_contacts import RingContacts
 from ehlectric.bearing.solution import BearingSolution, Position, ring_state
 from ehlectric.bearing.speeds import over_speed
-from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.commands.app import app
 from ehlectric.discharge.verdict import Verdict
 from ehlectric.figures.bearing import circuit as bearing_circuit_plot
@@ -258,7 +258,7 @@ def test_voltages_of_contacts_are_those_of_the_bearing(result):
 @pytest.mark.parametrize(("apart", "lines"), [(1.0, 1), (1.3, 2)])
 def test_breakdowns_that_coincide_are_one_line_with_both_names(result, monkeypatch, apart, lines):
     found = result.breaks()
-    changed = found | {"through_breakdown": apart * found["first_break"]}
+    changed = found | {"shaft_through_breakdown": apart * found["shaft_first_break"]}
     monkeypatch.setattr(BearingResult, "breaks", lambda _: changed)
     ax = bearing_circuit_plot.breakdown_voltages(result)
     names = {line.get_label() for line in ax.get_lines() if line.get_label().endswith("breakdown")}

@@ -1,0 +1,52 @@
+"""Figures of examples, which the landing page and the guide show, as the commands draw them."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+from sphinx.application import Sphinx
+from sphinx.errors import ExtensionError
+
+import ehlectric
+
+_MEASURED = ("--measured", "measurements/bearing_6208_capacitance.csv", "--background", "12 pF")
+
+# Arguments of the command in the folder of the examples, and the figures that are shown, by folder.
+_RUNS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
+    "bearing_6208": (
+        ("bearing", "bearing_6208.toml"),
+        ("breakdown_over_speed.png", "bearing_loads.png", "bearing_circuit.png"),
+    ),
+    "compared": (
+        ("bearing", "bearing_6208.toml", "--contacts", "formula", *_MEASURED),
+        ("measured_and_computed.png",),
+    ),
+    "oil_contact": (("run", "oil_contact.toml"), ("meter.png",)),
+}
+
+
+def _write(app: Sphinx) -> None:
+    """Run the commands as a user does, where the code or an example is newer than the figures."""
+    examples = Path(app.srcdir).parent / "examples"
+    sources = [*examples.rglob("*.*"), *Path(ehlectric.__file__).parent.rglob("*.py")]
+    newest = max(path.stat().st_mtime for path in sources)
+    for name, (arguments, shown) in _RUNS.items():
+        folder = Path(app.srcdir) / "_generated" / name
+        if all((folder / file).exists() and (folder / file).stat().st_mtime > newest for file in shown):
+            continue
+        shutil.rmtree(folder, ignore_errors=True)
+        command = [sys.executable, "-m", "ehlectric", *arguments, "-o", str(folder), "--quiet"]
+        done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=examples)
+        missing = [file for file in shown if not (folder / file).exists()]
+        if done.returncode or missing:
+            raise ExtensionError(f"figures of {name} {missing}: status {done.returncode}, {done.stderr}")
+
+
+def setup(app: Sphinx) -> dict[str, Any]:
+    """Drawn before anything is read."""
+    app.connect("builder-inited", _write, priority=100)
+    return {"parallel_read_safe": True}

@@ -1,0 +1,162 @@
+"""Warnings as the pages tell them: beside the numbers that they concern."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+
+
+@dataclass(frozen=True)
+class Told:
+    """Warning of a result.
+
+    Attributes
+    ----------
+    code, severity, text : str
+        As of ``ehlectric.errors.ResultWarning``.
+    beside : tuple of str
+        Names of the numbers that it concerns, of which a page shows it beside those that it has; empty for a
+        warning that concerns the whole result.
+    meaning : str
+        Meaning of the code in one sentence, without numbers.
+    """
+
+    code: str
+    severity: str
+    text: str
+    beside: tuple[str, ...] = ()
+    meaning: str = ""
+
+
+# Order in which warnings are told.
+SEVERITIES = ("severe", "warning", "note")
+
+_FILM = ("lambda",)
+_FIRST = ("first-break", "margin")
+_SPARK = ("shaft-voltage", "margin")
+_ALL = ("capacitance", "lambda", "first-break", "shaft-voltage", "margin")
+
+# Numbers that a warning concerns, by its code; empty for those that concern the whole result or none of the
+# numbers of a bearing. A new code must be given its place here: a test compares this table with all codes.
+PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {
+        # Contact
+        "regime": _FILM,
+        "radius-large": (),
+        "ambient-pressure": (),
+        "plastic-deformation": _FILM,
+        "law-range": _FILM,
+        "roelands-z": _FILM,
+        "estimated-alpha": _FILM,
+        # Rough surfaces
+        "spacing-irregular": (),
+        "voids-filled": (),
+        "heights-cut": (),
+        "roughness-continued": (),
+        "roughness-unresolved": _FILM,
+        "variance-missed": _FILM,
+        "seed-repeated": (),
+        # Film
+        "not-converged": _ALL,
+        "surfaces-touch": _FILM,
+        "thinner-than-atom": (*_FILM, *_FIRST),
+        "refine-not-reached": _FILM,
+        "error-unknown": _FILM,
+        "coarser-grid-unsolved": _FILM,
+        "grid-too-coarse": _FILM,
+        "grid-far-too-coarse": _ALL,
+        "local-plastic-deformation": _FILM,
+        "outlet-too-short": _FILM,
+        "inlet-too-short": _FILM,
+        "inlet-far-too-short": _ALL,
+        "domain-too-small": _FILM,
+        "domain-far-too-small": _ALL,
+        # Electric field and discharge
+        "field-grid-too-coarse": ("first-break",),
+        "field-unresolved": ("first-break",),
+        "field-range-too-narrow": ("first-break",),
+        "field-above-insulators": _SPARK,
+        "breakdown-expected": ("margin",),
+        "strength-above-liquids": _FIRST,
+        "tunnelling": _FIRST,
+        "strength-table-exceeded": _FIRST,
+        "roughness-factor-rough": ("capacitance",),
+        "coating-in-series": ("first-break",),
+        # Transient contacts
+        "stationary-differs": (),
+        "stationary-not-converged": (),
+        "stationary-error": (),
+        "steps-too-long": (),
+        "steps-halved": (),
+        # Bearings
+        "formula-contacts": _FILM,
+        "isothermal-film": ("first-break",),
+        "temperature-unused": _FILM,
+        "viscosity-of-base": _FILM,
+        "temperature-low": _FILM,
+        "speed-high": (),
+        "load-low": (),
+        "temperature-extreme": (),
+        "viscosity-high": _FILM,
+        "clearance-class": (),
+        "clearance-negative": (),
+        "fit-loose": (),
+        "viscosity-grade": _FILM,
+        "clearance-taken-up": _FILM,
+        "shoulder-reached": ("capacitance", *_FIRST),
+        "touching": (*_FILM, "first-break"),
+        "partial-film": (*_FILM, "first-break"),
+        "smooth-film": ("first-break",),
+        "shaft-leaks": ("shaft-voltage",),
+        "coating-breakdown": ("shaft-voltage",),
+        "current-density-high": (),
+        "capacitance-bound": ("capacitance", "shaft-voltage"),
+        "weibull-voltage": ("first-break",),
+        "speed-left-out": (),
+        # Sweeps and measurements
+        "points-with-warnings": (),
+        "points-with-notes": (),
+        "points-not-usable": (),
+        "points-of-another-version": (),
+        "rows-dropped": (),
+        "rows-not-usable": (),
+        "intervals-wide": (),
+        "formula-films": _FILM,
+        "columns-ignored": (),
+        "rows-without-factor": (),
+        "scatter-only": (),
+        "scatter-large": (),
+        "factor-varies": (),
+        "range-left-out": (),
+        # Files of other versions
+        "not-usable": _ALL,
+        "unclassified": (),
+    }
+)
+
+
+def beside(told: Iterable[Told], number: str) -> tuple[Told, ...]:
+    """Warnings that concern a number."""
+    return tuple(one for one in told if number in one.beside)
+
+
+def elsewhere(told: Iterable[Told]) -> tuple[Told, ...]:
+    """Warnings that concern no single number, which a list below the numbers tells."""
+    return tuple(one for one in told if not one.beside)
+
+
+def counts(told: Iterable[Told]) -> str:
+    """Numbers of warnings by their severity.
+
+    Examples
+    --------
+    >>> counts([Told("partial-film", "warning", "thin"), Told("speed-high", "warning", "fast")])
+    '2 warnings'
+    >>> counts([])
+    'no warnings'
+    """
+    severities = [one.severity for one in told]
+    names = {"severe": "severe warning", "warning": "warning", "note": "note"}
+    found = [(severities.count(one), names[one]) for one in SEVERITIES if one in severities]
+    return ", ".join(f"{n} {name}{'' if n == 1 else 's'}" for n, name in found) or "no warnings"

@@ -1,0 +1,96 @@
+"""Library of bearings, oils, coatings and solids as the forms list it, read without the physics."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Any
+
+from ehlectric.app.answers.choices import Choice
+from ehlectric.cases import library
+
+# Name of a bearing's kind as a group of the list.
+_GROUPS = {
+    "deep-groove ball": "Deep-groove ball bearings",
+    "angular-contact ball": "Angular-contact ball bearings",
+    "cylindrical roller": "Cylindrical roller bearings",
+}
+_BASE_OILS = {
+    "mineral-paraffinic": "Mineral oils",
+    "mineral-naphthenic": "Mineral oils",
+    "pao": "Synthetic oils",
+}
+_COATED = {"inner": "Coating on the inner ring", "outer": "Coating on the outer ring"}
+
+
+@cache
+def bearing(name: str) -> dict[str, Any]:
+    """Table of a bearing of the library, with texts as the file has them; empty for another name."""
+    return library.bearing(name) if name in library.bearing_names() else {}
+
+
+@cache
+def oil(name: str) -> dict[str, Any]:
+    """Table of an oil of the library; empty for another name."""
+    return library.lubricant(name) if name in library.lubricant_names() else {}
+
+
+@cache
+def coating(name: str) -> dict[str, Any]:
+    """Table of a coated ring of the library; empty for another name."""
+    return library.coating(name) if name in library.coating_names() else {}
+
+
+@cache
+def oil_needs(name: str) -> tuple[str, ...]:
+    """Keys that a case must give with an oil of the library."""
+    known = name in library.lubricant_names()
+    return tuple(library.tables("lubricant", name).get("needs", ())) if known else ()
+
+
+@cache
+def choices() -> dict[str, tuple[Choice, ...]]:
+    """Choices by key: ``bearing.base``, ``lubricant.base``, ``bearing.coating.base`` and materials."""
+    rolling = tuple(Choice(name, name) for name in library.solid_names(rolling=True))
+    solids = tuple(Choice(name, name) for name in library.solid_names())
+    return {
+        "bearing.base": tuple(_bearing(name) for name in library.bearing_names()),
+        "lubricant.base": tuple(_oil(name) for name in library.lubricant_names()),
+        "bearing.coating.base": tuple(_coating(name) for name in library.coating_names()),
+        "bearing.element_material": rolling,
+        "bearing.ring_material": rolling,
+        "bearing.fits.shaft_material": solids,
+        "bearing.fits.housing_material": solids,
+    }
+
+
+def _bearing(name: str) -> Choice:
+    table = bearing(name)
+    size = " x ".join(table[key].removesuffix(" mm") for key in ("bore", "outer_diameter", "width"))
+    elements = "rollers" if "roller_length" in table else "balls"
+    label = f"{name.upper()}: {size} mm, {table['elements']} {elements}"
+    return Choice(name, label, _GROUPS[table["kind"]])
+
+
+def _oil(name: str) -> Choice:
+    file = library.tables("lubricant", name)
+    kind = file["lubricant"].get("temperature", {}).get("base_oil", "")
+    title = str(file["title"])
+    group = _BASE_OILS.get(kind) or _named(title)
+    return Choice(name, title if title.lower().startswith(name.split("-")[0]) else f"{name}: {title}", group)
+
+
+def _named(title: str) -> str:
+    """Group of an oil by the words of its title."""
+    words = title.lower()
+    if "polyalphaolefin" in words or "fluid" in words:
+        return "Synthetic oils"
+    return "Mineral oils" if "mineral" in words else "Other liquids"
+
+
+def _coating(name: str) -> Choice:
+    table = coating(name)
+    given = [f"{table[key]} {word}" for key, word in _COATING_WORDS.items() if key in table]
+    return Choice(name, f"{name}: {', '.join(given)}", _COATED[table["ring"]])
+
+
+_COATING_WORDS = {"thickness": "thick", "breakdown_voltage": "breakdown"}

@@ -1,0 +1,271 @@
+"""Answers about a bearing: at once by formula, whole a moment later, and with solved contacts."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ehlectric.app.answers.bearing import BearingAnswer, Difference, Figure, Table
+from ehlectric.app.compute.bearing_numbers import contacts_table, differences, shown_numbers
+from ehlectric.app.compute.bearing_verdict import judged, quick_verdict
+from ehlectric.app.compute.cases import case_of
+from ehlectric.app.compute.lines import lines_of
+from ehlectric.app.compute.warnings import told_of
+from ehlectric.app.figures.bearing import Around, film_figure, load_figure
+from ehlectric.app.figures.bearing_speeds import (
+    SPEED_HEADS,
+    OverSpeed,
+    breakdown_figure,
+    capacitance_figure,
+    speed_rows,
+)
+from ehlectric.bearing.by_formula import formula_error
+from ehlectric.bearing.result import BearingResult
+from ehlectric.bearing.solution import capacitance_is_bound
+from ehlectric.bearing.solver import solve_bearing
+from ehlectric.bearing.speeds import over_speed
+from ehlectric.bearing.summary import summary_of
+from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.cases.row import amount
+from ehlectric.errors import InputError
+from ehlectric.runs.by_kind import run_bearing
+from ehlectric.runtime.progress import Progress
+from ehlectric.runtime.workers import cores
+from ehlectric.tables.bearing import total_rows
+
+
+def bearing_case(table: Mapping[str, Any], contacts: str = "", session: Path | None = None) -> BearingCase:
+    """Case of tables as a person writes them.
+
+    Parameters
+    ----------
+    table : mapping
+        Nested tables of a bearing file.
+    contacts : str
+        "formula" or "solved" in place of that of the tables.
+    session : Path, optional
+        Folder of the session, in which files that the case names lie; without it, the case may name none.
+
+    Raises
+    ------
+    InputError
+        If the tables are no valid case of a bearing.
+    """
+    case = case_of(table, session)
+    if not isinstance(case, BearingCase):
+        raise InputError.missing("bearing", "a table with the inputs of a bearing")
+    return case.replace({"contacts": contacts}) if contacts else case
+
+
+def answer_by_formula(table: Mapping[str, Any], session: Path | None = None) -> BearingAnswer:
+    """Answer about a bearing with contacts by formula, without what depends on other inputs.
+
+    Parameters
+    ----------
+    table : mapping
+        Nested tables of a bearing file.
+    session : Path, optional
+        Folder of the session.
+
+    Raises
+    ------
+    InputError
+        If the tables are no valid case, or no formula describes its films.
+    """
+    return answer_of(_by_formula(table, session), whole=False)
+
+
+def whole_answer_by_formula(table: Mapping[str, Any], session: Path | None = None) -> BearingAnswer:
+    """Answer about a bearing with contacts by formula, with critical speeds and effects of the inputs."""
+    return answer_of(_by_formula(table, session), whole=True)
+
+
+def solve_contacts(
+    table: Mapping[str, Any], session: Path, folder: Path, progress: Progress
+) -> BearingAnswer:
+    """Whole answer about a bearing with solved contacts, by the same run as that of the command.
+
+    Parameters
+    ----------
+    table : mapping
+        Nested tables of a bearing file.
+    session : Path
+        Folder of the session.
+    folder : Path
+        Folder of the result's files.
+    progress : callable
+        Called with the number of solved contacts, the number of all contacts, and a text.
+
+    Raises
+    ------
+    InputError
+        If the tables are no valid case, or the bearing cannot be solved.
+    LostError
+        Where the process of a contact was killed twice.
+    """
+
+    def told(done: int, of: int, _: str) -> None:
+        progress(done, of, "contacts")
+
+    # A core is left for the pages.
+    workers = max(1, cores() - 1)
+    case = bearing_case(table, session=session)
+    outcome = run_bearing(case, folder, told, contacts="solved", workers=workers)
+    progress(0, 0, "speeds and ranges")
+    return answer_of(outcome.result, whole=True, changes=_changes(case, outcome.summary))
+
+
+def _changes(case: BearingCase, solved: Mapping[str, Any]) -> tuple[Difference, ...]:
+    """Differences from the numbers by formula; none where no formula describes the films."""
+    if not solved["converged"]:
+        return ()
+    try:
+        formula = summary_of(_solved_by_formula(case).solution)
+    except InputError:
+        return ()
+    return differences(formula, solved)
+
+
+def _by_formula(table: Mapping[str, Any], session: Path | None) -> BearingResult:
+    return _solved_by_formula(bearing_case(table, session=session))
+
+
+def _solved_by_formula(case: BearingCase) -> BearingResult:
+    return solve_bearing(case.replace({"contacts": "formula"}), workers=1)
+
+
+def answer_of(result: BearingResult, *, whole: bool, changes: tuple[Difference, ...] = ()) -> BearingAnswer:
+    """Answer of a solved bearing; ``whole`` with the analysis of its margin, which takes a second or two."""
+    summary = result.summary() if whole else summary_of(result.solution)
+    verdict = result.verdict if whole else quick_verdict(result.solution)
+    warnings = result.warnings
+    figures = _figures(result, summary) if result.converged else {}
+    if whole and result.converged:
+        points, left_out = over_speed(result.case)
+        warnings += tuple(left_out)
+        own = (result.case.bearing.inner_speed, summary)
+        bound = capacitance_is_bound(result.solution)
+        figures |= _speed_figures(OverSpeed.of(points, own), bound=bound) if len(points) > 1 else {}
+    told = told_of(warnings)
+    return BearingAnswer(
+        title=result.case.title,
+        contacts=result.case.contacts,
+        whole=whole,
+        converged=result.converged,
+        level=verdict.level,
+        text=verdict.text,
+        judged=judged(verdict),
+        how=_how(result),
+        shown=shown_numbers(summary, told, whole=whole),
+        numbers=summary["bearing"],
+        margin=summary.get("margin"),
+        contact_rows=tuple(summary["contacts"]),
+        lines=lines_of(total_rows(summary)),
+        figures=figures,
+        warnings=told,
+        seconds=summary["seconds"],
+        differences=changes,
+    )
+
+
+def _how(result: BearingResult) -> str:
+    """Sentence about the contacts: how they were computed, and how far off they may be."""
+    if result.case.contacts == "solved":
+        return "Contacts solved: film, pressure and field of each contact are computed."
+    off = formula_error(result.case.bearing.kind)
+    return f"Contacts by formula: films may be {off} off. Solving computes film and field."
+
+
+def _figures(result: BearingResult, summary: Mapping[str, Any]) -> dict[str, Figure]:
+    """Figures around the shaft."""
+    rows, around = summary["contacts"], _around(result)
+    rq = result.case.bearing.composite_rq
+    table = contacts_table(rows)
+    loaded = [row for row in rows if row["solved"]]
+    most = max(loaded, key=lambda row: row["load"])
+    least = min(loaded, key=lambda row: row["minimum_thickness"])
+    load = f"the largest is {most['load']:.4g} N, {most['ring']} contact of element {most['element']}"
+    film = (
+        f"the smallest is {1e6 * least['minimum_thickness']:.4g} µm (λ {least['lambda_ratio']:.3g}), "
+        f"{least['ring']} contact of element {least['element']}"
+    )
+    return {
+        "load": Figure(
+            "Load of the contacts [N]",
+            f"Load of all contacts around the shaft: {load}",
+            load_figure(rows, around),
+            table,
+            "The radial load on the inner ring points down.",
+        ),
+        "film": Figure(
+            "Minimum film thickness [µm]",
+            f"Minimum film of the loaded contacts around the shaft: {film}",
+            film_figure(rows, around, rq),
+            table,
+            _gaps(around),
+        ),
+    }
+
+
+def _gaps(around: Mapping[str, Around]) -> str:
+    """Sentence about contacts without load, which have a gap in place of a film."""
+    found = []
+    for name, ring in around.items():
+        gaps = [film for film, on in zip(ring.film, ring.loaded, strict=True) if not on]
+        if gaps:
+            found.append(f"{name} ring up to {amount(max(gaps), 'm')}")
+    if not found:
+        return "All elements are loaded by both rings."
+    return f"Elements without load have a gap in place of a film, not drawn: {', '.join(found)}."
+
+
+def _around(result: BearingResult) -> dict[str, Around]:
+    """Contacts of all elements at all positions of the cage, by the name of the ring."""
+    positions = result.solution.positions
+    angle = np.mod(np.concatenate([one.equilibrium.position for one in positions]), 2.0 * np.pi)
+    order = np.argsort(angle, kind="stable")
+    found = {}
+    for name in ("inner", "outer"):
+        rings = [getattr(position, name) for position in positions]
+        load, film, loaded = (
+            np.concatenate(columns)[order].tolist()
+            for columns in (
+                [ring.load for ring in rings],
+                [ring.values.minimum_thickness for ring in rings],
+                [ring.solved for ring in rings],
+            )
+        )
+        found[name] = Around(angle[order].tolist(), load, film, loaded)
+    return found
+
+
+def _speed_figures(over: OverSpeed, *, bound: bool) -> dict[str, Figure]:
+    """Figures over the speed; breakdown only where there is a breakdown or a shaft voltage at any speed."""
+    table = Table("Bearing over its speed, contacts by formula", SPEED_HEADS, tuple(speed_rows(over)))
+    found = {}
+    if np.any(np.isfinite([*over.curves["first_break"], *over.curves["shaft_voltage"]])):
+        found["breakdown"] = Figure(
+            "Breakdown voltage over speed",
+            "First breakdown voltage and shaft voltage over the speed of the inner ring",
+            breakdown_figure(over),
+            table,
+            "Upper bounds, with contacts by formula" + _scaled(over, "first_break"),
+        )
+    found["capacitance"] = Figure(
+        "Capacitance over speed",
+        "Capacitance over the speed of the inner ring, with its range from air to oil around the films",
+        capacitance_figure(over),
+        table,
+        f"{'An upper bound, with' if bound else 'With'} contacts by formula" + _scaled(over, "capacitance"),
+    )
+    return found
+
+
+def _scaled(over: OverSpeed, key: str) -> str:
+    """End of a sentence: the factor by which a curve by formula is scaled to solved contacts."""
+    factor = over.curves.scaled[key]
+    solved = over.own[1]["bearing"]["contacts"] == "solved"
+    return f", scaled by {factor:.3g} to the solved contacts (star)." if solved else "."

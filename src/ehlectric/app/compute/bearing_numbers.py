@@ -1,0 +1,223 @@
+"""Numbers of a bearing as its page shows them: with units, bounds and warnings, or why there is none."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from ehlectric.app.answers.bearing import Difference, Number, Table
+from ehlectric.app.answers.told import Told, beside
+from ehlectric.cases.row import amount
+from ehlectric.discharge.verdict import ratio_text
+from ehlectric.tables.bearing import total_rows
+
+# Words of the state of lubrication.
+STATES = {
+    "conducting": "surfaces touch",
+    "touching": "surfaces touch",
+    "partial film": "surfaces touch at times",
+    "full film": "full film",
+}
+
+
+def shown_numbers(summary: Mapping[str, Any], told: tuple[Told, ...], *, whole: bool) -> tuple[Number, ...]:
+    """Numbers at the top of the page.
+
+    Parameters
+    ----------
+    summary : mapping
+        Summary of a bearing, with or without its table ``margin``, SI units.
+    told : tuple of Told
+        Warnings of the result.
+    whole : bool
+        Whether the summary has the table ``margin``.
+
+    Returns
+    -------
+    tuple of Number
+        Capacitance, first breakdown, shaft voltage, margin, lambda ratio and critical speed.
+    """
+    found = (
+        _capacitance(summary, told),
+        _first_break(summary, told),
+        _shaft_voltage(summary, told),
+        _margin(summary, told),
+        _lambda(summary, told),
+        _critical_speed(summary, whole=whole),
+    )
+    return found if summary["converged"] else tuple(map(_unusable, found))
+
+
+def _unusable(number: Number) -> Number:
+    """Number of films that are not converged, with words that say so."""
+    if not number.known:
+        return number
+    note = "not converged: do not use this value"
+    return Number(number.name, number.label, number.text, note=note, known=False, told=number.told)
+
+
+def _capacitance(summary: Mapping[str, Any], told: tuple[Told, ...]) -> Number:
+    totals = summary["bearing"]
+    low, high = (amount(totals[f"capacitance_{fill}"], "F") for fill in ("air", "oil"))
+    note = f"{low} with air around the films, {high} with oil"
+    bound = "≤" if _has(told, "capacitance-bound") else ""
+    note = f"upper bound; {note}" if bound else note
+    text = amount(totals["capacitance"], "F")
+    return Number("capacitance", "Capacitance", text, bound, note, told=beside(told, "capacitance"))
+
+
+def _first_break(summary: Mapping[str, Any], told: tuple[Told, ...]) -> Number:
+    totals, label, name = summary["bearing"], "First breakdown voltage", "first-break"
+    value, near = totals["shaft_first_break"], beside(told, name)
+    if value is None:
+        return Number(name, label, "none", note=_no_voltage(summary), known=False, told=near)
+    note = f"{_bound_words(told)}; at the {totals['first_break_at']}"
+    if totals["coating_capacitance"] is not None:
+        note += f"; {amount(totals['first_break'], 'V')} across the films, and the rest across the coating"
+    return Number(name, label, amount(value, "V"), "≤", note, told=near)
+
+
+def _bound_words(told: tuple[Told, ...]) -> str:
+    """Reason why breakdown voltages are upper bounds; smooth films always make them so."""
+    films = "isothermal, fully flooded, smooth film" if _has(told, "isothermal-film") else "smooth film"
+    more = [
+        (", whose surfaces touch at times", "partial-film"),
+        (", at a probability of 63.2 %", "weibull-voltage"),
+    ]
+    return f"upper bound: {films}" + "".join(text for text, code in more if _has(told, code))
+
+
+def _shaft_voltage(summary: Mapping[str, Any], told: tuple[Told, ...]) -> Number:
+    value, name, label = summary["bearing"]["shaft_voltage"], "shaft-voltage", "Shaft voltage"
+    near = beside(told, name)
+    if value is None:
+        return Number(name, label, "none", note=_no_shaft(summary, told), known=False, told=near)
+    ratio = 100.0 * summary["bearing"]["bearing_voltage_ratio"]
+    note = f"{ratio:.3g} % of the common-mode voltage"
+    leaks = _has(told, "shaft-leaks")
+    note = f"upper bound, the oil discharges it; {note}" if leaks else note
+    return Number(name, label, amount(value, "V"), "≤" if leaks else "", note, told=near)
+
+
+def _margin(summary: Mapping[str, Any], told: tuple[Told, ...]) -> Number:
+    totals, name, label = summary["bearing"], "margin", "Margin"
+    value, near = totals["margin"], beside(told, name)
+    if value is None:
+        why = _no_voltage(summary) if totals["shaft_first_break"] is None else _no_shaft(summary, told)
+        return Number(name, label, "none", note=why, known=False, told=near)
+    analysis = summary.get("margin")
+    note = "upper bound; first breakdown / shaft voltage, breakdown below 1"
+    if analysis is not None and analysis["low"] is not None:
+        low, high = ratio_text(analysis["low"]), ratio_text(analysis["high"])
+        note = f"{low} to {high} within the stated ranges; {note}"
+    elif analysis is None and summary["inputs"].get("ranges"):
+        note = f"its range within the stated ranges follows; {note}"
+    return Number(name, label, ratio_text(value), "≤", note, told=near)
+
+
+def _lambda(summary: Mapping[str, Any], told: tuple[Told, ...]) -> Number:
+    totals = summary["bearing"]
+    least = amount(totals["lambda_ratio"] * summary["inputs"]["bearing"]["composite_rq"], "m")
+    note = f"{STATES[totals['lubrication']]}; minimum film {least}"
+    text = f"{totals['lambda_ratio']:.3g}"
+    return Number("lambda", "Lambda ratio, minimum", text, note=note, told=beside(told, "lambda"))
+
+
+def _critical_speed(summary: Mapping[str, Any], *, whole: bool) -> Number:
+    name, label = "critical-speed", "Critical speed"
+    if summary["bearing"]["margin"] is None:
+        return Number(name, label, "none", note="there is no margin", known=False)
+    if not whole:
+        return Number(name, label, "…", note="being computed", known=False)
+    names = ("critical speed", "upper critical speed", "surfaces touch below")
+    rows = [row for row in total_rows(summary) if row.name in names]
+    if not rows:
+        return Number(name, label, "none", note="no other speed could be computed", known=False)
+    first, *others = rows
+    notes = [first.note.removeprefix("rpm").strip(" ,:"), *(f"{row.name} {row.text}" for row in others)]
+    return Number(name, label, f"{first.shown} rpm", note="; ".join(filter(None, notes)))
+
+
+def _no_voltage(summary: Mapping[str, Any]) -> str:
+    """Reason why there is no breakdown voltage."""
+    if not summary["converged"]:
+        return "not converged"
+    state, discharge = summary["bearing"]["lubrication"], summary["inputs"].get("discharge", {})
+    if state == "conducting":
+        return "λ is below 1: contacts open and close, and discharge as they do; this is not safe"
+    laws = ("dielectric_strength", "weibull", "strength_table")
+    if not any(discharge.get(law) for law in laws):
+        return "no dielectric strength is given"
+    return "the ceramic elements insulate, and their own breakdown is not computed"
+
+
+def _no_shaft(summary: Mapping[str, Any], told: tuple[Told, ...]) -> str:
+    """Reason why there is no shaft voltage."""
+    if "motor" not in summary["inputs"]:
+        return "no motor is given"
+    if _has(told, "capacitance-bound"):
+        return "the capacitance of the ceramic elements is an upper bound only"
+    return "the surfaces touch"
+
+
+def _has(told: tuple[Told, ...], code: str) -> bool:
+    return any(one.code == code for one in told)
+
+
+CONTACT_HEADS = (
+    "element",
+    "ring",
+    "position [°]",
+    "load [N]",
+    "Hertz pressure [GPa]",
+    "h_min [µm]",
+    "λ",
+    "C [pF]",
+    "breakdown [V]",
+)
+
+
+def contacts_table(rows: list[dict[str, Any]]) -> Table:
+    """Table of the contacts of all elements with both rings."""
+    return Table(
+        "Contacts of all elements, with the cage at its first position",
+        CONTACT_HEADS,
+        tuple(tuple(_contact_cells(row)) for row in rows),
+    )
+
+
+def _contact_cells(row: Mapping[str, Any]) -> Iterator[str]:
+    film = f"{1e6 * row['minimum_thickness']:.4g}"
+    yield str(row["element"])
+    yield row["ring"]
+    yield f"{row['position'] * 57.29577951308232:.0f}"
+    yield f"{row['load']:.4g}"
+    yield _cell(row["max_pressure"], 1e-9, ".3f")
+    yield film if row["solved"] else f"gap {film}"
+    yield f"{row['lambda_ratio']:.3g}" if row["solved"] else "no load"
+    yield _cell(row["capacitance"], 1e12, ".4g")
+    yield _cell(row["breakdown_voltage"], 1.0, ".3g")
+
+
+def _cell(value: float | None, factor: float, digits: str) -> str:
+    return "none" if value is None else f"{value * factor:{digits}}"
+
+
+def differences(formula: Mapping[str, Any], solved: Mapping[str, Any]) -> tuple[Difference, ...]:
+    """Differences of the numbers of a solved bearing from those by formula, from their summaries."""
+    found = []
+    for name, key, unit in (
+        ("capacitance", "capacitance", "F"),
+        ("first breakdown voltage", "shaft_first_break", "V"),
+        ("margin", "margin", ""),
+        ("minimum film", "lambda_ratio", "m"),
+    ):
+        values = [summary["bearing"][key] for summary in (formula, solved)]
+        if unit == "m":
+            values = [value * solved["inputs"]["bearing"]["composite_rq"] for value in values]
+        if None in values:
+            continue
+        by_formula, own = (amount(value, unit) if unit else ratio_text(value) for value in values)
+        change = f"{100.0 * (values[1] / values[0] - 1.0):+.1f} %"
+        found.append(Difference(name, by_formula, own, change))
+    return tuple(found)

@@ -1,0 +1,113 @@
+"""Cases of the tables of a page, which name no file but those that were uploaded in the same session.
+
+An address or an uploaded file may come from anybody. The readers of cases open the files that a case names,
+so every function of this package makes its case here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from ehlectric.app.uploads import own_file
+from ehlectric.cases.any_case import AnyCase, case_of_dict
+from ehlectric.errors import InputError, shown
+from ehlectric.runs.kinds import FileKind, kind_of_tables
+from ehlectric.sweep.inputs import Sweep
+
+# Keys that name a file wherever they stand, as ``roughness.file`` and the varied ``roughness.1.file``, and
+# the key of a sweep that may name the file of its case.
+_FILE, _CASE = "file", "case"
+
+Change = Callable[[str, str], str]
+
+
+def case_of(table: Mapping[str, Any], folder: Path | None = None) -> AnyCase:
+    """Case of a bearing or of a contact from the tables of a page.
+
+    Parameters
+    ----------
+    table : mapping
+        Nested tables, as a person writes them into a file.
+    folder : Path, optional
+        Folder of the session, in which the files that the case names must lie; without it, the case may
+        name none.
+
+    Raises
+    ------
+    InputError
+        If the tables are no valid case, or name another file.
+    """
+    return case_of_dict(with_own_files(table, folder), written=True)
+
+
+def sweep_of(table: Mapping[str, Any], folder: Path | None = None) -> Sweep:
+    """Sweep from the tables of a page; see ``case_of``.
+
+    Raises
+    ------
+    InputError
+        If the tables are no valid sweep, or name another file.
+    """
+    return Sweep.from_written(with_own_files(table, folder))
+
+
+def kind_of(table: Mapping[str, Any]) -> FileKind:
+    """Kind of the tables of a page: "contact", "motion", "bearing" or "sweep"."""
+    return kind_of_tables(table) or "contact"
+
+
+def with_own_files(table: Mapping[str, Any], folder: Path | None) -> dict[str, Any]:
+    """Tables in which the names of files are paths in the folder of a session.
+
+    Parameters
+    ----------
+    table : mapping
+        Nested tables of a case or a sweep; names of files in it are relative to the folder.
+    folder : Path or None
+        Folder of the session; None where it has no files.
+
+    Raises
+    ------
+    InputError
+        If a file is not there, or lies elsewhere.
+    """
+
+    def located(key: str, name: str) -> str:
+        path = None if folder is None or key == _CASE else own_file(name, folder)
+        if path is None:
+            takes = "its tables" if key == _CASE else "a file that was uploaded in this tab"
+            raise InputError(key, got=shown(name), takes=takes)
+        return str(path)
+
+    return with_names(table, located)
+
+
+def with_names(table: Mapping[str, Any], change: Change) -> dict[str, Any]:
+    """Copy of tables in which every name of a file is changed; ``change`` gets its key and the name."""
+    found: dict[str, Any] = _changed("", table, change)
+    return found
+
+
+def names_in(table: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
+    """Keys of tables that name a file, each with the name."""
+    found: list[tuple[str, str]] = []
+
+    def collect(key: str, name: str) -> str:
+        found.append((key, name))
+        return name
+
+    with_names(table, collect)
+    yield from found
+
+
+def _changed(key: str, value: Any, change: Change) -> Any:
+    if isinstance(value, Mapping):
+        return {name: _changed(f"{key}.{name}".lstrip("."), item, change) for name, item in value.items()}
+    names = key.rpartition(".")[2] == _FILE
+    if isinstance(value, list | tuple):
+        # Items of a list of names have the key of the list; tables of a list have numbers.
+        inner = (key if names else f"{key}.{number}" for number in range(1, len(value) + 1))
+        return [_changed(name, item, change) for name, item in zip(inner, value, strict=True)]
+    return change(key, value) if isinstance(value, str) and (names or key == _CASE) else value

@@ -1,0 +1,146 @@
+"""Answers about cases that are compared: their results by formula, as the command ``check`` has them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from ehlectric.app.answers.compare import Film, Result, Side
+from ehlectric.app.compute.bearing_verdict import quick_verdict
+from ehlectric.app.compute.cases import case_of
+from ehlectric.app.compute.warnings import told_of
+from ehlectric.bearing.by_formula import formula_error
+from ehlectric.bearing.solver import solve_bearing
+from ehlectric.bearing.summary import summary_of
+from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.cases.case import Case
+from ehlectric.cases.row import Row
+from ehlectric.errors import ResultWarning
+from ehlectric.runs.meaning import check
+from ehlectric.tables.bearing import outcome_rows
+
+# Rows of what a person gave, which are among the inputs, and of the computer.
+_INPUTS = ("operating conditions", "numerical model")
+_LEFT_OUT = ("computing time", "usual difference from a solved film", "accuracy of all that follows")
+
+# Rows that decide, by the first words of their names.
+_MAIN = (
+    "capacitance of the bearing",
+    "first breakdown voltage",
+    "shaft voltage",
+    "margin (first breakdown / shaft voltage)",
+    "minimum lambda ratio",
+    "minimum film",
+    "critical speed",
+    "Hertz pressure",
+    "breakdown voltage",
+    "margin (breakdown",
+)
+
+# Rows that a warning makes an upper bound, by its code.
+_BOUNDS = {
+    "capacitance-bound": ("capacitance",),
+    "isothermal-film": ("first breakdown", "ring-to-ring breakdown", "ring-to-ring, mean", "margin ("),
+    "smooth-film": ("first breakdown", "ring-to-ring breakdown", "ring-to-ring, mean", "margin ("),
+}
+
+
+def side(table: Mapping[str, Any], folder: Path | None = None) -> Side:
+    """Answer about one case, without what depends on further solutions.
+
+    Parameters
+    ----------
+    table : mapping
+        Inputs of the case.
+    folder : Path, optional
+        Folder of the session.
+
+    Raises
+    ------
+    InputError
+        If the tables are no valid case, or no formula describes its films.
+    """
+    case = case_of(table, folder)
+    return _bearing(case, whole=False) if isinstance(case, BearingCase) else _contact(case)
+
+
+def whole_side(table: Mapping[str, Any], folder: Path | None = None) -> Side:
+    """Answer about one case, with the critical speed and the effects of the inputs of a bearing."""
+    case = case_of(table, folder)
+    return _bearing(case, whole=True) if isinstance(case, BearingCase) else _contact(case)
+
+
+def _bearing(case: BearingCase, *, whole: bool) -> Side:
+    result = solve_bearing(case.replace({"contacts": "formula"}), workers=1)
+    verdict = result.verdict if whole else quick_verdict(result.solution)
+    summary = result.summary() if whole else summary_of(result.solution)
+    return Side(
+        kind="bearing",
+        title=case.title,
+        level=verdict.level,
+        text=verdict.text,
+        results=tuple(_results([*_films(summary), *outcome_rows(summary)], result.warnings)),
+        warnings=told_of(result.warnings),
+        films=tuple(_over_position(summary)),
+        method=f"contacts by formula: films may be {formula_error(case.bearing.kind)} off",
+    )
+
+
+def _contact(case: Case) -> Side:
+    meaning = check(case)
+    return Side(
+        kind="contact",
+        title=case.title,
+        level="grey",
+        text="No verdict: the film and the field of a contact must be solved for one.",
+        results=tuple(_results(meaning.rows, meaning.warnings)),
+        warnings=told_of(meaning.warnings),
+        method="films by formula: usually up to 40 % off a solved film",
+    )
+
+
+def _films(summary: Mapping[str, Any]) -> Iterator[Row]:
+    """Rows of the most loaded contact and the thinnest film with each ring."""
+    yield Row("contacts with the rings")
+    for ring in ("inner", "outer"):
+        loaded = [row for row in summary["contacts"] if row["ring"] == ring and row["max_pressure"]]
+        if loaded:
+            yield Row(f"Hertz pressure, {ring} ring", max(row["max_pressure"] for row in loaded), "GPa")
+            thinnest = min(row["minimum_thickness"] for row in loaded)
+            yield Row(f"minimum film, {ring} ring", thinnest, "µm", ", by formula")
+
+
+def _results(rows: Iterable[Row], warnings: Iterable[ResultWarning]) -> Iterator[Result]:
+    """Results of the rows of a table; headings become groups."""
+    bounded = tuple(start for warning in warnings for start in _BOUNDS.get(warning.code, ()))
+    group = ""
+    for row in rows:
+        if row.heading:
+            group = row.name
+        elif group not in _INPUTS and row.name not in _LEFT_OUT:
+            number = float(row.value) if isinstance(row.value, int | float) else None
+            # Speeds are texts whose note begins with their unit.
+            unit, note = ("rpm", row.note[3:]) if row.note.startswith("rpm") else (row.unit, row.note)
+            yield Result(
+                group=group,
+                name=row.name,
+                value=number,
+                text=row.shown,
+                unit=unit,
+                note=note.lstrip(",;: "),
+                bound="≤" if number is not None and row.name.startswith(bounded) else "",
+                main=row.name.startswith(_MAIN),
+            )
+
+
+def _over_position(summary: Mapping[str, Any]) -> Iterator[Film]:
+    """Minimum films of loaded contacts over the position of their elements."""
+    for ring in ("inner", "outer"):
+        rows = [row for row in summary["contacts"] if row["ring"] == ring and row["max_pressure"]]
+        yield Film(
+            ring,
+            tuple(math.degrees(row["position"]) for row in rows),
+            tuple(row["minimum_thickness"] for row in rows),
+        )

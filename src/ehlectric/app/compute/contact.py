@@ -1,0 +1,342 @@
+"""Answers about one contact: at once by formula, and solved as the command solves it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+from ehlectric.app.answers.contact import ContactCheck, ContactView, Number
+from ehlectric.app.answers.figure import Shown
+from ehlectric.app.answers.told import Told
+from ehlectric.app.compute.cases import case_of
+from ehlectric.app.compute.lines import lines_of
+from ehlectric.app.compute.warnings import told_of
+from ehlectric.app.figures.cuts import point_cuts
+from ehlectric.app.figures.lengths import Lengths
+from ehlectric.app.figures.line import line_figures
+from ehlectric.app.figures.point import point_figures, reach_of
+from ehlectric.cases.case import Case
+from ehlectric.cases.quantity import unit_for
+from ehlectric.contact.results import PointResult, Result
+from ehlectric.contact.solver import solve
+from ehlectric.discharge.verdict import STRENGTH_UNKNOWN, doubts_of, lead_of, level_of, ratio_text
+from ehlectric.errors import InputError, ResultWarning
+from ehlectric.runs.by_kind import run_contact
+from ehlectric.runs.meaning import check
+from ehlectric.runs.results import load
+from ehlectric.runtime.progress import Progress
+from ehlectric.tables.contact import result_rows
+
+# Largest number of nodes of a smooth line contact that is solved in a fraction of a second.
+_QUICK = 3201
+
+# Part by which a film of a formula may be off, as the command says.
+_FORMULA = 0.4
+
+# Formula whose films an answer shows large, by geometry: the one of the breakdown voltage by formula.
+_SHOWN_FORMULA = {"line": ("pan_hamrock", "Pan-Hamrock"), "point": ("chittenden", "Chittenden et al.")}
+
+# Numbers that a warning concerns, by its code. Warnings of other codes concern the whole answer.
+_CONCERNS: Mapping[str, tuple[str, ...]] = {
+    "plastic-deformation": ("hertz-pressure",),
+    "law-range": ("hertz-pressure",),
+    "ambient-pressure": ("hertz-pressure",),
+    "regime": ("minimum-film", "central-film"),
+    "grid-too-coarse": ("minimum-film", "central-film"),
+    "grid-far-too-coarse": ("minimum-film", "central-film"),
+    "error-unknown": ("minimum-film",),
+    "surfaces-touch": ("minimum-film",),
+    "thinner-than-atom": ("minimum-film",),
+    "inlet-too-short": ("central-film",),
+    "local-plastic-deformation": ("max-pressure",),
+    "field-grid-too-coarse": ("max-field",),
+    "field-unresolved": ("max-field",),
+    "field-range-too-narrow": ("max-field",),
+    "field-above-insulators": ("max-field",),
+    "tunnelling": ("max-field",),
+    "strength-above-liquids": ("breakdown-voltage",),
+    "strength-table-exceeded": ("breakdown-voltage",),
+    "breakdown-expected": ("breakdown-voltage",),
+}
+
+
+def contact_case(table: Mapping[str, Any], folder: str) -> Case:
+    """Case of a contact of tables as a person writes them.
+
+    Parameters
+    ----------
+    table : mapping
+        Nested tables of a case file.
+    folder : str
+        Folder of the session, where the files of roughness lie.
+
+    Raises
+    ------
+    InputError
+        If the tables are no valid case, or name a file that was not uploaded.
+    """
+    if "bearing" in table:
+        raise InputError(
+            "bearing", got="a table", takes="the inputs of one contact; the first page has bearings"
+        )
+    case = case_of(table, Path(folder))
+    assert isinstance(case, Case)
+    return case
+
+
+def check_contact(table: Mapping[str, Any], folder: str) -> ContactCheck:
+    """Answer about a contact before its film is solved, as of ``ehlectric check``.
+
+    Parameters
+    ----------
+    table : mapping
+        Nested tables of a case file.
+    folder : str
+        Folder of the session.
+
+    Raises
+    ------
+    InputError
+        If the tables are no valid case of a contact.
+    """
+    case = contact_case(table, folder)
+    meaning = check(case)
+    level, text = _by_formula(meaning.summary.get("breakdown_by_formula"), meaning.warnings)
+    numbers = _check_numbers(meaning.summary)
+    keys = {number.key for number in numbers}
+    return ContactCheck(
+        title=meaning.title,
+        geometry=case.contact.geometry,
+        level=level,
+        text=text,
+        numbers=_with_warnings(numbers, meaning.warnings),
+        rows=lines_of(meaning.rows),
+        warnings=_others(meaning.warnings, keys),
+        summary=meaning.summary,
+        quick=_is_quick(case),
+        moving=case.motion is not None,
+    )
+
+
+def _is_quick(case: Case) -> bool:
+    smooth = not case.roughness and case.motion is None and case.grid.refine is None
+    return smooth and case.contact.geometry == "line" and case.grid.nodes <= _QUICK
+
+
+def _check_numbers(summary: Mapping[str, Any]) -> list[Number]:
+    hertz, groups = summary["hertz"], summary["groups"]
+    geometry = summary["inputs"]["contact"]["geometry"]
+    formula, name = _SHOWN_FORMULA[geometry]
+    film = summary["film_formulas"][formula]
+    note = f"by formula: {name}, up to 40 % off"
+    found = [_number("hertz-pressure", "Hertz pressure", hertz["max_pressure"], "Pa")]
+    if geometry == "line":
+        found.append(_number("half-width", "Half-width b", hertz["half_width"], "m", least=1.0))
+    else:
+        for key, label in (("semi_axis_x", "Semi-axis b, along"), ("semi_axis_y", "Semi-axis a, across")):
+            found.append(_number(key.replace("_", "-"), label, hertz[key], "m", least=1.0))
+    found += [
+        _number("minimum-film", "Minimum film", film["minimum_thickness"], "m", note),
+        _number("central-film", "Central film", film["central_thickness"], "m", note),
+        Number("moes-m", "Load parameter M", f"{groups['moes_m']:.4g}"),
+        Number("moes-l", "Material parameter L", f"{groups['moes_l']:.4g}"),
+    ]
+    estimate = summary.get("breakdown_by_formula")
+    if estimate is not None:
+        by = f"by formula: {estimate['formula']}, up to 40 % off"
+        found.append(
+            _number("breakdown-voltage", "Breakdown voltage", estimate["breakdown_voltage"], "V", by)
+        )
+    return found
+
+
+def _number(key: str, label: str, value: float, unit: str, note: str = "", least: float = 0.1) -> Number:
+    if unit == "V":
+        return Number(key, label, f"{value:.4g}", unit, note)
+    factor, shown_unit = unit_for(abs(value), unit, least=least)
+    return Number(key, label, f"{factor * value:.4g}", shown_unit, note)
+
+
+def _by_formula(estimate: Mapping[str, Any] | None, warnings: Iterable[ResultWarning]) -> tuple[str, str]:
+    """Level and sentences of the verdict by formula, within the errors of film and strength."""
+    if estimate is None:
+        return (
+            "grey",
+            "No verdict by formula: it needs a dielectric strength that is no table over pressure.",
+        )
+    margin, voltage = estimate["margin"], estimate["applied_voltage"]
+    # The film may be that much thinner or thicker than by the formula, and the strength is assumed.
+    low = margin * (1.0 - STRENGTH_UNKNOWN) / (1.0 + _FORMULA)
+    high = margin * (1.0 + STRENGTH_UNKNOWN) / (1.0 - _FORMULA)
+    level, doubts = level_of(low, high), doubts_of(warnings)
+    if doubts and level == "green":
+        level = "yellow"
+    last = " ".join([*doubts, "Upper bound: isothermal, fully flooded film."])
+    return level, (
+        f"{lead_of(level, margin)}, by formula: the film breaks down at "
+        f"{estimate['breakdown_voltage']:.3g} V, {voltage:.3g} V are applied: margin {ratio_text(margin)}. "
+        "The formula may be up to 40 % off, and the "
+        f"dielectric strength {estimate['dielectric_strength'] / 1e6:.3g} V/µm is an assumption; "
+        f"the margin may be from {ratio_text(low)} to {ratio_text(high)}. {last}"
+    )
+
+
+def solve_contact(table: Mapping[str, Any], session: str, folder: str, progress: Progress) -> ContactView:
+    """Solve a contact as ``ehlectric run`` does, with all its files.
+
+    Parameters
+    ----------
+    table : mapping
+        Nested tables of a case file.
+    session, folder : str
+        Folder of the session, and folder of the results within it.
+    progress : callable
+        Called with what is done.
+
+    Raises
+    ------
+    InputError
+        If the tables are no valid case of a contact.
+    """
+    outcome = run_contact(contact_case(table, session), folder, progress)
+    progress(0, 0, "drawing")
+    return view_of(outcome.result)
+
+
+def solve_at_once(table: Mapping[str, Any], folder: str) -> ContactView:
+    """Solve a contact that takes a fraction of a second, without files; see ``solve_contact``.
+
+    Parameters
+    ----------
+    table : mapping
+        Nested tables of a case file.
+    folder : str
+        Folder of the session.
+
+    Raises
+    ------
+    InputError
+        If the tables are no valid case of a contact.
+    """
+    return view_of(solve(contact_case(table, folder)))
+
+
+def cuts_of(folder: str, x: float, y: float) -> tuple[Shown, ...]:
+    """Cuts through a point of a solved point contact.
+
+    Parameters
+    ----------
+    folder : str
+        Folder of the result.
+    x, y : float
+        Point, in the unit of the figures.
+
+    Raises
+    ------
+    InputError
+        If the folder has no result of a point contact that converged.
+    """
+    result = _stored(folder)
+    if not isinstance(result, PointResult) or not result.converged:
+        raise InputError(folder, "has no converged point contact", takes="one that can be cut")
+    factor = Lengths.of(result).factor
+    return point_cuts(result, x / factor, y / factor)
+
+
+# A result is read once for many cuts.
+@lru_cache(maxsize=4)
+def _stored(folder: str) -> Result | PointResult:
+    result = load(folder)
+    if not isinstance(result, Result | PointResult):
+        raise InputError(folder, "has another result", takes="that of a contact")
+    return result
+
+
+def view_of(result: Result | PointResult) -> ContactView:
+    """Answer of a solved contact."""
+    level, text = _verdict(result)
+    numbers = _result_numbers(result) if result.converged else []
+    keys = {number.key for number in numbers}
+    whole = result if isinstance(result, PointResult) and result.converged else None
+    return ContactView(
+        title=result.case.title,
+        geometry=result.conditions.geometry,
+        converged=result.converged,
+        level=level,
+        text=text,
+        numbers=_with_warnings(numbers, result.warnings),
+        rows=lines_of(result_rows(result)),
+        warnings=_others(result.warnings, keys),
+        figures=point_figures(result) if isinstance(result, PointResult) else line_figures(result),
+        cuts=() if whole is None else point_cuts(whole, *whole.film.minimum_position),
+        reach=None if whole is None else reach_of(whole),
+    )
+
+
+def _verdict(result: Result | PointResult) -> tuple[str, str]:
+    """Level and sentences of the verdict of the command."""
+    if not result.converged:
+        return "grey", f"Not converged ({result.film.status}): do not use this result."
+    verdict = result.verdict
+    if verdict is None:
+        return "grey", "No verdict: the case has no dielectric strength."
+    return verdict.level, verdict.text
+
+
+def _result_numbers(result: Result | PointResult) -> list[Number]:
+    film, field, discharge = result.film, result.field, result.discharge
+    error = film.discretisation_error
+    known = "discretisation error unknown" if error is None else f"discretisation error {100 * error:.2g} %"
+    key, name = _SHOWN_FORMULA[result.conditions.geometry]
+    formula = result.formulas()[key]
+    least, central = (
+        f"{name}: {100.0 * (getattr(formula, of) / getattr(film, of) - 1.0):+.0f} %"
+        for of in ("minimum_thickness", "central_thickness")
+    )
+    found = [
+        _number("minimum-film", "Minimum film", film.minimum_thickness, "m", f"{known}; formula of {least}"),
+        _number("central-film", "Central film", film.central_thickness, "m", f"formula of {central}"),
+        _number("max-pressure", "Maximum pressure", film.max_pressure, "Pa"),
+        _number("max-field", "Maximum field", field.max_strength, "V/m"),
+    ]
+    if isinstance(result, PointResult):
+        capacitance = Number("capacitance", "Capacitance", f"{field.capacitance * 1e12:.4g}", "pF", _OVER)
+    else:
+        capacitance = Number("capacitance", "Capacitance", f"{field.capacitance * 1e9:.4g}", "nF/m", _OVER)
+    found.append(capacitance)
+    if discharge is not None and discharge.breakdown_voltage is not None:
+        breakdown = _number("breakdown-voltage", "Breakdown voltage", discharge.breakdown_voltage, "V")
+        found.append(replace(breakdown, bound="≤", note=_BOUND) if _is_flooded(result) else breakdown)
+    return found
+
+
+def _is_flooded(result: Result | PointResult) -> bool:
+    """Whether the film is that of isothermal, fully flooded oil, an upper bound."""
+    return bool(result.conditions.film_factor == 1.0)
+
+
+_BOUND = "isothermal, fully flooded film"
+
+
+_OVER = "over the field range"
+
+
+def _with_warnings(numbers: Iterable[Number], warnings: Iterable[ResultWarning]) -> tuple[Number, ...]:
+    """Numbers with the warnings that concern them."""
+    warnings = tuple(warnings)
+    return tuple(
+        replace(number, warnings=told_of(one for one in warnings if number.key in _concerned(one)))
+        for number in numbers
+    )
+
+
+def _others(warnings: Iterable[ResultWarning], keys: set[str]) -> tuple[Told, ...]:
+    """Warnings that concern none of the shown numbers."""
+    return told_of(one for one in warnings if not keys & set(_concerned(one)))
+
+
+def _concerned(warning: ResultWarning) -> tuple[str, ...]:
+    return _CONCERNS.get(warning.code, ())

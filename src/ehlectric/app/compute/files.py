@@ -1,0 +1,267 @@
+"""Files that come into a page, and files of results that a page offers, as the command writes them."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import zipfile
+from collections.abc import Iterable, Mapping
+from importlib import import_module
+from pathlib import Path, PurePosixPath, PureWindowsPath
+from typing import Any
+
+from ehlectric.app.answers.files import MOST_CASE, MOST_SURFACE, Download, Uploaded, Written
+from ehlectric.app.compute.cases import case_of, kind_of, names_in, sweep_of, with_names
+from ehlectric.app.compute.warnings import told_of
+from ehlectric.app.inputs import Inputs
+from ehlectric.app.uploads import SURFACES
+from ehlectric.cases.table import tables_of_text
+from ehlectric.errors import InputError, shown
+from ehlectric.motion.stored_run import MOTION, read_motion
+from ehlectric.runs.by_kind import RUNS
+from ehlectric.runs.folders import stored_result
+from ehlectric.runs.results import load
+from ehlectric.runtime.progress import Progress
+from ehlectric.runtime.workers import cores
+
+# Folders in the folder of a session: of results and of what is made from them.
+OUT, PACKED = "out", "packed"
+
+# Names that an uploaded file may keep: those that no file system reads in another way.
+_NAME = re.compile(r"[\w(][\w .()+,-]{0,99}", re.UNICODE)
+
+# Formats of figures.
+_FORMATS = ("svg", "png")
+
+# Endings of the files of each download.
+_ENDINGS: Mapping[Download, tuple[str, ...]] = {
+    "csv": (".csv",),
+    "netcdf": (".nc",),
+    "summary": ("summary.json",),
+    "figures": (".svg", ".png"),
+    "all": ("",),
+}
+
+
+def uploaded(contents: Mapping[str, bytes], folder: Path) -> Uploaded:
+    """Case or sweep of uploaded files.
+
+    Parameters
+    ----------
+    contents : mapping of str to bytes
+        Uploaded files by name: the case, and the files that it names. A case names them by paths of the
+        user's machine, of which only the last part counts.
+    folder : Path
+        Folder of the session, into which surfaces are written.
+
+    Returns
+    -------
+    Uploaded
+        Checked tables, or the names of files that are still missing.
+
+    Raises
+    ------
+    InputError
+        If a file is too large or cannot be used, or the case is not valid.
+    """
+    name, table = _main(contents)
+    if isinstance(table.get("case"), str):
+        inner = _plain("case", table["case"])
+        if inner not in contents:
+            missing = [inner, *_missing(table, contents, folder)]
+            return Uploaded(name, "sweep", table, tuple(dict.fromkeys(missing)))
+        table["case"] = _tables(inner, contents[inner])
+    kind, others = kind_of(table), _missing(table, contents, folder)
+    if others:
+        return Uploaded(name, kind, table, others)
+    for key, path in names_in(table):
+        _keep(_plain(key, path), contents, folder)
+    table = with_names(table, lambda key, path: f"{SURFACES}/{_plain(key, path)}")
+    if kind == "sweep":
+        sweep_of(table, folder)
+    else:
+        case_of(table, folder)
+    return Uploaded(name, kind, table)
+
+
+def _main(contents: Mapping[str, bytes]) -> tuple[str, dict[str, Any]]:
+    """Name and tables of the case among uploaded files: of a sweep rather than of the case that it names."""
+    found = [(name, _tables(name, contents[name])) for name in contents if name.lower().endswith(".toml")]
+    if not found:
+        raise InputError("files", got=shown(", ".join(contents)), takes="a case in a .toml file")
+    return next((one for one in found if kind_of(one[1]) == "sweep"), found[0])
+
+
+def _tables(name: str, content: bytes) -> dict[str, Any]:
+    """Tables of an uploaded file in TOML."""
+    if len(content) > MOST_CASE:
+        raise InputError(name, f"has {len(content)} bytes", takes=f"a case of at most {MOST_CASE} bytes")
+    try:
+        text = content.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        raise InputError(name, "is not a text file in UTF-8") from None
+    return tables_of_text(text.replace("\r\n", "\n").replace("\r", "\n"), name)
+
+
+def _missing(table: Mapping[str, Any], contents: Mapping[str, bytes], folder: Path) -> tuple[str, ...]:
+    """Names of files that tables name and that neither are uploaded nor were before."""
+    paths: dict[str, str] = {}
+    for key, path in names_in(table):
+        name = _plain(key, path)
+        if paths.setdefault(name, path) != path:
+            raise InputError(key, got=shown(path), takes=f"one file of the name {name}")
+    return tuple(
+        name
+        for name, path in paths.items()
+        if path != table.get("case") and name not in contents and not (folder / SURFACES / name).is_file()
+    )
+
+
+def _plain(key: str, path: str) -> str:
+    """Name of a file without its folders.
+
+    Raises
+    ------
+    InputError
+        If it is no name that a file of the session may have.
+    """
+    name = PureWindowsPath(PurePosixPath(path).name).name
+    if not _NAME.fullmatch(name) or name.endswith((" ", ".")):
+        raise InputError(key, got=shown(path), takes="a file with a name of letters, digits, - and _")
+    return name
+
+
+def _keep(name: str, contents: Mapping[str, bytes], folder: Path) -> None:
+    """Write an uploaded surface into the folder of the session."""
+    if name not in contents:
+        return
+    if len(contents[name]) > MOST_SURFACE:
+        takes = f"a surface of at most {MOST_SURFACE} bytes"
+        raise InputError(name, f"has {len(contents[name])} bytes", takes=takes)
+    (folder / SURFACES).mkdir(exist_ok=True)
+    (folder / SURFACES / name).write_bytes(contents[name])
+
+
+def write(table: Mapping[str, Any], contacts: str, folder: Path, progress: Progress) -> Written:
+    """Solve a case as the command does, and write its files but the figures, which ``drawn`` adds.
+
+    Parameters
+    ----------
+    table : mapping
+        Inputs of the page.
+    contacts : str
+        "formula" or "solved" for a bearing; empty where the case decides.
+    folder : Path
+        Folder of the session.
+    progress : callable
+        As ``runtime.progress`` tells it.
+
+    Returns
+    -------
+    Written
+        Files in a folder of the session, which earlier files leave.
+
+    Raises
+    ------
+    InputError, ConvergenceError, LostError
+        As the command raises them.
+    """
+    kind, case, options = kind_of(table), case_of(table, folder), dict[str, Any]()
+    if kind == "bearing":
+        # As many jobs run at once as there are pairs of cores.
+        options = {"contacts": contacts, "workers": min(2, cores())}
+    out = folder / OUT
+    shutil.rmtree(out, ignore_errors=True)
+    outcome = RUNS[kind].run(case, out, progress, **options)
+    names = tuple(path.name for path in outcome.files)
+    return Written(str(out), names, outcome.failure or "", told_of(outcome.warnings))
+
+
+def packed(out: Path, what: Download, table: Mapping[str, Any], title: str, folder: Path) -> str:
+    """File to download: the only file of a kind, or an archive of all.
+
+    Parameters
+    ----------
+    out : Path
+        Folder of a result.
+    what : str
+        Kind of the download; "all" has the case and its surfaces, too, which the command runs as they are.
+    table : mapping
+        Inputs of the page.
+    title : str
+        Name of the archive, without its ending.
+    folder : Path
+        Folder of the session.
+
+    Returns
+    -------
+    str
+        Path of the file.
+
+    Raises
+    ------
+    InputError
+        If the result has no such file.
+    """
+    files = [path for path in sorted(out.iterdir()) if _offered(path, _ENDINGS[what])]
+    if not files:
+        raise InputError.worded(what, "is not among the files of this result")
+    if len(files) == 1 and what != "all":
+        return str(files[0])
+    (folder / PACKED).mkdir(exist_ok=True)
+    target = folder / PACKED / f"{title}-{what}.zip"
+    with zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED) as archive:
+        for path in files:
+            archive.write(path, path.name)
+        if what == "all":
+            archive.writestr(f"{title}.toml", Inputs(table).toml())
+            for name in _surfaces(table, folder):
+                archive.write(folder / name, name)
+    return str(target)
+
+
+def drawn(
+    out: Path, what: Download, table: Mapping[str, Any], title: str, folder: Path, progress: Progress
+) -> str:
+    """File to download as ``packed`` makes it, after the figures of a result without any are drawn."""
+    from ehlectric.figures.results import draw_figures
+
+    progress(0, 0, "drawing figures")
+    path = stored_result(out)
+    draw_figures(read_motion(path) if path.name == MOTION else load(path), out, formats=_FORMATS)
+    return packed(out, what, table, title, folder)
+
+
+def _offered(path: Path, endings: Iterable[str]) -> bool:
+    """Whether a file of a result is offered: no link, no folder and no hidden file."""
+    named = any(path.name.endswith(ending) for ending in endings)
+    return named and path.is_file() and not path.is_symlink() and not path.name.startswith(".")
+
+
+def _surfaces(table: Mapping[str, Any], folder: Path) -> list[str]:
+    """Names of the files that a case names, relative to the folder of its session."""
+    case_of(table, folder) if kind_of(table) != "sweep" else sweep_of(table, folder)
+    return sorted({name for _, name in names_in(table) if not Path(name).is_absolute()})
+
+
+def report(out: Path, ending: str, title: str, folder: Path, progress: Progress) -> str:
+    """Report on a result, and its path.
+
+    Parameters
+    ----------
+    out : Path
+        Folder of the result.
+    ending : str
+        "pdf" or "html".
+    title : str
+        Name of the report, without its ending.
+    folder : Path
+        Folder of the session.
+    progress : callable
+        As ``runtime.progress`` tells it.
+    """
+    progress(0, 0, "writing the report")
+    (folder / PACKED).mkdir(exist_ok=True)
+    target = folder / PACKED / f"{title}.{ending}"
+    import_module("ehlectric.report.files").write_report(out, target)
+    return str(target)

@@ -1,0 +1,16 @@
+"""Loads what the first answers need, and computes one, so that every fork of this process answers at once."""
+
+from __future__ import annotations
+
+import tomllib
+from importlib import import_module
+
+from ehlectric.app.compute.bearing import answer_by_formula
+from ehlectric.runs.example_files import example_text
+
+# Functions of the other pages; each takes less than a tenth of a second.
+for name in ("descriptions", "contact", "motion", "surface", "sweep", "sweep_view", "files"):
+    import_module(f"ehlectric.app.compute.{name}")
+
+# Units, files of the library and modules that are imported where they are used are read once, here.
+answer_by_formula(tomllib.loads(example_text("bearing_6208")))

@@ -1,0 +1,36 @@
+"""Values that hold where the inputs give none: those of the library, and those of the input files."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ehlectric.app.catalogue import bearing, coating, oil
+from ehlectric.app.inputs import Inputs
+
+_DEFAULTS = {
+    "bearing.element_material": "steel",
+    "bearing.ring_material": "steel",
+    "bearing.radial_load": "0 N",
+    "bearing.axial_load": "0 N",
+    "bearing.fits.shaft_material": "steel",
+    "bearing.fits.shaft_bore": "0 mm",
+}
+
+_LIBRARY = {"bearing.coating": coating, "bearing": bearing, "lubricant": oil}
+
+
+def default_of(inputs: Inputs, key: str) -> Any:
+    """Value that holds where the inputs do not give the key; None where there is none.
+
+    Examples
+    --------
+    >>> default_of(Inputs({"bearing": {"base": "6208"}}), "bearing.bore")
+    '40 mm'
+    """
+    for table, known in _LIBRARY.items():
+        if key.startswith(f"{table}."):
+            value = known(str(inputs.value(f"{table}.base"))).get(key.removeprefix(f"{table}."))
+            if value is not None:
+                return value
+            break
+    return _DEFAULTS.get(key)

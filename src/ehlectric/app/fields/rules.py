@@ -1,0 +1,215 @@
+"""Rules by which a new input takes the place of others, as ``BearingCase.replace`` and ``Case.replace`` do.
+
+They work on inputs as a person writes them, so that the values of the library stay in the library.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from ehlectric.app.catalogue import bearing, coating
+from ehlectric.app.fields.kinds import fitted_to_kind
+from ehlectric.app.inputs import Inputs
+
+# Groups of alternatives: inputs have the keys of one row of each.
+Rows = tuple[tuple[str, ...], ...]
+
+_SPEEDS: Rows = (("contact.slide_to_roll_ratio",), ("contact.speed_1", "contact.speed_2"))
+_BODIES = ("contact.body_1", "contact.body_2")
+
+ALTERNATIVES: tuple[Rows, ...] = (
+    (("bearing.radial_clearance",), ("bearing.clearance_class",), ("bearing.fits.unmounted_clearance",)),
+    (("bearing.radial_clearance",), ("bearing.fits",)),
+    (("bearing.coating.strength",), ("bearing.coating.breakdown_voltage",)),
+    (("lubricant.viscosity",), ("lubricant.temperature",), ("lubricant.atmospheric_law",)),
+    (("lubricant.density",), ("lubricant.temperature",)),
+    (("lubricant.temperature.kinematic_viscosity_40",), ("lubricant.temperature.iso_vg",)),
+    (("lubricant.temperature.kinematic_viscosity_100",), ("lubricant.temperature.viscosity_index",)),
+    (("lubricant.relative_permittivity",), ("lubricant.permittivity_table",)),
+    (("lubricant.conductivity", "lubricant.conductivity_law"), ("lubricant.conductivity_table",)),
+    (
+        ("discharge.dielectric_strength",),
+        ("discharge.strength_table", "discharge.temperature"),
+        ("discharge.weibull",),
+    ),
+    (
+        ("discharge.strength_table.pressure",),
+        ("discharge.strength_table.temperature", "discharge.temperature"),
+    ),
+    (("meter.fill",), ("meter.oil_radius",)),
+    (("motion.passes",), ("motion.duration",)),
+    _SPEEDS,
+    (("contact.entrainment_speed",), ("contact.speed_1", "contact.speed_2")),
+    (("contact.load", "contact.load_per_length"), ("contact.max_hertz_pressure",)),
+)
+
+# Alternatives that are others for a line contact and for a point contact.
+OF_GEOMETRY: Mapping[str, tuple[Rows, ...]] = {
+    "line": (
+        (("contact.reduced_radius",), ("contact.radius_1", "contact.radius_2")),
+        (("contact.reduced_modulus",), _BODIES),
+    ),
+    "point": (
+        (
+            ("contact.radius_x", "contact.radius_y"),
+            tuple(f"{body}.{key}" for body in _BODIES for key in ("radius_x", "radius_y")),
+        ),
+        (
+            ("contact.reduced_modulus",),
+            tuple(f"{body}.{key}" for body in _BODIES for key in ("youngs_modulus", "poissons_ratio")),
+        ),
+    ),
+}
+
+# Keys that only contacts of one geometry have.
+ONLY: Mapping[str, tuple[str, ...]] = {
+    "line": tuple(f"contact.{key}" for key in ("reduced_radius", "radius_1", "radius_2", "load_per_length")),
+    "point": (
+        *(f"contact.{key}" for key in ("radius_x", "radius_y", "load")),
+        *(f"{body}.{key}" for body in _BODIES for key in ("radius_x", "radius_y")),
+    ),
+}
+_GRID_OF_ANY = ("grid.wedge", "grid.field_degree", "grid.refine")
+
+# Dimensions of a bearing, which belong to its base.
+DIMENSIONS = (
+    *("kind", "elements", "bore", "outer_diameter", "width", "element_diameter", "pitch_diameter"),
+    *("inner_groove", "outer_groove", "roller_length", "profile", "shoulder_height"),
+)
+
+
+def changed(inputs: Inputs, changes: Mapping[str, Any]) -> Inputs:
+    """Inputs with new values, and without those that the new values take the place of.
+
+    Parameters
+    ----------
+    inputs : Inputs
+        Present inputs.
+    changes : mapping
+        New values by dotted key; None removes a key, and a mapping sets a table.
+
+    Returns
+    -------
+    Inputs
+        New inputs.
+
+    Examples
+    --------
+    >>> inputs = Inputs({"bearing": {"base": "6208", "elements": 8, "radial_clearance": "10 um"}})
+    >>> dict(changed(inputs, {"bearing.clearance_class": "C3"}).table["bearing"])
+    {'base': '6208', 'elements': 8, 'clearance_class': 'C3'}
+    >>> dict(changed(inputs, {"bearing.base": "6206"}).table["bearing"])
+    {'base': '6206', 'radial_clearance': '10 um'}
+    """
+    given = _flat(changes)
+    dropped = {key: None for key in _displaced(inputs, given) if key not in given}
+    found = inputs.changed(dropped).changed(changes)
+    if {"bearing.base", "bearing.kind"} & set(given):
+        found = found.changed(fitted_to_kind(found))
+    if "bearing.film_factor" in given or _is_any_of(given, "lubricant"):
+        found = found.changed(_needed_by_heat(found))
+    return found
+
+
+def _needed_by_heat(inputs: Inputs) -> dict[str, Any]:
+    """First value of the thermal conductivity of a data sheet, which the heat of the inlet needs."""
+    key = "lubricant.temperature.thermal_conductivity"
+    heated = inputs.value("bearing.film_factor") == "inlet-shear"
+    sheet = inputs.value("lubricant.temperature")
+    return {key: _CONDUCTIVITY} if heated and sheet is not None and inputs.value(key) is None else {}
+
+
+# Thermal conductivity of the example of a bearing; an assumption.
+_CONDUCTIVITY = "0.14 W/m/K"
+
+
+def own_values(inputs: Inputs, key: str) -> dict[str, Any]:
+    """Changes by which the values of the library under a key become values of one's own.
+
+    Parameters
+    ----------
+    inputs : Inputs
+        Present inputs.
+    key : str
+        ``bearing.base``, ``bearing.coating.base`` or ``lubricant.base``.
+    """
+    base = str(inputs.value(key))
+    if key == "bearing.base":
+        values = {f"bearing.{name}": value for name, value in bearing(base).items()}
+    elif key == "bearing.coating.base":
+        values = {f"bearing.coating.{name}": value for name, value in coating(base).items()}
+        values = {"bearing.coating.thickness": "200 um"} | values
+    else:
+        # The paper's oil has all laws; the data sheet replaces its viscosity and density.
+        return {key: _OIL_OF_LAWS, "lubricant.temperature": dict(_SHEET)}
+    return {name: value for name, value in values.items() if inputs.value(name) is None} | {key: None}
+
+
+_OIL_OF_LAWS = "paper"
+
+# Data sheet of the example of a bearing; an assumption.
+_SHEET = {
+    "kinematic_viscosity_40": "46 mm^2/s",
+    "kinematic_viscosity_100": "6.8 mm^2/s",
+    "density_15": "870 kg/m^3",
+}
+
+
+def is_own(inputs: Inputs, key: str) -> bool:
+    """Whether the values under a key are a user's own, and not those of the library."""
+    if key == "lubricant.base" and inputs.value("lubricant.temperature") is not None:
+        return True
+    return inputs.value(key) is None
+
+
+def _displaced(inputs: Inputs, given: Mapping[str, Any]) -> Iterable[str]:
+    """Keys that new values take the place of."""
+    new = {key for key, value in given.items() if value is not None}
+    if "lubricant.base" in new:
+        yield from _within(inputs, "lubricant")
+    if "bearing.base" in new:
+        names = {*DIMENSIONS, *bearing(str(inputs.value("bearing.base")))}
+        yield from (f"bearing.{name}" for name in names - {"base"})
+    if "bearing.coating.base" in new:
+        known = {"ring", "thickness", "breakdown_voltage", "strength", "resistance"}
+        yield from (f"bearing.coating.{name}" for name in known)
+    geometry = inputs.value("contact.geometry") or "line"
+    wanted = given.get("contact.geometry", geometry)
+    if wanted != geometry:
+        yield from ONLY.get(geometry, ())
+        yield from ("discharge.length", "meter.length")
+        yield from (key for key in _within(inputs, "grid") if key not in _GRID_OF_ANY)
+    for rows in (*ALTERNATIVES, *OF_GEOMETRY.get(str(wanted), ())):
+        yield from _of_other_rows(rows, new)
+
+
+def _of_other_rows(rows: Rows, new: set[str]) -> Iterable[str]:
+    """Keys of the rows without a new value, where another row has one."""
+    taken = [row for row in rows if any(_is_in(name, key) for name in new for key in row)]
+    for row in rows:
+        if taken and row not in taken:
+            yield from row
+
+
+def _is_in(name: str, key: str) -> bool:
+    return name == key or name.startswith(f"{key}.")
+
+
+def _is_any_of(given: Mapping[str, Any], table: str) -> bool:
+    return any(_is_in(key, table) for key in given)
+
+
+def _within(inputs: Inputs, table: str) -> list[str]:
+    return [key for key in inputs.flat() if key.startswith(f"{table}.")]
+
+
+def _flat(changes: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
+    """Changes by dotted key, with those of tables under the keys of the tables."""
+    flat: dict[str, Any] = {}
+    for key, value in changes.items():
+        if isinstance(value, Mapping) and value:
+            flat |= _flat(value, f"{prefix}{key}.")
+        else:
+            flat[prefix + key] = value
+    return flat

@@ -1,0 +1,1 @@
+"""Figures of the pages as data for Plotly: they can be zoomed and rotated, and show values with units."""

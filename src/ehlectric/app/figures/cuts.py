@@ -1,0 +1,95 @@
+"""Cuts through a point contact along and across entrainment: pressure, film and field."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ehlectric.app.answers.figure import Shown
+from ehlectric.app.figures.lengths import BEFORE, BEHIND, Lengths
+from ehlectric.app.figures.line import strength_limit
+from ehlectric.app.figures.look import BLUE, GREY, ORANGE, PURPLE, RED
+from ehlectric.app.figures.stack import Along, Curve, Panel, names_of, stack
+from ehlectric.cases.quantity import unit_for
+from ehlectric.contact.results import PointResult
+from ehlectric.formulas.hertz_point import point_pressure
+
+
+def point_cuts(result: PointResult, x: float, y: float) -> tuple[Shown, ...]:
+    """Cuts along and across entrainment through the nodes nearest to a point.
+
+    Parameters
+    ----------
+    result : PointResult
+        Result of ``solve``, of a film that converged.
+    x, y : float
+        Point [m].
+
+    Returns
+    -------
+    tuple of Shown
+        Pressure, film and field along x, and along y.
+    """
+    return tuple(_cut(result, along, y if along == "x" else x) for along in ("x", "y"))
+
+
+def _cut(result: PointResult, along: str, at: float) -> Shown:
+    lengths, film, field, conditions = Lengths.of(result), result.film, result.field, result.conditions
+    first = along == "x"
+    other_film, other_field = (film.y, field.y) if first else (film.x, field.x)
+    k, m = (int(np.argmin(np.abs(other - at))) for other in (other_film, other_field))
+    x = lengths.factor * (film.x if first else film.y)
+    pressure, thickness = (
+        values_[:, k] if first else values_[k] for values_ in (film.pressure, film.thickness)
+    )
+    place, b = float(other_film[k]), conditions.semi_axis_x
+    unscaled = (film.x if first else film.y) / b
+    fixed = np.full_like(unscaled, place / b)
+    pair = (unscaled, fixed) if first else (fixed, unscaled)
+    hertz = conditions.max_pressure * point_pressure(*pair, conditions.ratio)
+    to_p, pressure_unit = unit_for(max(film.max_pressure, conditions.max_pressure), "Pa")
+    to_h, film_unit = unit_for(film.central_thickness, "m")
+    panels = [
+        Panel(
+            "pressure",
+            pressure_unit,
+            [
+                Curve("pressure", x, to_p * pressure, BLUE),
+                Curve("dry contact (Hertz)", x, to_p * hertz, GREY, "dash", 1.5),
+            ],
+            1.05 * to_p * max(film.max_pressure, conditions.max_pressure),
+        ),
+        Panel(
+            "film thickness",
+            film_unit,
+            [Curve("film thickness", x, to_h * thickness, ORANGE)],
+            2.5 * to_h * max(film.central_thickness, film.mean_thickness),
+        ),
+        _field_panel(result, m, first=first),
+    ]
+    edge = lengths.factor * conditions.semi_axes[0 if first else 1]
+    window = (BEFORE * edge, BEHIND * edge) if first else (-1.5 * edge, 1.5 * edge)
+    window = max(window[0], float(x[0])), min(window[1], float(x[-1]))
+    fixed_name, shown = ("y" if first else "x"), lengths.factor * place
+    title = f"Cut along {along} at {fixed_name} = {shown:.4g} {lengths.unit}"
+    return Shown(
+        f"cut-{along}",
+        title,
+        f"{title}. Over {along} in {lengths.unit}: {', '.join(names_of(panels))}.",
+        stack(Along(along, lengths.unit, window, (-edge, edge)), panels),
+        f"Dashed lines: semi-axis of the dry contact, {along} = ±{edge:.4g} {lengths.unit}.",
+    )
+
+
+def _field_panel(result: PointResult, index: int, *, first: bool) -> Panel:
+    field = result.field
+    factor, unit = unit_for(field.max_strength, "V/m")
+    x = Lengths.of(result).factor * (field.x if first else field.y)
+    most = np.max(field.strength, axis=-1)
+    along, inner = (array[:, index] if first else array[index] for array in (most, field.inner))
+    curves = [Curve("maximum field across the film", x[inner], factor * along[inner], RED)]
+    limit, top = strength_limit(result), factor * field.max_strength
+    if limit is not None:
+        strength = factor * (limit[:, index] if first else limit[index])
+        curves.append(Curve("dielectric strength", x[inner], strength[inner], PURPLE, "longdash", 1.5))
+        top = min(2.0 * top, max(top, float(np.min(strength))))
+    return Panel("field strength", unit, curves, 1.08 * top)

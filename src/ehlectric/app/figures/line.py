@@ -1,0 +1,244 @@
+"""Figures of a line contact: pressure, film and field over the position, and the field within the film."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from ehlectric.app.answers.figure import Shown
+from ehlectric.app.figures.lengths import BEFORE, BEHIND, Lengths, main_numbers
+from ehlectric.app.figures.look import (
+    BLUE,
+    FIELD_COLOURS,
+    GREEN,
+    GREY,
+    ORANGE,
+    PURPLE,
+    RED,
+    Indices,
+    axis,
+    plot,
+    thinned,
+    values,
+)
+from ehlectric.app.figures.stack import Along, Curve, Panel, names_of, stack
+from ehlectric.arrays import Array
+from ehlectric.cases.quantity import unit_for
+from ehlectric.contact.results import Result
+from ehlectric.discharge.utilisation import FieldUtilisation
+from ehlectric.formulas.hertz_line import line_pressure
+
+# Largest number of intervals of a curve whose extremes are kept, of columns of the map, and its rows.
+_INTERVALS, _COLUMNS, _ROWS = 1500, 300, 90
+
+# Number of lines of equal potential between the potentials of the surfaces.
+_POTENTIALS = 9
+
+
+def line_figures(result: Result) -> tuple[Shown, ...]:
+    """Figures of a line contact.
+
+    Parameters
+    ----------
+    result : Result
+        Result of ``solve``.
+
+    Returns
+    -------
+    tuple of Shown
+        Pressure, film and field over the position, and the map of the field in the film. A film that did not
+        converge has pressure and film only, in grey and with words across them; one with values that
+        are no numbers has none.
+    """
+    film = result.film
+    if not (np.isfinite(film.thickness).all() and np.isfinite(film.pressure).all()):
+        return ()
+    if not result.converged:
+        return (_profiles(result),)
+    return _profiles(result), _section(result)
+
+
+def _profiles(result: Result) -> Shown:
+    film, conditions = result.film, result.conditions
+    lengths = Lengths.of(result)
+    factor, unit = lengths.factor, lengths.unit
+    b = factor * conditions.half_width
+    window = max(factor * float(film.x[0]), BEFORE * b), min(factor * float(film.x[-1]), BEHIND * b)
+    along = Along("x", unit, window, (-b, b))
+    panels = [_pressure(result, factor), _film(result, factor)]
+    if result.converged:
+        panels.append(_field(result, factor))
+    told = f"Over x in {unit}: {', '.join(names_of(panels))}."
+    return Shown(
+        "profiles",
+        "Pressure, film and field along entrainment",
+        f"{told} {main_numbers(result)}" if result.converged else f"{told} The film did not converge.",
+        stack(along, panels, converged=result.converged),
+        f"Oil enters on the left. Dashed lines: edges of the dry contact, x = ±{b:.4g} {unit}.",
+    )
+
+
+def _pressure(result: Result, to_x: float) -> Panel:
+    film, conditions = result.film, result.conditions
+    largest = max(film.max_pressure, conditions.max_pressure)
+    factor, unit = unit_for(largest, "Pa")
+    hertz = conditions.max_pressure * line_pressure(film.x / conditions.half_width)
+    kept = thinned([film.pressure, hertz], _INTERVALS)
+    x = to_x * film.x[kept]
+    curves = [Curve("pressure", x, factor * film.pressure[kept], BLUE)]
+    if result.smooth is not None:
+        smooth = factor * result.smooth.pressure[kept]
+        curves.insert(0, Curve("pressure, smooth surfaces", x, smooth, GREY, width=1.2))
+    curves.append(Curve("dry contact (Hertz)", x, factor * hertz[kept], GREY, "dash", 1.5))
+    return Panel("pressure", unit, curves, 1.05 * factor * largest)
+
+
+def _film(result: Result, to_x: float) -> Panel:
+    film = result.film
+    factor, unit = unit_for(film.central_thickness, "m")
+    kept = thinned([film.thickness], _INTERVALS)
+    x = to_x * film.x[kept]
+    curves = [Curve("film thickness", x, factor * film.thickness[kept], ORANGE)]
+    if result.smooth is not None:
+        smooth = factor * result.smooth.thickness[kept]
+        curves.insert(0, Curve("film, smooth surfaces", x, smooth, GREY, width=1.2))
+    at, least = to_x * film.minimum_position, factor * film.minimum_thickness
+    if result.converged:
+        name = f"minimum film, {least:.4g} {unit}"
+        curves.append(Curve(name, np.array([at]), np.array([least]), ORANGE, mark=True))
+    return Panel("film thickness", unit, curves, 3.0 * factor * film.central_thickness)
+
+
+def _field(result: Result, to_x: float) -> Panel:
+    field = result.field
+    factor, unit = unit_for(field.max_strength, "V/m")
+    walls = field.strength[:, 0], field.strength[:, -1]
+    kept = thinned([*walls, field.middle_strength], _INTERVALS)
+    # The end faces of the field's domain disturb the field beside them.
+    kept = kept[field.inner[kept]]
+    x = to_x * field.x[kept]
+    curves = [
+        Curve("field at surface 1", x, factor * walls[0][kept], RED),
+        Curve("field at surface 2", x, factor * walls[1][kept], GREEN, "dash"),
+        Curve("field at mid-film", x, factor * field.middle_strength[kept], GREY, "dot", 1.5),
+    ]
+    limit = strength_limit(result)
+    top = factor * field.max_strength
+    if limit is not None:
+        curves.append(Curve("dielectric strength", x, factor * limit[kept], PURPLE, "longdash", 1.5))
+        top = min(2.0 * top, max(top, factor * float(np.min(limit))))
+    name = f"maximum field, {factor * field.max_strength:.4g} {unit}"
+    at, most = np.array([to_x * field.max_strength_position]), np.array([factor * field.max_strength])
+    curves.append(Curve(name, at, most, RED, mark=True))
+    return Panel("field strength", unit, curves, 1.08 * top)
+
+
+def strength_limit(result: Any) -> Array | None:
+    """Dielectric strength at the columns of the field [V/m]; None without one, or with a Weibull law."""
+    discharge = result.case.discharge
+    if discharge is None or discharge.weibull is not None or not discharge.has_strength:
+        return None
+    return FieldUtilisation.of(discharge, result.film, result.field).dielectric_strength
+
+
+def _section(result: Result) -> Shown:
+    """Map of the field in the film, over position and height."""
+    field, conditions = result.field, result.conditions
+    to_x, unit = (lengths := Lengths.of(result)).factor, lengths.unit
+    to_z, height = unit_for(result.film.central_thickness, "m")
+    to_e, strength = unit_for(field.max_strength, "V/m")
+    most = np.max(field.strength, axis=1)
+    kept = thinned([most], _COLUMNS // 2)
+    x, walls = to_x * field.x[kept], to_z * field.y[kept]
+    z = np.linspace(float(walls.min()), float(walls.max()), _ROWS)
+    inside = np.abs(field.x) <= conditions.half_width
+    low = float(np.min(most[inside])) if inside.any() else 0.0
+    k, j = np.unravel_index(np.argmax(field.strength), field.strength.shape)
+    heat = {
+        "type": "heatmap",
+        "x": values(x),
+        "y": values(z),
+        "z": values(_rows(z, walls, to_e * field.strength[kept]), 4),
+        "zmin": to_e * low,
+        "zmax": to_e * field.max_strength,
+        "colorscale": FIELD_COLOURS,
+        "colorbar": {"title": {"text": strength}, "thickness": 12},
+        "hovertemplate": f"x = %{{x:.5g}} {unit}<br>height %{{y:.4g}} {height}<br>"
+        f"field %{{z:.4g}} {strength}<extra></extra>",
+        "hoverongaps": False,
+    }
+    marked = {"x": [to_x * float(field.x[k])], "y": [to_z * float(field.y[k, j])]}
+    name = f"maximum, {to_e * field.max_strength:.4g} {strength}"
+    traces = [heat, *_bodies(x, walls), _potentials(result, kept, to_x, to_z), _cross(marked, name)]
+    layout: dict[str, Any] = {
+        "xaxis": axis(f"x [{unit}]"),
+        "yaxis": axis(f"height [{height}]", range=[float(z[0]), float(z[-1])]),
+        "hovermode": "closest",
+    }
+    return Shown(
+        "section",
+        "Field in the film",
+        f"Map of the field strength in {strength} in the film, over x in {unit} and height in {height}. "
+        f"{main_numbers(result)}",
+        plot(traces, height=420, **layout),
+        f"Heights are stretched. The colours begin at the smallest field of the dry contact, "
+        f"{to_e * low:.3g} {strength}. Values between nodes are interpolated; the maximum is a node's own.",
+    )
+
+
+def _rows(z: Array, walls: Array, strength: Array) -> Array:
+    """Values at heights z in every column, (rows, columns); nan in the bodies, but for a row at the walls."""
+    step = float(z[1] - z[0])
+    rows = np.full((z.size, walls.shape[0]), np.nan)
+    for k, (heights, along) in enumerate(zip(walls, strength, strict=True)):
+        near = (z >= heights[0] - step) & (z <= heights[-1] + step)
+        rows[near, k] = np.interp(z[near], heights, along)
+    return rows
+
+
+def _bodies(x: Array, walls: Array) -> Iterator[dict[str, Any]]:
+    """Filled bodies below and above the film."""
+    low, high = float(walls.min()), float(walls.max())
+    far = high - low
+    for name, wall, end in (("surface 1", walls[:, 0], low - far), ("surface 2", walls[:, -1], high + far)):
+        yield {
+            "type": "scatter",
+            "mode": "lines",
+            "x": values([x[0], *x, x[-1]]),
+            "y": values([end, *wall, end]),
+            "fill": "toself",
+            "fillcolor": "#a8afb8",
+            "line": {"color": "#59636e", "width": 1},
+            "name": name,
+            "hoverinfo": "skip",
+            "showlegend": False,
+        }
+
+
+def _potentials(result: Result, kept: Indices, to_x: float, to_z: float) -> dict[str, Any]:
+    """Lines of equal potential, one after another in one trace."""
+    field, electric = result.field, result.case.electric
+    levels = np.linspace(electric.potential_1, electric.potential_2, _POTENTIALS + 2)[1:-1]
+    sign = 1.0 if levels[-1] > levels[0] else -1.0
+    heights = to_z * np.array([np.interp(sign * levels, sign * field.potential[k], field.y[k]) for k in kept])
+    gap = np.full((1, _POTENTIALS), np.nan)
+    y = np.concatenate([heights, gap]).T.ravel()
+    x = np.tile(np.append(to_x * field.x[kept], np.nan), _POTENTIALS)
+    step = abs(float(levels[1] - levels[0]))
+    return {
+        "type": "scatter",
+        "mode": "lines",
+        "x": values(x, 5),
+        "y": values(y, 4),
+        "line": {"color": "#ffffff", "width": 0.8},
+        "name": f"equal potential, every {step:.3g} V",
+        "hoverinfo": "skip",
+        "visible": "legendonly",
+    }
+
+
+def _cross(at: dict[str, list[float]], name: str) -> dict[str, Any]:
+    marker = {"symbol": "x-thin", "size": 11, "line": {"color": RED, "width": 3}}
+    return {"type": "scatter", "mode": "markers", **at, "marker": marker, "name": name, "hoverinfo": "skip"}

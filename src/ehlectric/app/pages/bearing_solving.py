@@ -1,0 +1,158 @@
+"""Solution of the contacts from the page of a bearing: its button, its progress, and earlier answers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from shutil import rmtree
+
+from nicegui import ui
+
+from ehlectric.app.answers.bearing import BearingAnswer
+from ehlectric.app.answers.calls import BEARING_SOLVED
+from ehlectric.app.inputs import Inputs
+from ehlectric.app.pages.parts import JobBox
+from ehlectric.app.session import Session
+from ehlectric.app.work import Job
+from ehlectric.errors import LostError
+
+# What an error allows where only a formula lacks what is asked for.
+_BEYOND = "or solved contacts"
+
+# Solved answers that a tab keeps.
+_KEPT = 20
+
+
+@dataclass(frozen=True)
+class _Solved:
+    """Answer with solved contacts: its inputs, and the folder with its files as the command writes them."""
+
+    inputs: Inputs
+    answer: BearingAnswer
+    folder: Path
+
+
+class Solving:
+    """Button that solves the contacts, and the answers solved so far by their inputs.
+
+    Parameters
+    ----------
+    session : Session
+        Session of the tab.
+    changed : callable
+        Called when another answer is to be shown.
+    back : callable
+        Called with inputs to go back to.
+    """
+
+    def __init__(
+        self, session: Session, changed: Callable[[], object], back: Callable[[Inputs], None]
+    ) -> None:
+        self._session, self._changed, self._back = session, changed, back
+        self._solved: dict[str, _Solved] = {}
+        self._formula = False
+        self._running: tuple[Inputs, Path] | None = None
+        self._runs = 0
+        with ui.element("div").classes("solving"):
+            self.how = ui.label().props('data-testid="how" aria-live="polite"')
+            self._solve = ui.button("Solve the contacts", on_click=self.start, color=None)
+            self._solve.classes("primary").props('no-caps unelevated data-testid="solve"')
+            self._other = ui.button("", on_click=self._switch, color=None)
+            self._other.props('flat no-caps data-testid="other-contacts"')
+            self._return = ui.button("Back to the solved inputs", on_click=self._go_back, color=None)
+            self._return.props('flat no-caps data-testid="back-to-solved"')
+        self._box = JobBox(self._done)
+        self._message = ui.label().classes("notice").props('role="status" data-testid="solve-message"')
+        self._message.set_visibility(False)
+        self.show(None)
+
+    def answer(self) -> BearingAnswer | None:
+        """Solved answer to the present inputs; None without one, or where that by formula is wanted."""
+        found = self._found()
+        return None if found is None else found.answer
+
+    def folder(self) -> Path | None:
+        """Folder of the result whose answer is shown; None where it is that by formula."""
+        found = self._found()
+        return None if found is None else found.folder
+
+    def _found(self) -> _Solved | None:
+        return None if self._formula else self._solved.get(self._session.inputs.toml())
+
+    def forget(self) -> None:
+        """Forget what was wanted for earlier inputs."""
+        self._formula = False
+        self._message.set_visibility(False)
+
+    def show(self, answer: BearingAnswer | None, error: Exception | None = None) -> None:
+        """Show how an answer was computed, and the buttons that suit it.
+
+        Parameters
+        ----------
+        answer : BearingAnswer or None
+            Answer that is shown; None for inputs that have none.
+        error : Exception, optional
+            Why they have none. Some have no formula, and can be solved all the same.
+        """
+        solved = self._session.inputs.toml() in self._solved
+        self.how.text = "" if answer is None else answer.how
+        self._solve.set_visibility(not solved and self._running is None)
+        self._solve.set_enabled(answer is not None or _BEYOND in str(error))
+        self._other.set_visibility(solved)
+        self._other.text = "Show the solved contacts" if self._formula else "Show the formula's answer"
+        self._return.set_visibility(bool(self._solved) and not solved)
+        if self._solved and not solved and answer is not None:
+            self.how.text += " The solved result is of earlier inputs."
+        if self._running is not None and self._running[0] != self._session.inputs:
+            self.how.text += " The contacts being solved are those of earlier inputs."
+        self.how.set_visibility(bool(self.how.text))
+
+    def start(self) -> None:
+        """Solve the contacts of the present inputs."""
+        inputs = self._session.inputs
+        # A folder for every run, so that the files of an answer stay as long as the answer.
+        self._runs += 1
+        folder = self._session.folder / f"solved-{self._runs}"
+        try:
+            job = self._session.start(BEARING_SOLVED, dict(inputs.table), self._session.folder, folder)
+        except LostError as error:
+            self._tell(str(error))
+            return
+        self._running = (inputs, folder)
+        self._message.set_visibility(False)
+        self._solve.set_visibility(False)
+        self._box.show(job)
+
+    def _done(self, job: Job) -> None:
+        running, self._running = self._running, None
+        if running is not None:
+            self._keep(job, *running)
+        if job.state == "cancelled":
+            self._tell("Cancelled: no contacts were kept.")
+        elif job.state == "failed":
+            self._tell(f"Not solved: {job.error}")
+        self._changed()
+
+    def _keep(self, job: Job, inputs: Inputs, folder: Path) -> None:
+        """Keep the answer of a job with its files, and the last ones before it."""
+        if job.state != "done":
+            rmtree(folder, ignore_errors=True)
+            return
+        self._solved[inputs.toml()] = _Solved(inputs, job.result, folder)
+        while len(self._solved) > _KEPT:
+            rmtree(self._solved.pop(next(iter(self._solved))).folder, ignore_errors=True)
+        if inputs != self._session.inputs:
+            self._tell("The contacts of earlier inputs are solved.")
+
+    def _tell(self, text: str) -> None:
+        self._message.text = text
+        self._message.set_visibility(True)
+
+    def _switch(self) -> None:
+        self._formula = not self._formula
+        self._changed()
+
+    def _go_back(self) -> None:
+        *_, last = self._solved.values()
+        self._back(last.inputs)

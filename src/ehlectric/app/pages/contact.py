@@ -1,0 +1,307 @@
+"""Page of one contact, line or point: its film, pressure and field by formula at once, and solved."""
+
+from __future__ import annotations
+
+import re
+import shutil
+from pathlib import Path
+from typing import Any
+
+from fastapi import Request
+from nicegui import ui
+
+from ehlectric.app.answers.calls import CONTACT_AT_ONCE, CONTACT_CHECK, CONTACT_SOLVED
+from ehlectric.app.answers.contact import ContactCheck, ContactView
+from ehlectric.app.fields.contact import geometry_of, groups_of, switched
+from ehlectric.app.inputs import Inputs
+from ehlectric.app.pages.contact_view import ContactViewBox, number_cards
+from ehlectric.app.pages.downloads import Downloads
+from ehlectric.app.pages.form import Form
+from ehlectric.app.pages.frame import framed, session_of, show_address
+from ehlectric.app.pages.parts import JobBox, Strip, card, light, warnings
+from ehlectric.app.pages.starts import contact_start
+from ehlectric.app.pages.surfaces.movie import MovieBox
+from ehlectric.app.pages.surfaces.roughness import RoughnessBox
+from ehlectric.app.pages.toolbar import Toolbar
+from ehlectric.app.session import Session
+from ehlectric.app.work import Job, Work
+from ehlectric.errors import ConvergenceError, InputError, LostError
+
+_PATH = "/contact"
+_GEOMETRIES = {"line": "Line contact", "point": "Point contact"}
+
+# Numbers of the short answer.
+_SHORT = ("minimum-film", "breakdown-voltage")
+
+_MOVING = (
+    "These surfaces move, so that the command solves their film over time. The movie below is that solution; "
+    "switch the motion off to solve them at rest."
+)
+
+
+def add(work: Work) -> None:
+    """Add the page to the server."""
+
+    @ui.page(_PATH)
+    async def page(request: Request) -> None:
+        pairs = request.query_params.multi_items()
+        inputs, error = Inputs.of_link(pairs, contact_start("line"))
+        if inputs.flat() in ({}, {"contact.geometry": "line"}, {"contact.geometry": "point"}):
+            inputs = contact_start(geometry_of(inputs))
+        page = ContactPage(session_of(work, inputs))
+        with framed("Film, pressure and field of one contact", _PATH):
+            page.build(error)
+        await ui.context.client.connected()
+        await page.refresh()
+
+
+class ContactPage:
+    """Page of one tab.
+
+    Attributes
+    ----------
+    session : Session
+        Session of the tab.
+    """
+
+    def __init__(self, session: Session) -> None:
+        self.session = session
+        self._asked = self._runs = 0
+        self._wanted = self._busy = False
+        self._check: ContactCheck | None = None
+        # Inputs of the solved contact that is shown, and the folder of its files; small ones have none.
+        self._solved: Inputs | None = None
+        self._folder: Path | None = None
+        self._running: tuple[Inputs, Path] | None = None
+        self._other: dict[str, Inputs] = {}
+
+    @property
+    def folder(self) -> Path | None:
+        """Folder with files of a result of the present inputs; None where they are still to be made."""
+        if self.session.inputs.value("motion") is not None:
+            return self._movie.folder
+        return self._folder if self._solved == self.session.inputs else None
+
+    def build(self, error: InputError | None = None) -> None:
+        """Build the form and the places of the answers; ``error`` is that of the address."""
+        self._strip = Strip()
+        Toolbar(self.session, _PATH, self.shown_again)
+        if error is not None:
+            ui.label(str(error)).classes("wrong").props('role="alert" data-testid="error-address"')
+        with ui.element("div").classes("columns"):
+            with ui.element("div").classes("inputs"):
+                self._build_inputs()
+            with ui.element("section").props('aria-label="Answer"').classes("answer"):
+                self._build_answer()
+
+    def _build_inputs(self) -> None:
+        self._kind = ui.radio(_GEOMETRIES, value=geometry_of(self.session.inputs), on_change=self._switch)
+        self._kind.props('inline aria-label="Kind of contact" data-testid="geometry"')
+        self._form_place = ui.element("div")
+        self._build_form()
+
+    def _build_form(self) -> None:
+        self._form_place.clear()
+        self._form_of = geometry_of(self.session.inputs)
+        with self._form_place:
+            self.form = Form(groups_of(self._form_of), self.session.inputs, self.change)
+
+    def _build_answer(self) -> None:
+        with card("Before solving, by formula"):
+            self._formula = ui.element("div").classes("told-answer")
+            self._formula.props('aria-live="polite" data-testid="by-formula"')
+        with card("Solved"):
+            with ui.element("div").classes("solving"):
+                self._solve = ui.button("Solve", on_click=self.solve, color=None).classes("primary")
+                self._solve.props('flat no-caps data-testid="solve"')
+                self._state = ui.label().props('role="status" data-testid="solve-state"').classes("state")
+            self._job = JobBox(self._ended)
+            self.view = ContactViewBox(self.session)
+        with card("Rough surfaces"):
+            self._roughness = RoughnessBox(self.session, self._inputs_changed)
+        with card("Rough surfaces in motion"):
+            self._movie = MovieBox(self.session, self._inputs_changed)
+        Downloads(self.session, "contact", lambda: self.folder)
+
+    async def _switch(self, event: Any) -> None:
+        """Change between line and point contact, with what both have."""
+        now, wanted = self.session.inputs, str(event.value)
+        if wanted == geometry_of(now):
+            return
+        self._other[geometry_of(now)] = now
+        self.session.history.push(switched(now, self._other.get(wanted) or contact_start(wanted)))
+        await self.shown_again()
+
+    async def change(self, key: str, value: Any) -> None:
+        """Take over a changed input, and answer."""
+        self.session.history.push(self.session.inputs.changed({key: value}))
+        # The button that removed an input is no longer there.
+        with self._form_place:
+            self._show_address()
+            self._roughness.refresh()
+            self._movie.refresh()
+            await self.refresh()
+
+    async def _inputs_changed(self) -> None:
+        """Answer inputs into which a box has put other surfaces or another motion."""
+        # The button that removed a surface is no longer there.
+        with self._form_place:
+            await self.shown_again()
+
+    async def shown_again(self) -> None:
+        """Show the present inputs everywhere, as after an undo, and answer them."""
+        self._show_address()
+        self._kind.set_value(geometry_of(self.session.inputs))
+        if self._form_of == geometry_of(self.session.inputs):
+            self.form.set(self.session.inputs)
+        else:
+            self._build_form()
+        self._roughness.refresh()
+        self._movie.refresh()
+        await self.refresh()
+
+    def _show_address(self) -> None:
+        if self.session.inputs.linkable:
+            show_address(self.session.inputs, _PATH)
+
+    async def refresh(self) -> None:
+        """Answer the present inputs; an answer that comes after newer inputs is dropped."""
+        self._asked += 1
+        asked = self._asked
+        self._formula.classes(add="old")
+        self._strip.dim(dimmed=True)
+        self._show_state()
+        try:
+            table, folder = dict(self.session.inputs.table), str(self.session.folder)
+            answer = await self.session.work.quick(CONTACT_CHECK, table, folder)
+        except (InputError, LostError) as error:
+            if self._awaits(asked):
+                self._check = None
+                self._tell(error)
+            return
+        if not self._awaits(asked):
+            return
+        self.form.tell(None)
+        self._check = answer
+        self._show_check(answer)
+        self._show_state()
+        if answer.quick and self._solved != self.session.inputs:
+            await self._solve_at_once()
+
+    def _awaits(self, asked: int) -> bool:
+        """Whether a tab is still open that waits for the answer to a question of this number."""
+        return asked == self._asked and not self._formula.is_deleted
+
+    def _show_check(self, answer: ContactCheck) -> None:
+        self._formula.classes(remove="old")
+        self._formula.clear()
+        with self._formula:
+            number_cards(answer.numbers, prefix="formula-")
+            light(answer.level, answer.text, testid="verdict-formula")
+            warnings(answer.warnings)
+            with ui.expansion("All numbers before solving"):
+                ui.html(lines_html(answer.rows, "Numbers before the film is solved"), sanitize=False)
+        if not self._is_solved():
+            self._show_short(answer, "by formula")
+
+    def _show_short(self, answer: ContactCheck | ContactView, what: str = "") -> None:
+        """Show the short answer of a narrow screen."""
+        lead = re.split("[,.:(]", answer.text)[0].strip()
+        bounds = [one.bound for one in answer.numbers if one.key == _SHORT[-1] and answer.level != "grey"]
+        texts = [
+            " ".join(filter(None, [one.label.lower(), one.bound, one.text, one.unit]))
+            for one in answer.numbers
+            if one.key in _SHORT
+        ]
+        self._strip.show(answer.level, " ".join(filter(None, [*bounds, lead, what])), texts)
+        self._strip.dim(dimmed=False)
+
+    def _is_moving(self) -> bool:
+        return self.session.inputs.value("motion") is not None
+
+    def _is_solved(self) -> bool:
+        return self._solved == self.session.inputs
+
+    def _show_state(self, text: str = "") -> None:
+        """Say what the solved answer belongs to, and dim it where that is other inputs."""
+        moving = self._is_moving()
+        old = self._solved is not None and not self._is_solved()
+        self._solve.set_visibility(not moving)
+        self.view.dim(old=old)
+        if moving:
+            text = f"{_MOVING}{' The result below belongs to earlier inputs.' if old else ''}"
+        elif old and not text:
+            text = "The result below belongs to earlier inputs."
+        elif self._is_solved() and not text:
+            text = "Solved." if self._converged else "Not converged."
+        self._state.text = text
+
+    async def solve(self) -> None:
+        """Solve the present inputs: small contacts at once, others as a job with progress."""
+        if self._check is None or self._is_moving():
+            return
+        if self._check.quick:
+            await self._solve_at_once()
+            return
+        self._runs += 1
+        folder = self.session.folder / f"contact-{self._runs}"
+        inputs = self.session.inputs
+        try:
+            job = self.session.start(
+                CONTACT_SOLVED, dict(inputs.table), str(self.session.folder), str(folder)
+            )
+        except LostError as error:
+            self._state.text = str(error)
+            return
+        self._running = (inputs, folder)
+        self._solve.disable()
+        self._job.show(job)
+
+    async def _solve_at_once(self) -> None:
+        """Solve the latest inputs; those in between are left out while one is being solved."""
+        self._wanted = True
+        if self._busy:
+            return
+        self._busy = True
+        try:
+            while self._wanted and not self._formula.is_deleted:
+                self._wanted = False
+                asked, inputs = self._asked, self.session.inputs
+                try:
+                    view = await self.session.work.quick(
+                        CONTACT_AT_ONCE, dict(inputs.table), str(self.session.folder)
+                    )
+                except (InputError, ConvergenceError, LostError) as error:
+                    if self._awaits(asked):
+                        self._tell(error)
+                    continue
+                if not self._formula.is_deleted:
+                    self._show(view, inputs, None)
+        finally:
+            self._busy = False
+
+    def _ended(self, job: Job) -> None:
+        """Show what a job came to."""
+        self._solve.enable()
+        if job.state == "done" and self._running is not None:
+            self._show(job.result, *self._running)
+        elif job.state == "cancelled":
+            self._show_state("Cancelled.")
+        elif job.error is not None:
+            self._tell(job.error)
+
+    def _show(self, view: ContactView, inputs: Inputs, folder: Path | None) -> None:
+        before, self._folder, self._solved = self._folder, folder, inputs
+        if before is not None and before != folder:
+            shutil.rmtree(before, ignore_errors=True)
+        self._converged = view.converged
+        self.view.show(view, folder)
+        self._show_state()
+        if self._is_solved():
+            self._show_short(view)
+
+    def _tell(self, error: Exception) -> None:
+        """Show an error beside its field, and that the answers belong to earlier inputs."""
+        self.form.tell(error)
+        self._state.text = "No answer to the present inputs." if isinstance(error, InputError) else str(error)
+        self.view.dim(old=True)

@@ -1,0 +1,196 @@
+"""Downloads of a page: its case, the files and figures as the command writes them, and a report."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+from typing import Any, Literal
+
+from nicegui import ui
+
+from ehlectric.app.answers.calls import FILES_DRAWN, FILES_PACKED, FILES_REPORT, FILES_WRITTEN
+from ehlectric.app.answers.files import Download, Written, file_title
+from ehlectric.app.inputs import Inputs
+from ehlectric.app.pages.parts import JobBox, card
+from ehlectric.app.session import Session
+from ehlectric.app.work import Job
+from ehlectric.errors import InputError, LostError
+
+# What is downloaded from a folder of results: data-testid, words, and kind.
+_FILES: tuple[tuple[str, str, Download], ...] = (
+    ("download-csv", "Tables (CSV)", "csv"),
+    ("download-netcdf", "All values (NetCDF)", "netcdf"),
+    ("download-summary", "Key figures (JSON)", "summary"),
+    ("download-figures", "Figures (SVG, PNG)", "figures"),
+    ("download-all", "Everything (ZIP)", "all"),
+)
+_REPORTS = (
+    ("download-report-pdf", "Report (PDF)", "pdf"),
+    ("download-report-html", "Report (HTML)", "html"),
+)
+
+# Downloads that need figures.
+_DRAWN: tuple[Download, ...] = ("figures", "all")
+
+# Commands that solve the kinds of files.
+_COMMANDS = {"bearing": "bearing", "contact": "run", "sweep": "sweep"}
+
+
+class Downloads:
+    """Card with the downloads of a page, at the place where it is made.
+
+    Parameters
+    ----------
+    session : Session
+        Session of the tab, whose inputs are downloaded.
+    kind : str
+        "bearing", "contact" or "sweep".
+    folder : callable, optional
+        Returns the folder of a result of the present inputs that the page has; None, or a folder without
+        files, where there is none and the files are to be made.
+    only_reports : bool
+        Whether the card has the reports alone.
+
+    Notes
+    -----
+    The files of a bearing come from contacts by formula, as its page shows them, unless the page has a
+    folder with solved contacts.
+    """
+
+    def __init__(
+        self,
+        session: Session,
+        kind: Literal["bearing", "contact", "sweep"],
+        folder: Callable[[], Path | None] = lambda: None,
+        *,
+        only_reports: bool = False,
+    ) -> None:
+        self.session, self._kind, self._folder = session, kind, folder
+        self._made: tuple[Inputs, Written] | None = None
+        self._asked, self._job = session.inputs, Job("done")
+        self._then: Callable[[Path], Any] | None = None
+        self._command: ui.element | None = None
+        with (
+            card("Report" if only_reports else "Files and report"),
+            ui.element("div").classes("downloads"),
+        ):
+            if not only_reports:
+                with ui.element("p"):
+                    ui.label("The case runs with the command, with the same numbers to the last digit:")
+                    self._command = ui.element("code")
+            with ui.element("div").classes("buttons"):
+                if not only_reports:
+                    self._file_buttons()
+                for test, words, ending in _REPORTS:
+                    _button(words, test, partial(self._wanted, partial(self._report, ending)))
+            self._box = JobBox(self._ended)
+            self._status = ui.label().classes("told-status").props('role="status"')
+            self._error = ui.label().classes("wrong").props('role="alert" data-testid="error-download"')
+        session.history.told.append(self.look)
+        self.look()
+
+    def _file_buttons(self) -> None:
+        """Buttons of the case and of the files of its result."""
+        _button("Case (TOML)", "download-toml", self.toml)
+        for test, words, what in _FILES:
+            _button(words, test, partial(self._wanted, partial(self._pack, what)))
+
+    @property
+    def title(self) -> str:
+        """Name of the files without their ending."""
+        inputs = self.session.inputs
+        return file_title(inputs.value("title") or inputs.value("case.title"))
+
+    def toml(self) -> None:
+        """Download the inputs."""
+        ui.download.content(self.session.inputs.toml(), f"{self.title}.toml", "application/toml")
+
+    def look(self) -> None:
+        """Say how the command solves the downloaded case with the numbers that the page shows now."""
+        if self._command is None:
+            return
+        options = ""
+        if self._kind == "bearing":
+            options = f" --contacts {'formula' if self._folder() is None else 'solved'}"
+        self._command.clear()
+        with self._command:
+            ui.label(f"ehlectric {_COMMANDS[self._kind]} {self.title}.toml{options}")
+
+    async def _wanted(self, then: Callable[[Path], Any]) -> None:
+        """Do something with the files of the present inputs, which are made first where there are none."""
+        self.look()
+        self._tell()
+        if not self._job.over:
+            self._tell("The files are being made.")
+            return
+        there = self._folder()
+        if there is not None:
+            self._asked = self.session.inputs
+            await then(there)
+            return
+        if self._made is not None and self._made[0] == self.session.inputs:
+            await then(Path(self._made[1].folder))
+            return
+        if self._kind == "sweep":
+            self._tell(error="there are no files yet; run the sweep first")
+            return
+        self._then, self._asked = then, self.session.inputs
+        contacts = "formula" if self._kind == "bearing" else ""
+        self._start(FILES_WRITTEN, dict(self.session.inputs.table), contacts, self.session.folder)
+
+    def _start(self, *call: Any) -> None:
+        try:
+            self._job = self.session.start(*call)
+        except LostError as error:
+            self._tell(error=str(error))
+            return
+        self._box.show(self._job)
+
+    async def _ended(self, job: Job) -> None:
+        """Go on with the files of a job that is done."""
+        if job.state == "failed":
+            self._tell(error=str(job.error))
+        elif job.state == "cancelled":
+            self._tell("Cancelled.")
+        elif isinstance(job.result, Written):
+            self._made = (self._asked, job.result)
+            if job.result.failure:
+                self._tell(error=f"{job.result.failure}; the files say so, do not use these values")
+            if self._then is not None:
+                await self._then(Path(job.result.folder))
+        else:
+            self._offer(Path(job.result))
+
+    async def _pack(self, what: Download, out: Path) -> None:
+        """Download files of a folder of results, whose figures are drawn first where it has none."""
+        call = (out, what, dict(self._asked.table), self.title, self.session.folder)
+        if self._kind != "sweep" and what in _DRAWN and not any(out.glob("*.svg")):
+            self._start(FILES_DRAWN, *call)
+            return
+        try:
+            path = await self.session.work.quick(FILES_PACKED, *call)
+        except (InputError, LostError) as error:
+            self._tell(error=str(error))
+        else:
+            self._offer(Path(path))
+
+    async def _report(self, ending: str, out: Path) -> None:
+        """Download a report on a folder of results."""
+        self._start(FILES_REPORT, out, ending, self.title, self.session.folder)
+
+    def _offer(self, path: Path) -> None:
+        """Download a file of the session."""
+        if not path.resolve().is_relative_to(self.session.folder.resolve()) or not path.is_file():
+            self._tell(error="the file is no longer there; make it again")
+            return
+        ui.download.file(path, path.name)
+        if not self._error.text:
+            self._tell(f"{path.name} is downloaded.")
+
+    def _tell(self, text: str = "", *, error: str = "") -> None:
+        self._status.text, self._error.text = text, error
+
+
+def _button(name: str, test: str, click: Callable[[], Any]) -> None:
+    ui.button(name, on_click=click).props(f'outline no-caps dense data-testid="{test}"')

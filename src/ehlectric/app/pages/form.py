@@ -1,0 +1,331 @@
+"""Form of a page: a field and a slider for every input, and errors beside the field that is wrong."""
+
+from __future__ import annotations
+
+from collections.abc import Awaitable, Callable, Sequence
+from contextlib import nullcontext
+from typing import Any
+
+from nicegui import ui
+
+from ehlectric.app.answers.calls import FIELD_HELP
+from ehlectric.app.catalogue import choices
+from ehlectric.app.fields import BEARING_GROUPS
+from ehlectric.app.fields.contact import geometry_of, groups_of
+from ehlectric.app.fields.defaults import default_of
+from ehlectric.app.fields.field import Field, Group
+from ehlectric.app.fields.rules import changed, is_own, own_values
+from ehlectric.app.inputs import Inputs
+from ehlectric.app.pages.control import Control, GroupBox
+from ehlectric.app.pages.frame import session_here
+from ehlectric.errors import InputError, LostError
+
+Change = Callable[[str, Any], Awaitable[None]]
+
+# Value in a list that stands for values of one's own.
+_OWN = "~own"
+
+
+class Form:
+    """Fields of a page.
+
+    Parameters
+    ----------
+    groups : sequence of Group
+        Fields under their headings.
+    inputs : Inputs
+        Present inputs.
+    change : callable
+        Called with key and new value; the value is a whole table where a new input takes the place of
+        others, and None removes the key.
+    label : str
+        Name of the form for a screen reader; forms of one page have names of their own.
+
+    Notes
+    -----
+    While a slider is dragged, a new value waits until the one before is answered, and only the last waiting
+    value is sent.
+    """
+
+    def __init__(
+        self, groups: Sequence[Group], inputs: Inputs, change: Change, *, label: str = "Inputs"
+    ) -> None:
+        self._change = change
+        self._inputs = inputs
+        self._groups = groups
+        self._wrong: Field | None = None
+        self._slid: tuple[Field, float] | None = None
+        self._sliding = False
+        self._boxes: dict[str, GroupBox] = {}
+        self._mores: dict[str, GroupBox] = {}
+        self._controls: list[tuple[Field, Control]] = []
+        with ui.element("div").classes("form").props(f'role="form" aria-label="{label}"'):
+            self.message = ui.label().classes("form-error").props('role="alert" data-testid="form-error"')
+            self.note = ui.label().classes("form-note").props('aria-live="polite" data-testid="form-note"')
+            for group in groups:
+                self._group(group)
+            self._others = ui.element("div").classes("form-others")
+        self._tell_note("")
+        self._show()
+        self.tell(None)
+        if session_here() is not None:
+            ui.timer(0.3, self._load_help, once=True)
+
+    def tell(self, error: Exception | None) -> None:
+        """Show an error beside its field, and take away the one before."""
+        key = error.key if isinstance(error, InputError) else None
+        field = None if key is None else self._field_of(key)
+        own = error.text if isinstance(error, InputError) else ""
+        exact = field is not None and field.key == key
+        text = own if exact else "" if error is None else str(error)
+        self._wrong = field
+        for one, control in self._controls:
+            control.show(error=text if one is field else "", shown=self._is_shown(one))
+        self.message.text = "" if field is not None else text
+        self.message.set_visibility(bool(self.message.text))
+        if field is not None:
+            title = self._group_of(field).title
+            self._boxes[title].turn(opened=True)
+            if field.optional:
+                self._mores[title].turn(opened=True)
+
+    def set(self, inputs: Inputs) -> None:
+        """Show other inputs, as after an undo; nothing is sent."""
+        self._slid = None
+        self._inputs = inputs
+        self._tell_note("")
+        self._show()
+
+    def _group(self, group: Group) -> None:
+        async def switched(event: Any) -> None:
+            await self._apply({group.table: dict(group.start) if event.args else None})
+
+        first = group in self._groups[:_FIRST]
+        box = GroupBox(group.title, title=group.title, note=group.note, opened=group.opened, first=first)
+        if group.table:
+            box.show(switches=True)
+            box.on("switch", switched)
+        self._boxes[group.title] = box
+        with box:
+            for field in group.fields:
+                if not field.optional:
+                    self._controls.append((field, self._control(field)))
+            self._more(group)
+
+    def _more(self, group: Group) -> None:
+        """Optional fields of a group, which are folded away until one of them is given."""
+        fields = [field for field in group.fields if field.optional]
+        if not fields:
+            return
+        given = any(self._inputs.value(field.key) is not None for field in fields)
+        box = GroupBox(f"{group.title} more", title="More", opened=given, first=True)
+        self._mores[group.title] = box
+        with box:
+            self._controls.extend((field, self._control(field)) for field in fields)
+
+    def _control(self, field: Field) -> Control:
+        async def committed(event: Any) -> None:
+            await self._commit(field, str(event.args))
+            # The box shows what was typed, which may be another text for the present value.
+            control.turn()
+
+        async def slid(event: Any) -> None:
+            await self._slide(field, float(event.args))
+
+        options = self._options(field)
+        kind = "text" if not options else "list" if len(options) <= _LONGEST_LIST else "search"
+        number = field.kind in ("number", "count")
+        control = Control(
+            field.key, kind=kind, label=field.label, note=field.note, slides=number, options=options
+        )
+        control.on("commit", committed)
+        if number:
+            control.on("slide", slid)
+        return control
+
+    def _options(self, field: Field) -> list[dict[str, str]]:
+        """Entries of a list; empty for a field that has none."""
+        if field.kind == "ways":
+            return [
+                {"value": str(place), "label": way.label, "group": ""}
+                for place, way in enumerate(field.ways)
+                if way.listed or place == field.way(self._inputs)
+            ]
+        if field.kind != "choice":
+            return []
+        found = [{"value": name, "label": name, "group": ""} for name in field.choices]
+        if not found:
+            library = choices().get(field.key, ())
+            found = [{"value": one.name, "label": one.label, "group": one.group} for one in library]
+        if field.own:
+            found.insert(0, {"value": _OWN, "label": field.own, "group": ""})
+        elif field.optional:
+            found.insert(0, {"value": "", "label": "not given", "group": ""})
+        return found
+
+    async def _commit(self, field: Field, text: str) -> None:
+        self._slid = None
+        if field.kind == "ways":
+            await self._apply(field.ways[int(text)].changes)
+        elif text == _OWN:
+            await self._apply(own_values(self._inputs, field.key))
+        else:
+            await self._apply({field.key: field.from_text(text)})
+
+    async def _slide(self, field: Field, place: float) -> None:
+        self._slid = (field, place)
+        if self._sliding:
+            return
+        self._sliding = True
+        try:
+            while self._slid is not None:
+                (field, place), self._slid = self._slid, None
+                await self._apply({field.key: field.from_slider(place)}, drag=field.key)
+        finally:
+            self._sliding = False
+
+    async def _apply(self, changes: Any, drag: str = "") -> None:
+        """Take over changes with what they displace, show them, and send them.
+
+        They are one step to undo, together with those just before of the same dragged slider.
+        """
+        before, after = self._inputs, changed(self._inputs, changes)
+        self._inputs = after
+        self._tell_note(self._also(before, after, changes))
+        self._show()
+        session = session_here()
+        with nullcontext() if session is None else session.history.step(drag):
+            for key, value in _sent(before, after, changes).items():
+                await self._change(key, value)
+
+    def _also(self, before: Inputs, after: Inputs, changes: Any) -> str:
+        """Sentence on the inputs that changed beside those that were asked for."""
+        labels = {field.key: field.label for field, _ in self._controls}
+        old, new = before.flat(), after.flat()
+
+        def other(key: str) -> bool:
+            return not any(key == one or key.startswith(f"{one}.") for one in changes)
+
+        gone = [labels.get(key, key) for key in old if key not in new and other(key)]
+        came = [
+            f"{labels.get(key, key)} = {value}"
+            for key, value in new.items()
+            if old.get(key) != value and other(key)
+        ]
+        parts = [f"removed: {', '.join(gone)}" if gone else "", f"assumed: {', '.join(came)}" if came else ""]
+        text = "; ".join(filter(None, parts))
+        return f"Also {text}" if text else ""
+
+    def _tell_note(self, text: str) -> None:
+        self.note.text = text
+        self.note.set_visibility(bool(text))
+
+    def _show(self) -> None:
+        """Show the present inputs in all fields."""
+        for group in self._groups:
+            if group.table:
+                self._boxes[group.title].show(on=self._on(group))
+            if group.title in self._mores:
+                self._mores[group.title].set_visibility(self._has_more(group))
+        for field, control in self._controls:
+            self._show_field(field, control)
+        self._show_others()
+
+    def _show_field(self, field: Field, control: Control) -> None:
+        value = self._inputs.value(field.key)
+        default = default_of(self._inputs, field.key)
+        if field.kind == "ways":
+            control.show(text=str(field.way(self._inputs)), options=self._options(field))
+        elif field.own and is_own(self._inputs, field.key):
+            control.show(text=_OWN)
+        elif field.kind == "choice":
+            control.show(text=str(value if value is not None else default or ""))
+        else:
+            number = field.number(value if value is not None else default)
+            moved = {} if number is None else {"place": round(field.place(number), 4)}
+            note = field.note if len(field.note) <= _LONGEST_PLACEHOLDER else ""
+            shown = field.text(default) or note or "not given"
+            control.show(text=field.text(value), placeholder=shown, **moved)
+        control.show(shown=self._is_shown(field))
+
+    def _show_others(self) -> None:
+        """Show the inputs that no field has, such as those of a file, so that nothing is hidden."""
+        own = {field.key for field, _ in self._controls}
+        rest = {key: value for key, value in self._inputs.flat().items() if key not in own and value != {}}
+        self._others.clear()
+        if not rest:
+            return
+        with self._others:
+            ui.label("Other inputs").classes("group-title")
+            for key, value in rest.items():
+                self._other(key, value)
+
+    def _other(self, key: str, value: Any) -> None:
+        async def removed() -> None:
+            await self._apply({key: None})
+
+        with ui.element("div").classes("other"):
+            ui.label(f"{key} = {value}")
+            button = ui.button("Remove", on_click=removed).props("flat dense no-caps")
+            button.props(f'aria-label="Remove {key}"')
+
+    def _on(self, group: Group) -> bool:
+        return not group.table or self._inputs.value(group.table) is not None
+
+    def _has_more(self, group: Group) -> bool:
+        return any(field.optional and self._is_shown(field) for field in group.fields)
+
+    def _is_shown(self, field: Field) -> bool:
+        on = self._on(self._group_of(field))
+        return field is self._wrong or (on and field.shown(self._inputs))
+
+    def _group_of(self, field: Field) -> Group:
+        return next(group for group in self._groups if field in group.fields)
+
+    def _field_of(self, key: str) -> Field | None:
+        """Field of a key of an error: that of the key, of the table it is in, or the first of its table."""
+        fields = [field for field, _ in self._controls]
+        shown = sorted(fields, key=lambda field: not self._is_shown(field))
+        exact = [field for field in shown if field.key == key]
+        above = [field for field in shown if key.startswith(f"{field.key}.")]
+        below = [field for field in shown if field.key.startswith(f"{key}.")]
+        return next(iter([*exact, *above, *below]), None)
+
+    async def _load_help(self) -> None:
+        """Load what the fields mean, which the physics' own reference tells."""
+        session = session_here()
+        if session is None:
+            return
+        keys = [field.key for field, _ in self._controls if field.kind != "ways"]
+        try:
+            texts = await session.work.quick(FIELD_HELP, keys)
+        except LostError as error:
+            self._tell_note(f"no help for the fields: {error}")
+            return
+        for field, control in self._controls:
+            control.show(help=texts.get(field.key, ""))
+
+
+def groups_for(case: Inputs) -> Sequence[Group]:
+    """Groups of fields of a case: those of a bearing, or of a contact of its geometry."""
+    return BEARING_GROUPS if case.value("bearing") else groups_of(geometry_of(case))
+
+
+# Most entries of a list without a search.
+_LONGEST_LIST = 6
+
+# Groups that are open on a narrow screen, too.
+_FIRST = 2
+
+# Longest note that is shown in an empty box [characters].
+_LONGEST_PLACEHOLDER = 14
+
+
+def _sent(before: Inputs, after: Inputs, changes: Any) -> dict[str, Any]:
+    """Changes to send: the one asked for, or whole tables, so that the page sees no state in between."""
+    if before == after:
+        return {}
+    if len(changes) == 1 and before.changed(changes) == after:
+        return dict(changes)
+    names = {*before.table, *after.table}
+    return {name: after.table.get(name) for name in names if before.table.get(name) != after.table.get(name)}

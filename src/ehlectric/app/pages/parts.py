@@ -1,0 +1,180 @@
+"""Parts of the pages: headings, cards, numbers with their warnings, the traffic light, and figures."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from html import escape
+from typing import TYPE_CHECKING, Any, cast
+
+from nicegui import ui
+
+from ehlectric.app.answers.line import Line
+from ehlectric.app.answers.told import Told
+from ehlectric.app.work import Job
+from ehlectric.errors import SEVERITY_WORDS
+from ehlectric.report.light import light_of
+
+if TYPE_CHECKING:
+    from ehlectric.discharge.verdict import Level
+
+# Signs of the levels, and words of the bounds.
+_SIGNS = {"green": "✓", "yellow": "!", "red": "✕", "grey": "?"}
+_BOUNDS = {"≤": "upper bound", "≥": "lower bound"}
+
+
+def heading(text: str, level: int) -> None:
+    """Heading of a level from 1 to 6."""
+    with ui.element(f"h{level}"):
+        ui.html(escape(text), sanitize=False, tag="span")
+
+
+@contextmanager
+def card(title: str) -> Iterator[ui.element]:
+    """Context of a section with a heading of level 2."""
+    with ui.element("section").classes("card") as section:
+        heading(title, 2)
+        yield section
+
+
+class Strip:
+    """Short answer that stays at the top of a narrow screen while inputs change; build it in the page itself.
+
+    A screen reader has the answer itself, so that it does not read this one.
+    """
+
+    def __init__(self) -> None:
+        with (
+            ui.element("div")
+            .classes("strip grey")
+            .props('data-testid="strip" aria-hidden="true"') as self._box
+        ):
+            self._word = ui.label().classes("word")
+            self._numbers = ui.label()
+
+    def show(self, level: str, word: str, numbers: Iterable[str] = (), *, bound: str = "") -> None:
+        """Show the level of a verdict, its word and bound, and a few numbers such as "margin ≤ 1.46"."""
+        self._box.classes(replace=f"strip {level}")
+        self._word.text = " ".join(filter(None, [_SIGNS[level], bound, word]))
+        self._numbers.text = " · ".join(numbers)
+
+    def dim(self, *, dimmed: bool) -> None:
+        """Dim the answer while it is that of earlier inputs."""
+        self._box.classes(add="old" if dimmed else "", remove="" if dimmed else "old")
+
+
+def number(
+    label: str,
+    text: str,
+    unit: str = "",
+    *,
+    bound: str = "",
+    warnings: Iterable[Told] = (),
+    testid: str = "",
+    note: str = "",
+) -> None:
+    """Number with its name, its unit and the warnings that concern it.
+
+    ``bound`` is "≤" or "≥" where the number is a bound only. ``note`` is a short remark, such as by how much
+    a formula differs.
+    """
+    told = tuple(warnings)
+    worst = next((level for level in ("severe", "warning") if any(one.severity == level for one in told)), "")
+    with ui.element("div").classes(f"number {worst}").props(f'data-testid="{escape(testid)}"'):
+        ui.label(label).classes("label")
+        with ui.element("div").classes("value"):
+            ui.label(" ".join(filter(None, [bound, text]))).classes("digits")
+            if unit:
+                ui.label(unit).classes("unit")
+        if bound:
+            ui.label(_BOUNDS.get(bound, "bound")).classes("bound")
+        if note:
+            ui.label(note).classes("remark")
+        for one in told:
+            ui.label(one.text).classes(f"told {one.severity}")
+
+
+def light(level: str, text: str, *, testid: str = "verdict") -> None:
+    """Traffic light of a verdict, with its heading, its bound and its sentences."""
+    shown = light_of(cast("Level", level), text)
+    with ui.element("div").classes(f"light {level}") as box:
+        box.props(f'role="status" data-testid="{testid}" data-level="{level}"')
+        ui.label(_SIGNS[level]).classes("sign").props('aria-hidden="true"')
+        if shown.bound:
+            ui.label(shown.bound).classes("at-most").props('aria-hidden="true"')
+        with ui.element("div").classes("words"):
+            ui.label(shown.words).classes("level")
+            ui.label(shown.rest).classes("sentences")
+
+
+def warnings(told: Iterable[Told]) -> None:
+    """List of warnings."""
+    with ui.element("ul").classes("warnings"):
+        for one in told:
+            with ui.element("li").classes(one.severity):
+                ui.label(SEVERITY_WORDS[one.severity]).classes("severity")
+                ui.label(one.text)
+
+
+def lines_html(lines: Iterable[Line], caption: str) -> str:
+    """Table of the lines that the command prints, with a caption for screen readers."""
+    rows = []
+    for line in lines:
+        name, look = escape(line.name), " class=alarm" if line.alarm else ""
+        if line.text:
+            rows.append(f"<tr{look}><th scope=row>{name}</th><td>{escape(line.text)}</td></tr>")
+        else:
+            rows.append(f"<tr><th scope=rowgroup colspan=2>{name}</th></tr>")
+    head = f"<caption class=unseen>{escape(caption)}</caption>"
+    return f"<div class=scroll><table class=rows>{head}<tbody>{''.join(rows)}</tbody></table></div>"
+
+
+def figure(data: Mapping[str, Any], label: str) -> ui.plotly:
+    """Figure that can be zoomed; ``label`` says to a screen reader what it shows."""
+    plot = ui.plotly(dict(data)).classes("figure")
+    return plot.props(f'role="img" aria-label="{escape(label)}"')
+
+
+class JobBox:
+    """Progress of a job, with a button that cancels it.
+
+    Parameters
+    ----------
+    done : callable
+        Called with the job when it has ended in any way.
+    """
+
+    def __init__(self, done: Callable[[Job], Any]) -> None:
+        self._done = done
+        self._job: Job | None = None
+        with ui.element("div").classes("job").props('aria-live="polite"') as self._box:
+            self._bar = ui.element("progress").props('max=1 aria-label="Progress" data-testid="progress"')
+            self._text = ui.label().classes("job-text")
+            ui.button("Cancel", on_click=self.cancel, color=None).props('flat no-caps data-testid="cancel"')
+        self._timer = ui.timer(0.2, self._look, active=False)
+        self._box.set_visibility(False)
+
+    def show(self, job: Job) -> None:
+        """Show a job until it ends."""
+        self._job = job
+        self._box.set_visibility(True)
+        self._timer.activate()
+
+    def cancel(self) -> None:
+        """Cancel the job."""
+        if self._job is not None:
+            self._job.cancel()
+
+    async def _look(self) -> None:
+        job = self._job
+        if job is None:
+            return
+        self._bar.props(f"value={job.done / job.of:.4f}" if job.of else "", remove="" if job.of else "value")
+        self._text.text = job.text if not job.of else f"{job.text}: {job.done} of {job.of}"
+        if job.over:
+            self._timer.deactivate()
+            self._box.set_visibility(False)
+            self._job = None
+            found = self._done(job)
+            if found is not None:
+                await found

@@ -1,0 +1,295 @@
+"""Box of the rough surfaces of a contact: uploaded or made, and shown step by step before they are used."""
+
+from __future__ import annotations
+
+from collections.abc import Awaitable, Callable, Mapping, Sequence
+from typing import Any
+from weakref import WeakKeyDictionary
+
+from nicegui import events, ui
+
+from ehlectric.app.answers.calls import SURFACE
+from ehlectric.app.answers.surface import SurfaceAnswer
+from ehlectric.app.inputs import Inputs
+from ehlectric.app.pages.parts import JobBox
+from ehlectric.app.pages.surfaces.keys import Keys
+from ehlectric.app.pages.surfaces.upload import UploadField
+from ehlectric.app.pages.surfaces.view import show_surface
+from ehlectric.app.roughness_keys import (
+    FILE_KEYS,
+    FIRST_VALUES,
+    GENERATOR_KEYS,
+    GENERATOR_NAMES,
+    PLACE_KEYS,
+    STEP_KEYS,
+    STEPPED,
+    RoughKey,
+)
+from ehlectric.app.session import Session
+from ehlectric.app.uploads import LARGEST, SURFACES, new_name, own_file, shown_name
+from ehlectric.app.work import Job
+from ehlectric.errors import InputError, LostError
+
+Changed = Callable[[], Awaitable[None] | None]
+
+# Size of a file from which a process of its own reads it [bytes]; smaller ones take a second at most.
+_LARGE = 4_000_000
+
+# Size of all uploaded files of a session [bytes].
+_MOST = 4 * LARGEST
+
+_SURFACE = RoughKey("surface", "Surface of the contact", choices={"1": "1, the lower", "2": "2, the upper"})
+_SOURCE = RoughKey("source", "Surface", choices={"file": "from an instrument's file"} | dict(GENERATOR_NAMES))
+
+
+class RoughnessBox:
+    """Box in which rough surfaces are uploaded or made, processed, and put into the inputs.
+
+    Parameters
+    ----------
+    session : Session
+        Session of the tab.
+    changed : callable
+        Called after the inputs of the session have other rough surfaces.
+    """
+
+    def __init__(self, session: Session, changed: Changed) -> None:
+        self._session, self._changed = session, changed
+        self._draft: dict[str, Any] = {"surface": 1}
+        self._names = _NAMES.setdefault(session, {})
+        self._parts: list[Keys] = []
+        self._groups: dict[Keys, ui.element] = {}
+        self._answer: SurfaceAnswer | None = None
+        self._asked = 0
+        # Inputs of which the note tells something.
+        self._noted: Inputs | None = None
+        with ui.element("div").classes("box").props('data-testid="roughness"'):
+            self._used = ui.element("div").classes("box").props('aria-live="polite"')
+            self._note = ui.label().classes("hint").props('role="status" data-testid="roughness-note"')
+            self._editor = ui.element("div").classes("box")
+            self._message = ui.label().classes("error").props('role="alert" id="roughness-error"')
+            self._message.props('data-testid="error-roughness"')
+            self._job = JobBox(self._ended)
+            self._view = ui.element("div").classes("box").props('aria-live="polite" data-testid="surface"')
+            with ui.element("div").classes("buttons"):
+                self._use = ui.button("Use this surface", on_click=self._put, color=None).classes("primary")
+                self._use.props('flat no-caps data-testid="use-surface"')
+        self._tell(None)
+        self._edit()
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Show the rough surfaces of the present inputs, as after an undo."""
+        if self._point != self._is_point():
+            self._edit()
+        if self._noted != self._session.inputs:
+            self._note.text = ""
+        self._used.clear()
+        with self._used:
+            tables = _tables(self._session)
+            if not tables:
+                ui.label("Both surfaces are smooth.").classes("muted").props('data-testid="surfaces-used"')
+            for table in tables:
+                self._show_used(table)
+
+    def _show_used(self, table: Mapping[str, Any]) -> None:
+        file = table.get("file")
+        lost = isinstance(file, str) and not self._is_here(file)
+        with ui.element("div").classes("used"):
+            text = f"Surface {table.get('surface', '?')}: {self._told(table)}"
+            ui.label(text).props('data-testid="surfaces-used"')
+            remove = ui.button("Remove", on_click=lambda: self._remove(table), color=None).props(
+                "flat no-caps"
+            )
+            remove.props(f'data-testid="remove-surface-{table.get("surface", 0)}"')
+            if not lost:
+                ui.button("Change", on_click=lambda: self._reopen(table), color=None).props("flat no-caps")
+        if lost:
+            text = "This file was uploaded in another session. Upload it again, or remove the surface."
+            ui.label(text).classes("error").props('role="alert"')
+        elif isinstance(file, str):
+            ui.label("A link cannot hold the file; a download with everything has it.").classes("hint")
+
+    def _is_point(self) -> bool:
+        return bool(self._session.inputs.value("contact.geometry") == "point")
+
+    def _is_here(self, file: str) -> bool:
+        return own_file(file, self._session.folder) is not None
+
+    def _told(self, table: Mapping[str, Any]) -> str:
+        if isinstance(table.get("file"), str):
+            source = self._names.get(table["file"], shown_name(table["file"]))
+        else:
+            source = GENERATOR_NAMES.get(str(table.get("generator")), str(table.get("generator")))
+        shown = (f"{key} {value}" for key, value in table.items() if key not in _HIDDEN)
+        return ", ".join([source, *shown])
+
+    def _edit(self) -> None:
+        """Build the fields for the kind of surface of the draft."""
+        self._editor.clear()
+        self._parts, self._groups = [], {}
+        point = self._point = self._is_point()
+        generator = self._draft.get("generator")
+        values = {**self._draft, "source": generator or "file"}
+        with self._editor:
+            self._parts.append(Keys("roughness", (_SOURCE, _SURFACE), values, self._set))
+            if generator is None:
+                UploadField(self._take, self._refuse)
+                name = self._names.get(self._draft.get("file", ""))
+                ui.label(f"File: {name}" if name else "No file yet.").classes("muted")
+                ui.label(
+                    "The server keeps the file in a folder that is removed when this tab is closed. The "
+                    "address of the page cannot hold it; the downloaded case comes with it."
+                ).classes("hint")
+                self._group("Units and lines of the file", FILE_KEYS, point=point)
+            else:
+                keys = GENERATOR_KEYS[generator]
+                self._group("Heights (values at first are assumptions)", keys, point=point, opened=True)
+            if generator is None or generator in STEPPED:
+                self._group("Form and filter", STEP_KEYS, point=point, opened=True)
+            self._group("Place in the contact", PLACE_KEYS, point=point)
+
+    def _group(self, title: str, keys: Sequence[RoughKey], *, point: bool, opened: bool = False) -> None:
+        shown = [key for key in keys if point or not key.point]
+        with ui.element("details") as group:
+            ui.html(title, sanitize=False, tag="summary")
+            part = Keys("roughness", shown, self._draft, self._set)
+        group.props.set_bool("open", opened or any(key.key in self._draft for key in shown))
+        self._parts.append(part)
+        self._groups[part] = group
+
+    async def _set(self, key: str, value: Any) -> None:
+        if key == "source":
+            surface = self._draft["surface"]
+            self._draft = {"surface": surface}
+            if value is not None:
+                self._draft |= {"generator": value, **FIRST_VALUES[value]}
+            self._edit()
+        elif key == "surface":
+            self._draft["surface"] = 1 if value is None else int(value)
+        elif value is None:
+            self._draft.pop(key, None)
+        else:
+            self._draft[key] = value
+        await self._look()
+
+    async def _take(self, event: events.UploadEventArguments) -> None:
+        """Keep an uploaded file in the folder of the session, and show it."""
+        size, given = event.file.size(), event.file.name
+        kept = sum(file.stat().st_size for file in self._session.folder.glob(f"{SURFACES}/*"))
+        if size > LARGEST or kept + size > _MOST:
+            limits = f"at most {LARGEST / 1e6:g} MB, and {_MOST / 1e6:g} MB of all uploaded files"
+            self._refuse(f"{shown_name(given)}: has {size / 1e6:.4g} MB; expected {limits}")
+            return
+        name = new_name(given, self._session.folder)
+        await event.file.save(self._session.folder / name)
+        self._names[name] = shown_name(given)
+        self._draft = {key: value for key, value in self._draft.items() if key != "generator"}
+        self._draft["file"] = name
+        self._edit()
+        await self._look()
+
+    def _refuse(self, text: str) -> None:
+        self._tell(InputError.worded(None, text))
+
+    async def _look(self) -> None:
+        """Show the surface of the draft; an answer that comes after newer values is dropped."""
+        self._asked += 1
+        asked = self._asked
+        if "file" not in self._draft and "generator" not in self._draft:
+            self._show(None)
+            return
+        self._view.classes("old")
+        self._use.disable()
+        file = self._draft.get("file", "")
+        path = own_file(file, self._session.folder) if file else None
+        inputs, folder = dict(self._session.inputs.table), str(self._session.folder)
+        values = dict(self._draft), inputs, folder, self._names.get(file, shown_name(file) if file else "")
+        if path is not None and path.stat().st_size > _LARGE:
+            self._job.cancel()
+            try:
+                self._job.show(self._session.start(SURFACE, *values))
+            except LostError as error:
+                self._tell(error)
+            return
+        try:
+            answer = await self._session.work.quick(SURFACE, *values)
+        except (InputError, LostError) as error:
+            if asked == self._asked:
+                self._fail(error)
+            return
+        if asked == self._asked:
+            self._show(answer)
+
+    def _ended(self, job: Job) -> None:
+        if job.state == "done":
+            self._show(job.result)
+        else:
+            self._fail(job.error or LostError("cancelled"))
+
+    def _fail(self, error: Exception) -> None:
+        self._show(None)
+        self._tell(error)
+
+    def _show(self, answer: SurfaceAnswer | None) -> None:
+        self._answer = answer
+        self._tell(None)
+        self._use.set_enabled(answer is not None)
+        self._view.classes(remove="old")
+        self._view.clear()
+        if answer is not None:
+            with self._view:
+                show_surface(answer)
+
+    def _tell(self, error: Exception | None) -> None:
+        found = [part for part in self._parts if part.tell(error)]
+        for part in found:
+            if part in self._groups:
+                self._groups[part].props("open")
+        self._message.text = "" if error is None or found else str(error)
+        self._message.set_visibility(bool(self._message.text))
+        if error is not None:
+            self._use.disable()
+
+    async def _put(self) -> None:
+        """Put the surface of the draft into the inputs, in place of the one before on the same body."""
+        if self._answer is not None:
+            kept = [
+                table for table in _tables(self._session) if table.get("surface") != self._draft["surface"]
+            ]
+            await self._give(sorted([*kept, dict(self._draft)], key=lambda table: int(table["surface"])))
+
+    async def _remove(self, table: Mapping[str, Any]) -> None:
+        await self._give([other for other in _tables(self._session) if other != table])
+
+    async def _reopen(self, table: Mapping[str, Any]) -> None:
+        self._draft = dict(table)
+        self._edit()
+        await self._look()
+
+    async def _give(self, tables: list[Any]) -> None:
+        """Put other rough surfaces into the inputs; nothing moves without one."""
+        changes: dict[str, Any] = {"roughness": tables or None}
+        moved = self._session.inputs.value("motion") is not None
+        if moved and not tables:
+            changes["motion"] = None
+        self._session.history.push(self._session.inputs.changed(changes))
+        self.refresh()
+        if moved and not tables:
+            self._noted = self._session.inputs
+            self._note.text = "The motion is removed, too: it needs a rough surface."
+        waiting = self._changed()
+        if waiting is not None:
+            await waiting
+
+
+# Names that users gave to the uploaded files of a session, by path; a box may be built again in a session.
+_NAMES: WeakKeyDictionary[Session, dict[str, str]] = WeakKeyDictionary()
+
+_HIDDEN = ("surface", "file", "generator")
+
+
+def _tables(session: Session) -> list[Any]:
+    """Tables of rough surfaces in the inputs."""
+    found = session.inputs.value("roughness")
+    return [table for table in found if isinstance(table, Mapping)] if isinstance(found, list) else []

@@ -1,0 +1,220 @@
+"""Toolbar of a page: undo and redo, a link to its inputs, other pages with them, and opened files."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Awaitable, Callable, Mapping
+from typing import Any
+
+from nicegui import events, ui
+
+from ehlectric.app.answers.calls import FILES_UPLOADED
+from ehlectric.app.answers.files import MOST_CASE, MOST_SURFACE, Uploaded
+from ehlectric.app.inputs import LONGEST_QUERY, Inputs
+from ehlectric.app.pages.frame import show_address
+from ehlectric.app.session import Session
+from ehlectric.errors import InputError, LostError
+
+# Called after the inputs changed in another way than by the form.
+Show = Callable[[], Awaitable[None] | None]
+
+# Pages of the kinds of files.
+PATHS = {"bearing": "/", "contact": "/contact", "motion": "/contact", "sweep": "/sweep"}
+
+# Files that are opened together: a case and the surfaces that it names.
+_MOST_FILES = 12
+
+# Undo and redo by keys, unless they belong to a text that is being typed.
+_KEYS = """<script>
+document.addEventListener("keydown", event => {
+  const key = event.key.toLowerCase();
+  if (!(event.ctrlKey || event.metaKey) || event.altKey || (key !== "z" && key !== "y")) return;
+  const focus = document.activeElement;
+  const typed = focus && focus.tagName === "INPUT" && !focus.readOnly
+    && !["range", "checkbox", "radio", "button"].includes(focus.type);
+  if (typed || (focus && (focus.isContentEditable || focus.tagName === "TEXTAREA"))) return;
+  const name = key === "y" || event.shiftKey ? "redo" : "undo";
+  const button = document.querySelector(`[data-testid="${name}"]`);
+  if (!button || button.disabled) return;
+  event.preventDefault();
+  button.click();
+});
+</script>"""
+
+# Copies a text, and says whether the browser allowed it: other machines need https for it.
+_COPY = "navigator.clipboard ? navigator.clipboard.writeText({}).then(() => true, () => false) : false"
+
+
+def address_of(path: str, inputs: Inputs) -> str:
+    """Address of a page with inputs."""
+    return f"{path}?{inputs.address()}"
+
+
+class Toolbar:
+    """Toolbar of a page, at the place where it is made.
+
+    Parameters
+    ----------
+    session : Session
+        Session of the tab, whose inputs are those of the page.
+    path : str
+        Address of the page, such as "/".
+    show : callable
+        Called after the inputs have changed by undo, redo or a file; the page then shows ``session.inputs``.
+    opens : bool
+        Whether files are opened, and other pages with the case.
+    """
+
+    def __init__(self, session: Session, path: str, show: Show, *, opens: bool = True) -> None:
+        self.session, self._path, self._show = session, path, show
+        # Opened files, and those that the case among them names and that are not there yet.
+        self._pending: dict[str, bytes] = {}
+        self._asked: tuple[str, ...] = ()
+        ui.add_body_html(_KEYS)
+        with ui.element("div").classes("toolbar").props('role="toolbar" aria-label="Case"'):
+            self._undo = _button("Undo", "undo", self.undo, "Control+Z")
+            self._redo = _button("Redo", "redo", self.redo, "Control+Shift+Z")
+            _button("Copy link", "copy-link", self.copy_link)
+            if opens:
+                _button("Compare", "compare", self.compare)
+                if path != "/sweep":
+                    _button("Vary", "vary", self.vary)
+                self._files()
+            self._link = ui.input("Link to this page").props('readonly dense outlined data-testid="link"')
+            self._link.classes("link").set_visibility(False)
+            self._status = ui.label().classes("told-status").props('role="status"')
+            self._error = ui.label().classes("wrong").props('role="alert" data-testid="error-file"')
+        session.history.told.append(self._look)
+        self._look()
+
+    async def undo(self) -> None:
+        """Go back to the inputs before."""
+        self.session.history.undo()
+        await self._changed("Undone.")
+
+    async def redo(self) -> None:
+        """Take back an undo."""
+        self.session.history.redo()
+        await self._changed("Redone.")
+
+    async def copy_link(self) -> None:
+        """Copy the address of the page with its inputs, and show it."""
+        if not self.session.inputs.linkable:
+            self._tell(error=f"no link holds these inputs: it has more than {LONGEST_QUERY} characters")
+            return
+        address = address_of(self._path, self.session.inputs)
+        link = f"{await ui.run_javascript('window.location.origin')}{address}"
+        self._link.value = link
+        self._link.set_visibility(True)
+        copied = await ui.run_javascript(f"return await ({_COPY.format(json.dumps(link))})")
+        self._tell("Link copied." if copied else "Copy the link from the field.")
+        if not copied:
+            self._link.run_method("select")
+
+    def compare(self) -> None:
+        """Open the page that compares, with this case on both sides."""
+        table = dict(self.session.inputs.table)
+        case = table.get("case", table)
+        self._go("/compare", Inputs({"a": case, "b": case}))
+
+    def vary(self) -> None:
+        """Open the page of sweeps with this case."""
+        self._go("/sweep", Inputs({"case": dict(self.session.inputs.table)}))
+
+    def _go(self, path: str, inputs: Inputs) -> None:
+        """Open another page with inputs; files stay in the session of this one."""
+        if _has_files(self.session.inputs.table):
+            self._tell(error="the case has surfaces from files, which other pages do not have: open it there")
+        elif not inputs.linkable:
+            self._tell(error="the case is too long for an address; open its file on the other page")
+        else:
+            ui.navigate.to(address_of(path, inputs))
+
+    def _files(self) -> None:
+        """Button that opens files, and the element that takes them up."""
+        self._upload = ui.upload(
+            multiple=True,
+            auto_upload=True,
+            max_file_size=MOST_SURFACE,
+            max_files=_MOST_FILES,
+            on_multi_upload=self._uploaded,
+            on_rejected=lambda: self._tell(
+                error=f"a file is too large; expected a case of at most {MOST_CASE // 1000} kB, "
+                f"surfaces of at most {MOST_SURFACE // 1_000_000} MB"
+            ),
+            label="Case and surfaces",
+        )
+        self._upload.classes("out-of-sight").props(
+            'data-testid="upload-case" aria-hidden="true" tabindex="-1"'
+        )
+        open_file = ui.button("Open file").props('outline no-caps dense data-testid="open-file"')
+        open_file.tooltip("A case, bearing or sweep file (TOML), with the surfaces that it names")
+        open_file.on("click", js_handler=f"() => getElement({self._upload.id}).$refs.qRef.pickFiles()")
+
+    async def _uploaded(self, event: events.MultiUploadEventArguments) -> None:
+        """Take up files: a case, or those that the case opened before names."""
+        self._upload.reset()
+        contents = {file.name: await file.read() for file in event.files}
+        self._pending = {**self._pending, **contents} if set(contents) & set(self._asked) else contents
+        await self._read()
+
+    async def _read(self) -> None:
+        """Read the opened files, and ask for those that are missing."""
+        try:
+            found = await self.session.work.quick(FILES_UPLOADED, self._pending, self.session.folder)
+        except (InputError, LostError) as error:
+            self._pending, self._asked = {}, ()
+            self._tell(error=str(error))
+            return
+        self._asked = found.missing
+        if found.missing:
+            self._tell(f"{found.name} names {', '.join(found.missing)}: open it, too.")
+            return
+        self._pending = {}
+        await self._opened(found)
+
+    async def _opened(self, found: Uploaded) -> None:
+        """Show an opened case on its page."""
+        inputs, path = Inputs(found.table), PATHS[found.kind]
+        if path == self._path:
+            self.session.history.push(inputs)
+            await self._changed(f"{found.name} is open.")
+        elif _has_files(found.table):
+            self._tell(error=f"{found.name} names files and belongs to the page {path}: open them there")
+        elif not inputs.linkable:
+            self._tell(error=f"{found.name} belongs to the page {path}: open it there")
+        else:
+            ui.navigate.to(address_of(path, inputs))
+
+    async def _changed(self, text: str) -> None:
+        """Show changed inputs, in the address, too."""
+        if self.session.inputs.linkable:
+            show_address(self.session.inputs, self._path)
+        self._tell(text)
+        showing = self._show()
+        if showing is not None:
+            await showing
+
+    def _tell(self, text: str = "", *, error: str = "") -> None:
+        self._status.text, self._error.text = text, error
+
+    def _look(self) -> None:
+        """Allow what can be done, and take away what was told of earlier inputs."""
+        self._tell()
+        self._link.set_visibility(False)
+        history = self.session.history
+        self._undo.set_enabled(bool(history.before))
+        self._redo.set_enabled(bool(history.after))
+
+
+def _has_files(table: Mapping[str, Any]) -> bool:
+    """Whether a case, or that of a sweep, has surfaces from files, which stay in their session."""
+    case = table.get("case", table)
+    rough = case.get("roughness") if isinstance(case, Mapping) else None
+    return isinstance(rough, list) and any(isinstance(one, Mapping) and "file" in one for one in rough)
+
+
+def _button(name: str, test: str, click: Callable[[], Any], keys: str = "") -> ui.button:
+    """Button of the toolbar, with the keys that do the same."""
+    button = ui.button(name, on_click=click).props(f'outline no-caps dense data-testid="{test}"')
+    return button.props(f'aria-keyshortcuts="{keys}"').tooltip(keys) if keys else button

@@ -1,0 +1,234 @@
+"""Worker processes that call functions for the server, one call at a time."""
+
+from __future__ import annotations
+
+import contextlib
+import multiprocessing
+import os
+import signal
+import tempfile
+import threading
+import traceback
+from collections.abc import Callable
+from dataclasses import dataclass
+from importlib import import_module
+from typing import Any
+
+from ehlectric.errors import ConvergenceError, InputError, LostError
+from ehlectric.runtime.progress import Progress
+from ehlectric.runtime.workers import end_with_parent
+
+# Loaded before there is any work, in the process from which all others are forked.
+_PRELOADED = "ehlectric.app.compute.preload"
+
+# Variables in which BLAS libraries look up the number of threads when they are loaded.
+_THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+
+
+@dataclass(frozen=True)
+class Returned:
+    """Outcome of a call that returned."""
+
+    result: Any
+
+
+@dataclass(frozen=True)
+class Raised:
+    """Outcome of a call that failed.
+
+    Attributes
+    ----------
+    error : InputError, ConvergenceError or LostError
+        Error as the user sees it.
+    trace : str
+        Traceback for the log of the server, of an error of the program itself.
+    """
+
+    error: Exception
+    trace: str = ""
+
+
+@dataclass(frozen=True)
+class Bounds:
+    """Bounds of a worker process.
+
+    Attributes
+    ----------
+    memory : float
+        Address space of the process and of each that it starts [bytes].
+    folder : str
+        Folder for its temporary files.
+    """
+
+    memory: float
+    folder: str
+
+
+class Worker:
+    """Process that calls functions, one at a time.
+
+    The process starts with the first call. Where it has died, the next call starts another.
+
+    Parameters
+    ----------
+    context : multiprocessing context
+        Way in which the process is started.
+    bounds : callable
+        Returns the bounds of the process when it starts.
+    """
+
+    def __init__(self, context: Any, bounds: Callable[[], Bounds]) -> None:
+        self._context, self._bounds = context, bounds
+        self._process: Any = None
+        self._pipe: Any = None
+        self._starting = threading.Lock()
+        self._closed = threading.Event()
+
+    @property
+    def pid(self) -> int | None:
+        """Number of the process; None where there is none."""
+        return None if self._process is None else self._process.pid
+
+    def start(self) -> None:
+        """Start the process unless it runs; this waits until it has loaded what it needs."""
+        with self._starting:
+            if self._closed.is_set() or (self._process is not None and self._process.is_alive()):
+                return
+            self._pipe, theirs = self._context.Pipe()
+            process = self._context.Process(target=_serve, args=(theirs, self._bounds()), daemon=False)
+            process.start()
+            theirs.close()
+            self._process = process
+        if self._closed.is_set():
+            self.kill()
+
+    def ask(
+        self, function: Callable[..., Any], values: tuple[Any, ...], tell: Progress | None = None
+    ) -> Returned | Raised:
+        """Call a function in the process, and wait for its outcome; for a thread.
+
+        Parameters
+        ----------
+        function : callable
+            Function, which pickles.
+        values : tuple
+            Its arguments.
+        tell : callable, optional
+            Called with the progress. The function then gets such a function as its last argument.
+
+        Returns
+        -------
+        Returned or Raised
+            Outcome; a LostError where the process died.
+        """
+        try:
+            self.start()
+        except Exception as error:
+            return _fault(error)
+        if self._closed.is_set():
+            return Raised(LostError("the server is being stopped"))
+        try:
+            self._pipe.send((function, values, tell is not None))
+            while True:
+                told = self._pipe.recv()
+                if isinstance(told, Returned | Raised):
+                    return told
+                if tell is not None:
+                    tell(*told)
+        except (EOFError, OSError):
+            return Raised(LostError("its process was killed, as by a system out of memory"))
+        except Exception as error:
+            self.kill()
+            return _fault(error)
+
+    def kill(self) -> None:
+        """End the process now, with all that it started."""
+        process = self._process
+        if process is None or not process.is_alive():
+            return
+        with contextlib.suppress(OSError, AttributeError):
+            # The process leads a group of its own; systems without groups lack the function.
+            os.killpg(process.pid, signal.SIGKILL)
+        process.kill()
+
+    def end(self) -> None:
+        """End the process for good, without waiting."""
+        self._closed.set()
+        self.kill()
+
+    def close(self) -> None:
+        """End the process for good, and wait until it has ended."""
+        self.end()
+        if self._process is not None:
+            self._process.join(5.0)
+            self._pipe.close()
+
+
+def new_context() -> Any:
+    """Way in which processes are started: forks of one that has loaded the physics, or new ones."""
+    if "forkserver" not in multiprocessing.get_all_start_methods():
+        return multiprocessing.get_context("spawn")
+    # A fork must not inherit the threads of a BLAS library.
+    for name in _THREADS:
+        os.environ.setdefault(name, "1")
+    context = multiprocessing.get_context("forkserver")
+    context.set_forkserver_preload([_PRELOADED])
+    return context
+
+
+def _serve(pipe: Any, bounds: Bounds) -> None:
+    """Answer calls until the server closes the pipe; in the process."""
+    _prepare(bounds)
+    with contextlib.suppress(EOFError, BrokenPipeError):
+        while True:
+            try:
+                function, values, reports = pipe.recv()
+            except EOFError:
+                raise
+            except Exception as error:
+                pipe.send(_fault(error))
+                continue
+            further = (lambda *told: pipe.send(told),) if reports else ()
+            _reply(pipe, _outcome(function, (*values, *further)))
+
+
+def _reply(pipe: Any, outcome: Returned | Raised) -> None:
+    try:
+        pipe.send(outcome)
+    except (EOFError, BrokenPipeError):
+        raise
+    except Exception as error:
+        # The result does not pickle, or there is no memory for its copy.
+        pipe.send(_fault(error))
+
+
+def _outcome(function: Callable[..., Any], values: tuple[Any, ...]) -> Returned | Raised:
+    try:
+        return Returned(function(*values))
+    except (InputError, ConvergenceError, LostError) as error:
+        return Raised(error)
+    except Exception as error:
+        return _fault(error)
+
+
+def _fault(error: Exception) -> Raised:
+    """Outcome of a call that failed for another reason than its inputs."""
+    from ehlectric.runtime.memory import is_out_of_memory, out_of_memory
+
+    if is_out_of_memory(error):
+        return Raised(LostError(out_of_memory(error)))
+    told = f"error in the program ({type(error).__name__}); the log of the server has the details"
+    return Raised(LostError(told), "".join(traceback.format_exception(error)))
+
+
+def _prepare(bounds: Bounds) -> None:
+    """Prepare this process: it leads a group, ends with the server, ignores Ctrl-C and is bounded."""
+    if hasattr(os, "setpgid"):
+        os.setpgid(0, 0)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    end_with_parent()
+    tempfile.tempdir = os.environ["TMPDIR"] = bounds.folder
+    with contextlib.suppress(ImportError, ValueError, OSError):
+        # Windows lacks the module.
+        resource: Any = import_module("resource")
+        resource.setrlimit(resource.RLIMIT_AS, (int(bounds.memory), int(bounds.memory)))

@@ -1,0 +1,133 @@
+"""Inputs of the sweep page: a sweep file with its base case inside, and the result that the map shows.
+
+``case`` and ``vary`` are those of a sweep file, so that the downloaded file runs as it is. ``show`` is the
+dotted key of the shown result; only the address has it.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+from urllib.parse import parse_qsl, urlsplit
+
+from ehlectric.app.inputs import Inputs
+
+
+@dataclass(frozen=True)
+class Range:
+    """Range of a varied input, as a sweep file has it.
+
+    Attributes
+    ----------
+    key : str
+        Dotted key of the case.
+    start, stop : str
+        Ends with their units.
+    count : int or str
+        Number of values; another text as it was typed.
+    log : bool
+        Whether the values are spaced by logarithms.
+    """
+
+    key: str
+    start: str
+    stop: str
+    count: int | str = 8
+    log: bool = False
+
+    def table(self) -> dict[str, Any]:
+        """Table of a sweep file."""
+        ends = (number_of_text(self.start), number_of_text(self.stop))
+        table: dict[str, Any] = {"from": ends[0], "to": ends[1], "count": self.count}
+        return table | ({"spacing": "log"} if self.log else {})
+
+
+def sweep_inputs(inputs: Inputs) -> Inputs | None:
+    """Inputs of the sweep page from an address: its own, or those of a bearing or contact page.
+
+    Examples
+    --------
+    >>> sweep_inputs(Inputs({"bearing": {"base": "6208"}})).value("case.bearing.base")
+    '6208'
+    >>> sweep_inputs(Inputs()) is None
+    True
+    """
+    if isinstance(inputs.value("case"), Mapping):
+        return inputs
+    if inputs.value("bearing") or inputs.value("contact"):
+        return Inputs({"case": _of_case(inputs.table)})
+    return None
+
+
+def case_of_link(link: str) -> dict[str, Any] | None:
+    """Tables of the case in a link to a bearing, contact or sweep page; None where it has none.
+
+    Examples
+    --------
+    >>> case_of_link("http://localhost:8080/?bearing.base=%276208%27")
+    {'bearing': {'base': '6208'}}
+    """
+    query = urlsplit(link.strip()).query
+    found = sweep_inputs(Inputs.of_query(parse_qsl(query, keep_blank_values=True)))
+    return None if found is None else dict(found.value("case"))
+
+
+def ranges_of(inputs: Inputs) -> list[Range]:
+    """Ranges of the varied inputs, in the order of the design; lists of values are none."""
+    return list(_ranges(inputs.value("vary") or {}))
+
+
+def lists_of(inputs: Inputs) -> dict[str, Any]:
+    """Varied inputs of an opened file that have other values than a range, by their keys.
+
+    Examples
+    --------
+    >>> lists_of(Inputs({"vary": {"bearing": {"elements": [8, 9]}}}))
+    {'bearing.elements': [8, 9]}
+    """
+    ranges = tuple(f"{one.key}." for one in ranges_of(inputs))
+    flat = Inputs(inputs.value("vary") or {}).flat()
+    return {key: value for key, value in flat.items() if not key.startswith(ranges)}
+
+
+def with_ranges(inputs: Inputs, ranges: list[Range]) -> Inputs:
+    """Inputs with other varied inputs."""
+    without = inputs.changed({"vary": None})
+    return without.changed({f"vary.{one.key}": one.table() for one in ranges})
+
+
+def sweep_file(inputs: Inputs) -> Inputs:
+    """Inputs without the shown result, which a sweep file does not have."""
+    return inputs.changed({"show": None})
+
+
+def number_of_text(text: str) -> str | int | float:
+    """Number of a text without a unit, which a file has without quotes; another text as it is.
+
+    Examples
+    --------
+    >>> number_of_text("0.5"), number_of_text("20"), number_of_text("20 N"), number_of_text("inf")
+    (0.5, 20, '20 N', 'inf')
+    """
+    if not re.fullmatch(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?", text.strip()):
+        return text
+    return int(text) if re.fullmatch(r"[-+]?\d{1,15}", text.strip()) else float(text)
+
+
+def _of_case(table: Mapping[str, Any]) -> dict[str, Any]:
+    return {key: value for key, value in table.items() if key not in ("vary", "show", "case", "token")}
+
+
+def _ranges(table: Mapping[str, Any], prefix: str = "") -> Iterator[Range]:
+    for name, value in table.items():
+        key = f"{prefix}{name}"
+        if not isinstance(value, Mapping):
+            continue
+        if "from" in value or "to" in value:
+            log = value.get("spacing") == "log"
+            ends = (str(value.get("from", "")), str(value.get("to", "")))
+            yield Range(key, *ends, count=value.get("count", ""), log=log)
+        else:
+            yield from _ranges(value, f"{key}.")

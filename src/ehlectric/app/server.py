@@ -1,0 +1,109 @@
+"""Server of the app: one process that serves the pages."""
+
+from __future__ import annotations
+
+import socket
+import threading
+import webbrowser
+from collections.abc import Callable
+
+import uvicorn
+from fastapi import FastAPI
+from nicegui import Client, app, ui
+from starlette.middleware.gzip import GZipMiddleware
+
+from ehlectric.app.pages import PAGES
+from ehlectric.app.policy import with_policy
+from ehlectric.app.quotas import with_bounded_bodies, with_bounded_pages
+from ehlectric.app.security import Guard, Handler
+from ehlectric.app.uploads import keep_in_memory
+from ehlectric.app.work import Work
+
+# Time in which a browser may come back, as after a computer slept, before its session ends [s].
+_RECONNECT = 20.0
+
+# Messages that a browser gets again when it comes back; figures are in them, so they are few.
+_MESSAGES = 100
+
+# Time that open requests have to end when the server is stopped [s].
+_GRACE = 1
+
+# Smallest response that is compressed [bytes].
+_COMPRESSED = 1000
+
+# Largest message of a browser [bytes].
+_LARGEST_MESSAGE = 4_000_000
+
+
+def serve(guard: Guard, listening: socket.socket, work: Work, *, ready: Callable[[], None]) -> None:
+    """Serve the pages until the process is stopped.
+
+    Parameters
+    ----------
+    guard : Guard
+        Rules for requests.
+    listening : socket
+        Bound socket.
+    work : Work
+        Processes that compute.
+    ready : callable
+        Called when requests are answered.
+    """
+    config = uvicorn.Config(
+        _application(guard, work),
+        log_level="warning",
+        access_log=False,
+        ws="wsproto",
+        ws_max_size=_LARGEST_MESSAGE,
+        proxy_headers=False,
+        server_header=False,
+        lifespan="on",
+        timeout_graceful_shutdown=_GRACE,
+    )
+    _Server(config, ready).run(sockets=[listening])
+
+
+def open_browser(address: str) -> None:
+    """Open a browser, beside the server."""
+    threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()
+
+
+class _Server(uvicorn.Server):
+    """Server that tells when it answers requests."""
+
+    def __init__(self, config: uvicorn.Config, ready: Callable[[], None]) -> None:
+        super().__init__(config)
+        self._ready = ready
+
+    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+        await super().startup(sockets)
+        self._ready()
+
+
+def _application(guard: Guard, work: Work) -> Handler:
+    """Pages, behind all that bounds and guards them."""
+    keep_in_memory()
+    for page in PAGES:
+        page(work)
+    app.on_page_exception(_show_fault)
+    outer = FastAPI(docs_url=None, redoc_url=None, openapi_url=None)
+    ui.run_with(
+        outer,
+        title="ehlectric",
+        language="en-US",
+        tailwind=False,
+        reconnect_timeout=_RECONNECT,
+        message_history_length=_MESSAGES,
+        gzip_middleware_factory=None,
+        show_welcome_message=False,
+    )
+    paged = with_bounded_pages(with_bounded_bodies(outer), lambda: len(Client.instances))
+    # Pages are compressed after their scripts got the nonce.
+    return guard.around(GZipMiddleware(with_policy(paged), minimum_size=_COMPRESSED))
+
+
+def _show_fault() -> None:
+    """Content of a page that could not be built: a line; NiceGUI writes the traceback to the log."""
+    with ui.element("main").props('role="alert"'):
+        ui.label("This page has an error in the program; the log of the server has the details.")
+        ui.link("Begin again", "/")

@@ -1,0 +1,119 @@
+"""Start of the app: the processes that compute begin to load before the server does."""
+
+from __future__ import annotations
+
+import errno
+import os
+import socket
+from collections.abc import Callable
+
+from ehlectric.app.scratch import clear_left_behind, take_temporary_files
+from ehlectric.app.security import Guard
+from ehlectric.app.work import Limits, Work
+from ehlectric.errors import InputError
+
+# Ports that are tried where none is given.
+_PORTS = range(8080, 8180)
+
+
+def start(
+    host: str,
+    port: int | None,
+    *,
+    browser: bool,
+    tell: Callable[[str], None],
+    limits: Limits | None = None,
+) -> None:
+    """Serve the app until it is interrupted.
+
+    Parameters
+    ----------
+    host : str
+        Address to bind to.
+    port : int or None
+        Port; 0 for any free one, None for the first free one from 8080 upwards.
+    browser : bool
+        Whether a browser is opened.
+    tell : callable
+        Called with a line that has the address of the app, when it answers requests.
+    limits : Limits, optional
+        Limits of the work.
+
+    Raises
+    ------
+    InputError
+        If the port is taken, or the address is none of this machine.
+    """
+    listening = listen(host, port)
+    guard = Guard.of(host, listening.getsockname()[1])
+    clear_left_behind()
+    work = Work(limits)
+    try:
+        # Files of the server, such as parts of large uploads, are removed with it.
+        take_temporary_files(work.scratch.folder)
+        # NiceGUI would write its files into the folder in which the command was typed.
+        os.environ["NICEGUI_STORAGE_PATH"] = str(work.scratch.folder)
+        work.warm()
+        # The server loads while the processes load the physics.
+        from ehlectric.app.server import open_browser, serve
+
+        def ready() -> None:
+            tell(f"ehlectric is at {guard.address}  (Ctrl-C ends it)")
+            if browser:
+                open_browser(guard.address)
+
+        serve(guard, listening, work, ready=ready)
+    except KeyboardInterrupt:
+        # This is how a user ends it.
+        pass
+    finally:
+        work.close()
+        listening.close()
+
+
+def listen(host: str, port: int | None) -> socket.socket:
+    """Socket that is bound to an address.
+
+    Parameters
+    ----------
+    host : str
+        Address or name of this machine.
+    port : int or None
+        Port; 0 for any free one, None for the first free one from 8080 upwards.
+
+    Raises
+    ------
+    InputError
+        If it cannot be bound.
+    """
+    for candidate in _PORTS if port is None else (port,):
+        try:
+            return _bound(host, candidate)
+        except socket.gaierror:
+            raise InputError("--host", got=host, takes="an address of this machine") from None
+        except OSError as error:
+            reason = (error.strerror or str(error)).lower()
+            if error.errno == errno.EADDRNOTAVAIL:
+                raise InputError("--host", got=host, takes="an address of this machine") from None
+            taken = error.errno == errno.EADDRINUSE
+            if port is not None or not taken:
+                takes = "a free port, or 0 for any that is free"
+                raise InputError("--port", f"{candidate} cannot be used, {reason}", takes=takes) from None
+    raise InputError("--port", f"{_PORTS[0]} to {_PORTS[-1]} are taken", takes="a free port")
+
+
+def _bound(host: str, port: int) -> socket.socket:
+    family, kind, protocol, _, address = socket.getaddrinfo(
+        host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE
+    )[0]
+    bound = socket.socket(family, kind, protocol)
+    try:
+        if os.name == "posix":
+            # A port whose server has just ended is free; on Windows this would share a port in use.
+            bound.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        bound.bind(address)
+        bound.listen()
+    except OSError:
+        bound.close()
+        raise
+    return bound

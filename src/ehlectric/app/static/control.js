@@ -1,0 +1,202 @@
+// Field of a form: label, slider, text box, list or search, help and error. Its text is local while it is typed.
+const STEPS = 200;
+const SHORT = 20; // characters
+const THROTTLE = 100; // ms between two values of a dragged slider
+
+export default {
+  template: `
+    <div v-if="shown" class="field" :class="{ wrong: !!error, listed: beside }">
+      <div class="field-head">
+        <label :for="boxId">{{ label }}</label>
+        <span v-if="note" class="field-note" :id="boxId + '-note'">{{ note }}</span>
+        <button v-if="help" type="button" class="help" :aria-expanded="helped ? 'true' : 'false'"
+          :aria-controls="boxId + '-help'" :aria-label="'About ' + label" @click="helped = !helped">?</button>
+      </div>
+      <div class="field-row">
+        <template v-if="kind === 'list'">
+          <select :id="boxId" :value="text" v-bind="described" :data-testid="'field-' + testid" @change="choose($event.target.value)">
+            <option v-for="o in options" :key="o.value" :value="o.value">{{ o.label }}</option>
+          </select>
+        </template>
+        <div v-else-if="kind === 'search'" class="search">
+          <input :id="boxId" ref="box" type="text" role="combobox" autocomplete="off" spellcheck="false"
+            aria-autocomplete="list" :aria-expanded="opened ? 'true' : 'false'" :aria-controls="boxId + '-list'"
+            :aria-activedescendant="opened && found.length ? boxId + '-o' + active : null" v-bind="described"
+            :data-testid="'field-' + testid" v-model="query" @focus="open" @click="open" @input="search"
+            @keydown="keyed" @blur="close">
+          <div v-if="opened" :id="boxId + '-list'" ref="list" class="options" role="listbox" :aria-label="label">
+            <div v-for="g in groups" :key="g.name" role="group" :aria-label="g.name || label">
+              <div v-if="g.name" class="options-name" aria-hidden="true">{{ g.name }}</div>
+              <div v-for="o in g.options" :key="o.value" :id="boxId + '-o' + o.place" role="option"
+                :aria-selected="o.value === text ? 'true' : 'false'" :class="{ active: o.place === active }"
+                :data-testid="'option-' + o.value" @mousedown.prevent="choose(o.value)"
+                @mousemove="active = o.place">{{ o.label }}</div>
+            </div>
+            <div v-if="!found.length" class="options-none">nothing found</div>
+          </div>
+        </div>
+        <template v-else>
+          <input v-if="slides" ref="slider" type="range" min="0" :max="steps" step="1" v-model.number="step"
+            :class="{ unset: !text }" :aria-label="label + ', slider'" :aria-valuetext="local || placeholder || 'not given'"
+            :data-testid="'slider-' + testid" @input="slide" @change="release">
+          <input :id="boxId" ref="box" type="text" autocomplete="off" spellcheck="false" :class="{ long: !slides }"
+            :placeholder="placeholder" v-bind="described" :data-testid="'field-' + testid" v-model="local"
+            @change="commit" @keydown.enter.prevent="commit" @keydown.esc="local = text">
+        </template>
+      </div>
+      <p v-if="help && helped" class="field-help" :id="boxId + '-help'">{{ help }}</p>
+      <p v-if="error" class="field-error" role="alert" :id="boxId + '-error'" :data-testid="'error-' + testid">{{ error }}</p>
+    </div>`,
+  props: {
+    boxId: String,
+    testid: String,
+    kind: { type: String, default: "number" },
+    label: String,
+    note: String,
+    help: String,
+    error: String,
+    shown: { type: Boolean, default: true },
+    text: { type: String, default: "" },
+    turn: { type: Number, default: 0 },
+    place: { type: Number, default: 0 },
+    slides: { type: Boolean, default: false },
+    placeholder: String,
+    options: { type: Array, default: () => [] },
+  },
+  data() {
+    return {
+      local: this.text,
+      step: Math.round(this.place * STEPS),
+      steps: STEPS,
+      held: false,
+      helped: false,
+      opened: false,
+      query: "",
+      typed: false,
+      active: 0,
+    };
+  },
+  mounted() {
+    this.query = this.labelOf(this.text);
+  },
+  beforeUnmount() {
+    clearTimeout(this.timer);
+  },
+  watch: {
+    text() {
+      this.local = this.text;
+      if (!this.opened) this.query = this.labelOf(this.text);
+    },
+    turn() {
+      this.local = this.text;
+      if (!this.opened) this.query = this.labelOf(this.text);
+    },
+    options() {
+      if (!this.opened) this.query = this.labelOf(this.text);
+    },
+    place() {
+      if (!this.held) this.step = Math.round(this.place * STEPS);
+    },
+  },
+  computed: {
+    // A list with short entries stands beside its label.
+    beside() {
+      return this.kind === "list" && this.options.every((o) => o.label.length <= SHORT);
+    },
+    described() {
+      const by = [this.note && "-note", this.help && this.helped && "-help", this.error && "-error"]
+        .filter(Boolean)
+        .map((end) => this.boxId + end);
+      return { "aria-invalid": this.error ? "true" : null, "aria-describedby": by.join(" ") || null };
+    },
+    found() {
+      const words = this.typed ? this.query.toLowerCase().split(/\s+/).filter(Boolean) : [];
+      return this.options
+        .filter((o) => words.every((word) => (o.value + " " + o.label + " " + o.group).toLowerCase().includes(word)))
+        .map((o, place) => ({ ...o, place }));
+    },
+    groups() {
+      const groups = [];
+      for (const option of this.found) {
+        let group = groups.find((g) => g.name === option.group);
+        if (!group) groups.push((group = { name: option.group, options: [] }));
+        group.options.push(option);
+      }
+      return groups;
+    },
+  },
+  methods: {
+    labelOf(value) {
+      const found = this.options.find((o) => o.value === value);
+      return found ? found.label : value;
+    },
+    commit() {
+      if (this.local.trim() === this.text) return;
+      this.$emit("commit", this.local);
+    },
+    slide() {
+      this.held = true;
+      const wait = THROTTLE - (Date.now() - (this.sent || 0));
+      clearTimeout(this.timer);
+      if (wait <= 0) this.send();
+      else this.timer = setTimeout(this.send, wait);
+    },
+    send() {
+      clearTimeout(this.timer);
+      this.sent = Date.now();
+      this.last = this.step;
+      this.$emit("slide", this.step / STEPS);
+    },
+    release() {
+      if (this.held && this.last !== this.step) this.send();
+      this.held = false;
+      this.last = null;
+    },
+    choose(value) {
+      this.opened = false;
+      this.typed = false;
+      this.query = this.labelOf(value);
+      if (value !== this.text) this.$emit("commit", value);
+    },
+    open() {
+      if (this.opened) return;
+      this.opened = true;
+      this.typed = false;
+      this.active = Math.max(0, this.found.findIndex((o) => o.value === this.text));
+      this.$refs.box.select();
+      this.seen();
+    },
+    search() {
+      this.opened = true;
+      this.typed = true;
+      this.active = 0;
+    },
+    close() {
+      this.opened = false;
+      this.typed = false;
+      this.query = this.labelOf(this.text);
+    },
+    keyed(event) {
+      if (event.key === "ArrowDown" || event.key === "ArrowUp") {
+        event.preventDefault();
+        if (!this.opened) return this.open();
+        const step = event.key === "ArrowDown" ? 1 : -1;
+        const count = this.found.length;
+        if (count) this.active = (this.active + step + count) % count;
+        this.seen();
+      } else if (event.key === "Enter") {
+        event.preventDefault();
+        if (this.opened && this.found[this.active]) this.choose(this.found[this.active].value);
+        else this.open();
+      } else if (event.key === "Escape") {
+        this.close();
+      }
+    },
+    seen() {
+      this.$nextTick(() => {
+        const option = this.$refs.list?.querySelector(".active");
+        if (option) option.scrollIntoView({ block: "nearest" });
+      });
+    },
+  },
+};

@@ -1,0 +1,36 @@
+// Group of fields that opens and closes; a group of optional inputs has a switch.
+const NARROW = 860; // pixels, as in the style sheet
+
+export default {
+  template: `
+    <details ref="details" class="group" :data-testid="'group-' + testid">
+      <summary><span class="group-title">{{ title }}</span><span v-if="switches && !on" class="group-off">off</span></summary>
+      <div class="group-body">
+        <label v-if="switches" class="switch">
+          <input type="checkbox" :checked="on" :data-testid="'switch-' + testid" @change="$emit('switch', $event.target.checked)">
+          Include this
+        </label>
+        <p v-if="note && (on || !switches)" class="field-help">{{ note }}</p>
+        <slot></slot>
+      </div>
+    </details>`,
+  props: {
+    title: String,
+    testid: String,
+    note: String,
+    // Whether the group is opened on a narrow screen, too.
+    first: { type: Boolean, default: false },
+    opened: { type: Boolean, default: true },
+    turn: { type: Number, default: 0 },
+    switches: { type: Boolean, default: false },
+    on: { type: Boolean, default: true },
+  },
+  mounted() {
+    this.$refs.details.open = this.opened && (this.first || window.innerWidth > NARROW);
+  },
+  watch: {
+    turn() {
+      this.$refs.details.open = this.opened;
+    },
+  },
+};

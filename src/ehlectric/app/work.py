@@ -1,0 +1,324 @@
+"""Work of the app: quick answers, and jobs that report progress and can be cancelled.
+
+The process of the server computes nothing, so that every page answers at once whatever is being solved. A
+quick answer waits for one of a few warm processes. A job has a process of its own, which is killed when it is
+cancelled, when its tab is closed, or when it uses more time or memory than is allowed. Sessions take turns.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Any, TypeVar, cast
+from weakref import WeakKeyDictionary
+
+from ehlectric.app.answers.call import Call
+from ehlectric.app.jobs import Job
+from ehlectric.app.processes import Bounds, Raised, Returned, Worker, new_context
+from ehlectric.app.scratch import Scratch
+from ehlectric.errors import LostError
+from ehlectric.runtime.memory import available_memory
+from ehlectric.runtime.workers import cores
+
+__all__ = ["Job", "Limits", "ReplacedError", "Share", "Work"]
+
+T = TypeVar("T")
+
+_log = logging.getLogger("ehlectric.app")
+
+# Quick answers of one session that are computed at once, and those that may wait.
+_AT_ONCE, _QUEUED = 2, 50
+
+
+@dataclass(frozen=True)
+class Limits:
+    """Limits of the work of all sessions together.
+
+    Attributes
+    ----------
+    jobs : int
+        Jobs that run at once; further ones wait.
+    each : int
+        Jobs of one session that run or wait.
+    waiting : int
+        Jobs of all sessions that may wait.
+    memory : float
+        Address space of a process of a job and of each that it starts [bytes].
+    quick_memory : float
+        Address space of a process of quick answers [bytes].
+    seconds : float
+        Time of a job [s].
+    patience : float
+        Time of a quick answer [s].
+    """
+
+    jobs: int = field(default_factory=lambda: max(1, cores() // 2))
+    each: int = 8
+    waiting: int = 100
+    memory: float = field(default_factory=lambda: min(8e9, max(2e9, available_memory() / 2.0)))
+    quick_memory: float = 4e9
+    seconds: float = 3600.0
+    patience: float = 30.0
+
+
+def limits_of(*, jobs: int | None, gigabytes: float | None, minutes: float) -> Limits:
+    """Limits with a number of jobs, memory [GB] and time of a job [min]; None for the usual ones."""
+    usual = Limits(seconds=60.0 * minutes)
+    return replace(
+        usual,
+        jobs=usual.jobs if jobs is None else jobs,
+        memory=usual.memory if gigabytes is None else 1e9 * gigabytes,
+    )
+
+
+class ReplacedError(LostError):
+    """Error of a quick answer that was not computed because a later one was asked for in its place."""
+
+
+class Work:
+    """Quick answers and jobs of a server, within limits.
+
+    Parameters
+    ----------
+    limits : Limits, optional
+        Limits of the work.
+
+    Attributes
+    ----------
+    behind : asyncio.Semaphore
+        Lock for quick answers that take a second or more: a process is left for those at once.
+
+    Notes
+    -----
+    Use it on one event loop. ``close`` ends all processes and removes the temporary folder.
+    """
+
+    def __init__(self, limits: Limits | None = None) -> None:
+        self.limits = limits or Limits()
+        self._context = new_context()
+        number = max(1, min(4, cores()))
+        self._quick = [Worker(self._context, self._bounds(self.limits.quick_memory)) for _ in range(number)]
+        self.behind = asyncio.Semaphore(max(1, number - 1))
+        self._idle: asyncio.Queue[Worker] = asyncio.Queue()
+        for worker in self._quick:
+            self._idle.put_nowait(worker)
+        self._threads = ThreadPoolExecutor(number + self.limits.jobs, "ehlectric-work")
+        self._waiting: list[Job] = []
+        self._running: dict[Job, Worker] = {}
+        self._tasks: set[asyncio.Task[None]] = set()
+        # Number of the last job that began, by session.
+        self._turns: WeakKeyDictionary[object, int] = WeakKeyDictionary()
+        self._number = 0
+        self._own = Share(self)
+
+    @cached_property
+    def scratch(self) -> Scratch:
+        """Temporary folder of the server, made when first used."""
+        return Scratch()
+
+    def warm(self) -> None:
+        """Start the processes of quick answers, which load what they need; this does not wait for them."""
+        for worker in self._quick:
+            self._threads.submit(worker.start)
+
+    def share(self) -> Share:
+        """Share of a session in the work."""
+        return Share(self)
+
+    async def quick(self, function: Call[T], *values: Any) -> T:
+        """Result of a function of a worker process that takes a second at most, for no session.
+
+        Raises
+        ------
+        InputError, ConvergenceError
+            As the function raises them.
+        LostError
+            Where it takes too long, its process dies, or the program has an error.
+        """
+        return await self._own.quick(function, *values)
+
+    def start(self, function: Call[Any], *values: Any) -> Job:
+        """Start a job for no session; see ``Share.start``."""
+        return self._own.start(function, *values)
+
+    def close(self) -> None:
+        """End all jobs and processes, and remove the temporary folder."""
+        for job in [*self._waiting, *self._running]:
+            job.cancel()
+        workers = [*self._quick, *self._running.values()]
+        for worker in workers:
+            worker.end()
+        for worker in workers:
+            worker.close()
+        self._threads.shutdown(wait=False, cancel_futures=True)
+        if "scratch" in self.__dict__:
+            self.scratch.remove()
+
+    async def answer(self, function: Call[Any], values: tuple[Any, ...]) -> Returned | Raised:
+        """Outcome of a function in one of the processes of quick answers."""
+        worker = await self._idle.get()
+        asked = asyncio.get_running_loop().run_in_executor(self._threads, worker.ask, function, values)
+        # The process is free when its call has ended, also where nobody waits for the answer any more.
+        asked.add_done_callback(lambda _: self._idle.put_nowait(worker))
+        try:
+            return await asyncio.wait_for(asyncio.shield(asked), self.limits.patience)
+        except TimeoutError:
+            worker.kill()
+            return Raised(LostError(f"the answer took longer than {self.limits.patience:g} s"))
+
+    def add(self, job: Job) -> None:
+        """Take over a job, which runs as soon as its session has its turn.
+
+        Raises
+        ------
+        LostError
+            If too many jobs wait already, of its session or of all.
+        """
+        unfinished = [other for other in [*self._waiting, *self._running] if not other.over]
+        if sum(other.owner is job.owner for other in unfinished) >= self.limits.each:
+            raise LostError(f"{self.limits.each} computations of this page run or wait; cancel one of them")
+        if len(unfinished) >= self.limits.jobs + self.limits.waiting:
+            raise LostError("too many computations are waiting; try again later")
+        self._waiting.append(job)
+        self._begin()
+
+    def _begin(self) -> None:
+        """Begin waiting jobs while there is room.
+
+        The session with the fewest running jobs is first, then that which had none for the longest time.
+        """
+        self._waiting = [job for job in self._waiting if not job.over]
+        while self._waiting and len(self._running) < self.limits.jobs:
+            owners = [job.owner for job in self._running]
+            turns = [(owners.count(job.owner), self._turns.get(job.owner, 0)) for job in self._waiting]
+            job = self._waiting.pop(turns.index(min(turns)))
+            self._number += 1
+            self._turns[job.owner] = self._number
+            worker = Worker(self._context, self._bounds(self.limits.memory))
+            self._running[job] = worker
+            job.run_in(worker)
+            task = asyncio.get_running_loop().create_task(self._run(job, worker))
+            self._tasks.add(task)
+            task.add_done_callback(self._tasks.discard)
+
+    async def _run(self, job: Job, worker: Worker) -> None:
+        assert job.call is not None
+        asked = asyncio.get_running_loop().run_in_executor(
+            self._threads, worker.ask, *job.call, lambda *told: job.told(*told)
+        )
+        try:
+            outcome = await asyncio.wait_for(asyncio.shield(asked), self.limits.seconds)
+        except TimeoutError:
+            minutes = self.limits.seconds / 60.0
+            job.end("failed", error=LostError(f"stopped: it took longer than the {minutes:.3g} min allowed"))
+            await asked
+        else:
+            if isinstance(outcome, Returned):
+                job.end("done", result=outcome.result)
+            else:
+                if not job.over:
+                    log(outcome)
+                job.end("failed", error=outcome.error)
+        finally:
+            await asyncio.get_running_loop().run_in_executor(self._threads, worker.close)
+            del self._running[job]
+            self._begin()
+
+    def _bounds(self, memory: float) -> Callable[[], Bounds]:
+        return lambda: Bounds(memory, str(self.scratch.folder))
+
+
+class Share:
+    """Share of one session in the work: no session keeps others from their answers.
+
+    Parameters
+    ----------
+    work : Work
+        Work of the server.
+
+    Attributes
+    ----------
+    behind : asyncio.Semaphore
+        That of the work.
+    """
+
+    def __init__(self, work: Work) -> None:
+        self._work = work
+        self.behind = work.behind
+        self._turn = asyncio.Semaphore(_AT_ONCE)
+        self._queued = 0
+        self._newest: dict[str, object] = {}
+        self._jobs: list[Job] = []
+        self._closed = False
+
+    async def quick(self, function: Call[T], *values: Any, lane: str = "") -> T:
+        """Result of a function of a worker process that takes a second at most.
+
+        Parameters
+        ----------
+        function : Call
+            Function.
+        *values
+            Its arguments.
+        lane : str
+            Name of the place on the page that shows the answer. While an answer waits for its turn, a later
+            one of the same lane replaces it.
+
+        Raises
+        ------
+        InputError, ConvergenceError
+            As the function raises them.
+        ReplacedError
+            Where a later answer of the lane was asked for.
+        LostError
+            Where it takes too long, its process dies, the session has ended, or the program has an error.
+        """
+        if self._queued >= _QUEUED:
+            raise LostError("this page asks for more answers than are computed; wait a moment")
+        mine = object()
+        self._newest[lane] = mine
+        self._queued += 1
+        try:
+            async with self._turn:
+                if self._closed:
+                    raise LostError("the page was closed")
+                if lane and self._newest[lane] is not mine:
+                    raise ReplacedError("a later answer was asked for")
+                outcome = await self._work.answer(function, values)
+        finally:
+            self._queued -= 1
+        if isinstance(outcome, Raised):
+            log(outcome)
+            raise outcome.error
+        return cast("T", outcome.result)
+
+    def start(self, function: Call[Any], *values: Any) -> Job:
+        """Start a job: ``function(*values, progress)`` in a process of its own.
+
+        Raises
+        ------
+        LostError
+            If too many jobs wait already, or the session has ended.
+        """
+        if self._closed:
+            raise LostError("the page was closed")
+        job = Job(call=(function, values), owner=self)
+        self._work.add(job)
+        self._jobs = [*(job for job in self._jobs if not job.over), job]
+        return job
+
+    def close(self) -> None:
+        """End the jobs, and refuse what follows."""
+        self._closed = True
+        for job in self._jobs:
+            job.cancel()
+
+
+def log(outcome: Raised) -> None:
+    """Write the traceback of an error of the program to the log of the server."""
+    if outcome.trace:
+        _log.error("%s", outcome.trace.rstrip())

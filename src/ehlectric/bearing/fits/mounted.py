@@ -1,0 +1,107 @@
+"""Clearance of the bearing of a bearing file: before mounting, mounted, and in operation."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from ehlectric.bearing.fits.clearance import Clearance, Mounting, Temperatures, clearance_at
+from ehlectric.bearing.fits.thick_ring import ThickRing
+from ehlectric.cases import library
+from ehlectric.cases.bearings.bearing import Bearing
+from ehlectric.cases.bearings.fits import PLAY, Fits
+from ehlectric.cases.quantity import to_si
+from ehlectric.errors import InputError
+
+
+@dataclass(frozen=True)
+class MountedClearance:
+    """Radial clearance of a bearing before mounting, mounted, and in operation.
+
+    Attributes
+    ----------
+    unmounted : float
+        Clearance before mounting [m].
+    mounted : Clearance
+        Clearance with its fits at the reference temperature.
+    running : Clearance
+        Clearance at the temperatures of operation.
+    """
+
+    unmounted: float
+    mounted: Clearance
+    running: Clearance
+
+
+def mounted_clearance(bearing: Bearing) -> MountedClearance | None:
+    """Clearances of a bearing with fits; None for a bearing whose clearance in operation is given.
+
+    Parameters
+    ----------
+    bearing : Bearing
+        Table ``[bearing]``.
+
+    Raises
+    ------
+    InputError
+        Where a housing that presses on the outer ring has no diameter, or the clearance in operation is
+        beyond the model.
+    """
+    fits, unmounted = bearing.fits, bearing.unmounted_clearance
+    if fits is None or unmounted is None:
+        return None
+    mounting, running = _mounting(bearing, fits, unmounted), _temperatures(bearing, fits)
+    states = Temperatures.same(fits.reference_temperature), running
+    pressing = max(mounting.interferences(at)[1] for at in states)
+    if fits.housing_diameter is None and pressing > 0.0:
+        overlap = f"whose interference with the outer ring is {1e6 * pressing:.3g} um"
+        raise InputError.missing("fits.housing_diameter", f"the outer diameter of the housing, {overlap}")
+    found = MountedClearance(unmounted, *(clearance_at(mounting, at) for at in states))
+    if not PLAY.least <= found.running.clearance <= PLAY.most:
+        got = f"a clearance in operation of {1e6 * found.running.clearance:.4g} um"
+        takes = f"fits and temperatures for {1e6 * PLAY.least:g} to {1e6 * PLAY.most:g} um"
+        raise InputError("fits", got=got, takes=takes)
+    return found
+
+
+def _mounting(bearing: Bearing, fits: Fits, unmounted: float) -> Mounting:
+    """Bearing between shaft and housing; half of the clearance belongs to either raceway."""
+    assert bearing.bore is not None and bearing.outer_diameter is not None
+    across = bearing.element_diameter + 0.5 * unmounted
+    inner, outer = bearing.pitch_diameter - across, bearing.pitch_diameter + across
+    around = math.inf if fits.housing_diameter is None else fits.housing_diameter
+    return Mounting(
+        shaft=_ring(fits.shaft_material, fits.shaft_bore, bearing.bore),
+        inner_ring=_ring(bearing.ring_material, bearing.bore, inner),
+        outer_ring=_ring(bearing.ring_material, outer, bearing.outer_diameter),
+        housing=_ring(fits.housing_material, bearing.outer_diameter, around),
+        element_diameter=bearing.element_diameter,
+        element_expansion=_expansion(bearing.element_material),
+        shaft_interference=fits.shaft_interference,
+        housing_interference=fits.housing_interference,
+        reference_temperature=fits.reference_temperature,
+    )
+
+
+def _ring(material: str, inner: float, outer: float) -> ThickRing:
+    """Ring of a material of the library between two diameters [m]."""
+    solid = library.solid(material)
+    modulus = to_si(solid["youngs_modulus"], "Pa")
+    return ThickRing(inner, outer, modulus, solid["poissons_ratio"], _expansion(material))
+
+
+def _expansion(material: str) -> float:
+    return to_si(library.solid(material)["thermal_expansion"], "1/K")
+
+
+def _temperatures(bearing: Bearing, fits: Fits) -> Temperatures:
+    """Temperatures of operation: without their own, elements have the mean of both rings."""
+    inner, outer = (bearing.ring_temperature(inner=side) for side in (True, False))
+    elements, shaft, housing = fits.element_temperature, fits.shaft_temperature, fits.housing_temperature
+    return Temperatures(
+        inner_ring=inner,
+        outer_ring=outer,
+        elements=0.5 * (inner + outer) if elements is None else elements,
+        shaft=inner if shaft is None else shaft,
+        housing=outer if housing is None else housing,
+    )

@@ -1,0 +1,1 @@
+"""Capacitance and voltages between shaft and housing: films, coating, parallel capacitance, and roughness."""

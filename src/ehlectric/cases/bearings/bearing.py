@@ -1,0 +1,298 @@
+"""Tables of a bearing file: bearing with load and speed, lubricant over temperature, discharge, motor."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from difflib import get_close_matches
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import AfterValidator, BeforeValidator, model_validator
+
+from ehlectric.cases import library
+from ehlectric.cases.bearings.coating import Coating
+from ehlectric.cases.bearings.fits import PLAY, TEMPERATURE, Fits
+from ehlectric.cases.library.clearance import (
+    BORE,
+    ClearanceClass,
+    clearance_range,
+    with_class,
+    with_clearance,
+)
+from ehlectric.cases.oils.laws import library_name
+from ehlectric.cases.quantity import Count, Quantity, to_fraction
+from ehlectric.cases.table import Table
+from ehlectric.errors import InputError, shown
+from ehlectric.runtime.values import is_number
+
+ROLLERS = "cylindrical roller"
+ANGULAR = "angular-contact ball"
+_Length = Annotated[float, BORE]
+_Groove = Annotated[float, Quantity("", above=0.5, most=1.0, reason="groove radius over ball diameter")]
+_Capacitance = Annotated[float, Quantity("F", above=0.0, most=1e-3, reason="of an electric machine")]
+_Parallel = Annotated[float, Quantity("F", least=0.0, most=1e-3, reason="of cage, shields and wiring")]
+_Load = Annotated[float, Quantity("N", least=0.0, most=1e8, reason="on the inner ring")]
+
+# Keys that only ball bearings have, and keys that only roller bearings have.
+_OF_BALLS = ("inner_groove", "outer_groove", "shoulder_height", "contact_angle")
+_OF_ROLLERS = ("roller_length", "profile")
+
+# Keys that each kind of bearing needs.
+_NEEDED = {
+    "deep-groove ball": ("inner_groove", "outer_groove", "shoulder_height", "radial_clearance"),
+    ANGULAR: ("inner_groove", "outer_groove", "shoulder_height", "contact_angle"),
+    ROLLERS: ("roller_length", "profile", "radial_clearance"),
+}
+
+# Keys from which the radial clearance follows.
+_OF_CLEARANCE = ("clearance_class", "fits")
+
+# Key of the temperature of a ring, by whether it is the inner one.
+_RING_TEMPERATURE = {True: "inner_ring_temperature", False: "outer_ring_temperature"}
+
+# What a message says of a needed key that is missing, where a few words help.
+_CHOICES = {
+    "profile": "'none' or 'logarithmic'",
+    "radial_clearance": "the clearance in operation, clearance_class with bore, or [bearing.fits]",
+}
+
+
+def _material(name: str) -> str:
+    names = library.solid_names(rolling=True)
+    if name not in names:
+        raise InputError(got=shown(name), takes=f"one of the library: {', '.join(names)}")
+    return name
+
+
+def _film_factor(value: Any) -> float | str:
+    if value in ("none", "inlet-shear"):
+        return str(value)
+    if not is_number(value) or not 0.0 < value <= 1.0:
+        raise InputError(got=shown(value), takes="'none', 'inlet-shear', or a number above 0 and at most 1")
+    return float(value)
+
+
+def _fill(value: Any) -> float | str:
+    """Filling of the gap around the films: "oil", "air", or the part of it that oil fills."""
+    if value in ("oil", "air"):
+        return str(value)
+    part = value
+    if isinstance(value, str):
+        try:
+            part = to_fraction(value)
+        except ValueError:
+            part = None
+    if not is_number(part) or not 0.0 <= part <= 1.0:
+        raise InputError(got=shown(value), takes="'oil' or 'air', or the part filled with oil, from 0 to 1")
+    return float(part)
+
+
+_Material = Annotated[str, AfterValidator(_material)]
+
+
+def _bearing_name(base: Any) -> str:
+    """Name of a bearing of the library; the error for another name tells how to do without the library."""
+    names = library.bearing_names()
+    try:
+        return library_name(base, names)
+    except InputError as error:
+        near = get_close_matches(str(base), names, n=3, cutoff=0.4) or names[:3]
+        keys = "kind, elements, element_diameter, pitch_diameter and the other keys of the bearing"
+        takes = (
+            f"a name of the library, as a string, such as {', '.join(repr(name) for name in near)} "
+            f"(list: ehlectric bearings); or leave base out and give {keys}"
+        )
+        raise InputError(error.key, got=shown(base), takes=takes) from None
+
+
+class Bearing(Table):
+    """Internal geometry, materials, load, speed and temperature of a rolling bearing."""
+
+    base: str | None = None
+    kind: Literal["deep-groove ball", "angular-contact ball", "cylindrical roller"]
+    elements: Annotated[int, Count(3, 1000, "rolling elements of one row")]
+    bore: _Length | None = None
+    outer_diameter: _Length | None = None
+    width: _Length | None = None
+    element_diameter: _Length
+    pitch_diameter: _Length
+    inner_groove: _Groove | None = None
+    outer_groove: _Groove | None = None
+    roller_length: _Length | None = None
+    profile: Literal["none", "logarithmic"] | None = None
+    shoulder_height: (
+        Annotated[float, Quantity("", above=0.0, most=0.5, reason="of the element diameter")] | None
+    ) = None
+    radial_clearance: Annotated[float, PLAY] | None = None
+    clearance_class: ClearanceClass | None = None
+    contact_angle: (
+        Annotated[float, Quantity("rad", above=0.0, below=0.5 * math.pi, reason="free of load")] | None
+    ) = None
+    element_material: _Material = "steel"
+    ring_material: _Material = "steel"
+    element_capacitance: _Capacitance | None = None
+    radial_load: _Load = 0.0
+    axial_load: _Load = 0.0
+    inner_speed: Annotated[float, Quantity("rad/s", above=0.0, most=1e5, reason="of the inner ring")]
+    temperature: (
+        Annotated[float, Quantity("K", least=200.0, most=600.0, reason="absolute, of the oil")] | None
+    ) = None
+    inner_ring_temperature: Annotated[float, TEMPERATURE] | None = None
+    outer_ring_temperature: Annotated[float, TEMPERATURE] | None = None
+    composite_rq: Annotated[float, Quantity("m", above=0.0, most=1e-4, reason="of both surfaces together")]
+    fill: Annotated[float | str, BeforeValidator(_fill)] = "oil"
+    parallel_capacitance: _Parallel | None = None
+    coating: Coating | None = None
+    film_factor: Annotated[float | str, BeforeValidator(_film_factor)] = "none"
+    fits: Fits | None = None
+
+    @model_validator(mode="before")
+    @classmethod
+    def _from_base(cls, table: Any) -> Any:
+        """Values of the bearing that ``base`` names in the library, replaced by those of the file."""
+        if not isinstance(table, Mapping):
+            return table
+        table = with_class(table)
+        if table.get("base") is None:
+            return with_clearance(table)
+        name = _bearing_name(table["base"])
+        base = library.bearing(name)
+        if table.get("clearance_class") is not None or table.get("fits") is not None:
+            base.pop("radial_clearance", None)
+        return with_clearance({**base, **table})
+
+    @property
+    def oil_temperature(self) -> float:
+        """Temperature of the oil outside the films [K]: the given one, or the only one of the rings."""
+        return next(iter(self.temperatures().values()))
+
+    def ring_temperature(self, *, inner: bool) -> float:
+        """Temperature of a ring and of the oil in its contacts [K]: the given one, or that of the oil."""
+        return self.temperatures().get(_RING_TEMPERATURE[inner], self.oil_temperature)
+
+    def temperature_key(self, *, inner: bool | None = None) -> str:
+        """Dotted key of the temperature of a ring, or of the oil outside the films."""
+        given = list(self.temperatures())
+        own = None if inner is None else _RING_TEMPERATURE[inner]
+        return f"bearing.{own if own in given else given[0]}"
+
+    def temperatures(self) -> dict[str, float]:
+        """Temperatures of oil and rings that are given [K], by key; that of the oil comes first."""
+        keys = ("temperature", "inner_ring_temperature", "outer_ring_temperature")
+        return {key: value for key in keys if (value := getattr(self, key)) is not None}
+
+    def all_temperatures(self) -> dict[str, float]:
+        """Temperatures that are given [K], also those of elements, shaft and housing, by key."""
+        parts = {f"fits.{part}_temperature": part for part in ("element", "shaft", "housing")}
+        own = {key: getattr(self.fits, f"{part}_temperature", None) for key, part in parts.items()}
+        return self.temperatures() | {key: value for key, value in own.items() if value is not None}
+
+    @property
+    def unmounted_clearance(self) -> float | None:
+        """Clearance before mounting [m], given or the middle of the class; None without ``fits``."""
+        if self.fits is None or self.fits.unmounted_clearance is not None:
+            return None if self.fits is None else self.fits.unmounted_clearance
+        assert self.clearance_class is not None and self.bore is not None
+        return clearance_range(self.kind, self.clearance_class, self.bore).middle
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        self._check_kind()
+        self._check_temperatures()
+        if self.fits is not None:
+            self._check_fits(self.fits)
+        if self.radial_load == 0.0 and self.axial_load == 0.0:
+            raise InputError.missing("radial_load", "a load, radial or axial")
+        ceramic = not library.solid(self.element_material)["conducting"]
+        if self.element_capacitance is not None and not ceramic:
+            raise InputError.worded(
+                "element_capacitance", "is only for ceramic elements; that of conducting ones is computed"
+            )
+        if not library.solid(self.ring_material)["conducting"]:
+            raise InputError("ring_material", got=shown(self.ring_material), takes="one that conducts")
+        self.coating_capacitance()
+        return self
+
+    def coating_capacitance(self) -> float:
+        """Capacitance of the coating [F]; infinite without a coating.
+
+        Raises
+        ------
+        InputError
+            Where a coating is given, and neither its area nor the dimensions of its ring.
+        """
+        if self.coating is None:
+            return math.inf
+        diameters = {"inner": self.bore, "outer": self.outer_diameter}
+        return self.coating.capacitance(self.coating.area_on(diameters, self.width))
+
+    def _check_kind(self) -> None:
+        rollers = self.kind == ROLLERS
+        needed = _NEEDED[self.kind]
+        for key in needed:
+            if getattr(self, key) is None and not (key == "radial_clearance" and self.fits is not None):
+                choices = f": {_CHOICES[key]}" if key in _CHOICES else ""
+                text = f"missing; a bearing of kind {self.kind!r} needs it{choices}"
+                raise InputError.worded(key, text, takes=_CHOICES.get(key))
+        for key in (*_OF_BALLS, *_OF_ROLLERS, "radial_clearance", *_OF_CLEARANCE):
+            of_kind = "radial_clearance" if key in _OF_CLEARANCE else key
+            if of_kind not in needed and getattr(self, key) is not None:
+                raise InputError.worded(key, f"is not used by a bearing of kind {self.kind!r}")
+        self._check_boundary()
+        if rollers and self.axial_load:
+            raise InputError(
+                "axial_load",
+                got=f"{self.axial_load:g} N",
+                takes="0 in a cylindrical roller bearing, whose rollers carry none",
+            )
+
+    def _check_temperatures(self) -> None:
+        """A temperature is given, and that of the oil where both rings have their own."""
+        given = len(self.temperatures())
+        if self.temperature is None and given != 1:
+            other = "; those of both rings do not tell it" if given else ""
+            raise InputError.missing("temperature", f"the temperature of the oil{other}")
+
+    def _check_fits(self, fits: Fits) -> None:
+        """The clearance before mounting is told once, and shaft and housing fit the bearing."""
+        if self.radial_clearance is not None:
+            raise InputError(
+                "radial_clearance",
+                got=f"{self.radial_clearance:g} m with [bearing.fits]",
+                takes="fits.unmounted_clearance or clearance_class, the clearance before mounting",
+            )
+        if (fits.unmounted_clearance is None) == (self.clearance_class is None):
+            both = None if self.clearance_class is None else "it and clearance_class together"
+            raise InputError("fits.unmounted_clearance", got=both, takes="either it or clearance_class")
+        for key, name in (("bore", "bore"), ("outer_diameter", "outside diameter")):
+            if getattr(self, key) is None:
+                raise InputError.missing(key, f"the {name} of the bearing, which [bearing.fits] needs")
+        assert self.bore is not None and self.outer_diameter is not None
+        if fits.shaft_bore >= self.bore:
+            takes = f"less than the bore of the bearing, {self.bore:g} m"
+            raise InputError("fits.shaft_bore", got=f"{fits.shaft_bore:g} m", takes=takes)
+        if fits.housing_diameter is not None and fits.housing_diameter <= self.outer_diameter:
+            takes = f"more than the outside diameter of the bearing, {self.outer_diameter:g} m"
+            raise InputError("fits.housing_diameter", got=f"{fits.housing_diameter:g} m", takes=takes)
+        if self.clearance_class is not None:
+            clearance_range(self.kind, self.clearance_class, self.bore)
+
+    def _check_boundary(self) -> None:
+        """Both rings have a thickness, and the element is not wider than the bearing."""
+        inner = self.pitch_diameter - self.element_diameter
+        outer = self.pitch_diameter + self.element_diameter
+        if self.bore is not None and self.bore >= inner:
+            raise InputError(
+                "bore", got=f"{self.bore:g} m", takes=f"less than the inner raceway, {inner:g} m"
+            )
+        if self.outer_diameter is not None and self.outer_diameter <= outer:
+            raise InputError(
+                "outer_diameter",
+                got=f"{self.outer_diameter:g} m",
+                takes=f"more than the outer raceway, {outer:g} m",
+            )
+        across = self.element_diameter if self.roller_length is None else self.roller_length
+        if self.width is not None and self.width < across:
+            raise InputError(
+                "width", got=f"{self.width:g} m", takes=f"at least the width of an element, {across:g} m"
+            )

@@ -1,0 +1,384 @@
+"""Case of a rolling bearing, read from TOML, written back, and changed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self, Unpack
+
+from pydantic import field_serializer, field_validator, model_validator
+
+from ehlectric.cases import library
+from ehlectric.cases.bearings.bearing import Bearing
+from ehlectric.cases.bearings.coating import COATING_ALTERNATIVES
+from ehlectric.cases.bearings.discharge import BearingDischarge
+from ehlectric.cases.bearings.motor import Motor
+from ehlectric.cases.changes import Groups, displace, flattened, nested, set_keys
+from ehlectric.cases.depth import refuse_deep
+from ehlectric.cases.discharge import STRENGTHS, TABLES
+from ehlectric.cases.grid import Solver
+from ehlectric.cases.keywords.constructors import tables, takes
+from ehlectric.cases.keywords.types import BearingKeys, Keys
+from ehlectric.cases.library.clearance import with_class
+from ehlectric.cases.oils.alternatives import displace_oil
+from ehlectric.cases.oils.lubricant import Lubricant
+from ehlectric.cases.oils.resolution import viscosity_over_temperature
+from ehlectric.cases.ranges import InputRange, ranges_of
+from ehlectric.cases.row import amount, value_at
+from ehlectric.cases.table import Table, read_toml
+from ehlectric.cases.title import Title
+from ehlectric.cases.units import ROTATION, rpm
+from ehlectric.errors import InputError
+from ehlectric.runtime.display import Tabled, headline
+from ehlectric.runtime.values import is_number
+
+# Alternative keys, by table: a key that changes replaces its alternatives.
+_ALTERNATIVES: dict[str, Groups] = {
+    "bearing": (
+        (("radial_clearance",), ("clearance_class",), ("fits.unmounted_clearance",)),
+        (("radial_clearance",), ("fits",)),
+        COATING_ALTERNATIVES,
+    ),
+    "lubricant": (
+        (("viscosity",), ("temperature",)),
+        (("temperature.kinematic_viscosity_40",), ("temperature.iso_vg",)),
+        (("temperature.kinematic_viscosity_100",), ("temperature.viscosity_index",)),
+    ),
+    "discharge": (STRENGTHS, TABLES),
+}
+
+# Dimensions of a bearing, which belong to its base.
+_DIMENSIONS = (
+    "kind",
+    "elements",
+    "bore",
+    "outer_diameter",
+    "width",
+    "element_diameter",
+    "pitch_diameter",
+    "inner_groove",
+    "outer_groove",
+    "roller_length",
+    "profile",
+    "shoulder_height",
+)
+
+# Relative error by which a value that is rounded may lie outside of its range.
+_ROUNDING = 1e-9
+
+# Keys of [discharge] that a bearing file may not have.
+_NOT_OF_BEARINGS = ("length",)
+
+# Advice for unknown keys that belong to another table, or have another name.
+_ADVICE = {
+    "lubricant.iso_vg": "it belongs to the table [lubricant.temperature]",
+    "lubricant.viscosity_index": "it belongs to the table [lubricant.temperature]",
+    "lubricant.density_15": "it belongs to the table [lubricant.temperature]",
+    "lubricant.viscosity_grade": "the viscosity grade is lubricant.temperature.iso_vg",
+    "lubricant.temperature.viscosity_grade": "the viscosity grade is lubricant.temperature.iso_vg",
+    "bearing.clearance": "give radial_clearance, or clearance_class such as 'C3' with bore",
+}
+
+
+class BearingCase(Tabled, Table):
+    """Rolling bearing in its machine: all inputs on which its capacitance and breakdown voltage depend.
+
+    A case is made from a file by ``from_toml``, from nested tables by ``from_dict`` or by keywords, and from
+    the keys of its bearing by ``BearingCase.of``. It is frozen; ``replace`` returns a changed copy. Numbers
+    are in SI units.
+
+    Parameters
+    ----------
+    bearing : Bearing or mapping
+        Geometry, load, speed, temperature and roughness.
+    lubricant : Lubricant or mapping
+        Laws of the oil, or ``base``, the name of a lubricant of the library.
+    title : str, optional
+        Title of tables and figures.
+    contacts : str, optional
+        "solved", or "formula" for contacts from film-thickness formulas.
+    discharge, motor, solver, ranges : mapping, optional
+        Further tables, as in a bearing file.
+
+    Raises
+    ------
+    InputError
+        If a key is unknown or missing, or a value is not allowed.
+    """
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            *,
+            bearing: Bearing | Keys,
+            lubricant: Lubricant | Keys,
+            title: str = ...,
+            contacts: str = ...,
+            discharge: BearingDischarge | Keys = ...,
+            motor: Motor | Keys | None = ...,
+            solver: Solver | Keys = ...,
+            ranges: Keys | None = ...,
+        ) -> None: ...
+
+    ADVICE: ClassVar = _ADVICE
+
+    title: Title = ""
+    contacts: Literal["solved", "formula"] = "solved"
+    bearing: Bearing
+    lubricant: Lubricant
+    discharge: BearingDischarge = BearingDischarge()
+    motor: Motor | None = None
+    solver: Solver = Solver()
+    ranges: tuple[InputRange, ...] | None = None
+
+    @field_validator("ranges", mode="plain")
+    @classmethod
+    def _parsed(cls, tables: Any) -> tuple[InputRange, ...] | None:
+        """Ranges of inputs in SI units."""
+        return None if tables is None else ranges_of(tables, cls) or None
+
+    @field_serializer("ranges")
+    def _as_table(self, ranges: tuple[InputRange, ...] | None) -> dict[str, list[int | float]] | None:
+        return None if ranges is None else {one.key: [one.low, one.high] for one in ranges}
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        for key in _NOT_OF_BEARINGS:
+            if getattr(self.discharge, key) is not None:
+                raise InputError.worded(f"discharge.{key}", "is not used by a bearing")
+        self._check_connected()
+        if self.bearing.film_factor == "inlet-shear":
+            self._check_heating(self.lubricant)
+        self._check_ranges()
+        return self
+
+    def _check_ranges(self) -> None:
+        """Check that each range is one of a number of the file, and contains it."""
+        table = self.to_dict() if self.ranges else {}
+        for one in self.ranges or ():
+            value, key = value_at(table, one.key), f"ranges.{one.key}"
+            if not is_number(value):
+                raise InputError(key, got="a range", takes=f"a number for {one.key} in the file too")
+            if not one.low - _ROUNDING * abs(one.low) <= value <= one.high + _ROUNDING * abs(one.high):
+                raise InputError(
+                    key,
+                    got=f"{one.low:.6g} to {one.high:.6g}",
+                    takes=f"a range that contains the value of the file, {value:.6g} (in SI units)",
+                )
+
+    @staticmethod
+    def _check_heating(oil: Lubricant) -> None:
+        """Check that the heating by shear in the inlet is known: viscosity over temperature, conductivity."""
+        if viscosity_over_temperature(oil) is None:
+            needs = "film_factor 'inlet-shear' needs a viscosity that follows the temperature"
+            raise InputError.worded(
+                "lubricant.viscosity", f"is one for all temperatures; {needs}", takes="a data sheet or a law"
+            )
+        sheet = oil.temperature
+        if oil.law("thermal_conductivity_law") is None and (
+            sheet is None or sheet.thermal_conductivity is None
+        ):
+            key = "thermal_conductivity" if sheet is None else "temperature.thermal_conductivity"
+            raise InputError.worded(f"lubricant.{key}", "missing; film_factor 'inlet-shear' needs it")
+
+    def _check_connected(self) -> None:
+        """Check that one table says what is connected to the shaft, where a pit needs it."""
+        external = self.discharge.external_capacitance
+        if external is not None and self.motor is not None:
+            raise InputError(
+                "discharge.external_capacitance",
+                got=f"{external:g} F beside [motor]",
+                takes="one of the two: the capacitances of a motor are discharged, too",
+            )
+        if self.discharge.pit is not None and external is None and self.motor is None:
+            raise InputError.worded(
+                "discharge.external_capacitance",
+                "missing; pit needs it or [motor]: a discharge also drains what is connected to the shaft; 0 "
+                "where nothing is",
+            )
+
+    def _headline(self) -> str:
+        """Title, bearing, loads and speed on one line."""
+        bearing = self.bearing
+        loads = [("radial", bearing.radial_load), ("axial", bearing.axial_load)]
+        return headline(
+            self.title,
+            bearing.base or bearing.kind,
+            *(f"{way} load {amount(load, 'N')}" for way, load in loads if load),
+            f"{rpm(bearing.inner_speed):.4g} rpm",
+            f"{bearing.oil_temperature - 273.15:.4g} degC",
+        )
+
+    @classmethod
+    @takes(BearingKeys)
+    def of(
+        cls,
+        *,
+        lubricant: Lubricant | Keys | str,
+        title: str = "",
+        contacts: Literal["solved", "formula"] = "solved",
+        discharge: BearingDischarge | Keys | None = None,
+        motor: Motor | Keys | None = None,
+        solver: Solver | Keys | None = None,
+        ranges: Keys | None = None,
+        **bearing: Unpack[BearingKeys],
+    ) -> BearingCase:
+        """Make a bearing case from the keys of its table ``bearing``.
+
+        Parameters
+        ----------
+        lubricant : str, mapping or Lubricant
+            Name of a lubricant of the library, or its table.
+        title : str, optional
+            Title of tables and figures.
+        contacts : str, optional
+            "solved", or "formula" for contacts from film-thickness formulas.
+        discharge, motor, solver, ranges : optional
+            Further tables, as in a bearing file.
+        **bearing
+            Keys of the table ``bearing``: floats in SI units, texts with units, or quantities of pint; see
+            ``ehlectric.cases.keywords.types.BearingKeys``.
+
+        Returns
+        -------
+        BearingCase
+            Case of the bearing.
+
+        Raises
+        ------
+        InputError
+            If a key is unknown or missing, or a value is not allowed.
+
+        Examples
+        --------
+        >>> BearingCase.of(
+        ...     base="6208",
+        ...     radial_clearance="10 um",
+        ...     radial_load="1 kN",
+        ...     inner_speed="3000 rpm",
+        ...     temperature="70 degC",
+        ...     composite_rq="0.03 um",
+        ...     lubricant={"base": "paper", "viscosity": "20 mPa s"},
+        ... )
+        <BearingCase 6208, radial load 1 kN, 3000 rpm, 70 degC>
+        """
+        given = tables(lubricant=lubricant, discharge=discharge, motor=motor, solver=solver, ranges=ranges)
+        return BearingCase.from_dict({"title": title, "contacts": contacts, "bearing": bearing, **given})
+
+    @classmethod
+    def from_toml(cls, path: str | Path) -> Self:
+        """Read a bearing case from a TOML file.
+
+        Parameters
+        ----------
+        path : str or Path
+            TOML file.
+
+        Returns
+        -------
+        BearingCase
+            Case with the values of the file, in SI units.
+
+        Raises
+        ------
+        InputError
+            If the file cannot be read, is not TOML, or is not a valid bearing case.
+        """
+        table = read_toml(path)
+        if "contact" in table and "bearing" not in table:
+            raise InputError(
+                path, "is the file of a contact", takes="that of a bearing; ehlectric run solves it"
+            )
+        return cls.from_written(table)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return all values that are set as nested tables, in SI units."""
+        return self.model_dump(mode="json", exclude_none=True)
+
+    def to_toml(self) -> str:
+        """Return the case as TOML text, which ``from_toml`` reads back to an equal case."""
+        import tomli_w
+
+        table = self.to_dict()
+        # A rotational speed without a unit is refused in a file.
+        table["bearing"]["inner_speed"] = f"{self.bearing.inner_speed!r} {ROTATION}"
+        return tomli_w.dumps(table)
+
+    def replace(self, changes: Mapping[str, Any] | None = None, /, **tables: Any) -> Self:
+        """Return a changed copy of the case; the title stays unless a new one is given.
+
+        A new key replaces its alternative. A new ``lubricant.base`` replaces all values of the lubricant, and
+        a new ``bearing.base`` all dimensions of the bearing. A range of a replaced value is left out.
+
+        Parameters
+        ----------
+        changes : mapping, optional
+            New values by dotted key, as in ``{"bearing.radial_load": "1 kN"}``.
+        **tables
+            New values by table, as in ``bearing={"radial_load": "1 kN"}``, or by key of the case, as in
+            ``title="A"``. Other keys of a table stay; ``ranges`` is replaced as a whole.
+
+        Returns
+        -------
+        BearingCase
+            Case with the new values.
+
+        Raises
+        ------
+        InputError
+            If a key is unknown, or the changed case is not valid.
+        """
+        refuse_deep({**tables, "changes": changes})
+        changes = _with_class(_flat_changes(tables) | dict(changes or {}))
+        table = self.to_dict()
+        if "lubricant.base" in changes:
+            table["lubricant"] = {}
+        if changes.get("bearing.base") is not None:
+            _drop_dimensions(table["bearing"])
+        if changes.get("bearing.coating.base") is not None:
+            _drop_coating(table["bearing"])
+        displace_oil(table["lubricant"], nested(changes, "lubricant"))
+        displace(table, changes, _ALTERNATIVES)
+        set_keys(table, changes)
+        if "ranges" in table and "ranges" not in changes:
+            table["ranges"] = {
+                key: ends
+                for key, ends in table["ranges"].items()
+                if key not in changes and is_number(value_at(table, key))
+            }
+        if table["bearing"].get("clearance_class") is not None and "bearing.radial_clearance" not in changes:
+            # It follows from the class, and anew where the class or the bore changes.
+            table["bearing"].pop("radial_clearance", None)
+        return self.from_dict(table)
+
+
+def _flat_changes(tables: Mapping[str, Any]) -> dict[str, Any]:
+    """New values by dotted key; ``ranges``, whose own keys are dotted, stays a table."""
+    ranges = {"ranges": tables["ranges"]} if "ranges" in tables else {}
+    return flattened({name: table for name, table in tables.items() if name != "ranges"}) | ranges
+
+
+def _with_class(changes: dict[str, Any]) -> dict[str, Any]:
+    """Changes with a clearance class that is given as ``radial_clearance`` in its own key, beside fits."""
+    key = "bearing.radial_clearance"
+    named = with_class({"radial_clearance": changes.get(key)}).get("clearance_class")
+    if named is None:
+        return changes
+    rest = {name: value for name, value in changes.items() if name != key}
+    return rest | {"bearing.clearance_class": named}
+
+
+def _drop_dimensions(bearing: dict[str, Any]) -> None:
+    """Remove the dimensions of a bearing, and all else that its base in the library gives."""
+    own = library.bearing(bearing["base"]) if bearing.get("base") else {}
+    for key in {*_DIMENSIONS, *own}:
+        bearing.pop(key, None)
+
+
+def _drop_coating(bearing: dict[str, Any]) -> None:
+    """Remove the values of a coating that are those of its base in the library."""
+    coating = bearing.get("coating", {})
+    if coating.get("base"):
+        for key in library.coating(coating["base"]):
+            coating.pop(key, None)

@@ -1,0 +1,1 @@
+"""Figures of measurements beside computed values."""

@@ -1,0 +1,318 @@
+"""Viscosity over pressure and temperature from the free volume, after Doolittle, with Tait's volume."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ehlectric.arrays import Array
+from ehlectric.errors import InputError, ResultWarning
+from ehlectric.lubricant.equation_of_state import LEAST_VOLUME, TAIT, tait, tait_pressure
+from ehlectric.lubricant.glass import GLASS_VISCOSITY, glass_warnings
+from ehlectric.lubricant.law import Law, Parameter, required, within
+
+_NAME = "viscosity_law 'doolittle'"
+
+
+def doolittle(
+    pressure: ArrayLike,
+    temperature: ArrayLike | None = None,
+    *,
+    doolittle_viscosity: float,
+    doolittle_b: float,
+    doolittle_r0: float,
+    doolittle_epsilon: float,
+    tait_k0_prime: float,
+    tait_k00: float,
+    tait_beta_k: float,
+    tait_expansion: float,
+    reference_temperature: float,
+) -> tuple[Array, Array]:
+    """Logarithm of the relative viscosity after Doolittle's free-volume law, and its derivative by pressure.
+
+    eta = eta_R exp(B R0 (w/(v - R0 w) - 1/(1 - R0))), with the volume v = V/V_R of Tait's equation and the
+    occupied volume w = 1 + epsilon (T - T_R), both over their values at the reference temperature T_R.
+
+    Parameters
+    ----------
+    pressure : array_like, shape (...)
+        Pressure p [Pa], >= 0.
+    temperature : array_like
+        Temperature T [K].
+    doolittle_viscosity : float
+        Viscosity eta_R at zero pressure and the reference temperature [Pa s].
+    doolittle_b : float
+        Doolittle's constant B, dimensionless.
+    doolittle_r0 : float
+        Occupied volume over the volume at zero pressure and the reference temperature, R0, dimensionless.
+    doolittle_epsilon : float
+        Thermal expansion epsilon of the occupied volume [1/K].
+    tait_k0_prime, tait_k00, tait_beta_k : float
+        Parameters of Tait's equation, see ``equation_of_state.tait``.
+    tait_expansion : float
+        Thermal expansion a_V of the volume at zero pressure [1/K]: V/V_R = (1 + a_V (T - T_R)) V/V0.
+    reference_temperature : float
+        Reference temperature T_R [K].
+
+    Returns
+    -------
+    exponent, slope : ndarray, shape (...)
+        ln(eta/eta0), dimensionless, with the viscosity eta0 of ``doolittle_ambient``, and its derivative by
+        pressure [1/Pa].
+
+    Raises
+    ------
+    InputError
+        If the temperature is missing, or the oil is a glass at it and at zero pressure.
+
+    Notes
+    -----
+    A. K. Doolittle, J. Appl. Phys. 22 (1951) 1471, doi:10.1063/1.1699894, in the form of S. Bair,
+    High-Pressure Rheology for Quantitative Elastohydrodynamics, Elsevier, 2007, as later works quote it. The
+    law has a pole where the free volume v - R0 w vanishes. The viscosity is held at 1e12 Pa s, with a slope
+    of zero, which is before the pole.
+
+    Examples
+    --------
+    >>> oil = dict(doolittle_viscosity=0.0348, doolittle_b=4.336, doolittle_r0=0.6988)
+    >>> oil |= dict(doolittle_epsilon=-7.679e-4, tait_k0_prime=10.4, tait_k00=9e9, tait_beta_k=6e-3)
+    >>> oil |= dict(tait_expansion=8e-4, reference_temperature=323.15)
+    >>> exponent, slope = doolittle([0.0, 0.5e9, 3e9], 323.15, **oil)
+    >>> exponent.round(2).tolist(), round(float(slope[0]) * 1e9, 1)
+    ([0.0, 9.71, 30.99], 25.8)
+    """
+    state = {"tait_k0_prime": tait_k0_prime, "tait_k00": tait_k00, "tait_beta_k": tait_beta_k}
+    state |= {"tait_expansion": tait_expansion, "reference_temperature": reference_temperature}
+    oil = _Doolittle(doolittle_viscosity, doolittle_b, doolittle_r0, doolittle_epsilon, state)
+    warmer = oil.warmer(temperature)
+    density, density_slope = tait(pressure, temperature, **state)
+    occupied, ambient = oil.occupied(warmer), oil.expanded(warmer)
+    volume = ambient / density
+    limit = oil.least_free(occupied)
+    free = volume - doolittle_r0 * occupied
+    liquid = free > limit
+    free = np.maximum(free, limit)
+    free_ambient = ambient - doolittle_r0 * occupied
+    factor = doolittle_b * doolittle_r0 * occupied
+    # w/free - w/free0, without cancellation.
+    exponent = factor * (free_ambient - free) / (free * free_ambient)
+    return exponent, np.where(liquid, factor * volume / density * density_slope / free**2, 0.0)
+
+
+class _Doolittle:
+    """Volumes of Doolittle's law over the difference to the reference temperature."""
+
+    def __init__(
+        self, viscosity: float, b: float, r0: float, epsilon: float, state: Mapping[str, float]
+    ) -> None:
+        self.b, self.r0, self.epsilon, self.viscosity = b, r0, epsilon, viscosity
+        self.expansion, self.reference = state["tait_expansion"], state["reference_temperature"]
+
+    def occupied(self, warmer: Array) -> Array:
+        """Occupied volume w."""
+        return 1.0 + self.epsilon * warmer
+
+    def expanded(self, warmer: Array) -> Array:
+        """Volume v at zero pressure."""
+        return 1.0 + self.expansion * warmer
+
+    def share(self, viscosity: float | Array) -> Array:
+        """Occupied over free volume, w/(v - R0 w), at which the oil has a viscosity [Pa s]."""
+        return np.asarray(np.log(viscosity / self.viscosity) / (self.b * self.r0) + 1.0 / (1.0 - self.r0))
+
+    def least_free(self, occupied: Array) -> Array:
+        """Free volume v - R0 w at the glass transition."""
+        return occupied / self.share(GLASS_VISCOSITY)
+
+    def difference(self, viscosity: float | Array) -> Array:
+        """Difference to the reference temperature [K] at which the oil has a viscosity at zero pressure."""
+        share = self.share(viscosity)
+        slope = self.expansion - self.r0 * self.epsilon
+        return np.asarray((share * (1.0 - self.r0) - 1.0) / (self.epsilon - share * slope))
+
+    def warmer(self, temperature: ArrayLike | None) -> Array:
+        """Difference of a temperature to the reference temperature [K], where the oil is a liquid."""
+        at = required(temperature, _NAME)
+        if self.expansion <= self.epsilon:
+            raise InputError(
+                "doolittle_epsilon",
+                got=f"{self.epsilon:g} 1/K",
+                takes=f"less than tait_expansion, {self.expansion:g} 1/K: viscosity falls with temperature",
+            )
+        glass = self.reference + float(self.difference(GLASS_VISCOSITY))
+        most = self.reference - 1.0 / self.epsilon if self.epsilon < 0.0 else math.inf
+        within(at, _NAME, glass, most, "its glass transition at ambient pressure, and an occupied volume")
+        return at - self.reference
+
+
+def doolittle_ambient(
+    temperature: ArrayLike,
+    *,
+    doolittle_viscosity: float,
+    doolittle_b: float,
+    doolittle_r0: float,
+    doolittle_epsilon: float,
+    tait_k0_prime: float,
+    tait_k00: float,
+    tait_beta_k: float,
+    tait_expansion: float,
+    reference_temperature: float,
+) -> Array:
+    """Viscosity at zero pressure after Doolittle's free-volume law.
+
+    eta0 = eta_R exp(B R0 (w/(1 + a_V (T - T_R) - R0 w) - 1/(1 - R0))) with w = 1 + epsilon (T - T_R).
+
+    Parameters
+    ----------
+    temperature : array_like, shape (...)
+        Temperature T [K].
+    doolittle_viscosity, doolittle_b, doolittle_r0, doolittle_epsilon : float
+        Constants eta_R [Pa s], B, R0, dimensionless, and epsilon [1/K].
+    tait_expansion, reference_temperature : float
+        Thermal expansion a_V [1/K] and reference temperature T_R [K].
+    tait_k0_prime, tait_k00, tait_beta_k : float
+        Constants of the law at other pressures; not used.
+
+    Returns
+    -------
+    ndarray, shape (...)
+        Viscosity eta0 [Pa s].
+
+    Raises
+    ------
+    InputError
+        If the oil is a glass at the temperature.
+
+    Notes
+    -----
+    Sources of ``doolittle``.
+
+    Examples
+    --------
+    >>> oil = dict(doolittle_viscosity=0.0348, doolittle_b=4.336, doolittle_r0=0.6988)
+    >>> oil |= dict(doolittle_epsilon=-7.679e-4, tait_k0_prime=10.4, tait_k00=9e9, tait_beta_k=6e-3)
+    >>> oil |= dict(tait_expansion=8e-4, reference_temperature=323.15)
+    >>> doolittle_ambient([323.15, 353.15], **oil).round(4).tolist()
+    [0.0348, 0.0087]
+    """
+    state = {"tait_expansion": tait_expansion, "reference_temperature": reference_temperature}
+    oil = _Doolittle(doolittle_viscosity, doolittle_b, doolittle_r0, doolittle_epsilon, state)
+    warmer = oil.warmer(temperature)
+    occupied = oil.occupied(warmer)
+    share = occupied / (oil.expanded(warmer) - doolittle_r0 * occupied)
+    return np.asarray(
+        doolittle_viscosity * np.exp(doolittle_b * doolittle_r0 * (share - 1.0 / (1.0 - doolittle_r0)))
+    )
+
+
+def _coefficient(
+    temperature: ArrayLike,
+    *,
+    doolittle_viscosity: float,
+    doolittle_b: float,
+    doolittle_r0: float,
+    doolittle_epsilon: float,
+    **state: float,
+) -> Array:
+    """Temperature coefficient of the viscosity at zero pressure, -d ln(eta0)/dT [1/K]."""
+    oil = _Doolittle(doolittle_viscosity, doolittle_b, doolittle_r0, doolittle_epsilon, state)
+    warmer = oil.warmer(temperature)
+    free = oil.expanded(warmer) - doolittle_r0 * oil.occupied(warmer)
+    # w' v - w v' of the volumes at zero pressure does not depend on the temperature.
+    return np.asarray(doolittle_b * doolittle_r0 * (oil.expansion - doolittle_epsilon) / free**2)
+
+
+def _temperature(
+    viscosity: ArrayLike,
+    *,
+    doolittle_viscosity: float,
+    doolittle_b: float,
+    doolittle_r0: float,
+    doolittle_epsilon: float,
+    **state: float,
+) -> Array:
+    """Temperature [K] at which the oil has a viscosity [Pa s] at zero pressure."""
+    oil = _Doolittle(doolittle_viscosity, doolittle_b, doolittle_r0, doolittle_epsilon, state)
+    return oil.reference + oil.difference(np.asarray(viscosity, dtype=float))
+
+
+def _warnings(
+    max_pressure: float,
+    viscosity: float,
+    temperature: float | None = None,
+    *,
+    doolittle_viscosity: float,
+    doolittle_b: float,
+    doolittle_r0: float,
+    doolittle_epsilon: float,
+    tait_k0_prime: float,
+    tait_k00: float,
+    tait_beta_k: float,
+    tait_expansion: float,
+    reference_temperature: float,
+) -> Iterator[ResultWarning]:
+    """Warning about a Hertz pressure at which the oil is a glass."""
+    state = {"tait_k0_prime": tait_k0_prime, "tait_k00": tait_k00, "tait_beta_k": tait_beta_k}
+    state |= {"tait_expansion": tait_expansion, "reference_temperature": reference_temperature}
+    oil = _Doolittle(doolittle_viscosity, doolittle_b, doolittle_r0, doolittle_epsilon, state)
+    warmer = oil.warmer(temperature)
+    occupied = oil.occupied(warmer)
+    volume = float((doolittle_r0 * occupied + oil.least_free(occupied)) / oil.expanded(warmer))
+    cap = float(tait_pressure(1.0 / volume, temperature, **state)) if volume > LEAST_VOLUME else math.inf
+    yield from glass_warnings("doolittle", max_pressure, cap, f"{GLASS_VISCOSITY:g} Pa s")
+
+
+DOOLITTLE = Law(
+    doolittle,
+    (
+        Parameter(
+            "doolittle_viscosity",
+            "Pa*s",
+            title="Doolittle's reference viscosity",
+            symbol=r"$\eta_\mathrm{R}$",
+            meaning=r"$\eta_R$ of Doolittle's law, at ambient pressure and `reference_temperature`",
+            least=1e-6,
+            most=1e6,
+            reason="at ambient pressure",
+        ),
+        Parameter(
+            "doolittle_b",
+            "",
+            title="Doolittle's constant",
+            symbol="$B$",
+            meaning="$B$ of Doolittle's law",
+            least=0.1,
+            most=100.0,
+            reason="oils have 2 to 6",
+        ),
+        Parameter(
+            "doolittle_r0",
+            "",
+            title="occupied volume of Doolittle's law",
+            symbol="$R_0$",
+            meaning="$R_0$ of Doolittle's law, the occupied part of the volume at `reference_temperature`",
+            least=0.1,
+            most=0.99,
+            reason="oils have 0.6 to 0.75",
+        ),
+        Parameter(
+            "doolittle_epsilon",
+            "1/K",
+            title="expansion of the occupied volume of Doolittle's law",
+            symbol=r"$\epsilon$",
+            meaning=r"$\epsilon$ of Doolittle's law, the thermal expansion of the occupied volume",
+            least=-1e-2,
+            most=5e-3,
+            reason="oils have about -1e-3 1/K",
+        ),
+        *TAIT.parameters,
+    ),
+    warnings=_warnings,
+    needs_temperature=True,
+    atmospheric=doolittle_ambient,
+    coefficient=_coefficient,
+    inverse=_temperature,
+)

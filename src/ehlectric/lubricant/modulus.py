@@ -1,0 +1,151 @@
+"""Modulus law of viscosity over pressure and temperature, after Dicke and Gold."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ehlectric.arrays import Array
+from ehlectric.errors import InputError, ResultWarning
+from ehlectric.lubricant.glass import LARGEST_EXPONENT, glass_warnings
+from ehlectric.lubricant.law import Law, Parameter, required, within
+
+_NAME = "viscosity_law 'modulus'"
+
+
+def modulus(
+    pressure: ArrayLike,
+    temperature: ArrayLike | None = None,
+    *,
+    modulus_a1: float,
+    modulus_a2: float,
+    modulus_b1: float,
+    modulus_b2: float,
+) -> tuple[Array, Array]:
+    """Logarithm of the relative viscosity after the modulus equation, and its derivative by pressure.
+
+    ln(eta/eta0) = p/(A + B p) with A = a1 + a2 T and B = b1 + b2 T, with the viscosity eta0 at zero pressure.
+
+    Parameters
+    ----------
+    pressure : array_like, shape (...)
+        Pressure p [Pa], >= 0.
+    temperature : array_like
+        Temperature T [K].
+    modulus_a1, modulus_a2 : float
+        Constants a1 [Pa] and a2 [Pa/K], for temperatures in kelvin.
+    modulus_b1, modulus_b2 : float
+        Constants b1, dimensionless, and b2 [1/K], for temperatures in kelvin.
+
+    Returns
+    -------
+    exponent, slope : ndarray, shape (...)
+        ln(eta/eta0), dimensionless, and its derivative by pressure [1/Pa].
+
+    Raises
+    ------
+    InputError
+        If the temperature is missing, or A is not positive at it: viscosity would fall with pressure.
+
+    Notes
+    -----
+    Wingertszahn et al. (2023), doi:10.3390/lubricants11090369, table A1, with constants for a mineral oil.
+    For B > 0 the exponent tends to 1/B at high pressure, and for B < 0 the law has a pole at p = -A/B. The
+    exponent is held at 35, with a slope of zero, which is before a pole. An oil of 1 mPa s has 1.6e12 Pa s
+    there.
+
+    Examples
+    --------
+    >>> fva3 = dict(modulus_a1=-4.879e7, modulus_a2=2.9862e5, modulus_b1=-0.07784, modulus_b2=3.0115e-4)
+    >>> exponent, slope = modulus([0.0, 1e9], 313.15, **fva3)
+    >>> (exponent.round(2) + 0.0).tolist(), round(float(slope[0]) * 1e9, 1)
+    ([0.0, 16.34], 22.4)
+    """
+    p = np.asarray(pressure, dtype=float)
+    a, b = _constants(temperature, modulus_a1, modulus_a2, modulus_b1, modulus_b2)
+    # p (1 - 35 B) = 35 A is the pressure of the cap.
+    below = p * (1.0 - LARGEST_EXPONENT * b) < LARGEST_EXPONENT * a
+    total = np.where(below, a + b * p, 1.0)
+    return np.where(below, p / total, LARGEST_EXPONENT), np.where(below, a / total**2, 0.0)
+
+
+def _constants(
+    temperature: ArrayLike | None, a1: float, a2: float, b1: float, b2: float
+) -> tuple[Array, Array]:
+    """A [Pa] and B at a temperature at which the viscosity rises with pressure."""
+    at = required(temperature, _NAME)
+    reason = "the viscosity does not rise with pressure outside it"
+    within(at, _NAME, -a1 / a2 if a2 > 0.0 else -math.inf, -a1 / a2 if a2 < 0.0 else math.inf, reason)
+    if a2 == 0.0 and a1 <= 0.0:
+        raise InputError("modulus_a1", got=f"{a1:g} Pa", takes="above 0 Pa where modulus_a2 is 0 Pa/K")
+    return a1 + a2 * at, b1 + b2 * at
+
+
+def _warnings(
+    max_pressure: float,
+    viscosity: float,
+    temperature: float | None = None,
+    *,
+    modulus_a1: float,
+    modulus_a2: float,
+    modulus_b1: float,
+    modulus_b2: float,
+) -> Iterator[ResultWarning]:
+    """Warning about a Hertz pressure above the cap of the law."""
+    a, b = _constants(temperature, modulus_a1, modulus_a2, modulus_b1, modulus_b2)
+    share = 1.0 - LARGEST_EXPONENT * float(b)
+    cap = LARGEST_EXPONENT * float(a) / share if share > 0.0 else math.inf
+    limit = f"{math.exp(LARGEST_EXPONENT) * viscosity:.1g} Pa s"
+    yield from glass_warnings("modulus", max_pressure, cap, limit)
+
+
+MODULUS = Law(
+    modulus,
+    (
+        Parameter(
+            "modulus_a1",
+            "Pa",
+            title="first constant of the modulus law",
+            symbol="$a_1$",
+            meaning="$a_1$ of the modulus law, for temperatures in kelvin",
+            least=-1e9,
+            most=1e9,
+            reason="mineral oils have about -50 MPa with temperatures in kelvin",
+        ),
+        Parameter(
+            "modulus_a2",
+            "Pa/K",
+            title="second constant of the modulus law",
+            symbol="$a_2$",
+            meaning="$a_2$ of the modulus law",
+            least=-1e7,
+            most=1e7,
+            reason="mineral oils have about 0.3 MPa/K",
+        ),
+        Parameter(
+            "modulus_b1",
+            "",
+            title="third constant of the modulus law",
+            symbol="$b_1$",
+            meaning="$b_1$ of the modulus law, for temperatures in kelvin",
+            least=-1.0,
+            most=1.0,
+            reason="mineral oils have about -0.08 with temperatures in kelvin",
+        ),
+        Parameter(
+            "modulus_b2",
+            "1/K",
+            title="fourth constant of the modulus law",
+            symbol="$b_2$",
+            meaning="$b_2$ of the modulus law",
+            least=-1e-2,
+            most=1e-2,
+            reason="mineral oils have about 3e-4 1/K",
+        ),
+    ),
+    warnings=_warnings,
+    needs_temperature=True,
+)

@@ -1,0 +1,222 @@
+"""Oil at one temperature: its numbers, and its laws as functions of pressure."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ehlectric.arrays import Array
+from ehlectric.errors import ResultWarning
+from ehlectric.lubricant.alpha import initial_alpha, reciprocal_asymptotic_alpha, unfinished_share
+from ehlectric.lubricant.law import PressureLaw
+
+# What the laws of an oil describe, in the order of files.
+LAW_NAMES = (
+    *("atmospheric", "viscosity", "density", "permittivity", "conductivity"),
+    *("thermal_conductivity", "heat_capacity", "strength"),
+)
+
+# Share of the integral of alpha* beyond its end above which a warning tells that it has no definite value.
+_UNFINISHED = 0.01
+
+# Permittivity as a function of pressure [Pa] and density ratio.
+Permittivity = Callable[[ArrayLike, ArrayLike], Array]
+
+
+@dataclass(frozen=True)
+class BoundLaw:
+    """Law with the parameters of an oil, at the temperature of the oil unless another one is given.
+
+    Attributes
+    ----------
+    function : callable
+        Function of the law.
+    parameters : mapping
+        Values of its parameters by name, SI units.
+    temperature : float or None
+        Temperature of the oil [K]; None if the case gives none.
+
+    Examples
+    --------
+    >>> from ehlectric.lubricant.viscosity import barus
+    >>> law = BoundLaw(barus, {"pressure_viscosity_coefficient": 2e-8}, 313.15)
+    >>> float(law(1e9)[0])
+    20.0
+    """
+
+    function: Callable[..., Any]
+    parameters: Mapping[str, float]
+    temperature: float | None = None
+
+    def __call__(self, argument: ArrayLike, temperature: ArrayLike | None = None, /) -> Any:
+        """Value of the law at a pressure [Pa] or a density ratio, and at a temperature [K]."""
+        at = self.temperature if temperature is None else temperature
+        return self.function(argument, at, **self.parameters)
+
+
+@dataclass(frozen=True)
+class OfDensity:
+    """Permittivity of a law over density ratio, as a function of pressure and density ratio.
+
+    Attributes
+    ----------
+    law : callable
+        Relative permittivity as a function of the density ratio.
+    """
+
+    law: Callable[[ArrayLike], Array]
+
+    def __call__(self, pressure: ArrayLike, density_ratio: ArrayLike) -> Array:  # noqa: ARG002
+        """Relative permittivity at a density ratio; the pressure acts only through it."""
+        return self.law(density_ratio)
+
+
+@dataclass(frozen=True)
+class RangeCheck:
+    """Check of a law's range in a contact, with the parameters of an oil.
+
+    Attributes
+    ----------
+    function : callable
+        Function ``warnings`` of the law.
+    viscosity : float
+        Viscosity of the oil at zero pressure [Pa s].
+    parameters : mapping
+        Values of the parameters by name, SI units.
+    temperature : float or None
+        Temperature of the oil [K]; None if the case gives none.
+    of : str
+        What the law describes, one of ``LAW_NAMES``.
+    """
+
+    function: Callable[..., Iterator[ResultWarning]]
+    viscosity: float
+    parameters: Mapping[str, float]
+    temperature: float | None = None
+    of: str = ""
+
+    def __call__(self, max_pressure: float) -> Iterator[ResultWarning]:
+        """Warnings about the law in a contact with this Hertz pressure [Pa]."""
+        yield from self.function(max_pressure, self.viscosity, self.temperature, **self.parameters)
+
+
+@dataclass(frozen=True, eq=False)
+class Oil:
+    """Oil at one temperature.
+
+    Attributes
+    ----------
+    viscosity : float
+        Viscosity eta0 at zero pressure [Pa s].
+    relative_permittivity : float
+        Relative permittivity at zero pressure, dimensionless.
+    ambient_pressure : float
+        Pressure around the contact [Pa].
+    log_viscosity : callable
+        ln(eta/eta0) and its derivative by pressure [1/Pa], as a function of the pressure [Pa].
+    density_ratio : callable
+        Density over that at zero pressure, and its derivative [1/Pa], as a function of the pressure [Pa].
+    permittivity : callable
+        Relative permittivity as a function of the pressure [Pa] and of the density ratio.
+    laws : mapping of str to str
+        Names of the laws by "viscosity", "density", "permittivity" and others that the oil has.
+    checks : tuple of callable
+        Checks of the laws' ranges: each yields warnings about a contact with a Hertz pressure [Pa].
+    film_checks : tuple of callable
+        Checks that yield warnings about a solved film with a maximum pressure [Pa].
+    inputs : mapping
+        Keys of the case from which the oil is made, SI units, for files.
+    name : str
+        Name of the oil in the library; empty for an oil of the user's own.
+    temperature : float or None
+        Temperature [K]; None if the case gives none.
+    density, conductivity : float or None
+        Density [kg/m^3] and electrical conductivity [S/m] at zero pressure; None where they are not known.
+    thermal_conductivity_law, heat_capacity_law : callable or None
+        Thermal conductivity [W/(m K)] and volumetric heat capacity [J/(m^3 K)], each with its derivative by
+        pressure, as functions of the pressure [Pa]; None where they are not known.
+
+    Examples
+    --------
+    >>> from ehlectric.lubricant.density import incompressible
+    >>> from ehlectric.lubricant.permittivity import constant_permittivity
+    >>> from ehlectric.lubricant.viscosity import barus
+    >>> eps = OfDensity(BoundLaw(constant_permittivity, {"relative_permittivity": 2.2}))
+    >>> law = BoundLaw(barus, {"pressure_viscosity_coefficient": 2e-8})
+    >>> oil = Oil(0.04, 2.2, 1e5, law, BoundLaw(incompressible, {}), eps)
+    >>> oil.alpha, round(oil.alpha_star * 1e9, 6)
+    (2e-08, 20.0)
+    """
+
+    viscosity: float
+    relative_permittivity: float
+    ambient_pressure: float
+    log_viscosity: PressureLaw
+    density_ratio: PressureLaw
+    permittivity: Permittivity
+    laws: Mapping[str, str] = field(default_factory=dict)
+    checks: tuple[Callable[[float], Iterator[ResultWarning]], ...] = ()
+    film_checks: tuple[Callable[[float], Iterator[ResultWarning]], ...] = ()
+    inputs: Mapping[str, Any] = field(default_factory=dict)
+    name: str = ""
+    temperature: float | None = None
+    density: float | None = None
+    conductivity: float | None = None
+    thermal_conductivity_law: PressureLaw | None = None
+    heat_capacity_law: PressureLaw | None = None
+
+    def warnings(self, max_pressure: float) -> Iterator[ResultWarning]:
+        """Warnings about the laws in a contact with this Hertz pressure [Pa]."""
+        for check in self.checks:
+            yield from check(max_pressure)
+        if unfinished_share(self.log_viscosity) > _UNFINISHED:
+            name = self.laws.get("viscosity", "")
+            yield ResultWarning(
+                "law-range",
+                f"viscosity_law {name!r} hardly rises at high pressure, so that alpha* has no definite "
+                "value; film formulas and Moes' L are not for such an oil: use the solved film",
+            )
+
+    @cached_property
+    def alpha(self) -> float:
+        """Pressure-viscosity coefficient alpha, the slope of ln(eta) at zero pressure [1/Pa]."""
+        return initial_alpha(self.log_viscosity)
+
+    @cached_property
+    def alpha_star(self) -> float:
+        """Reciprocal asymptotic pressure-viscosity coefficient alpha* [1/Pa]; film formulas take it."""
+        return reciprocal_asymptotic_alpha(self.log_viscosity)
+
+    def summary(self) -> dict[str, Any]:
+        """Numbers of the oil at zero pressure, SI units, and names of its laws, for summary.json."""
+        return {
+            "name": self.name or None,
+            "temperature": self.temperature,
+            "viscosity": self.viscosity,
+            "pressure_viscosity_coefficient": self.alpha,
+            "alpha_star": self.alpha_star,
+            "density": self.density,
+            "relative_permittivity": self.relative_permittivity,
+            "conductivity": self.conductivity,
+            "laws": {name: self.laws.get(name) for name in LAW_NAMES},
+        }
+
+    @property
+    def thermal_conductivity(self) -> float | None:
+        """Thermal conductivity at zero pressure [W/(m K)]; None where it is not known."""
+        return None if self.thermal_conductivity_law is None else _at_zero(self.thermal_conductivity_law)
+
+    @property
+    def heat_capacity(self) -> float | None:
+        """Volumetric heat capacity at zero pressure [J/(m^3 K)]; None where it is not known."""
+        return None if self.heat_capacity_law is None else _at_zero(self.heat_capacity_law)
+
+
+def _at_zero(law: PressureLaw) -> float:
+    """Value of a law at zero pressure."""
+    return float(law(np.zeros(1))[0][0])

@@ -1,0 +1,304 @@
+"""Viscosity over pressure and temperature from the distance to the glass transition, after Yasutomi."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ehlectric.arrays import Array
+from ehlectric.errors import InputError, ResultWarning
+from ehlectric.lubricant.glass import glass_warnings
+from ehlectric.lubricant.law import Law, Parameter, refused, required, within
+
+_NAME = "viscosity_law 'yasutomi'"
+
+_LN_10 = math.log(10.0)
+
+
+def yasutomi(
+    pressure: ArrayLike,
+    temperature: ArrayLike | None = None,
+    *,
+    yasutomi_glass_viscosity: float,
+    yasutomi_glass_temperature: float,
+    yasutomi_a1: float,
+    yasutomi_a2: float,
+    yasutomi_b1: float,
+    yasutomi_b2: float,
+    yasutomi_c1: float,
+    yasutomi_c2: float,
+) -> tuple[Array, Array]:
+    """Logarithm of the relative viscosity after the improved Yasutomi law, and its derivative by pressure.
+
+    eta = eta_g exp(-2.303 C1 (T - Tg) F/(C2 + (T - Tg) F)) with the glass transition temperature
+    Tg = Tg0 + A1 ln(1 + A2 p) and the relative thermal expansion F = (1 + b1 p)^b2 of the free volume.
+
+    Parameters
+    ----------
+    pressure : array_like, shape (...)
+        Pressure p [Pa], >= 0.
+    temperature : array_like
+        Temperature T [K].
+    yasutomi_glass_viscosity : float
+        Viscosity eta_g at the glass transition [Pa s].
+    yasutomi_glass_temperature : float
+        Glass transition temperature Tg0 at zero pressure [K].
+    yasutomi_a1, yasutomi_a2 : float
+        Constants A1 [K], a difference of temperatures, and A2 [1/Pa].
+    yasutomi_b1, yasutomi_b2 : float
+        Constants b1 [1/Pa] and b2, dimensionless, <= 0.
+    yasutomi_c1, yasutomi_c2 : float
+        Constants C1, dimensionless, and C2 [K], a difference of temperatures.
+
+    Returns
+    -------
+    exponent, slope : ndarray, shape (...)
+        ln(eta/eta0), dimensionless, with the viscosity eta0 of ``yasutomi_viscosity``, and its derivative by
+        pressure [1/Pa].
+
+    Raises
+    ------
+    InputError
+        If the temperature is missing, or not above the glass transition at zero pressure.
+
+    Notes
+    -----
+    S. Yasutomi, S. Bair and W. O. Winer, J. Tribol. 106 (1984) 291, with the function F of the improved law
+    of S. Bair and others (2013), as later works quote both. The original law has F = 1 - B1 ln(1 + B2 p), and
+    its constants are not those of this one. The number 2.303 of the printed law is ln 10. Below the glass
+    transition the law has a pole. There the viscosity is held at eta_g, with a slope of zero.
+
+    Examples
+    --------
+    >>> oil = dict(yasutomi_glass_viscosity=1e12, yasutomi_glass_temperature=189.95, yasutomi_a1=188.86)
+    >>> oil |= dict(yasutomi_a2=0.719e-9, yasutomi_b1=8.2e-9, yasutomi_b2=-0.5278)
+    >>> oil |= dict(yasutomi_c1=16.09, yasutomi_c2=17.38)
+    >>> exponent, slope = yasutomi([0.0, 0.5e9, 1.5e9], 298.15, **oil)
+    >>> exponent.round(2).tolist(), round(float(slope[0]) * 1e9, 1)
+    ([0.0, 11.54, 31.92], 24.7)
+    """
+    p, at = np.asarray(pressure, dtype=float), _above_glass(temperature, yasutomi_glass_temperature)
+    distance = at - yasutomi_glass_temperature - yasutomi_a1 * np.log1p(yasutomi_a2 * p)
+    liquid = distance > 0.0
+    free = (1.0 + yasutomi_b1 * p) ** yasutomi_b2
+    reduced = np.maximum(distance, 0.0) * free
+    free_slope = free * yasutomi_b2 * yasutomi_b1 / (1.0 + yasutomi_b1 * p)
+    fall = yasutomi_a1 * yasutomi_a2 / (1.0 + yasutomi_a2 * p)
+    reduced_slope = np.where(liquid, distance * free_slope - fall * free, 0.0)
+    ambient = at - yasutomi_glass_temperature
+    # The difference of x/(C2 + x) at both pressures, without cancellation.
+    gap = yasutomi_c2 * (ambient - reduced) / ((yasutomi_c2 + ambient) * (yasutomi_c2 + reduced))
+    steep = yasutomi_c2 / (yasutomi_c2 + reduced) ** 2
+    factor = _LN_10 * yasutomi_c1
+    return factor * gap, -factor * steep * reduced_slope
+
+
+def yasutomi_viscosity(
+    temperature: ArrayLike,
+    *,
+    yasutomi_glass_viscosity: float,
+    yasutomi_glass_temperature: float,
+    yasutomi_a1: float,
+    yasutomi_a2: float,
+    yasutomi_b1: float,
+    yasutomi_b2: float,
+    yasutomi_c1: float,
+    yasutomi_c2: float,
+) -> Array:
+    """Viscosity at zero pressure after Yasutomi, eta0 = eta_g exp(-2.303 C1 (T - Tg0)/(C2 + T - Tg0)).
+
+    Parameters
+    ----------
+    temperature : array_like, shape (...)
+        Temperature T [K].
+    yasutomi_glass_viscosity, yasutomi_glass_temperature, yasutomi_c1, yasutomi_c2 : float
+        Constants eta_g [Pa s], Tg0 [K], C1, dimensionless, and C2 [K].
+    yasutomi_a1, yasutomi_a2, yasutomi_b1, yasutomi_b2 : float
+        Constants of the law at other pressures; not used.
+
+    Returns
+    -------
+    ndarray, shape (...)
+        Viscosity eta0 [Pa s].
+
+    Raises
+    ------
+    InputError
+        If the temperature is not above the glass transition.
+
+    Notes
+    -----
+    Sources of ``yasutomi``.
+
+    Examples
+    --------
+    >>> oil = dict(yasutomi_glass_viscosity=1e12, yasutomi_glass_temperature=189.95, yasutomi_a1=188.86)
+    >>> oil |= dict(yasutomi_a2=0.719e-9, yasutomi_b1=8.2e-9, yasutomi_b2=-0.5278)
+    >>> oil |= dict(yasutomi_c1=16.09, yasutomi_c2=17.38)
+    >>> round(float(yasutomi_viscosity(298.15, **oil)) * 1e3, 1)
+    13.7
+    """
+    distance = _above_glass(temperature, yasutomi_glass_temperature) - yasutomi_glass_temperature
+    exponent = -_LN_10 * yasutomi_c1 * distance / (yasutomi_c2 + distance)
+    return np.asarray(yasutomi_glass_viscosity * np.exp(exponent))
+
+
+def _above_glass(temperature: ArrayLike | None, glass: float) -> Array:
+    """Temperature [K] above the glass transition at zero pressure."""
+    at = required(temperature, _NAME)
+    within(at, _NAME, glass, math.inf, "its glass transition at ambient pressure")
+    return at
+
+
+def _coefficient(
+    temperature: ArrayLike,
+    *,
+    yasutomi_glass_temperature: float,
+    yasutomi_c1: float,
+    yasutomi_c2: float,
+    **_others: float,
+) -> Array:
+    """Temperature coefficient of the viscosity at zero pressure, -d ln(eta0)/dT [1/K]."""
+    distance = _above_glass(temperature, yasutomi_glass_temperature) - yasutomi_glass_temperature
+    return np.asarray(_LN_10 * yasutomi_c1 * yasutomi_c2 / (yasutomi_c2 + distance) ** 2)
+
+
+def _temperature(
+    viscosity: ArrayLike,
+    *,
+    yasutomi_glass_viscosity: float,
+    yasutomi_glass_temperature: float,
+    yasutomi_c1: float,
+    yasutomi_c2: float,
+    **_others: float,
+) -> Array:
+    """Temperature [K] at which the oil has a viscosity [Pa s] at zero pressure."""
+    eta = np.asarray(viscosity, dtype=float)
+    exponent = np.log(yasutomi_glass_viscosity / eta)
+    most = _LN_10 * yasutomi_c1
+    if wrong := refused(eta, (exponent > 0.0) & (exponent < most), "Pa s"):
+        raise InputError(
+            "viscosity",
+            got=f"{wrong};",
+            takes=f"{yasutomi_glass_viscosity * math.exp(-most):.3g} to {yasutomi_glass_viscosity:g} Pa s, "
+            f"the range of {_NAME}",
+        )
+    return np.asarray(yasutomi_glass_temperature + yasutomi_c2 * exponent / (most - exponent))
+
+
+def _warnings(
+    max_pressure: float,
+    viscosity: float,
+    temperature: float | None = None,
+    *,
+    yasutomi_glass_viscosity: float,
+    yasutomi_glass_temperature: float,
+    yasutomi_a1: float,
+    yasutomi_a2: float,
+    yasutomi_b1: float,
+    yasutomi_b2: float,
+    yasutomi_c1: float,
+    yasutomi_c2: float,
+) -> Iterator[ResultWarning]:
+    """Warning about a Hertz pressure at which the oil is a glass."""
+    distance = float(_above_glass(temperature, yasutomi_glass_temperature)) - yasutomi_glass_temperature
+    ratio = distance / yasutomi_a1
+    cap = math.expm1(ratio) / yasutomi_a2 if ratio < 100.0 else math.inf
+    yield from glass_warnings("yasutomi", max_pressure, cap, f"{yasutomi_glass_viscosity:.1g} Pa s")
+
+
+YASUTOMI = Law(
+    yasutomi,
+    (
+        Parameter(
+            "yasutomi_glass_viscosity",
+            "Pa*s",
+            title="viscosity at the glass transition",
+            symbol=r"$\eta_\mathrm{g}$",
+            meaning=r"$\eta_g$ of Yasutomi's law, the viscosity at the glass transition",
+            least=1e3,
+            most=1e15,
+            reason="1e12 Pa s by the usual definition",
+        ),
+        Parameter(
+            "yasutomi_glass_temperature",
+            "K",
+            title="glass transition temperature",
+            symbol=r"$T_\mathrm{g0}$",
+            meaning="$T_{g0}$ of Yasutomi's law, the glass transition temperature at ambient pressure",
+            least=50.0,
+            most=500.0,
+            reason="absolute; an oil has 180 to 250 K",
+        ),
+        Parameter(
+            "yasutomi_a1",
+            "K",
+            title="Yasutomi's constant $A_1$",
+            symbol="$A_1$",
+            meaning="$A_1$ of Yasutomi's law, a difference of temperatures",
+            least=1.0,
+            most=2000.0,
+            reason="oils have 20 to 400 K",
+            difference=True,
+        ),
+        Parameter(
+            "yasutomi_a2",
+            "1/Pa",
+            title="Yasutomi's constant $A_2$",
+            symbol="$A_2$",
+            meaning="$A_2$ of Yasutomi's law",
+            least=1e-12,
+            most=1e-7,
+            reason="oils have 0.3 to 5 1/GPa",
+        ),
+        Parameter(
+            "yasutomi_b1",
+            "1/Pa",
+            title="Yasutomi's constant $b_1$",
+            symbol="$b_1$",
+            meaning="$b_1$ of Yasutomi's law",
+            least=1e-12,
+            most=1e-6,
+            reason="oils have 3 to 30 1/GPa",
+        ),
+        Parameter(
+            "yasutomi_b2",
+            "",
+            title="Yasutomi's constant $b_2$",
+            symbol="$b_2$",
+            meaning="$b_2$ of Yasutomi's law, an exponent of at most zero",
+            least=-3.0,
+            most=0.0,
+            reason="oils have -0.6 to -0.1",
+        ),
+        Parameter(
+            "yasutomi_c1",
+            "",
+            title="Yasutomi's constant $C_1$",
+            symbol="$C_1$",
+            meaning="$C_1$ of Yasutomi's law",
+            least=1.0,
+            most=50.0,
+            reason="oils have 15 to 17",
+        ),
+        Parameter(
+            "yasutomi_c2",
+            "K",
+            title="Yasutomi's constant $C_2$",
+            symbol="$C_2$",
+            meaning="$C_2$ of Yasutomi's law, a difference of temperatures",
+            least=0.1,
+            most=1000.0,
+            reason="oils have 10 to 50 K",
+            difference=True,
+        ),
+    ),
+    warnings=_warnings,
+    needs_temperature=True,
+    atmospheric=yasutomi_viscosity,
+    coefficient=_coefficient,
+    inverse=_temperature,
+)

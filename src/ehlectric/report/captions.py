@@ -1,0 +1,85 @@
+"""Captions of the figures of a report: what each figure shows, in a sentence."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import MappingProxyType
+
+from ehlectric.figures.names import with_units_kept
+
+# Captions of figures by the names of their files without the ending.
+CAPTIONS: Mapping[str, str] = MappingProxyType(
+    {
+        # Line contacts
+        "film": "Pressure and film thickness along the contact, from the inlet to the outlet.",
+        "field_strength": "Map of the electric field strength in the film, between both surfaces.",
+        "field_profiles": "Field strength along the film, on both walls and at mid-film.",
+        # Point contacts
+        "film_map": "Film thickness, with contours and the position of the minimum.",
+        "pressure_map": "Pressure, and where the film cavitates.",
+        "field_map": "Field strength at mid-film, the contour at 95 % of its maximum, and the position of "
+        "the maximum.",
+        "field_sections": "Sections of the film along and across entrainment through the maximum field, "
+        "coloured by the field strength.",
+        "cuts": "Pressure, film and field along and across entrainment, through the centre and through the "
+        "minimum film.",
+        # Contacts of both kinds
+        "field_deviation": "Deviation of the field strength from voltage divided by film thickness, the "
+        "usual estimate.",
+        "roughness": "Roughness of the surfaces, and the change of the film that it causes.",
+        "breakdown": "Voltage at which the film breaks down, over the position in the contact.",
+        "meter": "Capacitance that a meter reads, collected up to a distance from the contact.",
+        # Moving roughness
+        "motion_history": "Minimum film, maximum field and its position, over time.",
+        "motion_maps": "Film, pressure and field over position and time, with lines of the mean speed and of "
+        "the speed of the rough surface.",
+        "motion_beside_stationary": "Film, pressure and field of moving and of stationary roughness at the "
+        "instant of the same position.",
+        # Bearings
+        "bearing_loads": "Load and minimum film of the contacts around the bearing.",
+        "bearing_circuit": "Electrical circuit of the bearing in its drive, with the capacitances and "
+        "voltages.",
+        "bearing_pitch": "Capacitance and breakdown voltages while the cage moves by one pitch.",
+        "bearing_impedance": "Magnitude and phase of the impedance of the bearing over frequency.",
+        "capacitance_over_speed": "Capacitance of the bearing over the speed of the shaft, with contacts by "
+        "formula, scaled to the result.",
+        "breakdown_over_speed": "First breakdown voltage and shaft voltage over the speed of the shaft, with "
+        "contacts by formula, scaled to the result.",
+        # Sweeps
+        "sensitivity": "Share of the spread that each varied input contributes, with confidence intervals.",
+    }
+)
+
+# Captions of maps and lines of a sweep, which are named by the value that they show.
+_OF_SWEEPS = (
+    (
+        "map_",
+        "Map of the value over the varied inputs, with every point; points without a usable film are marked.",
+    ),
+    ("lines_", "Lines of the value over the varied inputs; points without a usable film are left out."),
+)
+
+# Sentence below each figure of a result that is not converged.
+UNCONVERGED = "NOT CONVERGED: the figure shows no solution; do not use it."
+
+
+def caption_of(name: str, *, converged: bool) -> str:
+    """Caption of a figure; that of a result that is not converged says so.
+
+    Parameters
+    ----------
+    name : str
+        Name of the figure, without the ending of a file.
+    converged : bool
+        Whether the result is converged.
+
+    Examples
+    --------
+    >>> caption_of("film_map", converged=True)
+    'Film thickness, with contours and the position of the minimum.'
+    """
+    text = CAPTIONS.get(name, "")
+    for start, caption in _OF_SWEEPS:
+        if name.startswith(start):
+            text = caption
+    return " ".join(filter(None, ["" if converged else UNCONVERGED, with_units_kept(text)]))

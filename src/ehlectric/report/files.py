@@ -1,0 +1,90 @@
+"""Files of a report: HTML and PDF, written whole."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from types import MappingProxyType
+
+from ehlectric.errors import InputError, shown
+from ehlectric.report.content import Report
+from ehlectric.runtime.files import refuse_special, write
+
+FORMATS = ("html", "pdf")
+
+
+def _html(report: Report) -> bytes:
+    from ehlectric.report.html import html_of
+
+    return html_of(report).encode()
+
+
+def _pdf(report: Report) -> bytes:
+    from ehlectric.report.pdf import pdf_of
+
+    return pdf_of(report)
+
+
+_CONTENTS: Mapping[str, Callable[[Report], bytes]] = MappingProxyType({"html": _html, "pdf": _pdf})
+
+
+def write_report(result: str | Path, target: str | Path, *further: str | Path) -> list[Path]:
+    """Write the report of a stored result, as HTML or PDF.
+
+    Parameters
+    ----------
+    result : str or Path
+        Folder of a result of any kind, or its result.nc, bearing.nc or motion.nc.
+    target : str or Path
+        File of the report; its ending, .html or .pdf, decides about its format. An existing file is replaced.
+    *further : str or Path
+        Further files with the same content, as in the other format.
+
+    Returns
+    -------
+    list of Path
+        Files written.
+
+    Raises
+    ------
+    InputError
+        If the ending is another one, the folder has no result or several, or a file cannot be read or
+        written.
+
+    Notes
+    -----
+    The environment variable SOURCE_DATE_EPOCH, in seconds since 1970, sets the date of the report; two
+    reports of one result are then equal to the last byte.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> from ehlectric import save, solve
+    >>> contact = {"reduced_radius": "14.1 mm", "reduced_modulus": "226 GPa"}
+    >>> contact |= {"max_hertz_pressure": "1 GPa", "entrainment_speed": "4 m/s"}
+    >>> result = solve({"contact": contact, "lubricant": {"base": "paper"}, "grid": {"nodes": 401}})
+    >>> with TemporaryDirectory() as folder:
+    ...     files = save(result, folder)
+    ...     [path.name for path in write_report(folder, Path(folder) / "report.html")]
+    ['report.html']
+    """
+    targets = [Path(one) for one in (target, *further)]
+    contents = [_content_for(one) for one in targets]
+    from ehlectric.report.build import report_of
+
+    report = report_of(result)
+    for path, content in zip(targets, contents, strict=True):
+        write(path, content(report))
+    return targets
+
+
+def _content_for(target: Path) -> Callable[[Report], bytes]:
+    """Function that makes the content of a file, by its ending; nothing is computed for a wrong target."""
+    ending = target.suffix.lower().removeprefix(".")
+    if ending not in _CONTENTS:
+        takes = " or ".join(f".{name}" for name in FORMATS)
+        raise InputError(target, f"ends in {shown(target.suffix)}", takes=f"a file that ends in {takes}")
+    if not target.parent.is_dir():
+        raise InputError(target, "cannot be written to, its folder does not exist")
+    refuse_special(target)
+    return _CONTENTS[ending]

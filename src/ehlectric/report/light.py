@@ -1,0 +1,92 @@
+"""Traffic light of a verdict, which is the same in a report and on a page of the app."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from ehlectric.errors import printable
+
+if TYPE_CHECKING:
+    from ehlectric.discharge.verdict import Level
+
+# What the levels mean, for a verdict whose first words are no such name.
+_WORDS = {
+    "green": "No breakdown expected",
+    "yellow": "Breakdown possible",
+    "red": "Breakdown expected",
+    "grey": "No verdict",
+}
+
+# Ends of a heading, for a verdict on an upper bound.
+_ENDS = {
+    "green": ", as an upper bound",
+    "yellow": "; the margin is an upper bound",
+    "red": "; the margin is an upper bound",
+    "grey": "; the breakdown voltage is an upper bound",
+}
+
+# Beginning of the sentence of a verdict that names its bound.
+_BOUND = "Upper bound"
+
+# End of the first words: of a clause or a sentence.
+_FIRST = re.compile(r"[:.,;] ")
+
+# Longest first words that are a heading [characters].
+_LONGEST = 30
+
+
+@dataclass(frozen=True)
+class Light:
+    """Verdict of a result, with its traffic light.
+
+    Attributes
+    ----------
+    level : str
+        Colour of the light, which is the level of the verdict.
+    words : str
+        Heading, so that the colour is not the only sign; it says where the verdict is an upper bound.
+    text : str
+        Sentences of the verdict.
+    bound : str
+        "≤" for an upper bound, which stands beside the colour; empty otherwise.
+    """
+
+    level: Level
+    words: str
+    text: str
+    bound: str = ""
+
+    @property
+    def rest(self) -> str:
+        """Sentences without the first words, where the heading has these."""
+        first, _, rest = self.text.partition(": ")
+        return rest[:1].upper() + rest[1:] if rest and self.words.startswith(first) else self.text
+
+
+def light_of(level: Level, text: str) -> Light:
+    """Traffic light of a verdict.
+
+    Parameters
+    ----------
+    level : str
+        Level of the verdict.
+    text : str
+        Its sentences.
+
+    Examples
+    --------
+    >>> text = "No breakdown expected: margin 1.44. Upper bound: isothermal film."
+    >>> light = light_of("green", text)
+    >>> light.level, light.words, light.bound
+    ('green', 'No breakdown expected, as an upper bound', '≤')
+    >>> light.rest
+    'Margin 1.44. Upper bound: isothermal film.'
+    """
+    text = printable(text)
+    first = _FIRST.split(text, maxsplit=1)[0].rstrip(".")
+    named = len(first) <= _LONGEST and not any(letter.isdigit() for letter in first)
+    words = first if named and first else _WORDS[level]
+    bound = text.startswith(_BOUND) or f". {_BOUND}" in text
+    return Light(level, words + _ENDS[level] if bound else words, text, "≤" if bound else "")

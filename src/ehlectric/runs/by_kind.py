@@ -1,0 +1,286 @@
+"""Runs of files of every kind: how each kind is recognised, read and run, and how results are loaded.
+
+The command line and the pages of the app both start here; nothing here prints.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from ehlectric.errors import InputError, shown
+from ehlectric.runs.folders import files_of_results, protect
+from ehlectric.runs.kinds import FileKind, kind_of_file
+from ehlectric.runtime.folders import FIGURE_LOCK, LONG, RESULT_LOCK, alone_in
+from ehlectric.runtime.outcome import RunOutcome
+from ehlectric.runtime.progress import Progress, silent
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from ehlectric.bearing.result import BearingResult
+    from ehlectric.cases.bearings.case import BearingCase
+    from ehlectric.cases.case import Case
+    from ehlectric.cases.measurements.factors import FilmFactors
+    from ehlectric.contact.results import PointResult, Result
+    from ehlectric.runs.film_factors import MeasuredFile
+    from ehlectric.sweep.inputs import Sweep
+    from ehlectric.sweep.results import SweepResults
+
+
+R = TypeVar("R")
+
+
+@dataclass(frozen=True)
+class Kind:
+    """Functions for one kind of file.
+
+    Attributes
+    ----------
+    read : callable
+        Case, bearing case or sweep of a TOML file.
+    run : callable
+        ``run(case, folder, progress, **options)`` solves it and returns a ``RunOutcome``. Every run prepares
+        the folder, removes the files of an earlier result of any kind, and writes its own; it draws no
+        figures. A folder with a sweep or with another run of moving roughness is refused.
+    """
+
+    read: Callable[[str | Path], Any]
+    run: Callable[..., RunOutcome[Any]]
+
+
+def run(path: str | Path, folder: str | Path, progress: Progress = silent, **options: Any) -> RunOutcome[Any]:
+    """Solve a file of any kind, and write its results.
+
+    Parameters
+    ----------
+    path : str or Path
+        A case file, bearing file or sweep file, TOML.
+    folder : str or Path
+        Folder of the results; it is made if it does not exist.
+    progress : callable, optional
+        Called with the number of parts done, the number of all parts (0 where it is not known), and a text.
+    **options
+        Options of the kind of file: ``solver`` of a contact; ``contacts`` and ``workers`` of a bearing;
+        ``measured`` of both; ``workers`` and ``scheduler`` of a sweep.
+
+    Returns
+    -------
+    RunOutcome
+        Result, summary, files, warnings and, where something was not solved, a failure.
+
+    Raises
+    ------
+    InputError
+        Where the file, the options or the folder cannot be used.
+    ConvergenceError
+        Where the film before a motion is not converged.
+    LostError
+        Where the processes or the cluster of a sweep no longer work.
+    """
+    kind = RUNS[kind_of_file(path)]
+    return kind.run(kind.read(path), folder, progress, **options)
+
+
+def run_and_draw(
+    kind: FileKind,
+    case: Any,
+    folder: str | Path,
+    progress: Progress = silent,
+    *,
+    draw: bool = True,
+    formats: Sequence[str] = ("png",),
+    style: str = "screen",
+    **options: Any,
+) -> RunOutcome[Any]:
+    """Solve a case of a kind, write its results, and draw its figures.
+
+    Parameters
+    ----------
+    kind : str
+        "contact", "motion", "bearing" or "sweep". The figures of a sweep are not drawn here.
+    case : Case, BearingCase or Sweep
+        Case of this kind.
+    folder : str or Path
+        Folder of the results; it is made if it does not exist.
+    progress : callable, optional
+        Called with the number of parts done, the number of all parts (0 where it is not known), and a text.
+    draw : bool
+        Whether figures are drawn.
+    formats : sequence of str
+        Formats of the figures, of "png", "svg" and "pdf".
+    style : str
+        Style of the figures, "screen" or "journal".
+    **options
+        Options of the kind, as of ``run``.
+
+    Returns
+    -------
+    RunOutcome
+        With the figures among the files, and their warnings among the warnings.
+
+    Raises
+    ------
+    InputError, ConvergenceError, LostError
+        As ``run`` raises them.
+    """
+    with alone_in(folder, locks=[RESULT_LOCK]) as folder:
+        outcome = RUNS[kind].run(case, folder, progress, **options)
+        if not draw:
+            return outcome
+        from ehlectric.figures.results import draw_figures
+
+        progress(0, 0, "drawing figures")
+        with alone_in(folder, locks=[FIGURE_LOCK], patience=LONG):
+            drawn = [
+                draw_figures(result, folder, formats=formats, style=style)
+                for result in (outcome.result, *outcome.beside)
+            ]
+    files = (*outcome.files, *(file for one in drawn for file in one.files))
+    warnings = (*outcome.warnings, *(warning for one in drawn for warning in one.warnings))
+    return replace(outcome, files=files, warnings=warnings)
+
+
+def read_case(path: str | Path) -> Case:
+    """Case of a contact, with or without motion."""
+    from ehlectric.cases.case import Case
+
+    return Case.from_toml(path)
+
+
+def read_bearing(path: str | Path) -> BearingCase:
+    """Case of a bearing."""
+    from ehlectric.cases.bearings.case import BearingCase
+
+    return BearingCase.from_toml(path)
+
+
+def read_sweep_file(path: str | Path) -> Sweep:
+    """Sweep of a sweep file."""
+    from ehlectric.sweep.inputs import Sweep
+
+    return Sweep.from_toml(path)
+
+
+def run_contact(
+    case: Case,
+    folder: str | Path,
+    progress: Progress = silent,
+    *,
+    solver: str = "ehlectric",
+    measured: MeasuredFile | None = None,
+) -> RunOutcome[Result | PointResult]:
+    """Solve a stationary contact by a solver of a name, "ehlectric" or "paper", and write its results.
+
+    With a measurement, its film factors are written together with them.
+    """
+    from ehlectric.contact.run import run
+    from ehlectric.paper.solvers import SOLVERS
+
+    _check_solver(solver, tuple(SOLVERS))
+    with alone_in(folder, locks=[RESULT_LOCK]) as folder:
+        protect(folder)
+        factors = None if measured is None else measured.factors(case, progress)
+        further = None if factors is None else factors.contents()
+        others = files_of_results(folder)
+        outcome = run(case, folder, progress, solvers=SOLVERS[solver], others=others, further=further)
+    return with_factors(outcome, factors)
+
+
+def run_motion(
+    case: Case,
+    folder: str | Path,
+    progress: Progress = silent,
+    *,
+    solver: str = "ehlectric",
+    measured: MeasuredFile | None = None,
+) -> RunOutcome[xr.Dataset]:
+    """Solve a transient contact, and write its results; the only solver is "ehlectric"."""
+    from ehlectric.motion.run import run
+    from ehlectric.motion.stored_run import MOTION_FILES
+    from ehlectric.paper.solvers import SOLVERS
+
+    _check_solver(solver, tuple(SOLVERS))
+    if measured is not None:
+        raise InputError.worded("--measured", "is for stationary contacts, and this case has [motion]")
+    if solver != "ehlectric":
+        raise InputError("--solver", got=f"{shown(solver)} for a case with motion", takes="'ehlectric'")
+    with alone_in(folder, locks=[RESULT_LOCK]) as folder:
+        protect(folder, case)
+        return run(case, folder, progress, others=files_of_results(folder, keep=MOTION_FILES))
+
+
+def _check_solver(solver: str, known: tuple[str, ...]) -> None:
+    if solver not in known:
+        raise InputError("--solver", got=shown(solver), takes=f"one of {', '.join(known)}")
+
+
+def run_bearing(
+    case: BearingCase,
+    folder: str | Path,
+    progress: Progress = silent,
+    *,
+    contacts: str = "",
+    workers: int | None = None,
+    measured: MeasuredFile | None = None,
+) -> RunOutcome[BearingResult]:
+    """Solve a bearing, and write its results; ``contacts``, "solved" or "formula", replaces the key.
+
+    With a measurement, its film factors are written together with them.
+    """
+    from ehlectric.bearing.files import run
+
+    case = case.replace({"contacts": contacts}) if contacts else case
+    with alone_in(folder, locks=[RESULT_LOCK]) as folder:
+        protect(folder)
+        factors = None if measured is None else measured.factors(case, progress, workers)
+        further = None if factors is None else factors.contents()
+        others = files_of_results(folder)
+        outcome = run(case, folder, progress, workers=workers, others=others, further=further)
+    return with_factors(outcome, factors)
+
+
+def with_factors(outcome: RunOutcome[R], factors: FilmFactors | None) -> RunOutcome[R]:
+    """Outcome of a run with the film factors of a measurement beside its result; unchanged without them."""
+    if factors is None:
+        return outcome
+    return replace(
+        outcome,
+        summary={**outcome.summary, "measured": factors.summary()},
+        warnings=(*outcome.warnings, *factors.warnings),
+        beside=(factors,),
+    )
+
+
+def run_sweep(
+    sweep: Sweep,
+    folder: str | Path,
+    progress: Progress = silent,
+    *,
+    workers: int | None = None,
+    scheduler: str | None = None,
+) -> RunOutcome[SweepResults]:
+    """Solve a sweep in processes of this machine, or on the Dask cluster of a scheduler's address."""
+    from ehlectric.sweep.run import crew, run
+
+    solvers = crew(None, workers)
+    if scheduler is not None:
+        from ehlectric.sweep.cluster import cluster
+
+        solvers = cluster(scheduler)
+    with alone_in(folder, locks=[RESULT_LOCK]) as folder:
+        protect(folder, sweep=True)
+        return run(sweep, folder, progress, solvers=solvers, others=files_of_results(folder))
+
+
+RUNS: Mapping[FileKind, Kind] = MappingProxyType(
+    {
+        "contact": Kind(read_case, run_contact),
+        "motion": Kind(read_case, run_motion),
+        "bearing": Kind(read_bearing, run_bearing),
+        "sweep": Kind(read_sweep_file, run_sweep),
+    }
+)

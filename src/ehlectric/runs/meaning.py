@@ -1,0 +1,296 @@
+"""Meaning of a file before it is solved: dry contact, films and voltages by formula, size of a sweep.
+
+Nothing here solves a film, so that the answer is there at once. Films by formula, and what follows from
+them, may be far from the solution; every row and every table that has them says so.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import singledispatch
+from itertools import islice
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.cases.case import Case
+from ehlectric.cases.row import Row
+from ehlectric.cases.units import rpm
+from ehlectric.errors import InputError, ResultWarning
+from ehlectric.sweep.inputs import Sweep
+
+if TYPE_CHECKING:
+    from ehlectric.bearing.result import BearingResult
+    from ehlectric.contact.conditions import Conditions, PointConditions
+    from ehlectric.discharge.verdict import Verdict
+    from ehlectric.sweep.plan import Planned
+
+# Largest number of points of a sweep that are checked one by one.
+_MOST_CHECKED = 2000
+
+
+@dataclass(frozen=True)
+class Meaning:
+    """Meaning of a file before it is solved.
+
+    Attributes
+    ----------
+    title : str
+        Title of the case.
+    rows : tuple of Row
+        Rows of a table: dry contact, films by formula and what follows from them.
+    summary : dict
+        The same numbers as nested tables, SI units.
+    warnings : tuple of ResultWarning
+        Warnings about the case and its surfaces.
+    verdict : Verdict or None
+        Whether the film of a bearing breaks down, by formula; None for other files and without a strength.
+    """
+
+    title: str
+    rows: tuple[Row, ...]
+    summary: dict[str, Any]
+    warnings: tuple[ResultWarning, ...]
+    verdict: Verdict | None = None
+
+
+@singledispatch
+def check(case: Case | BearingCase | Sweep) -> Meaning:
+    """Meaning of a case or of a sweep, at once: dry contact, groups, and what film formulas predict.
+
+    Parameters
+    ----------
+    case : Case, BearingCase or Sweep
+        Case of a contact, with or without motion; a bearing; or a sweep, of which the first point is checked.
+
+    Returns
+    -------
+    Meaning
+        Rows of a table, the same numbers as nested tables, and warnings.
+
+    Raises
+    ------
+    InputError
+        If the values contradict each other, a surface cannot be used, the grid fits into no memory or no
+        point of a sweep is a valid case.
+
+    Examples
+    --------
+    >>> from ehlectric import Case
+    >>> contact = {"geometry": "point", "radius_x": 0.01, "radius_y": 0.01, "load": "20 N"}
+    >>> contact |= {"reduced_modulus": "226 GPa", "entrainment_speed": 2.0}
+    >>> meaning = check(Case.from_dict({"contact": contact, "lubricant": {"base": "paper"}}))
+    >>> round(meaning.summary["hertz"]["max_pressure"] / 1e9, 3)
+    0.791
+    """
+    raise TypeError(f"{type(case).__name__} is no case")
+
+
+@check.register
+def _check_contact(case: Case) -> Meaning:
+    from ehlectric.contact.check import check_case
+    from ehlectric.contact.summary import case_summary
+    from ehlectric.motion.contact import TransientContact
+    from ehlectric.tables.contact import case_rows
+    from ehlectric.tables.motion import schedule_rows
+
+    contact = check_case(case)
+    rows, summary = case_rows(case, contact.conditions), case_summary(case, contact.conditions)
+    estimate = _breakdown_by_formula(case, contact.conditions)
+    if estimate is not None:
+        summary["breakdown_by_formula"] = estimate
+        rows += _breakdown_rows(estimate)
+    if case.motion is not None:
+        schedule = TransientContact.of(case, contact.rough).schedule
+        summary["motion"] = schedule.described()
+        rows += schedule_rows(schedule, contact.conditions.entrainment_speed)
+    return Meaning(case.title, tuple(rows), summary, tuple(contact.warnings()))
+
+
+def _breakdown_by_formula(
+    case: Case, conditions: Conditions | PointConditions
+) -> dict[str, str | float | None] | None:
+    """Breakdown voltage of the minimum film of a formula; None without a strength that is known beforehand.
+
+    A strength over pressure and a Weibull law need the field in the whole film. The formulas are those from
+    which a bearing by formula has its films.
+    """
+    from ehlectric.discharge.utilisation import dielectric_strength
+    from ehlectric.formulas.film_line import FORMULAS as LINE_FORMULAS
+    from ehlectric.formulas.film_point import FORMULAS as POINT_FORMULAS
+
+    discharge = case.discharge
+    if discharge is None or not discharge.has_strength:
+        return None
+    if discharge.strength_table is not None and discharge.strength_table.over == "pressure":
+        return None
+    line = conditions.geometry == "line"
+    formulas: Mapping[str, Any] = LINE_FORMULAS if line else POINT_FORMULAS
+    formula = formulas["pan_hamrock" if line else "chittenden"]
+    film = formula(conditions.contact).minimum_thickness
+    strength = float(dielectric_strength(discharge, np.zeros(())))
+    applied = abs(case.electric.voltage)
+    return {
+        "formula": formula.name,
+        "minimum_thickness": film,
+        "dielectric_strength": strength,
+        "breakdown_voltage": strength * film,
+        "applied_voltage": applied,
+        "margin": strength * film / applied if applied else None,
+    }
+
+
+def _breakdown_rows(estimate: Mapping[str, Any]) -> Iterator[Row]:
+    yield Row("breakdown voltage", estimate["breakdown_voltage"], "V", f", by formula: {estimate['formula']}")
+    if estimate["margin"] is not None:
+        yield Row("margin (breakdown / applied)", estimate["margin"], note="by formula: up to 40 % off")
+
+
+@check.register
+def _check_bearing(case: BearingCase) -> Meaning:
+    from ehlectric.bearing.by_formula import formula_case, formula_error
+    from ehlectric.bearing.solver import check_bearing
+    from ehlectric.tables.bearing import input_rows, outcome_rows
+
+    check_bearing(case)
+    judged, refused = formula_case(case)
+    if judged is None:
+        reason = "film formulas need a piezoviscous oil; ehlectric bearing solves the contacts"
+        return _without_films(case, reason)
+    result = _solved_by_formula(judged)
+    summary = {**result.summary(), "by_formula": True}
+    totals = (row for row in outcome_rows(summary) if row.name != "computing time")
+    accuracy = Row(
+        "accuracy of all that follows", note=f"films may be {formula_error(case.bearing.kind)} off"
+    )
+    rows = [*input_rows(summary), *_dry(summary), accuracy, *totals]
+    if refused is not None:
+        rows.append(Row("breakdown voltage", note="needs solved contacts for this strength"))
+    return Meaning(case.title, tuple(rows), summary, result.warnings, result.verdict)
+
+
+def _solved_by_formula(case: BearingCase) -> BearingResult:
+    from ehlectric.bearing.solver import solve_bearing
+
+    return solve_bearing(case, workers=1)
+
+
+def _without_films(case: BearingCase, reason: str) -> Meaning:
+    """Meaning of a bearing whose contacts no formula describes: its inputs alone."""
+    from ehlectric.bearing.preparation import resolve_bearing
+    from ehlectric.bearing.summary import clearances_of
+    from ehlectric.tables.bearing import input_rows
+
+    conditions = resolve_bearing(case)
+    summary = {
+        "inputs": case.to_dict(),
+        "lubricant": {
+            "temperature": case.bearing.oil_temperature,
+            "viscosity": conditions.oil.viscosity,
+        },
+        "bearing": clearances_of(conditions),
+        "by_formula": False,
+    }
+    rows = (*input_rows(summary), Row("films and voltages", note=reason))
+    return Meaning(case.title, rows, summary, ())
+
+
+def _dry(summary: Mapping[str, Any]) -> Iterator[Row]:
+    """Rows of the most loaded dry contact with each ring, and of the speeds."""
+    for ring in ("inner", "outer"):
+        contacts = [row for row in summary["contacts"] if row["ring"] == ring]
+        most = max(contacts, key=lambda row: float(row["load"]))
+        yield Row(f"most loaded contact, {ring} ring")
+        yield Row(f"load, {ring} ring", most["load"], "N")
+        yield Row(f"Hertz pressure, {ring} ring", most["max_pressure"], "GPa")
+        yield Row(f"minimum film, {ring} ring", most["minimum_thickness"], "µm", ", by formula")
+        speed = summary["mechanics"][f"entrainment_speed_{ring}"]
+        yield Row(f"entrainment speed, {ring} ring", speed, "m/s")
+
+
+@check.register
+def _check_sweep(sweep: Sweep) -> Meaning:
+    from ehlectric.sweep.plan import plan
+
+    started = time.perf_counter()
+    planned = list(islice(plan(sweep), _MOST_CHECKED))
+    first = next((point for point in planned if point.key is not None), None)
+    if first is None:
+        raise InputError("vary", f"no point is a case; of the first, {planned[0].refused}")
+    each = (time.perf_counter() - started) / len(planned)
+    begun = time.perf_counter()
+    meaning = check(sweep.case.replace(first.inputs))
+    seconds = time.perf_counter() - begun + each
+    described = _described(sweep, planned, first)
+    rows = (*_sweep_rows(sweep, described, seconds), Row("first point:"), *meaning.rows)
+    summary = {"sweep": described, "first_point": meaning.summary}
+    return replace(meaning, title=sweep.title or meaning.title, rows=rows, summary=summary, verdict=None)
+
+
+def _described(sweep: Sweep, planned: list[Planned], first: Planned) -> dict[str, Any]:
+    """Size and inputs of a sweep as a table, and how many of its points are refused."""
+    refused = [point.refused for point in planned if point.key is None]
+    return {
+        "points": sweep.size,
+        "design": sweep.design,
+        "inputs": {key: _values(value) for key, value in sweep.vary.items()},
+        "points_checked": len(planned),
+        "points_refused": len(refused),
+        "reason": refused[0] if refused else None,
+        "first_point": {"number": first.number, "inputs": dict(first.inputs)},
+    }
+
+
+def _values(value: Any) -> dict[str, Any]:
+    """Values of a varied key: the ends of its range, or the number of values with first and last."""
+    if isinstance(value, tuple):
+        return {"values": len(value), "first": value[0], "last": value[-1]}
+    return {"from": value.start, "to": value.stop, "spacing": value.spacing}
+
+
+def _sweep_rows(sweep: Sweep, described: Mapping[str, Any], seconds: float) -> Iterator[Row]:
+    from ehlectric.runtime.workers import cores
+
+    yield Row("points", str(sweep.size), note=f"{sweep.design} design")
+    for key, value in described["inputs"].items():
+        yield Row(f"  {key}", *_shown(key, value, sweep))
+    if described["points_refused"]:
+        refused = f"of {described['points_checked']} checked points are no valid case: {described['reason']}"
+        yield Row("  refused", str(described["points_refused"]), note=refused, alarm=True)
+    if isinstance(sweep.case, BearingCase) and sweep.case.contacts == "formula":
+        whole = sweep.size * seconds / cores()
+        yield Row("time, estimated", whole, "s", f", by formula on {cores()} cores", digits=".2g")
+    else:
+        command = "bearing" if isinstance(sweep.case, BearingCase) else "run"
+        note = f"that of {sweep.size} times ehlectric {command}, divided by {cores()} cores"
+        yield Row("time", note=note)
+
+
+def _shown(key: str, value: Mapping[str, Any], sweep: Sweep) -> tuple[str, str, str]:
+    """Value, unit and note of the row of a varied key."""
+    ends = [value["from"], value["to"]] if "from" in value else [value["first"], value["last"]]
+    texts, unit = _in_units(key, ends, sweep)
+    if "from" in value:
+        note = ", spaced by logarithms" if value["spacing"] == "log" else ""
+    else:
+        note = f" in {value['values']} values" if value["values"] > 1 else ""
+    return " to ".join(dict.fromkeys(texts)), unit, note
+
+
+def _in_units(key: str, values: list[Any], sweep: Sweep) -> tuple[list[str], str]:
+    """Values as texts in the unit that an engineer uses; other values than numbers as they are."""
+    from ehlectric.cases.input_keys import unit_of
+    from ehlectric.sweep.labels import label_of
+
+    unit = unit_of(key)
+    if not all(isinstance(value, float) for value in values):
+        return [str(value) for value in values], ""
+    if unit == "K":
+        return [f"{value - 273.15:.4g}" for value in values], "°C"
+    if unit == "rad/s":
+        return [f"{rpm(value):.4g}" for value in values], "rpm"
+    scale = label_of(key, sweep.case).scaled(np.array(values))
+    return [f"{scale.factor * value:.4g}" for value in values], scale.unit

@@ -1,0 +1,90 @@
+"""Saving and loading of results of every kind: ``save`` and ``load``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TypeAlias
+
+from ehlectric.bearing import files as of_bearings
+from ehlectric.bearing.result import BearingResult
+from ehlectric.bearing.storage.dataset import SCHEMA
+from ehlectric.contact import files as of_contacts
+from ehlectric.contact.results import PointResult, Result
+from ehlectric.errors import InputError, shown
+from ehlectric.motion.result import MotionResult
+from ehlectric.motion.stored_run import MOTION, read_motion
+from ehlectric.runs.folders import stored_result
+from ehlectric.runtime.netcdf import read_dataset
+from ehlectric.sweep.store import NAME as SWEEP
+
+AnyResult: TypeAlias = Result | PointResult | BearingResult | MotionResult
+
+
+def load(path: str | Path) -> AnyResult:
+    """Load the result of a contact, of a bearing or of a contact with moving roughness.
+
+    Parameters
+    ----------
+    path : str or Path
+        A result.nc, bearing.nc or motion.nc, or the folder with this file.
+
+    Returns
+    -------
+    Result, PointResult, BearingResult or MotionResult
+        Result, equal to the one that was saved.
+
+    Raises
+    ------
+    InputError
+        Where the file cannot be read or is not a result, or the folder has none, several, or a sweep.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> from ehlectric import solve
+    >>> contact = {"reduced_radius": "14.1 mm", "reduced_modulus": "226 GPa"}
+    >>> contact |= {"max_hertz_pressure": "1 GPa", "entrainment_speed": "4 m/s"}
+    >>> result = solve({"contact": contact, "lubricant": {"base": "paper"}, "grid": {"nodes": 401}})
+    >>> with TemporaryDirectory() as folder:
+    ...     files = save(result, folder)
+    ...     load(folder) == result
+    True
+    """
+    path = stored_result(path)
+    if path.name == SWEEP:
+        raise InputError(path.parent, "is the folder of a sweep", takes="a result; read_sweep reads a sweep")
+    if path.name == MOTION:
+        return MotionResult.of(read_motion(path))
+    dataset = read_dataset(path)
+    if str(dataset.attrs.get("schema", "")).startswith(SCHEMA.partition("/")[0]):
+        return of_bearings.result_of(dataset, path)
+    return of_contacts.result_of(dataset, path)
+
+
+def save(result: Result | PointResult | BearingResult, folder: str | Path) -> list[Path]:
+    """Save the result of a contact or of a bearing.
+
+    Parameters
+    ----------
+    result : Result, PointResult or BearingResult
+        Result of ``solve``. A contact writes summary.json, result.nc and film.csv; a bearing writes
+        summary.json, contacts.csv, bearing.nc and, where it has one, impedance.csv.
+    folder : str or Path
+        Folder of the files; it is made if it does not exist.
+
+    Returns
+    -------
+    list of Path
+        Files written.
+
+    Raises
+    ------
+    InputError
+        Where the folder cannot be written to, or the result has no case, which the files must hold. Also
+        for a result of ``solve_motion``, which ``run_motion`` writes while it is solved.
+    """
+    if isinstance(result, BearingResult):
+        return of_bearings.save(result, folder)
+    if isinstance(result, Result | PointResult):
+        return of_contacts.save(result, folder)
+    raise InputError("result", got=shown(type(result).__name__), takes="a result of a contact or a bearing")

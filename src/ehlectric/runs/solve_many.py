@@ -1,0 +1,159 @@
+"""Solution of many cases in parallel, in memory: ``solve_many``."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import ExitStack
+from functools import partial
+from os import PathLike
+from typing import Any, Generic, NamedTuple, TypeVar, overload
+
+from ehlectric.bearing.result import BearingResult
+from ehlectric.bearing.solver import solve_bearing
+from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.cases.case import Case, LineCase, PointCase
+from ehlectric.contact.results import PointResult, Result
+from ehlectric.contact.solver import solve
+from ehlectric.errors import InputError, LostError, shown
+from ehlectric.runs.solve import Solvable, case_of
+from ehlectric.runtime.log import log_warnings
+from ehlectric.runtime.memory import is_out_of_memory
+from ehlectric.runtime.tasks import finished_tasks
+from ehlectric.runtime.workers import Crew, cores, processes
+
+R = TypeVar("R")
+
+# Result of a case, or the error in its place.
+_Outcome = Result | PointResult | BearingResult | Exception
+
+
+class Solved(NamedTuple, Generic[R]):
+    """One case of ``solve_many`` that is finished: its number, its result, and the error in its place.
+
+    Attributes
+    ----------
+    number : int
+        Number of the case in the order in which the cases were given, from 0.
+    result : Result, PointResult, BearingResult or None
+        Result of the case, which may not be converged; None if there is an error.
+    error : Exception or None
+        Error that ``solve`` would have raised, or a ``LostError`` if the process of the case was killed.
+    """
+
+    number: int
+    result: R | None
+    error: Exception | None = None
+
+
+@overload
+def solve_many(cases: Iterable[LineCase], workers: int | None = None) -> Iterator[Solved[Result]]: ...
+@overload
+def solve_many(cases: Iterable[PointCase], workers: int | None = None) -> Iterator[Solved[PointResult]]: ...
+@overload
+def solve_many(
+    cases: Iterable[Case], workers: int | None = None
+) -> Iterator[Solved[Result | PointResult]]: ...
+@overload
+def solve_many(
+    cases: Iterable[BearingCase], workers: int | None = None
+) -> Iterator[Solved[BearingResult]]: ...
+@overload
+def solve_many(
+    cases: Iterable[Solvable], workers: int | None = None
+) -> Iterator[Solved[Result | PointResult | BearingResult]]: ...
+
+
+def solve_many(cases: Iterable[Solvable], workers: int | None = None) -> Iterator[Solved[Any]]:
+    """Solve many contacts and bearings in parallel, and yield each as it finishes.
+
+    Parameters
+    ----------
+    cases : iterable of Case, BearingCase, mapping, str or Path
+        Whatever ``solve`` takes. The iterable is read as the processes get free, so it may be endless.
+    workers : int, optional
+        Number of processes of this machine; by default the number of cores. With 1, the cases are solved in
+        this process, one after the other. Processes take some seconds to start: 1 is faster for a few cases
+        of a second or less, such as bearings with contacts by formula.
+
+    Yields
+    ------
+    Solved
+        Number of the case, and its result or its error, in the order in which they finish. An error of one
+        case ends nothing: it stands in place of the result.
+
+    Raises
+    ------
+    InputError
+        If ``workers`` is not a whole number of at least 1, or ``cases`` is a single case.
+    LostError
+        If the processes cannot start or work no longer. This also happens if a script calls ``solve_many``
+        without ``if __name__ == "__main__":``, as every process imports the script again. A notebook does
+        not need this line.
+
+    Notes
+    -----
+    Nothing is written to files, and nothing is kept where the loop ends early; ``run_sweep`` saves each point
+    of a sweep. A process that is killed, as by a system out of memory, costs only its own case.
+
+    Examples
+    --------
+    >>> oil = {"base": "paper"}
+    >>> contact = {"reduced_radius": "14.1 mm", "reduced_modulus": "226 GPa", "max_hertz_pressure": "1 GPa"}
+    >>> tables = [{"contact": contact | {"entrainment_speed": u}, "lubricant": oil} for u in (2.0, 4.0)]
+    >>> films = {one.number: one.result.film.minimum_thickness for one in solve_many(tables, workers=1)}
+    >>> round(films[1] / films[0], 2)
+    1.63
+    """
+    if isinstance(workers, bool) or not (workers is None or (isinstance(workers, int) and workers >= 1)):
+        raise InputError("workers", got=shown(workers), takes="a whole number of at least 1")
+    if isinstance(cases, Case | BearingCase | Mapping | str | PathLike) or not isinstance(cases, Iterable):
+        raise InputError(
+            "cases", got=shown(type(cases).__name__), takes="a list of cases; solve takes one case"
+        )
+    number = workers or cores()
+    given = enumerate(cases)
+    return _here(given) if number == 1 else _in_processes(given, number)
+
+
+def _here(cases: Iterator[tuple[int, Solvable]]) -> Iterator[Solved[Any]]:
+    """Cases solved in this process."""
+    for index, case in cases:
+        yield _told(index, solve_case(case))
+
+
+def _in_processes(cases: Iterator[tuple[int, Solvable]], number: int) -> Iterator[Solved[Any]]:
+    """Cases solved in processes of this machine."""
+    with ExitStack() as crews:
+        crew: Crew = crews.enter_context(processes(number))
+        batches = finished_tasks(cases, crew, solve_case, LostError, _ran_out)
+        crews.callback(batches.close)
+        try:
+            for batch in batches:
+                for index, outcome in batch:
+                    yield _told(index, outcome)
+        except LostError as error:
+            text = f'{error}; in a script, call solve_many inside an if __name__ == "__main__": block'
+            raise LostError(text) from None
+
+
+def _ran_out(outcome: _Outcome) -> bool:
+    """Whether a case found too little memory; alone it may find more."""
+    return isinstance(outcome, Exception) and is_out_of_memory(outcome)
+
+
+def _told(index: int, outcome: _Outcome) -> Solved[Any]:
+    """Finished case, whose warnings are logged."""
+    if isinstance(outcome, Exception):
+        return Solved(index, None, outcome)
+    log_warnings(outcome.case.title, outcome.warnings)
+    return Solved(index, outcome)
+
+
+def solve_case(given: Solvable) -> _Outcome:
+    """Result of a case, or the error that its solution raises; a bearing is solved in this process alone."""
+    try:
+        case = case_of(given)
+        solver = partial(solve_bearing, workers=1) if isinstance(case, BearingCase) else solve
+        return solver(case)  # type: ignore[arg-type]
+    except Exception as error:
+        return error

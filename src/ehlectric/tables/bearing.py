@@ -1,0 +1,359 @@
+"""Rows of the totals of a bearing, and tables of the contacts of its elements."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+from ehlectric.bearing.keys import BEARING_KEYS
+from ehlectric.bearing.margin.sensitivity import OF_TABLE
+from ehlectric.cases.input_keys import unit_of
+from ehlectric.cases.row import Row, amount, rows_of
+from ehlectric.cases.units import rpm_text
+from ehlectric.discharge.verdict import ratio_text
+from ehlectric.sweep.labels import Scale, scale_for
+from ehlectric.tables.bearing_meter import outside_rows, shaft_rows
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+
+def loads_table(summary: Mapping[str, Any]) -> Table:
+    """Table of the loads and dry contacts of all elements with both rings."""
+    heads = ("position\n[deg]", "load\n[N]", "angle\n[deg]", "Hertz p\n[GPa]", "semi-axes\n[µm]")
+    rows = (
+        (
+            f"{math.degrees(row['position']):.0f}",
+            f"{row['load']:.4g}",
+            f"{math.degrees(row['contact_angle']):.1f}",
+            _number(row["max_pressure"], 1e-9, ".3f"),
+            " x ".join(filter(None, [_number(row[f"semi_axis_{axis}"], 1e6, ".4g") for axis in "xy"])),
+        )
+        for row in summary["contacts"]
+    )
+    return _contacts_table(summary, heads, rows)
+
+
+def films_table(summary: Mapping[str, Any]) -> Table:
+    """Table of the films, capacitances and voltages of all elements with both rings."""
+    driven = summary["bearing"]["shaft_voltage"] is not None
+    heads = ("h_min\n[µm]", "h central\n[µm]", "lambda", "C\n[pF]", "V share\n[%]")
+    rows = (
+        (
+            f"{row['minimum_thickness'] * 1e6:.4g}",
+            f"{row['central_thickness'] * 1e6:.4g}",
+            f"{row['lambda_ratio']:.3g}",
+            _number(row["capacitance"], 1e12, ".4g"),
+            _number(row["voltage_share"], 100.0, ".1f"),
+            _number(row["max_strength" if driven else "strength_per_volt"], 1e-6, ".3g"),
+            _number(row["breakdown_voltage"], 1.0, ".3g"),
+        )
+        for row in summary["contacts"]
+    )
+    field = "E\n[V/µm]" if driven else "E/V\n[1/µm]"
+    return _contacts_table(summary, (*heads, field, "breakdown\n[V]"), rows)
+
+
+def _contacts_table(
+    summary: Mapping[str, Any], heads: Sequence[str], rows: Iterable[tuple[str, ...]]
+) -> Table:
+    """Table with a row for each element and ring, and these columns."""
+    from rich.markup import escape
+    from rich.table import Table
+
+    table = Table(box=None, padding=(0, 2, 0, 0))
+    for head in ("", "ring", *heads):
+        # Rich would read a unit of small letters in brackets as a style.
+        table.add_column(escape(head), justify="right", no_wrap=True)
+    for row, texts in zip(summary["contacts"], rows, strict=True):
+        table.add_row(str(row["element"]), row["ring"], *texts)
+    return table
+
+
+def _number(value: float | None, factor: float, digits: str) -> str:
+    """Number of a cell as text; empty where it is None."""
+    return "" if value is None else f"{value * factor:{digits}}"
+
+
+def total_rows(summary: Mapping[str, Any]) -> list[Row]:
+    """Rows of a bearing: the inputs that decide, its totals, and what moves its margin.
+
+    Parameters
+    ----------
+    summary : mapping
+        Summary of a bearing, as ``BearingResult.summary`` gives it.
+
+    Returns
+    -------
+    list of Row
+        Values in SI units.
+    """
+    return [*input_rows(summary), *outcome_rows(summary)]
+
+
+def outcome_rows(summary: Mapping[str, Any]) -> list[Row]:
+    """Rows of the totals of a bearing, and of what moves its margin; values in SI units."""
+    totals = summary["bearing"]
+    first = f", {totals['first_break_at']}" if totals["first_break_at"] else ""
+    films = (
+        ("film factor", "bearing.film_factor", "", _film_factor(summary)),
+        ("discretisation error of the films", "bearing.discretisation_error", "%"),
+        ("interpolation error over the load", "bearing.interpolation_error", "%"),
+    )
+    capacitances = (
+        ("capacitance of the bearing", "bearing.capacitance", "pF"),
+        ("capacitance, oil in all gaps", "bearing.capacitance_oil", "pF"),
+        ("capacitance, air around the films", "bearing.capacitance_air", "pF"),
+        ("capacitance / parallel plates", "bearing.capacitance_ratio", ""),
+        ("capacitance, rough films", "bearing.capacitance_rough", "pF"),
+    )
+    voltages = (
+        ("bearing voltage ratio", "bearing.bearing_voltage_ratio", "%", ", shaft / common-mode"),
+        ("shaft voltage", "bearing.shaft_voltage", "V", ", by the capacitive divider"),
+        ("max field per volt on the bearing", "bearing.strength_per_volt", "1/µm"),
+        ("max field at the shaft voltage", "bearing.max_strength", "V/µm"),
+        ("ring-to-ring breakdown voltage", "bearing.through_breakdown", "V"),
+        ("ring-to-ring, mean over cage positions", "bearing.through_breakdown_mean", "V"),
+        ("margin (ring-to-ring / shaft voltage)", "bearing.through_margin", ""),
+        ("first breakdown, mean over cage positions", "bearing.first_break_mean", "V"),
+        ("first breakdown voltage", "bearing.first_break", "V", first),
+    )
+    coated = totals.get("coating_capacitance") is not None
+    return [
+        Row(f"films, contacts {_HOW[totals['contacts']]}"),
+        _lambda_ratio(totals),
+        *rows_of(BEARING_KEYS, summary, films),
+        Row("computing time", summary["seconds"], "s", digits=".3g"),
+        Row("capacitance"),
+        *rows_of(BEARING_KEYS, summary, capacitances),
+        *outside_rows(summary),
+        Row("breakdown"),
+        *rows_of(BEARING_KEYS, summary, voltages),
+        *(shaft_rows(summary) if coated else ()),
+        *_intermittent(totals["lubrication"]),
+        *_margin(summary),
+        *_leakage(summary),
+        *_costs(summary),
+    ]
+
+
+def _lambda_ratio(totals: Mapping[str, Any]) -> Row:
+    """Row of the smallest lambda ratio, with what it means."""
+    state, ratio = totals["lubrication"], totals["lambda_ratio"]
+    if state not in _TOUCH:
+        return Row("minimum lambda ratio", ratio, note=state)
+    return Row("minimum lambda ratio", ratio, note=_TOUCH[state], digits=".3g", alarm=True)
+
+
+# What a lambda ratio below 1 means, by the state of lubrication.
+_TOUCH = {
+    "conducting": ", surfaces touch (no voltage computed)",
+    "touching": ", surfaces touch",
+}
+
+
+def _intermittent(state: str) -> Iterator[Row]:
+    """Row that says where no voltage is computed, so that nothing reads as safe."""
+    if state == "conducting":
+        note = "computed: lambda below 1, contacts open and close and discharge at a low voltage"
+        yield Row("first breakdown voltage", "none", note=note, alarm=True)
+    elif state == "partial film":
+        note = "lambda below 3, discharges at a lower voltage as contacts open are not computed"
+        yield Row("contacts of asperities", "at times", note=note)
+
+
+def _leakage(summary: Mapping[str, Any]) -> Iterator[Row]:
+    """Rows of the decay of the shaft voltage through the oil, beside the period of the inverter."""
+    totals, frequency = summary["bearing"], summary["inputs"].get("motor", {}).get("switching_frequency")
+    if totals.get("shaft_time_constant") is None:
+        return
+    yield Row("leakage through the oil")
+    yield Row("charge relaxation time of the oil", amount(totals["relaxation_time"], "s"))
+    period = ", compared with 50 to 250 µs of typical inverters"
+    if frequency is not None:
+        period = f", compared with a period of {amount(1.0 / frequency, 's')} of the inverter"
+    yield Row("time constant of the shaft voltage", amount(totals["shaft_time_constant"], "s"), note=period)
+    if totals.get("coating_capacitance") is not None:
+        yield Row("time constant of the films", amount(totals["film_time_constant"], "s"), note=period)
+    lines = (
+        ("shaft voltage after an edge", "bearing.shaft_voltage_after_rise", "V"),
+        ("shaft voltage after a period", "bearing.shaft_voltage_after_period", "V"),
+    )
+    yield from rows_of(BEARING_KEYS, summary, lines)
+
+
+def _costs(summary: Mapping[str, Any]) -> Iterator[Row]:
+    """Rows of the energy of a discharge, its pit, and the current density."""
+    totals = summary["bearing"]
+    texts = (
+        ("energy at the shaft voltage", "discharge_energy", "J", ", all that is connected to the shaft"),
+        ("energy at the first breakdown", "breakdown_energy", "J", ""),
+        ("pit diameter at the shaft voltage", "pit_diameter", "m", ", hemisphere of the melted volume"),
+        ("pit diameter at the first breakdown", "breakdown_pit_diameter", "m", ""),
+    )
+    rows = [
+        Row(name, amount(totals[key], unit), note=note)
+        for name, key, unit, note in texts
+        if totals.get(key) is not None
+    ]
+    density = totals.get("current_density")
+    if density is not None:
+        low, high = (f"{1e-6 * totals['current_density_limits'][k]:g}" for k in (0, -1))
+        over = density > totals["current_density_limits"][0]
+        note = f"A/mm², published limits {low} to {high} A/mm²"
+        rows.append(Row("apparent current density", f"{1e-6 * density:.3g}", note=note, alarm=over))
+        one = f"{1e-6 * totals['element_current_density']:.3g}"
+        rows.append(Row("through one element alone", one, note="A/mm²"))
+    if rows:
+        yield Row("discharge")
+        yield from rows
+
+
+# How the contacts were obtained, in words.
+_HOW = {"solved": "solved", "formula": "by formula"}
+
+
+def input_rows(summary: Mapping[str, Any]) -> Iterator[Row]:
+    """Rows of the inputs that decide about breakdown."""
+    bearing, oil = summary["inputs"]["bearing"], summary["lubricant"]
+    celsius = f"{oil['temperature'] - 273.15:.4g}"
+    given = summary["inputs"]["lubricant"]
+    over_temperature = "viscosity" not in given or "atmospheric_law" in given
+    yield Row("operating conditions")
+    yield Row("speed of the inner ring", bearing["inner_speed"], "rpm")
+    for name in ("radial", "axial"):
+        if bearing[f"{name}_load"]:
+            yield Row(f"{name} load", bearing[f"{name}_load"], "N")
+    yield Row("temperature", celsius, "°C", "" if over_temperature else ", without effect on the viscosity")
+    yield Row(f"viscosity at {celsius} °C" if over_temperature else "viscosity", oil["viscosity"], "mPa s")
+    yield from _rings(oil, over_temperature=over_temperature)
+    if bearing.get("radial_clearance") is not None:
+        yield Row("radial clearance", bearing["radial_clearance"], "µm")
+    yield from _clearances(summary)
+    if bearing.get("contact_angle") is not None:
+        yield Row("free contact angle", bearing["contact_angle"], "deg")
+    yield _strength(summary["inputs"].get("discharge", {}))
+
+
+def _rings(oil: Mapping[str, Any], *, over_temperature: bool) -> Iterator[Row]:
+    """Rows of the rings whose temperature is not that of the oil."""
+    for name in ("inner", "outer"):
+        temperature = oil.get(f"{name}_temperature", oil["temperature"])
+        if temperature != oil["temperature"]:
+            yield Row(f"temperature of the {name} ring", f"{temperature - 273.15:.4g}", "°C")
+            if over_temperature:
+                yield Row(f"viscosity at the {name} ring", oil[f"{name}_viscosity"], "mPa s")
+
+
+def _clearances(summary: Mapping[str, Any]) -> Iterator[Row]:
+    """Rows of the clearance of a bearing with fits: before mounting, mounted, and in operation."""
+    totals = summary.get("bearing", {})
+    if totals.get("unmounted_clearance") is None:
+        return
+    yield Row("radial clearance before mounting", totals["unmounted_clearance"], "µm")
+    yield Row("radial clearance, mounted", totals["mounted_clearance"], "µm")
+    running = totals["running_clearance"]
+    note = ", a preload" if running < 0.0 else ""
+    yield Row("radial clearance in operation", running, "µm", note)
+
+
+def _strength(discharge: Mapping[str, Any]) -> Row:
+    """Row of the dielectric strength."""
+    name = "dielectric strength"
+    if "dielectric_strength" in discharge:
+        return Row(name, discharge["dielectric_strength"], "V/µm", ", as assumed")
+    if "weibull" in discharge:
+        law = discharge["weibull"]
+        return Row(f"{name}, Weibull scale", law["scale"], "V/µm", f", shape {law['shape']:g}")
+    if "strength_table" in discharge:
+        table = discharge["strength_table"]
+        low, high = (f"{end / 1e6:.4g}" for end in (min(table["strength"]), max(table["strength"])))
+        over = "pressure" if "pressure" in table else "temperature"
+        return Row(name, f"{low} to {high}", "V/µm", f", table over {over}")
+    return Row(name, "none", note="given: no breakdown voltage")
+
+
+def _film_factor(summary: Mapping[str, Any]) -> str:
+    """Note on the film factor of a bearing."""
+    if summary["bearing"]["film_factor"] == 1.0:
+        return "(isothermal, fully flooded)"
+    given = summary["inputs"]["bearing"]["film_factor"]
+    return "(heating by shear in the inlet)" if given == "inlet-shear" else "(given)"
+
+
+def _margin(summary: Mapping[str, Any]) -> Iterator[Row]:
+    """Rows of the margin, the critical speed, and the effects of the inputs, the largest first."""
+    margin, analysis = summary["bearing"]["margin"], summary.get("margin")
+    if margin is None:
+        return
+    yield Row("margin (first breakdown / shaft voltage)", margin, alarm=margin < 1.0)
+    if analysis is None:
+        return
+    if analysis["low"] is not None:
+        yield Row("margin within the stated ranges", _between(analysis["low"], analysis["high"]))
+    yield from _speeds(analysis, broken=margin < 1.0)
+    if analysis["effects"] or analysis["left_out"]:
+        yield Row("margin if one input changes")
+    for effect in analysis["effects"]:
+        margins = _between(effect["low_margin"], effect["high_margin"])
+        name, _, beside = effect["label"].partition(" (")
+        yield Row(f"{name}, {input_range(effect)}", margins, note=beside.removesuffix(")"))
+    for text in analysis["left_out"]:
+        yield Row("not computed", note=text)
+
+
+def _speeds(analysis: Mapping[str, Any], *, broken: bool) -> Iterator[Row]:
+    """Rows of the speeds at which the margin crosses 1, or that none of those computed is one."""
+    lowest, highest = analysis["lowest_speed"], analysis["highest_speed"]
+    lower, upper = analysis["critical_speed"], analysis.get("upper_critical_speed")
+    if lower is not None:
+        yield Row("critical speed", rpm_text(lower), "rpm", ", breakdown below")
+    if upper is not None:
+        yield Row("upper critical speed", rpm_text(upper), "rpm", ", breakdown above")
+    if lower is None and upper is None and lowest is not None and lowest < highest:
+        low, high = rpm_text(lowest), rpm_text(highest)
+        beyond = f"above {high}" if broken else f"below {low}"
+        yield Row("critical speed", beyond, note=f"rpm: none from {low} to {high} rpm")
+    if analysis["touching_speed"] is not None:
+        note = "rpm: contacts open and close, discharges are likely"
+        yield Row("surfaces touch below", rpm_text(analysis["touching_speed"]), note=note)
+
+
+def _between(low: float, high: float) -> str:
+    """Two margins as text, in this order."""
+    return f"{ratio_text(low)} to {ratio_text(high)}"
+
+
+def input_range(effect: Mapping[str, Any]) -> str:
+    """Range of the input of an effect as text, in the unit that is printed.
+
+    Parameters
+    ----------
+    effect : mapping
+        Effect as in ``margin.effects`` of a summary.
+
+    Examples
+    --------
+    >>> input_range({"key": "bearing.temperature", "low_input": 333.15, "high_input": 353.15})
+    '60 to 80 °C'
+    >>> input_range({"key": "discharge.dielectric_strength", "low_input": 12e6, "high_input": 18e6})
+    '12 to 18 V/µm'
+    """
+    ends, unit = (effect["low_input"], effect["high_input"]), unit_of(effect["key"])
+    if effect["key"] == OF_TABLE:
+        unit = ""
+    if unit == "K":
+        return "{:.4g} to {:.4g} °C".format(*(end - 273.15 for end in ends))
+    scale = _SCALES.get(unit) or scale_for(max(map(abs, ends)), unit)
+    low, high = (f"{end * scale.factor:.4g}" for end in ends)
+    return f"{low} to {high} {scale.unit}".rstrip()
+
+
+# Units that are printed for lengths and strengths of bearings, whatever their size.
+_SCALES = {
+    "rad": Scale(180.0 / math.pi, "deg"),
+    "V/m": Scale(1e-6, "V/µm"),
+    "N": Scale(1.0, "N"),
+    "m**2/s": Scale(1e6, "mm²/s"),
+}

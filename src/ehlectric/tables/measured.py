@@ -1,0 +1,107 @@
+"""Tables of a measurement beside computed values: its rows, and its mean film factor."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+from ehlectric.cases.measurements.average import RAISED, SCATTER, MeanFactor
+from ehlectric.cases.measurements.factors import FilmFactors
+from ehlectric.cases.row import Row, amount
+from ehlectric.cases.units import rpm
+from ehlectric.tables.layout import table_of
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+    from ehlectric.runtime.outcome import RunOutcome
+
+# Largest number of rows that are printed; measured.csv has all of them.
+_PRINTED = 30
+
+
+def measured_tables(outcome: RunOutcome[Any]) -> Iterator[Table]:
+    """Tables of the film factors beside a result; none without a measurement."""
+    for factors in outcome.beside:
+        if isinstance(factors, FilmFactors):
+            yield rows_table(factors)
+            yield table_of(factor_rows(factors), "Measured and computed")
+
+
+def rows_table(factors: FilmFactors) -> Table:
+    """Table of the rows of a measurement with their film factors."""
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(title=Text("Rows of the measurement"), title_justify="left", box=None, padding=(0, 2, 0, 0))
+    electric = factors.quantity == "capacitance"
+    measured, unit, scale = ("capacitance", "pF", 1e12) if electric else ("film", "nm", 1e9)
+    speed = "speed\n[rpm]" if electric else "u\n[m/s]"
+    for head in ("line", speed, f"measured\n[{unit}]", f"computed\n[{unit}]", "film factor", "+-"):
+        # Text keeps rich from reading brackets as a style.
+        table.add_column(Text(head), justify="right", no_wrap=True)
+    columns = factors.columns
+    for k in range(min(len(factors.reasons), _PRINTED)):
+        at = float(columns[factors.speed_key][k])
+        error = columns["factor_uncertainty"][k] if "factor_uncertainty" in columns else math.nan
+        table.add_row(
+            f"{columns['line'][k]:.0f}",
+            f"{rpm(at) if electric else at:.4g}",
+            _number(scale * columns[measured][k]),
+            _number(scale * columns["computed"][k]),
+            "none" if factors.reasons[k] else f"{columns['film_factor'][k]:.3f}",
+            _number(error, ".2g"),
+        )
+    return table
+
+
+def _number(value: float, digits: str = ".4g") -> str:
+    return "" if math.isnan(value) else format(value, digits)
+
+
+def factor_rows(factors: FilmFactors) -> Iterator[Row]:
+    """Rows of the mean film factor of a measurement, and how it was found."""
+    mean = factors.mean
+    yield Row("measurement", factors.source, note=_counted(factors))
+    if factors.background is not None:
+        yield Row("background taken off", amount(factors.background, "F"))
+    if mean is None:
+        yield Row("mean film factor", "none", alarm=True)
+    else:
+        yield Row("mean film factor", f"{mean.value:.3f}")
+        yield Row("95 % interval", _interval(mean), note=_beside(factors))
+        if mean.statistical is not None:
+            yield Row("standard uncertainty of the rows", mean.statistical, "%", digits=".2g")
+        if mean.systematic:
+            yield Row("and of the ranges of the case", mean.systematic, "%", digits=".2g")
+        elif mean.low is not None:
+            yield Row(
+                "inputs of the case", "taken as exact", note="; [ranges] of a bearing widens the interval"
+            )
+    if factors.slope is not None:
+        slope, error = factors.slope
+        yield Row("film factor over speed", f"speed^({slope:.2g} +- {error:.1g})")
+    how = f"{factors.solves} solved" if factors.contacts == "solved" else "by formula"
+    yield Row("contacts" if factors.quantity == "capacitance" else "films", how)
+
+
+def _beside(factors: FilmFactors) -> str:
+    """Note on the error of formulas, which is not in the interval."""
+    error = factors.formula_error
+    return "" if error is None else f", beside up to {100.0 * error:.0f} % of the formula"
+
+
+def _counted(factors: FilmFactors) -> str:
+    found = int(factors.found.sum())
+    return f", {found} of {len(factors.reasons)} rows with a film factor"
+
+
+def _interval(mean: MeanFactor) -> str:
+    if mean.low is None or mean.high is None:
+        return "none: one row without a stated uncertainty"
+    from_rows = {
+        SCATTER: ", from the scatter of the rows only",
+        RAISED: ", raised to the scatter of the rows",
+    }
+    return f"{mean.low:.3f} to {mean.high:.3f}{from_rows.get(mean.basis, '')}"

@@ -1,0 +1,130 @@
+"""Rows of the tables of transient contacts: of a schedule before a run, and of a run."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from ehlectric.cases.case import Case
+from ehlectric.cases.row import Row, rows_of, value_at
+from ehlectric.contact.kinds import KINDS
+from ehlectric.motion.keys import LINE_KEYS
+from ehlectric.motion.schedule import Schedule
+from ehlectric.tables.contact import condition_rows
+
+
+def schedule_rows(schedule: Schedule, entrainment_speed: float) -> Iterator[Row]:
+    """Rows of a schedule: its duration, its steps, and the speeds of the rough surfaces.
+
+    Parameters
+    ----------
+    schedule : Schedule
+        Time steps of a run.
+    entrainment_speed : float
+        Entrainment speed of the contact [m/s].
+
+    Yields
+    ------
+    Row
+        Values in SI units.
+    """
+    moments = schedule.moments()
+    yield Row("motion of the roughness")
+    yield Row("duration of the motion", schedule.end * schedule.time, "ms", f", {schedule.steps} time steps")
+    yield Row("oil travel per time step / grid spacing", schedule.courant, digits=".3g")
+    for surface in schedule.rough:
+        speed = schedule.speed_of(surface) * entrainment_speed
+        yield Row(f"speed of rough surface {surface}", speed, "m/s")
+    for name, key in (
+        ("roughness fills the Hertz zone from", "covered_from"),
+        ("roughness at its place in the case at", "coincident"),
+    ):
+        if key in moments:
+            yield Row(name, moments[key], "ms")
+
+
+def run_rows(summary: Mapping[str, Any]) -> list[Row]:
+    """Rows of the key figures of a transient run.
+
+    Parameters
+    ----------
+    summary : mapping
+        Summary of the run, as ``summary_of`` gives it.
+
+    Returns
+    -------
+    list of Row
+        Values in SI units, without numbers that are None and without the number of halvings if it is 0.
+    """
+    case = Case.from_dict(summary["inputs"])
+    conditions = KINDS[case.contact.geometry].resolve(case)
+    halvings = summary["motion"]["halvings"] or None
+    shown = {**summary, "motion": {**summary["motion"], "halvings": halvings}}
+    rows = [*condition_rows(conditions, case.electric.voltage, case.oil)]
+    for heading, entries in _entries(summary):
+        found = list(rows_of(LINE_KEYS, shown, entries))
+        rows += [Row(heading), *found] if found else []
+    return rows
+
+
+def _entries(summary: Mapping[str, Any]) -> Iterator[tuple[str, tuple[tuple[str, ...], ...]]]:
+    """Headings of the table of a run, each with the entries of its rows as ``rows_of`` expects them."""
+    steps, peaks = summary["motion"]["steps"], summary["field"]["local_maxima"]
+    film_at, field_at = _time(summary, "film.minimum_time"), _time(summary, "field.max_strength_time")
+    breakdown_at = _time(summary, "discharge.breakdown_time")
+    yield (
+        "motion of the roughness",
+        (("duration of the motion", "motion.duration", "ms", f", {steps} time steps"),),
+    )
+    yield (
+        "film",
+        (
+            ("minimum film, moving roughness", "film.minimum_thickness", "µm", film_at),
+            ("minimum film, stationary roughness", "stationary.minimum_thickness", "µm"),
+            ("minimum film before the motion", "film.before", "µm"),
+            ("maximum pressure, moving roughness", "film.max_pressure", "GPa"),
+            ("maximum pressure, stationary roughness", "stationary.max_pressure", "GPa"),
+        ),
+    )
+    yield (
+        "electric field",
+        (
+            ("maximum field, moving roughness", "field.max_strength", "V/µm", field_at),
+            ("error of the maximum field", "field.max_strength_error", "%"),
+            ("maximum field, stationary roughness", "stationary.max_strength", "V/µm"),
+            ("maximum field before the motion", "field.before", "V/µm"),
+            ("time above 90 % of the maximum field", "field.share_above_90", "%", " of the evaluated time"),
+            ("local field maxima, median", "field.local_maxima_quantiles.1", "V/µm", f", {peaks} maxima"),
+            ("local field maxima, 95 % quantile", "field.local_maxima_quantiles.2", "V/µm"),
+            ("minimum breakdown voltage", "discharge.breakdown_voltage", "V", breakdown_at),
+            ("margin (breakdown / applied voltage)", "discharge.margin", ""),
+        ),
+    )
+    yield (
+        "moving and stationary, same position",
+        (
+            ("time of the same position", "beside_stationary.time", "ms"),
+            ("minimum film then, moving", "beside_stationary.minimum_thickness", "µm"),
+            ("minimum film then, stationary", "beside_stationary.minimum_thickness_stationary", "µm"),
+            ("maximum field then, moving", "beside_stationary.maximum_strength", "V/µm"),
+            (
+                "maximum field then, stationary",
+                "beside_stationary.maximum_strength_stationary",
+                "V/µm",
+            ),
+        ),
+    )
+    yield (
+        "run",
+        (
+            ("halvings of time steps", "motion.halvings", ""),
+            ("Newton steps per time step", "motion.newton_per_step", ""),
+            ("computing time", "seconds", "s"),
+        ),
+    )
+
+
+def _time(summary: Mapping[str, Any], key: str) -> str:
+    """Note with a time of a summary; empty where the summary has none."""
+    time = value_at(summary, key)
+    return "" if time is None else f" at {1e3 * time:.4g} ms"

@@ -1,0 +1,86 @@
+"""Table of a rough surface: its statistics after every processing step."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from rich.table import Table
+from rich.text import Text
+
+from ehlectric.errors import printable
+
+# Columns of the statistics of a profile and of a map: head, key, and format of the number.
+_PROFILE_COLUMNS = (
+    ("Rq\n[nm]", "rq", "height"),
+    ("Ra\n[nm]", "ra", "height"),
+    ("Rsk", "rsk", ".2f"),
+    ("Rku", "rku", ".1f"),
+    ("corr.\nlength\n[µm]", "correlation_length", "length"),
+    ("max.\nslope", "largest_slope", ".2g"),
+)
+_MAP_COLUMNS = (
+    ("Sq\n[nm]", "sq", "height"),
+    ("Sa\n[nm]", "sa", "height"),
+    ("Ssk", "ssk", ".2f"),
+    ("Sku", "sku", ".1f"),
+    ("corr.\nlength\nx [µm]", "correlation_length_x", "length"),
+    ("corr.\nlength\ny [µm]", "correlation_length_y", "length"),
+    ("max.\nslope", "largest_slope", ".2g"),
+)
+
+
+def surface_table(surface: dict[str, Any]) -> Table:
+    """Table of a profile or map: its source and size, and its statistics after every processing step."""
+    source = printable(surface["source"] or "generated")
+    title = f"surface {surface['surface']}: {source}\n{size_text(surface)}"
+    table = Table(title=Text(title), title_justify="left", box=None, padding=(0, 1, 0, 0))
+    heads, rows = statistics_rows(surface)
+    table.add_column(heads[0], no_wrap=True)
+    for name in heads[1:]:
+        table.add_column(Text(name), justify="right", no_wrap=True)
+    for row in rows:
+        table.add_row(*row)
+    return table
+
+
+def size_text(surface: Mapping[str, Any]) -> str:
+    """Points, spacing, voids and height resolution of a surface with processing steps."""
+    first = surface["steps"][0]
+    axes = ("spacing_x", "spacing_y") if "sq" in first else ("spacing",)
+    spacing = " x ".join(f"{first[axis] * 1e6:.6g}" for axis in axes)
+    parts = [*filter(None, [_size(surface["size"])]), f"spacing {spacing} µm"]
+    if surface["voids"]:
+        parts.append(f"{100 * surface['voids']:.2g} % voids")
+    if surface["height_step"] is not None:
+        parts.append(f"height resolution {surface['height_step'] * 1e9:.2g} nm")
+    return ", ".join(parts)
+
+
+def statistics_rows(surface: Mapping[str, Any]) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
+    """Heads of the statistics of a profile or map with their units, and a row for every processing step."""
+    of_map = "sq" in surface["steps"][0]
+    columns = _MAP_COLUMNS if of_map else _PROFILE_COLUMNS
+    heads = ("step", "points", *(head for head, _, _ in columns))
+    rows = []
+    for step in surface["steps"]:
+        points = f"{step['points_x']}x{step['points_y']}" if of_map else str(step["points"])
+        rows.append((step["step"], points, *(_statistic(step[key], how) for _, key, how in columns)))
+    return heads, rows
+
+
+def _size(size: list[int] | None) -> str:
+    """Number of points that were read, of a map along both directions."""
+    if size is None:
+        return ""
+    return " x ".join(str(count) for count in size if count > 1 or len(size) == 1) + " points"
+
+
+def _statistic(value: float, how: str) -> str:
+    """Number of a statistic as a string, heights in nm and lengths in µm."""
+    match how:
+        case "height":
+            return f"{value * 1e9:.{1 if value < 1e-6 else 0}f}"
+        case "length":
+            return f"{value * 1e6:.3g}"
+    return format(value, how)

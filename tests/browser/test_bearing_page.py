@@ -1,0 +1,236 @@
+"""Page of a bearing: its numbers are those of the command for the case that it downloads."""
+
+import pytest
+
+from tests.browser.driving import field, number, type_into, wait_for_number
+from tests.browser.outputs import address_of, bearing_by_command, command, downloaded, overflow
+from tests.browser.test_first_page import capacitance
+from tests.helpers.processes import alive, wait_until
+
+LOAD = "bearing.radial_load"
+
+# Its contacts are solved in seconds: line contacts of rollers are faster than point contacts of balls.
+ROLLERS = {
+    "bearing": {
+        "base": "nu-205",
+        "radial_load": "1800 N",
+        "axial_load": "0 N",
+        "radial_clearance": "20 um",
+        "profile": "none",
+        "inner_speed": "3000 rpm",
+        "temperature": "70 degC",
+        "composite_rq": "0.03 um",
+    },
+    "lubricant": {"base": "paper"},
+    "discharge": {"dielectric_strength": "15 V/um"},
+}
+
+
+def wait_for_command(page, summary):
+    """Wait until the page shows the numbers that the command gives."""
+    found = summary["bearing"]
+    wait_for_number(page, "capacitance", 1e12 * found["capacitance"], digits=4)
+    wait_for_number(page, "lambda", found["lambda_ratio"])
+    if found["shaft_first_break"]:
+        wait_for_number(page, "first-break", found["shaft_first_break"], digits=4)
+    if found["shaft_voltage"]:
+        wait_for_number(page, "shaft-voltage", found["shaft_voltage"], digits=4)
+        wait_for_number(page, "margin", found["margin"])
+
+
+def text_of(page, key):
+    return field(page, key).input_value()
+
+
+@pytest.mark.slow
+def test_keys_and_a_mouse_on_a_slider_change_the_answer(page, tmp_path):
+    wait_for_number(page, "capacitance", capacitance())
+    slider = page.get_by_test_id("slider-bearing-radial_load")
+    slider.focus()
+    for _ in range(3):
+        page.keyboard.press("ArrowRight")
+    assert wait_until(lambda: text_of(page, LOAD) != "1800 N")
+    wait_for_number(page, "capacitance", capacitance(text_of(page, LOAD)), digits=4)
+    slider.scroll_into_view_if_needed()
+    box = slider.bounding_box()
+    middle = box["y"] + box["height"] / 2
+    page.mouse.move(box["x"] + 0.4 * box["width"], middle)
+    page.mouse.down()
+    for part in (0.5, 0.6, 0.7, 0.8):
+        page.mouse.move(box["x"] + part * box["width"], middle)
+    page.mouse.up()
+    page.wait_for_timeout(500)
+    wait_for_command(page, bearing_by_command(page, tmp_path))
+
+
+@pytest.mark.slow
+def test_another_bearing_of_the_catalogue_and_one_s_own_geometry(page, tmp_path):
+    wait_for_number(page, "capacitance", capacitance())
+    box = field(page, "bearing.base")
+    box.click()
+    box.fill("nu-205")
+    page.get_by_test_id("option-nu-205").wait_for()
+    box.press("Enter")
+    # A roller bearing carries no axial load: the page says what it changed beside the bearing.
+    page.get_by_test_id("form-note").filter(has_text="Also").wait_for()
+    wait_for_command(page, bearing_by_command(page, tmp_path / "rollers"))
+    box.click()
+    page.get_by_test_id("option-~own").click()
+    field(page, "bearing.elements").wait_for()
+    # The values of the catalogue are the first ones, so the answer stays until one changes.
+    wait_for_command(page, bearing_by_command(page, tmp_path / "own"))
+    before = number(page, "capacitance")
+    type_into(page, "bearing.elements", "11")
+    page.wait_for_function(
+        "before => !document.querySelector('[data-testid=number-capacitance]').innerText.includes(before)",
+        arg=f"{before:g}",
+    )
+    summary = bearing_by_command(page, tmp_path / "fewer")
+    assert summary["inputs"]["bearing"]["elements"] == 11
+    wait_for_command(page, summary)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("key", "wrong"),
+    [(LOAD, "-5 N"), (LOAD, "5 kg"), ("bearing.inner_speed", "fast"), ("bearing.composite_rq", "-1 um")],
+)
+def test_a_wrong_value_has_the_line_of_the_command_beside_it(page, tmp_path, key, wrong):
+    wait_for_number(page, "capacitance", capacitance())
+    type_into(page, key, wrong)
+    error = page.get_by_test_id(f"error-{key.replace('.', '-')}")
+    error.wait_for()
+    box = field(page, key)
+    assert box.get_attribute("aria-invalid") == "true"
+    assert error.get_attribute("id") in box.get_attribute("aria-describedby").split()
+    path = downloaded(page, "download-toml", tmp_path)
+    _, told = command("bearing", path, "--contacts", "formula", folder=tmp_path, status=2)
+    assert " ".join(error.inner_text().split()) in " ".join(told.split())
+    assert "expected" in error.inner_text()
+    assert page.get_by_test_id("answer").get_attribute("aria-busy") == "true", "an old answer is dimmed"
+    page.get_by_test_id("undo").click()
+    error.wait_for(state="detached")
+    wait_for_number(page, "capacitance", capacitance())
+
+
+@pytest.mark.slow
+def test_solving_shows_its_progress_and_can_be_cancelled(own_server, open_page):
+    server = own_server()
+    page = open_page(server, address_of("/", ROLLERS))
+    page.get_by_test_id("number-capacitance").get_by_text("pF").first.wait_for()
+    formula = number(page, "capacitance")
+    before = set(server.processes())
+    page.get_by_test_id("solve").click()
+    bar = page.get_by_test_id("progress").first
+    page.wait_for_function(
+        "bar => Number(bar.getAttribute('value')) > 0", arg=bar.element_handle(), timeout=60_000
+    )
+    started = set(server.processes()) - before
+    assert started
+    page.get_by_test_id("cancel").first.click()
+    page.get_by_test_id("solve-message").filter(has_text="Cancelled").wait_for()
+    assert wait_until(lambda: not any(map(alive, started)))
+    assert page.get_by_test_id("answer").get_attribute("data-contacts") == "formula"
+    assert number(page, "capacitance") == formula
+
+
+@pytest.mark.slow
+def test_solved_contacts_replace_the_formula_and_say_by_how_much(open_page, app_server, tmp_path):
+    page = open_page(app_server, address_of("/", ROLLERS))
+    formula = bearing_by_command(page, tmp_path)
+    wait_for_command(page, formula)
+    page.get_by_test_id("solve").click()
+    page.locator("[data-testid=answer][data-contacts=solved]").wait_for(timeout=120_000)
+    solved = bearing_by_command(page, tmp_path, "solved")
+    wait_for_command(page, solved)
+    told = page.get_by_test_id("differences")
+    told.locator("summary").first.click() if told.locator("summary").count() else None
+    row = told.locator("tr", has_text="apacitance").first
+    row.wait_for()
+    change = 100.0 * (solved["bearing"]["capacitance"] / formula["bearing"]["capacitance"] - 1.0)
+    assert f"{abs(change):.2g}" in row.inner_text()
+    page.get_by_test_id("other-contacts").click()
+    wait_for_command(page, formula)
+    assert page.get_by_test_id("answer").get_attribute("data-contacts") == "formula"
+    page.get_by_test_id("other-contacts").click()
+    wait_for_command(page, solved)
+
+
+@pytest.mark.slow
+def test_undo_and_redo_by_buttons_and_keys(page):
+    wait_for_number(page, "capacitance", capacitance())
+    assert page.get_by_test_id("undo").is_disabled()
+    for load in ("900 N", "2700 N"):
+        type_into(page, LOAD, load)
+        wait_for_number(page, "capacitance", capacitance(load))
+    page.get_by_test_id("undo").click()
+    wait_for_number(page, "capacitance", capacitance("900 N"))
+    assert text_of(page, LOAD) == "900 N"
+    # The focus is on a button, so that the keys are not those of a text.
+    page.keyboard.press("Control+z")
+    wait_for_number(page, "capacitance", capacitance())
+    assert text_of(page, LOAD) == "1800 N"
+    page.get_by_test_id("redo").click()
+    wait_for_number(page, "capacitance", capacitance("900 N"))
+    page.keyboard.press("Control+Shift+z")
+    wait_for_number(page, "capacitance", capacitance("2700 N"))
+    assert "2700" in page.url
+
+
+@pytest.mark.slow
+def test_a_link_shows_the_same_in_another_browser(page, open_page, app_server, tmp_path):
+    wait_for_number(page, "capacitance", capacitance())
+    type_into(page, LOAD, "1234.5 N")
+    page.get_by_test_id("group-title").locator("summary").first.click()
+    type_into(page, "title", "Müller & Søn: 'fan' #2")
+    wait_for_number(page, "capacitance", capacitance("1234.5 N"), digits=4)
+    page.get_by_test_id("copy-link").click()
+    link = page.get_by_test_id("link")
+    box = link if link.evaluate("box => box.matches('input')") else link.locator("input")
+    box.wait_for()
+    address = box.input_value()
+    assert address.startswith(f"http://{page.watch.host}/?")
+    other = open_page(app_server, address.removeprefix(f"http://{page.watch.host}"))
+    wait_for_number(other, "capacitance", capacitance("1234.5 N"), digits=4)
+    files = []
+    for name, tab in (("first", page), ("second", other)):
+        (tmp_path / name).mkdir()
+        files.append(downloaded(tab, "download-toml", tmp_path / name).read_text("utf-8"))
+    assert files[0] == files[1]
+    assert "Müller" in files[0]
+
+
+@pytest.mark.slow
+def test_the_answer_is_read_and_solved_by_the_keyboard_alone(open_page, app_server):
+    page = open_page(app_server, address_of("/", ROLLERS))
+    page.get_by_test_id("solve").wait_for()
+    seen = []
+    for _ in range(120):
+        page.keyboard.press("Tab")
+        seen.append(page.evaluate("document.activeElement.dataset.testid || document.activeElement.tagName"))
+        if seen[-1] == "solve":
+            break
+    assert seen[-1] == "solve", seen
+    page.keyboard.press("Enter")
+    page.get_by_test_id("cancel").first.wait_for()
+    for _ in range(20):
+        page.keyboard.press("Tab")
+        if page.evaluate("document.activeElement.dataset.testid") == "cancel":
+            break
+    page.keyboard.press("Enter")
+    page.get_by_test_id("solve-message").filter(has_text="Cancelled").wait_for()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("colors", ["light", "dark"])
+def test_the_page_is_read_on_a_narrow_screen_and_in_both_colours(open_page, app_server, colors):
+    page = open_page(app_server, width=400, height=800, color_scheme=colors)
+    wait_for_number(page, "capacitance", capacitance())
+    assert overflow(page) <= 0
+    back, front = page.evaluate(
+        "() => ['backgroundColor', 'color'].map(name => getComputedStyle(document.body)[name]"
+        ".match(/[\\d.]+/g).slice(0, 3).reduce((sum, part) => sum + Number(part), 0) / 3)"
+    )
+    assert (back < front) is (colors == "dark")
+    # Far apart, as a contrast of 4.5 of the W3C takes at least.
+    assert abs(back - front) > 128

@@ -1,0 +1,211 @@
+"""Page of a contact: line, point, measured surfaces and a movie, with the numbers of the command."""
+
+import json
+import re
+import time
+import tomllib
+
+import pytest
+
+from ehlectric.app.inputs import Inputs
+from tests.browser.driving import type_into
+from tests.browser.outputs import address_of, command, downloaded, overflow, summary_by_command
+from tests.helpers.places import DEKTAK, EXAMPLES, SURFACES
+from tests.helpers.processes import alive, wait_until
+
+_NUMBER = re.compile(r"[-−]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
+
+MEASURED = (DEKTAK, *(SURFACES / name for name in ("al3d-1.al3d", "hfm-1.hfm", "x3p-2-half.x3p")))
+
+
+def example(name, **changes):
+    """Tables of an example, with other values by dotted key."""
+    table = tomllib.loads((EXAMPLES / f"{name}.toml").read_text(encoding="utf-8"))
+    return dict(
+        Inputs(table).changed({key.replace("__", "."): value for key, value in changes.items()}).table
+    )
+
+
+def smooth():
+    """Address of a contact that is solved at once, before it has a rough surface."""
+    return address_of("/contact", example("rough_contact", roughness=None, grid__nodes=801))
+
+
+def shown(page, name):
+    """First number that a card of the page shows; the name of its quantity has no digits."""
+    text = page.get_by_test_id(f"number-{name}").first.inner_text()
+    return float(_NUMBER.search(text.split("\n", 1)[1])[0])
+
+
+def wait_until_solved(page, seconds=60.0):
+    page.get_by_test_id("solve-state").filter(has_text="Solved").wait_for(timeout=1e3 * seconds)
+    page.locator("[data-testid=solved]:not(.old)").wait_for()
+
+
+@pytest.mark.slow
+def test_a_line_contact_is_drawn_with_the_numbers_of_the_command(open_page, app_server, tmp_path):
+    page = open_page(app_server, "/contact")
+    wait_until_solved(page)
+    page.get_by_test_id("figure-profiles").locator(".main-svg").first.wait_for()
+    summary = summary_by_command("run", downloaded(page, "download-toml", tmp_path), tmp_path)
+    assert summary["inputs"]["grid"]["nodes"] == 3201
+    film = 1e6 * summary["film"]["minimum_thickness"]
+    assert shown(page, "minimum-film") == pytest.approx(film, rel=5e-4)
+    before = page.get_by_test_id("number-minimum-film").inner_text()
+    begun = time.monotonic()
+    type_into(page, "contact.entrainment_speed", "2 m/s")
+    page.wait_for_function(
+        "before => document.querySelector('[data-testid=number-minimum-film]').innerText !== before",
+        arg=before,
+    )
+    wait_until_solved(page)
+    # About a second on an idle machine; the bound only finds what is wrong by an order of magnitude.
+    assert time.monotonic() - begun < 20.0
+    film = summary_by_command("run", downloaded(page, "download-toml", tmp_path), tmp_path)["film"]
+    assert shown(page, "minimum-film") == pytest.approx(1e6 * film["minimum_thickness"], rel=5e-4)
+
+
+@pytest.mark.slow
+def test_a_point_contact_is_solved_and_cut_where_a_slider_says(open_page, app_server, tmp_path):
+    page = open_page(app_server, address_of("/contact", example("ball_contact", grid__nodes=65)))
+    assert overflow(page) <= 0
+    page.get_by_test_id("number-formula-minimum-film").wait_for()
+    page.get_by_test_id("solve").click()
+    wait_until_solved(page, 120.0)
+    summary = summary_by_command("run", downloaded(page, "download-toml", tmp_path), tmp_path)
+    film = 1e6 * summary["film"]["minimum_thickness"]
+    assert shown(page, "minimum-film") == pytest.approx(film, rel=5e-4)
+    for name in ("film-map", "pressure-map", "field-map"):
+        page.get_by_test_id(f"figure-{name}").locator(".main-svg").first.wait_for()
+    slider = page.get_by_test_id("slider-cut-x")
+    before = slider.get_attribute("aria-valuetext")
+    slider.focus()
+    page.keyboard.press("Home")
+    assert wait_until(lambda: slider.get_attribute("aria-valuetext") != before)
+    ends = page.evaluate("s => [s.value, s.min]", slider.element_handle())
+    assert float(ends[0]) == pytest.approx(float(ends[1]))
+
+
+@pytest.mark.slow
+def test_changing_between_line_and_point_asks_the_command_for_each(open_page, app_server, tmp_path):
+    page = open_page(app_server, "/contact")
+    for name, load in (("Point contact", "load"), ("Line contact", "load_per_length")):
+        page.get_by_test_id("geometry").get_by_text(name).click()
+        page.get_by_test_id(f"field-contact-{load}").wait_for()
+        page.locator(
+            "[data-testid=by-formula]:not(.old) [data-testid=number-formula-minimum-film]"
+        ).wait_for()
+        path = downloaded(page, "download-toml", tmp_path)
+        checked = json.loads(command("check", path, "--json", folder=tmp_path)[0])
+        assert shown(page, "formula-hertz-pressure") == pytest.approx(
+            1e-9 * checked["hertz"]["max_pressure"], rel=5e-4
+        )
+
+
+def upload(page, path):
+    """Upload a file of an instrument."""
+    page.get_by_test_id("upload-surface").set_input_files(path)
+
+
+def statistics(page):
+    """Rows of the table of statistics, as texts."""
+    table = page.get_by_test_id("surface-statistics")
+    table.wait_for()
+    return table.evaluate("t => [...t.rows].map(r => [...r.cells].map(c => c.innerText))")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("path", MEASURED, ids=lambda path: path.name)
+def test_a_measured_surface_has_the_statistics_of_the_command(open_page, app_server, tmp_path, path):
+    page = open_page(app_server, smooth())
+    page.get_by_test_id("upload-surface").wait_for(state="attached")
+    upload(page, path)
+    statistics(page)
+    box = page.get_by_test_id("field-roughness-form")
+    box.select_option("line")
+    page.locator("[data-testid=surface-statistics]", has_text="form: line").wait_for()
+    told = json.loads(command("surface", path, "--form", "line", "--json", folder=tmp_path)[0])
+    heads, *rows = statistics(page)
+    assert [row[0] for row in rows] == [step["step"] for step in told["steps"]]
+    column = next(number for number, head in enumerate(heads) if head.startswith("Rq"))
+    for row, step in zip(rows, told["steps"], strict=True):
+        assert float(row[1].replace(" ", "")) == step["points"]
+        assert float(row[column]) == pytest.approx(1e9 * step["rq"], rel=2e-3)
+        assert float(row[column + 1]) == pytest.approx(1e9 * step["ra"], rel=2e-3)
+    assert page.get_by_test_id("surface").locator(".js-plotly-plot").count() == len(rows)
+    page.get_by_test_id("use-surface").click()
+    page.get_by_test_id("surfaces-used").filter(has_text=path.name).wait_for()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("name", "content"),
+    [
+        ("notes.csv", b"this is no profile\n"),
+        ("broken.x3p", b"PK\x03\x04 no archive"),
+        ("empty.csv", b""),
+        ("script.html", b"<script>document.title = 'taken'</script>"),
+    ],
+)
+def test_a_bad_file_is_refused_in_words_and_the_page_goes_on(open_page, app_server, tmp_path, name, content):
+    page = open_page(app_server, smooth())
+    bad = tmp_path / name
+    bad.write_bytes(content)
+    page.get_by_test_id("upload-surface").wait_for(state="attached")
+    upload(page, bad)
+    error = page.get_by_test_id("roughness").get_by_role("alert").filter(has_text=name)
+    error.first.wait_for()
+    _, told = command("surface", bad, folder=tmp_path, status=2)
+    # The command names the file with its path, or as it was typed.
+    line = " ".join(told.split()).partition(name)[2]
+    assert " ".join(error.first.inner_text().split()).partition(name)[2][:60] in line
+    assert "Traceback" not in page.inner_text("body")
+    assert page.title() != "taken"
+    assert page.get_by_test_id("use-surface").is_disabled()
+    upload(page, SURFACES / "hfm-1.hfm")
+    statistics(page)
+
+
+def moving(**changes):
+    """Case whose waviness moves through the contact in tens of steps."""
+    return example("moving_roughness", grid__nodes=401, **changes)
+
+
+@pytest.mark.slow
+def test_a_movie_is_computed_and_its_slider_goes_through_time(open_page, app_server, tmp_path):
+    small = moving(motion={"passes": 0.1, "record": 5})
+    page = open_page(app_server, address_of("/contact", small))
+    page.get_by_test_id("solve-motion").click()
+    page.get_by_test_id("motion-state").filter(has_text="All time steps are solved").wait_for(timeout=120_000)
+    slider = page.get_by_test_id("movie-slider")
+    slider.wait_for()
+    slider.focus()
+    texts = []
+    for key in ("Home", "ArrowRight", "End"):
+        page.keyboard.press(key)
+        assert wait_until(lambda: page.get_by_test_id("movie-text").inner_text() not in ["", *texts])
+        texts.append(page.get_by_test_id("movie-text").inner_text())
+    path = tmp_path / "case.toml"
+    path.write_text(Inputs(small).toml(), encoding="utf-8")
+    summary = summary_by_command("run", path, tmp_path)
+    page.get_by_test_id("motion-numbers").click()
+    shown_numbers = page.get_by_test_id("motion-numbers").inner_text()
+    assert summary["converged"]
+    least = 1e6 * summary["film"]["minimum_thickness"]
+    assert f"{least:.4g}" in shown_numbers
+
+
+@pytest.mark.slow
+def test_a_movie_is_cancelled_with_its_process(own_server, open_page):
+    server = own_server()
+    page = open_page(server, address_of("/contact", example("moving_roughness")))
+    page.get_by_test_id("number-formula-minimum-film").wait_for()
+    before = set(server.processes())
+    page.get_by_test_id("solve-motion").click()
+    motion = page.get_by_test_id("motion")
+    motion.locator("progress[value]").wait_for(timeout=60_000)
+    started = set(server.processes()) - before
+    assert started
+    motion.get_by_test_id("cancel").click()
+    page.get_by_test_id("motion-state").filter(has_text=re.compile("cancelled|No instant")).wait_for()
+    assert wait_until(lambda: not any(map(alive, started)))

@@ -1,0 +1,169 @@
+"""Page of a sweep: its map fills, stops and resumes, and its database is that of the command."""
+
+import csv
+import json
+import re
+import sqlite3
+import tomllib
+
+import pytest
+
+from tests.browser.driving import wait_for_number
+from tests.browser.outputs import address_of, command, downloaded
+from tests.helpers.places import EXAMPLES
+from tests.helpers.processes import alive, wait_until
+
+SPEED, LOAD = "bearing.inner_speed", "bearing.radial_load"
+
+
+def sweep(count):
+    """Sweep of the example of a bearing by formula, with a number of values of each input."""
+    case = tomllib.loads((EXAMPLES / "bearing_6208.toml").read_text(encoding="utf-8"))
+    vary = {
+        "inner_speed": {"from": "600 rpm", "to": "6000 rpm", "count": count, "spacing": "log"},
+        "radial_load": {"from": "500 N", "to": "8000 N", "count": count},
+    }
+    return {"case": case | {"contacts": "formula"}, "vary": {"bearing": vary}}
+
+
+def run(page):
+    """Press Run or Resume, once it can be pressed."""
+    page.locator("[data-testid=solve]:not([disabled])").click()
+
+
+def wait_for_points(page, text, seconds=90.0):
+    page.get_by_test_id("map-note").filter(has_text=text).wait_for(timeout=1e3 * seconds)
+
+
+def rows_of(path):
+    """Rows of a sweep's table without the computing time, which differs between two runs."""
+    with path.open(newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    return [{key: value for key, value in row.items() if key != "seconds [s]"} for row in rows]
+
+
+def points_of(path):
+    """All rows of a database by table, without the date of the last run."""
+    with sqlite3.connect(path) as database:
+        names = [name for (name,) in database.execute("SELECT name FROM sqlite_master WHERE type = 'table'")]
+        rows = {name: list(database.execute(f'SELECT * FROM "{name}"')) for name in names}
+    return {name: [row for row in found if row[0] != "date"] for name, found in rows.items()}
+
+
+def cells_of(path):
+    """Texts in the cells of all tables of a report."""
+    return re.findall(r"<td[^>]*>(.*?)</td>", path.read_text(encoding="utf-8"), re.DOTALL)
+
+
+@pytest.mark.slow
+def test_a_map_fills_and_its_database_is_that_of_the_command(open_page, app_server, tmp_path):
+    page = open_page(app_server, address_of("/sweep", sweep(4)))
+    page.get_by_test_id("plan").filter(has_text="16 points").wait_for()
+    run(page)
+    wait_for_points(page, "16 solved")
+    table = downloaded(page, "download-csv", tmp_path)
+    base = downloaded(page, "download-sqlite", tmp_path)
+    case = downloaded(page, "download-toml", tmp_path)
+    command("sweep", case, "-o", "by_command", "--quiet", folder=tmp_path)
+    own = tmp_path / "by_command"
+    assert rows_of(table) == rows_of(own / "sweep.csv")
+    # The command finds all points of the page in its database: they have the same keys.
+    other = tmp_path / "of_page"
+    other.mkdir()
+    (other / "sweep.sqlite").write_bytes(base.read_bytes())
+    before = points_of(other / "sweep.sqlite")
+    command("sweep", case, "-o", other, "--quiet", folder=tmp_path)
+    assert points_of(other / "sweep.sqlite") == before
+    assert (other / "sweep.csv").read_text() == table.read_text()
+    report = downloaded(page, "download-report-html", tmp_path, milliseconds=180_000)
+    command("report", other, "-o", "own.html", folder=tmp_path)
+    assert len(cells_of(report)) > 100
+    assert cells_of(report) == cells_of(tmp_path / "own.html")
+
+
+@pytest.mark.slow
+def test_a_sweep_stops_and_resumes_with_the_points_that_are_done(own_server, open_page):
+    server = own_server()
+    page = open_page(server, address_of("/sweep", sweep(5)))
+    page.get_by_test_id("plan").filter(has_text="25 points").wait_for()
+    before = set(server.processes())
+    run(page)
+    state = page.get_by_test_id("progress").first
+    page.wait_for_function(
+        "() => /^[1-9][0-9]* of 25/.test([...document.querySelectorAll('[data-testid=progress]')]"
+        ".map(e => e.innerText).find(text => text) || '')",
+        timeout=60_000,
+    )
+    started = set(server.processes()) - before
+    page.get_by_test_id("cancel").first.click()
+    state.filter(has_text="Stopped").wait_for(timeout=60_000)
+    assert wait_until(lambda: not any(map(alive, started)))
+    note = page.get_by_test_id("map-note")
+    note.filter(has_text="open").wait_for()
+    kept = int(note.inner_text().partition(" solved")[0].rpartition(" ")[2])
+    assert 0 < kept < 25
+    assert page.get_by_test_id("solve").inner_text() == "Resume"
+    run(page)
+    page.wait_for_function(
+        "kept => [...document.querySelectorAll('[data-testid=progress]')].some(e => "
+        "{ const found = e.innerText.match(/^(\\d+) of 25/); return found && Number(found[1]) >= kept })",
+        arg=kept,
+        timeout=60_000,
+    )
+    wait_for_points(page, "25 solved")
+    assert page.get_by_test_id("solve").is_disabled()
+
+
+@pytest.mark.slow
+def test_a_point_opens_its_case_with_the_same_numbers(open_page, app_server, tmp_path):
+    page = open_page(app_server, address_of("/sweep", sweep(2)))
+    page.get_by_test_id("plan").filter(has_text="4 points").wait_for()
+    run(page)
+    wait_for_points(page, "4 solved")
+    table = rows_of(downloaded(page, "download-csv", tmp_path))
+    page.get_by_test_id("map").focus()
+    for number in (0, 2):
+        page.keyboard.press("ArrowRight")
+        page.get_by_test_id("point").filter(has_text=f"Point {number}").wait_for()
+    link = page.get_by_test_id("open-point")
+    link.wait_for()
+    opened = open_page(app_server, link.get_attribute("href"))
+    row = table[2]
+    wait_for_number(opened, "capacitance", 1e12 * float(row["bearing.capacitance [F]"]), digits=4)
+    wait_for_number(opened, "margin", float(row["bearing.margin [-]"]))
+    case = downloaded(opened, "download-toml", tmp_path)
+    numbers = json.loads(command("bearing", case, "--json", "--no-plots", "-o", "out", folder=tmp_path)[0])
+    assert numbers["bearing"]["capacitance"] == float(row["bearing.capacitance [F]"])
+    assert numbers["bearing"]["margin"] == float(row["bearing.margin [-]"])
+
+
+@pytest.mark.slow
+def test_a_click_on_the_map_opens_the_point_in_a_new_tab(open_page, app_server):
+    page = open_page(app_server, address_of("/sweep", sweep(2)))
+    page.get_by_test_id("plan").filter(has_text="4 points").wait_for()
+    run(page)
+    wait_for_points(page, "4 solved")
+    layer = page.get_by_test_id("map").locator(".nsewdrag").first
+    layer.scroll_into_view_if_needed()
+    box = layer.bounding_box()
+    with page.context.expect_page() as info:
+        page.mouse.click(box["x"] + 0.75 * box["width"], box["y"] + 0.75 * box["height"])
+    opened = info.value
+    opened.get_by_test_id("number-capacitance").wait_for()
+    assert "/?" in opened.url
+
+
+@pytest.mark.slow
+def test_a_wrong_range_is_told_beside_its_field(open_page, app_server, tmp_path):
+    page = open_page(app_server, address_of("/sweep", sweep(2)))
+    page.get_by_test_id("plan").filter(has_text="4 points").wait_for()
+    box = page.get_by_test_id("field-vary-0-from")
+    box = box if box.evaluate("box => box.matches('input')") else box.locator("input")
+    box.fill("600 kg")
+    box.press("Tab")
+    error = page.get_by_test_id("error-vary-0-from")
+    error.filter(has_text="600 kg").wait_for()
+    case = downloaded(page, "download-toml", tmp_path)
+    _, told = command("sweep", case, "-o", "out", folder=tmp_path, status=2)
+    assert " ".join(error.inner_text().split()) in " ".join(told.split())
+    assert page.get_by_test_id("solve").is_disabled()

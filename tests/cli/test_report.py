@@ -1,0 +1,141 @@
+"""The command report: results of every kind as HTML and PDF, and what it refuses."""
+
+import json
+import shutil
+import tomllib
+
+import pytest
+import tomli_w
+
+from tests.cli.conftest import CASE
+from tests.helpers.moving_cases import LINE
+from tests.helpers.places import EXAMPLES
+from tests.helpers.reports import HOSTILE, Page, text_of_pdf
+
+RESULTS = "result.nc, bearing.nc, motion.nc, sweep.sqlite"
+SWEEP = f"""\
+title = "Speeds"
+[vary]
+"contact.entrainment_speed" = ["2 m/s", "3 m/s"]
+{CASE.replace('title = "Test"', "").replace("[", "[case.").replace("801", "401")}
+"""
+
+
+def solved(ehlectric, folder, command, text, *options):
+    """Folder of the result of a file."""
+    (folder / "in.toml").write_text(text, encoding="utf-8")
+    done = ehlectric(command, "in.toml", "-o", "out", *options)
+    assert done.returncode == 0, done.stderr
+    return folder / "out"
+
+
+def reported(ehlectric, folder):
+    """Text of both reports of a folder, each on one line."""
+    done = ehlectric("report", folder.name)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout == "written to out:\n  report.html, report.pdf\n"
+    page = Page((folder / "report.html").read_text(encoding="utf-8"))
+    paper = text_of_pdf((folder / "report.pdf").read_bytes()) if shutil.which("pdftotext") else page.text
+    return page, paper
+
+
+def test_of_a_line_contact(ehlectric, tmp_path):
+    """Numbers are those of summary.json; the next run removes the report."""
+    text = CASE.replace('"Test"', f"'{HOSTILE}'".replace("\u202e", ""))
+    folder = solved(ehlectric, tmp_path, "run", text, "--no-plots")
+    page, paper = reported(ehlectric, folder)
+    summary = json.loads((folder / "summary.json").read_text())
+    for number in (
+        f"{summary['film']['minimum_thickness'] * 1e6:.4g} µm",
+        f"{summary['field']['max_strength'] / 1e6:.4g} V/µm",
+        f"{summary['hertz']['half_width'] * 1e6:.4g} µm",
+    ):
+        assert number in page.text
+        assert number in paper
+    assert not page.of("script")
+    assert "<script>alert(1)</script>" in page.text
+    assert "<script>alert(1)</script>" in paper
+    assert ehlectric("run", "in.toml", "-o", "out", "--no-plots", "-q").returncode == 0
+    assert not list(folder.glob("report.*"))
+
+
+@pytest.mark.slow
+def test_of_a_bearing_by_formula(ehlectric, tmp_path):
+    text = (EXAMPLES / "bearing_6208.toml").read_text(encoding="utf-8")
+    folder = solved(ehlectric, tmp_path, "bearing", text, "--no-plots", "--contacts", "formula")
+    page, paper = reported(ehlectric, folder)
+    summary = json.loads((folder / "summary.json").read_text())
+    totals = summary["bearing"]
+    for text in (
+        summary["verdict"],
+        f"capacitance of the bearing {totals['capacitance'] * 1e12:.4g} pF",
+        f"first breakdown voltage ≤ {totals['first_break']:.4g} V",
+        "No breakdown expected, as an upper bound",
+        "library 6208: assumed [3]",
+    ):
+        assert text in page.text, text
+        assert text in paper, text
+    lights = [attributes["class"] for attributes in page.of("div") if "light" in attributes.get("class", "")]
+    assert lights == ["light green"]
+    # The input file of the report is solved again to the same summary.
+    again = page.texts[next(n for n, text in enumerate(page.texts) if text.startswith('title = "'))]
+    (tmp_path / "again.toml").write_text(again, encoding="utf-8")
+    assert ehlectric("bearing", "again.toml", "-o", "again", "--no-plots", "-q").returncode == 0
+    other = json.loads((tmp_path / "again/summary.json").read_text())
+    assert {**other, "seconds": 0} == {**summary, "seconds": 0}
+
+
+def test_of_a_sweep(ehlectric, tmp_path):
+    folder = solved(ehlectric, tmp_path, "sweep", SWEEP, "--workers", "1")
+    page, paper = reported(ehlectric, folder)
+    for text in ("points solved 2", "contact.entrainment_speed: entrainment speed [m/s] 2, 3"):
+        assert text in page.text
+        assert text in paper
+    again = page.texts[next(n for n, text in enumerate(page.texts) if text.startswith('title = "'))]
+    assert tomllib.loads(again)["vary"] == {"contact.entrainment_speed": [2.0, 3.0]}
+    (tmp_path / "again.toml").write_text(again, encoding="utf-8")
+    done = ehlectric("check", "again.toml")
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+@pytest.mark.slow
+def test_of_moving_roughness(ehlectric, tmp_path):
+    folder = solved(ehlectric, tmp_path, "run", tomli_w.dumps(LINE), "--no-plots")
+    page, paper = reported(ehlectric, folder)
+    summary = json.loads((folder / "summary.json").read_text())
+    number = f"minimum film, moving roughness {summary['film']['minimum_thickness'] * 1e6:.4g} µm"
+    assert number in page.text
+    assert number in paper
+    assert len(page.of("img")) == 3
+
+
+def test_one_format_elsewhere(ehlectric, tmp_path):
+    folder = solved(ehlectric, tmp_path, "run", CASE.replace("801", "401"), "--no-plots")
+    done = ehlectric("report", "out", "--format", "html", "-q")
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+    assert [path.name for path in folder.glob("report.*")] == ["report.html"]
+    done = ehlectric("report", "out/result.nc", "-o", "film.pdf")
+    assert (done.returncode, done.stdout) == (0, "written: film.pdf\n")
+    assert (tmp_path / "film.pdf").read_bytes().startswith(b"%PDF")
+
+
+@pytest.mark.parametrize(
+    ("words", "line"),
+    [
+        (("empty",), f"empty: has no result; expected a folder with one of {RESULTS}"),
+        (("none",), "none: cannot be read, no such file or directory"),
+        (("case.toml",),
+         "case.toml: is a case of a contact; expected a result; solve it with: ehlectric run case.toml"),
+        (("empty", "--format", "doc"), "--format: got 'doc'; expected one of html, pdf"),
+        (("empty", "-o", "film.doc"), "film.doc: ends in '.doc'; expected a file that ends in .html or .pdf"),
+        (("empty", "-o", "none/film.pdf"), "none/film.pdf: cannot be written to, its folder does not exist"),
+        (("empty", "-o", "film.pdf", "--format", "pdf"),
+         "--format: cannot be combined with --output; expected one of them: the file ends in .html or .pdf"),
+    ],
+)  # fmt: skip
+@pytest.mark.usefixtures("case_file")
+def test_what_is_refused(words, line, ehlectric, tmp_path):
+    (tmp_path / "empty").mkdir()
+    done = ehlectric("report", *words)
+    assert (done.returncode, done.stdout, done.stderr) == (2, "", f"error: {line}\n")
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["case.toml", "empty"]

@@ -1,0 +1,280 @@
+"""Answers about a bearing: the numbers of the command, their bounds and warnings, and figures of them."""
+
+import json
+import math
+import tomllib
+from dataclasses import asdict
+
+import pytest
+
+from ehlectric.app.answers.bearing import BearingAnswer
+from ehlectric.app.answers.told import PLACES, Told, beside, counts, elsewhere
+from ehlectric.app.compute.bearing import (
+    answer_by_formula,
+    answer_of,
+    bearing_case,
+    solve_contacts,
+    whole_answer_by_formula,
+)
+from ehlectric.app.compute.bearing_numbers import differences, shown_numbers
+from ehlectric.app.compute.bearing_verdict import judged
+from ehlectric.app.compute.warnings import told_of
+from ehlectric.bearing.solver import solve_bearing
+from ehlectric.cases.row import amount
+from ehlectric.cases.units import rpm
+from ehlectric.discharge.verdict import Verdict, ratio_text
+from ehlectric.errors import CODES, InputError, ResultWarning
+from ehlectric.runs.by_kind import run
+from ehlectric.runs.example_files import example_text
+
+TEXT = example_text("bearing_6208")
+
+
+def inputs(**bearing):
+    """Tables of the example with other keys of the bearing."""
+    table = tomllib.loads(TEXT)
+    table["bearing"] |= bearing
+    return table
+
+
+@pytest.fixture(scope="module")
+def summary(tmp_path_factory) -> dict:
+    """Summary that ``ehlectric bearing FILE --contacts formula`` writes for the example."""
+    folder = tmp_path_factory.mktemp("command")
+    path = folder / "case.toml"
+    path.write_text(TEXT, encoding="utf-8")
+    run(path, folder / "result", contacts="formula")
+    return json.loads((folder / "result" / "summary.json").read_text(encoding="utf-8"))
+
+
+@pytest.fixture(scope="module")
+def quick() -> BearingAnswer:
+    return answer_by_formula(inputs())
+
+
+@pytest.fixture(scope="module")
+def whole() -> BearingAnswer:
+    return whole_answer_by_formula(inputs())
+
+
+def test_the_answer_at_once_has_the_numbers_of_the_command(quick, summary):
+    assert quick.numbers == summary["bearing"]
+    assert list(quick.contact_rows) == summary["contacts"]
+    assert [told.code for told in quick.warnings] == summary["warning_codes"]
+    assert (quick.contacts, quick.whole, quick.margin, quick.converged) == ("formula", False, None, True)
+
+
+def test_the_whole_answer_has_the_verdict_of_the_command(whole, summary):
+    assert (whole.text, whole.level) == (summary["verdict"], summary["margin"]["level"])
+    assert whole.margin == summary["margin"]
+    assert whole.numbers == summary["bearing"]
+    parts = whole.judged
+    assert parts.level == whole.level
+    lead, _, bound = parts.lead.partition(", as ")
+    assert (bound, parts.bound) == ("an upper bound", "≤")
+    sentences = [f"{lead}: ", parts.numbers, *parts.reasons, parts.assumptions]
+    assert "".join(sentences).replace(" ", "").lower() == whole.text.replace(" ", "").lower()
+
+
+def test_numbers_are_shown_with_their_units_and_bounds(quick, summary):
+    totals = summary["bearing"]
+    shown = {number.name: (number.bound, number.text) for number in quick.shown}
+    assert shown == {
+        "capacitance": ("", amount(totals["capacitance"], "F")),
+        "first-break": ("≤", amount(totals["first_break"], "V")),
+        "shaft-voltage": ("", amount(totals["shaft_voltage"], "V")),
+        "margin": ("≤", ratio_text(totals["margin"])),
+        "lambda": ("", f"{totals['lambda_ratio']:.3g}"),
+        "critical-speed": ("", "…"),
+    }
+    note = quick.number("capacitance").note
+    assert note.startswith(amount(totals["capacitance_air"], "F"))
+    assert amount(totals["capacitance_oil"], "F") in note
+    assert "upper bound: isothermal" in quick.number("first-break").note
+
+
+def test_the_critical_speed_comes_with_the_whole_answer(whole, summary):
+    found = whole.number("critical-speed")
+    critical = rpm(summary["margin"]["critical_speed"])
+    assert found.known
+    assert float(found.text.removesuffix(" rpm")) == pytest.approx(critical, rel=5e-3)
+
+
+def test_the_details_are_the_rows_that_the_command_prints(whole, quick):
+    from ehlectric.tables.bearing import total_rows
+
+    result = solve_bearing(bearing_case(inputs(), "formula"), workers=1)
+    rows = [(row.name, row.text) for row in total_rows(result.summary()) if row.name != "computing time"]
+    assert [(line.name, line.text) for line in whole.lines if line.name != "computing time"] == rows
+    assert len(quick.lines) < len(whole.lines)
+
+
+def test_without_ranges_the_verdict_at_once_has_the_level_of_the_whole_one(quick, whole):
+    assert quick.level == whole.level == "green"
+
+
+def test_with_ranges_the_verdict_at_once_is_not_green():
+    table = inputs() | {"ranges": {"bearing.radial_load": ["1700 N", "1900 N"]}}
+    quick, whole = answer_by_formula(table), whole_answer_by_formula(table)
+    assert quick.level == "yellow"
+    assert "its range follows" in quick.text
+    assert "could not be computed" not in quick.text
+    assert "follows" in quick.number("margin").note
+    # The narrow range changes nothing: the example is green without it.
+    assert (whole.level, "follows" in whole.text) == ("green", False)
+    assert "within the stated ranges" in whole.number("margin").note
+
+
+def test_silicon_nitride_has_an_upper_bound_and_no_voltages():
+    quick = answer_by_formula(inputs(element_material="silicon-nitride"))
+    assert quick.level == "grey"
+    capacitance, shaft = quick.number("capacitance"), quick.number("shaft-voltage")
+    assert (capacitance.bound, capacitance.note.startswith("upper bound")) == ("≤", True)
+    assert [told.code for told in capacitance.told] == ["capacitance-bound"]
+    assert (shaft.known, shaft.text) == (False, "none")
+    assert not quick.number("margin").known
+
+
+def test_touching_surfaces_have_no_voltage_and_no_green():
+    quick = answer_by_formula(inputs(inner_speed="60 rpm"))
+    assert (quick.level, quick.judged.lead) == ("red", "Discharges likely")
+    first = quick.number("first-break")
+    assert (first.known, "not safe" in first.note) == (False, True)
+    assert "touching" in [told.code for told in quick.number("lambda").told]
+
+
+def test_every_code_of_a_warning_has_a_place():
+    assert set(PLACES) == set(CODES)
+
+
+def test_warnings_stand_beside_the_numbers_they_concern(quick):
+    found = {number.name: [told.code for told in number.told] for number in quick.shown}
+    assert found["first-break"] == ["isothermal-film"]
+    assert found["lambda"] == ["formula-contacts"]
+    placed = {code for codes in found.values() for code in codes}
+    assert placed | {told.code for told in elsewhere(quick.warnings)} == {t.code for t in quick.warnings}
+
+
+def test_places_are_numbers_that_the_page_shows(quick):
+    assert {name for names in PLACES.values() for name in names} <= {number.name for number in quick.shown}
+
+
+def test_severe_warnings_come_first_and_each_once():
+    warnings = [ResultWarning("speed-high", "fast"), ResultWarning("not-converged", "no")] * 2
+    told = told_of(warnings)
+    assert [one.code for one in told] == ["not-converged", "speed-high"]
+    assert counts(told) == "1 severe warning, 1 warning"
+    assert beside(told, "margin") == told[:1]
+    assert elsewhere(told) == told[1:]
+
+
+def test_films_that_are_not_converged_are_no_numbers_and_no_figures(summary):
+    told = (Told("not-converged", "severe", "no solution", PLACES["not-converged"]),)
+    for number in shown_numbers(summary | {"converged": False}, told, whole=True):
+        assert not number.known
+        assert number.bound == ""
+        assert "not converged" in number.note
+
+
+def test_no_figures_of_films_that_are_not_converged(monkeypatch):
+    from ehlectric.bearing.solution import BearingSolution
+
+    monkeypatch.setattr(BearingSolution, "converged", False)
+    result = solve_bearing(bearing_case(inputs(), "formula"), workers=1)
+    answer = answer_of(result, whole=False)
+    assert (answer.level, answer.figures) == ("grey", {})
+
+
+def test_figures_around_the_shaft_have_the_contacts_of_the_summary(quick, summary):
+    for name, key, factor in (("load", "load", 1.0), ("film", "minimum_thickness", 1e6)):
+        traces = {t["name"]: t for t in quick.figures[name].plot["data"] if t["mode"] == "markers"}
+        for ring in ("inner", "outer"):
+            rows = [row for row in summary["contacts"] if row["ring"] == ring]
+            rows = rows if name == "load" else [row for row in rows if row["solved"]]
+            trace = traces[f"{ring} ring"]
+            assert trace["r"] == [factor * row[key] for row in rows]
+            assert trace["theta"] == [math.degrees(row["position"]) for row in rows]
+
+
+def test_the_figure_over_speed_passes_through_the_bearing_itself(whole, summary):
+    data = whole.figures["breakdown"].plot["data"]
+    (star,) = (trace for trace in data if trace.get("marker", {}).get("symbol") == "star")
+    assert star["x"][0] == pytest.approx(3000.0, rel=1e-6)
+    assert star["y"][0] == pytest.approx(summary["bearing"]["first_break"], rel=1e-6)
+    critical = rpm(summary["margin"]["critical_speed"])
+    (line,) = (trace for trace in data if str(trace.get("name")).startswith("critical speed"))
+    assert line["x"] == pytest.approx([critical] * 2, rel=1e-6)
+
+
+def test_no_voltage_is_drawn_where_surfaces_touch():
+    slow = whole_answer_by_formula(inputs(inner_speed="600 rpm"))
+    data = slow.figures["breakdown"].plot["data"]
+    (hatched,) = (trace for trace in data if "no voltage" in str(trace.get("name")))
+    assert hatched["fillpattern"]["shape"]
+    begin, end = min(hatched["x"]), max(hatched["x"])
+    lines = [t for t in data if t["mode"] == "lines" and "break" in t["name"] and "yaxis" not in t]
+    (line,) = (trace for trace in lines if "first" in trace["name"])
+    known = [x for x, y in zip(line["x"], line["y"], strict=True) if y is not None]
+    assert known
+    assert all(x >= end for x in known)
+    for speed, *_, first, _, _, state in slow.figures["breakdown"].table.rows:
+        if begin <= float(speed) < 0.99 * end:
+            assert (first, state) == ("none", "conducting")
+
+
+def test_figures_are_json_without_nan(whole):
+    for figure in whole.figures.values():
+        text = json.dumps(figure.plot, allow_nan=False)
+        assert json.loads(text) == figure.plot
+        assert figure.label
+        assert figure.table.rows
+        assert all(len(row) == len(figure.table.heads) for row in figure.table.rows)
+
+
+def test_a_wrong_input_passes_with_its_key():
+    with pytest.raises(InputError) as caught:
+        answer_by_formula(inputs(radial_load="-1 N"))
+    assert caught.value.key == "bearing.radial_load"
+
+
+def test_a_table_without_a_bearing_is_refused():
+    with pytest.raises(InputError) as caught:
+        answer_by_formula({"bearing": {}})
+    assert caught.value.key
+
+
+def test_differences_of_solved_contacts(summary):
+    totals = summary["bearing"]
+    thinner = {"capacitance": 1.1 * totals["capacitance"], "margin": None, "lambda_ratio": 0.8}
+    solved = summary | {"bearing": totals | thinner | {"shaft_first_break": 0.5 * totals["first_break"]}}
+    formula = summary | {"bearing": totals | {"lambda_ratio": 1.0}}
+    found = {one.name: one.change for one in differences(formula, solved)}
+    assert found == {
+        "capacitance": "+10.0 %",
+        "first breakdown voltage": "-50.0 %",
+        "minimum film": "-20.0 %",
+    }
+
+
+def test_a_verdict_without_a_colon_keeps_its_words():
+    found = judged(Verdict("grey", "No verdict: the numbers must not be used. The film is thin."))
+    assert (found.lead, found.reasons) == ("No verdict", ("The film is thin.",))
+
+
+def test_answers_are_plain_data(quick):
+    assert isinstance(asdict(quick), dict)
+
+
+@pytest.mark.slow
+def test_solved_contacts_are_the_result_of_the_command(tmp_path):
+    # Line contacts of rollers are solved faster than those of balls.
+    table = inputs(base="nu-205", axial_load="0 N", radial_clearance="20 um", profile="none")
+    told = []
+    answer = solve_contacts(table, tmp_path, tmp_path / "solved", lambda *one: told.append(one))
+    summary = json.loads((tmp_path / "solved" / "summary.json").read_text(encoding="utf-8"))
+    assert (answer.contacts, answer.whole, answer.numbers) == ("solved", True, summary["bearing"])
+    assert (answer.text, answer.margin) == (summary["verdict"], summary["margin"])
+    contacts = [one for one in told if one[2] == "contacts"]
+    assert contacts[0][0] == 0
+    assert contacts[-1][0] == contacts[-1][1] > 4
+    assert {one.name for one in answer.differences} >= {"capacitance", "minimum film"}

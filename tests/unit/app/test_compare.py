@@ -1,0 +1,164 @@
+"""Two cases side by side: what differs, the effect on every result, and warnings that one alone has."""
+
+import tomllib
+from html.parser import HTMLParser
+
+import pytest
+
+from ehlectric import BearingCase, solve
+from ehlectric.app.answers.compare import Effect, Result, effects, in_both, input_rows, only_in
+from ehlectric.app.compute.compare import side, whole_side
+from ehlectric.app.figures import compare as figures
+from ehlectric.app.inputs import Inputs
+from ehlectric.app.pages.tables import effects_table, inputs_table
+from ehlectric.errors import InputError
+from tests.helpers.places import EXAMPLES
+
+
+def example(name):
+    return Inputs(tomllib.loads((EXAMPLES / f"{name}.toml").read_text(encoding="utf-8")))
+
+
+FAST = example("bearing_6208")
+SLOW = FAST.changed({"bearing.inner_speed": "1000 rpm", "motor.switching_frequency": "10 kHz"})
+
+
+@pytest.fixture(scope="module")
+def both():
+    return side(FAST.table), side(SLOW.table)
+
+
+@pytest.fixture(scope="module")
+def solved():
+    """Bearing by formula, as the Python package solves it."""
+    return solve(BearingCase.from_written(FAST.table).replace({"contacts": "formula"}), workers=1)
+
+
+def test_results_are_those_of_the_package(both, solved):
+    found = {result.name: result for result in both[0].results}
+    summary = solved.summary()["bearing"]
+    for name, key in (
+        ("capacitance of the bearing", "capacitance"),
+        ("first breakdown voltage", "first_break"),
+        ("shaft voltage", "shaft_voltage"),
+        ("margin (first breakdown / shaft voltage)", "margin"),
+        ("minimum lambda ratio", "lambda_ratio"),
+    ):
+        assert found[name].value == summary[key]
+        assert found[name].main
+    whole = whole_side(FAST.table)
+    assert (whole.level, whole.text) == (solved.verdict.level, solved.verdict.text)
+    assert {told.text for told in whole.warnings} == {warning.text for warning in solved.warnings}
+
+
+def test_an_upper_bound_says_so(both):
+    """The films of the example are isothermal, so that its voltages are upper bounds."""
+    assert "isothermal-film" in {told.code for told in both[0].warnings}
+    found = {result.name: result for result in both[0].results}
+    assert found["first breakdown voltage"].shown.startswith("≤ ")
+    assert found["capacitance of the bearing"].bound == ""
+    ceramic = side(FAST.changed({"bearing.element_material": "silicon-nitride"}).table)
+    assert {row.name: row for row in ceramic.results}["capacitance of the bearing"].bound == "≤"
+
+
+def test_effects_are_changes_in_percent(both):
+    found = {effect.either.name: effect for effect in effects(*both)}
+    margin = found["margin (first breakdown / shaft voltage)"]
+    assert margin.change == pytest.approx(100.0 * (margin.second.value / margin.first.value - 1.0))
+    assert margin.words.startswith("▼ −")
+    assert found["capacitance of the bearing"].words.startswith("▲ +")
+    assert found["film factor"].words == "no change"
+    assert all(effect.words == "no change" for effect in effects(both[0], both[0]))
+
+
+def test_effects_of_results_that_are_texts_or_missing():
+    def effect(first, second):
+        sides = [side_of(text) for text in (first, second)]
+        return effects(*sides)[0].words
+
+    def side_of(text):
+        rows = () if text is None else (Result("g", "n", None, text),)
+        return type("Side", (), {"results": rows})()
+
+    assert effect("12 nJ", "6 nJ") == "▼ −50\N{NO-BREAK SPACE}%"
+    assert effect("12 nJ", "6 µJ") == "differs"
+    assert effect("full film", "partial film") == "differs"
+    assert effect("none", None) == "only A"
+    assert effect(None, "none") == "only B"
+    assert Effect(Result("g", "n", 0.0, "0"), Result("g", "n", 1.0, "1"), None).words == "differs"
+
+
+def test_inputs_that_differ_come_first():
+    rows = input_rows(FAST.table, SLOW.table)
+    assert [(row.key, row.sign) for row in rows[:2]] == [
+        ("bearing.inner_speed", "≠"),
+        ("motor.switching_frequency", "only B"),
+    ]
+    assert {row.sign for row in rows[2:]} == {"="}
+    assert len(rows) == len(SLOW.flat())
+
+
+def test_warnings_of_one_alone(both):
+    alone = {told.code for told in only_in(both[1], both[0])}
+    assert "breakdown-expected" in alone
+    assert not alone & {told.code for told in both[0].warnings}
+    assert {told.code for told in in_both(*both)} | {told.code for told in only_in(*both)} == {
+        told.code for told in both[0].warnings
+    }
+
+
+def test_contacts_are_compared_by_formula():
+    case = example("discharge")
+    found = {
+        effect.either.name: effect
+        for effect in effects(
+            side(case.table), side(case.changed({"contact.entrainment_speed": "8 m/s"}).table)
+        )
+    }
+    # Pan and Hamrock's minimum film grows with the speed to the power of 0.694.
+    assert found["minimum film (Pan-Hamrock)"].change == pytest.approx(100.0 * (2.0**0.694 - 1.0), rel=1e-3)
+    assert side(case.table).level == "grey", "no verdict before it is solved"
+
+
+def test_a_wrong_case_is_an_error_of_its_key():
+    with pytest.raises(InputError) as refused:
+        side(FAST.changed({"bearing.radial_load": "1800 m"}).table)
+    assert refused.value.key == "bearing.radial_load"
+
+
+class Tags(HTMLParser):
+    """Names of the tags of a text, and its attributes."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.tags, self.ids = [], []
+        self.feed(text)
+
+    def handle_starttag(self, tag, attributes):
+        self.tags.append(tag)
+        self.ids += [value for name, value in attributes if name == "data-testid"]
+
+
+def test_tables_escape_what_a_user_typed(both):
+    hostile = "<script>alert(1)</script>\"' onload=x"
+    rows = input_rows({"title": hostile, hostile: 1}, {"title": "B"})
+    found = Tags(inputs_table(rows, {"title": hostile}) + effects_table(effects(*both)))
+    assert "script" not in found.tags
+    assert {"effect-margin", "effect-capacitance-of-the-bearing", "inputs-differ"} <= set(found.ids)
+
+
+def test_figures_hold_the_numbers_of_the_tables(both):
+    main = [effect for effect in effects(*both) if effect.either.main]
+    bars = figures.changes(main)["data"][0]
+    words = [name.partition("<br>")[2] for name in bars["y"]]
+    assert words[::-1] == [effect.words for effect in main if effect.change is not None]
+    traces = figures.films(both)["data"]
+    assert [trace["name"] for trace in traces] == [
+        "A, inner ring",
+        "A, outer ring",
+        "B, inner ring",
+        "B, outer ring",
+    ]
+    thinnest = min(value for trace in traces[:2] for value in trace["r"])
+    shown = {row.name: row for row in both[0].results}["minimum film, inner ring"]
+    assert thinnest == pytest.approx(1e6 * shown.value)

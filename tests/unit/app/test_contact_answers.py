@@ -1,0 +1,198 @@
+"""Answers of the contact page are the numbers of the command."""
+
+import pickle
+import tomllib
+from dataclasses import replace
+
+import pytest
+
+from ehlectric import Case
+from ehlectric.app.compute.contact import (
+    check_contact,
+    cuts_of,
+    solve_at_once,
+    solve_contact,
+    view_of,
+)
+from ehlectric.app.fields.contact import geometry_of, groups_of, switched
+from ehlectric.app.fields.rules import changed
+from ehlectric.app.inputs import Inputs
+from ehlectric.contact.solver import solve
+from ehlectric.errors import InputError
+from ehlectric.report.light import light_of
+from ehlectric.runs.by_kind import read_case, run_contact
+from ehlectric.runs.meaning import check
+from ehlectric.runs.results import load
+from ehlectric.runtime.progress import silent
+from ehlectric.tables.contact import result_rows
+from tests.helpers.places import EXAMPLES
+
+
+def table_of(name, **tables):
+    table = tomllib.loads((EXAMPLES / f"{name}.toml").read_text(encoding="utf-8"))
+    for key, values in tables.items():
+        table[key] = table.get(key, {}) | values
+    return table
+
+
+# A point contact on a coarse grid, which is solved in a fraction of a second.
+SMALL = {"nodes": 65}
+
+
+def number(answer, key):
+    (found,) = (one for one in answer.numbers if one.key == key)
+    return found
+
+
+@pytest.mark.parametrize(
+    ("name", "quick"), [("line_contact", True), ("ball_contact", False), ("discharge", True)]
+)
+def test_answer_at_once_is_that_of_the_check(name, quick, tmp_path):
+    answer = check_contact(table_of(name), str(tmp_path))
+    expected = check(Case.from_toml(EXAMPLES / f"{name}.toml"))
+    assert answer.summary == expected.summary
+    assert [(row.name, row.text) for row in answer.rows] == [(row.name, row.text) for row in expected.rows]
+    assert float(number(answer, "hertz-pressure").text) == pytest.approx(
+        expected.summary["hertz"]["max_pressure"] / 1e9, rel=1e-3
+    )
+    assert answer.quick == quick
+    assert "by formula" in number(answer, "minimum-film").note
+
+
+def test_verdict_by_formula_has_the_error_of_the_formula(tmp_path):
+    # examples/discharge.toml: margin 1.03, which 40 % of film and 20 % of strength take across 1.
+    answer = check_contact(table_of("discharge"), str(tmp_path))
+    assert answer.level == "yellow"
+    assert "by formula" in answer.text
+    strong = table_of("discharge", discharge={"dielectric_strength": "90 V/um"})
+    # Far above 1; a film by formula is an upper bound of a real one, and the light says so.
+    answer = check_contact(strong, str(tmp_path))
+    light = light_of(answer.level, answer.text)
+    assert (light.level, light.words) == ("green", "No breakdown expected, as an upper bound")
+    weak = table_of("discharge", discharge={"dielectric_strength": "3 V/um"})
+    assert check_contact(weak, str(tmp_path)).level == "red"
+
+
+@pytest.mark.parametrize("name", ["line_contact", "ball_contact"])
+def test_solved_answer_is_that_of_the_command(name, tmp_path):
+    grid = {} if name == "line_contact" else SMALL
+    told = []
+    view = solve_contact(
+        table_of(name, grid=grid), str(tmp_path), str(tmp_path / "app"), lambda *it: told.append(it)
+    )
+    case = read_case(EXAMPLES / f"{name}.toml")
+    outcome = run_contact(case.replace({"grid.nodes": 65}) if grid else case, tmp_path / "command")
+    expected = [(row.name, row.text) for row in result_rows(outcome.result) if row.name != "computing time"]
+    assert [(row.name, row.text) for row in view.rows if row.name != "computing time"] == expected
+    film, field = outcome.summary["film"], outcome.summary["field"]
+    assert float(number(view, "minimum-film").text) == pytest.approx(
+        film["minimum_thickness"] * 1e6, rel=1e-3
+    )
+    assert float(number(view, "max-field").text) == pytest.approx(field["max_strength"] / 1e6, rel=1e-3)
+    assert {path.name for path in (tmp_path / "app").iterdir()} >= {"summary.json", "result.nc", "film.csv"}
+    assert told[-1] == (0, 0, "drawing")
+    assert view_of(load(tmp_path / "app")).numbers == view.numbers
+    assert pickle.loads(pickle.dumps(view)) == view
+
+
+def test_answer_without_files_is_that_with_files(tmp_path):
+    table = table_of("discharge", grid={"nodes": 401})
+    at_once = solve_at_once(table, str(tmp_path))
+    assert not list(tmp_path.iterdir())
+    stored = solve_contact(table, str(tmp_path), str(tmp_path / "line"), silent)
+    assert at_once.numbers == stored.numbers
+    assert at_once.figures == stored.figures
+
+
+def test_bound_of_a_solved_contact_is_told_and_its_level_is_that_of_the_command(tmp_path):
+    strong = table_of("discharge", discharge={"dielectric_strength": "90 V/um"})
+    view = solve_at_once(strong, str(tmp_path))
+    assert number(view, "breakdown-voltage").bound == "≤"
+    solve_contact(strong, str(tmp_path), str(tmp_path / "result"), silent)
+    verdict = load(tmp_path / "result").verdict
+    assert (view.level, view.text) == (verdict.level, verdict.text)
+    light = light_of(view.level, view.text)
+    assert (light.level, light.bound) == ("green", "≤")
+    assert light.words.endswith("as an upper bound")
+
+
+def test_film_that_did_not_converge_has_no_numbers():
+    case = Case.from_toml(EXAMPLES / "line_contact.toml").replace({"grid.nodes": 401})
+    result = solve(case)
+    bad = replace(result, film=replace(result.film, status="stalled"))
+    view = view_of(bad)
+    assert (view.converged, view.level, view.numbers, view.cuts) == (False, "grey", (), ())
+    assert "do not use" in view.text
+    assert view.rows[0].alarm
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "told"),
+    [
+        ("contact.load_per_length", "-1 MN/m", "contact.load_per_length"),
+        ("contact.load", "20 N", "contact.load"),
+        ("lubricant.base", "no such oil", "lubricant.base"),
+        ("grid.nodes", 3, "grid.nodes"),
+    ],
+)
+def test_errors_have_their_key(key, value, told, tmp_path):
+    table = dict(Inputs(table_of("line_contact")).changed({key: value}).table)
+    with pytest.raises(InputError) as error:
+        check_contact(table, str(tmp_path))
+    assert error.value.key == told
+
+
+@pytest.mark.parametrize("name", ["/etc/passwd", "../secret.csv", "sub/profile.csv", "..\\secret.csv"])
+def test_files_outside_of_the_session_are_refused(name, tmp_path):
+    table = table_of("line_contact") | {"roughness": [{"surface": 1, "file": name}]}
+    with pytest.raises(InputError, match="uploaded"):
+        check_contact(table, str(tmp_path))
+
+
+def test_a_bearing_is_no_contact(tmp_path):
+    with pytest.raises(InputError, match="one contact"):
+        check_contact({"bearing": {"base": "6208"}}, str(tmp_path))
+
+
+def test_cuts_need_a_point_contact(tmp_path):
+    table = table_of("line_contact", grid={"nodes": 401})
+    solve_contact(table, str(tmp_path), str(tmp_path / "line"), silent)
+    with pytest.raises(InputError, match="point contact"):
+        cuts_of(str(tmp_path / "line"), 0.0, 0.0)
+
+
+def test_change_of_geometry_keeps_what_both_have(tmp_path):
+    line, ball = Inputs(table_of("discharge")), Inputs(table_of("ball_contact"))
+    point = switched(line.changed({"contact.entrainment_speed": "3 m/s"}), ball)
+    assert geometry_of(point) == "point"
+    assert point.value("contact.entrainment_speed") == "3 m/s"
+    assert point.value("discharge.dielectric_strength") == "15 V/um"
+    assert point.value("contact.load") == "20 N"
+    assert point.value("contact.load_per_length") is None
+    assert point.value("grid.nodes") == 257
+    back = switched(point, line)
+    assert back.value("contact.load_per_length") == "1.57 MN/m"
+    assert check_contact(dict(back.table), str(tmp_path)).geometry == "line"
+
+
+@pytest.mark.parametrize("geometry", ["line", "point"])
+def test_fields_of_a_contact_are_keys_of_a_case(geometry):
+    name = "line_contact" if geometry == "line" else "ball_contact"
+    keys = [field.key for group in groups_of(geometry) for field in group.fields]
+    assert len(set(keys)) == len(keys)
+    given = set(Inputs(table_of(name)).flat())
+    assert {key for key in given if key.startswith("contact.")} - {"contact.geometry"} <= set(keys)
+
+
+@pytest.mark.parametrize("geometry", ["line", "point"])
+def test_every_way_of_a_field_is_a_valid_case(geometry, tmp_path):
+    inputs = Inputs(table_of("line_contact" if geometry == "line" else "ball_contact"))
+    fields = [field for group in groups_of(geometry) for field in group.fields if field.kind == "ways"]
+    for field in fields:
+        if not field.when(inputs):
+            continue
+        for place, way in enumerate(field.ways):
+            inputs = changed(inputs, way.changes)
+            assert field.way(inputs) == place
+            check_contact(dict(inputs.table), str(tmp_path))
+    assert len(fields) > 3

@@ -1,0 +1,188 @@
+"""Figures of the contact page have the values of the result."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from ehlectric import Case
+from ehlectric.app.figures.cuts import point_cuts
+from ehlectric.app.figures.line import line_figures
+from ehlectric.app.figures.look import values
+from ehlectric.app.figures.point import point_figures, reach_of
+from ehlectric.contact.solver import solve
+from tests.helpers.places import EXAMPLES
+
+
+@pytest.fixture(scope="module")
+def line():
+    return solve(Case.from_toml(EXAMPLES / "line_contact.toml"))
+
+
+@pytest.fixture(scope="module")
+def point():
+    return solve(Case.from_toml(EXAMPLES / "ball_contact.toml").replace({"grid.nodes": 97}))
+
+
+@pytest.fixture(scope="module")
+def long_point():
+    changes = {"grid.nodes": 97, "contact.radius_y": 0.08}
+    return solve(Case.from_toml(EXAMPLES / "ball_contact.toml").replace(changes))
+
+
+def by_name(figures):
+    return {shown.name: shown for shown in figures}
+
+
+def trace(shown, name):
+    (found,) = (one for one in shown.plot["data"] if one.get("name") == name)
+    return found
+
+
+def written(shown):
+    """Figure as a browser gets it; nothing in it is no number."""
+    return json.loads(json.dumps(shown.plot, allow_nan=False))
+
+
+def stopped(result):
+    return replace(result, film=replace(result.film, status="stalled"))
+
+
+def test_curves_of_a_line_contact_keep_their_extremes(line):
+    shown = by_name(line_figures(line))["profiles"]
+    written(shown)
+    film, field = line.film, line.field
+    assert max(trace(shown, "pressure")["y"]) == pytest.approx(film.max_pressure / 1e9, rel=1e-6)
+    assert min(trace(shown, "film thickness")["y"]) == pytest.approx(film.minimum_thickness * 1e6, rel=1e-6)
+    walls = max(max(trace(shown, f"field at surface {k}")["y"]) for k in (1, 2))
+    assert walls == pytest.approx(field.max_strength / 1e6, rel=1e-6)
+    assert max(trace(shown, "dry contact (Hertz)")["y"]) == pytest.approx(
+        line.conditions.max_pressure / 1e9, rel=1e-6
+    )
+    least = trace(shown, f"minimum film, {film.minimum_thickness * 1e6:.4g} µm")
+    assert least["x"] == [pytest.approx(film.minimum_position * 1e6, rel=1e-6)]
+
+
+def test_panels_share_the_axis_that_is_zoomed(line):
+    layout = by_name(line_figures(line))["profiles"].plot["layout"]
+    assert [name for name in layout if name.startswith("xaxis")] == ["xaxis"]
+    assert {layout[f"yaxis{k}"]["anchor"] for k in ("", "2", "3")} == {"x"}
+    assert layout["xaxis"]["title"]["text"] == "x [µm]"
+
+
+def test_map_of_the_film_has_the_field_and_its_maximum(line):
+    shown = by_name(line_figures(line))["section"]
+    heat = written(shown)["data"][0]
+    assert heat["zmax"] == pytest.approx(line.field.max_strength / 1e6)
+    drawn = [value for row in heat["z"] for value in row if value is not None]
+    assert max(drawn) == pytest.approx(line.field.max_strength / 1e6, rel=1e-3)
+    at = shown.plot["data"][-1]
+    assert at["x"] == [pytest.approx(line.field.max_strength_position * 1e6)]
+    assert len(json.dumps(shown.plot)) < 500_000
+
+
+def test_figures_say_in_words_what_they_show(line, point):
+    for shown in (*line_figures(line), *point_figures(point), *point_cuts(point, 0.0, 0.0)):
+        assert shown.title
+        assert shown.label
+        assert shown.caption
+    text = by_name(line_figures(line))["profiles"].label
+    assert "Minimum film 0.6378 µm" in text  # examples/line_contact.toml, as the command prints it
+    assert "maximum field 3.136 V/µm" in text
+
+
+def test_maps_of_a_point_contact_keep_their_extremes(point):
+    figures = by_name(point_figures(point))
+    film, pressure, field = (written(figures[name])["data"][0] for name in _MAPS)
+    assert np.min(film["z"]) == pytest.approx(point.film.minimum_thickness * 1e6, rel=1e-4)
+    assert np.max(pressure["z"]) == pytest.approx(point.film.max_pressure / 1e9, rel=1e-4)
+    assert np.max(field["z"]) == pytest.approx(point.field.max_strength / 1e6, rel=1e-4)
+    j, i = np.unravel_index(np.argmin(film["z"]), np.shape(film["z"]))
+    # The film is symmetric, so that the smallest may be on either side.
+    at = np.array([film["x"][i], abs(film["y"][j])])
+    assert at == pytest.approx(1e6 * np.abs(point.film.minimum_position), rel=1e-5)
+
+
+_MAPS = ("film-map", "pressure-map", "field-map")
+
+
+def test_figures_of_a_point_contact_are_small(point):
+    figures = (*point_figures(point), *point_cuts(point, 0.0, 0.0))
+    assert sum(len(json.dumps(shown.plot)) for shown in figures) < 1_000_000
+
+
+def test_thinned_surface_keeps_smallest_film_and_largest_field(point, monkeypatch):
+    monkeypatch.setattr("ehlectric.app.figures.rotated._MOST", 12)
+    shown = by_name(point_figures(point))["surface"]
+    surface = written(shown)["data"][0]
+    gap = point.field.z[:, :, -1] - point.field.z[:, :, 0]
+    assert np.shape(surface["z"]) == np.shape(surface["surfacecolor"])
+    assert max(np.shape(surface["z"])) <= 12 < gap.shape[0]
+    assert np.min(surface["z"]) == pytest.approx(1e6 * np.min(gap), rel=1e-5)
+    assert np.max(surface["surfacecolor"]) == pytest.approx(point.field.max_strength / 1e6, rel=1e-5)
+    assert f"of {gap.shape[0]} x {gap.shape[1]} nodes" in shown.caption
+    # The smallest film of the whole domain is marked, whatever is drawn.
+    assert shown.plot["data"][1]["z"] == [pytest.approx(1e6 * point.film.minimum_thickness)]
+
+
+def test_cuts_run_through_the_nodes_nearest_to_the_point(point):
+    at = point.film.minimum_position
+    cuts = by_name(point_cuts(point, *at))
+    for name in ("cut-x", "cut-y"):
+        film = trace(cuts[name], "film thickness")
+        assert min(film["y"]) == pytest.approx(1e6 * point.film.minimum_thickness, rel=1e-6)
+    field = trace(cuts["cut-x"], "maximum field across the film")
+    x, y = point.field.max_strength_position
+    through = by_name(point_cuts(point, x, y))["cut-x"]
+    assert max(trace(through, "maximum field across the film")["y"]) == pytest.approx(
+        point.field.max_strength / 1e6, rel=1e-6
+    )
+    assert max(field["y"]) <= point.field.max_strength / 1e6 * (1.0 + 1e-9)
+    reach = reach_of(point)
+    assert reach.at == pytest.approx([1e6 * place for place in at])
+    assert reach.x[0] < 0.0 < reach.x[1]
+
+
+def test_hertz_pressure_of_a_cut_is_that_of_the_dry_contact(long_point):
+    cuts = by_name(point_cuts(long_point, 0.0, 0.0))
+    conditions = long_point.conditions
+    for name, edge in (("cut-x", conditions.semi_axis_x), ("cut-y", conditions.semi_axis_y)):
+        hertz = trace(cuts[name], "dry contact (Hertz)")
+        assert max(hertz["y"]) == pytest.approx(conditions.max_pressure / 1e9, rel=1e-3)
+        inside = [abs(x) for x, y in zip(hertz["x"], hertz["y"], strict=True) if y > 0.0]
+        assert max(inside) == pytest.approx(1e6 * edge, rel=0.1)
+
+
+def test_long_contacts_lie_along_the_page(long_point):
+    layout = by_name(point_figures(long_point))["film-map"].plot["layout"]
+    assert layout["xaxis"]["title"]["text"].startswith("y [")
+    low, high = layout["yaxis"]["range"]
+    assert low > high  # entrainment points down
+    edge = layout["shapes"][0]
+    assert edge["x1"] == pytest.approx(1e6 * long_point.conditions.semi_axis_y)
+    assert reach_of(long_point).turned
+
+
+def test_what_did_not_converge_is_not_drawn_as_a_solution(line, point):
+    (shown,) = line_figures(stopped(line))
+    assert "NOT CONVERGED" in shown.plot["layout"]["annotations"][0]["text"]
+    assert {one["line"]["color"] for one in shown.plot["data"]} == {"#777777"}
+    figures = by_name(point_figures(stopped(point)))
+    assert list(figures) == ["film-map", "pressure-map"]
+    for one in figures.values():
+        assert one.plot["data"][0]["colorscale"] == "Greys"
+        assert "NOT CONVERGED" in one.plot["layout"]["annotations"][0]["text"]
+    assert "did not converge" in figures["film-map"].label
+
+
+def test_values_that_are_no_numbers_are_not_drawn(line, point):
+    for result, figures in ((line, line_figures), (point, point_figures)):
+        thickness = np.full_like(result.film.thickness, np.nan)
+        broken = replace(result, film=replace(result.film, thickness=thickness, status="diverged"))
+        assert figures(broken) == ()
+
+
+def test_values_have_digits_and_gaps():
+    assert values([1.23456789, np.nan, 0.0, -1e-9, np.inf], 4) == [1.235, None, 0.0, -1e-9, None]
+    assert values(np.array([[1.0, 2.0]])) == [[1.0, 2.0]]

@@ -1,0 +1,165 @@
+"""Files of pages: what is opened is checked as by the command, and what is downloaded is what it writes."""
+
+import json
+import subprocess
+import sys
+import tomllib
+import zipfile
+from pathlib import Path
+
+import pytest
+
+from ehlectric.app.answers.files import MOST_CASE, file_title
+from ehlectric.app.compute.files import drawn, packed, uploaded, write
+from ehlectric.app.inputs import Inputs
+from ehlectric.errors import InputError
+from tests.helpers.places import DEKTAK, EXAMPLES
+
+
+def example(name):
+    return (EXAMPLES / f"{name}.toml").read_bytes()
+
+
+def silent(_done, _of, _text):
+    pass
+
+
+@pytest.mark.parametrize(
+    ("name", "kind"),
+    [
+        ("bearing_6208", "bearing"),
+        ("line_contact", "contact"),
+        ("oil_contact", "contact"),
+        ("moving_roughness", "motion"),
+    ],
+)
+def test_an_example_is_opened_as_it_is(tmp_path, name, kind):
+    found = uploaded({f"{name}.toml": example(name)}, tmp_path)
+    assert (found.name, found.kind, found.missing) == (f"{name}.toml", kind, ())
+    assert found.table == tomllib.loads(example(name).decode())
+
+
+def test_a_case_asks_for_its_surface(tmp_path):
+    case = {"rough.toml": example("rough_contact")}
+    assert uploaded(case, tmp_path).missing == ("dektak-1.csv",)
+    assert list(tmp_path.iterdir()) == []
+    found = uploaded({**case, "dektak-1.csv": DEKTAK.read_bytes()}, tmp_path)
+    assert found.missing == ()
+    assert found.table["roughness"][0]["file"] == "surfaces/dektak-1.csv"
+    assert (tmp_path / "surfaces" / "dektak-1.csv").read_bytes() == DEKTAK.read_bytes()
+    assert uploaded(case, tmp_path).missing == (), "it is there from before"
+
+
+def test_a_sweep_asks_for_its_case(tmp_path):
+    sweep = {"sweep.toml": example("sweep")}
+    assert uploaded(sweep, tmp_path).missing == ("discharge.toml",)
+    found = uploaded({"discharge.toml": example("discharge"), **sweep}, tmp_path)
+    assert (found.name, found.kind, found.missing) == ("sweep.toml", "sweep", ())
+    assert found.table["case"] == tomllib.loads(example("discharge").decode())
+
+
+@pytest.mark.parametrize("path", ["/etc/passwd", "../../passwd", "C:\\me\\passwd", "\\\\host\\a\\passwd"])
+def test_a_path_of_another_machine_is_asked_for_by_its_name(tmp_path, path):
+    table = tomllib.loads(example("rough_contact").decode())
+    table["roughness"][0]["file"] = path
+    assert uploaded({"a.toml": Inputs(table).toml().encode()}, tmp_path).missing == ("passwd",)
+
+
+@pytest.mark.parametrize("path", ["..", ".", "", "a/..", ".bashrc", "a\0b", "con: x", "x" * 200, "a\nb"])
+def test_a_name_that_no_file_may_have_is_refused(tmp_path, path):
+    table = tomllib.loads(example("rough_contact").decode())
+    table["roughness"][0]["file"] = path
+    with pytest.raises(InputError, match=r"roughness\.1\.file"):
+        uploaded({"a.toml": Inputs(table).toml().encode()}, tmp_path)
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("contents", "says"),
+    [
+        ({"a.toml": b"a = " + b"1" * MOST_CASE}, "at most 200000 bytes"),
+        ({"a.toml": b"\xff\xfe"}, "not a text file in UTF-8"),
+        ({"a.toml": b"a = 1,5"}, "decimal comma"),
+        ({"a.toml": b"[bearing]\nbase = '6208'\nradial_laod = '1 N'"}, "bearing.radial_laod: unknown key"),
+        ({"a.csv": b"1 2"}, "expected a case in a .toml file"),
+        ({"a.toml": b"a." * 20 + b"b = 1"}, "more than 16 parts"),
+    ],
+)
+def test_a_bad_file_is_refused_in_words(tmp_path, contents, says):
+    with pytest.raises(InputError) as refused:
+        uploaded(contents, tmp_path)
+    assert says in str(refused.value)
+    assert "Traceback" not in str(refused.value)
+
+
+def numbers(summary):
+    """Summary without what differs between two runs: their computing time."""
+    return {key: value for key, value in summary.items() if key != "seconds"}
+
+
+@pytest.mark.slow
+def test_the_downloaded_case_run_by_the_command_gives_the_downloaded_files(tmp_path):
+    """Both come from the same text: the expected numbers are those that the command writes."""
+    inputs = Inputs(tomllib.loads(example("bearing_6208").decode()))
+    inputs = inputs.changed({"bearing.inner_speed": "2345.6 rpm", "title": 'Größe "6208" & co'})
+    session = tmp_path / "session"
+    session.mkdir()
+    written = write(inputs.table, "formula", session, silent)
+    assert Path(written.folder).parent == session
+    archive = drawn(Path(written.folder), "all", inputs.table, "bearing", session, silent)
+    with zipfile.ZipFile(archive) as opened:
+        opened.extractall(tmp_path / "unpacked")
+        names = set(opened.namelist())
+    assert names > {*written.names, "bearing.toml"}
+    assert {"summary.json", "contacts.csv", "impedance.csv", "bearing.nc"} <= names
+    assert {Path(name).suffix for name in names} == {".json", ".csv", ".nc", ".svg", ".png", ".toml"}
+
+    case, folder = tmp_path / "unpacked" / "bearing.toml", tmp_path / "command"
+    command = [sys.executable, "-m", "ehlectric", "bearing", str(case), "--contacts", "formula"]
+    subprocess.run([*command, "--no-plots", "-q", "-o", str(folder)], check=True, capture_output=True)
+    ours = json.loads((tmp_path / "unpacked" / "summary.json").read_text())
+    theirs = json.loads((folder / "summary.json").read_text())
+    assert numbers(ours) == numbers(theirs)
+    for name in ("contacts.csv", "impedance.csv"):
+        assert (tmp_path / "unpacked" / name).read_text() == (folder / name).read_text()
+
+
+def test_single_files_and_archives(tmp_path):
+    out = tmp_path / "out"
+    out.mkdir()
+    for name in ("summary.json", "film.csv", "result.nc", "film.png", "film.svg", ".hidden.csv"):
+        (out / name).write_text(name)
+    (out / "link.csv").symlink_to(DEKTAK)
+    table = tomllib.loads(example("line_contact").decode())
+    for what, name in (("csv", "film.csv"), ("netcdf", "result.nc"), ("summary", "summary.json")):
+        assert packed(out, what, table, "a", tmp_path) == str(out / name)
+    with zipfile.ZipFile(packed(out, "figures", table, "a", tmp_path)) as archive:
+        assert archive.namelist() == ["film.png", "film.svg"]
+    (out / "result.nc").unlink()
+    with pytest.raises(InputError, match="not among the files"):
+        packed(out, "netcdf", table, "a", tmp_path)
+
+
+@pytest.mark.slow
+def test_an_archive_has_the_surfaces_and_runs_as_it_is(tmp_path):
+    session = tmp_path / "session"
+    session.mkdir()
+    found = uploaded({"rough.toml": example("rough_contact"), "dektak-1.csv": DEKTAK.read_bytes()}, session)
+    inputs = Inputs(found.table).changed({"grid.nodes": 801})
+    written = write(inputs.table, "", session, silent)
+    with zipfile.ZipFile(packed(Path(written.folder), "all", inputs.table, "rough", session)) as archive:
+        archive.extractall(tmp_path / "unpacked")
+    case = tmp_path / "unpacked" / "rough.toml"
+    folder = tmp_path / "command"
+    command = [sys.executable, "-m", "ehlectric", "run", str(case), "--no-plots", "-q", "-o", str(folder)]
+    subprocess.run(command, check=True, capture_output=True)
+    # Only the place of the surface differs.
+    ours = (tmp_path / "unpacked" / "summary.json").read_text().replace(str(session), "")
+    theirs = (folder / "summary.json").read_text().replace(str(case.parent), "")
+    assert numbers(json.loads(ours)) == numbers(json.loads(theirs))
+
+
+def test_names_of_files_from_titles():
+    assert file_title("../../etc/passwd\0") == "etc-passwd"
+    assert file_title("x" * 200) == "x" * 60
+    assert file_title(5) == "5"

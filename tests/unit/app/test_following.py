@@ -1,0 +1,118 @@
+"""Answers that follow inputs: the latest wins, and a whole one comes when the inputs are quiet."""
+
+import asyncio
+
+import pytest
+
+from ehlectric.app import following
+from ehlectric.app.following import Following
+from ehlectric.errors import InputError
+
+
+class Page:
+    """Page that records what it is asked to compute and to show; every quick answer waits for ``go``."""
+
+    def __init__(self):
+        self.asked, self.shown, self.passed, self.refused = [], [], [], []
+        self.go = asyncio.Event()
+        self.go.set()
+        self.behind = asyncio.Semaphore(1)
+        self.following = Following(
+            self.quick,
+            self.whole,
+            show=lambda inputs, answer: self.shown.append((inputs, answer)),
+            passing=lambda inputs, _: self.passed.append(inputs),
+            refuse=lambda error: self.refused.append(error.key),
+            behind=self.behind,
+        )
+
+    async def quick(self, inputs):
+        self.asked.append(inputs)
+        await self.go.wait()
+        if inputs < 0:
+            raise InputError("load", got=inputs, takes="above 0")
+        return "quick"
+
+    async def whole(self, inputs):
+        self.asked.append(("whole", inputs))
+        return "whole"
+
+
+@pytest.fixture(autouse=True)
+def short(monkeypatch):
+    monkeypatch.setattr(following, "_QUIET", 0.01)
+
+
+def test_a_whole_answer_follows_the_quick_one():
+    async def use():
+        page = Page()
+        await page.following.ask(1)
+        assert page.shown == [(1, "quick")]
+        await asyncio.sleep(0.05)
+        return page
+
+    page = asyncio.run(use())
+    assert page.shown == [(1, "quick"), (1, "whole")]
+
+
+def test_inputs_in_between_are_never_computed():
+    async def use():
+        page = Page()
+        page.go.clear()
+        page.following.ask(1)
+        await asyncio.sleep(0)
+        for inputs in (2, 3, 4):
+            task = page.following.ask(inputs)
+        page.go.set()
+        await task
+        return page
+
+    page = asyncio.run(use())
+    assert page.asked == [1, 4]
+    assert (page.passed, page.shown) == ([1], [(4, "quick")])
+
+
+def test_a_whole_answer_to_older_inputs_is_not_computed():
+    async def use():
+        page = Page()
+        async with page.behind:
+            await page.following.ask(1)
+            await asyncio.sleep(0.05)
+            await page.following.ask(2)
+        await asyncio.sleep(0.05)
+        return page
+
+    page = asyncio.run(use())
+    assert page.asked == [1, 2, ("whole", 2)]
+
+
+def test_an_error_of_the_latest_inputs_is_told_and_that_of_older_ones_is_not():
+    async def use():
+        page = Page()
+        await page.following.ask(-1)
+        page.go.clear()
+        page.following.ask(-2)
+        await asyncio.sleep(0)
+        task = page.following.ask(3)
+        page.go.set()
+        await task
+        return page
+
+    page = asyncio.run(use())
+    assert (page.refused, page.shown) == (["load"], [(3, "quick")])
+
+
+def test_a_closed_page_wants_no_answer():
+    async def use():
+        page = Page()
+        page.go.clear()
+        task = page.following.ask(1)
+        await asyncio.sleep(0)
+        page.following.drop()
+        page.go.set()
+        await task
+        await asyncio.sleep(0.05)
+        return page
+
+    page = asyncio.run(use())
+    assert (page.asked, page.shown, page.passed) == ([1], [], [])

@@ -1,0 +1,140 @@
+"""Inputs that exclude each other: the form's rules against those of the cases."""
+
+import tomllib
+
+import pytest
+
+from ehlectric.app.catalogue import choices
+from ehlectric.app.fields import BEARING_GROUPS
+from ehlectric.app.fields.rules import ALTERNATIVES, DIMENSIONS, OF_GEOMETRY, ONLY, changed, own_values
+from ehlectric.app.inputs import Inputs
+from ehlectric.cases.any_case import case_of_dict
+from ehlectric.cases.bearings import case as bearing_case
+from ehlectric.cases.contact import CONTACT_ALTERNATIVES
+from ehlectric.cases.contact import ONLY as CASE_ONLY
+from ehlectric.errors import InputError
+from ehlectric.runs.example_files import example_text
+
+EXAMPLE = Inputs(tomllib.loads(example_text("bearing_6208")))
+
+
+def case(inputs):
+    return case_of_dict(inputs.table, written=True)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"bearing.base": "6306"},
+        {"bearing.clearance_class": "C3"},
+        {"bearing.radial_load": "2 kN"},
+        {"lubricant.base": "fva-3"},
+        {"lubricant.temperature.iso_vg": 68},
+        {"lubricant.temperature.viscosity_index": 100.0},
+        {"discharge.weibull": {"scale": "20 V/um", "shape": 5.0, "reference_area": "1 mm^2"}},
+        {"bearing.coating": {"base": "schaeffler-j20aa", "relative_permittivity": 9.0}},
+    ],
+    ids=str,
+)
+def test_changes_as_a_case_replaces_them(changes):
+    """Expected: ``BearingCase.replace``, which the library's users call."""
+    assert case(changed(EXAMPLE, changes)) == case(EXAMPLE).replace(changes)
+
+
+def test_a_viscosity_takes_the_place_of_the_data_sheet():
+    found = changed(EXAMPLE, {"lubricant.viscosity": "20 mPa s"})
+    assert found.value("lubricant") == {"base": "paper", "viscosity": "20 mPa s"}
+    case(found)
+
+
+def test_lists_are_those_of_the_cases():
+    """Every alternative that the cases know is one here; keys are dotted here."""
+    rows = {frozenset(group) for group in (*ALTERNATIVES, *OF_GEOMETRY["line"], *OF_GEOMETRY["point"])}
+    for table in ("bearing", "discharge"):
+        for group in bearing_case._ALTERNATIVES[table]:
+            assert frozenset(tuple(f"{table}.{key}" for key in row) for row in group) in rows
+    for geometry, groups in CONTACT_ALTERNATIVES.items():
+        radii, moduli, _, _ = groups
+        for group in (radii, moduli):
+            dotted = frozenset(tuple(f"contact.{key}" for key in row) for row in group)
+            assert dotted in {frozenset(one) for one in OF_GEOMETRY[geometry]}
+    assert {geometry: tuple(f"contact.{key}" for key in keys) for geometry, keys in CASE_ONLY.items()} == ONLY
+    assert DIMENSIONS == bearing_case._DIMENSIONS
+
+
+@pytest.mark.parametrize("choice", choices()["bearing.base"], ids=lambda choice: choice.name)
+def test_every_bearing_can_be_picked_after_every_kind(choice):
+    for before in ("6208", "7208-b", "nu-208"):
+        inputs = changed(changed(EXAMPLE, {"bearing.base": before}), {"bearing.base": choice.name})
+        assert case(inputs).bearing.base == choice.name
+
+
+@pytest.mark.parametrize("base", ["6208", "7208-b", "nu-208"])
+def test_own_geometry_begins_with_that_of_the_base(base):
+    inputs = changed(EXAMPLE, {"bearing.base": base})
+    own = changed(inputs, own_values(inputs, "bearing.base"))
+    assert own.value("bearing.base") is None
+    same = {"bearing": {**case(inputs).to_dict()["bearing"], "base": None}}
+    assert case(own).bearing == case(inputs).replace(same).bearing
+    back = changed(own, {"bearing.base": base})
+    assert case(back).bearing == case(inputs).bearing
+
+
+@pytest.mark.parametrize("kind", ["deep-groove ball", "angular-contact ball", "cylindrical roller"])
+def test_own_geometry_of_another_kind(kind):
+    own = changed(EXAMPLE, own_values(EXAMPLE, "bearing.base"))
+    assert case(changed(own, {"bearing.kind": kind})).bearing.kind == kind
+
+
+@pytest.mark.parametrize("name", [choice.name for choice in choices()["lubricant.base"]])
+def test_oils_and_data_sheets_take_turns(name):
+    inputs = changed(EXAMPLE, {"lubricant.base": name})
+    assert inputs.value("lubricant") == {"base": name}
+    sheet = changed(inputs, own_values(inputs, "lubricant.base"))
+    assert case(sheet).lubricant == case(EXAMPLE).lubricant
+
+
+def test_heat_needs_a_thermal_conductivity():
+    heated = changed(EXAMPLE, {"bearing.film_factor": "inlet-shear"})
+    assert heated.value("lubricant.temperature.thermal_conductivity") == "0.14 W/m/K"
+    case(heated)
+
+
+def test_groups_switched_on_make_a_case():
+    for group in BEARING_GROUPS:
+        if group.table:
+            case(EXAMPLE.changed({group.table: dict(group.start)}))
+
+
+@pytest.mark.parametrize(
+    "way",
+    [way for group in BEARING_GROUPS for field in group.fields for way in field.ways],
+    ids=lambda way: way.label,
+)
+def test_ways_begin_with_values_that_make_a_case(way):
+    found = changed(EXAMPLE, way.changes)
+    case(found)
+    assert way.taken(found)
+
+
+def test_own_coating_begins_with_that_of_the_library():
+    start = changed(EXAMPLE, {"bearing.coating": {"base": "schaeffler-j20aa", "relative_permittivity": 9.0}})
+    own = changed(start, own_values(start, "bearing.coating.base"))
+    assert case(own).bearing.coating.thickness == case(start).bearing.coating.thickness
+    assert (
+        case(changed(own, {"bearing.coating.strength": "10 V/um"})).bearing.coating.breakdown_voltage is None
+    )
+
+
+def test_another_geometry_of_a_contact_drops_keys_of_this_one():
+    line = Inputs(tomllib.loads(example_text("line_contact")))
+    point = changed(line, {"contact.geometry": "point"})
+    flat = point.flat()
+    assert not any(key in flat for key in ONLY["line"])
+    assert "grid.nodes" not in flat
+
+
+def test_wrong_texts_stay_for_the_checks():
+    wrong = changed(EXAMPLE, {"bearing.base": "no such bearing"})
+    with pytest.raises(InputError, match=r"bearing\.base"):
+        case(wrong)

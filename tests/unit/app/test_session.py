@@ -1,0 +1,72 @@
+"""Sessions of tabs, and the temporary folders of servers."""
+
+import os
+import subprocess
+import sys
+import tempfile
+
+import pytest
+
+from ehlectric.app.inputs import Inputs
+from ehlectric.app.scratch import Scratch, clear_left_behind
+from ehlectric.app.session import Session
+from ehlectric.app.work import Work
+
+
+@pytest.fixture
+def temporary(tmp_path, monkeypatch):
+    """Folder for temporary files."""
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    return tmp_path
+
+
+@pytest.fixture
+def work(temporary):
+    work = Work()
+    yield work
+    work.close()
+    assert not list(temporary.iterdir())
+
+
+def test_a_session_has_a_folder_of_its_own_which_ends_with_it(work):
+    one, other = (Session(work, Inputs({})) for _ in range(2))
+    (one.folder / "profile.csv").write_text("1 2")
+    assert one.folder == one.folder
+    assert one.folder != other.folder
+    assert one.folder.stat().st_mode & 0o077 == 0, "only this user reads it"
+    folder = one.folder
+    one.close()
+    assert not folder.exists()
+    assert other.folder.is_dir()
+
+
+def test_a_session_makes_no_folder_before_it_needs_one(work, temporary):
+    Session(work, Inputs({})).close()
+    assert not list(temporary.iterdir())
+
+
+def test_closed_work_leaves_no_folder(temporary):
+    work = Work()
+    (Session(work, Inputs({})).folder / "profile.csv").write_text("1 2")
+    work.close()
+    assert not list(temporary.iterdir())
+
+
+def test_folders_of_servers_that_were_killed_are_removed(temporary):
+    code = "import os; from ehlectric.app.scratch import Scratch; Scratch().new(); os._exit(1)"
+    subprocess.run([sys.executable, "-c", code], env=os.environ | {"TMPDIR": str(temporary)}, check=False)
+    running = Scratch()
+    other = temporary / "ehlectric-app-of-something-else"
+    other.mkdir()
+    assert len(list(temporary.iterdir())) == 3
+    clear_left_behind()
+    assert sorted(temporary.iterdir()) == sorted([running.folder, other])
+    running.remove()
+
+
+def test_a_link_to_a_folder_is_not_followed(temporary, tmp_path_factory):
+    precious = tmp_path_factory.mktemp("precious")
+    (precious / "lock").write_bytes(b"")
+    (temporary / "ehlectric-app-link").symlink_to(precious)
+    clear_left_behind()
+    assert (precious / "lock").exists()

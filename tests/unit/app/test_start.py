@@ -1,0 +1,41 @@
+"""Address that the server is bound to."""
+
+import socket
+
+import pytest
+
+from ehlectric.app.start import listen
+from ehlectric.errors import InputError
+
+
+@pytest.fixture
+def taken():
+    """Port that another socket listens at."""
+    with socket.socket() as other:
+        other.bind(("127.0.0.1", 0))
+        other.listen()
+        yield other.getsockname()[1]
+
+
+def test_a_port_is_listened_at_before_the_server_is_loaded():
+    with listen("127.0.0.1", 0) as bound, socket.create_connection(bound.getsockname()):
+        assert bound.getsockname()[1] > 0
+
+
+def test_without_a_port_the_next_free_one_is_taken():
+    with listen("127.0.0.1", None) as one, listen("127.0.0.1", None) as other:
+        assert 8080 <= one.getsockname()[1] < other.getsockname()[1] < 8180
+
+
+def test_a_taken_port_is_told(taken):
+    with pytest.raises(InputError) as caught:
+        listen("127.0.0.1", taken)
+    assert str(caught.value).startswith(f"--port: {taken} cannot be used, address already in use")
+    assert "free port" in caught.value.takes
+
+
+@pytest.mark.parametrize("host", ["203.0.113.7", "no such host", "1.2.3.4.5", ""])
+def test_an_address_of_another_machine_is_told(host):
+    with pytest.raises(InputError) as caught:
+        listen(host, 0).close()
+    assert str(caught.value) == f"--host: got {host}; expected an address of this machine"

@@ -1,0 +1,222 @@
+"""Sweeps of the page: the database of the command, its map, and links that reproduce its points."""
+
+import asyncio
+import json
+import shutil
+import sqlite3
+from contextlib import closing
+from urllib.parse import parse_qsl
+
+import pytest
+
+from ehlectric.app.answers.calls import SWEEP_SOLVED
+from ehlectric.app.compute import sweep, sweep_view
+from ehlectric.app.inputs import Inputs
+from ehlectric.app.pages.starts import SWEEP, start
+from ehlectric.app.ranges import Range, with_ranges
+from ehlectric.app.work import Limits, Work
+from ehlectric.cases.any_case import case_of_dict
+from ehlectric.errors import InputError
+from ehlectric.runs.by_kind import read_sweep_file, run_sweep
+from ehlectric.sweep.engine import solve_point
+from ehlectric.sweep.plan import case_key
+from ehlectric.sweep.store import read_sweep
+
+CASE = SWEEP.value("case")
+
+# One of the four points is solved. Thirty balls do not fit on the pitch circle, which is found when they are
+# placed; with a bore of 90 mm the case is refused before.
+VARY = {
+    "bearing": {
+        "bore": {"from": "40 mm", "to": "90 mm", "count": 2},
+        "elements": {"from": 9, "to": 30, "count": 2},
+    }
+}
+TABLE = {"case": CASE, "vary": VARY}
+
+
+def silent(_done, _of, _text):
+    pass
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    path = tmp_path_factory.mktemp("page") / "sweep"
+    sweep.solved(TABLE, str(path), 1, silent)
+    return path
+
+
+def stored(path):
+    """Outcome of every point of a database, without its time and date."""
+    with closing(sqlite3.connect(path / "sweep.sqlite")) as file:
+        points = file.execute("SELECT number, inputs, key, refused FROM points").fetchall()
+        results = file.execute("SELECT key, status, reason, summary FROM results ORDER BY key").fetchall()
+    return points, [(*row, without_time(json.loads(text or "{}"))) for *row, text in results]
+
+
+def without_time(summary):
+    return {key: value for key, value in summary.items() if key not in ("seconds", "title", "verdict")}
+
+
+@pytest.mark.slow
+def test_the_downloaded_file_gives_the_command_the_same_database(folder, tmp_path):
+    file = tmp_path / "sweep.toml"
+    file.write_text(Inputs(TABLE).toml(), encoding="utf-8")
+    run_sweep(read_sweep_file(file), tmp_path / "command", workers=1)
+    assert stored(tmp_path / "command") == stored(folder)
+    assert {p.name for p in (tmp_path / "command").iterdir()} == {p.name for p in folder.iterdir()}
+
+
+@pytest.mark.slow
+def test_resume_solves_only_the_missing_point(folder, tmp_path):
+    again = tmp_path / "sweep"
+    shutil.copytree(folder, again)
+    with closing(sqlite3.connect(again / "sweep.sqlite")) as file, file:
+        (key,) = file.execute("SELECT key FROM results WHERE status = 'solved'").fetchone()
+        file.execute("DELETE FROM results WHERE key = ?", [key])
+        file.execute("DELETE FROM seals WHERE key = ?", [key])
+
+    def dates(path):
+        with closing(sqlite3.connect(path / "sweep.sqlite")) as file:
+            return dict(file.execute("SELECT key, date FROM results"))
+
+    kept, told = dates(again), []
+    sweep.solved(TABLE, str(again), 1, lambda done, of, _: told.append((done, of)))
+    # Points that are refused or failed are done.
+    assert told[0] == (3, 4)
+    assert told[-1] == (4, 4)
+    assert {one: date for one, date in dates(again).items() if one != key} == kept
+    assert stored(again) == stored(folder)
+
+
+@pytest.mark.slow
+def test_a_stopped_job_resumes_without_solving_a_point_twice(tmp_path):
+    table = {"case": CASE, "vary": {"bearing": {"radial_load": {"from": "1 kN", "to": "4 kN", "count": 8}}}}
+    place = str(tmp_path / "sweep")
+
+    async def stop_and_resume():
+        work = Work(Limits(jobs=1))
+        try:
+            first = work.start(SWEEP_SOLVED, table, place, 1)
+            while not first.over and first.done < 2:
+                await asyncio.sleep(0.05)
+            first.cancel()
+            assert first.state == "cancelled"
+            kept = {point.number: point.seconds for point in read_sweep(place).points if point.solved}
+            second = work.start(SWEEP_SOLVED, table, place, 1)
+            await second.wait()
+            return kept, second
+        finally:
+            work.close()
+
+    kept, second = asyncio.run(stop_and_resume())
+    assert second.error is None
+    assert len(kept) >= 2
+    assert second.result == {"solved": 8}
+    points = read_sweep(place).points
+    assert {number: points[number].seconds for number in kept} == kept
+
+
+def test_a_refused_point_has_its_reason_and_no_number(folder):
+    view = sweep_view.seen(str(folder), "bearing.first_break")
+    assert view.counts == {"solved": 1, "failed": 3}
+    refused = [point for point in view.chart.points if point.state == "failed"]
+    assert [point.value for point in refused] == [None, None, None]
+    assert ["elements" in refused[0].texts[-1], "bore" in refused[1].texts[-1]] == [True, True]
+    marked = [trace for trace in view.figure["data"] if trace.get("name") == "refused or failed"]
+    assert marked[0]["customdata"] == [point.number for point in refused] == [1, 2, 3]
+    (coloured,) = (trace for trace in view.figure["data"] if trace.get("colorscale") == "Viridis")
+    assert sum(value is None for row in coloured["z"] for value in row) == 3
+
+
+def test_the_map_has_the_numbers_of_the_summaries(folder):
+    view, results = sweep_view.seen(str(folder), "bearing.capacitance"), read_sweep(folder)
+    factor = {"Capacitance of the bearing [pF]": 1e12, "Capacitance of the bearing [nF]": 1e9}[
+        view.chart.title
+    ]
+    for drawn, point in zip(view.chart.points, results.points, strict=True):
+        if point.solved:
+            capacitance = point.summary["bearing"]["capacitance"]
+            assert drawn.value == pytest.approx(capacitance * factor, rel=1e-12)
+            assert drawn.margin == point.summary["bearing"]["margin"]
+    assert view.formula_error == "30 %"
+    json.dumps(view.figure, allow_nan=False)
+
+
+def test_links_reproduce_the_results_of_the_points_exactly(folder):
+    results = read_sweep(folder)
+    for point in results.points:
+        if point.number > 1:
+            with pytest.raises(InputError, match=r"bearing\.bore"):
+                sweep.point(str(folder), CASE, point.number)
+            continue
+        link = sweep.point(str(folder), CASE, point.number)
+        table = Inputs.of_query(parse_qsl(link.query)).table
+        assert link.path == "/"
+        assert table["bearing"]["temperature"] == "70 degC"
+        case = case_of_dict(table, written=True)
+        assert case_key(case) == case_key(results.case.replace(point.inputs))
+        outcome = solve_point(case.to_dict())
+        assert (outcome.status, outcome.reason) == (point.status, point.reason)
+        assert without_time(outcome.summary or {}) == without_time(point.summary or {})
+
+
+def test_a_link_has_the_varied_load_and_not_the_pressure_that_it_replaces():
+    contact = {"reduced_radius": "14.1 mm", "reduced_modulus": "226 GPa", "entrainment_speed": "4 m/s"}
+    table = {"contact": contact | {"max_hertz_pressure": "1 GPa"}, "lubricant": {"base": "paper"}}
+    case, inputs = case_of_dict(table, written=True), {"contact.load_per_length": 1.234567890123e6}
+    found = Inputs.of_query(parse_qsl(Inputs(sweep.point_table(case, table, inputs)).address())).table
+    assert "max_hertz_pressure" not in found["contact"]
+    assert case_key(case_of_dict(found, written=True)) == case_key(case.replace(inputs))
+
+
+def test_the_size_is_told_before_the_run():
+    found = sweep.planned(TABLE, 1)
+    assert (found.points, found.refused, found.corners) == (4, 2, 4)
+    assert "bearing.bore" in found.reason
+    assert found.seconds > 0.0
+
+
+def test_the_first_inputs_can_run():
+    found = sweep.choices(CASE)
+    assert [one.key for one in found.variables[:2]] == ["bearing.inner_speed", "bearing.radial_load"]
+    assert next(iter(found.values)) == "bearing.first_break"
+    assert sweep.sweep_of(dict(SWEEP.table)).size == 64
+
+
+@pytest.mark.parametrize("name", ["bearing_6208", "discharge", "oil_contact"])
+def test_offered_ranges_are_valid(name):
+    table = dict(start(name).table)
+    offered = sweep.choices(table).variables
+    assert len(offered) > 5
+    for one in offered:
+        asked = with_ranges(Inputs({"case": table}), [Range(one.key, one.low, one.high, 2)])
+        assert sweep.sweep_of(dict(asked.table)).size == 2
+
+
+@pytest.mark.parametrize(
+    ("vary", "says"),
+    [
+        ({"bearing": {"radial_load": {"from": "1 N", "to": "2 N", "count": 2501}}}, "at most 2500"),
+        ({"bearing": {"radial_load": {"from": "2 N", "to": "1 N", "count": 2}}}, "more than from"),
+        ({"roughness": {"1": {"file": ["/etc/passwd", "/etc/group"]}}}, "uploaded in this tab"),
+    ],
+)
+def test_ranges_that_are_refused(vary, says):
+    with pytest.raises(InputError, match=says):
+        sweep.planned({"case": CASE, "vary": vary}, 1)
+
+
+def test_files_of_this_machine_are_not_read():
+    with pytest.raises(InputError, match="a table with the inputs"):
+        sweep.sweep_of({"case": "/etc/passwd", "vary": VARY})
+    with pytest.raises(InputError, match=r"case\.roughness\.1\.file.*uploaded in this tab"):
+        sweep.sweep_of({"case": {**CASE, "roughness": [{"file": "/etc/passwd"}]}, "vary": VARY})
+
+
+def test_tables_of_an_unfinished_sweep_can_be_downloaded(folder, tmp_path):
+    again = tmp_path / "sweep"
+    again.mkdir()
+    shutil.copy(folder / "sweep.sqlite", again)
+    assert {"sweep.sqlite", "sweep.csv", "sweep.nc"} <= set(sweep.files(str(again)))
+    assert (again / "sweep.csv").read_bytes() == (folder / "sweep.csv").read_bytes()

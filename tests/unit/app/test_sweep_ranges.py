@@ -1,0 +1,30 @@
+"""Inputs of the sweep page: a sweep file with its base case inside."""
+
+import tomllib
+
+from ehlectric.app.inputs import Inputs
+from ehlectric.app.pages.starts import BEARING, SWEEP
+from ehlectric.app.ranges import Range, case_of_link, ranges_of, sweep_file, sweep_inputs, with_ranges
+from ehlectric.sweep.inputs import Sweep
+
+
+def test_ranges_keep_their_order_in_file_and_address():
+    ranges = [
+        Range("lubricant.temperature.kinematic_viscosity_40", "10 mm^2/s", "100 mm^2/s", 3, log=True),
+        Range("bearing.radial_load", "1 kN", "2 kN", 4),
+    ]
+    inputs = with_ranges(SWEEP, ranges)
+    assert ranges_of(inputs) == ranges
+    assert ranges_of(with_ranges(inputs, ranges[::-1])) == ranges[::-1]
+    file = Sweep.from_written(tomllib.loads(sweep_file(inputs.changed({"show": "bearing.margin"})).toml()))
+    assert list(file.vary) == [one.key for one in ranges]
+    assert file.size == 12
+
+
+def test_the_case_of_another_page_is_taken_over():
+    link = f"http://127.0.0.1:8080/?{BEARING.address()}&token=abc"
+    assert case_of_link(link) == dict(BEARING.table)
+    assert case_of_link(f"/sweep?{SWEEP.address()}") == dict(SWEEP.value("case"))
+    assert case_of_link("https://example.org/") is None
+    assert sweep_inputs(BEARING) == Inputs({"case": dict(BEARING.table)})
+    assert sweep_inputs(SWEEP) == SWEEP

@@ -1,0 +1,218 @@
+"""Quick answers and jobs: limits, turns, and processes that end with all that they started."""
+
+import asyncio
+import logging
+import os
+
+import pytest
+
+from ehlectric.app.work import Limits, ReplacedError, Work, limits_of
+from ehlectric.errors import InputError, LostError
+from tests.helpers import calls
+from tests.helpers.processes import alive, wait_until
+
+# Far above what a fork of the physics takes, and far below what ``allocate`` is asked for [bytes].
+MEMORY = 3e9
+
+
+def working(limits, use):
+    """Result of ``use(work)``, a coroutine, after which the work is closed."""
+
+    async def run():
+        work = Work(limits)
+        try:
+            return await asyncio.wait_for(use(work), 60.0)
+        finally:
+            work.close()
+
+    return asyncio.run(run())
+
+
+async def outcome(job):
+    await job.wait()
+    return job.state, job.result, job.error
+
+
+def test_a_quick_answer():
+    assert working(None, lambda work: work.quick(calls.double, 21)) == 42
+
+
+def test_an_input_error_is_that_of_the_function():
+    with pytest.raises(InputError) as caught:
+        working(None, lambda work: work.quick(calls.refuse))
+    assert (caught.value.key, caught.value.takes) == ("bearing.radial_load", "above 0 N")
+
+
+@pytest.mark.parametrize("function", [calls.fail, calls.make_unpicklable])
+def test_an_error_of_the_program_is_one_line_and_its_traceback_is_in_the_log(function, caplog):
+    with caplog.at_level(logging.ERROR, "ehlectric.app"), pytest.raises(LostError) as caught:
+        working(None, lambda work: work.quick(function))
+    assert "error in the program" in str(caught.value)
+    assert "\n" not in str(caught.value)
+    assert "Traceback" in caplog.text
+
+
+def test_a_killed_process_loses_its_answer_only_and_another_takes_its_place():
+    async def use(work):
+        slow = asyncio.create_task(work.share().quick(calls.wait, 1.0))
+        with pytest.raises(LostError, match="killed"):
+            await work.quick(calls.die)
+        return await slow, [await work.quick(calls.double, 1) for _ in range(8)]
+
+    assert working(None, use) == (1.0, [2] * 8)
+
+
+def test_an_answer_that_takes_too_long_is_given_up():
+    async def use(work):
+        await work.quick(calls.double, 1)
+        with pytest.raises(LostError, match=r"longer than 0\.5 s"):
+            await work.quick(calls.wait, 60.0)
+        return await work.quick(calls.double, 2)
+
+    # The first answer waits until the processes have loaded the physics.
+    async def patient(work):
+        await asyncio.gather(*(work.share().quick(calls.wait, 0.1) for _ in range(4)))
+        work.limits = Limits(patience=0.5)
+        return await use(work)
+
+    assert working(None, patient) == 4
+
+
+def test_a_session_that_floods_does_not_starve_another():
+    async def use(work):
+        await work.quick(calls.double, 1)
+        greedy, modest = work.share(), work.share()
+        flood = [asyncio.create_task(greedy.quick(calls.wait, 0.1)) for _ in range(40)]
+        await asyncio.sleep(0)
+        await modest.quick(calls.double, 1)
+        unfinished = sum(not task.done() for task in flood)
+        await asyncio.gather(*flood)
+        return unfinished
+
+    # Only the two answers that are computed at once are ahead of the other session.
+    assert working(None, use) >= 34
+
+
+def test_more_answers_than_may_wait_are_refused():
+    async def use(work):
+        share = work.share()
+        return await asyncio.gather(
+            *(share.quick(calls.double, 1) for _ in range(60)), return_exceptions=True
+        )
+
+    found = working(None, use)
+    assert found[:50] == [2] * 50
+    assert all(isinstance(error, LostError) for error in found[50:])
+
+
+def test_a_later_answer_of_a_lane_replaces_one_that_waits():
+    async def use(work):
+        share = work.share()
+        asked = (share.quick(calls.double, number, lane="verdict") for number in range(6))
+        return await asyncio.gather(*asked, return_exceptions=True)
+
+    found = working(None, use)
+    assert found[:2] == [0, 2]
+    assert all(isinstance(error, ReplacedError) for error in found[2:-1])
+    assert found[-1] == 10
+
+
+def test_a_job_tells_its_progress_and_returns():
+    async def use(work):
+        job = work.start(calls.count_up, 5)
+        return *await outcome(job), job.done, job.of, job.text
+
+    assert working(None, use) == ("done", 5, None, 4, 5, "points")
+
+
+@pytest.mark.parametrize(
+    ("function", "values", "told"),
+    [
+        (calls.die, (), "killed"),
+        (calls.fail, (), "error in the program"),
+        (calls.make_unpicklable, (), "error in the program"),
+        (calls.allocate, (20e9,), "out of memory"),
+        (calls.refuse, (), "expected above 0 N"),
+    ],
+)
+def test_a_job_fails_in_words(function, values, told, caplog):
+    async def use(work):
+        return await outcome(work.start(function, *values))
+
+    with caplog.at_level(logging.CRITICAL, "ehlectric.app"):
+        state, _, error = working(Limits(memory=MEMORY), use)
+    assert state == "failed"
+    assert told in str(error)
+
+
+def test_a_job_that_takes_too_long_is_stopped():
+    async def use(work):
+        return await outcome(work.start(calls.wait, 60.0))
+
+    state, _, error = working(Limits(seconds=3.0), use)
+    assert state == "failed"
+    assert "longer than the 0.05 min allowed" in str(error)
+
+
+@pytest.mark.skipif(not hasattr(os, "killpg"), reason="processes are watched by the files of Linux")
+@pytest.mark.parametrize("how", ["cancel", "close the session", "close the work"])
+def test_a_job_ends_with_all_that_it_started(how, tmp_path):
+    path = tmp_path / "numbers"
+
+    async def use(work):
+        share = work.share()
+        job = share.start(calls.start_child, path)
+        while not (path.exists() and path.read_text()):
+            await asyncio.sleep(0.05)
+        numbers = [int(text) for text in path.read_text().split()]
+        assert all(map(alive, numbers))
+        {"cancel": job.cancel, "close the session": share.close, "close the work": work.close}[how]()
+        assert job.state == "cancelled"
+        return numbers
+
+    numbers = working(None, use)
+    assert wait_until(lambda: not any(map(alive, numbers)))
+
+
+def test_sessions_take_turns_with_their_jobs():
+    async def use(work):
+        one, other = work.share(), work.share()
+        jobs = [one.start(calls.wait, 0.2) for _ in range(3)]
+        late = other.start(calls.wait, 0.2)
+        await late.wait()
+        return [job.state for job in jobs]
+
+    # One job runs at once: the first of the first session, and then that of the other session.
+    assert working(Limits(jobs=1), use) == ["done", "waiting", "waiting"]
+
+
+def test_jobs_beyond_the_limits_are_refused():
+    async def use(work):
+        share = work.share()
+        jobs = [share.start(calls.wait, 60.0) for _ in range(2)]
+        with pytest.raises(LostError, match="2 computations of this page"):
+            share.start(calls.wait, 60.0)
+        work.share().start(calls.wait, 60.0)
+        with pytest.raises(LostError, match="too many computations"):
+            work.share().start(calls.wait, 60.0)
+        jobs[0].cancel()
+        share.start(calls.wait, 60.0)
+
+    working(Limits(jobs=1, each=2, waiting=2), use)
+
+
+def test_a_closed_session_asks_for_nothing_more():
+    async def use(work):
+        share = work.share()
+        share.close()
+        with pytest.raises(LostError, match="closed"):
+            await share.quick(calls.double, 1)
+        with pytest.raises(LostError, match="closed"):
+            share.start(calls.wait, 1.0)
+
+    working(None, use)
+
+
+def test_limits_of_options():
+    assert limits_of(jobs=3, gigabytes=2.0, minutes=5.0) == Limits(jobs=3, memory=2e9, seconds=300.0)
+    assert limits_of(jobs=None, gigabytes=None, minutes=60.0).jobs == Limits().jobs

@@ -1,0 +1,141 @@
+"""Measurements in text files: heads with units, separators, decimal marks, and lines that are refused."""
+
+import math
+import time
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from ehlectric.cases.measurements.columns import column_of
+from ehlectric.cases.measurements.reading import MOST_ROWS, read_measurement
+from ehlectric.errors import InputError
+
+RPM = math.pi / 30.0
+
+
+def read(tmp_path, text, **encoding):
+    path = tmp_path / "data.csv"
+    path.write_text(text, **(encoding or {"encoding": "utf-8"}))
+    return read_measurement(path)
+
+
+def refused(tmp_path, text):
+    with pytest.raises(InputError) as error:
+        read(tmp_path, text)
+    line = str(error.value)
+    assert "\n" not in line
+    return line.removeprefix(f"{tmp_path}/")
+
+
+TWO = {"speed": [1000 * RPM, 3000 * RPM], "capacitance": [260.5e-12, 190e-12]}
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "speed [rpm],capacitance [pF]\n1000,260.5\n3000,190\n",
+        "speed [rpm];capacitance [pF]\n1000;260,5\n3000;190\n",
+        "Speed (1/min)\tCapacitance (nF)\n1000\t0.2605\n3000\t0.190\n",
+        "# made by hand\n# speed [rpm], Cp [F]\n1000, 2.605e-10\n\n# a pause\n3000, 190e-12\n",
+        "LCR meter 7\nOperator;N. N.\nShaft_speed [U/min];CAPACITANCE [pF]\r\n1000;260.5\r\n3000;190.0\r\n",
+    ],
+)
+def test_ways_to_write_the_same_rows(tmp_path, text):
+    measured = read(tmp_path, text)
+    assert set(measured.values) == set(TWO)
+    for name, values in TWO.items():
+        assert measured.values[name] == pytest.approx(values, rel=1e-12)
+
+
+@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16", "cp1252"])
+def test_encodings_of_instruments(tmp_path, encoding):
+    measured = read(tmp_path, "temperature [°C],film [µm]\n40,0.3\n", encoding=encoding)
+    assert measured.values["temperature"].tolist() == [313.15]
+    assert measured.values["film"] == pytest.approx([3e-7])
+
+
+def test_all_quantities_are_in_si_units(tmp_path):
+    measured = read(
+        tmp_path,
+        "time [ms],u [-],entrainment speed [mm/s],impedance [kOhm],phase [°],frequency [kHz],film [nm]\n"
+        "1,0,20,3,-90,20,140\n",
+    )
+    found = {name: float(values[0]) for name, values in measured.values.items()}
+    assert found == pytest.approx(
+        {"time": 1e-3, "entrainment_speed": 0.02, "impedance": 3e3, "phase": -math.pi / 2, "frequency": 2e4}
+        | {"film": 1.4e-7}
+    )
+    assert measured.ignored == ("u [-]",)
+    assert measured.lines == (2,)
+
+
+def test_uncertainties_are_those_of_their_quantity(tmp_path):
+    measured = read(tmp_path, "film [nm],uncertainty [%],speed [m/s]\n200,5,1\n100,10,2\n")
+    assert measured.uncertainties["film"] == pytest.approx([1e-8, 1e-8])
+    measured = read(tmp_path, "capacitance [pF],uncertainty of capacitance [fF]\n200,500\n")
+    assert measured.uncertainties["capacitance"] == pytest.approx([5e-13])
+    measured = read(tmp_path, "capacitance [pF],temperature [degC],temperature uncertainty [K]\n200,70,2\n")
+    assert measured.uncertainties["temperature"] == pytest.approx([2.0])
+
+
+def test_a_table_of_pandas_is_read_by_its_heads():
+    frame = pd.DataFrame({"speed [rpm]": [1000, 3000], "capacitance [pF]": np.array([260.5, 190.0])})
+    measured = read_measurement(frame)
+    for name, values in TWO.items():
+        assert measured.values[name] == pytest.approx(values, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("text", "line"),
+    [
+        (
+            "speed [rpm],capacitance [pF]\n1000,abc\n",
+            "line 2, capacitance [pF]: got 'abc'; expected a number",
+        ),
+        (
+            "speed [rpm],capacitance [pF]\n\n1000,\n",
+            "line 3, capacitance [pF]: got ''; expected a number",
+        ),
+        ("speed [rpm],capacitance [pF]\n1000,nan\n", "got 'nan'"),
+        ("speed [rpm],capacitance [pF]\n1000,1e999\n", "expected a finite number"),
+        ("speed [rpm],capacitance [pF]\n-5,100\n", "line 2, speed [rpm]: got '-5'; expected above 0 rad/s"),
+        ("speed [rpm],capacitance [pF]\n1000,1,5\n", "line 2 has 3 columns; expected 2 as in its heads"),
+        ("speed [rpm];capacitance [pF]\n1000;1,5\n2000;1.5\n", "mixes decimal points and decimal commas"),
+        ("speed;capacitance [pF]\n1000;1,5\n", "column 'speed': has no unit; expected a unit in brackets"),
+        ("speed [kg],capacitance [pF]\n1,2\n", "column 'speed [kg]': has the unit 'kg'"),
+        ("a,b\n1,2\n", "has no heads of known columns; expected heads such as 'speed [rpm]'"),
+        ("speed [rpm],capacitance [pF]\n", "has no rows below its heads"),
+        ("speed [rpm],shaft speed [rpm]\n1,2\n", "has the columns 'speed [rpm]' and 'shaft speed [rpm]'"),
+        ("speed [rpm],film uncertainty [nm]\n1,2\n", "expected a column film with it"),
+        ("film [nm],uncertainty [s]\n1,2\n", "s is not a unit of this quantity"),
+        ("film [nm],uncertainty [nm]\n1,0\n", "has a value of 0 or below"),
+        ("", "has no heads of known columns"),
+    ],
+)
+def test_what_is_wrong_is_one_line_with_its_place(tmp_path, text, line):
+    assert line in refused(tmp_path, text)
+
+
+def test_files_without_end_or_measure_are_refused_soon(tmp_path):
+    began = time.monotonic()
+    many = "film [nm],speed [m/s]\n" + "1,1\n" * (MOST_ROWS + 1)
+    assert f"expected at most {MOST_ROWS}" in refused(tmp_path, many)
+    assert "has no heads" in refused(tmp_path, ";" * 1_000_000)
+    assert "has no heads" in refused(tmp_path, "speed [" * 100_000)
+    assert "got '1" in refused(tmp_path, "film [nm]\n" + "1" * 1_000_000)
+    (tmp_path / "zeros").write_bytes(bytes(1000))
+    for path in (tmp_path / "zeros", tmp_path, tmp_path / "none.csv", "/dev/zero"):
+        with pytest.raises(InputError):
+            read_measurement(path)
+    assert time.monotonic() - began < 5.0
+
+
+def test_control_characters_of_a_head_are_not_printed(tmp_path):
+    measured = read(tmp_path, "film [nm],\x1b[31mred\n1,2\n")
+    assert "\x1b" not in measured.ignored[0]
+
+
+def test_a_speed_is_told_by_its_unit():
+    assert column_of("speed [m/s]").name == "entrainment_speed"
+    assert column_of("speed [rad/s]").name == "speed"

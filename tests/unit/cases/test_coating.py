@@ -1,0 +1,98 @@
+"""Table of a coated ring: values of the library, areas of rings, and lines for what is wrong."""
+
+import math
+
+import pytest
+from scipy.constants import epsilon_0
+
+from ehlectric.cases import library
+from ehlectric.cases.bearings.coating import Coating
+from ehlectric.errors import InputError
+from tests.helpers.bearings import BALLS, bearing_case
+
+OUTER = {"ring": "outer", "thickness": "100 um", "relative_permittivity": 8.0}
+
+
+def coated(coating, **bearing):
+    changes = {f"bearing__{key}": value for key, value in bearing.items()}
+    return bearing_case(BALLS, bearing__coating=coating, **changes)
+
+
+@pytest.mark.parametrize("name", library.coating_names())
+def test_coated_rings_of_the_library_lack_their_permittivity(name):
+    """No maker states it; with it and a thickness they are complete."""
+    with pytest.raises(InputError, match="relative_permittivity"):
+        Coating.from_dict({"base": name, "thickness": "100 um"})
+    made = Coating.from_dict({"base": name, "thickness": "100 um", "relative_permittivity": 8.0})
+    assert made.ring in ("inner", "outer")
+    assert made.thickness == pytest.approx(1e-4)
+
+
+def test_what_a_file_gives_stands_before_the_library():
+    table = {"base": "schaeffler-j20aa", "relative_permittivity": 8.0}
+    assert (Coating.from_dict(table).voltage, Coating.from_dict(table).thickness) == (3000.0, 2e-4)
+    assert Coating.from_dict(table | {"strength": "10 V/um"}).voltage == pytest.approx(2000.0)
+
+
+@pytest.mark.parametrize(
+    ("ring", "dimensions", "diameter"),
+    [("outer", {"outer_diameter": "80 mm"}, 0.08), ("inner", {"bore": "40 mm"}, 0.04)],
+)
+def test_the_area_of_a_ring(ring, dimensions, diameter):
+    case = coated(OUTER | {"ring": ring}, width="18 mm", **dimensions)
+    expected = epsilon_0 * 8.0 * math.pi * diameter * 0.018 / 1e-4
+    assert case.bearing.coating_capacitance() == pytest.approx(expected, rel=1e-12)
+    assert type(case).from_dict(case.to_dict()) == case
+
+
+def test_a_new_base_replaces_the_values_of_the_old_one():
+    case = coated({"base": "schaeffler-j20aa", "relative_permittivity": 8.0, "area": "40 cm^2"})
+    other = case.replace({"bearing.coating.base": "skf-insocoat-vl0241"}).bearing.coating
+    assert (other.thickness, other.voltage, other.relative_permittivity, other.area) == (
+        1e-4,
+        None,
+        8.0,
+        4e-3,
+    )
+    stronger = case.replace({"bearing.coating.strength": "10 V/um"}).bearing.coating
+    assert stronger.voltage == pytest.approx(2000.0)
+
+
+@pytest.mark.parametrize(
+    ("table", "line"),
+    [
+        (OUTER, "bearing.coating.area: missing; expected it, or bearing.outer_diameter and bearing.width"),
+        (
+            OUTER | {"ring": "inner"},
+            "bearing.coating.area: missing; expected it, or bearing.bore and bearing.width",
+        ),
+        (OUTER | {"ring": "both"}, "bearing.coating.ring: got 'both'; expected 'inner' or 'outer'"),
+        (OUTER | {"thickness": "0 um"}, "bearing.coating.thickness: got '0 um'; expected"),
+        (OUTER | {"relative_permittivity": 0.5}, "bearing.coating.relative_permittivity: got 0.5; expected"),
+        (OUTER | {"base": "teflon"}, "bearing.coating.base: got 'teflon'; expected a name of the library"),
+        (
+            OUTER | {"area": "1 cm^2", "strength": "10 V/um", "breakdown_voltage": "1 kV"},
+            "bearing.coating.strength: got strength and breakdown_voltage together; expected one of the two",
+        ),
+    ],
+)
+def test_lines_for_a_wrong_coating(table, line):
+    with pytest.raises(InputError) as caught:
+        coated(table)
+    assert str(caught.value).startswith(line)
+
+
+@pytest.mark.parametrize(("fill", "value"), [("30 %", 0.3), (0.25, 0.25), (1, 1.0), ("air", "air")])
+def test_fillings(fill, value):
+    assert bearing_case(BALLS, bearing__fill=fill).bearing.fill == value
+
+
+@pytest.mark.parametrize("fill", ["grease", 1.1, -0.1, math.nan, True, "130 %", "0.3 mm"])
+def test_fillings_that_are_refused(fill):
+    with pytest.raises(InputError, match=r"bearing.fill: got .*; expected 'oil' or 'air', or the part"):
+        bearing_case(BALLS, bearing__fill=fill)
+
+
+def test_a_parallel_capacitance_below_zero_is_refused():
+    with pytest.raises(InputError, match=r"bearing\.parallel_capacitance"):
+        bearing_case(BALLS, bearing__parallel_capacitance="-1 pF")

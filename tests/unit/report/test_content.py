@@ -1,0 +1,220 @@
+"""What a report says of a stored contact: numbers of its summary, origins of inputs, bounds, and failures."""
+
+import json
+import tomllib
+
+import pytest
+
+from ehlectric import BearingCase, Case, load, save, solve
+from ehlectric.cases.row import Row
+from ehlectric.errors import InputError
+from ehlectric.figures import names
+from ehlectric.figures.names import in_formats
+from ehlectric.report.build import report_of
+from ehlectric.report.captions import CAPTIONS, UNCONVERGED, caption_of
+from ehlectric.report.content import Picture, Table, Text, Warnings
+from ehlectric.report.facts import row_tables
+from ehlectric.report.files import write_report
+from ehlectric.report.light import Light, light_of
+from ehlectric.report.limits import LIMITS, REFERENCES, limits_of, references_of
+from ehlectric.report.origins import inputs_of, material_sources
+from tests.conftest import PAPER_CONTACT
+from tests.helpers.bearings import BALLS, OIL, changed
+from tests.helpers.places import ROOT
+
+TABLE = {
+    "title": "A & <b>B</b>",
+    "contact": PAPER_CONTACT,
+    "lubricant": {"base": "paper", "relative_permittivity": 2.2},
+    "discharge": {"dielectric_strength": "15 V/um"},
+    "grid": {"nodes": 801},
+}
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    place = tmp_path_factory.mktemp("contact")
+    save(solve(TABLE), place)
+    return place
+
+
+@pytest.fixture(scope="module")
+def report(folder):
+    return report_of(folder)
+
+
+def tables(report, section):
+    (found,) = [one for one in report.sections if one.title == section]
+    return [block for block in found.blocks if isinstance(block, Table)]
+
+
+def cells(report, section):
+    return {row[0]: row for table in tables(report, section) for row in table.rows}
+
+
+def test_numbers_are_those_of_the_summary(report, folder):
+    summary = json.loads((folder / "summary.json").read_text())
+    found = cells(report, "Key numbers")
+    assert found["minimum film thickness h_min"][1] == f"{summary['film']['minimum_thickness'] * 1e6:.4g}"
+    assert found["maximum field"][1] == f"{summary['field']['max_strength'] / 1e6:.4g}"
+    breakdown = found["breakdown voltage"]
+    assert breakdown[1:3] == (f"≤ {summary['discharge']['breakdown_voltage']:.4g}", "V")
+
+
+def test_the_input_file_is_solved_again_to_the_same_case(report, folder):
+    (code,) = [block for block in report.blocks() if isinstance(block, Text) and block.tone == "code"]
+    path = folder / "again.toml"
+    path.write_text(code.text)
+    assert Case.from_toml(path) == Case.from_dict(tomllib.loads(code.text)) == Case.from_dict(TABLE)
+
+
+def test_every_input_has_its_origin(report):
+    found = cells(report, "Inputs")
+    assert found["reduced_radius"][1:3] == ("14.1\xa0mm", "given")
+    assert found["reduced_radius"][3].startswith("reduced radius, R")
+    assert found["relative_permittivity"][2] == "given"
+    assert found["roelands_z"][2] == "library paper: assumed [1]"
+    assert found["field_degree"][2] == "default"
+    assumed = tables(report, "Inputs")[-1]
+    assert assumed.caption == "Inputs that are assumptions"
+    assert "lubricant.roelands_z = 0.67" in assumed.rows[0][0]
+    assert "relative_permittivity" not in assumed.rows[0][0]
+    assert assumed.rows[1][0].startswith("discharge.dielectric_strength")
+    (source,) = tables(report, "Sources")[0].rows
+    assert source[2].address == "https://doi.org/10.3390/lubricants10050087"
+
+
+def test_the_light_has_the_level_of_the_verdict_and_never_hides_an_upper_bound(report, folder):
+    (light,) = [block for block in report.blocks() if isinstance(block, Light)]
+    verdict = load(folder).verdict
+    assert (light.level, light.text) == (verdict.level, verdict.text)
+    assert light.bound == "≤"
+    assert "upper bound" in light.words
+
+
+@pytest.mark.parametrize(
+    ("level", "text", "words", "bound"),
+    [
+        ("green", "No breakdown expected: margin 9.", "No breakdown expected", ""),
+        (
+            "green",
+            "No breakdown expected: margin 9. Upper bound: smooth film.",
+            "No breakdown expected, as an upper bound",
+            "≤",
+        ),
+        (
+            "yellow",
+            "Breakdown likely: margin 0.9. Upper bound: smooth film.",
+            "Breakdown likely; the margin is an upper bound",
+            "≤",
+        ),
+        (
+            "grey",
+            "No verdict: first breakdown at 5 V. Upper bound: smooth film.",
+            "No verdict; the breakdown voltage is an upper bound",
+            "≤",
+        ),
+        # A sweep.
+        ("green", "Breakdown is expected at none of 9 points: margin 2.", "No breakdown expected", ""),
+        # A shaft voltage that is an upper bound makes the margin a lower one.
+        ("red", "Breakdown expected: margin 0.5. Its voltage is an upper bound.", "Breakdown expected", ""),
+    ],
+)
+def test_the_heading_of_a_light_is_that_of_its_verdict(level, text, words, bound):
+    light = light_of(level, text)
+    assert (light.level, light.words, light.bound) == (level, words, bound)
+
+
+def test_bounds_are_marked_and_other_numbers_are_not():
+    rows = (
+        Row("margin (first breakdown / shaft voltage)", 1.5),
+        Row("coating breakdown voltage", 3e3, "V"),
+        Row("shaft voltage", 4.0, "V"),
+    )
+    table, text = row_tables(rows, "Test")
+    assert [row[1] for row in table.rows] == ["≤ 1.5", "3000", "4"]
+    assert "upper bound" in text.text
+
+
+def test_figures_have_captions(report):
+    pictures = [block for block in report.blocks() if isinstance(block, Picture)]
+    assert [picture.name for picture in pictures] == [
+        "film", "field_strength", "field_profiles", "field_deviation", "breakdown",
+    ]  # fmt: skip
+    assert all(picture.caption and picture.title != picture.name for picture in pictures)
+
+
+def test_every_figure_that_a_result_can_have_has_a_caption():
+    files = (
+        *names.FIGURE_FILES, *names.POINT_FIGURE_FILES, names.ROUGHNESS_FIGURE, names.BREAKDOWN_FIGURE,
+        names.METER_FIGURE, *names.MOTION_FIGURE_FILES, *names.BEARING_FIGURE_FILES,
+        *names.SPEED_FIGURE_FILES, names.SENSITIVITY_FIGURE,
+    )  # fmt: skip
+    assert {file.removesuffix(".png") for file in in_formats(files)} == set(CAPTIONS)
+    assert caption_of("film", converged=False).startswith(UNCONVERGED)
+
+
+def test_a_result_that_is_not_converged_says_so_everywhere(tmp_path):
+    table = TABLE | {"solver": {"max_iterations": 1}}
+    save(solve(table, require_convergence=False), tmp_path)
+    report = report_of(tmp_path)
+    first = report.sections[0].blocks[0]
+    assert (first.tone, first.text[:13]) == ("alarm", "NOT CONVERGED")
+    assert "NOT CONVERGED" in next(iter(tables(report, "Key numbers"))).rows[0][0]
+    pictures = [block for block in report.blocks() if isinstance(block, Picture)]
+    assert pictures
+    for picture in pictures:
+        assert picture.caption.startswith(UNCONVERGED)
+        assert "NOT CONVERGED" in picture.title
+    (warnings,) = [block for block in report.blocks() if isinstance(block, Warnings)]
+    assert warnings.lines[0].severity == "severe"
+
+
+def test_publications_are_those_of_the_code():
+    """Each DOI stands in a docstring of the package, so that no report cites what no equation uses."""
+    sources = "".join(path.read_text(encoding="utf-8") for path in (ROOT / "src/ehlectric").rglob("*.py"))
+    for reference in REFERENCES:
+        assert sources.count(reference.doi) >= 2, reference.doi
+
+
+def test_limits_and_publications_are_those_of_the_case():
+    line, bearing = Case.from_dict(TABLE), BearingCase.from_dict(BALLS)
+    of_line, of_bearing = ({limit.topic for limit in limits_of(case)} for case in (line, bearing))
+    assert {"bodies", "roughness", "discharge"} <= of_line
+    assert {"mechanics of the bearing", "circuit"} <= of_bearing
+    assert not {"mechanics of the bearing", "circuit"} & of_line
+    assert all(limit.text.endswith(".") for limit in LIMITS)
+    assert "10.1115/1.3261900" in {one.doi for one in references_of(line)}
+    assert "10.1115/1.3261900" not in {one.doi for one in references_of(bearing)}
+
+
+def test_values_of_the_bearing_of_the_library_have_its_sources():
+    keys = (
+        "kind",
+        "elements",
+        "element_diameter",
+        "pitch_diameter",
+        "inner_groove",
+        "outer_groove",
+        "shoulder_height",
+    )
+    own = {f"bearing__{key}": None for key in keys}
+    case = BearingCase.from_dict(changed(BALLS, **own, bearing__base="6208", lubricant=OIL))
+    found = {one.key: one for one in inputs_of(case)}
+    assert found["bearing.elements"].source.kind == "published"
+    assert found["bearing.inner_groove"].assumed
+    assert found["bearing.shoulder_height"].source.kind == "by rule"
+    assert found["bearing.radial_load"].origin == "given"
+    assert dict(material_sources(case))["steel"].citation
+
+
+def test_the_date_alone_makes_two_reports_differ(folder, monkeypatch):
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "1767225600")
+    first = write_report(folder, folder / "a.html", folder / "a.pdf")
+    second = write_report(folder, folder / "b.html", folder / "b.pdf")
+    for one, other in zip(first, second, strict=True):
+        assert one.read_bytes() == other.read_bytes()
+    assert b"2026-01-01 00:00:00 UTC" in first[0].read_bytes()
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "today")
+    with pytest.raises(InputError, match="SOURCE_DATE_EPOCH: got 'today'"):
+        report_of(folder)

@@ -1,0 +1,200 @@
+"""Runs of files of every kind by one signature: what is recognised, solved, written, told and loaded back."""
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+import ehlectric
+from ehlectric import InputError, read_sweep
+from ehlectric.commands.drawing import load_and_draw
+from ehlectric.runs.by_kind import RUNS, run, run_and_draw
+from ehlectric.runs.kinds import kind_of_file
+from ehlectric.runs.results import load
+from ehlectric.runtime.outcome import RunOutcome
+from tests.helpers.places import EXAMPLES
+
+CASE = """\
+title = "By file"
+[contact]
+reduced_radius = "14.1 mm"
+reduced_modulus = "226 GPa"
+max_hertz_pressure = "0.5 GPa"
+entrainment_speed = "4 m/s"
+[lubricant]
+base = "paper"
+[grid]
+nodes = 65
+field_degree = 2
+"""
+MOTION = """\
+[[roughness]]
+surface = 1
+generator = "asperity"
+height = "50 nm"
+width = "60 um"
+[motion]
+passes = 0.375
+steps = 12
+record = 4
+"""
+BEARING = """\
+contacts = "formula"
+[bearing]
+base = "6208"
+radial_clearance = "10 um"
+radial_load = "1 kN"
+inner_speed = "3000 rpm"
+temperature = "70 degC"
+composite_rq = "0.03 um"
+[lubricant]
+base = "paper"
+viscosity = "20 mPa s"
+"""
+SWEEP = """\
+case = "contact.toml"
+[vary]
+"contact.entrainment_speed" = ["2 m/s", "4 m/s"]
+"""
+FILES = {"contact": CASE, "motion": CASE + MOTION, "bearing": BEARING, "sweep": SWEEP}
+WRITTEN = {
+    "contact": ["summary.json", "result.nc", "film.csv"],
+    "motion": ["summary.json", "motion.nc"],
+    "bearing": ["summary.json", "contacts.csv", "bearing.nc"],
+    "sweep": ["sweep.csv", "sweep.parquet", "sweep.nc"],
+}
+
+
+@pytest.fixture
+def files(tmp_path):
+    for kind, text in FILES.items():
+        (tmp_path / f"{kind}.toml").write_text(text)
+    return {kind: tmp_path / f"{kind}.toml" for kind in FILES}
+
+
+@pytest.mark.parametrize("kind", FILES)
+def test_a_file_of_each_kind_is_run_the_same_way(kind, files, tmp_path):
+    """Nothing is drawn; what the progress is told last is the end."""
+    told = []
+    options = {"workers": 1} if kind in ("bearing", "sweep") else {}
+    outcome = run(files[kind], tmp_path / "out", lambda *at: told.append(at), **options)
+    assert isinstance(outcome, RunOutcome)
+    assert outcome.converged
+    assert outcome.failure is None
+    assert [file.name for file in outcome.files] == WRITTEN[kind]
+    assert all(file.is_file() for file in outcome.files)
+    assert not list((tmp_path / "out").glob("*.png"))
+    assert all(isinstance(done, int) and isinstance(of, int) and text is not None for done, of, text in told)
+    assert told[-1][0] == told[-1][1]
+    if kind != "sweep":
+        assert json.loads(outcome.files[0].read_text()) == outcome.summary
+        assert list(map(str, outcome.warnings)) == outcome.summary["warnings"]
+    else:
+        assert outcome.summary == {"solved": 2}
+        assert outcome.result == read_sweep(tmp_path / "out")
+
+
+@pytest.mark.parametrize("kind", FILES)
+def test_a_kind_is_recognised_by_its_tables(kind, files):
+    assert kind_of_file(files[kind]) == kind
+    assert set(RUNS) == set(FILES)
+
+
+def test_kinds_of_the_examples():
+    kinds = {path.stem: kind_of_file(path) for path in EXAMPLES.glob("*.toml")}
+    assert {name: kind for name, kind in kinds.items() if kind != "contact"} == {
+        "bearing_6208": "bearing",
+        "moving_roughness": "motion",
+        "sweep": "sweep",
+        "uncertainty": "sweep",
+    }
+
+
+def test_files_of_no_kind_are_refused(tmp_path):
+    with pytest.raises(InputError, match=r"no\.toml: cannot be read, no such file or directory$"):
+        kind_of_file(tmp_path / "no.toml")
+    (tmp_path / "text.toml").write_text("a text")
+    with pytest.raises(InputError, match=r"text\.toml: is not TOML, "):
+        run(tmp_path / "text.toml", tmp_path / "out")
+
+
+def test_solvers_are_chosen_by_name(files, tmp_path):
+    with pytest.raises(InputError, match=r"^--solver: got 'none'; expected one of ehlectric, paper$"):
+        run(files["contact"], tmp_path / "out", solver="none")
+    with pytest.raises(InputError, match=r"^--solver: got 'paper' for a case with motion; expected "):
+        run(files["motion"], tmp_path / "out", solver="paper")
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_film_that_is_no_solution_is_a_failure_with_its_files(files, tmp_path):
+    files["contact"].write_text(CASE + "[solver]\nmax_iterations = 1\n")
+    outcome = run(files["contact"], tmp_path / "out")
+    assert not outcome.converged
+    assert outcome.failure == f"not converged: {outcome.result.film.status}"
+    assert "not-converged" in [warning.code for warning in outcome.warnings]
+    assert [file.name for file in outcome.files] == WRITTEN["contact"]
+    assert outcome.summary["converged"] is False
+
+
+def test_no_point_that_is_solved_is_a_failure(files, tmp_path):
+    files["contact"].write_text(CASE + "[solver]\nmax_iterations = 1\n")
+    outcome = run(files["sweep"], tmp_path / "out", workers=1)
+    assert (outcome.failure, outcome.summary) == ("none of 2 points was solved", {"not converged": 2})
+
+
+def test_a_folder_holds_one_result(files, tmp_path):
+    """Figures of another result go when a contact is solved, and stay where it is refused."""
+    folder = tmp_path / "out"
+    folder.mkdir()
+    old = [folder / name for name in ("film_map.png", "roughness.png", "motion_maps.png", "motion.nc")]
+    for path in [*old, folder / "notes.txt"]:
+        path.write_text("old")
+    with pytest.raises(InputError):
+        run(files["contact"], folder, solver="none")
+    assert all(path.exists() for path in old)
+    run(files["contact"], folder)
+    assert sorted(path.name for path in folder.iterdir()) == sorted([*WRITTEN["contact"], "notes.txt"])
+
+
+def test_figures_are_among_the_files_of_a_run_that_draws(files, tmp_path):
+    case = RUNS["contact"].read(files["contact"])
+    told = []
+    outcome = run_and_draw("contact", case, tmp_path, lambda _done, _of, text: told.append(text))
+    assert [file.name for file in outcome.files][:4] == [*WRITTEN["contact"], "film.png"]
+    assert told[-2:] == ["writing results", "drawing figures"]
+    assert run_and_draw("contact", case, tmp_path, draw=False).files == outcome.files[:3]
+
+
+@pytest.mark.parametrize("kind", ["contact", "bearing"])
+def test_a_result_is_loaded_whatever_it_is_of(kind, files, tmp_path):
+    outcome = run(files[kind], tmp_path / "out")
+    file = tmp_path / "out" / {"contact": "result.nc", "bearing": "bearing.nc"}[kind]
+    result = load(file)
+    assert ehlectric.load is load
+    assert type(result) is type(outcome.result)
+    assert result.summary() == outcome.summary
+    drawn, warnings = load_and_draw(file, tmp_path / "drawn")
+    assert drawn
+    assert all(path.parent == tmp_path / "drawn" for path in drawn)
+    assert list(map(str, warnings))[: len(outcome.warnings)] == outcome.summary["warnings"]
+
+
+def test_a_file_that_is_no_result_is_not_loaded(files, tmp_path):
+    with pytest.raises(InputError, match=r"no\.nc: cannot be read, no such file or directory$"):
+        load(tmp_path / "no.nc")
+    with pytest.raises(InputError, match=r"contact\.toml: is not a NetCDF file$"):
+        load(files["contact"])
+    (tmp_path / "motion.nc").write_bytes(b"damaged")
+    with pytest.raises(InputError, match=r"motion\.nc: is not a NetCDF file$"):
+        load(tmp_path)
+    (tmp_path / "empty").mkdir()
+    with pytest.raises(InputError, match=r"empty: has no result; expected a folder with one of result\.nc, "):
+        load(tmp_path / "empty")
+
+
+def test_runs_need_no_terminal_and_no_figures():
+    code = "import sys, ehlectric.runs.by_kind; print(*sys.modules)"
+    loaded = set(subprocess.run([sys.executable, "-c", code], capture_output=True, text=True).stdout.split())
+    assert "ehlectric.runs.by_kind" in loaded
+    assert not loaded & {"typer", "rich", "matplotlib", "xarray", "scipy"}
