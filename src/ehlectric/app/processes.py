@@ -82,6 +82,9 @@ class Worker:
         self._process: Any = None
         self._pipe: Any = None
         self._starting = threading.Lock()
+        # Held while a thread uses the pipe: a pipe closed under it, or twice at once, may close a file of
+        # another that was given its number in between.
+        self._using = threading.Lock()
         self._closed = threading.Event()
 
     @property
@@ -125,21 +128,27 @@ class Worker:
             self.start()
         except Exception as error:
             return _fault(error)
-        if self._closed.is_set():
-            return Raised(LostError("the server is being stopped"))
         try:
-            self._pipe.send((function, values, tell is not None))
-            while True:
-                told = self._pipe.recv()
-                if isinstance(told, Returned | Raised):
-                    return told
-                if tell is not None:
-                    tell(*told)
+            with self._using:
+                return self._answer(function, values, tell)
         except (EOFError, OSError):
             return Raised(LostError("its process was killed, as by a system out of memory"))
         except Exception as error:
             self.kill()
             return _fault(error)
+
+    def _answer(
+        self, function: Callable[..., Any], values: tuple[Any, ...], tell: Progress | None
+    ) -> Returned | Raised:
+        if self._closed.is_set():
+            return Raised(LostError("the server is being stopped"))
+        self._pipe.send((function, values, tell is not None))
+        while True:
+            told = self._pipe.recv()
+            if isinstance(told, Returned | Raised):
+                return told
+            if tell is not None:
+                tell(*told)
 
     def kill(self) -> None:
         """End the process now, with all that it started."""
@@ -159,9 +168,16 @@ class Worker:
     def close(self) -> None:
         """End the process for good, and wait until it has ended."""
         self.end()
-        if self._process is not None:
+        with self._starting:
+            if self._process is None:
+                return
             self._process.join(5.0)
-            self._pipe.close()
+        # The thread that waits for the process gets no answer any more, and leaves the pipe.
+        if self._using.acquire(timeout=5.0):
+            try:
+                self._pipe.close()
+            finally:
+                self._using.release()
 
 
 def new_context() -> Any:

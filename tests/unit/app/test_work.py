@@ -33,6 +33,18 @@ async def outcome(job):
     return job.state, job.result, job.error
 
 
+def test_a_work_closed_when_a_job_ends_closes_no_file_of_others():
+    """A pipe closed by two threads at once closes a file that another was given in between."""
+
+    async def use(work):
+        job = work.start(calls.refuse)
+        await job.wait()
+        return os.fstat(work.scratch._lock.fileno()).st_size
+
+    for _ in range(10):
+        assert working(Limits(memory=MEMORY), use) == 0
+
+
 def test_a_quick_answer():
     assert working(None, lambda work: work.quick(calls.double, 21)) == 42
 

@@ -14,6 +14,7 @@ from ehlectric.app.pages.bearing_parts import (
     behind,
     differences_html,
 )
+from ehlectric.app.pages.parts import lines_html
 
 _NUMBERS = ("capacitance", "first-break", "shaft-voltage", "margin", "lambda", "critical-speed")
 _AT_ONCE, _OVER_SPEED = ("load", "film"), ("breakdown", "capacitance")

@@ -18,7 +18,7 @@ from ehlectric.app.pages.contact_view import ContactViewBox, number_cards
 from ehlectric.app.pages.downloads import Downloads
 from ehlectric.app.pages.form import Form
 from ehlectric.app.pages.frame import framed, session_of, show_address
-from ehlectric.app.pages.parts import JobBox, Strip, card, light, warnings
+from ehlectric.app.pages.parts import JobBox, Strip, card, light, lines_html, warnings
 from ehlectric.app.pages.starts import contact_start
 from ehlectric.app.pages.surfaces.movie import MovieBox
 from ehlectric.app.pages.surfaces.roughness import RoughnessBox
