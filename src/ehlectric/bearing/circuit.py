@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -57,42 +58,42 @@ class Circuit:
     outer_breakdown: Array
     shape: float | None = None
 
-    @property
+    @cached_property
     def elements(self) -> Array:
         """Capacitance of each element from ring to ring, shape (n,) [F]."""
         return series(self.inner, self.outer)
 
-    @property
+    @cached_property
     def capacitance(self) -> float:
         """Capacitance of the bearing [F]."""
         return float(np.sum(self.elements))
 
-    @property
+    @cached_property
     def inner_share(self) -> Array:
         """Share of the bearing voltage on each inner contact, shape (n,); the outer one has the rest."""
         return self.outer / (self.inner + self.outer)
 
-    @property
+    @cached_property
     def inner_breaks(self) -> Array:
         """Bearing voltages at which the inner contacts break down, outer ones intact, shape (n,) [V]."""
         return self.inner_breakdown / self.inner_share
 
-    @property
+    @cached_property
     def outer_breaks(self) -> Array:
         """Bearing voltages at which the outer contacts break down, inner ones intact, shape (n,) [V]."""
         return self.outer_breakdown / (1.0 - self.inner_share)
 
-    @property
+    @cached_property
     def inner_first(self) -> Mask:
         """Whether the inner contact of each element breaks down before or with the outer one, shape (n,)."""
         return self.inner_breaks <= self.outer_breaks
 
-    @property
+    @cached_property
     def first_breaks(self) -> Array:
         """Bearing voltages at which the first contact of each element breaks down, shape (n,) [V]."""
         return np.minimum(self.inner_breaks, self.outer_breaks)
 
-    @property
+    @cached_property
     def through_breaks(self) -> Array:
         """Bearing voltages at which both contacts of each element have broken down, shape (n,) [V].
 
@@ -101,7 +102,7 @@ class Circuit:
         remaining = np.where(self.inner_first, self.outer_breakdown, self.inner_breakdown)
         return np.maximum(self.first_breaks, remaining)
 
-    @property
+    @cached_property
     def first_break(self) -> float:
         """Smallest bearing voltage at which a contact breaks down [V].
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Generic, TypeVar
 
 import numpy as np
@@ -242,8 +243,12 @@ class ContactCurve(Values):
 
     def at(self, load: Array) -> ContactValues[Array]:
         """Quantities at loads [N], interpolated in the logarithms of load and quantity."""
-        columns = np.stack(self.stack().columns(), axis=-1)
-        return ContactValues(*_interpolated(self.loads, columns, load))
+        return ContactValues(*self._law(load))
+
+    @cached_property
+    def _law(self) -> _Interpolation:
+        """Interpolation of all quantities."""
+        return _Interpolation.of(self.loads, np.stack(self.stack().columns(), axis=-1))
 
     @property
     def interpolation_error(self) -> float:
@@ -257,23 +262,40 @@ class ContactCurve(Values):
         for k in range(1, loads.size - 1):
             known = np.isfinite(values[k])
             others = np.delete(values[:, known], k, axis=0)
-            left = _interpolated(np.delete(loads, k), others, loads[k : k + 1])
+            left = _Interpolation.of(np.delete(loads, k), others)(loads[k : k + 1])
             worst = max([worst, *np.abs(left[:, 0] / values[k, known] - 1.0)])
         return float(worst)
 
 
-def _interpolated(loads: Array, values: Array, load: Array) -> Array:
-    """Monotone interpolation of columns of values over the load [N] in the logarithms of both.
+@dataclass(frozen=True)
+class _Interpolation:
+    """Monotone interpolation of n columns of values over the load in the logarithms of both.
 
-    Of m loads it has the values of n columns, in shape (n, m). A column with a value that is infinite is so
-    at all loads.
+    Attributes
+    ----------
+    loads : ndarray, shape (m,)
+        Loads [N].
+    first : ndarray, shape (n,)
+        Values at the smallest load; infinite for a column with any infinite value.
+    between : PchipInterpolator or None
+        Logarithm of the columns that are finite over that of the load; None for a single load.
     """
-    finite = np.all(np.isfinite(values), axis=0)
-    found = np.full((values.shape[1], np.size(load)), np.inf)
-    if loads.size == 1:
-        found[finite] = values[:, finite].T
+
+    loads: Array
+    first: Array
+    between: PchipInterpolator | None
+
+    @classmethod
+    def of(cls, loads: Array, values: Array) -> _Interpolation:
+        """Interpolation of values of shape (m, n)."""
+        finite = np.all(np.isfinite(values), axis=0)
+        between = PchipInterpolator(np.log(loads), np.log(values[:, finite])) if loads.size > 1 else None
+        return cls(loads, np.where(finite, values[0], np.inf), between)
+
+    def __call__(self, load: Array) -> Array:
+        """Values at k loads [N], shape (n, k); beyond the ends, those at the ends."""
+        found = np.repeat(self.first[:, np.newaxis], np.size(load), axis=1)
+        if self.between is not None:
+            inside = np.clip(load, self.loads[0], self.loads[-1])
+            found[np.isfinite(self.first)] = np.exp(self.between(np.log(inside))).T
         return found
-    known = np.log(loads)
-    between = PchipInterpolator(known, np.log(values[:, finite]))
-    found[finite] = np.exp(between(np.clip(np.log(load), known[0], known[-1]))).T
-    return found

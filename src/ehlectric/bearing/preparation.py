@@ -18,7 +18,7 @@ from ehlectric.bearing.limits import check_film, check_load, check_shoulders
 from ehlectric.bearing.loads.geometry import Geometry
 from ehlectric.bearing.loads.kinematics import rolling_speeds
 from ehlectric.bearing.loads.ring import Operation
-from ehlectric.bearing.loads.totals import Equilibrium
+from ehlectric.bearing.loads.totals import Equilibrium, mirrored
 from ehlectric.bearing.ring_contacts import RingContacts
 from ehlectric.cases.bearings.bearing import Bearing
 from ehlectric.cases.bearings.case import BearingCase
@@ -149,7 +149,7 @@ def _film_factor(case: BearingCase, geometry: Geometry, oil: Oil, temperature: f
 def equilibria_of(conditions: BearingConditions[Any], positions: int) -> tuple[Equilibrium, ...]:
     """Equilibria at evenly spaced positions of the cage over one pitch of the elements.
 
-    At the first position an element is on the load line.
+    At the first position an element is on the load line. The second half mirrors the first.
     """
     bearing, kind = conditions.bearing, KINDS[conditions.bearing.kind]
     pitch = 2.0 * math.pi / bearing.elements
@@ -159,7 +159,15 @@ def equilibria_of(conditions: BearingConditions[Any], positions: int) -> tuple[E
             for angle in pitch * np.arange(positions) / positions
         ]
         solid = conditions.modulus, conditions.element.density
-        return tuple(kind.equilibrium(conditions.geometry, operation, *solid) for operation in operations)
+        solved = [
+            kind.equilibrium(conditions.geometry, operation, *solid)
+            for operation in operations[: positions // 2 + 1]
+        ]
+    mirrors = (
+        mirrored(solved[positions - k], operations[k].positions(bearing.elements))
+        for k in range(len(solved), positions)
+    )
+    return (*solved, *mirrors)
 
 
 def prepare_bearing(case: BearingCase, positions: int) -> PreparedBearing:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -215,10 +216,16 @@ class BearingSolution(Values):
         """Whether the films of all contacts are converged."""
         return all(contact.converged for curve in self.curves for contact in curve.solutions)
 
-    def circuits(self, fill: float | str | None = None) -> list[Circuit]:
+    def circuits(self, fill: float | str | None = None) -> tuple[Circuit, ...]:
         """Circuit at each position, with "oil" or "air" around the films; by default ``fill`` of the case."""
-        around = self.case.bearing.fill if fill is None else fill
-        return [position.circuit(around) for position in self.positions]
+        if fill is None:
+            return self._own_circuits
+        return tuple(position.circuit(fill) for position in self.positions)
+
+    @cached_property
+    def _own_circuits(self) -> tuple[Circuit, ...]:
+        """Circuits with ``fill`` of the case, which most numbers of a bearing need."""
+        return self.circuits(self.case.bearing.fill)
 
 
 def lambda_ratio(solution: BearingSolution) -> float:

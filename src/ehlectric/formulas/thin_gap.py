@@ -26,6 +26,9 @@ from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array
 
+# Change of the offset of a gap over the smallest film thickness at which it fits.
+_SETTLED = 1e-12
+
 
 def charge_density(gap: ArrayLike, tilt: ArrayLike, far: ArrayLike, near: ArrayLike) -> Array:
     """Charge density on the near one of two conducting surfaces, divided by eps0 eps V.
@@ -136,7 +139,9 @@ def matched_offset(missing: Callable[[float], Array], thickness: Array) -> tuple
     # Fixed-point iteration. The gap changes with the offset by the cosine of an angle that is small over the
     # film's domain, so a few rounds suffice.
     for _ in range(12):
-        before, offset = offset, offset + float(weights @ missing(offset))
-        if offset == before:
+        left = missing(offset)
+        change = float(weights @ left)
+        if abs(change) <= _SETTLED * float(np.min(thickness)):
             break
-    return offset, float(np.max(np.abs(missing(offset)) / thickness))
+        offset += change
+    return offset, float(np.max(np.abs(left) / thickness))

@@ -267,15 +267,20 @@ def outside_capacitance(
     inlet, outlet, side = domain
     edge = side / race.groove_radius
 
-    def part(first: float, last: float, scale: float, start: float) -> float:
-        angles, weights = _across(race, first, last, scale, _ACROSS_PART)
-        starts = start / _race_radius(race, contact.offset, angles)
-        along = _along(race, contact.offset, angles, starts, obliquity, contact.opening, _ALONG_PART)
-        return float(np.vdot(weights, along))
-
-    sides = 2.0 * (part(-np.inf, -edge, 0.5 * edge, 0.0) + part(edge, np.inf, 0.5 * edge, 0.0))
-    tails = part(-edge, edge, edge, -inlet) + part(-edge, edge, edge, outlet)
-    return epsilon_0 * relative_permittivity * (sides + tails)
+    # First and last angle from the contact, scale, beginning of the integral along rolling [m], and number of
+    # equal parts: inlet and outlet are alike on both sides, and each tail is beyond one of them.
+    parts = (
+        (-np.inf, -edge, 0.5 * edge, 0.0, 2.0),
+        (edge, np.inf, 0.5 * edge, 0.0, 2.0),
+        (-edge, edge, edge, -inlet, 1.0),
+        (-edge, edge, edge, outlet, 1.0),
+    )
+    nodes = [_across(race, first, last, scale, _ACROSS_PART) for first, last, scale, _, _ in parts]
+    angles = np.concatenate([psi for psi, _ in nodes])
+    weights = np.concatenate([part[-1] * across for part, (_, across) in zip(parts, nodes, strict=True)])
+    starts = np.repeat([part[3] for part in parts], _ACROSS_PART) / _race_radius(race, contact.offset, angles)
+    along = _along(race, contact.offset, angles, starts, obliquity, contact.opening, _ALONG_PART)
+    return float(epsilon_0 * relative_permittivity * np.vdot(weights, along))
 
 
 def match_film(

@@ -21,7 +21,7 @@ from numpy.polynomial import Chebyshev
 from ehlectric.arrays import Array
 from ehlectric.bearing.loads.geometry import BallBearing
 from ehlectric.bearing.loads.kinematics import Speeds, centrifugal_force, gyroscopic_moment, rolling_speeds
-from ehlectric.bearing.loads.ring import GOOD, UNLOADED, Operation, Reaction, RingLoads, balance
+from ehlectric.bearing.loads.ring import AIM, GOOD, UNLOADED, Operation, RingLoads, balance
 from ehlectric.bearing.loads.seating import Grooves, Seats, lean_outward, seat
 from ehlectric.errors import ConvergenceError, InputError, shown
 from ehlectric.formulas.hertz_point import dry_contact
@@ -33,6 +33,9 @@ _DEGREE = 24
 # Change of the cosines of the contact angles at convergence; each round reduces it by two or three digits.
 _SETTLED = 1e-12
 _MOST_ROUNDS = 30
+
+# Imbalance of the forces in a round over the last change of the cosines.
+_ROUGH = 1e-3
 
 # Longest first step of the ring over the distance of the groove centres.
 _REACH = 0.1
@@ -229,25 +232,34 @@ class _Model:
             outward,
         )
 
-    def reaction(self, grooves: Grooves) -> Reaction:
-        """Force of the balls over the ring's displacement; each call starts from the last seats."""
-        basis = self.basis
-        across = basis.transpose(0, 2, 1)
-        last: Seats | None = None
-
-        def reaction(ring: Array) -> tuple[Array, Array]:
-            nonlocal last
-            last = seats = seat(grooves, self.centres(ring), last)
-            force = np.einsum("nij,ni->j", basis, seats.inner.force)
-            return force, np.sum(across @ seats.tangent @ basis, axis=0)
-
-        return reaction
-
     def start(self) -> tuple[Array, _Angles]:
         """Displacement at which the ring just touches under its axial load, and the free contact angles."""
         angle = np.full(self.bearing.elements, self.bearing.free_angle)
         axial = np.sign(self.operation.axial_load) * 0.5 * self.bearing.endplay
         return np.array([axial, 0.0, 0.0]), _Angles(angle, angle)
+
+
+class _BallReaction:
+    """Force of the balls over the ring's displacement; each call starts from the seats of the last."""
+
+    def __init__(self, model: _Model, grooves: Grooves) -> None:
+        self._model, self._grooves = model, grooves
+        self._basis = model.basis
+        self._ring = np.full(3, np.nan)
+        self._seats: Seats | None = None
+
+    def __call__(self, ring: Array) -> tuple[Array, Array]:
+        """Force on the ring at a displacement, and its derivative, as ``balance`` needs them."""
+        seats, basis = self.seats(ring), self._basis
+        force = np.einsum("nij,ni->j", basis, seats.inner.force)
+        return force, np.sum(basis.transpose(0, 2, 1) @ seats.tangent @ basis, axis=0)
+
+    def seats(self, ring: Array) -> Seats:
+        """Seats of the balls at a displacement of the ring."""
+        if self._seats is None or not np.array_equal(ring, self._ring):
+            self._seats = seat(self._grooves, self._model.centres(ring), self._seats)
+            self._ring = ring
+        return self._seats
 
 
 @dataclass(frozen=True)
@@ -261,13 +273,14 @@ class _State:
     residual: float
 
     @classmethod
-    def solved(cls, model: _Model, grooves: Grooves, ring: Array) -> tuple[_State, int]:
-        """State in equilibrium, from an initial displacement, and the number of Newton steps."""
+    def solved(cls, model: _Model, grooves: Grooves, ring: Array, aim: float) -> tuple[_State, int]:
+        """State balanced to ``aim``, from an initial displacement, and the number of Newton steps."""
         # Rounding errors scale with contact forces, and the centrifugal force may exceed a light load.
         scale = float(np.linalg.norm(model.load)) + grooves.outward
         reach = _REACH * model.bearing.groove_distance
-        ring, residual, steps = balance(model.reaction(grooves), model.load, ring, reach, scale)
-        seats = seat(grooves, model.centres(ring))
+        reaction = _BallReaction(model, grooves)
+        ring, residual, steps = balance(reaction, model.load, ring, reach, scale, aim)
+        seats = reaction.seats(ring)
         imbalance = seats.inner.force - seats.outer.force
         imbalance[:, 1] += grooves.outward
         # An unloaded ball of a bearing at rest has no forces: its imbalance is 0.
@@ -280,15 +293,17 @@ def _solve(model: _Model) -> tuple[_State, int]:
     bearing = model.bearing
     ring, angles = model.start()
     # The equilibrium without centrifugal force is quick to compute, and a good initial guess.
-    state, iterations = _State.solved(model, model.grooves(angles, 0.0), ring)
-    mass = bearing.element_mass(model.density)
+    state, iterations = _State.solved(model, model.grooves(angles, 0.0), ring, _ROUGH)
+    mass, change = bearing.element_mass(model.density), 1.0
     for rounds in count():
         cage = model.cage_speed(state.angles, state.seats.inner.load)
         outward = centrifugal_force(mass, bearing.pitch_diameter, cage)
-        settled, steps = _State.solved(model, model.grooves(state.angles, outward), state.ring)
+        # Forces that balance far better than the angles are known are not worth their steps.
+        aim = max(AIM, _ROUGH * change)
+        settled, steps = _State.solved(model, model.grooves(state.angles, outward), state.ring, aim)
         iterations += steps
         change, state = settled.angles.change(state.angles), settled
-        if change <= _SETTLED:
+        if change <= _SETTLED and aim == AIM:
             break
         if rounds == _MOST_ROUNDS:
             raise ConvergenceError(f"contact angles of the balls, whose cosines still change by {change:.1e}")

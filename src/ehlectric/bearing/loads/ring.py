@@ -25,7 +25,7 @@ UNLOADED = ("centred", "outer")
 Reaction: TypeAlias = Callable[[Array], tuple[Array, Array]]
 
 # Relative residual at which the iteration ends, and the one accepted where rounding prevents the first.
-_AIM, GOOD = 1e-12, 1e-9
+AIM, GOOD = 1e-12, 1e-9
 _MOST_STEPS = 200
 _MOST_TRIALS = 60
 
@@ -129,7 +129,7 @@ def _shortened(
 
 
 def balance(
-    reaction: Reaction, load: Array, start: Array, reach: float, scale: float
+    reaction: Reaction, load: Array, start: Array, reach: float, scale: float, aim: float = AIM
 ) -> tuple[Array, float, int]:
     """Displacement of a ring at which the forces of its elements balance the load.
 
@@ -146,6 +146,8 @@ def balance(
         Largest component of the first step [m]; it grows where the ring moves freely.
     scale : float
         Force that the residual is relative to [N].
+    aim : float
+        Residual at which the iteration ends.
 
     Returns
     -------
@@ -177,7 +179,7 @@ def balance(
         idle = idle + 1 if residual > 0.5 * least else 0
         if residual < least:
             best, least = position, residual
-        if least <= _AIM or (least <= GOOD and idle >= 2) or iterations == _MOST_STEPS:
+        if least <= aim or (least <= GOOD and idle >= 2) or iterations == _MOST_STEPS:
             return best, least, iterations
         step = _direction(missing, tangent, reach)
         position, force, tangent, free = _shortened(reaction, load, position, step, float(missing @ step))

@@ -2,14 +2,50 @@
 
 from __future__ import annotations
 
+import dataclasses
 from typing import Any, TypeAlias
 
 import numpy as np
 
+from ehlectric.arrays import Array
 from ehlectric.bearing.loads.balls import BallEquilibrium
+from ehlectric.bearing.loads.kinematics import Speeds
 from ehlectric.bearing.loads.rollers import RollerEquilibrium
 
 Equilibrium: TypeAlias = BallEquilibrium | RollerEquilibrium
+
+
+# Fields of equilibria with a row per element.
+_OF_ELEMENTS = frozenset(
+    f"{ring}_{quantity}"
+    for ring in ("inner", "outer")
+    for quantity in ("load", "line_load", "angle", "approach", "gap")
+) | {"gyroscopic_moment"}
+
+
+def mirrored(at: Equilibrium, position: Array) -> Equilibrium:
+    """Equilibrium with the cage at the opposite angle, mirrored about the plane through axis and radial load.
+
+    Parameters
+    ----------
+    at : BallEquilibrium or RollerEquilibrium
+        Equilibrium with the first element at an angle below the pitch of the elements.
+    position : ndarray, shape (n,)
+        Angles of the elements with the cage at the pitch less that angle [rad]. They are those of ``at`` in
+        reverse order, with the other sign, but for a whole turn.
+
+    Returns
+    -------
+    BallEquilibrium or RollerEquilibrium
+        Equilibrium of the mirrored bearing.
+    """
+    values = {field.name: getattr(at, field.name) for field in dataclasses.fields(at)}
+    turned = {name: values[name][::-1] for name in _OF_ELEMENTS & values.keys()}
+    lateral = {name: -values[name] for name in values if name.startswith("lateral_")}
+    # The speeds of balls are arrays; all rollers have the same ones.
+    speeds = (getattr(at.speeds, field.name) for field in dataclasses.fields(Speeds))
+    mirrored_speeds = Speeds(*(speed[::-1] if np.ndim(speed) else speed for speed in speeds))
+    return dataclasses.replace(at, position=position, speeds=mirrored_speeds, **turned, **lateral)
 
 
 def mechanics_of(at: Equilibrium) -> dict[str, Any]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from ehlectric.bearing.breakdown import Breakdown, breakdown_of
 from ehlectric.bearing.by_formula import formula_error, formula_factor
@@ -59,7 +59,8 @@ def bearing_verdict(solution: BearingSolution, analysis: MarginAnalysis) -> Verd
     lower end is that at a probability of 5 %. Without a stated range of the strength, a margin that a change
     of the strength by 20 % takes across 1 is yellow, too.
     """
-    refused = unusable(bearing_warnings(solution))
+    warnings = bearing_warnings(solution)
+    refused = unusable(warnings)
     if refused or not solution.converged:
         return Verdict("grey", refused or "No verdict: a contact of the bearing is not converged.")
     state = lubrication(solution)
@@ -90,13 +91,17 @@ def bearing_verdict(solution: BearingSolution, analysis: MarginAnalysis) -> Verd
             f"No verdict: {first} {_at(solution)}, but no shaft voltage is known without [motor]. "
             + _assumptions(solution),
         )
-    return _judged(solution, analysis, breakdown, shaft)
+    return _judged(solution, analysis, breakdown, shaft, doubts_of(warnings))
 
 
 def _judged(
-    solution: BearingSolution, analysis: MarginAnalysis, breakdown: Breakdown, shaft: float
+    solution: BearingSolution,
+    analysis: MarginAnalysis,
+    breakdown: Breakdown,
+    shaft: float,
+    warned: Iterable[str],
 ) -> Verdict:
-    """Verdict on a bearing with a margin."""
+    """Verdict on a bearing with a margin, with the doubts that its warnings tell."""
     margin = breakdown.shaft_first_break / shaft
     low, high = _possible(solution, analysis, margin)
     strength = _strength_is_open(solution)
@@ -104,7 +109,7 @@ def _judged(
         weakest, strongest = strength_interval(margin)
         low, high = min(low, weakest), max(high, strongest)
     level = level_of(low, high)
-    doubts = list(_doubts(solution, analysis, margin))
+    doubts = [*_doubts(solution, analysis, margin), *warned]
     if doubts and level == "green":
         level = "yellow"
     if strength:
@@ -195,7 +200,6 @@ def _doubts(solution: BearingSolution, analysis: MarginAnalysis, margin: float) 
         text = f"The margin is for a probability of 63.2 %; at 5 % it is {ratio_text(unlikely)}."
         if unlikely < 1.0:
             yield text
-    yield from doubts_of(bearing_warnings(solution))
 
 
 def _widths(solution: BearingSolution) -> Iterator[str]:

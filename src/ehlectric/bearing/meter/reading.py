@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from ehlectric.arrays import Array
@@ -60,23 +62,20 @@ def rough_capacitance(solution: BearingSolution) -> float | None:
     """
     if solution.conditions.ceramic:
         return None
-    bearing, totals = solution.case.bearing, []
-    for position in solution.positions:
-        rough = [_rough(ring, bearing.fill, bearing.composite_rq) for ring in position.rings]
-        if any(values is None for values in rough):
-            return None
-        inner, outer = (values for values in rough if values is not None)
-        totals.append(float(np.sum(series(inner, outer))))
-    return float(np.mean(totals))
+    bearing = solution.case.bearing
 
+    def of_contacts(quantity: Callable[[RingState], Array]) -> Array:
+        """Quantity of all contacts, shape (positions, 2, n)."""
+        return np.array([[quantity(ring) for ring in position.rings] for position in solution.positions])
 
-def _rough(ring: RingState, fill: float | str, rq: float) -> Array | None:
-    """Capacitance of the contacts with one ring, rough, shape (n,) [F]; None beyond the factor's range."""
-    ratio = ring.values.central_thickness / rq
-    if np.any(ratio[ring.solved] < LEAST_RATIO) or np.any(np.isnan(ring.values.hertz)):
+    ratio = of_contacts(lambda ring: ring.values.central_thickness) / bearing.composite_rq
+    hertz = of_contacts(lambda ring: ring.values.hertz)
+    solved = of_contacts(lambda ring: ring.load) > 0.0
+    if np.any(ratio[solved] < LEAST_RATIO) or np.any(np.isnan(hertz)):
         return None
-    added: Array = ring.values.hertz * (roughness_factor(ratio) - 1.0)
-    return ring.capacitance(fill) + added
+    smooth = of_contacts(lambda ring: ring.capacitance(bearing.fill))
+    rough = smooth + hertz * (roughness_factor(ratio) - 1.0)
+    return float(np.mean(np.sum(series(rough[:, 0], rough[:, 1]), axis=1)))
 
 
 def meter_capacitance(solution: BearingSolution) -> float | None:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import tomllib
+from copy import deepcopy
+from functools import cache
 from importlib import resources
 from importlib.resources.abc import Traversable
 from typing import Any
@@ -16,6 +18,11 @@ def _names(kind: str) -> list[str]:
 
 def tables(kind: str, name: str) -> dict[str, Any]:
     """All tables of a file: "lubricant", "solid" or "bearing", with its sources."""
+    return deepcopy(_read(kind, name))
+
+
+@cache
+def _read(kind: str, name: str) -> dict[str, Any]:
     path = _FOLDER / f"{kind}s" / f"{name}.toml"
     return tomllib.loads(path.read_text(encoding="utf-8"))
 
