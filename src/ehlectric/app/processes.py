@@ -9,7 +9,7 @@ import signal
 import tempfile
 import threading
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from importlib import import_module
 from typing import Any
@@ -99,7 +99,8 @@ class Worker:
                 return
             self._pipe, theirs = self._context.Pipe()
             process = self._context.Process(target=_serve, args=(theirs, self._bounds()), daemon=False)
-            process.start()
+            with _uninterrupted():
+                process.start()
             theirs.close()
             self._process = process
         if self._closed.is_set():
@@ -132,6 +133,8 @@ class Worker:
             with self._using:
                 return self._answer(function, values, tell)
         except (EOFError, OSError):
+            # The next call finds it dead, and starts another.
+            self._process.join(1.0)
             return Raised(LostError("its process was killed, as by a system out of memory"))
         except Exception as error:
             self.kill()
@@ -190,6 +193,19 @@ def new_context() -> Any:
     context = multiprocessing.get_context("forkserver")
     context.set_forkserver_preload([_PRELOADED])
     return context
+
+
+@contextlib.contextmanager
+def _uninterrupted() -> Iterator[None]:
+    """Context in which this thread starts processes that Ctrl-C does not reach, not even while they load."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _serve(pipe: Any, bounds: Bounds) -> None:

@@ -11,6 +11,9 @@ from ehlectric.app.security import Handler, Message, Receive, Scope, Send, heade
 # Largest body of a request [bytes]: that of the largest text file of a surface that is read.
 MOST_BODY = 100_000_000
 
+# Bodies of all requests at once, which are kept in memory until a page takes them [bytes].
+MOST_AT_ONCE = 3 * MOST_BODY
+
 # Pages that are open at once.
 MOST_PAGES = 200
 
@@ -18,8 +21,10 @@ MOST_PAGES = 200
 _PARTS = ("/_nicegui", "/favicon.ico")
 
 
-def with_bounded_bodies(inner: Handler, most: int = MOST_BODY) -> Handler:
+def with_bounded_bodies(inner: Handler, most: int = MOST_BODY, at_once: int = MOST_AT_ONCE) -> Handler:
     """Application that refuses a request with a larger body, whether it tells its size or not.
+
+    It also refuses a request when those that are being answered have large bodies together.
 
     Parameters
     ----------
@@ -27,9 +32,13 @@ def with_bounded_bodies(inner: Handler, most: int = MOST_BODY) -> Handler:
         Application.
     most : int
         Largest size of a body [bytes].
+    at_once : int
+        Largest size of the bodies of all requests that are being answered [bytes].
     """
+    open_bodies = 0
 
     async def bounded(scope: Scope, receive: Receive, send: Send) -> None:
+        nonlocal open_bodies
         if scope["type"] != "http":
             await inner(scope, receive, send)
             return
@@ -41,14 +50,20 @@ def with_bounded_bodies(inner: Handler, most: int = MOST_BODY) -> Handler:
         read = 0
 
         async def counted() -> Message:
-            nonlocal read
+            nonlocal read, open_bodies
             message = await receive()
-            read += len(message.get("body", b""))
+            size = len(message.get("body", b""))
+            read, open_bodies = read + size, open_bodies + size
             if read > most:
                 raise HTTPException(413, reason)
+            if open_bodies > at_once:
+                raise HTTPException(503, "Too many files are being uploaded; try again.")
             return message
 
-        await inner(scope, counted, send)
+        try:
+            await inner(scope, counted, send)
+        finally:
+            open_bodies -= read
 
     return bounded
 

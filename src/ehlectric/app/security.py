@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from html import escape
 from http.cookies import CookieError, SimpleCookie
 from typing import Any
-from urllib.parse import parse_qsl, urlencode, urlsplit
+from urllib.parse import parse_qsl, quote, urlencode, urlsplit
 
 Scope = MutableMapping[str, Any]
 Message = MutableMapping[str, Any]
@@ -25,6 +25,8 @@ Headers = list[tuple[bytes, bytes]]
 
 # Name of the key of an address that holds the token.
 _KEY = "token"
+
+_OTHERS = "Requests of other sites are refused."
 
 
 @dataclass(frozen=True)
@@ -76,7 +78,7 @@ class Guard:
                 await inner(scope, receive, send)
                 return
             headers = headers_of(scope)
-            reason = self.refused(headers)
+            reason = self.refused(headers) or _from_elsewhere(scope, headers)
             if reason:
                 await refuse(scope, send, 403, reason)
             elif not self.token or self._has_cookie(headers):
@@ -93,8 +95,8 @@ class Guard:
         if not self.token and not is_loopback(_name(headers.get("host", ""))):
             return "This server answers only requests to localhost."
         origin = headers.get("origin")
-        if origin is not None and urlsplit(origin).netloc != headers.get("host"):
-            return "Requests of other sites are refused."
+        if origin is not None and _host(origin) != headers.get("host"):
+            return _OTHERS
         return ""
 
     def _is_token(self, given: str) -> bool:
@@ -121,7 +123,7 @@ class Guard:
         """
         query = urlencode([(key, value) for key, value in _query(scope) if key != _KEY])
         # One slash, because two would name another host.
-        target = "/" + scope["path"].lstrip("/\\") + (f"?{query}" if query else "")
+        target = "/" + quote(scope["path"].lstrip("/\\")) + (f"?{query}" if query else "")
         cookie = f"{self.cookie}={self.token}; Path=/; HttpOnly; SameSite=Strict"
         page = f'<!DOCTYPE html><meta http-equiv="refresh" content="0; url={escape(target)}">'
         headers = [(b"content-type", b"text/html; charset=utf-8"), (b"set-cookie", cookie.encode())]
@@ -181,6 +183,26 @@ async def respond(send: Send, status: int, headers: Headers, text: str) -> None:
 
 def _query(scope: Scope) -> list[tuple[str, str]]:
     return parse_qsl(scope.get("query_string", b"").decode("latin-1"), keep_blank_values=True)
+
+
+def _from_elsewhere(scope: Scope, headers: Mapping[str, str]) -> str:
+    """Reason why a request that the page of another site makes is refused; empty for one that a user makes.
+
+    Browsers say from where a request comes. A link may lead here from anywhere. A page that another site
+    loads in the background, as an image or in a frame, would take the room of those that people see.
+    """
+    if headers.get("sec-fetch-site") not in ("cross-site", "same-site"):
+        return ""
+    opened = (scope.get("method"), headers.get("sec-fetch-mode"), headers.get("sec-fetch-dest"))
+    return "" if opened == ("GET", "navigate", "document") else _OTHERS
+
+
+def _host(origin: str) -> str | None:
+    """Host and port of an origin; None where it is none."""
+    try:
+        return urlsplit(origin).netloc
+    except ValueError:
+        return None
 
 
 def _name(host: str) -> str:

@@ -9,6 +9,7 @@ from typing import Any
 from ehlectric.app.answers.call import Call
 from ehlectric.app.inputs import History, Inputs
 from ehlectric.app.work import Job, Work
+from ehlectric.errors import LostError
 
 
 class Session:
@@ -34,6 +35,7 @@ class Session:
         self.history = History(inputs)
         self._server = work
         self._folder: Path | None = None
+        self._closed = False
 
     @property
     def inputs(self) -> Inputs:
@@ -42,7 +44,15 @@ class Session:
 
     @property
     def folder(self) -> Path:
-        """Temporary folder of the session, which only this user can read; made when first used."""
+        """Temporary folder of the session, which only this user can read; made when first used.
+
+        Raises
+        ------
+        LostError
+            If the session has ended: nobody would remove a folder that is made after that.
+        """
+        if self._closed:
+            raise LostError("the page was closed")
         if self._folder is None:
             self._folder = self._server.scratch.new()
         return self._folder
@@ -58,6 +68,7 @@ class Session:
 
     def close(self) -> None:
         """End the jobs, and remove the folder."""
+        self._closed = True
         self.work.close()
         if self._folder is not None:
             shutil.rmtree(self._folder, ignore_errors=True)

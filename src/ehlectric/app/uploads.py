@@ -20,6 +20,9 @@ from ehlectric.errors import printable
 LARGEST = 60_000_000
 _LARGEST_REQUEST = LARGEST + 100_000
 
+# Largest size of all uploaded files of a session [bytes].
+MOST_TOGETHER = 4 * LARGEST
+
 # Folder of uploaded surfaces in the folder of a session.
 SURFACES = "surfaces"
 

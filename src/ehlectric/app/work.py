@@ -161,14 +161,24 @@ class Work:
     async def answer(self, function: Call[Any], values: tuple[Any, ...]) -> Returned | Raised:
         """Outcome of a function in one of the processes of quick answers."""
         worker = await self._idle.get()
-        asked = asyncio.get_running_loop().run_in_executor(self._threads, worker.ask, function, values)
-        # The process is free when its call has ended, also where nobody waits for the answer any more.
-        asked.add_done_callback(lambda _: self._idle.put_nowait(worker))
-        try:
-            return await asyncio.wait_for(asyncio.shield(asked), self.limits.patience)
-        except TimeoutError:
+        loop, overdue = asyncio.get_running_loop(), asyncio.Event()
+
+        def end() -> None:
+            overdue.set()
             worker.kill()
+
+        def ended(_: object) -> None:
+            late.cancel()
+            self._idle.put_nowait(worker)
+
+        asked = loop.run_in_executor(self._threads, worker.ask, function, values)
+        # Call and process end in time also where nobody waits for the answer any more.
+        late = loop.call_later(self.limits.patience, end)
+        asked.add_done_callback(ended)
+        outcome = await asyncio.shield(asked)
+        if overdue.is_set():
             return Raised(LostError(f"the answer took longer than {self.limits.patience:g} s"))
+        return outcome
 
     def add(self, job: Job) -> None:
         """Take over a job, which runs as soon as its session has its turn.

@@ -1,4 +1,4 @@
-"""Bounds on the tables of a case: how deep they lie in each other, and how long their keys are."""
+"""Bounds on the tables of a case: how deep they lie in each other, how long keys and integers are."""
 
 from __future__ import annotations
 
@@ -10,6 +10,9 @@ from ehlectric.errors import InputError, short, shown
 
 # Largest number of tables and lists in each other. A case has four, and a sweep of cases five.
 MOST_DEEP = 16
+
+# Largest number of bits of an integer of TOML, without its sign.
+MOST_BITS = 63
 
 # Longest key, dotted or not [characters]. The longest key of a case has 45.
 LONGEST_KEY = 1000
@@ -69,7 +72,7 @@ def refuse_deep(tables: Mapping[str, Any]) -> None:
     ------
     InputError
         If more than ``MOST_DEEP`` tables or lists lie in each other, or a key is no text, has more than
-        ``MOST_DEEP`` parts or more than ``LONGEST_KEY`` characters.
+        ``MOST_DEEP`` parts or more than ``LONGEST_KEY`` characters, or an integer has more than 64 bits.
 
     Examples
     --------
@@ -86,12 +89,20 @@ def refuse_deep(tables: Mapping[str, Any]) -> None:
             id(item): (top or name, item)
             for top, table in level.values()
             for name, item in _items(table)
-            if isinstance(item, Mapping | list | tuple)
+            if _is_table(top or name, item)
         }
         if not level:
             return
     top, _ = next(iter(level.values()))
     raise InputError.worded(short(top), f"has tables in each other more than {MOST_DEEP} deep")
+
+
+def _is_table(key: str, item: Any) -> bool:
+    """Whether an item has items itself; an integer of more bits than those of TOML is refused."""
+    if isinstance(item, int) and item.bit_length() > MOST_BITS:
+        takes = "one of 64 bits at most, or a number with a decimal point"
+        raise InputError(short(key), got=f"an integer of {item.bit_length()} bits", takes=takes)
+    return isinstance(item, Mapping | list | tuple)
 
 
 def _items(table: Any) -> Iterable[tuple[str, Any]]:

@@ -9,9 +9,10 @@ from pathlib import Path
 
 import pytest
 
-from ehlectric.app.answers.files import MOST_CASE, file_title
+from ehlectric.app.answers.files import MOST_CASE, MOST_FILES, file_title
 from ehlectric.app.compute.files import drawn, packed, uploaded, write
 from ehlectric.app.inputs import Inputs
+from ehlectric.app.uploads import MOST_TOGETHER
 from ehlectric.errors import InputError
 from tests.helpers.places import DEKTAK, EXAMPLES
 
@@ -48,6 +49,24 @@ def test_a_case_asks_for_its_surface(tmp_path):
     assert found.table["roughness"][0]["file"] == "surfaces/dektak-1.csv"
     assert (tmp_path / "surfaces" / "dektak-1.csv").read_bytes() == DEKTAK.read_bytes()
     assert uploaded(case, tmp_path).missing == (), "it is there from before"
+
+
+def test_surfaces_of_a_case_that_is_refused_do_not_stay(tmp_path):
+    bad = example("rough_contact").replace(b'load_per_length = "', b'load_per_length = "-')
+    with pytest.raises(InputError, match="load"):
+        uploaded({"rough.toml": bad, "dektak-1.csv": DEKTAK.read_bytes()}, tmp_path)
+    assert not list((tmp_path / "surfaces").iterdir())
+
+
+def test_files_are_few_and_a_tab_holds_so_much(tmp_path):
+    many = {f"{k}.csv": b"1 2" for k in range(MOST_FILES + 1)}
+    with pytest.raises(InputError, match=f"at most {MOST_FILES} at once"):
+        uploaded(many, tmp_path)
+    (tmp_path / "surfaces").mkdir()
+    with (tmp_path / "surfaces" / "there.csv").open("wb") as there:
+        there.truncate(MOST_TOGETHER)
+    with pytest.raises(InputError, match="240 MB in all files of a tab"):
+        uploaded({"case.toml": example("line_contact")}, tmp_path)
 
 
 def test_a_sweep_asks_for_its_case(tmp_path):

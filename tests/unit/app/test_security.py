@@ -175,3 +175,64 @@ def test_pages_beyond_their_number_are_refused():
     assert ask(limited, "/")[0] == 503
     assert ask(limited, "/_nicegui/3.18.0/static/nicegui.js")[0] == 200
     assert ask(with_bounded_pages(page, lambda: 2, most=3), "/")[0] == 200
+
+
+@pytest.mark.parametrize("site", ["cross-site", "same-site"])
+def test_a_page_of_another_site_loads_nothing_in_the_background(site):
+    """As an image or in a frame; a link that a user follows leads here from anywhere."""
+    own = {"host": "localhost:8080", "sec_fetch_site": site}
+    for mode, dest in (
+        ("no-cors", "image"),
+        ("navigate", "iframe"),
+        ("cors", "empty"),
+        ("no-cors", "script"),
+    ):
+        background = {"sec_fetch_mode": mode, "sec_fetch_dest": dest, **own}
+        assert ask(LOCAL.around(page), **background)[0] == 403
+    followed = {"sec_fetch_mode": "navigate", "sec_fetch_dest": "document", **own}
+    assert ask(LOCAL.around(page), **followed)[0] == 200
+    assert ask(LOCAL.around(page), method="POST", **followed)[0] == 403
+
+
+@pytest.mark.parametrize("origin", ["http://[", "http://[::1", "//", "\\"])
+def test_an_origin_that_is_none_is_that_of_another_site(origin):
+    assert ask(LOCAL.around(page), host="localhost:8080", origin=origin)[0] == 403
+
+
+def test_the_address_without_the_token_is_on_this_server():
+    """Browsers drop a tab from an address, and two slashes name another host."""
+    status, _, body = ask(OPEN.around(page), "/\t/evil.example?token=the-token", host="any")
+    assert status == 200
+    assert b'url=/%09/evil.example"' in body
+
+
+def test_bodies_of_all_requests_are_bounded_together():
+    """A request that is being answered keeps its body in memory until then."""
+
+    async def run():
+        answered = asyncio.Event()
+
+        async def slow(_scope, receive, _send):
+            while (await receive()).get("more_body"):
+                pass
+            await answered.wait()
+
+        bounded = with_bounded_bodies(slow, most=60, at_once=100)
+
+        async def request(*bodies):
+            left = list(bodies)
+
+            async def receive():
+                return {"type": "http.request", "body": left.pop(0), "more_body": bool(left)}
+
+            await bounded({"type": "http", "path": "/", "headers": []}, receive, None)
+
+        early = asyncio.create_task(request(bytes(60)))
+        await asyncio.sleep(0)
+        with pytest.raises(HTTPException, match="503"):
+            await request(bytes(30), bytes(30))
+        answered.set()
+        await early
+        await request(bytes(30), bytes(30))
+
+    asyncio.run(run())

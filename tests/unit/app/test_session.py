@@ -11,6 +11,7 @@ from ehlectric.app.inputs import Inputs
 from ehlectric.app.scratch import Scratch, clear_left_behind
 from ehlectric.app.session import Session
 from ehlectric.app.work import Work
+from ehlectric.errors import LostError
 
 
 @pytest.fixture
@@ -38,6 +39,15 @@ def test_a_session_has_a_folder_of_its_own_which_ends_with_it(work):
     one.close()
     assert not folder.exists()
     assert other.folder.is_dir()
+
+
+def test_a_session_that_has_ended_makes_no_folder(work, temporary):
+    """A page that was closed while it loaded would leave one that nobody removes."""
+    session = Session(work, Inputs({}))
+    session.close()
+    with pytest.raises(LostError, match="closed"):
+        _ = session.folder
+    assert not list(temporary.glob("*/session-*"))
 
 
 def test_a_session_makes_no_folder_before_it_needs_one(work, temporary):

@@ -12,6 +12,9 @@ from ehlectric.app.answers.told import Told
 # Largest uploaded files: of a case, and of a surface that a case names [bytes].
 MOST_CASE, MOST_SURFACE = 200_000, 20_000_000
 
+# Files that are opened at once.
+MOST_FILES = 12
+
 # Kinds of downloads from a folder of results.
 Download = Literal["csv", "netcdf", "summary", "figures", "all"]
 

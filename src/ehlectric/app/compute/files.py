@@ -10,11 +10,18 @@ from importlib import import_module
 from pathlib import Path, PurePosixPath, PureWindowsPath
 from typing import Any
 
-from ehlectric.app.answers.files import MOST_CASE, MOST_SURFACE, Download, Uploaded, Written
+from ehlectric.app.answers.files import (
+    MOST_CASE,
+    MOST_FILES,
+    MOST_SURFACE,
+    Download,
+    Uploaded,
+    Written,
+)
 from ehlectric.app.compute.cases import case_of, kind_of, names_in, sweep_of, with_names
 from ehlectric.app.compute.warnings import told_of
 from ehlectric.app.inputs import Inputs
-from ehlectric.app.uploads import SURFACES
+from ehlectric.app.uploads import MOST_TOGETHER, SURFACES
 from ehlectric.cases.table import tables_of_text
 from ehlectric.errors import InputError, shown
 from ehlectric.motion.stored_run import MOTION, read_motion
@@ -64,6 +71,7 @@ def uploaded(contents: Mapping[str, bytes], folder: Path) -> Uploaded:
     InputError
         If a file is too large or cannot be used, or the case is not valid.
     """
+    _refuse_too_much(contents, folder)
     name, table = _main(contents)
     if isinstance(table.get("case"), str):
         inner = _plain("case", table["case"])
@@ -74,14 +82,29 @@ def uploaded(contents: Mapping[str, bytes], folder: Path) -> Uploaded:
     kind, others = kind_of(table), _missing(table, contents, folder)
     if others:
         return Uploaded(name, kind, table, others)
-    for key, path in names_in(table):
-        _keep(_plain(key, path), contents, folder)
+    kept = [_keep(_plain(key, path), contents, folder) for key, path in names_in(table)]
     table = with_names(table, lambda key, path: f"{SURFACES}/{_plain(key, path)}")
-    if kind == "sweep":
-        sweep_of(table, folder)
-    else:
-        case_of(table, folder)
+    try:
+        if kind == "sweep":
+            sweep_of(table, folder)
+        else:
+            case_of(table, folder)
+    except InputError:
+        # Surfaces of a case that is not opened do not stay.
+        for path in filter(None, kept):
+            path.unlink(missing_ok=True)
+        raise
     return Uploaded(name, kind, table)
+
+
+def _refuse_too_much(contents: Mapping[str, bytes], folder: Path) -> None:
+    """Raise InputError for too many files at once, and for more than the folder of a session may hold."""
+    if len(contents) > MOST_FILES:
+        raise InputError("files", got=f"{len(contents)} files", takes=f"at most {MOST_FILES} at once")
+    there = sum(path.stat().st_size for path in folder.glob(f"{SURFACES}/*"))
+    if there + sum(map(len, contents.values())) > MOST_TOGETHER:
+        takes = f"at most {MOST_TOGETHER // 1_000_000} MB in all files of a tab; open a new tab"
+        raise InputError("files", got="more", takes=takes)
 
 
 def _main(contents: Mapping[str, bytes]) -> tuple[str, dict[str, Any]]:
@@ -131,15 +154,18 @@ def _plain(key: str, path: str) -> str:
     return name
 
 
-def _keep(name: str, contents: Mapping[str, bytes], folder: Path) -> None:
-    """Write an uploaded surface into the folder of the session."""
+def _keep(name: str, contents: Mapping[str, bytes], folder: Path) -> Path | None:
+    """Write an uploaded surface into the folder of the session; its path unless it was there before."""
     if name not in contents:
-        return
+        return None
     if len(contents[name]) > MOST_SURFACE:
         takes = f"a surface of at most {MOST_SURFACE} bytes"
         raise InputError(name, f"has {len(contents[name])} bytes", takes=takes)
     (folder / SURFACES).mkdir(exist_ok=True)
-    (folder / SURFACES / name).write_bytes(contents[name])
+    path = folder / SURFACES / name
+    new = not path.exists()
+    path.write_bytes(contents[name])
+    return path if new else None
 
 
 def write(table: Mapping[str, Any], contacts: str, folder: Path, progress: Progress) -> Written:

@@ -17,7 +17,7 @@ from ehlectric.app.pages.bearing_answer import AnswerView
 from ehlectric.app.pages.bearing_solving import Solving
 from ehlectric.app.pages.downloads import Downloads
 from ehlectric.app.pages.form import Form
-from ehlectric.app.pages.frame import framed, session_of, show_address
+from ehlectric.app.pages.frame import PAGE_PATIENCE, framed, session_of, show_address
 from ehlectric.app.pages.parts import Strip
 from ehlectric.app.pages.starts import BEARING
 from ehlectric.app.pages.toolbar import Toolbar
@@ -35,7 +35,7 @@ _FIRST = 1.0
 def add(work: Work) -> None:
     """Add the page to the server."""
 
-    @ui.page("/")
+    @ui.page("/", response_timeout=PAGE_PATIENCE)
     async def page(request: Request) -> None:
         inputs, error = Inputs.of_link(request.query_params.multi_items(), BEARING)
         page = BearingPage(session_of(work, inputs))

@@ -19,7 +19,7 @@ from ehlectric.app.following import Following
 from ehlectric.app.inputs import Inputs
 from ehlectric.app.pages import parts
 from ehlectric.app.pages.form import Form, groups_for
-from ehlectric.app.pages.frame import framed, session_of, show_address
+from ehlectric.app.pages.frame import PAGE_PATIENCE, framed, session_of, show_address
 from ehlectric.app.pages.starts import BEARING
 from ehlectric.app.pages.tables import effects_table, inputs_table
 from ehlectric.app.pages.toolbar import PATHS, Toolbar, address_of
@@ -51,7 +51,7 @@ _NOTHING = "<p>The effects stand here when both cases have an answer.</p>"
 def add(work: Work) -> None:
     """Add the page to the server."""
 
-    @ui.page(_PATH)
+    @ui.page(_PATH, response_timeout=PAGE_PATIENCE)
     async def page(request: Request) -> None:
         inputs, error = Inputs.of_link(request.query_params.multi_items(), _START)
         given = [isinstance(inputs.value(name), Mapping) for name in _NAMES]

@@ -17,7 +17,7 @@ from ehlectric.app.inputs import Inputs
 from ehlectric.app.pages.contact_view import ContactViewBox, number_cards
 from ehlectric.app.pages.downloads import Downloads
 from ehlectric.app.pages.form import Form
-from ehlectric.app.pages.frame import framed, session_of, show_address
+from ehlectric.app.pages.frame import PAGE_PATIENCE, framed, session_of, show_address
 from ehlectric.app.pages.parts import JobBox, Strip, card, light, lines_html, warnings
 from ehlectric.app.pages.starts import contact_start
 from ehlectric.app.pages.surfaces.movie import MovieBox
@@ -42,7 +42,7 @@ _MOVING = (
 def add(work: Work) -> None:
     """Add the page to the server."""
 
-    @ui.page(_PATH)
+    @ui.page(_PATH, response_timeout=PAGE_PATIENCE)
     async def page(request: Request) -> None:
         pairs = request.query_params.multi_items()
         inputs, error = Inputs.of_link(pairs, contact_start("line"))

@@ -135,6 +135,8 @@ class Downloads:
         if self._kind == "sweep":
             self._tell(error="there are no files yet; run the sweep first")
             return
+        # The folder of earlier files is written anew.
+        self._made = None
         self._then, self._asked = then, self.session.inputs
         contacts = "formula" if self._kind == "bearing" else ""
         self._start(FILES_WRITTEN, dict(self.session.inputs.table), contacts, self.session.folder)

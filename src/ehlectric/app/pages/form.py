@@ -267,7 +267,7 @@ class Form:
         with ui.element("div").classes("other"):
             ui.label(f"{key} = {value}")
             button = ui.button("Remove", on_click=removed).props("flat dense no-caps")
-            button.props(f'aria-label="Remove {key}"')
+            button.props["aria-label"] = f"Remove {key}"
 
     def _on(self, group: Group) -> bool:
         return not group.table or self._inputs.value(group.table) is not None

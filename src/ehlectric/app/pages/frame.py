@@ -20,6 +20,10 @@ from ehlectric.app.work import Work
 LINKS = (("/", "Bearing"), ("/contact", "Contact"), ("/sweep", "Sweep"), ("/compare", "Compare"))
 
 
+# Time in which the server answers with a page, also where many ask at once [s].
+PAGE_PATIENCE = 30.0
+
+
 @cache
 def _styles() -> tuple[str, ...]:
     """Style sheets of the pages; the common one comes first, so that the others may add to it."""

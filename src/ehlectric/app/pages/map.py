@@ -167,7 +167,7 @@ class MapPart:
         about = f"{view.chart.title} over {view.chart.x.title}"
         about += f" and {view.chart.y.title}" if view.chart.y else ""
         about += "; arrow keys choose a point, Enter opens its case; the table below has all numbers"
-        self._keys.props(f'role="group" aria-label="{about}"')
+        self._keys.props.update({"role": "group", "aria-label": about})
 
     def _fill(self, view: SweepView) -> None:
         columns = [{"name": "number", "label": "Point", "field": "number", "sortable": True}]

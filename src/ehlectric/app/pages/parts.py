@@ -80,7 +80,7 @@ def number(
     """
     told = tuple(warnings)
     worst = next((level for level in ("severe", "warning") if any(one.severity == level for one in told)), "")
-    with ui.element("div").classes(f"number {worst}").props(f'data-testid="{escape(testid)}"'):
+    with ui.element("div").classes(f"number {worst}").props(f'data-testid="{testid}"'):
         ui.label(label).classes("label")
         with ui.element("div").classes("value"):
             ui.label(" ".join(filter(None, [bound, text]))).classes("digits")
@@ -132,7 +132,9 @@ def lines_html(lines: Iterable[Line], caption: str) -> str:
 def figure(data: Mapping[str, Any], label: str) -> ui.plotly:
     """Figure that can be zoomed; ``label`` says to a screen reader what it shows."""
     plot = ui.plotly(dict(data)).classes("figure")
-    return plot.props(f'role="img" aria-label="{escape(label)}"')
+    # As an item: in a text of properties, a label could hold further properties, which browsers run.
+    plot.props.update({"role": "img", "aria-label": label})
+    return plot
 
 
 class JobBox:

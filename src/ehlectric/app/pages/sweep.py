@@ -14,7 +14,7 @@ from ehlectric.app.answers.calls import SWEEP_CHOICES, SWEEP_FILES, SWEEP_PLANNE
 from ehlectric.app.answers.sweep import SweepChoices, SweepPlan
 from ehlectric.app.inputs import Inputs
 from ehlectric.app.pages.downloads import Downloads
-from ehlectric.app.pages.frame import framed, session_of, show_address
+from ehlectric.app.pages.frame import PAGE_PATIENCE, framed, session_of, show_address
 from ehlectric.app.pages.map import MapPart
 from ehlectric.app.pages.parts import card
 from ehlectric.app.pages.ranges import RangesForm, range_of
@@ -43,7 +43,7 @@ _DOWNLOADS = (
 def add(work: Work) -> None:
     """Add the page to the server."""
 
-    @ui.page(_PATH)
+    @ui.page(_PATH, response_timeout=PAGE_PATIENCE)
     async def page(request: Request) -> None:
         found, error = Inputs.of_link(request.query_params.multi_items(), Inputs())
         given = sweep_inputs(found)

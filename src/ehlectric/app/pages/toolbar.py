@@ -9,7 +9,7 @@ from typing import Any
 from nicegui import events, ui
 
 from ehlectric.app.answers.calls import FILES_UPLOADED
-from ehlectric.app.answers.files import MOST_CASE, MOST_SURFACE, Uploaded
+from ehlectric.app.answers.files import MOST_CASE, MOST_FILES, MOST_SURFACE, Uploaded
 from ehlectric.app.inputs import LONGEST_QUERY, Inputs
 from ehlectric.app.pages.frame import show_address
 from ehlectric.app.session import Session
@@ -20,9 +20,6 @@ Show = Callable[[], Awaitable[None] | None]
 
 # Pages of the kinds of files.
 PATHS = {"bearing": "/", "contact": "/contact", "motion": "/contact", "sweep": "/sweep"}
-
-# Files that are opened together: a case and the surfaces that it names.
-_MOST_FILES = 12
 
 # Undo and redo by keys, unless they belong to a text that is being typed.
 _KEYS = """<script>
@@ -136,7 +133,7 @@ class Toolbar:
             multiple=True,
             auto_upload=True,
             max_file_size=MOST_SURFACE,
-            max_files=_MOST_FILES,
+            max_files=MOST_FILES,
             on_multi_upload=self._uploaded,
             on_rejected=lambda: self._tell(
                 error=f"a file is too large; expected a case of at most {MOST_CASE // 1000} kB, "

@@ -12,23 +12,17 @@ Concepts of Bearing Technology, 5th ed., 2006, chapters 1 and 3, doi:10.1201/978
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
 from itertools import count
 
 import numpy as np
-from numpy.polynomial import Chebyshev
 
 from ehlectric.arrays import Array
+from ehlectric.bearing.loads.ball_stiffness import stiffness_laws
 from ehlectric.bearing.loads.geometry import BallBearing
 from ehlectric.bearing.loads.kinematics import Speeds, centrifugal_force, gyroscopic_moment, rolling_speeds
 from ehlectric.bearing.loads.ring import AIM, GOOD, UNLOADED, Operation, RingLoads, balance
 from ehlectric.bearing.loads.seating import Grooves, Seats, lean_outward, seat
 from ehlectric.errors import ConvergenceError, InputError, shown
-from ehlectric.formulas.hertz_point import dry_contact
-
-# Degree of the polynomial of log K. K changes smoothly, by a few percent over all angles: the relative error
-# is below 1e-11, except where a handful of balls fill their pitch circle.
-_DEGREE = 24
 
 # Change of the cosines of the contact angles at convergence; each round reduces it by two or three digits.
 _SETTLED = 1e-12
@@ -108,52 +102,6 @@ class BallEquilibrium:
         return RingLoads(self.outer_load, self.outer_angle, self.outer_approach, self.outer_gap, speed)
 
 
-def contact_stiffness(bearing: BallBearing, modulus: float, angle: float, *, inner: bool) -> float:
-    """Stiffness K of Q = K delta^(3/2), from the exact Hertz ellipse of a ball and a ring.
-
-    Parameters
-    ----------
-    bearing : BallBearing
-        Geometry of the bearing.
-    modulus : float
-        Reduced modulus E' of ball and ring [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
-    angle : float
-        Contact angle [rad].
-    inner : bool
-        Whether the contact is with the inner ring.
-
-    Returns
-    -------
-    float
-        Stiffness K [N/m^(3/2)].
-
-    Examples
-    --------
-    Approach in micrometres under a load of 870 N:
-
-    >>> bearing = BallBearing(9, 11.906e-3, 60e-3, 0.52, 0.52, radial_clearance=10e-6)
-    >>> k = contact_stiffness(bearing, 226e9, 0.0, inner=True)
-    >>> round(1e6 * (870.0 / k) ** (2 / 3), 2)
-    9.24
-    """
-    radii = bearing.radii(angle, inner=inner)
-    return float(dry_contact(1.0, radii.radius_x, radii.radius_y, modulus).approach ** -1.5)
-
-
-@lru_cache(maxsize=32)
-def _stiffness_laws(bearing: BallBearing, modulus: float) -> tuple[Chebyshev, Chebyshev]:
-    """Polynomials of log K in the cosine of the contact angle, for the inner and the outer contact."""
-
-    def law(*, inner: bool) -> Chebyshev:
-        def logarithm(cosines: Array) -> Array:
-            angles = np.arccos(cosines)
-            return np.log([contact_stiffness(bearing, modulus, float(a), inner=inner) for a in angles])
-
-        return Chebyshev.interpolate(logarithm, _DEGREE, domain=[0.0, 1.0])
-
-    return law(inner=True), law(inner=False)
-
-
 @dataclass(frozen=True)
 class _Angles:
     """Contact angles of the balls [rad]."""
@@ -224,7 +172,7 @@ class _Model:
 
     def grooves(self, angles: _Angles, outward: float) -> Grooves:
         """Both grooves, with the contact stiffnesses K at these contact angles."""
-        inner, outer = _stiffness_laws(self.bearing, self.modulus)
+        inner, outer = stiffness_laws(self.bearing, self.modulus)
         return Grooves(
             *self.bearing.offsets,
             np.exp(inner(np.cos(angles.inner))),

@@ -101,7 +101,7 @@ class RoughnessBox:
             remove = ui.button("Remove", on_click=lambda: self._remove(table), color=None).props(
                 "flat no-caps"
             )
-            remove.props(f'data-testid="remove-surface-{table.get("surface", 0)}"')
+            remove.props["data-testid"] = f"remove-surface-{table.get('surface', 0)}"
             if not lost:
                 ui.button("Change", on_click=lambda: self._reopen(table), color=None).props("flat no-caps")
         if lost:
