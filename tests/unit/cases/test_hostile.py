@@ -329,13 +329,13 @@ def test_as_many_levels_as_a_case_may_have():
         refuse_deep(nested(MOST_DEEP + 1))
 
 
-@pytest.mark.parametrize("bits", [64, 65, 16_000])
-def test_integers_that_toml_has_not_are_refused(bits):
+@pytest.mark.parametrize("bits", [10_001, 16_000])
+def test_integers_that_have_no_text_are_refused(bits):
     """Python writes no text for those of more than 4300 digits."""
     number = 2 ** (bits - 1)
     with pytest.raises(InputError, match=rf"^grid: got an integer of {bits} bits"):
         refuse_deep({"grid": {"nodes": [1, number]}})
-    refuse_deep({"grid": {"nodes": [1, 2**63 - 1]}})
+    refuse_deep({"grid": {"nodes": [1, 2**10_000 - 1]}})
 
 
 def test_keys_that_are_no_text_are_named():
