@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import cache
 from importlib import resources
-from weakref import WeakKeyDictionary
 
 from nicegui import Client, ui
 
@@ -54,8 +53,9 @@ def framed(title: str, here: str) -> Iterator[None]:
         yield
 
 
-# Session of each tab, for the parts of its page.
-_SESSIONS: WeakKeyDictionary[Client, Session] = WeakKeyDictionary()
+# Session of each tab, for the parts of its page. A session holds parts of the page that it tells of changes,
+# and with them its tab: it is taken out when the tab ends.
+_SESSIONS: dict[Client, Session] = {}
 
 
 def session_here() -> Session | None:
@@ -65,9 +65,14 @@ def session_here() -> Session | None:
 
 def session_of(work: Work, inputs: Inputs) -> Session:
     """Session of the present tab, which ends with it."""
-    session = Session(work, inputs)
-    _SESSIONS[ui.context.client] = session
-    ui.context.client.on_delete(session.close)
+    session, client = Session(work, inputs), ui.context.client
+    _SESSIONS[client] = session
+
+    def end() -> None:
+        del _SESSIONS[client]
+        session.close()
+
+    client.on_delete(end)
     return session
 
 

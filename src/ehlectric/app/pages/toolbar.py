@@ -12,6 +12,7 @@ from ehlectric.app.answers.calls import FILES_UPLOADED
 from ehlectric.app.answers.files import MOST_CASE, MOST_FILES, MOST_SURFACE, Uploaded
 from ehlectric.app.inputs import LONGEST_QUERY, Inputs
 from ehlectric.app.pages.frame import show_address
+from ehlectric.app.pages.weak import weakly
 from ehlectric.app.session import Session
 from ehlectric.errors import InputError, LostError
 
@@ -134,11 +135,8 @@ class Toolbar:
             auto_upload=True,
             max_file_size=MOST_SURFACE,
             max_files=MOST_FILES,
-            on_multi_upload=self._uploaded,
-            on_rejected=lambda: self._tell(
-                error=f"a file is too large; expected a case of at most {MOST_CASE // 1000} kB, "
-                f"surfaces of at most {MOST_SURFACE // 1_000_000} MB"
-            ),
+            on_multi_upload=weakly(self._uploaded),
+            on_rejected=weakly(self._rejected),
             label="Case and surfaces",
         )
         self._upload.classes("out-of-sight").props(
@@ -147,6 +145,13 @@ class Toolbar:
         open_file = ui.button("Open file").props('outline no-caps dense data-testid="open-file"')
         open_file.tooltip("A case, bearing or sweep file (TOML), with the surfaces that it names")
         open_file.on("click", js_handler=f"() => getElement({self._upload.id}).$refs.qRef.pickFiles()")
+
+    def _rejected(self, _: events.UiEventArguments) -> None:
+        """Say why the browser sends no file."""
+        self._tell(
+            error=f"a file is too large; expected a case of at most {MOST_CASE // 1000} kB, "
+            f"surfaces of at most {MOST_SURFACE // 1_000_000} MB"
+        )
 
     async def _uploaded(self, event: events.MultiUploadEventArguments) -> None:
         """Take up files: a case, or those that the case opened before names."""

@@ -8,6 +8,7 @@ from typing import Any
 
 from nicegui import events, ui
 
+from ehlectric.app.pages.weak import weakly
 from ehlectric.app.uploads import ENDINGS, LARGEST, shown_name
 
 # Sends the chosen file to the address of the uploader, and tells the page what became of it.
@@ -32,7 +33,7 @@ class UploadField:
     Parameters
     ----------
     take : callable
-        Called with the event of NiceGUI that has the uploaded file.
+        Method of an object of the page, called with the event of NiceGUI that has the uploaded file.
     refuse : callable
         Called with a line that says why a file is not taken.
     """
@@ -43,7 +44,7 @@ class UploadField:
         refuse: Callable[[str], None],
     ) -> None:
         self._refuse = refuse
-        uploader = ui.upload(on_upload=take, max_file_size=LARGEST).style("display: none")
+        uploader = ui.upload(on_upload=weakly(take), max_file_size=LARGEST).style("display: none")
         send = _SEND % {"largest": LARGEST, "address": json.dumps(uploader.props["url"])}
         with ui.element("div").classes("key upload"):
             label = f"File of an instrument: {', '.join(ENDINGS)} and others, at most {LARGEST / 1e6:g} MB"
