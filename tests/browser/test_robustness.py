@@ -1,6 +1,7 @@
 """Pages of a server that is strained: many jobs, a kill during a job, wrong links, and large files."""
 
 import signal
+from urllib.parse import quote
 
 import pytest
 
@@ -103,3 +104,21 @@ def test_a_file_that_is_too_large_is_refused_before_it_is_read(open_page, app_se
     # Playwright sends files of at most 50 MB; the field takes larger ones by their path only.
     page.get_by_test_id("upload-surface").set_input_files(large)
     page.get_by_test_id("roughness").get_by_role("alert").filter(has_text="at most").first.wait_for()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "address",
+    [
+        "/?bearing.base='6208'&" + quote("\"b :x='(window.ran=1)' c\"") + "=1",
+        "/contact?contact.geometry=line&roughness="
+        + quote('[{surface="1\\" :x=\'(window.ran=1)\' y=\\"", generator="waves"}]'),
+        "/?bearing.base='6208'&title=" + quote("'\"><img src=x onerror=\"window.ran=1\">'"),
+    ],
+)
+def test_no_text_of_a_link_runs(open_page, app_server, address):
+    """The framework runs properties whose names begin with a colon, and a text could hold further ones."""
+    page = open_page(app_server, address)
+    page.get_by_test_id("theme").wait_for()
+    page.wait_for_timeout(2000)
+    assert page.evaluate("window.ran === undefined")
