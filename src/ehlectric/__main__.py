@@ -10,7 +10,7 @@ from ehlectric.runtime.workers import cores
 # Memory that the libraries of every command take [bytes of address space], and that of BLAS for each core.
 # With less they do not fail in words: BLAS waits for ever, or ends the process.
 LEAST_MEMORY, MEMORY_OF_CORE = 750_000_000, 20_000_000
-_TOO_LITTLE = 2
+_TOO_LITTLE, _INTERRUPTED = 2, 130
 
 
 def main() -> None:
@@ -21,6 +21,9 @@ def main() -> None:
         sys.exit(_end(f"{told}; expected at least {in_bytes(least)}"))
     try:
         from ehlectric.commands.app import main as run
+    except KeyboardInterrupt:
+        # As the commands end, which have not been loaded yet.
+        sys.exit(_INTERRUPTED)
     except Exception as error:
         if not is_out_of_memory(error):
             raise
