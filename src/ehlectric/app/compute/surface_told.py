@@ -24,20 +24,21 @@ _CONTINUED = {
 }
 
 
-def too_rough(table: Roughness, rough: RoughSurface | RoughMap, film: Thickness) -> Told | None:
+def too_rough(table: Roughness, rough: RoughSurface | RoughMap, formula: Thickness) -> Told | None:
     """Warning about heights whose root mean square is above the film thickness of a formula."""
-    if not rough.steps:
+    film = formula.central_thickness
+    if not rough.steps or film is None:
         return None
     heights = float(np.std(rough.steps[-1][1].heights))
-    ratio = heights / film.central_thickness
+    ratio = heights / film
     if ratio <= 1.0:
         return None
     name = "Sq" if isinstance(rough.steps[-1][1], Map) else "Rq"
     formless = table.file is not None and table.form in ("none", "mean")
     advice = "remove the form first" if formless else "filter its long waves, and check the units of heights"
     text = (
-        f"{name} is {ratio:.2g} times the film thickness ({_length(heights)}, against "
-        f"{_length(film.central_thickness)} by formula), so the surfaces would touch: {advice}"
+        f"{name} is {_times(ratio)} times the film thickness ({_length(heights)}, against "
+        f"{_length(film)} by formula), so the surfaces would touch: {advice}"
     )
     return Told("", "warning", text)
 
@@ -47,6 +48,7 @@ def plainly(told: Told, table: Roughness, rough: RoughSurface | RoughMap, domain
     if told.code != "roughness-continued":
         return told
     last = rough.steps[-1][1]
+    lengths: tuple[tuple[float, float], ...]
     if isinstance(last, Map):
         what, lengths = "map", ((last.length_x, domain.length), (last.length_y, 2.0 * domain.side))
     else:
@@ -57,11 +59,15 @@ def plainly(told: Told, table: Roughness, rough: RoughSurface | RoughMap, domain
     if copies < _COPIES or table.extend not in _CONTINUED:
         return told
     text = (
-        f"The {what} is {_length(length)} long and the domain {_length(needed)}: about {copies:.2g} "
+        f"The {what} is {_length(length)} long and the domain {_length(needed)}: about {_times(copies)} "
         f"{_CONTINUED[table.extend]}, so the contact has the same heights again and again; "
         f"use a longer {what}"
     )
     return replace(told, text=text)
+
+
+def _times(ratio: float) -> str:
+    return f"{ratio:.0f}" if ratio >= 10.0 else f"{ratio:.2g}"
 
 
 def _length(length: float) -> str:
