@@ -166,6 +166,41 @@ def test_a_bad_file_is_refused_in_words_and_the_page_goes_on(open_page, app_serv
     statistics(page)
 
 
+@pytest.mark.slow
+def test_large_file_that_is_still_read_does_not_replace_a_later_choice(open_page, app_server, tmp_path):
+    page = open_page(app_server, smooth())
+    large = tmp_path / "large.csv"
+    lines = (f"{0.5 * k:.1f},{20.0 * (k % 7):.1f}" for k in range(400_000))
+    large.write_text("x_um,z_nm\n" + "\n".join(lines) + "\n")
+    # Smaller files are answered at once, without a job.
+    assert large.stat().st_size > 4_000_000
+    page.get_by_test_id("upload-surface").wait_for(state="attached")
+    upload(page, large)
+    page.get_by_test_id("roughness").get_by_test_id("progress").wait_for()
+    page.get_by_test_id("field-roughness-source").select_option("sinusoid")
+    size = page.get_by_test_id("surface-size")
+    size.filter(has_text="Exact shape").wait_for()
+    page.get_by_test_id("roughness").get_by_test_id("progress").wait_for(state="hidden")
+    page.wait_for_timeout(1000)
+    assert "Exact shape" in size.inner_text()
+    assert page.get_by_test_id("use-surface").is_enabled()
+
+
+@pytest.mark.slow
+def test_page_begins_with_a_bound_and_without_a_list_of_other_inputs(open_page, app_server):
+    page = open_page(app_server, "/contact", width=390, height=844)
+    wait_until_solved(page)
+    strip = page.get_by_test_id("strip").inner_text()
+    assert "≤" in strip
+    assert "breakdown voltage ≤" in strip
+    others = page.get_by_test_id("other-inputs")
+    assert re.search(r"Other inputs of the file \(\d+\)", others.inner_text())
+    assert not others.get_by_role("button", name="Remove grid.wedge").is_visible()
+    others.locator("summary").click()
+    others.get_by_role("button", name="Remove grid.wedge").click()
+    others.get_by_text("grid.wedge").wait_for(state="detached")
+
+
 def moving(**changes):
     """Case whose waviness moves through the contact in tens of steps."""
     return example("moving_roughness", grid__nodes=401, **changes)

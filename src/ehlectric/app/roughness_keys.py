@@ -62,7 +62,7 @@ STEP_KEYS = (
         "form",
         "Form to remove",
         choices={
-            "none": "none",
+            "none": "none (files: mean)",
             "mean": "mean",
             "line": "line or plane",
             "parabola": "parabola or quadric",

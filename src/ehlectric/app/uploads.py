@@ -57,16 +57,19 @@ def stored_name(given: str, number: int) -> str:
     return f"surface-{number}{ending.group().lower() if ending else '.dat'}"
 
 
-def new_name(given: str, folder: Path) -> str:
-    """Name for the file that is uploaded next, relative to the folder of its session, which makes its folder.
+def new_file(given: str, folder: Path) -> str:
+    """Make an empty file for an upload; its name is relative to the folder of its session.
 
-    The numbers of files go on, so that inputs that were undone keep theirs.
+    The file is there before its content, so that uploads at the same time have different names. The numbers
+    of files go on, so that inputs that were undone keep theirs.
     """
     place = folder / SURFACES
     place.mkdir(exist_ok=True)
     taken = {path.stem for path in place.iterdir()}
     number = next(number for number in count(1) if f"surface-{number}" not in taken)
-    return f"{SURFACES}/{stored_name(given, number)}"
+    name = stored_name(given, number)
+    (place / name).touch(exist_ok=False)
+    return f"{SURFACES}/{name}"
 
 
 def own_file(name: str, folder: Path) -> Path | None:

@@ -7,6 +7,7 @@ from dataclasses import replace
 import pytest
 
 from ehlectric import Case
+from ehlectric.app.answers.contact_told import CONTACT_PLACES
 from ehlectric.app.compute.contact import (
     check_contact,
     cuts_of,
@@ -17,8 +18,9 @@ from ehlectric.app.compute.contact import (
 from ehlectric.app.fields.contact import geometry_of, groups_of, switched
 from ehlectric.app.fields.rules import changed
 from ehlectric.app.inputs import Inputs
+from ehlectric.app.pages.starts import contact_start
 from ehlectric.contact.solver import solve
-from ehlectric.errors import InputError
+from ehlectric.errors import CODES, InputError
 from ehlectric.report.light import light_of
 from ehlectric.runs.by_kind import read_case, run_contact
 from ehlectric.runs.meaning import check
@@ -114,6 +116,82 @@ def test_bound_of_a_solved_contact_is_told_and_its_level_is_that_of_the_command(
     light = light_of(view.level, view.text)
     assert (light.level, light.bound) == ("green", "≤")
     assert light.words.endswith("as an upper bound")
+
+
+def test_breakdown_voltage_by_formula_is_an_upper_bound(tmp_path):
+    answer = check_contact(table_of("discharge"), str(tmp_path))
+    assert number(answer, "breakdown-voltage").bound == "≤"
+    assert "Upper bound" in answer.text
+
+
+@pytest.mark.parametrize(
+    ("discharge", "told"),
+    [
+        (None, "give a dielectric strength"),
+        (
+            {"strength_table": {"pressure": ["0 GPa", "1 GPa"], "strength": ["15 V/um", "25 V/um"]}},
+            "needs the solved film",
+        ),
+    ],
+)
+def test_missing_verdict_by_formula_says_why(discharge, told, tmp_path):
+    table = table_of("ball_contact") | ({} if discharge is None else {"discharge": discharge})
+    answer = check_contact(table, str(tmp_path))
+    assert (answer.level, told in answer.text) == ("grey", True)
+
+
+def test_contact_without_a_strength_is_told_to_give_one(tmp_path):
+    view = solve_at_once(table_of("line_contact", grid={"nodes": 401}), str(tmp_path))
+    assert "give a dielectric strength" in view.text
+    # The examples have potentials of -1 V and 1 V.
+    assert number(view, "max-field").note == "at 2 V"
+
+
+def test_every_code_of_a_warning_has_a_place_on_the_contact_page():
+    assert set(CONTACT_PLACES) == set(CODES)
+
+
+def solved_coarsely(tmp_path):
+    table = table_of("ball_contact", grid=SMALL, discharge={"dielectric_strength": "15 V/um"})
+    return solve_at_once(table, str(tmp_path))
+
+
+def test_severe_warning_stands_beside_every_number_that_it_forbids(tmp_path):
+    view = solved_coarsely(tmp_path)
+    assert (view.level, "must not be used" in view.text) == ("grey", True)
+    assert len(view.numbers) == 6
+    for one in view.numbers:
+        assert "severe" in [told.severity for told in one.warnings], one.key
+    severe = {code for code, cause in CODES.items() if cause.severity == "severe"}
+    assert {CONTACT_PLACES[code] for code in severe} == {tuple(one.key for one in view.numbers)}
+
+
+def test_places_of_warnings_are_numbers_of_a_contact(tmp_path):
+    shown = {one.key for one in solved_coarsely(tmp_path).numbers}
+    shown |= {one.key for one in check_contact(table_of("ball_contact"), str(tmp_path)).numbers}
+    assert {name for names in CONTACT_PLACES.values() for name in names} <= shown
+
+
+@pytest.mark.parametrize("geometry", ["line", "point", "switched"])
+def test_contact_with_which_the_page_begins_has_no_warning(geometry, tmp_path):
+    if geometry == "switched":
+        inputs = switched(contact_start("line"), contact_start("point"))
+    else:
+        inputs = contact_start(geometry)
+    view = solve_at_once(dict(inputs.table), str(tmp_path))
+    told = [*view.warnings, *(one for shown in view.numbers for one in shown.warnings)]
+    assert [one.code for one in told if one.severity != "note"] == []
+    assert view.level != "grey"
+
+
+def test_warning_about_the_domain_stands_beside_the_films(tmp_path):
+    table = table_of("ball_contact", grid={"nodes": 129, "inlet": -2.5, "side": 2.0})
+    view = solve_at_once(table, str(tmp_path))
+    codes = {one.key: [told.code for told in one.warnings] for one in view.numbers}
+    (code,) = {code for found in codes.values() for code in found if code.startswith("domain-")}
+    assert code in codes["minimum-film"]
+    assert code in codes["central-film"]
+    assert code not in [told.code for told in view.warnings]
 
 
 def test_film_that_did_not_converge_has_no_numbers():

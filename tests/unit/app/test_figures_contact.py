@@ -123,7 +123,9 @@ def test_thinned_surface_keeps_smallest_film_and_largest_field(point, monkeypatc
     assert np.max(surface["surfacecolor"]) == pytest.approx(point.field.max_strength / 1e6, rel=1e-5)
     assert f"of {gap.shape[0]} x {gap.shape[1]} nodes" in shown.caption
     # The smallest film of the whole domain is marked, whatever is drawn.
-    assert shown.plot["data"][1]["z"] == [pytest.approx(1e6 * point.film.minimum_thickness)]
+    pin = shown.plot["data"][1]
+    assert pin["z"][0] == pytest.approx(1e6 * point.film.minimum_thickness)
+    assert (pin["x"][0], pin["y"][0]) == (pin["x"][1], pin["y"][1])
 
 
 def test_cuts_run_through_the_nodes_nearest_to_the_point(point):
@@ -152,6 +154,34 @@ def test_hertz_pressure_of_a_cut_is_that_of_the_dry_contact(long_point):
         assert max(hertz["y"]) == pytest.approx(conditions.max_pressure / 1e9, rel=1e-3)
         inside = [abs(x) for x, y in zip(hertz["x"], hertz["y"], strict=True) if y > 0.0]
         assert max(inside) == pytest.approx(1e6 * edge, rel=0.1)
+
+
+def test_dashed_lines_of_a_cut_are_the_edges_of_the_dry_contact_there(long_point):
+    b, a = long_point.conditions.semi_axes
+    for off in (0.0, 0.6, -0.8):
+        cuts = by_name(point_cuts(long_point, off * b, off * a))
+        for name, along, across in (
+            ("cut-x", long_point.film.x / b, long_point.film.y / a),
+            ("cut-y", long_point.film.y / a, long_point.film.x / b),
+        ):
+            # The cut runs through the node nearest to the point.
+            place = across[np.argmin(np.abs(across - off))]
+            edges = [shape["x1"] for shape in cuts[name].plot["layout"]["shapes"]]
+            length = 1e6 * (b if name == "cut-x" else a)
+            ends = np.array(edges) / length
+            assert ends**2 + place**2 == pytest.approx([1.0, 1.0])
+            assert ends[1] == -ends[0]
+            assert f"{edges[1]:.4g} µm" in cuts[name].caption
+            # Beyond its edges the dry contact carries nothing.
+            hertz = trace(cuts[name], "dry contact (Hertz)")["y"]
+            assert not any(np.array(hertz)[np.abs(along) > ends[1] + 1e-9])
+
+
+def test_cut_beside_the_dry_contact_has_no_edges(long_point):
+    b, _ = long_point.conditions.semi_axes
+    cut = by_name(point_cuts(long_point, 1.3 * b, 0.0))["cut-y"]
+    assert not cut.plot["layout"]["shapes"]
+    assert "outside" in cut.caption
 
 
 def test_long_contacts_lie_along_the_page(long_point):

@@ -19,7 +19,7 @@ from ehlectric.app.roughness_keys import (
     PLACE_KEYS,
     STEP_KEYS,
 )
-from ehlectric.app.uploads import new_name, own_file, shown_name, stored_name
+from ehlectric.app.uploads import new_file, own_file, shown_name, stored_name
 from ehlectric.cases.roughness import GENERATORS, Roughness
 from ehlectric.commands.app import app
 from ehlectric.errors import InputError
@@ -171,6 +171,37 @@ def test_a_wrong_contact_is_told_and_the_surface_shown():
     assert "whose inputs are wrong" in answer.warnings[-1].text
 
 
+def written(folder, heights, *, step=1.0):
+    """Name of a file of a profile with heights [nm] at a spacing [um]."""
+    lines = (f"{step * k:g},{height:g}" for k, height in enumerate(heights))
+    (folder / "profile.csv").write_text("x_um,z_nm\n" + "\n".join(lines) + "\n")
+    return "profile.csv"
+
+
+@pytest.mark.parametrize("case", [LINE, POINT])
+def test_heights_above_the_film_are_told_with_both_lengths(case, tmp_path):
+    # A tilted line of 1000 points from -8 um to 8 um: its Rq is 16 um over the root of 12.
+    table = {"surface": 1, "file": written(tmp_path, np.linspace(-8e3, 8e3, 1000))}
+    answer = look(table, case, str(tmp_path))
+    (told,) = (one.text for one in answer.warnings if "times the film thickness" in one.text)
+    assert told.startswith("Rq is ")
+    assert "4.62 µm" in told
+    assert "remove the form first" in told
+    level = look({**table, "form": "line"}, case, str(tmp_path))
+    assert not [one for one in level.warnings if "film thickness" in one.text]
+
+
+def test_short_profile_is_told_with_its_length_and_that_of_the_domain(tmp_path):
+    table = {"surface": 1, "file": written(tmp_path, np.sin(np.arange(88.0)))}
+    answer = look(table, LINE, str(tmp_path))
+    # Half-width of LINE by Hertz: b = 4 p R / E', and the domain is 6 b.
+    domain = 6.0 * 4.0 * 0.5e9 * 14.1e-3 / 226e9
+    (told,) = (one for one in answer.warnings if one.code == "roughness-continued")
+    assert told.text.startswith("The profile is 87 µm long")
+    assert f"the domain {1e6 * domain:.3g} µm" in told.text
+    assert f"about {domain / 87e-6:.2g} copies" in told.text
+
+
 def test_lines_keep_their_extremes():
     heights = np.random.default_rng(3).standard_normal(100_000)
     (trace,) = line_figure(np.linspace(-1e-3, 1e-3, heights.size), 1e-9 * heights)["data"]
@@ -220,10 +251,10 @@ def test_uploads_have_new_names_in_the_folder_of_the_session(tmp_path):
     # A case that was downloaded before and is opened again brings a file of such a name.
     (tmp_path / "surfaces").mkdir()
     (tmp_path / "surfaces" / "surface-1.csv").touch()
-    name = new_name("a scan.x3p", tmp_path)
+    name = new_file("a scan.x3p", tmp_path)
     assert name == "surfaces/surface-2.x3p"
-    assert own_file(name, tmp_path) is None
-    (tmp_path / name).touch()
     assert own_file(name, tmp_path) == tmp_path / name
+    # The next upload of the same request comes before the first one is stored.
+    assert new_file("a scan.x3p", tmp_path) == "surfaces/surface-3.x3p"
     assert own_file("../surfaces/surface-2.x3p", tmp_path / "surfaces") is not None
     assert own_file("../surface-2.x3p", tmp_path / "surfaces") is None

@@ -9,8 +9,9 @@ from pathlib import Path
 from typing import Any
 
 from ehlectric.app.answers.contact import ContactCheck, ContactView, Number
+from ehlectric.app.answers.contact_told import CONTACT_PLACES
 from ehlectric.app.answers.figure import Shown
-from ehlectric.app.answers.told import Told
+from ehlectric.app.answers.told import Told, beside
 from ehlectric.app.compute.cases import case_of
 from ehlectric.app.compute.lines import lines_of
 from ehlectric.app.compute.warnings import told_of
@@ -38,29 +39,6 @@ _FORMULA = 0.4
 
 # Formula whose films an answer shows large, by geometry: the one of the breakdown voltage by formula.
 _SHOWN_FORMULA = {"line": ("pan_hamrock", "Pan-Hamrock"), "point": ("chittenden", "Chittenden et al.")}
-
-# Numbers that a warning concerns, by its code. Warnings of other codes concern the whole answer.
-_CONCERNS: Mapping[str, tuple[str, ...]] = {
-    "plastic-deformation": ("hertz-pressure",),
-    "law-range": ("hertz-pressure",),
-    "ambient-pressure": ("hertz-pressure",),
-    "regime": ("minimum-film", "central-film"),
-    "grid-too-coarse": ("minimum-film", "central-film"),
-    "grid-far-too-coarse": ("minimum-film", "central-film"),
-    "error-unknown": ("minimum-film",),
-    "surfaces-touch": ("minimum-film",),
-    "thinner-than-atom": ("minimum-film",),
-    "inlet-too-short": ("central-film",),
-    "local-plastic-deformation": ("max-pressure",),
-    "field-grid-too-coarse": ("max-field",),
-    "field-unresolved": ("max-field",),
-    "field-range-too-narrow": ("max-field",),
-    "field-above-insulators": ("max-field",),
-    "tunnelling": ("max-field",),
-    "strength-above-liquids": ("breakdown-voltage",),
-    "strength-table-exceeded": ("breakdown-voltage",),
-    "breakdown-expected": ("breakdown-voltage",),
-}
 
 
 def contact_case(table: Mapping[str, Any], folder: str) -> Case:
@@ -104,7 +82,7 @@ def check_contact(table: Mapping[str, Any], folder: str) -> ContactCheck:
     """
     case = contact_case(table, folder)
     meaning = check(case)
-    level, text = _by_formula(meaning.summary.get("breakdown_by_formula"), meaning.warnings)
+    level, text = _by_formula(case, meaning.summary.get("breakdown_by_formula"), meaning.warnings)
     numbers = _check_numbers(meaning.summary)
     keys = {number.key for number in numbers}
     return ContactCheck(
@@ -146,10 +124,9 @@ def _check_numbers(summary: Mapping[str, Any]) -> list[Number]:
     ]
     estimate = summary.get("breakdown_by_formula")
     if estimate is not None:
-        by = f"by formula: {estimate['formula']}, up to 40 % off"
-        found.append(
-            _number("breakdown-voltage", "Breakdown voltage", estimate["breakdown_voltage"], "V", by)
-        )
+        by = f"by formula: {estimate['formula']}, up to 40 % off; {_BOUND}"
+        breakdown = _number("breakdown-voltage", "Breakdown voltage", estimate["breakdown_voltage"], "V", by)
+        found.append(replace(breakdown, bound="≤"))
     return found
 
 
@@ -160,13 +137,17 @@ def _number(key: str, label: str, value: float, unit: str, note: str = "", least
     return Number(key, label, f"{factor * value:.4g}", shown_unit, note)
 
 
-def _by_formula(estimate: Mapping[str, Any] | None, warnings: Iterable[ResultWarning]) -> tuple[str, str]:
+_NO_STRENGTH = "No verdict: give a dielectric strength (group Voltage and breakdown) for a breakdown voltage."
+_NOT_BY_FORMULA = "No verdict before solving: a dielectric strength over the pressure needs the solved film."
+
+
+def _by_formula(
+    case: Case, estimate: Mapping[str, Any] | None, warnings: Iterable[ResultWarning]
+) -> tuple[str, str]:
     """Level and sentences of the verdict by formula, within the errors of film and strength."""
     if estimate is None:
-        return (
-            "grey",
-            "No verdict by formula: it needs a dielectric strength that is no table over pressure.",
-        )
+        given = case.discharge is not None and case.discharge.has_strength
+        return "grey", _NOT_BY_FORMULA if given else _NO_STRENGTH
     margin, voltage = estimate["margin"], estimate["applied_voltage"]
     # The film may be that much thinner or thicker than by the formula, and the strength is assumed.
     low = margin * (1.0 - STRENGTH_UNKNOWN) / (1.0 + _FORMULA)
@@ -282,7 +263,7 @@ def _verdict(result: Result | PointResult) -> tuple[str, str]:
         return "grey", f"Not converged ({result.film.status}): do not use this result."
     verdict = result.verdict
     if verdict is None:
-        return "grey", "No verdict: the case has no dielectric strength."
+        return "grey", _NO_STRENGTH
     return verdict.level, verdict.text
 
 
@@ -300,7 +281,7 @@ def _result_numbers(result: Result | PointResult) -> list[Number]:
         _number("minimum-film", "Minimum film", film.minimum_thickness, "m", f"{known}; formula of {least}"),
         _number("central-film", "Central film", film.central_thickness, "m", f"formula of {central}"),
         _number("max-pressure", "Maximum pressure", film.max_pressure, "Pa"),
-        _number("max-field", "Maximum field", field.max_strength, "V/m"),
+        _number("max-field", "Maximum field", field.max_strength, "V/m", f"at {_voltage(result)}"),
     ]
     if isinstance(result, PointResult):
         capacitance = Number("capacitance", "Capacitance", f"{field.capacitance * 1e12:.4g}", "pF", _OVER)
@@ -311,6 +292,10 @@ def _result_numbers(result: Result | PointResult) -> list[Number]:
         breakdown = _number("breakdown-voltage", "Breakdown voltage", discharge.breakdown_voltage, "V")
         found.append(replace(breakdown, bound="≤", note=_BOUND) if _is_flooded(result) else breakdown)
     return found
+
+
+def _voltage(result: Result | PointResult) -> str:
+    return f"{abs(result.case.electric.voltage):.4g} V"
 
 
 def _is_flooded(result: Result | PointResult) -> bool:
@@ -326,17 +311,10 @@ _OVER = "over the field range"
 
 def _with_warnings(numbers: Iterable[Number], warnings: Iterable[ResultWarning]) -> tuple[Number, ...]:
     """Numbers with the warnings that concern them."""
-    warnings = tuple(warnings)
-    return tuple(
-        replace(number, warnings=told_of(one for one in warnings if number.key in _concerned(one)))
-        for number in numbers
-    )
+    told = told_of(warnings, CONTACT_PLACES)
+    return tuple(replace(number, warnings=beside(told, number.key)) for number in numbers)
 
 
 def _others(warnings: Iterable[ResultWarning], keys: set[str]) -> tuple[Told, ...]:
     """Warnings that concern none of the shown numbers."""
-    return told_of(one for one in warnings if not keys & set(_concerned(one)))
-
-
-def _concerned(warning: ResultWarning) -> tuple[str, ...]:
-    return _CONCERNS.get(warning.code, ())
+    return tuple(one for one in told_of(warnings, CONTACT_PLACES) if not keys & set(one.beside))

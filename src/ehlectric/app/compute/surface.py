@@ -13,6 +13,7 @@ import numpy as np
 from ehlectric.app.answers.surface import StepFigure, SurfaceAnswer
 from ehlectric.app.answers.told import Told
 from ehlectric.app.compute.cases import with_own_files
+from ehlectric.app.compute.surface_told import plainly, too_rough
 from ehlectric.app.compute.warnings import told_of
 from ehlectric.app.figures.surface import line_figure, map_figure, profile_figure
 from ehlectric.arrays import Array
@@ -20,6 +21,7 @@ from ehlectric.cases.case import Case
 from ehlectric.cases.quantity import to_si
 from ehlectric.cases.roughness import Roughness, check_geometry
 from ehlectric.contact.kinds import KINDS
+from ehlectric.contact.summary import formulas_of
 from ehlectric.errors import InputError
 from ehlectric.runtime.files import plain
 from ehlectric.runtime.progress import Progress
@@ -33,6 +35,9 @@ from ehlectric.tables.surface import size_text, statistics_rows
 
 # Memory that the reading and the processing of a surface may take beyond that of the process [bytes].
 _MEMORY = 3e9
+
+# Formula of the film with which heights are compared, by geometry.
+_FORMULA = {"line": "pan_hamrock", "point": "chittenden"}
 
 # Points of an exact shape that are drawn, along a line and along the sides of a map.
 _LINE, _SIDE = 2001, 161
@@ -105,7 +110,10 @@ class _Contact:
     def warnings(self) -> tuple[Told, ...]:
         spacings = self.kind.spacings(self.case, self.conditions)
         found = self.kind.surface_warnings(self.case.roughness, self.rough, self.domain, *spacings)
-        return told_of(found)
+        table, rough = self.case.roughness[0], self.rough[0]
+        thin = too_rough(table, rough, formulas_of(self.conditions)[_FORMULA[self.case.contact.geometry]])
+        told = tuple(plainly(one, table, rough, self.domain) for one in told_of(found))
+        return told if thin is None else (thin, *told)
 
 
 def _of_contact(case: Mapping[str, Any], rough: Any) -> tuple[Told, ...]:

@@ -193,13 +193,19 @@ _FIELD = Group(
 _IN_WIDTHS = "in half-widths of the dry contact"
 
 
-def _grid(label: str, ends: tuple[float, float]) -> Group:
+_SIDE = Field(
+    "grid.side", "Distance of the sides", "", 1.5, 10.0, note="in semi-axes of the dry contact, across"
+)
+
+
+def _grid(label: str, ends: tuple[float, float], *more: Field) -> Group:
     return Group(
         "Grid",
         (
             Field("grid.nodes", label, "", *ends, log=True, kind="count"),
             Field("grid.inlet", "Start of the domain", "", -10.0, -2.0, note=_IN_WIDTHS),
             Field("grid.outlet", "End of the domain", "", 1.2, 4.0, note=_IN_WIDTHS),
+            *more,
         ),
         opened=False,
     )
@@ -207,7 +213,7 @@ def _grid(label: str, ends: tuple[float, float]) -> Group:
 
 _GROUPS: Mapping[str, tuple[Group, ...]] = {
     "line": (_LINE, _OIL, _FIELD, _MATERIALS, _grid("Nodes", (201.0, 12801.0))),
-    "point": (_POINT, _OIL, _FIELD, _MATERIALS, _grid("Nodes along each side", (65.0, 513.0))),
+    "point": (_POINT, _OIL, _FIELD, _MATERIALS, _grid("Nodes along each side", (65.0, 513.0), _SIDE)),
 }
 
 # Tables and keys that line and point contacts share, which a change from one to the other keeps.

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from ehlectric.app.answers.figure import Shown
@@ -66,8 +68,9 @@ def _cut(result: PointResult, along: str, at: float) -> Shown:
         ),
         _field_panel(result, m, first=first),
     ]
-    edge = lengths.factor * conditions.semi_axes[0 if first else 1]
-    window = (BEFORE * edge, BEHIND * edge) if first else (-1.5 * edge, 1.5 * edge)
+    semi = lengths.factor * conditions.semi_axes[0 if first else 1]
+    edge = _edge(semi, place / conditions.semi_axes[1 if first else 0])
+    window = (BEFORE * semi, BEHIND * semi) if first else (-1.5 * semi, 1.5 * semi)
     window = max(window[0], float(x[0])), min(window[1], float(x[-1]))
     fixed_name, shown = ("y" if first else "x"), lengths.factor * place
     title = f"Cut along {along} at {fixed_name} = {shown:.4g} {lengths.unit}"
@@ -75,9 +78,16 @@ def _cut(result: PointResult, along: str, at: float) -> Shown:
         f"cut-{along}",
         title,
         f"{title}. Over {along} in {lengths.unit}: {', '.join(names_of(panels))}.",
-        stack(Along(along, lengths.unit, window, (-edge, edge)), panels),
-        f"Dashed lines: semi-axis of the dry contact, {along} = ±{edge:.4g} {lengths.unit}.",
+        stack(Along(along, lengths.unit, window, () if edge is None else (-edge, edge)), panels),
+        "This cut is outside of the dry contact."
+        if edge is None
+        else f"Dashed lines: edges of the dry contact on this cut, {along} = ±{edge:.4g} {lengths.unit}.",
     )
+
+
+def _edge(semi: float, off: float) -> float | None:
+    """Half-length of a chord of the dry contact, ``off`` semi-axes from its middle; None outside of it."""
+    return semi * math.sqrt(1.0 - off**2) if abs(off) < 1.0 else None
 
 
 def _field_panel(result: PointResult, index: int, *, first: bool) -> Panel:

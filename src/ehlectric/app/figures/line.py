@@ -232,7 +232,8 @@ def _potentials(result: Result, kept: Indices, to_x: float, to_z: float) -> dict
         "mode": "lines",
         "x": values(x, 5),
         "y": values(y, 4),
-        "line": {"color": "#ffffff", "width": 0.8},
+        # Seen on the colours of the field, and in the legend on a light and on a dark page.
+        "line": {"color": "#1098ad", "width": 1},
         "name": f"equal potential, every {step:.3g} V",
         "hoverinfo": "skip",
         "visible": "legendonly",

@@ -8,7 +8,7 @@ import numpy as np
 
 from ehlectric.app.answers.figure import Shown
 from ehlectric.app.figures.lengths import Lengths, is_turned, main_numbers
-from ehlectric.app.figures.look import BLUE, FIELD_COLOURS, INK, Plot, kept_nodes, plot, values
+from ehlectric.app.figures.look import FIELD_COLOURS, INK, Plot, kept_nodes, plot, values
 from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.results import PointResult
 
@@ -58,7 +58,10 @@ def film_surface(result: PointResult) -> Shown:
 
 
 def _points(result: PointResult, lengths: Lengths, to_h: float, to_e: float) -> list[dict[str, Any]]:
-    """Marks of the minimum film and of the maximum field, which may lie on top of each other."""
+    """Pins at the minimum film and at the maximum field: the surface does not bury their heads.
+
+    They have different lengths, as both may be at the same place.
+    """
     film, field = result.film, result.field
     units = unit_for(film.central_thickness, "m")[1], unit_for(field.max_strength, "V/m")[1]
     gap = field.z[:, :, -1] - field.z[:, :, 0]
@@ -69,34 +72,47 @@ def _points(result: PointResult, lengths: Lengths, to_h: float, to_e: float) -> 
         f"minimum film, {to_h * film.minimum_thickness:.4g} {units[0]}",
         f"maximum field, {to_e * field.max_strength:.4g} {units[1]}",
     )
-    looks = ({"symbol": "circle-open", "size": 9}, {"symbol": "x", "size": 4})
+    looks = (("#00a0ff", "circle"), ("#00b386", "diamond"))
     return [
         {
             "type": "scatter3d",
-            "mode": "markers",
-            "x": [lengths.factor * at[0]],
-            "y": [lengths.factor * at[1]],
-            "z": [to_h * at[2]],
-            "marker": {"color": color, **look},
+            "mode": "lines+markers",
+            "x": [lengths.factor * at[0]] * 2,
+            "y": [lengths.factor * at[1]] * 2,
+            "z": [to_h * at[2], to_h * at[2] + part * _top(result)],
+            "line": {"color": colour, "width": 5},
+            "marker": {"color": colour, "symbol": symbol, "size": [0, 6], "opacity": 1},
             "name": name,
             "hovertemplate": f"{name}<extra></extra>",
         }
-        for at, name, look, color in zip((least, largest), names, looks, (BLUE, "#00a0ff"), strict=True)
+        for at, name, (colour, symbol), part in zip((least, largest), names, looks, (0.25, 0.45), strict=True)
     ]
+
+
+def _top(result: PointResult) -> float:
+    """End of the axis of heights, in their unit; the film is far thicker around the contact."""
+    film = result.film
+    return 1.8 * unit_for(film.central_thickness, "m")[0] * max(film.central_thickness, film.mean_thickness)
 
 
 def _scene(result: PointResult, lengths: Lengths, unit: str) -> Plot:
     """Axes of the surface, cut off where the film is far thicker than in the middle."""
-    film, ratio = result.film, min(1.8, max(0.6, result.conditions.ratio))
-    top = 1.8 * unit_for(film.central_thickness, "m")[0] * max(film.central_thickness, film.mean_thickness)
-    look = {"color": INK, "gridcolor": INK, "showbackground": False, "tickfont": {"size": 12}}
+    ratio = min(1.8, max(0.6, result.conditions.ratio))
+    look = {
+        "color": INK,
+        "gridcolor": INK,
+        "linecolor": INK,
+        "showline": True,
+        "showbackground": False,
+        "tickfont": {"size": 12},
+    }
     # A long contact is seen from the inlet, with its long axis across the page.
-    eye = {"x": -1.45, "y": -0.4, "z": 1.4} if is_turned(result) else {"x": -0.7, "y": -1.15, "z": 1.4}
+    eye = {"x": -1.9, "y": -0.5, "z": 1.5} if is_turned(result) else {"x": -0.95, "y": -1.6, "z": 1.5}
     return {
         "scene": {
             "xaxis": {"title": {"text": f"x [{lengths.unit}]"}, **look},
             "yaxis": {"title": {"text": f"y [{lengths.unit}]"}, **look},
-            "zaxis": {"title": {"text": f"film [{unit}]"}, "range": [0.0, top], **look},
+            "zaxis": {"title": {"text": f"film [{unit}]"}, "range": [0.0, _top(result)], **look},
             "aspectmode": "manual",
             "aspectratio": {"x": ratio**-0.5, "y": ratio**0.5, "z": 0.45},
             "camera": {"eye": eye, "center": {"x": 0.0, "y": 0.0, "z": -0.12}},

@@ -33,8 +33,11 @@ _GEOMETRIES = {"line": "Line contact", "point": "Point contact"}
 # Numbers of the short answer.
 _SHORT = ("minimum-film", "breakdown-voltage")
 
+# Places of the movie among the cards of the answer, while surfaces move and at rest.
+_MOVIE_FIRST, _MOVIE_LAST = 1, 3
+
 _MOVING = (
-    "These surfaces move, so that the command solves their film over time. The movie below is that solution; "
+    "These surfaces move, so that the command solves their film over time. The movie above is that solution; "
     "switch the motion off to solve them at rest."
 )
 
@@ -52,7 +55,9 @@ def add(work: Work) -> None:
         with framed("Film, pressure and field of one contact", _PATH):
             page.build(error)
         await ui.context.client.connected()
-        await page.refresh()
+        # The wait ends with the client, too; an answer would make the folder of its session again.
+        if not ui.context.client.is_deleted:
+            await page.refresh()
 
 
 class ContactPage:
@@ -107,6 +112,7 @@ class ContactPage:
             self.form = Form(groups_of(self._form_of), self.session.inputs, self.change)
 
     def _build_answer(self) -> None:
+        self._answer = ui.context.slot.parent
         with card("Before solving, by formula"):
             self._formula = ui.element("div").classes("told-answer")
             self._formula.props('aria-live="polite" data-testid="by-formula"')
@@ -119,8 +125,10 @@ class ContactPage:
             self.view = ContactViewBox(self.session)
         with card("Rough surfaces"):
             self._roughness = RoughnessBox(self.session, self._inputs_changed)
-        with card("Rough surfaces in motion"):
+        with card("Rough surfaces in motion") as self._movie_card:
             self._movie = MovieBox(self.session, self._inputs_changed)
+        self._movie_first = False
+        self._place_movie()
         Downloads(self.session, "contact", lambda: self.folder)
 
     async def _switch(self, event: Any) -> None:
@@ -146,10 +154,13 @@ class ContactPage:
         """Answer inputs into which a box has put other surfaces or another motion."""
         # The button that removed a surface is no longer there.
         with self._form_place:
+            if self._place_movie():
+                self._movie.show_switch()
             await self.shown_again()
 
     async def shown_again(self) -> None:
         """Show the present inputs everywhere, as after an undo, and answer them."""
+        self._place_movie()
         self._show_address()
         self._kind.set_value(geometry_of(self.session.inputs))
         if self._form_of == geometry_of(self.session.inputs):
@@ -219,6 +230,15 @@ class ContactPage:
     def _is_moving(self) -> bool:
         return self.session.inputs.value("motion") is not None
 
+    def _place_movie(self) -> bool:
+        """Put the movie above what is solved at rest while surfaces move; True where it changed its place."""
+        moving = self._is_moving()
+        if moving == self._movie_first:
+            return False
+        self._movie_first = moving
+        self._movie_card.move(self._answer, _MOVIE_FIRST if moving else _MOVIE_LAST)
+        return True
+
     def _is_solved(self) -> bool:
         return self._solved == self.session.inputs
 
@@ -287,8 +307,11 @@ class ContactPage:
             self._show(job.result, *self._running)
         elif job.state == "cancelled":
             self._show_state("Cancelled.")
-        elif job.error is not None:
-            self._tell(job.error)
+        elif job.error is not None and self._running is not None:
+            if self._running[0] == self.session.inputs:
+                self._tell(job.error)
+            else:
+                self._show_state(f"Earlier inputs were not solved: {job.error}")
 
     def _show(self, view: ContactView, inputs: Inputs, folder: Path | None) -> None:
         before, self._folder, self._solved = self._folder, folder, inputs

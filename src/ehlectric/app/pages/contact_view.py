@@ -17,7 +17,7 @@ from ehlectric.errors import InputError, LostError
 
 # Figures on which a click chooses the point of the cuts, and those that take the whole width.
 _MAPS = ("film-map", "pressure-map", "field-map")
-_WIDE = ("profiles", "section")
+_WIDE = ("profiles", "section", "surface")
 
 # Position of a click on a figure, all that is sent of it.
 _PLACE = "(event) => emit({x: event.points[0].x, y: event.points[0].y})"

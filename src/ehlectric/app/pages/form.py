@@ -64,7 +64,10 @@ class Form:
             self.note = ui.label().classes("form-note").props('aria-live="polite" data-testid="form-note"')
             for group in groups:
                 self._group(group)
-            self._others = ui.element("div").classes("form-others")
+            with ui.element("details").classes("form-others").props('data-testid="other-inputs"') as others:
+                self._others_head = ui.html("", sanitize=False, tag="summary").classes("group-title")
+                self._others_list = ui.element("div")
+            self._others = others
         self._tell_note("")
         self._show()
         self.tell(None)
@@ -252,11 +255,10 @@ class Form:
         """Show the inputs that no field has, such as those of a file, so that nothing is hidden."""
         own = {field.key for field, _ in self._controls}
         rest = {key: value for key, value in self._inputs.flat().items() if key not in own and value != {}}
-        self._others.clear()
-        if not rest:
-            return
-        with self._others:
-            ui.label("Other inputs").classes("group-title")
+        self._others.set_visibility(bool(rest))
+        self._others_head.set_content(f"Other inputs of the file ({len(rest)})")
+        self._others_list.clear()
+        with self._others_list:
             for key, value in rest.items():
                 self._other(key, value)
 

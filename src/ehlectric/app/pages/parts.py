@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from html import escape
+from time import monotonic
 from typing import TYPE_CHECKING, Any, cast
 
 from nicegui import ui
 
 from ehlectric.app.answers.line import Line
 from ehlectric.app.answers.told import Told
+from ehlectric.app.remaining import Remaining
 from ehlectric.app.work import Job
 from ehlectric.errors import SEVERITY_WORDS
 from ehlectric.report.light import light_of
@@ -149,6 +151,7 @@ class JobBox:
     def __init__(self, done: Callable[[Job], Any]) -> None:
         self._done = done
         self._job: Job | None = None
+        self._remaining = Remaining()
         with ui.element("div").classes("job").props('aria-live="polite"') as self._box:
             self._bar = ui.element("progress").props('max=1 aria-label="Progress" data-testid="progress"')
             self._text = ui.label().classes("job-text")
@@ -158,7 +161,7 @@ class JobBox:
 
     def show(self, job: Job) -> None:
         """Show a job until it ends."""
-        self._job = job
+        self._job, self._remaining = job, Remaining()
         self._box.set_visibility(True)
         self._timer.activate()
 
@@ -172,7 +175,9 @@ class JobBox:
         if job is None:
             return
         self._bar.props(f"value={job.done / job.of:.4f}" if job.of else "", remove="" if job.of else "value")
-        self._text.text = job.text if not job.of else f"{job.text}: {job.done} of {job.of}"
+        left = self._remaining.told(job.text, job.done, job.of, now=monotonic())
+        count = f"{job.text}: {job.done} of {job.of}" if job.of else job.text
+        self._text.text = ", ".join(filter(None, [count, left]))
         if job.over:
             self._timer.deactivate()
             self._box.set_visibility(False)

@@ -18,9 +18,19 @@ def start(name: str) -> Inputs:
 BEARING = start("bearing_6208")
 
 
+# Strength of the first answers, that of the bearing: an assumption.
+_STRENGTH = {"discharge.dielectric_strength": "15 V/um"}
+
+# Grid of the point contact. It is larger than that of the example, so that the film has no warning about it,
+# also with the oil and the speed of the line contact with which the page begins.
+_POINT_GRID = {"grid.nodes": 385, "grid.inlet": -6.0, "grid.side": 5.0}
+
+
 def contact_start(geometry: str) -> Inputs:
-    """Inputs of the example of a line contact or of a point contact."""
-    return start("ball_contact" if geometry == "point" else "line_contact")
+    """Inputs with which the page of a line contact or of a point contact begins, with an assumed strength."""
+    if geometry == "point":
+        return start("ball_contact").changed({**_STRENGTH, **_POINT_GRID})
+    return start("line_contact").changed(_STRENGTH)
 
 
 SWEEP = Inputs(

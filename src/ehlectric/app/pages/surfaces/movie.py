@@ -30,6 +30,10 @@ _KEYS = (
     RoughKey("record", "Recorded instants", "200", number=True),
 )
 
+# Motion with which the page begins: that of the example, with fewer instants, at each of which a field is
+# solved.
+_FIRST = {**start("moving_roughness").value("motion"), "record": 60}
+
 
 class MovieBox:
     """Box in which the roughness of a contact is set in motion and shown over time.
@@ -73,6 +77,12 @@ class MovieBox:
         """Folder with the files of the movie; see the attributes."""
         return self._folder if self._of == self._session.inputs.table else None
 
+    def show_switch(self) -> None:
+        """Bring the switch into view with the focus, after its card has changed its place."""
+        found = f'document.getElementById("{self._switch.html_id}")'
+        shown = f"{found}?.scrollIntoView({{block: 'center'}}); {found}?.focus();"
+        ui.run_javascript(f"setTimeout(() => {{{shown}}}, 100)")
+
     def refresh(self) -> None:
         """Show the present inputs; a movie of other inputs is dimmed, and words say so."""
         table = self._session.inputs.value("motion")
@@ -108,7 +118,7 @@ class MovieBox:
         on = bool(event.value)
         if on == isinstance(self._session.inputs.value("motion"), Mapping):
             return
-        await self._give(dict(start("moving_roughness").value("motion")) if on else None)
+        await self._give(_FIRST if on else None)
 
     async def _set(self, key: str, value: Any) -> None:
         table = {**(self._session.inputs.value("motion") or {}), key: value}
@@ -142,7 +152,7 @@ class MovieBox:
         if job.state == "done":
             self._show(job.result, "")
             return
-        if job.error is not None:
+        if job.error is not None and self._running == self._session.inputs.table:
             self._tell(job.error)
         await self._show_part("cancelled" if job.state == "cancelled" else str(job.error))
 
@@ -153,13 +163,16 @@ class MovieBox:
             answer = await self._session.work.quick(MOTION_STORED, self._running, str(self._session.folder))
         except (InputError, LostError) as error:
             # The error of the run itself is told already.
-            if why == "cancelled":
+            if why == "cancelled" and self._running == self._session.inputs.table:
                 self._tell(error)
             answer = None
         if answer is not None:
             self._show(answer, why)
         else:
-            self._state.text = "No instant is solved."
+            newer = self._running != self._session.inputs.table
+            self._state.text = (
+                f"Earlier inputs ({why}): no instant is solved." if newer else "No instant is solved."
+            )
 
     def _show(self, answer: MotionAnswer, why: str) -> None:
         self._of = self._running

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Awaitable, Callable, Mapping, Sequence
 from typing import Any
 from weakref import WeakKeyDictionary
@@ -26,7 +27,7 @@ from ehlectric.app.roughness_keys import (
     RoughKey,
 )
 from ehlectric.app.session import Session
-from ehlectric.app.uploads import LARGEST, SURFACES, new_name, own_file, shown_name
+from ehlectric.app.uploads import LARGEST, SURFACES, new_file, own_file, shown_name
 from ehlectric.app.work import Job
 from ehlectric.errors import InputError, LostError
 
@@ -57,10 +58,12 @@ class RoughnessBox:
         self._session, self._changed = session, changed
         self._draft: dict[str, Any] = {"surface": 1}
         self._names = _NAMES.setdefault(session, {})
+        self._coming = _COMING.setdefault(session, {})
         self._parts: list[Keys] = []
         self._groups: dict[Keys, ui.element] = {}
         self._answer: SurfaceAnswer | None = None
-        self._asked = 0
+        # Numbers of the last look, and of that for which a job reads a large file.
+        self._asked = self._asked_by_job = 0
         # Inputs of which the note tells something.
         self._noted: Inputs | None = None
         with ui.element("div").classes("box").props('data-testid="roughness"'):
@@ -75,6 +78,7 @@ class RoughnessBox:
                 self._use = ui.button("Use this surface", on_click=self._put, color=None).classes("primary")
                 self._use.props('flat no-caps data-testid="use-surface"')
         self._tell(None)
+        self._use.disable()
         self._edit()
         self.refresh()
 
@@ -175,16 +179,34 @@ class RoughnessBox:
 
     async def _take(self, event: events.UploadEventArguments) -> None:
         """Keep an uploaded file in the folder of the session, and show it."""
-        size, given = event.file.size(), event.file.name
-        kept = sum(file.stat().st_size for file in self._session.folder.glob(f"{SURFACES}/*"))
+        size, given, folder = event.file.size(), event.file.name, self._session.folder
+        kept = sum(
+            max(file.stat().st_size, self._coming.get(f"{SURFACES}/{file.name}", 0))
+            for file in folder.glob(f"{SURFACES}/*")
+        )
         if size > LARGEST or kept + size > _MOST:
             limits = f"at most {LARGEST / 1e6:g} MB, and {_MOST / 1e6:g} MB of all uploaded files"
             self._refuse(f"{shown_name(given)}: has {size / 1e6:.4g} MB; expected {limits}")
             return
-        name = new_name(given, self._session.folder)
-        await event.file.save(self._session.folder / name)
+        name = new_file(given, folder)
+        self._coming[name] = size
+        try:
+            await event.file.save(folder / name)
+        except OSError:
+            (folder / name).unlink(missing_ok=True)
+            self._refuse(f"{shown_name(given)}: could not be stored; try again")
+            return
+        finally:
+            del self._coming[name]
+        if self._view.is_deleted:
+            # The tab was closed meanwhile, and its folder removed.
+            shutil.rmtree(folder, ignore_errors=True)
+            return
         self._names[name] = shown_name(given)
-        self._draft = {key: value for key, value in self._draft.items() if key != "generator"}
+        # The file of an instrument has the tilt of the sample, which is no roughness.
+        self._draft = {"form": "line"} | {
+            key: value for key, value in self._draft.items() if key != "generator"
+        }
         self._draft["file"] = name
         self._edit()
         await self._look()
@@ -196,6 +218,7 @@ class RoughnessBox:
         """Show the surface of the draft; an answer that comes after newer values is dropped."""
         self._asked += 1
         asked = self._asked
+        self._job.cancel()
         if "file" not in self._draft and "generator" not in self._draft:
             self._show(None)
             return
@@ -206,7 +229,7 @@ class RoughnessBox:
         inputs, folder = dict(self._session.inputs.table), str(self._session.folder)
         values = dict(self._draft), inputs, folder, self._names.get(file, shown_name(file) if file else "")
         if path is not None and path.stat().st_size > _LARGE:
-            self._job.cancel()
+            self._asked_by_job = asked
             try:
                 self._job.show(self._session.start(SURFACE, *values))
             except LostError as error:
@@ -222,6 +245,8 @@ class RoughnessBox:
             self._show(answer)
 
     def _ended(self, job: Job) -> None:
+        if self._asked_by_job != self._asked:
+            return
         if job.state == "done":
             self._show(job.result)
         else:
@@ -285,6 +310,9 @@ class RoughnessBox:
 
 # Names that users gave to the uploaded files of a session, by path; a box may be built again in a session.
 _NAMES: WeakKeyDictionary[Session, dict[str, str]] = WeakKeyDictionary()
+
+# Sizes of the files of a session that are being stored [bytes].
+_COMING: WeakKeyDictionary[Session, dict[str, int]] = WeakKeyDictionary()
 
 _HIDDEN = ("surface", "file", "generator")
 

@@ -1,0 +1,112 @@
+"""Numbers of a contact that its warnings concern."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import MappingProxyType
+
+_HERTZ = ("hertz-pressure",)
+_FILM = ("minimum-film", "central-film")
+_PRESSURE = ("max-pressure",)
+_FIELD = ("max-field", "breakdown-voltage")
+_BREAKDOWN = ("breakdown-voltage",)
+_SOLVED = (*_FILM, *_PRESSURE, "max-field", "capacitance", *_BREAKDOWN)
+
+# Numbers that a warning concerns, by its code; empty for those that concern the whole result or none of the
+# numbers of a contact. A severe warning stands beside every number of a solved contact. A new code must be
+# given its place here: a test compares this table with all codes.
+CONTACT_PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {
+        # Contact
+        "regime": _FILM,
+        "radius-large": (),
+        "ambient-pressure": _HERTZ,
+        "plastic-deformation": _HERTZ,
+        "law-range": _HERTZ,
+        "roelands-z": _FILM,
+        "estimated-alpha": _FILM,
+        # Rough surfaces
+        "spacing-irregular": (),
+        "voids-filled": (),
+        "heights-cut": (),
+        "roughness-continued": (),
+        "roughness-unresolved": (*_FILM, *_PRESSURE, *_FIELD),
+        "variance-missed": (*_FILM, *_PRESSURE, *_FIELD),
+        "seed-repeated": (),
+        # Film
+        "not-converged": _SOLVED,
+        "surfaces-touch": ("minimum-film", *_BREAKDOWN),
+        "thinner-than-atom": ("minimum-film", *_FIELD),
+        "refine-not-reached": _FILM,
+        "error-unknown": ("minimum-film",),
+        "coarser-grid-unsolved": _SOLVED,
+        "grid-too-coarse": _FILM,
+        "grid-far-too-coarse": _SOLVED,
+        "local-plastic-deformation": _PRESSURE,
+        "outlet-too-short": (),
+        "inlet-too-short": _FILM,
+        "inlet-far-too-short": _SOLVED,
+        "domain-too-small": _FILM,
+        "domain-far-too-small": _SOLVED,
+        # Electric field and discharge
+        "field-grid-too-coarse": ("max-field", "capacitance", *_BREAKDOWN),
+        "field-unresolved": _FIELD,
+        "field-range-too-narrow": _FIELD,
+        "field-above-insulators": ("max-field",),
+        "breakdown-expected": _BREAKDOWN,
+        "strength-above-liquids": _BREAKDOWN,
+        "tunnelling": _FIELD,
+        "strength-table-exceeded": _BREAKDOWN,
+        "roughness-factor-rough": ("capacitance",),
+        "coating-in-series": _FIELD,
+        # Transient contacts
+        "stationary-differs": (),
+        "stationary-not-converged": (),
+        "stationary-error": (),
+        "steps-too-long": (),
+        "steps-halved": (),
+        # Bearings
+        "formula-contacts": (),
+        "isothermal-film": _BREAKDOWN,
+        "temperature-unused": _FILM,
+        "viscosity-of-base": _FILM,
+        "temperature-low": _FILM,
+        "speed-high": (),
+        "load-low": (),
+        "temperature-extreme": (),
+        "viscosity-high": _FILM,
+        "clearance-class": (),
+        "clearance-negative": (),
+        "fit-loose": (),
+        "viscosity-grade": _FILM,
+        "clearance-taken-up": (),
+        "shoulder-reached": (),
+        "touching": _FILM,
+        "partial-film": _FILM,
+        "smooth-film": _BREAKDOWN,
+        "shaft-leaks": (),
+        "coating-breakdown": (),
+        "current-density-high": (),
+        "capacitance-bound": ("capacitance",),
+        "weibull-voltage": _BREAKDOWN,
+        "speed-left-out": (),
+        # Sweeps and measurements
+        "points-with-warnings": (),
+        "points-with-notes": (),
+        "points-not-usable": (),
+        "points-of-another-version": (),
+        "rows-dropped": (),
+        "rows-not-usable": (),
+        "intervals-wide": (),
+        "formula-films": _FILM,
+        "columns-ignored": (),
+        "rows-without-factor": (),
+        "scatter-only": (),
+        "scatter-large": (),
+        "factor-varies": (),
+        "range-left-out": (),
+        # Files of other versions
+        "not-usable": _SOLVED,
+        "unclassified": (),
+    }
+)
