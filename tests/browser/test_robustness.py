@@ -113,7 +113,7 @@ def test_a_file_that_is_too_large_is_refused_before_it_is_read(open_page, app_se
         "/?bearing.base='6208'&" + quote("\"b :x='(window.ran=1)' c\"") + "=1",
         "/contact?contact.geometry=line&roughness="
         + quote('[{surface="1\\" :x=\'(window.ran=1)\' y=\\"", generator="waves"}]'),
-        "/?bearing.base='6208'&title=" + quote("'\"><img src=x onerror=\"window.ran=1\">'"),
+        "/?bearing.base='6208'&title=" + quote('\'"><img src=x onerror="window.ran=1">\''),
     ],
 )
 def test_no_text_of_a_link_runs(open_page, app_server, address):

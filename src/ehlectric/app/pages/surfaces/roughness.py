@@ -27,7 +27,7 @@ from ehlectric.app.roughness_keys import (
     RoughKey,
 )
 from ehlectric.app.session import Session
-from ehlectric.app.uploads import LARGEST, SURFACES, new_file, own_file, shown_name
+from ehlectric.app.uploads import LARGEST, MOST_TOGETHER, SURFACES, new_file, own_file, shown_name
 from ehlectric.app.work import Job
 from ehlectric.errors import InputError, LostError
 
@@ -35,9 +35,6 @@ Changed = Callable[[], Awaitable[None] | None]
 
 # Size of a file from which a process of its own reads it [bytes]; smaller ones take a second at most.
 _LARGE = 4_000_000
-
-# Size of all uploaded files of a session [bytes].
-_MOST = 4 * LARGEST
 
 _SURFACE = RoughKey("surface", "Surface of the contact", choices={"1": "1, the lower", "2": "2, the upper"})
 _SOURCE = RoughKey("source", "Surface", choices={"file": "from an instrument's file"} | dict(GENERATOR_NAMES))
@@ -184,8 +181,8 @@ class RoughnessBox:
             max(file.stat().st_size, self._coming.get(f"{SURFACES}/{file.name}", 0))
             for file in folder.glob(f"{SURFACES}/*")
         )
-        if size > LARGEST or kept + size > _MOST:
-            limits = f"at most {LARGEST / 1e6:g} MB, and {_MOST / 1e6:g} MB of all uploaded files"
+        if size > LARGEST or kept + size > MOST_TOGETHER:
+            limits = f"at most {LARGEST / 1e6:g} MB, and {MOST_TOGETHER / 1e6:g} MB of all uploaded files"
             self._refuse(f"{shown_name(given)}: has {size / 1e6:.4g} MB; expected {limits}")
             return
         name = new_file(given, folder)
