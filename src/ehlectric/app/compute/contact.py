@@ -104,7 +104,7 @@ def check_contact(table: Mapping[str, Any], folder: str) -> ContactCheck:
     """
     case = contact_case(table, folder)
     meaning = check(case)
-    level, text = _by_formula(meaning.summary.get("breakdown_by_formula"), meaning.warnings)
+    level, text = verdict_by_formula(meaning.summary.get("breakdown_by_formula"), meaning.warnings)
     numbers = _check_numbers(meaning.summary)
     keys = {number.key for number in numbers}
     return ContactCheck(
@@ -160,9 +160,11 @@ def _number(key: str, label: str, value: float, unit: str, note: str = "", least
     return Number(key, label, f"{factor * value:.4g}", shown_unit, note)
 
 
-def _by_formula(estimate: Mapping[str, Any] | None, warnings: Iterable[ResultWarning]) -> tuple[str, str]:
+def verdict_by_formula(
+    estimate: Mapping[str, Any] | None, warnings: Iterable[ResultWarning]
+) -> tuple[str, str]:
     """Level and sentences of the verdict by formula, within the errors of film and strength."""
-    if estimate is None:
+    if estimate is None or estimate["margin"] is None:
         return (
             "grey",
             "No verdict by formula: it needs a dielectric strength that is no table over pressure.",

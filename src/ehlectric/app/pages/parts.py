@@ -55,8 +55,8 @@ class Strip:
     def show(self, level: str, word: str, numbers: Iterable[str] = (), *, bound: str = "") -> None:
         """Show the level of a verdict, its word and bound, and a few numbers such as "margin ≤ 1.46"."""
         self._box.classes(replace=f"strip {level}")
-        self._word.text = " ".join(filter(None, [_SIGNS[level], bound, word]))
-        self._numbers.text = " · ".join(numbers)
+        self._word.text = f"{_SIGNS[level]} {word}"
+        self._numbers.text = " · ".join(filter(None, [bound, *numbers]))
 
     def dim(self, *, dimmed: bool) -> None:
         """Dim the answer while it is that of earlier inputs."""
@@ -100,10 +100,11 @@ def light(level: str, text: str, *, testid: str = "verdict") -> None:
     with ui.element("div").classes(f"light {level}") as box:
         box.props(f'role="status" data-testid="{testid}" data-level="{level}"')
         ui.label(_SIGNS[level]).classes("sign").props('aria-hidden="true"')
-        if shown.bound:
-            ui.label(shown.bound).classes("at-most").props('aria-hidden="true"')
         with ui.element("div").classes("words"):
-            ui.label(shown.words).classes("level")
+            with ui.element("div").classes("heading"):
+                ui.label(shown.words).classes("level")
+                if shown.bound:
+                    ui.label(shown.bound).classes("at-most")
             ui.label(shown.rest).classes("sentences")
 
 
