@@ -107,6 +107,7 @@ def test_a_wrong_value_has_the_line_of_the_command_beside_it(page, tmp_path, key
     _, told = command("bearing", path, "--contacts", "formula", folder=tmp_path, status=2)
     assert " ".join(error.inner_text().split()) in " ".join(told.split())
     assert "expected" in error.inner_text()
+    assert "being computed" not in page.get_by_test_id("number-critical-speed").inner_text()
     assert page.get_by_test_id("answer").get_attribute("aria-busy") == "true", "an old answer is dimmed"
     page.get_by_test_id("undo").click()
     error.wait_for(state="detached")

@@ -81,7 +81,7 @@ def test_a_bearing_is_compared_from_its_page_and_changed_there(page, tmp_path):
     page.wait_for_url("**/compare?**")
     page.get_by_test_id("compared").get_by_text("Both cases have the same inputs").wait_for()
     page.get_by_test_id("inputs-b").click()
-    box = page.get_by_test_id("side-b").get_by_test_id("field-bearing-radial_load")
+    box = page.get_by_test_id("form-b").get_by_test_id("field-bearing-radial_load")
     box.fill("3600 N")
     box.press("Tab")
     page.get_by_test_id("input-bearing-radial_load").wait_for()
@@ -95,7 +95,7 @@ def test_a_wrong_case_is_told_at_its_side_and_has_no_effects(open_page, app_serv
     one, _ = tables()
     wrong = dict(Inputs(one).changed({"bearing.radial_load": "-5 N"}).table)
     page = open_page(app_server, address_of("/compare", {"a": one, "b": wrong}))
-    error = page.get_by_test_id("side-b").get_by_test_id("error-bearing-radial_load")
+    error = page.get_by_test_id("form-b").get_by_test_id("error-bearing-radial_load")
     error.filter(has_text="expected").wait_for()
     assert page.get_by_test_id("verdict-b").count() == 0
     page.get_by_test_id("verdict-a").wait_for()

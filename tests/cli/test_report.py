@@ -70,7 +70,7 @@ def test_of_a_bearing_by_formula(ehlectric, tmp_path):
         summary["verdict"],
         f"capacitance of the bearing {totals['capacitance'] * 1e12:.4g} pF",
         f"first breakdown voltage ≤ {totals['first_break']:.4g} V",
-        "No breakdown expected, as an upper bound",
+        "No breakdown expected in an ideal film",
         "library 6208: assumed [3]",
     ):
         assert text in page.text, text

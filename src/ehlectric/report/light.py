@@ -19,11 +19,12 @@ _WORDS = {
     "grey": "No verdict",
 }
 
-# Ends of a heading, for a verdict on an upper bound.
+# Ends of a heading for a verdict on an upper bound: the computed film is an ideal one, and a real film may be
+# thinner.
 _ENDS = {
-    "green": ", as an upper bound",
-    "yellow": "; the margin is an upper bound",
-    "red": "; the margin is an upper bound",
+    "green": " in an ideal film",
+    "yellow": " even in an ideal film",
+    "red": " even in an ideal film",
     "grey": "; the breakdown voltage is an upper bound",
 }
 
@@ -46,11 +47,11 @@ class Light:
     level : str
         Colour of the light, which is the level of the verdict.
     words : str
-        Heading, so that the colour is not the only sign; it says where the verdict is an upper bound.
+        Heading, so that the colour is not the only sign; it says where the verdict is that of an ideal film.
     text : str
         Sentences of the verdict.
     bound : str
-        "≤" for an upper bound, which stands beside the colour; empty otherwise.
+        "upper bound" for a verdict on one, which stands beside the heading; empty otherwise.
     """
 
     level: Level
@@ -80,7 +81,7 @@ def light_of(level: Level, text: str) -> Light:
     >>> text = "No breakdown expected: margin 1.44. Upper bound: isothermal film."
     >>> light = light_of("green", text)
     >>> light.level, light.words, light.bound
-    ('green', 'No breakdown expected, as an upper bound', '≤')
+    ('green', 'No breakdown expected in an ideal film', 'upper bound')
     >>> light.rest
     'Margin 1.44. Upper bound: isothermal film.'
     """
@@ -89,4 +90,4 @@ def light_of(level: Level, text: str) -> Light:
     named = len(first) <= _LONGEST and not any(letter.isdigit() for letter in first)
     words = first if named and first else _WORDS[level]
     bound = text.startswith(_BOUND) or f". {_BOUND}" in text
-    return Light(level, words + _ENDS[level] if bound else words, text, "≤" if bound else "")
+    return Light(level, words + _ENDS[level] if bound else words, text, "upper bound" if bound else "")

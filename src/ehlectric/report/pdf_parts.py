@@ -107,8 +107,8 @@ def parts_of(block: object, width: float, height: float) -> Iterator[Flowable]:
 def _light(light: Light, width: float) -> Flowable:
     """Panel of a verdict, with its lamp beside what it means."""
     colour = _LIGHTS[light.level]
-    heading = escape(" ".join(filter(None, [light.bound, light.words])))
-    words = f'<font size="11" color="{colour}">\u25cf</font> <font size="11"><b>{heading}</b></font>'
+    heading, bound = escape(light.words), f" ({escape(light.bound)})" if light.bound else ""
+    words = f'<font size="11" color="{colour}">\u25cf</font> <font size="11"><b>{heading}</b></font>{bound}'
     return _panel([words, escape(light.text)], colour, width)
 
 

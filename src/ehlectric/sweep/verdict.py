@@ -56,14 +56,16 @@ def sweep_verdict(results: SweepPoints) -> Verdict | None:
     lowest, highest = float(np.min(known)), float(np.max(known))
     count = str(below) if below else "none"
     span = f"{ratio_text(lowest)} to {ratio_text(highest)}"
+    doubts = list(_doubts(results, usable))
+    # A verdict that is not sure at its points is not sure between them.
+    word = "likely" if doubts and below else "expected"
     sentences = [
-        f"Breakdown is expected at {count} of {known.size} points: the margin is {span}.",
-        *_crossings(results, usable),
+        f"Breakdown is {word} at {count} of {known.size} points: the margin is {span}.",
+        *_crossings(results, usable, word),
     ]
     if missing:
         sentences.append(f"{missing} more {_have(missing)} no margin, {_why(results, usable)}.")
     level: Level = "red" if below == known.size else "yellow" if below or missing else "green"
-    doubts = list(_doubts(results, usable))
     if doubts:
         level = "yellow"
     return Verdict(level, " ".join([*sentences, *doubts, *_assumptions(results)]), lowest)
@@ -176,7 +178,7 @@ def _why(results: SweepPoints, margins: Array) -> str:
     return ", ".join(f"{count} {reason}" for reason, count in counts.items())
 
 
-def _crossings(results: SweepPoints, margins: Array) -> list[str]:
+def _crossings(results: SweepPoints, margins: Array, word: str) -> list[str]:
     """Sentences about the values of a single varied input at which the margin crosses 1."""
     if len(results.varied) != 1 or results.design == "sobol":
         return []
@@ -191,7 +193,7 @@ def _crossings(results: SweepPoints, margins: Array) -> list[str]:
     )
     return [
         f"{'Below' if low[1] < high[1] else 'Above'} about "
-        f"{value_text(key, crossing(low, high), results.case)} the margin is below 1: breakdown is expected."
+        f"{value_text(key, crossing(low, high), results.case)} the margin is below 1: breakdown is {word}."
         for low, high in pairwise(rows)
         if (low[1] < 1.0) != (high[1] < 1.0)
     ]

@@ -8,6 +8,7 @@ import pytest
 from ehlectric import BearingCase, solve
 from ehlectric.app.answers.compare import Effect, Result, effects, in_both, input_rows, only_in
 from ehlectric.app.compute.compare import side, whole_side
+from ehlectric.app.compute.contact import check_contact
 from ehlectric.app.figures import compare as figures
 from ehlectric.app.inputs import Inputs
 from ehlectric.app.pages.tables import effects_table, inputs_table
@@ -18,6 +19,9 @@ from tests.helpers.places import EXAMPLES
 def example(name):
     return Inputs(tomllib.loads((EXAMPLES / f"{name}.toml").read_text(encoding="utf-8")))
 
+
+# Coating of an outer ring.
+COATING = {"base": "schaeffler-j20aa", "relative_permittivity": 9.0, "area": "45 cm^2"}
 
 FAST = example("bearing_6208")
 SLOW = FAST.changed({"bearing.inner_speed": "1000 rpm", "motor.switching_frequency": "10 kHz"})
@@ -57,6 +61,10 @@ def test_an_upper_bound_says_so(both):
     found = {result.name: result for result in both[0].results}
     assert found["first breakdown voltage"].shown.startswith("≤ ")
     assert found["capacitance of the bearing"].bound == ""
+    assert found["shaft voltage"].bound == ""
+    assert found["minimum lambda ratio"].bound == "≤"
+    whole = {result.name: result for result in whole_side(FAST.table).results}
+    assert whole["critical speed"].bound == "≥", "thinner films break down at higher speeds too"
     ceramic = side(FAST.changed({"bearing.element_material": "silicon-nitride"}).table)
     assert {row.name: row for row in ceramic.results}["capacitance of the bearing"].bound == "≤"
 
@@ -81,11 +89,23 @@ def test_effects_of_results_that_are_texts_or_missing():
         return type("Side", (), {"results": rows})()
 
     assert effect("12 nJ", "6 nJ") == "▼ −50\N{NO-BREAK SPACE}%"
-    assert effect("12 nJ", "6 µJ") == "differs"
+    assert effect("12 nJ", "6 µJ") == "▲ +49900\N{NO-BREAK SPACE}%"
+    assert effect("20 s", "20 µs") == "▼ −100\N{NO-BREAK SPACE}%"
+    assert effect("20 s", "20 V") == "differs"
     assert effect("full film", "partial film") == "differs"
     assert effect("none", None) == "only A"
     assert effect(None, "none") == "only B"
     assert Effect(Result("g", "n", 0.0, "0"), Result("g", "n", 1.0, "1"), None).words == "differs"
+
+
+def test_a_change_within_the_accuracy_of_a_critical_speed_is_none():
+    def words(first, second):
+        rows = [Result("g", "critical speed", None, text, "rpm") for text in (first, second)]
+        sides = [type("Side", (), {"results": (row,)})() for row in rows]
+        return effects(*sides)[0].words
+
+    assert words("1460", "1470") == "no change"
+    assert words("1460", "1660") == "▲ +13.7\N{NO-BREAK SPACE}%"
 
 
 def test_inputs_that_differ_come_first():
@@ -107,7 +127,15 @@ def test_warnings_of_one_alone(both):
     }
 
 
-def test_contacts_are_compared_by_formula():
+def test_a_coating_has_both_voltages_of_the_first_breakdown():
+    coated = side(FAST.changed({"bearing.coating": COATING}).table)
+    main = {row.name: row for row in coated.results if row.main}
+    films, shaft = main["first breakdown voltage"], main["shaft voltage of the first breakdown"]
+    assert (films.bound, shaft.bound) == ("≤", "≤")
+    assert films.value < shaft.value
+
+
+def test_contacts_are_compared_by_formula(tmp_path):
     case = example("discharge")
     found = {
         effect.either.name: effect
@@ -117,7 +145,13 @@ def test_contacts_are_compared_by_formula():
     }
     # Pan and Hamrock's minimum film grows with the speed to the power of 0.694.
     assert found["minimum film (Pan-Hamrock)"].change == pytest.approx(100.0 * (2.0**0.694 - 1.0), rel=1e-3)
-    assert side(case.table).level == "grey", "no verdict before it is solved"
+    alone = check_contact(case.table, str(tmp_path))
+    both = side(case.table)
+    assert (both.level, both.text) == (alone.level, alone.text)
+    broken = {row.name: row for row in both.results}["breakdown voltage"]
+    assert broken.main
+    assert (broken.group, broken.bound) == ("breakdown", "≤")
+    assert broken.value == alone.summary["breakdown_by_formula"]["breakdown_voltage"]
 
 
 def test_a_wrong_case_is_an_error_of_its_key():

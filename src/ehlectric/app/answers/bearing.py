@@ -9,6 +9,12 @@ from typing import Any, Literal
 from ehlectric.app.answers.line import Line
 from ehlectric.app.answers.told import Told
 
+# Texts of an answer at once in place of what the whole one adds: a number, and the range of the margin
+# in the verdict and beside the margin.
+PENDING = "…"
+FOLLOWS = "Margin by formula; its range follows."
+RANGE_FOLLOWS = "its range within the stated ranges follows"
+
 
 @dataclass(frozen=True)
 class Judged:
@@ -19,7 +25,7 @@ class Judged:
     level : str
         "green", "yellow", "red", or "grey" without a verdict.
     lead : str
-        Heading, such as "Breakdown likely", which says where the margin is an upper bound.
+        Heading, such as "No breakdown expected in an ideal film", for a margin that is an upper bound.
     meaning : str
         What this means for the bearing, in plain words.
     numbers : str
@@ -29,7 +35,7 @@ class Judged:
     assumptions : str
         Sentence about what is assumed, which names an upper bound; empty without one.
     bound : str
-        "≤" for an upper bound.
+        "upper bound" where the verdict is on one; empty otherwise.
     """
 
     level: str
@@ -163,6 +169,8 @@ class BearingAnswer:
         films are not converged.
     differences : tuple of Difference
         Differences of a solved answer from that by formula.
+    effects : Table or None
+        Margins if one input changes; None unless ``whole``, and without a margin.
     warnings : tuple of Told
         Warnings, with the numbers that they concern.
     seconds : float
@@ -186,6 +194,7 @@ class BearingAnswer:
     warnings: tuple[Told, ...]
     seconds: float
     differences: tuple[Difference, ...] = field(default=())
+    effects: Table | None = None
 
     def number(self, name: str) -> Number:
         """Number of a name."""

@@ -13,6 +13,15 @@ from ehlectric.app.inputs import Inputs
 # Change of a result that is shown as none: the results have four digits [%].
 _NO_CHANGE = 0.005
 
+# Critical speeds are found along speeds that depend on that of the case: a smaller change means nothing [%].
+_SPEED_ACCURACY = 1.0
+
+# Factors of the prefixes of units.
+_PREFIXES = {"p": 1e-12, "n": 1e-9, "µ": 1e-6, "m": 1e-3, "": 1.0, "k": 1e3, "M": 1e6, "G": 1e9}
+
+# Units that have a prefix in texts of results.
+_PREFIXED = ("s", "J", "V", "m", "F", "Hz")
+
 
 @dataclass(frozen=True)
 class Result:
@@ -33,7 +42,7 @@ class Result:
     note : str
         Note that follows.
     bound : str
-        "≤" where the number is an upper bound only.
+        "≤" where the number is an upper bound only, "≥" where it is a lower one.
     main : bool
         Whether it is one of the results that decide.
     """
@@ -53,8 +62,11 @@ class Result:
         if self.value is not None:
             return self.value, ""
         text, _, unit = self.text.partition(" ")
+        unit = unit or self.unit
+        base = next((one for one in _PREFIXED if unit.endswith(one) and unit[: -len(one)] in _PREFIXES), unit)
+        factor = _PREFIXES[unit.removesuffix(base)] if base else 1.0
         try:
-            return float(text), unit or self.unit
+            return factor * float(text), base
         except ValueError:
             return None, ""
 
@@ -84,7 +96,7 @@ class Side:
     title : str
         Title of the case.
     level, text : str
-        Level of the verdict and its sentences; grey for a contact, which has none before it is solved.
+        Level of the verdict and its sentences, by formula.
     results : tuple of Result
         Results in their order.
     warnings : tuple of Told
@@ -156,13 +168,18 @@ class Effect:
         return first is not None and second is not None and first.shown == second.shown
 
     @property
+    def _accuracy(self) -> float:
+        """Change that is none, within the accuracy of the method and of the shown digits [%]."""
+        return _SPEED_ACCURACY if self.either.unit == "rpm" else _NO_CHANGE
+
+    @property
     def words(self) -> str:
         """Change as a text with its direction."""
         if self.same:
             return "no change"
         if self.change is None:
             return "differs" if self.first and self.second else "only A" if self.first else "only B"
-        if abs(self.change) < _NO_CHANGE:
+        if abs(self.change) < self._accuracy:
             return "no change"
         sign, digits = ("▲ +" if self.change > 0.0 else "▼ −"), abs(self.change)
         number = f"{digits:.3g}" if digits < 1000.0 else f"{digits:.0f}"

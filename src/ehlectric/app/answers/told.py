@@ -32,8 +32,9 @@ class Told:
 # Order in which warnings are told.
 SEVERITIES = ("severe", "warning", "note")
 
-_FILM = ("lambda",)
 _FIRST = ("first-break", "margin")
+# A breakdown voltage is proportional to the film.
+_FILM = ("lambda", *_FIRST)
 _SPARK = ("shaft-voltage", "margin")
 _ALL = ("capacitance", "lambda", "first-break", "shaft-voltage", "margin")
 
@@ -60,7 +61,7 @@ PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         # Film
         "not-converged": _ALL,
         "surfaces-touch": _FILM,
-        "thinner-than-atom": (*_FILM, *_FIRST),
+        "thinner-than-atom": _FILM,
         "refine-not-reached": _FILM,
         "error-unknown": _FILM,
         "coarser-grid-unsolved": _FILM,
@@ -73,9 +74,9 @@ PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "domain-too-small": _FILM,
         "domain-far-too-small": _ALL,
         # Electric field and discharge
-        "field-grid-too-coarse": ("first-break",),
-        "field-unresolved": ("first-break",),
-        "field-range-too-narrow": ("first-break",),
+        "field-grid-too-coarse": _FIRST,
+        "field-unresolved": _FIRST,
+        "field-range-too-narrow": _FIRST,
         "field-above-insulators": _SPARK,
         "breakdown-expected": ("margin",),
         "strength-above-liquids": _FIRST,
@@ -90,8 +91,8 @@ PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "steps-too-long": (),
         "steps-halved": (),
         # Bearings
-        "formula-contacts": _FILM,
-        "isothermal-film": ("first-break",),
+        "formula-contacts": ("capacitance", *_FILM),
+        "isothermal-film": _FILM,
         "temperature-unused": _FILM,
         "viscosity-of-base": _FILM,
         "temperature-low": _FILM,
@@ -105,14 +106,14 @@ PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "viscosity-grade": _FILM,
         "clearance-taken-up": _FILM,
         "shoulder-reached": ("capacitance", *_FIRST),
-        "touching": (*_FILM, "first-break"),
-        "partial-film": (*_FILM, "first-break"),
-        "smooth-film": ("first-break",),
-        "shaft-leaks": ("shaft-voltage",),
+        "touching": ("capacitance", *_FILM),
+        "partial-film": _FILM,
+        "smooth-film": _FILM,
+        "shaft-leaks": _SPARK,
         "coating-breakdown": ("shaft-voltage",),
         "current-density-high": (),
         "capacitance-bound": ("capacitance", "shaft-voltage"),
-        "weibull-voltage": ("first-break",),
+        "weibull-voltage": _FIRST,
         "speed-left-out": (),
         # Sweeps and measurements
         "points-with-warnings": (),

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ehlectric.app.answers.bearing import BearingAnswer, Difference, Figure, Table
+from ehlectric.app.compute.bearing_effects import effects_table
 from ehlectric.app.compute.bearing_numbers import contacts_table, differences, shown_numbers
 from ehlectric.app.compute.bearing_verdict import judged, quick_verdict
 from ehlectric.app.compute.cases import case_of
@@ -35,6 +36,10 @@ from ehlectric.runs.by_kind import run_bearing
 from ehlectric.runtime.progress import Progress
 from ehlectric.runtime.workers import cores
 from ehlectric.tables.bearing import total_rows
+
+# Sentences about the direction of the load.
+_PULLS_DOWN = "The radial load on the inner ring points down."
+_PULLS_ALONG = "The load is purely axial: it points out of this figure."
 
 
 def bearing_case(table: Mapping[str, Any], contacts: str = "", session: Path | None = None) -> BearingCase:
@@ -148,8 +153,9 @@ def answer_of(result: BearingResult, *, whole: bool, changes: tuple[Difference, 
         warnings += tuple(left_out)
         own = (result.case.bearing.inner_speed, summary)
         bound = capacitance_is_bound(result.solution)
-        figures |= _speed_figures(OverSpeed.of(points, own), bound=bound) if len(points) > 1 else {}
-    told = told_of(warnings)
+        over = OverSpeed.of(points, own, level=verdict.level)
+        figures |= _speed_figures(over, bound=bound) if len(points) > 1 else {}
+    told = told_of(warnings, verdict.level)
     return BearingAnswer(
         title=result.case.title,
         contacts=result.case.contacts,
@@ -168,6 +174,7 @@ def answer_of(result: BearingResult, *, whole: bool, changes: tuple[Difference, 
         warnings=told,
         seconds=summary["seconds"],
         differences=changes,
+        effects=effects_table(summary, verdict.level),
     )
 
 
@@ -182,7 +189,7 @@ def _how(result: BearingResult) -> str:
 def _figures(result: BearingResult, summary: Mapping[str, Any]) -> dict[str, Figure]:
     """Figures around the shaft."""
     rows, around = summary["contacts"], _around(result)
-    rq = result.case.bearing.composite_rq
+    rq, radial = result.case.bearing.composite_rq, result.case.bearing.radial_load > 0.0
     table = contacts_table(rows)
     loaded = [row for row in rows if row["solved"]]
     most = max(loaded, key=lambda row: row["load"])
@@ -196,14 +203,14 @@ def _figures(result: BearingResult, summary: Mapping[str, Any]) -> dict[str, Fig
         "load": Figure(
             "Load of the contacts [N]",
             f"Load of all contacts around the shaft: {load}",
-            load_figure(rows, around),
+            load_figure(rows, around, radial=radial),
             table,
-            "The radial load on the inner ring points down.",
+            _PULLS_DOWN if radial else _PULLS_ALONG,
         ),
         "film": Figure(
             "Minimum film thickness [µm]",
             f"Minimum film of the loaded contacts around the shaft: {film}",
-            film_figure(rows, around, rq),
+            film_figure(rows, around, rq, radial=radial),
             table,
             _gaps(around),
         ),
@@ -243,29 +250,45 @@ def _around(result: BearingResult) -> dict[str, Around]:
 
 
 def _speed_figures(over: OverSpeed, *, bound: bool) -> dict[str, Figure]:
-    """Figures over the speed; breakdown only where there is a breakdown or a shaft voltage at any speed."""
-    table = Table("Bearing over its speed, contacts by formula", SPEED_HEADS, tuple(speed_rows(over)))
+    """Figures over the speed; voltages only where there is a breakdown or a shaft voltage at any speed."""
+    how = ", scaled to the solved contacts" if _is_solved(over) else ""
+    caption = f"Bearing over its speed, contacts by formula{how}"
+    table = Table(caption, SPEED_HEADS, tuple(speed_rows(over)))
+    drawn = {
+        name: key
+        for name, key in (("first breakdown", "first_break"), ("shaft voltage", "shaft_voltage"))
+        if np.any(np.isfinite(over.curves[key]))
+    }
     found = {}
-    if np.any(np.isfinite([*over.curves["first_break"], *over.curves["shaft_voltage"]])):
+    if drawn:
+        breaks = "first breakdown" in drawn
+        names = " and ".join(name.replace("breakdown", "breakdown voltage") for name in drawn)
         found["breakdown"] = Figure(
-            "Breakdown voltage over speed",
-            "First breakdown voltage and shaft voltage over the speed of the inner ring",
+            "Breakdown voltage over speed" if breaks else "Shaft voltage over speed",
+            f"{names[0].upper()}{names[1:]} over the speed of the inner ring",
             breakdown_figure(over),
             table,
-            "Upper bounds, with contacts by formula" + _scaled(over, "first_break"),
+            ("Breakdown voltages are upper bounds, with" if breaks else "With")
+            + f" contacts by formula{_scaled(over, drawn)}.",
         )
     found["capacitance"] = Figure(
         "Capacitance over speed",
         "Capacitance over the speed of the inner ring, with its range from air to oil around the films",
         capacitance_figure(over),
         table,
-        f"{'An upper bound, with' if bound else 'With'} contacts by formula" + _scaled(over, "capacitance"),
+        f"{'An upper bound, with' if bound else 'With'} contacts by formula"
+        f"{_scaled(over, {'capacitance': 'capacitance'})}.",
     )
     return found
 
 
-def _scaled(over: OverSpeed, key: str) -> str:
-    """End of a sentence: the factor by which a curve by formula is scaled to solved contacts."""
-    factor = over.curves.scaled[key]
-    solved = over.own[1]["bearing"]["contacts"] == "solved"
-    return f", scaled by {factor:.3g} to the solved contacts (star)." if solved else "."
+def _is_solved(over: OverSpeed) -> bool:
+    return bool(over.own[1]["bearing"]["contacts"] == "solved")
+
+
+def _scaled(over: OverSpeed, keys: Mapping[str, str]) -> str:
+    """End of a sentence: the factors by which curves by formula are scaled to solved contacts, by name."""
+    if not _is_solved(over):
+        return ""
+    factors = [f"{over.curves.scaled[key]:.3g} ({name})" for name, key in keys.items()]
+    return f", scaled by {' and '.join(factors)} to the solved contacts (star)"

@@ -5,19 +5,30 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from ehlectric.app.answers.bearing import Difference, Number, Table
+from ehlectric.app.answers.bearing import PENDING, RANGE_FOLLOWS, Difference, Number, Table
 from ehlectric.app.answers.told import Told, beside
-from ehlectric.cases.row import amount
+from ehlectric.cases.row import Row, amount
 from ehlectric.discharge.verdict import ratio_text
 from ehlectric.tables.bearing import total_rows
+
+# Names of the first breakdown and of the voltages with a coating.
+FIRST = "First breakdown voltage"
+FIRST_ON_SHAFT = "Shaft voltage of the first breakdown"
 
 # Words of the state of lubrication.
 STATES = {
     "conducting": "surfaces touch",
     "touching": "surfaces touch",
-    "partial film": "surfaces touch at times",
+    "partial film": "surfaces may touch",
     "full film": "full film",
 }
+
+
+# Rows of speeds at which breakdown begins, with their bounds where the film is an ideal one.
+_SPEED_BOUNDS = {"critical speed": "≥", "upper critical speed": "≤", "surfaces touch below": "≥"}
+
+# Warnings of voltages that are bounds, which stand beside no number that is missing.
+_BOUNDS = ("isothermal-film", "smooth-film")
 
 
 def shown_numbers(summary: Mapping[str, Any], told: tuple[Told, ...], *, whole: bool) -> tuple[Number, ...]:
@@ -43,7 +54,7 @@ def shown_numbers(summary: Mapping[str, Any], told: tuple[Told, ...], *, whole: 
         _shaft_voltage(summary, told),
         _margin(summary, told),
         _lambda(summary, told),
-        _critical_speed(summary, whole=whole),
+        _critical_speed(summary, told, whole=whole),
     )
     return found if summary["converged"] else tuple(map(_unusable, found))
 
@@ -67,13 +78,18 @@ def _capacitance(summary: Mapping[str, Any], told: tuple[Told, ...]) -> Number:
 
 
 def _first_break(summary: Mapping[str, Any], told: tuple[Told, ...]) -> Number:
-    totals, label, name = summary["bearing"], "First breakdown voltage", "first-break"
+    totals, name = summary["bearing"], "first-break"
+    # With a coating, the films have only a part of the voltage on the shaft.
+    coated = totals["coating_capacitance"] is not None
+    label = FIRST_ON_SHAFT if coated else FIRST
     value, near = totals["shaft_first_break"], beside(told, name)
     if value is None:
+        near = tuple(one for one in near if one.code not in _BOUNDS)
         return Number(name, label, "none", note=_no_voltage(summary), known=False, told=near)
     note = f"{_bound_words(told)}; at the {totals['first_break_at']}"
-    if totals["coating_capacitance"] is not None:
-        note += f"; {amount(totals['first_break'], 'V')} across the films, and the rest across the coating"
+    if coated:
+        across = amount(totals["first_break"], "V")
+        note += f"; the first breakdown voltage of the films is ≤ {across}, and the coating has the rest"
     return Number(name, label, amount(value, "V"), "≤", note, told=near)
 
 
@@ -81,7 +97,7 @@ def _bound_words(told: tuple[Told, ...]) -> str:
     """Reason why breakdown voltages are upper bounds; smooth films always make them so."""
     films = "isothermal, fully flooded, smooth film" if _has(told, "isothermal-film") else "smooth film"
     more = [
-        (", whose surfaces touch at times", "partial-film"),
+        (", whose surfaces may touch", "partial-film"),
         (", at a probability of 63.2 %", "weibull-voltage"),
     ]
     return f"upper bound: {films}" + "".join(text for text, code in more if _has(told, code))
@@ -104,6 +120,7 @@ def _margin(summary: Mapping[str, Any], told: tuple[Told, ...]) -> Number:
     value, near = totals["margin"], beside(told, name)
     if value is None:
         why = _no_voltage(summary) if totals["shaft_first_break"] is None else _no_shaft(summary, told)
+        near = tuple(one for one in near if one.code not in _BOUNDS)
         return Number(name, label, "none", note=why, known=False, told=near)
     analysis = summary.get("margin")
     note = "upper bound; first breakdown / shaft voltage, breakdown below 1"
@@ -111,31 +128,59 @@ def _margin(summary: Mapping[str, Any], told: tuple[Told, ...]) -> Number:
         low, high = ratio_text(analysis["low"]), ratio_text(analysis["high"])
         note = f"{low} to {high} within the stated ranges; {note}"
     elif analysis is None and summary["inputs"].get("ranges"):
-        note = f"its range within the stated ranges follows; {note}"
+        note = f"{RANGE_FOLLOWS}; {note}"
     return Number(name, label, ratio_text(value), "≤", note, told=near)
 
 
 def _lambda(summary: Mapping[str, Any], told: tuple[Told, ...]) -> Number:
     totals = summary["bearing"]
     least = amount(totals["lambda_ratio"] * summary["inputs"]["bearing"]["composite_rq"], "m")
-    note = f"{STATES[totals['lubrication']]}; minimum film {least}"
+    bound = "≤" if film_is_bound(summary) else ""
+    film = f"minimum film {bound} {least}" if bound else f"minimum film {least}"
+    note = f"{STATES[totals['lubrication']]}; {film}"
     text = f"{totals['lambda_ratio']:.3g}"
-    return Number("lambda", "Lambda ratio, minimum", text, note=note, told=beside(told, "lambda"))
+    return Number("lambda", "Lambda ratio, minimum", text, bound, note, told=beside(told, "lambda"))
 
 
-def _critical_speed(summary: Mapping[str, Any], *, whole: bool) -> Number:
+def _critical_speed(summary: Mapping[str, Any], told: tuple[Told, ...], *, whole: bool) -> Number:
     name, label = "critical-speed", "Critical speed"
     if summary["bearing"]["margin"] is None:
         return Number(name, label, "none", note="there is no margin", known=False)
     if not whole:
-        return Number(name, label, "…", note="being computed", known=False)
-    names = ("critical speed", "upper critical speed", "surfaces touch below")
-    rows = [row for row in total_rows(summary) if row.name in names]
+        return Number(name, label, PENDING, note="being computed", known=False)
+    rows = [row for row in total_rows(summary) if row.name in _SPEED_BOUNDS]
     if not rows:
         return Number(name, label, "none", note="no other speed could be computed", known=False)
     first, *others = rows
-    notes = [first.note.removeprefix("rpm").strip(" ,:"), *(f"{row.name} {row.text}" for row in others)]
-    return Number(name, label, f"{first.shown} rpm", note="; ".join(filter(None, notes)))
+    leaks = _has(told, "shaft-leaks")
+    notes = [
+        first.note.removeprefix("rpm").strip(" ,:"),
+        *(f"{row.name} {row.text}" for row in others),
+    ]
+    text, note = f"{first.shown} rpm", "; ".join(filter(None, notes))
+    return Number(name, label, text, speed_bound(first, summary, leaks=leaks), note)
+
+
+def film_is_bound(summary: Mapping[str, Any]) -> bool:
+    """Whether real films are thinner than those of a summary: fully flooded, and smooth.
+
+    A film factor that is given stands for starvation and heat as well.
+    """
+    factor = summary["inputs"]["bearing"].get("film_factor")
+    return bool(summary["bearing"]["film_factor"] == 1.0) or factor == "inlet-shear"
+
+
+def speed_bound(row: Row, summary: Mapping[str, Any], *, leaks: bool) -> str:
+    """Bound of a critical speed; empty for other rows, and for words in place of a speed.
+
+    A thinner film breaks down at higher speeds too, and touches at them. A shaft voltage that is an upper
+    bound, because the oil ``leaks``, acts the other way.
+    """
+    if row.name not in _SPEED_BOUNDS or not row.shown.replace(".", "").isdigit():
+        return ""
+    if row.name == "surfaces touch below":
+        return _SPEED_BOUNDS[row.name] if film_is_bound(summary) else ""
+    return "" if leaks else _SPEED_BOUNDS[row.name]
 
 
 def _no_voltage(summary: Mapping[str, Any]) -> str:
@@ -206,18 +251,31 @@ def _cell(value: float | None, factor: float, digits: str) -> str:
 def differences(formula: Mapping[str, Any], solved: Mapping[str, Any]) -> tuple[Difference, ...]:
     """Differences of the numbers of a solved bearing from those by formula, from their summaries."""
     found = []
+    coated = solved["bearing"]["coating_capacitance"] is not None
+    first = (FIRST_ON_SHAFT if coated else FIRST).lower()
     for name, key, unit in (
         ("capacitance", "capacitance", "F"),
-        ("first breakdown voltage", "shaft_first_break", "V"),
+        (first, "shaft_first_break", "V"),
+        ("shaft voltage", "shaft_voltage", "V"),
         ("margin", "margin", ""),
         ("minimum film", "lambda_ratio", "m"),
     ):
         values = [summary["bearing"][key] for summary in (formula, solved)]
         if unit == "m":
             values = [value * solved["inputs"]["bearing"]["composite_rq"] for value in values]
-        if None in values:
+        one, two = values
+        if one is None and two is None:
             continue
-        by_formula, own = (amount(value, unit) if unit else ratio_text(value) for value in values)
-        change = f"{100.0 * (values[1] / values[0] - 1.0):+.1f} %"
+        if one is None or two is None:
+            change = "only by formula" if two is None else "only solved"
+        else:
+            change = f"{100.0 * (two / one - 1.0):+.1f} %"
+        by_formula, own = (_difference_text(value, unit) for value in values)
         found.append(Difference(name, by_formula, own, change))
     return tuple(found)
+
+
+def _difference_text(value: float | None, unit: str) -> str:
+    if value is None:
+        return "none"
+    return amount(value, unit) if unit else ratio_text(value)

@@ -5,30 +5,31 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 
-from ehlectric.app.answers.bearing import Judged
+from ehlectric.app.answers.bearing import FOLLOWS, Judged
 from ehlectric.bearing.margin.analysis import MarginAnalysis
 from ehlectric.bearing.margin.verdict import bearing_verdict
 from ehlectric.bearing.solution import BearingSolution
 from ehlectric.discharge.verdict import Verdict
 from ehlectric.report.light import light_of
 
-# What a level means for a bearing, in plain words.
+# What the first words of a verdict mean for a bearing, in plain words: "expected" for red, "likely" and
+# "possible" for yellow.
 _MEANING: Mapping[str, str] = {
-    "green": "Within what is assumed, the oil films withstand the shaft voltage.",
-    "yellow": "Within what is uncertain, the oil films may or may not withstand the shaft voltage.",
-    "red": "The oil films do not withstand the shaft voltage: the bearing sparks, and discharges mark its "
-    "raceways.",
-    "grey": "This page cannot say whether the bearing sparks.",
+    "No breakdown expected": "The ideal film holds; a real film may be thinner and break down earlier.",
+    "Breakdown possible": "The ideal film holds, but not beyond doubt. A real film may be thinner and break "
+    "down earlier.",
+    "Breakdown likely": "The ideal film breaks down, but by less than what is uncertain. Discharges are "
+    "likely, and can mark the raceways.",
+    "Breakdown expected": "Within what is assumed, discharges are expected, and can mark the raceways.",
+    "Discharges likely": "The surfaces touch, and current passes as they part: discharges are likely at any "
+    "voltage, and can mark the raceways.",
 }
-_TOUCHING = (
-    "The surfaces touch at times, and current passes as they part: the bearing may spark at any voltage."
-)
+_NO_VERDICT = "This page cannot say whether the bearing sparks."
 
 # End of a sentence; numbers such as 1.44 have no space behind their point.
 _END = re.compile(r"(?<=[.!?]) (?=[A-Z])")
 
 _OPEN_RANGE = "The range of the margin could not be computed from the stated ranges of inputs."
-_FOLLOWS = "Margin by formula; its range follows."
 
 
 def judged(verdict: Verdict) -> Judged:
@@ -38,7 +39,7 @@ def judged(verdict: Verdict) -> Judged:
     --------
     >>> parts = judged(Verdict("green", "No breakdown expected: margin 1.4. Upper bound: smooth film."))
     >>> parts.lead, parts.bound
-    ('No breakdown expected, as an upper bound', '≤')
+    ('No breakdown expected in an ideal film', 'upper bound')
     >>> parts.numbers, parts.assumptions
     ('Margin 1.4.', 'Upper bound: smooth film.')
     """
@@ -46,12 +47,11 @@ def judged(verdict: Verdict) -> Judged:
     lead, _, rest = first.partition(": ")
     assumptions = [text for text in others if text.startswith("Upper bound")]
     light = light_of(verdict.level, verdict.text)
-    touches = lead == "Discharges likely"
     return Judged(
         level=verdict.level,
         lead=light.words,
         bound=light.bound,
-        meaning=_TOUCHING if touches else _MEANING[verdict.level],
+        meaning=_MEANING.get(lead, _NO_VERDICT),
         numbers=rest[:1].upper() + rest[1:],
         reasons=tuple(text for text in others if text not in assumptions),
         assumptions=" ".join(assumptions),
@@ -66,7 +66,7 @@ def quick_verdict(solution: BearingSolution) -> Verdict:
     verdict = bearing_verdict(solution, MarginAnalysis())
     if verdict.margin is None or not solution.case.ranges:
         return verdict
-    text = verdict.text.replace(_OPEN_RANGE, _FOLLOWS)
-    if _FOLLOWS not in text:
-        text = f"{text} {_FOLLOWS}"
+    text = verdict.text.replace(_OPEN_RANGE, FOLLOWS)
+    if FOLLOWS not in text:
+        text = f"{text} {FOLLOWS}"
     return Verdict(verdict.level, text, verdict.margin)

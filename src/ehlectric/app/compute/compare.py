@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 from ehlectric.app.answers.compare import Film, Result, Side
+from ehlectric.app.compute.bearing_numbers import film_is_bound, speed_bound
 from ehlectric.app.compute.bearing_verdict import quick_verdict
 from ehlectric.app.compute.cases import case_of
+from ehlectric.app.compute.contact import verdict_by_formula
 from ehlectric.app.compute.warnings import told_of
 from ehlectric.bearing.by_formula import formula_error
 from ehlectric.bearing.solver import solve_bearing
@@ -17,7 +19,6 @@ from ehlectric.bearing.summary import summary_of
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.row import Row
-from ehlectric.errors import ResultWarning
 from ehlectric.runs.meaning import check
 from ehlectric.tables.bearing import outcome_rows
 
@@ -25,26 +26,43 @@ from ehlectric.tables.bearing import outcome_rows
 _INPUTS = ("operating conditions", "numerical model")
 _LEFT_OUT = ("computing time", "usual difference from a solved film", "accuracy of all that follows")
 
+_SHAFT = "shaft voltage"
+
+# Rows of the breakdown of a contact, by the first words of their names.
+_OF_CONTACT = ("breakdown voltage", "margin (breakdown")
+
 # Rows that decide, by the first words of their names.
 _MAIN = (
     "capacitance of the bearing",
     "first breakdown voltage",
-    "shaft voltage",
+    "shaft voltage of the first breakdown",
     "margin (first breakdown / shaft voltage)",
     "minimum lambda ratio",
     "minimum film",
     "critical speed",
     "Hertz pressure",
-    "breakdown voltage",
-    "margin (breakdown",
+    *_OF_CONTACT,
+)
+
+# Rows of voltages that are upper bounds of those of real films.
+_VOLTAGES = (
+    "first breakdown",
+    "ring-to-ring breakdown",
+    "ring-to-ring, mean",
+    "shaft voltage of the first breakdown",
+    "shaft voltage, ring-to-ring",
+    "margin (",
 )
 
 # Rows that a warning makes an upper bound, by its code.
 _BOUNDS = {
     "capacitance-bound": ("capacitance",),
-    "isothermal-film": ("first breakdown", "ring-to-ring breakdown", "ring-to-ring, mean", "margin ("),
-    "smooth-film": ("first breakdown", "ring-to-ring breakdown", "ring-to-ring, mean", "margin ("),
+    "isothermal-film": _VOLTAGES,
+    "smooth-film": _VOLTAGES,
 }
+
+# Rows of films, which are upper bounds where the films are fully flooded, smooth ones.
+_FILMS = ("minimum lambda ratio", "minimum film")
 
 
 def side(table: Mapping[str, Any], folder: Path | None = None) -> Side:
@@ -76,13 +94,14 @@ def _bearing(case: BearingCase, *, whole: bool) -> Side:
     result = solve_bearing(case.replace({"contacts": "formula"}), workers=1)
     verdict = result.verdict if whole else quick_verdict(result.solution)
     summary = result.summary() if whole else summary_of(result.solution)
+    codes = {warning.code for warning in result.warnings}
     return Side(
         kind="bearing",
         title=case.title,
         level=verdict.level,
         text=verdict.text,
-        results=tuple(_results([*_films(summary), *outcome_rows(summary)], result.warnings)),
-        warnings=told_of(result.warnings),
+        results=tuple(_results([*_films(summary), *outcome_rows(summary)], _bounds_of(summary, codes))),
+        warnings=told_of(result.warnings, verdict.level),
         films=tuple(_over_position(summary)),
         method=f"contacts by formula: films may be {formula_error(case.bearing.kind)} off",
     )
@@ -90,15 +109,24 @@ def _bearing(case: BearingCase, *, whole: bool) -> Side:
 
 def _contact(case: Case) -> Side:
     meaning = check(case)
+    level, text = verdict_by_formula(case, meaning.summary.get("breakdown_by_formula"), meaning.warnings)
     return Side(
         kind="contact",
         title=case.title,
-        level="grey",
-        text="No verdict: the film and the field of a contact must be solved for one.",
-        results=tuple(_results(meaning.rows, meaning.warnings)),
+        level=level,
+        text=text,
+        results=tuple(_results(_outcomes_first(meaning.rows), _bound_of_contact)),
         warnings=told_of(meaning.warnings),
         method="films by formula: usually up to 40 % off a solved film",
     )
+
+
+def _outcomes_first(rows: Iterable[Row]) -> list[Row]:
+    """Rows of a contact, with those of the breakdown under a heading of their own before the inputs."""
+    rows = list(rows)
+    broken = [row for row in rows if row.name.startswith(_OF_CONTACT)]
+    others = [row for row in rows if row not in broken]
+    return [Row("breakdown"), *broken, *others] if broken else others
 
 
 def _films(summary: Mapping[str, Any]) -> Iterator[Row]:
@@ -112,9 +140,29 @@ def _films(summary: Mapping[str, Any]) -> Iterator[Row]:
             yield Row(f"minimum film, {ring} ring", thinnest, "µm", ", by formula")
 
 
-def _results(rows: Iterable[Row], warnings: Iterable[ResultWarning]) -> Iterator[Result]:
+def _bounds_of(summary: Mapping[str, Any], codes: set[str]) -> Callable[[Row], str]:
+    """Bound of a row of a bearing; empty for a row that is none."""
+    starts = [start for code in codes for start in _BOUNDS.get(code, ())]
+    if film_is_bound(summary):
+        starts += _FILMS
+    bounded, leaks = tuple(starts), "shaft-leaks" in codes
+
+    def bound(row: Row) -> str:
+        if row.name.startswith(bounded) or (leaks and row.name == _SHAFT):
+            return "≤" if isinstance(row.value, int | float) else ""
+        return speed_bound(row, summary, leaks=leaks)
+
+    return bound
+
+
+def _bound_of_contact(row: Row) -> str:
+    """Bound of a row of a contact by formula, whose films are isothermal, fully flooded and smooth."""
+    known = isinstance(row.value, int | float)
+    return "≤" if known and row.name.startswith(_OF_CONTACT) else ""
+
+
+def _results(rows: Iterable[Row], bound: Callable[[Row], str]) -> Iterator[Result]:
     """Results of the rows of a table; headings become groups."""
-    bounded = tuple(start for warning in warnings for start in _BOUNDS.get(warning.code, ()))
     group = ""
     for row in rows:
         if row.heading:
@@ -130,8 +178,8 @@ def _results(rows: Iterable[Row], warnings: Iterable[ResultWarning]) -> Iterator
                 text=row.shown,
                 unit=unit,
                 note=note.lstrip(",;: "),
-                bound="≤" if number is not None and row.name.startswith(bounded) else "",
-                main=row.name.startswith(_MAIN),
+                bound=bound(row),
+                main=row.name == _SHAFT or row.name.startswith(_MAIN),
             )
 
 

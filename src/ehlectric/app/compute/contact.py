@@ -82,7 +82,7 @@ def check_contact(table: Mapping[str, Any], folder: str) -> ContactCheck:
     """
     case = contact_case(table, folder)
     meaning = check(case)
-    level, text = _by_formula(case, meaning.summary.get("breakdown_by_formula"), meaning.warnings)
+    level, text = verdict_by_formula(case, meaning.summary.get("breakdown_by_formula"), meaning.warnings)
     numbers = _check_numbers(meaning.summary)
     keys = {number.key for number in numbers}
     return ContactCheck(
@@ -139,15 +139,18 @@ def _number(key: str, label: str, value: float, unit: str, note: str = "", least
 
 _NO_STRENGTH = "No verdict: give a dielectric strength (group Voltage and breakdown) for a breakdown voltage."
 _NOT_BY_FORMULA = "No verdict before solving: a dielectric strength over the pressure needs the solved film."
+_NO_VOLTAGE = "No verdict: give a voltage (group Voltage and breakdown) for a margin."
 
 
-def _by_formula(
+def verdict_by_formula(
     case: Case, estimate: Mapping[str, Any] | None, warnings: Iterable[ResultWarning]
 ) -> tuple[str, str]:
     """Level and sentences of the verdict by formula, within the errors of film and strength."""
     if estimate is None:
         given = case.discharge is not None and case.discharge.has_strength
         return "grey", _NOT_BY_FORMULA if given else _NO_STRENGTH
+    if estimate["margin"] is None:
+        return "grey", _NO_VOLTAGE
     margin, voltage = estimate["margin"], estimate["applied_voltage"]
     # The film may be that much thinner or thicker than by the formula, and the strength is assumed.
     low = margin * (1.0 - STRENGTH_UNKNOWN) / (1.0 + _FORMULA)
@@ -311,10 +314,10 @@ _OVER = "over the field range"
 
 def _with_warnings(numbers: Iterable[Number], warnings: Iterable[ResultWarning]) -> tuple[Number, ...]:
     """Numbers with the warnings that concern them."""
-    told = told_of(warnings, CONTACT_PLACES)
+    told = told_of(warnings, places=CONTACT_PLACES)
     return tuple(replace(number, warnings=beside(told, number.key)) for number in numbers)
 
 
 def _others(warnings: Iterable[ResultWarning], keys: set[str]) -> tuple[Told, ...]:
     """Warnings that concern none of the shown numbers."""
-    return tuple(one for one in told_of(warnings, CONTACT_PLACES) if not keys & set(one.beside))
+    return tuple(one for one in told_of(warnings, places=CONTACT_PLACES) if not keys & set(one.beside))

@@ -7,13 +7,29 @@ from collections.abc import Iterable, Mapping
 from ehlectric.app.answers.told import PLACES, SEVERITIES, Told
 from ehlectric.errors import CODES, ResultWarning
 
+_LIKELY = "The margin is below 1: breakdown is likely."
+
 
 def told_of(
-    warnings: Iterable[ResultWarning], places: Mapping[str, tuple[str, ...]] = PLACES
+    warnings: Iterable[ResultWarning],
+    level: str = "",
+    *,
+    places: Mapping[str, tuple[str, ...]] = PLACES,
 ) -> tuple[Told, ...]:
-    """Warnings of a result with the numbers that they concern by ``places``, the severe ones first."""
+    """Warnings of a result with the numbers that they concern by ``places``, the severe ones first.
+
+    Beside a verdict of the level "yellow", a margin below 1 means that breakdown is likely, as the verdict
+    says.
+    """
+    meanings = {"breakdown-expected": _LIKELY} if level == "yellow" else {}
     found = [
-        Told(one.code, one.severity, one.text, places[one.code], CODES[one.code].meaning)
+        Told(
+            one.code,
+            one.severity,
+            one.text,
+            places[one.code],
+            meanings.get(one.code, CODES[one.code].meaning),
+        )
         for one in dict.fromkeys(warnings)
     ]
     return tuple(sorted(found, key=lambda told: SEVERITIES.index(told.severity)))

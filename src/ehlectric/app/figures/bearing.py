@@ -46,7 +46,9 @@ class Around:
     loaded: Sequence[bool]
 
 
-def load_figure(rows: Sequence[Mapping[str, Any]], around: Mapping[str, Around]) -> Plot:
+def load_figure(
+    rows: Sequence[Mapping[str, Any]], around: Mapping[str, Around], *, radial: bool = True
+) -> Plot:
     """Loads of the contacts with both rings around the shaft.
 
     Parameters
@@ -55,6 +57,8 @@ def load_figure(rows: Sequence[Mapping[str, Any]], around: Mapping[str, Around])
         Rows of the table of contacts, SI units.
     around : mapping of str to Around
         Contacts at all positions of the cage, of "inner" and "outer".
+    radial : bool
+        Whether a radial load acts, whose line is marked.
 
     Returns
     -------
@@ -69,15 +73,21 @@ def load_figure(rows: Sequence[Mapping[str, Any]], around: Mapping[str, Around])
         values = [row["load"] for row in marks]
         data.append(_marks(name, marks, values, "load", "N"))
     largest = max(max(ring.load) for ring in around.values())
-    return plot(data, height=_HEIGHT, **polar_layout((0.0, 1.08 * largest)))
+    return plot(data, height=_HEIGHT, **polar_layout((0.0, 1.08 * largest), radial=radial))
 
 
-def film_figure(rows: Sequence[Mapping[str, Any]], around: Mapping[str, Around], roughness: float) -> Plot:
+def film_figure(
+    rows: Sequence[Mapping[str, Any]],
+    around: Mapping[str, Around],
+    roughness: float,
+    *,
+    radial: bool = True,
+) -> Plot:
     """Minimum films of the loaded contacts with both rings around the shaft.
 
     Parameters
     ----------
-    rows, around
+    rows, around, radial
         As for ``load_figure``.
     roughness : float
         Combined root-mean-square height of both surfaces [m], for the circles of lambda ratios.
@@ -102,7 +112,7 @@ def film_figure(rows: Sequence[Mapping[str, Any]], around: Mapping[str, Around],
         data.append(_line(name, ring.angle, values))
         marks = [row for row in rows if row["ring"] == name and row["solved"]]
         data.append(_marks(name, marks, [1e6 * row["minimum_thickness"] for row in marks], "h_min", "µm"))
-    layout = polar_layout(shown_over(everything))
+    layout = polar_layout(shown_over(everything), radial=radial)
     return plot(data, height=_HEIGHT, **layout)
 
 

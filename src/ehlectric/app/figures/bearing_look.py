@@ -28,14 +28,14 @@ def shown_over(values: list[float]) -> tuple[float, float]:
     return (0.8 * min(values), 1.2 * max(values)) if is_wide(values) else (0.0, 1.08 * max(values))
 
 
-def polar_layout(ends: tuple[float, float]) -> Plot:
-    """Layout of a polar figure with the load at the bottom; logarithmic where it does not begin at 0."""
+def polar_layout(ends: tuple[float, float], *, radial: bool = True) -> Plot:
+    """Layout of a polar figure with the radial load at the bottom; logarithmic unless it begins at 0."""
     log = ends[0] > 0.0
     limits = [math.log10(end) for end in ends] if log else list(ends)
     around = axis(rotation=270, direction="counterclockwise", tickmode="array", automargin=False)
     around |= {
         "tickvals": list(range(0, 360, 45)),
-        "ticktext": ["0° (load)", *(f"{angle}°" for angle in range(45, 360, 45))],
+        "ticktext": ["0° (load)" if radial else "0°", *(f"{angle}°" for angle in range(45, 360, 45))],
     }
     out = axis(type="log" if log else "linear", range=limits, angle=90, tickangle=90, nticks=5)
     return {

@@ -41,16 +41,19 @@ class OverSpeed:
         Speed and summary of the bearing itself.
     curves : Curves
         Curves through the points, scaled to the bearing itself.
+    level : str
+        Level of the verdict, which is no surer at other speeds.
     """
 
     points: Speeds
     own: Speed
     curves: Curves
+    level: str = ""
 
     @classmethod
-    def of(cls, points: Speeds, own: Speed) -> OverSpeed:
+    def of(cls, points: Speeds, own: Speed, *, level: str = "") -> OverSpeed:
         """Curves through points, scaled to the bearing itself."""
-        return cls(points, own, curves_of(points, own))
+        return cls(points, own, curves_of(points, own), level)
 
 
 def breakdown_figure(over: OverSpeed) -> Plot:
@@ -72,7 +75,7 @@ def breakdown_figure(over: OverSpeed) -> Plot:
     lines = [("first breakdown" if not one else "first and ring-to-ring breakdown", "first_break", BLUE, "")]
     lines += [] if one else [("ring-to-ring breakdown", "through_breakdown", GREEN, "dash")]
     lines += [("shaft voltage", "shaft_voltage", ORANGE, "dashdot")]
-    data = [*_touching(curves), *_danger(curves)]
+    data = [*_touching(curves), *_danger(over)]
     for name, key, color, dash in lines:
         data += _curve(curves, key, 1.0, "V", {"name": name, "color": color, "dash": dash or "solid"})
     everything = [*first, *through, *shaft]
@@ -117,17 +120,27 @@ def speed_rows(over: OverSpeed) -> list[tuple[str, ...]]:
     for k, (speed, summary) in enumerate(sorted(over.points, key=lambda point: point[0])):
         first, shaft = (float(over.curves[key][k]) for key in ("first_break", "shaft_voltage"))
         ratio = first / shaft if math.isfinite(first) and math.isfinite(shaft) else math.nan
+        lambda_ratio = float(over.curves["lambda_ratio"][k])
         capacitances = (1e12 * float(over.curves[f"capacitance_{key}"][k]) for key in ("air", "oil"))
         rows.append(
             (
                 rpm_text(speed),
-                f"{float(over.curves['lambda_ratio'][k]):.3g}",
+                f"{lambda_ratio:.3g}",
                 *(f"{value:.4g}" for value in capacitances),
                 *(f"{value:.4g}" if math.isfinite(value) else "none" for value in (first, shaft, ratio)),
-                str(summary["bearing"]["lubrication"]),
+                _state(lambda_ratio, summary["bearing"]["lubrication"]),
             )
         )
     return rows
+
+
+def _state(lambda_ratio: float, formula: str) -> str:
+    """State of lubrication at a scaled lambda ratio; ``formula`` is that of the ratio by formula."""
+    if not math.isfinite(lambda_ratio):
+        return formula
+    if lambda_ratio < CONDUCTING:
+        return "touching" if formula == "touching" else "conducting"
+    return "partial film" if lambda_ratio < PARTIAL else "full film"
 
 
 SPEED_HEADS = (
@@ -203,7 +216,7 @@ def _touching(curves: Curves) -> list[Plot]:
                 },
             },
         ),
-        (CONDUCTING, PARTIAL, "λ 1 to 3: they touch at times", {"fillcolor": "rgba(119,119,119,0.12)"}),
+        (CONDUCTING, PARTIAL, "λ 1 to 3: they may touch", {"fillcolor": "rgba(119,119,119,0.12)"}),
     )
     found = []
     for low, high, name, look in kinds:
@@ -217,14 +230,15 @@ def _touching(curves: Curves) -> list[Plot]:
     return found
 
 
-def _danger(curves: Curves) -> list[Plot]:
+def _danger(over: OverSpeed) -> list[Plot]:
     """Speeds at which the shaft voltage is above the first breakdown."""
+    curves = over.curves
     speed, first = curves.between("first_break")
     _, shaft = curves.between("shaft_voltage")
     return [
         {
             **_box(begin, end),
-            "name": "breakdown expected",
+            "name": f"breakdown {'likely' if over.level == 'yellow' else 'expected'}",
             "showlegend": k == 0,
             "fillcolor": "rgba(213,94,0,0.16)",
         }

@@ -152,6 +152,7 @@ class BearingPage:
 
     def _refuse(self, error: Exception) -> None:
         self.form.tell(error)
+        self.view.stop()
         self.solving.show(None, error)
         self._notice.text = (
             f"{error}{'. The answer below is that to earlier inputs.' if self.view.shown else ''}"

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from nicegui import ui
 
-from ehlectric.app.answers.bearing import BearingAnswer
+from ehlectric.app.answers.bearing import FOLLOWS, PENDING, RANGE_FOLLOWS, BearingAnswer
 from ehlectric.app.answers.told import elsewhere
 from ehlectric.app.pages.bearing_parts import (
     FigureBox,
@@ -13,6 +15,7 @@ from ehlectric.app.pages.bearing_parts import (
     WarningList,
     behind,
     differences_html,
+    effects_html,
 )
 from ehlectric.app.pages.parts import lines_html
 
@@ -29,12 +32,14 @@ class AnswerView:
             self._changes = ui.html("", sanitize=False).props('data-testid="differences"')
             with ui.element("div").classes("numbers").props('data-testid="numbers" aria-live="polite"'):
                 self._numbers = {name: NumberBox(name) for name in _NUMBERS}
+            self._effects = ui.html("", sanitize=False).classes("effects").props('data-testid="effects"')
             self._warnings = WarningList()
             self._none = ui.label().classes("notice").props('data-testid="no-figures"')
             with ui.element("div").classes("figures"):
                 self._figures = {name: FigureBox(name) for name in (*_AT_ONCE, *_OVER_SPEED)}
             self._lines = ui.html("", sanitize=False).props('data-testid="details"')
         self._body.set_visibility(False)
+        self._pending: BearingAnswer | None = None
 
     @property
     def shown(self) -> bool:
@@ -46,15 +51,38 @@ class AnswerView:
         self._body.classes(add="stale" if dimmed else "", remove="" if dimmed else "stale")
         self._body.props(f'aria-busy="{str(dimmed).lower()}"')
 
+    def stop(self) -> None:
+        """Say that what was to follow is not computed, as after a wrong input."""
+        if self._pending is None:
+            return
+        margin, speed = (self._pending.number(name) for name in ("margin", "critical-speed"))
+        if speed.text == PENDING:
+            speed = replace(speed, text="none", note="not computed", known=False)
+        note = margin.note.removeprefix(f"{RANGE_FOLLOWS}; ")
+        for number in (replace(margin, note=note), speed):
+            self._numbers[number.name].show(number)
+        judged = self._pending.judged
+        self._verdict.show(replace(judged, reasons=tuple(one for one in judged.reasons if one != FOLLOWS)))
+        self._pending = None
+
+    def _show_effects(self, answer: BearingAnswer) -> None:
+        """Show the effects of the inputs; those of earlier inputs stay dimmed until new ones are there."""
+        if answer.whole or not answer.figures:
+            self._effects.content = effects_html(answer.effects)
+        self._effects.set_visibility(bool(self._effects.content))
+        self._effects.classes(add="" if answer.whole else "stale", remove="stale" if answer.whole else "")
+
     def show(self, answer: BearingAnswer) -> None:
         """Show an answer; the figures over the speed stay dimmed until those of a whole answer are there."""
         self._body.set_visibility(True)
         self._body.props(f'data-contacts="{answer.contacts}" data-whole="{str(answer.whole).lower()}"')
-        self._verdict.show(answer.judged)
+        self._verdict.show(answer.judged, whole=answer.whole)
+        self._pending = None if answer.whole else answer
         self._changes.content = differences_html(answer.differences)
         self._changes.set_visibility(bool(answer.differences))
         for number in answer.shown:
             self._numbers[number.name].show(number)
+        self._show_effects(answer)
         self._warnings.show(answer.warnings, elsewhere(answer.warnings))
         self._none.set_visibility(not answer.figures)
         self._none.text = "" if answer.figures else "Not converged: the figures would show no solution."

@@ -24,19 +24,23 @@ class VerdictBox:
         ):
             with ui.element("div").classes("lead"):
                 ui.element("span").classes("sign").props('aria-hidden="true"')
-                self._bound = ui.label().classes("at-most").props('aria-hidden="true"')
                 self._lead = ui.label()
+                self._bound = ui.label().classes("at-most").props('data-testid="bound"')
             self._meaning, self._numbers = (ui.label().classes("sentence") for _ in range(2))
             self._reasons = ui.html("", sanitize=False)
+            self._last: tuple[str, ...] = ()
             self._assumed = ui.label().classes("assumed").props('data-testid="assumptions"')
 
-    def show(self, judged: Judged) -> None:
-        """Show a verdict."""
+    def show(self, judged: Judged, *, whole: bool = True) -> None:
+        """Show a verdict; the place of the sentences that follow with a ``whole`` answer is kept for them."""
         self._box.classes(replace=f"verdict {judged.level}").props(f'data-level="{judged.level}"')
         self._lead.text, self._bound.text = judged.lead, judged.bound
         self._bound.set_visibility(bool(judged.bound))
         self._meaning.text, self._numbers.text = judged.meaning, judged.numbers
-        self._reasons.content = _list(judged.reasons)
+        kept = () if whole else self._last[len(judged.reasons) :]
+        self._reasons.content = _list(judged.reasons, kept)
+        if whole:
+            self._last = judged.reasons
         self._assumed.text = judged.assumptions
         self._assumed.set_visibility(bool(judged.assumptions))
 
@@ -102,9 +106,10 @@ class WarningList:
 
     def __init__(self) -> None:
         with ui.element("section").props('aria-label="Warnings" data-testid="warnings"'):
-            with ui.element("h2"):
+            with ui.element("h2") as self._heading:
                 self._head = ui.label()
             self._list = ui.html("", sanitize=False)
+            self._none = ui.label().classes("soft")
 
     def show(self, every: tuple[Told, ...], listed: tuple[Told, ...]) -> None:
         """Show the count of all warnings, and a list of some of them."""
@@ -112,6 +117,10 @@ class WarningList:
         where = f" ({beside} beside the numbers)" if beside else ""
         self._head.text = f"This result has {counts(every)}{where}"
         self._list.content = "".join(map(_told, listed))
+        self._heading.set_visibility(bool(listed))
+        stands = "Warnings: none." if not every else f"{counts(every)}, beside the numbers that they concern."
+        self._none.text = stands[0].upper() + stands[1:]
+        self._none.set_visibility(not listed)
 
 
 def behind(summary: str, inner: str) -> str:
@@ -132,6 +141,11 @@ def table_html(table: Table) -> str:
     )
 
 
+def effects_html(effects: Table | None) -> str:
+    """Table of the inputs that change the margin, under its heading; empty without any."""
+    return "" if effects is None else f"<h2>What changes the margin</h2>{table_html(effects)}"
+
+
 def differences_html(differences: Iterable[Difference]) -> str:
     """Table of the differences of a solved result from that by formula; empty without any."""
     rows = tuple((one.name, one.formula, one.solved, one.change) for one in differences)
@@ -141,6 +155,8 @@ def differences_html(differences: Iterable[Difference]) -> str:
     return table_html(Table("Solved contacts compared with the formula", heads, rows))
 
 
-def _list(texts: Iterable[str]) -> str:
+def _list(texts: Iterable[str], kept: Iterable[str] = ()) -> str:
+    """List of texts, with the place of some that nobody sees or hears."""
     items = "".join(f"<li>{escape(text)}</li>" for text in texts)
+    items += "".join(f'<li class="kept" aria-hidden="true">{escape(text)}</li>' for text in kept)
     return f"<ul>{items}</ul>" if items else ""

@@ -104,27 +104,41 @@ class ComparePage:
                 button = ui.button(words, on_click=lambda one=first, two=second: self._take(one, two))
                 button.props(f'outline no-caps dense data-testid="{test}"')
         with ui.element("div").classes("sides"):
-            self._places = {name: self._side(name) for name in _NAMES}
+            self._verdicts = {name: self._side(name) for name in _NAMES}
         self._notice = ui.label(_EARLIER).classes("wrong notice").props('role="status" data-testid="notice"')
         self._notice.set_visibility(False)
-        self._answer = ui.element("div").classes("compared").props('data-testid="compared"')
-        with self._answer:
-            self._build_answer()
+        with ui.element("div").props('data-testid="compared"'):
+            # The effects stand above the forms, so that a form that is opened does not push them away.
+            self._answers = [ui.element("div").classes("compared")]
+            with ui.element("div").classes("sides changing"):
+                self._places = {name: self._inputs_of(name) for name in _NAMES}
+            self._answers.append(ui.element("div").classes("compared"))
+        self._build_answer()
         self._set_forms()
 
-    def _side(self, name: Name) -> tuple[ui.element, ui.expansion]:
-        """Places of the verdict and of the form of a case; the form is opened where an input is wrong."""
+    def _side(self, name: Name) -> ui.element:
+        """Place of the verdict of a case."""
         number = "first" if name == "a" else "second"
         with ui.element("section").classes(f"side {number}").props(f'data-testid="side-{name}"'):
             parts.heading(f"Case {name.upper()}", 2)
-            verdict = ui.element("div").props('aria-live="polite"')
+            return ui.element("div").props('aria-live="polite"')
+
+    def _inputs_of(self, name: Name) -> ui.expansion:
+        """Place of the form of a case, which is opened where an input is wrong."""
+        number = "first" if name == "a" else "second"
+        with ui.element("section").classes(f"side {number}").props(f'data-testid="form-{name}"'):
             form = ui.expansion(f"Change the inputs of {name.upper()}").props(f'data-testid="inputs-{name}"')
-            return verdict, form.classes("inputs")
+            return form.classes("inputs")
 
     def _build_answer(self) -> None:
-        with parts.card("Effect on the results"):
+        first, second = self._answers
+        with first, parts.card("Effect on the results"):
             self._method = ui.label()
             self._effects = ui.html(_NOTHING, sanitize=False)
+        with second:
+            self._build_details()
+
+    def _build_details(self) -> None:
         with ui.element("div").classes("figures") as self._figures:
             with parts.card("Change of the main results"):
                 self._changes = parts.figure(
@@ -149,7 +163,7 @@ class ComparePage:
                 self._forms[name].set(case)
                 continue
             self._groups[name] = groups_for(case)
-            _, place = self._places[name]
+            place = self._places[name]
             place.clear()
             with place:
                 words = f"Inputs of {name.upper()}"
@@ -186,7 +200,8 @@ class ComparePage:
         asyncio.Task
             Ends with the answers at once.
         """
-        self._answer.classes(add="old")
+        for one in self._answers:
+            one.classes(add="old")
         return self._following.ask(self.session.inputs)
 
     def close(self) -> None:
@@ -241,12 +256,12 @@ class ComparePage:
         return answer
 
     def _show_side(self, name: Name, answer: Side | Exception) -> None:
-        place, form = self._places[name]
+        place = self._verdicts[name]
         self._forms[name].tell(answer if isinstance(answer, Exception) else None)
         place.clear()
         with place:
             if isinstance(answer, Exception):
-                form.open()
+                self._places[name].open()
                 parts.light("grey", f"No answer: {answer}")
                 return
             ui.label(answer.title or "no title").props(f'data-testid="title-{name}"')
@@ -273,7 +288,8 @@ class ComparePage:
             ):
                 parts.heading(f"{words}: {len(told) or 'none'}", 3)
                 parts.warnings(told)
-        self._answer.classes(remove="old")
+        for one in self._answers:
+            one.classes(remove="old")
 
     def _draw(self, main: Sequence[Effect], sides: tuple[Side, Side]) -> None:
         self._figures.set_visibility(True)

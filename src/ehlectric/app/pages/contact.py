@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import shutil
 from pathlib import Path
 from typing import Any
@@ -18,7 +17,7 @@ from ehlectric.app.pages.contact_view import ContactViewBox, number_cards
 from ehlectric.app.pages.downloads import Downloads
 from ehlectric.app.pages.form import Form
 from ehlectric.app.pages.frame import PAGE_PATIENCE, framed, session_of, show_address
-from ehlectric.app.pages.parts import JobBox, Strip, card, light, lines_html, warnings
+from ehlectric.app.pages.parts import JobBox, Strip, card, light, light_shown, lines_html, warnings
 from ehlectric.app.pages.starts import contact_start
 from ehlectric.app.pages.surfaces.movie import MovieBox
 from ehlectric.app.pages.surfaces.roughness import RoughnessBox
@@ -217,14 +216,13 @@ class ContactPage:
 
     def _show_short(self, answer: ContactCheck | ContactView, what: str = "") -> None:
         """Show the short answer of a narrow screen."""
-        lead = re.split("[,.:(]", answer.text)[0].strip()
-        bounds = [one.bound for one in answer.numbers if one.key == _SHORT[-1] and answer.level != "grey"]
+        shown = light_shown(answer.level, answer.text)
         texts = [
             " ".join(filter(None, [one.label.lower(), one.bound, one.text, one.unit]))
             for one in answer.numbers
             if one.key in _SHORT
         ]
-        self._strip.show(answer.level, " ".join(filter(None, [*bounds, lead, what])), texts)
+        self._strip.show(answer.level, f"{shown.words} {what}".strip(), texts, bound=shown.bound)
         self._strip.dim(dimmed=False)
 
     def _is_moving(self) -> bool:

@@ -15,7 +15,7 @@ from ehlectric.app.answers.told import Told
 from ehlectric.app.remaining import Remaining
 from ehlectric.app.work import Job
 from ehlectric.errors import SEVERITY_WORDS
-from ehlectric.report.light import light_of
+from ehlectric.report.light import Light, light_of
 
 if TYPE_CHECKING:
     from ehlectric.discharge.verdict import Level
@@ -57,8 +57,8 @@ class Strip:
     def show(self, level: str, word: str, numbers: Iterable[str] = (), *, bound: str = "") -> None:
         """Show the level of a verdict, its word and bound, and a few numbers such as "margin ≤ 1.46"."""
         self._box.classes(replace=f"strip {level}")
-        self._word.text = " ".join(filter(None, [_SIGNS[level], bound, word]))
-        self._numbers.text = " · ".join(numbers)
+        self._word.text = f"{_SIGNS[level]} {word}"
+        self._numbers.text = " · ".join(filter(None, [bound, *numbers]))
 
     def dim(self, *, dimmed: bool) -> None:
         """Dim the answer while it is that of earlier inputs."""
@@ -96,16 +96,22 @@ def number(
             ui.label(one.text).classes(f"told {one.severity}")
 
 
+def light_shown(level: str, text: str) -> Light:
+    """Traffic light of a verdict, with the words that pages and reports show."""
+    return light_of(cast("Level", level), text)
+
+
 def light(level: str, text: str, *, testid: str = "verdict") -> None:
     """Traffic light of a verdict, with its heading, its bound and its sentences."""
-    shown = light_of(cast("Level", level), text)
+    shown = light_shown(level, text)
     with ui.element("div").classes(f"light {level}") as box:
         box.props(f'role="status" data-testid="{testid}" data-level="{level}"')
         ui.label(_SIGNS[level]).classes("sign").props('aria-hidden="true"')
-        if shown.bound:
-            ui.label(shown.bound).classes("at-most").props('aria-hidden="true"')
         with ui.element("div").classes("words"):
-            ui.label(shown.words).classes("level")
+            with ui.element("div").classes("heading"):
+                ui.label(shown.words).classes("level")
+                if shown.bound:
+                    ui.label(shown.bound).classes("at-most")
             ui.label(shown.rest).classes("sentences")
 
 

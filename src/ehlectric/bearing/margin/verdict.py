@@ -114,7 +114,7 @@ def _judged(
         level = "yellow"
     if strength:
         doubts += filter(None, [strength_doubt(solution.case.discharge, margin)])
-    reasons = [*doubts, *(_widths(solution) if level == "yellow" else ())]
+    reasons = [*doubts, *_widths(solution, analysis, margin)]
     interval = ""
     if analysis.low is not None and analysis.high is not None:
         interval = (
@@ -160,16 +160,24 @@ def _leaks(solution: BearingSolution) -> str:
 
 def _possible(solution: BearingSolution, analysis: MarginAnalysis, margin: float) -> tuple[float, float]:
     """Smallest and largest margin that are possible."""
+    return _widened(solution, *_stated(solution, analysis, margin))
+
+
+def _stated(solution: BearingSolution, analysis: MarginAnalysis, margin: float) -> tuple[float, float]:
+    """Smallest and largest margin within the stated ranges, the smallest at 5 % of a Weibull law."""
     low = margin if analysis.low is None else analysis.low
     high = margin if analysis.high is None else analysis.high
-    if solution.case.contacts == "formula":
-        factor = formula_factor(solution.case.bearing.kind)
-        low, high = low / factor, high * factor
-    else:
-        off = film_error(solution)
-        low, high = low * (1.0 - off), high * (1.0 + off)
     weibull = solution.case.discharge.weibull
     return low if weibull is None else low * weibull_part(weibull.shape, UNLIKELY), high
+
+
+def _widened(solution: BearingSolution, low: float, high: float) -> tuple[float, float]:
+    """Interval of margins, widened by the accuracy of the films."""
+    if solution.case.contacts == "formula":
+        factor = formula_factor(solution.case.bearing.kind)
+        return low / factor, high * factor
+    off = film_error(solution)
+    return low * (1.0 - off), high * (1.0 + off)
 
 
 def _strength_is_open(solution: BearingSolution) -> bool:
@@ -202,8 +210,13 @@ def _doubts(solution: BearingSolution, analysis: MarginAnalysis, margin: float) 
             yield text
 
 
-def _widths(solution: BearingSolution) -> Iterator[str]:
-    """Sentences about the accuracy of the films, for a margin on which it decides."""
+def _widths(solution: BearingSolution, analysis: MarginAnalysis, margin: float) -> Iterator[str]:
+    """Sentence about the accuracy of the films, where it takes the margin or its stated range across 1."""
+    intervals = ((margin, margin), _stated(solution, analysis, margin))
+    if not any(
+        level_of(*ends) != "yellow" and level_of(*_widened(solution, *ends)) == "yellow" for ends in intervals
+    ):
+        return
     if solution.case.contacts == "formula":
         off = formula_error(solution.case.bearing.kind)
         yield f"Films by formula may be {off} off: solved contacts decide."

@@ -123,6 +123,25 @@ def test_rollers_by_formula_may_be_40_percent_off():
     assert any("may be wrong by 40 %" in str(one) for one in near.warnings)
 
 
+@pytest.mark.parametrize(
+    ("value", "low", "high", "told"),
+    [
+        # 30 % of the film takes 1.2 across 1, and neither 25 nor the end of its range below 1.
+        (1.2, None, None, True),
+        (25.0, None, None, False),
+        (25.0, 0.5, 40.0, False),
+        # The range alone is above 1, and not within 30 %.
+        (2.0, 1.2, 3.0, True),
+    ],
+)
+def test_the_accuracy_of_films_is_told_only_where_it_decides(balls, value, low, high, told):
+    voltage = 300.0 * balls.breaks()["margin"] / value
+    rough = solved(motor__common_mode_voltage=voltage, bearing__composite_rq="0.1 um")
+    found = judged(rough, low=low, high=high)
+    assert found.level == "yellow", "the surfaces may touch"
+    assert ("solved contacts decide" in found.text) is told
+
+
 def test_a_stated_range_across_one_is_yellow(balls):
     result = as_solved(balls)
     assert judged(result, low=1.1, high=2.0).level == "green"
