@@ -103,6 +103,19 @@ def sweep_file(inputs: Inputs) -> Inputs:
     return inputs.changed({"show": None})
 
 
+def same_sweep(one: Inputs, other: Inputs) -> bool:
+    """Whether two sweeps have the same points in the same order.
+
+    Examples
+    --------
+    >>> ranges = [Range("bearing.elements", "8", "9", 2), Range("bearing.radial_load", "1 N", "2 N", 2)]
+    >>> same_sweep(with_ranges(Inputs(), ranges), with_ranges(Inputs(), ranges[::-1]))
+    False
+    """
+    orders = [list(Inputs(inputs.value("vary") or {}).flat()) for inputs in (one, other)]
+    return one == other and orders[0] == orders[1]
+
+
 def number_of_text(text: str) -> str | int | float:
     """Number of a text without a unit, which a file has without quotes; another text as it is.
 

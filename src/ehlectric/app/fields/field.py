@@ -18,6 +18,10 @@ def always(_: Inputs) -> bool:
     return True
 
 
+def _nothing(_: Inputs) -> str:
+    return ""
+
+
 @dataclass(frozen=True)
 class Way:
     """Way to give a quantity, one of several that exclude each other.
@@ -188,6 +192,8 @@ class Group:
         Values of the table when it is switched on.
     note : str
         What a user must know about the group, such as that its first values are assumptions.
+    tells : callable
+        Sentence on given inputs, such as on values that hold where none are given; may be empty.
     """
 
     title: str
@@ -196,3 +202,4 @@ class Group:
     table: str = ""
     start: Mapping[str, Any] = field(default_factory=dict)
     note: str = ""
+    tells: Callable[[Inputs], str] = _nothing

@@ -14,7 +14,8 @@ from ehlectric.app.fields import BEARING_GROUPS
 from ehlectric.app.fields.contact import geometry_of, groups_of
 from ehlectric.app.fields.defaults import default_of
 from ehlectric.app.fields.field import Field, Group
-from ehlectric.app.fields.rules import changed, is_own, own_values
+from ehlectric.app.fields.memory import Memory
+from ehlectric.app.fields.rules import changed, is_own
 from ehlectric.app.inputs import Inputs
 from ehlectric.app.pages.control import Control, GroupBox
 from ehlectric.app.pages.frame import session_here
@@ -53,6 +54,7 @@ class Form:
         self._change = change
         self._inputs = inputs
         self._groups = groups
+        self._memory = Memory(groups)
         self._wrong: Field | None = None
         self._slid: tuple[Field, float] | None = None
         self._sliding = False
@@ -98,7 +100,7 @@ class Form:
 
     def _group(self, group: Group) -> None:
         async def switched(event: Any) -> None:
-            await self._apply({group.table: dict(group.start) if event.args else None})
+            await self._apply({group.table: self._memory.table(group) if event.args else None})
 
         first = group in self._groups[:_FIRST]
         box = GroupBox(group.title, title=group.title, note=group.note, opened=group.opened, first=first)
@@ -166,9 +168,9 @@ class Form:
     async def _commit(self, field: Field, text: str) -> None:
         self._slid = None
         if field.kind == "ways":
-            await self._apply(field.ways[int(text)].changes)
+            await self._apply(self._memory.way(field, int(text), self._inputs))
         elif text == _OWN:
-            await self._apply(own_values(self._inputs, field.key))
+            await self._apply(self._memory.own(field, self._inputs))
         else:
             await self._apply({field.key: field.from_text(text)})
 
@@ -189,6 +191,7 @@ class Form:
 
         They are one step to undo, together with those just before of the same dragged slider.
         """
+        self._memory.note(self._inputs)
         before, after = self._inputs, changed(self._inputs, changes)
         self._inputs = after
         self._tell_note(self._also(before, after, changes))
@@ -223,6 +226,7 @@ class Form:
     def _show(self) -> None:
         """Show the present inputs in all fields."""
         for group in self._groups:
+            self._boxes[group.title].show(tells=group.tells(self._inputs))
             if group.table:
                 self._boxes[group.title].show(on=self._on(group))
             if group.title in self._mores:
