@@ -87,6 +87,10 @@ class Field:
         Whether the field is hidden when it does not belong, though its key is given.
     optional : bool
         Whether the field may be left empty.
+    ignored : str
+        Regular expression of the endings of a searched name that a search may leave out.
+    lacks : str
+        What is told where a search finds nothing; ``{count}`` is the number of entries.
     """
 
     key: str
@@ -103,6 +107,8 @@ class Field:
     when: When = always
     strict: bool = False
     optional: bool = False
+    ignored: str = ""
+    lacks: str = ""
 
     def at(self, place: float) -> float:
         """Value at a place of the slider from 0 to 1, with three digits."""

@@ -94,7 +94,13 @@ _WORDS = {"pressure_viscosity_coefficient": "pressure-viscosity coefficient", "r
 OIL = Group(
     "Oil",
     (
-        Field("lubricant.base", "Oil", kind="choice", own="From a data sheet"),
+        Field(
+            "lubricant.base",
+            "Oil",
+            kind="choice",
+            own="From a data sheet",
+            lacks="not in the library ({count} oils): give the values of its data sheet",
+        ),
         Field(
             f"{_SHEET}.way_40",
             "At 40 °C given as",
