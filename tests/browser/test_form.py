@@ -112,3 +112,15 @@ def test_messages_do_not_move_the_page(page):
     page.get_by_test_id("undo").click()
     page.get_by_test_id("toast").filter(has_text="Undone").wait_for()
     assert form.bounding_box() == before
+
+
+@pytest.mark.slow
+def test_the_short_answer_leads_to_the_answer_on_a_phone(open_page, app_server):
+    page = open_page(app_server, "/", width=400, height=800)
+    wait_for_number(page, "capacitance", capacitance())
+    answer = page.locator("section.answer")
+    assert answer.bounding_box()["y"] > 800
+    page.get_by_test_id("to-answer").click()
+    page.wait_for_function("() => document.querySelector('section.answer').getBoundingClientRect().top < 200")
+    bar = page.get_by_test_id("strip").bounding_box()
+    assert bar["y"] + bar["height"] <= answer.bounding_box()["y"] + 1
