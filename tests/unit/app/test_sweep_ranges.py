@@ -1,12 +1,21 @@
 """Inputs of the sweep page: a sweep file with its base case inside."""
 
 import tomllib
+from dataclasses import replace
 
 import pytest
 
 from ehlectric.app.inputs import Inputs
 from ehlectric.app.pages.starts import BEARING, SWEEP
-from ehlectric.app.ranges import Range, case_of_link, ranges_of, sweep_file, sweep_inputs, with_ranges
+from ehlectric.app.ranges import (
+    Range,
+    case_of_link,
+    lists_of,
+    ranges_of,
+    sweep_file,
+    sweep_inputs,
+    with_ranges,
+)
 from ehlectric.sweep.inputs import Sweep
 
 
@@ -39,6 +48,22 @@ def test_varied_inputs_keep_their_order_in_the_file(vary):
     file = tomllib.loads(inputs.toml())
     assert file == inputs.table
     assert list(Inputs(file["vary"]).flat()) == list(Inputs(vary).flat())
+
+
+def test_a_changed_range_keeps_lists_and_places():
+    """Keys of a file may stand in quotes, as in the examples."""
+    vary = {
+        "contact.entrainment_speed": ["1 m/s", "2 m/s"],
+        "contact.load_per_length": {"from": "1 MN/m", "to": "2 MN/m", "count": 3},
+    }
+    inputs = Inputs({"vary": vary})
+    assert lists_of(inputs) == {"contact.entrainment_speed": ["1 m/s", "2 m/s"]}
+    (one,) = ranges_of(inputs)
+    changed = with_ranges(inputs, [replace(one, stop="3 MN/m")])
+    assert next(iter(Inputs(changed.value("vary")).flat())) == "contact.entrainment_speed"
+    assert changed.value("vary.contact.load_per_length.to") == "3 MN/m"
+    assert lists_of(changed) == lists_of(inputs)
+    assert ranges_of(with_ranges(inputs, [])) == []
 
 
 def test_the_case_of_another_page_is_taken_over():

@@ -150,10 +150,13 @@ class RangesForm:
         self._varied.clear()
         with self._varied:
             ranges = ranges_of(self._inputs)
-            for key, values in lists_of(self._inputs).items():
+            lists = lists_of(self._inputs)
+            for key, values in lists.items():
                 ui.label(f"{key} takes {values}, as the file says.").classes("muted")
-            self._axis(0, ranges)
-            if ranges:
+            # A map has two axes, of which lists take some.
+            if ranges or len(lists) < 2:
+                self._axis(0, ranges)
+            if len(ranges) > 1 or (ranges and not lists):
                 self._axis(1, ranges)
         if self._focus in self._selects:
             self._selects[self._focus].run_method("focus")
