@@ -2,6 +2,8 @@
 
 import pytest
 
+from ehlectric.app.fields import BEARING_GROUPS
+from ehlectric.app.fields.words import in_field_unit, with_signs
 from tests.browser.driving import field, number, type_into, wait_for_number
 from tests.browser.outputs import address_of, bearing_by_command, command, downloaded, overflow
 from tests.browser.test_first_page import capacitance
@@ -105,8 +107,18 @@ def test_a_wrong_value_has_the_line_of_the_command_beside_it(page, tmp_path, key
     assert error.get_attribute("id") in box.get_attribute("aria-describedby").split()
     path = downloaded(page, "download-toml", tmp_path)
     _, told = command("bearing", path, "--contacts", "formula", folder=tmp_path, status=2)
-    assert " ".join(error.inner_text().split()) in " ".join(told.split())
-    assert "expected" in error.inner_text()
+    # The line of the command, with its bounds in the unit of the field.
+    (line,) = [line for line in told.splitlines() if f"{key}: " in line]
+    shown = next(one for group in BEARING_GROUPS for one in group.fields if one.key == key)
+    expected = in_field_unit(shown, line.partition(f"{key}: ")[2])
+    assert " ".join(error.inner_text().split()) == " ".join(expected.split())
+    assert with_signs(shown.unit) in error.inner_text()
+    assert "string" not in error.inner_text()
+    notice = page.get_by_test_id("notice").inner_text()
+    assert shown.label in notice
+    assert key not in notice
+    page.get_by_test_id("to-field").click()
+    assert box.evaluate("box => document.activeElement === box")
     assert "being computed" not in page.get_by_test_id("number-critical-speed").inner_text()
     assert page.get_by_test_id("answer").get_attribute("aria-busy") == "true", "an old answer is dimmed"
     page.get_by_test_id("undo").click()

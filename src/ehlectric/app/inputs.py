@@ -72,11 +72,17 @@ class Inputs:
         return type(self)(table)
 
     def toml(self) -> str:
-        """Text of the input file with these inputs."""
+        """Text of the input file with these inputs.
+
+        Varied inputs keep their order, which numbers the points of a sweep.
+        """
         import tomli_w
 
-        text: str = tomli_w.dumps(dict(self.table))
-        return text
+        vary = self.table.get("vary")
+        lines = list(_varied(vary)) if isinstance(vary, Mapping) else []
+        rest = {key: value for key, value in self.table.items() if key != "vary" or not lines}
+        text: str = tomli_w.dumps(rest)
+        return text + "\n".join(["", "[vary]", *lines, ""]) if lines else text
 
     def flat(self) -> dict[str, Any]:
         """Values by dotted key; lists of tables are values, and names with dots stand in quotes."""
@@ -323,6 +329,19 @@ def _flat(table: Mapping[str, Any], prefix: str = "") -> Iterable[tuple[str, Any
             yield from _flat(value, f"{key}.")
         else:
             yield key, value
+
+
+def _varied(table: Mapping[str, Any], prefix: str = "") -> Iterator[str]:
+    """Lines of the table ``vary``, a range as a table on its line.
+
+    Tables with a heading of their own would have to follow the lists of values.
+    """
+    for name, value in table.items():
+        key = prefix + _name(name)
+        if isinstance(value, Mapping) and value and not {"from", "to"} & value.keys():
+            yield from _varied(value, f"{key}.")
+        else:
+            yield f"{key} = {_toml(value)}"
 
 
 def _written(value: Any) -> str:

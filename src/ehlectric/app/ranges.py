@@ -76,7 +76,7 @@ def case_of_link(link: str) -> dict[str, Any] | None:
 
 def ranges_of(inputs: Inputs) -> list[Range]:
     """Ranges of the varied inputs, in the order of the design; lists of values are none."""
-    return list(_ranges(inputs.value("vary") or {}))
+    return [one for _, one in _varied(inputs) if isinstance(one, Range)]
 
 
 def lists_of(inputs: Inputs) -> dict[str, Any]:
@@ -87,20 +87,46 @@ def lists_of(inputs: Inputs) -> dict[str, Any]:
     >>> lists_of(Inputs({"vary": {"bearing": {"elements": [8, 9]}}}))
     {'bearing.elements': [8, 9]}
     """
-    ranges = tuple(f"{one.key}." for one in ranges_of(inputs))
-    flat = Inputs(inputs.value("vary") or {}).flat()
-    return {key: value for key, value in flat.items() if not key.startswith(ranges)}
+    return {key: value for key, value in _varied(inputs) if not isinstance(value, Range)}
 
 
 def with_ranges(inputs: Inputs, ranges: list[Range]) -> Inputs:
-    """Inputs with other varied inputs."""
+    """Inputs with other ranges, which take the places of those before; lists of values stay.
+
+    Examples
+    --------
+    >>> inputs = Inputs({"vary": {"bearing": {"elements": [8, 9]}}})
+    >>> with_ranges(inputs, [Range("bearing.radial_load", "1 N", "2 N", 3)]).value("vary.bearing.elements")
+    [8, 9]
+    """
+    new = iter(ranges)
+    varied: dict[str, Any] = {}
+    for key, value in _varied(inputs):
+        if not isinstance(value, Range):
+            varied[key] = value
+        elif (one := next(new, None)) is not None:
+            varied[one.key] = one.table()
+    varied |= {one.key: one.table() for one in new}
     without = inputs.changed({"vary": None})
-    return without.changed({f"vary.{one.key}": one.table() for one in ranges})
+    return without.changed({f"vary.{key}": value for key, value in varied.items()})
 
 
 def sweep_file(inputs: Inputs) -> Inputs:
     """Inputs without the shown result, which a sweep file does not have."""
     return inputs.changed({"show": None})
+
+
+def same_sweep(one: Inputs, other: Inputs) -> bool:
+    """Whether two sweeps have the same points in the same order.
+
+    Examples
+    --------
+    >>> ranges = [Range("bearing.elements", "8", "9", 2), Range("bearing.radial_load", "1 N", "2 N", 2)]
+    >>> same_sweep(with_ranges(Inputs(), ranges), with_ranges(Inputs(), ranges[::-1]))
+    False
+    """
+    orders = [list(Inputs(inputs.value("vary") or {}).flat()) for inputs in (one, other)]
+    return one == other and orders[0] == orders[1]
 
 
 def number_of_text(text: str) -> str | int | float:
@@ -120,14 +146,20 @@ def _of_case(table: Mapping[str, Any]) -> dict[str, Any]:
     return {key: value for key, value in table.items() if key not in ("vary", "show", "case", "token")}
 
 
-def _ranges(table: Mapping[str, Any], prefix: str = "") -> Iterator[Range]:
+def _varied(inputs: Inputs) -> list[tuple[str, Any]]:
+    """Varied inputs in the order of the design, by dotted key: a range, or other values as they are."""
+    table = inputs.value("vary")
+    return list(_leaves(table)) if isinstance(table, Mapping) else []
+
+
+def _leaves(table: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
     for name, value in table.items():
         key = f"{prefix}{name}"
-        if not isinstance(value, Mapping):
-            continue
-        if "from" in value or "to" in value:
+        if not isinstance(value, Mapping) or not value:
+            yield key, value
+        elif "from" in value or "to" in value:
             log = value.get("spacing") == "log"
             ends = (str(value.get("from", "")), str(value.get("to", "")))
-            yield Range(key, *ends, count=value.get("count", ""), log=log)
+            yield key, Range(key, *ends, count=value.get("count", ""), log=log)
         else:
-            yield from _ranges(value, f"{key}.")
+            yield from _leaves(value, f"{key}.")

@@ -16,7 +16,8 @@ from ehlectric.app.pages.starts import SWEEP, start
 from ehlectric.app.ranges import Range, with_ranges
 from ehlectric.app.work import Limits, Work
 from ehlectric.cases.any_case import case_of_dict
-from ehlectric.errors import InputError
+from ehlectric.cases.input_keys import kind_of, unit_of
+from ehlectric.errors import CODES, InputError
 from ehlectric.runs.by_kind import read_sweep_file, run_sweep
 from ehlectric.sweep.engine import solve_point
 from ehlectric.sweep.plan import case_key
@@ -32,6 +33,7 @@ VARY = {
         "elements": {"from": 9, "to": 30, "count": 2},
     }
 }
+BORE = {"from": "40 mm", "to": "80 mm", "count": 2}
 TABLE = {"case": CASE, "vary": VARY}
 
 
@@ -118,7 +120,7 @@ def test_a_stopped_job_resumes_without_solving_a_point_twice(tmp_path):
 
 
 def test_a_refused_point_has_its_reason_and_no_number(folder):
-    view = sweep_view.seen(str(folder), "bearing.first_break")
+    view = sweep_view.seen(str(folder), "bearing.first_break", TABLE)
     assert view.counts == {"solved": 1, "failed": 3}
     refused = [point for point in view.chart.points if point.state == "failed"]
     assert [point.value for point in refused] == [None, None, None]
@@ -129,8 +131,30 @@ def test_a_refused_point_has_its_reason_and_no_number(folder):
     assert sum(value is None for row in coloured["z"] for value in row) == 3
 
 
+@pytest.mark.parametrize(
+    "other",
+    [
+        {"case": CASE, "vary": {"bearing": dict(reversed(VARY["bearing"].items()))}},
+        {"case": CASE, "vary": {"bearing": VARY["bearing"] | {"bore": BORE}}},
+        {"case": {**CASE, "bearing": CASE["bearing"] | {"radial_load": "1801 N"}}, "vary": VARY},
+    ],
+    ids=["order", "range", "case"],
+)
+def test_a_folder_with_another_sweep_is_not_shown_as_the_one_that_is_asked_for(folder, other):
+    assert sweep_view.seen(str(folder), "bearing.first_break", TABLE) is not None
+    assert sweep_view.seen(str(folder), "bearing.first_break", other) is None
+    with pytest.raises(InputError, match="replaced by another"):
+        sweep.point(str(folder), other, 0)
+
+
+def test_warnings_of_a_map_have_no_codes(folder):
+    told = sweep_view.seen(str(folder), "bearing.first_break", TABLE).warnings
+    assert told
+    assert not any(code in one.text for one in told for code in CODES if "-" in code)
+
+
 def test_the_map_has_the_numbers_of_the_summaries(folder):
-    view, results = sweep_view.seen(str(folder), "bearing.capacitance"), read_sweep(folder)
+    view, results = sweep_view.seen(str(folder), "bearing.capacitance", TABLE), read_sweep(folder)
     factor = {"Capacitance of the bearing [pF]": 1e12, "Capacitance of the bearing [nF]": 1e9}[
         view.chart.title
     ]
@@ -148,9 +172,9 @@ def test_links_reproduce_the_results_of_the_points_exactly(folder):
     for point in results.points:
         if point.number > 1:
             with pytest.raises(InputError, match=r"bearing\.bore"):
-                sweep.point(str(folder), CASE, point.number)
+                sweep.point(str(folder), TABLE, point.number)
             continue
-        link = sweep.point(str(folder), CASE, point.number)
+        link = sweep.point(str(folder), TABLE, point.number)
         table = Inputs.of_query(parse_qsl(link.query)).table
         assert link.path == "/"
         assert table["bearing"]["temperature"] == "70 degC"
@@ -159,6 +183,28 @@ def test_links_reproduce_the_results_of_the_points_exactly(folder):
         outcome = solve_point(case.to_dict())
         assert (outcome.status, outcome.reason) == (point.status, point.reason)
         assert without_time(outcome.summary or {}) == without_time(point.summary or {})
+
+
+@pytest.mark.parametrize(
+    ("key", "ends", "count", "most"),
+    [
+        ("bearing.inner_speed", ("300 rpm", "6000 rpm"), 5, 24),
+        ("bearing.radial_load", ("1 kN", "3 kN"), 5, 7),
+        ("bearing.temperature", ("40 degC", "80 degC"), 5, 7),
+        ("bearing.composite_rq", ("0.02 um", "0.06 um"), 3, 7),
+    ],
+)
+def test_a_point_has_the_unit_of_its_range_where_that_has_the_same_number(key, ends, count, most):
+    """Exact: a text that reads back as another float would be another case."""
+    _, name = key.split(".")
+    vary = {"bearing": {name: {"from": ends[0], "to": ends[1], "count": count}}}
+    asked, unit = sweep.sweep_of({"case": CASE, "vary": vary}), ends[0].partition(" ")[2]
+    texts = [sweep._text(key, value, unit) for value in asked.axes[key]]
+    assert [kind_of(key).parse(text, written=True) for text in texts] == list(asked.axes[key])
+    assert texts[0] == ends[0]
+    assert texts[-1] == ends[1]
+    assert all(text.endswith((unit, unit_of(key))) for text in texts)
+    assert max(map(len, texts)) <= most
 
 
 def test_a_link_has_the_varied_load_and_not_the_pressure_that_it_replaces():

@@ -38,7 +38,7 @@ SWEEP_PLANNED: Call[SweepPlan] = Call("sweep.planned")
 SWEEP_SOLVED: Call[Mapping[str, int]] = Call("sweep.solved")
 SWEEP_POINT: Call[SweepPoint] = Call("sweep.point")
 SWEEP_FILES: Call[tuple[str, ...]] = Call("sweep.files")
-SWEEP_SEEN: Call[SweepView] = Call("sweep_view.seen")
+SWEEP_SEEN: Call[SweepView | None] = Call("sweep_view.seen")
 
 # Two cases side by side.
 COMPARE_SIDE: Call[Side] = Call("compare.side")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -10,7 +11,8 @@ from typing import Any
 import numpy as np
 
 from ehlectric.app.answers.sweep import Axis, Chart, ChartPoint, PointState, SweepView
-from ehlectric.app.compute.sweep import named
+from ehlectric.app.answers.told import Told
+from ehlectric.app.compute.sweep import is_stored, named
 from ehlectric.app.compute.warnings import told_of
 from ehlectric.app.figures.sweep import figure_of
 from ehlectric.bearing.by_formula import formula_error
@@ -18,6 +20,7 @@ from ehlectric.cases.any_case import AnyCase
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.input_keys import unit_of
 from ehlectric.cases.result_key import key_of
+from ehlectric.errors import CODES
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.breakdown_keys import Breakdown, breakdown_of
 from ehlectric.sweep.labels import CELSIUS, Scale, label_of, result_keys, scale_for
@@ -34,8 +37,8 @@ _SAMPLE = 50
 _MOST_TOLD = 3
 
 
-def seen(folder: str, shown: str) -> SweepView:
-    """State of a sweep, finished, stopped or running.
+def seen(folder: str, shown: str, table: Mapping[str, Any]) -> SweepView | None:
+    """State of a sweep, finished, stopped or running; None where the folder still has another one.
 
     Parameters
     ----------
@@ -43,13 +46,16 @@ def seen(folder: str, shown: str) -> SweepView:
         Folder of the sweep.
     shown : str
         Dotted key of the summary that the map shows.
+    table : mapping
+        Tables of the sweep that is asked for.
 
     Raises
     ------
     InputError
         If the folder has no sweep.
     """
-    return view_of(read_sweep(folder), shown)
+    results = read_sweep(folder)
+    return view_of(results, shown) if is_stored(results, table) else None
 
 
 def view_of(results: SweepResults, shown: str) -> SweepView:
@@ -82,8 +88,16 @@ def view_of(results: SweepResults, shown: str) -> SweepView:
         formula_error=_formula_error(results.case),
         level="" if verdict is None else verdict.level,
         text="" if verdict is None else verdict.text,
-        warnings=told_of(sweep_warnings(results)),
+        warnings=tuple(map(_without_code, told_of(sweep_warnings(results)))),
     )
+
+
+def _without_code(told: Told) -> Told:
+    """Warning on a kind of warnings without the code of this kind, which only files and commands need."""
+    return replace(told, text=_CODE.sub(lambda found: f"{found[1]}: ", told.text))
+
+
+_CODE = re.compile(rf"\b(warning|note) (?:{'|'.join(CODES)}): ")
 
 
 def _formula_error(case: AnyCase) -> str:

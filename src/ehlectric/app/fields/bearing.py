@@ -47,10 +47,23 @@ def _number(key: str, label: str, unit: str, ends: tuple[float, float], **more: 
     return Field(key, label, unit, *ends, **more)  # type: ignore[arg-type]
 
 
+# Endings of a designation that change nothing here: seals, shields and classes of clearance, as makers write
+# them. The clearance has fields of its own.
+_ENDINGS = (
+    r"([-\s/]*(2?rs[hlr]?[12]?|2?rz|2?z[rz]?|zz|2?ddu?|v{1,2}|ll[ubh]|2?ns[el]?|ee|uu|c[2-5]|cn|cm))+\s*$"
+)
+
 GEOMETRY = Group(
     "Bearing",
     (
-        Field("bearing.base", "Bearing", kind="choice", own="Own geometry"),
+        Field(
+            "bearing.base",
+            "Bearing",
+            kind="choice",
+            own="Own geometry",
+            ignored=_ENDINGS,
+            lacks="not in the catalogue ({count} bearings): choose your own geometry and type its dimensions",
+        ),
         Field("bearing.kind", "Kind", kind="choice", choices=(DEEP, ANGULAR, ROLLERS), when=_own),
         Field("bearing.elements", "Rolling elements", low=5, high=45, kind="count", when=_own),
         _number("bearing.element_diameter", "Element diameter", "mm", (2.0, 60.0), log=True, when=_own),

@@ -146,6 +146,7 @@ _POINT = Group(
 
 _BASE, *_SHEET = OIL_OF_BEARING.fields
 _PERMITTIVITY = "lubricant.relative_permittivity"
+_COEFFICIENT = "lubricant.pressure_viscosity_coefficient"
 
 _OIL = replace(
     OIL_OF_BEARING,
@@ -160,16 +161,9 @@ _OIL = replace(
             log=True,
             when=_no_sheet,
         ),
-        Field(
-            "lubricant.pressure_viscosity_coefficient",
-            "Pressure-viscosity coefficient",
-            "1/GPa",
-            5.0,
-            40.0,
-            when=_no_sheet,
-        ),
+        Field(_COEFFICIENT, "Pressure-viscosity coefficient", "1/GPa", 5.0, 40.0),
         Field(_PERMITTIVITY, "Relative permittivity", "", 1.8, 8.0),
-        *(field for field in _SHEET if field.key != _PERMITTIVITY),
+        *(field for field in _SHEET if field.key not in (_PERMITTIVITY, _COEFFICIENT)),
     ),
 )
 

@@ -16,6 +16,12 @@ _DEFAULTS = {
     "bearing.fits.shaft_bore": "0 mm",
 }
 
+# Values of a library's oil that do not hold with a data sheet, as the cases resolve it.
+_NOT_WITH_SHEET = (
+    *("lubricant.viscosity", "lubricant.pressure_viscosity_coefficient", "lubricant.density"),
+    "lubricant.atmospheric_law",
+)
+
 _LIBRARY = {"bearing.coating": coating, "bearing": bearing, "lubricant": oil}
 
 
@@ -27,6 +33,11 @@ def default_of(inputs: Inputs, key: str) -> Any:
     >>> default_of(Inputs({"bearing": {"base": "6208"}}), "bearing.bore")
     '40 mm'
     """
+    if key in _NOT_WITH_SHEET and inputs.value("lubricant.temperature") is not None:
+        return None
+    estimated = inputs.value("lubricant.temperature.base_oil") is not None
+    if key == "lubricant.roelands_z" and estimated:
+        return None
     for table, known in _LIBRARY.items():
         if key.startswith(f"{table}."):
             value = known(str(inputs.value(f"{table}.base"))).get(key.removeprefix(f"{table}."))

@@ -18,6 +18,10 @@ def always(_: Inputs) -> bool:
     return True
 
 
+def _nothing(_: Inputs) -> str:
+    return ""
+
+
 @dataclass(frozen=True)
 class Way:
     """Way to give a quantity, one of several that exclude each other.
@@ -83,6 +87,10 @@ class Field:
         Whether the field is hidden when it does not belong, though its key is given.
     optional : bool
         Whether the field may be left empty.
+    ignored : str
+        Regular expression of the endings of a searched name that a search may leave out.
+    lacks : str
+        What is told where a search finds nothing; ``{count}`` is the number of entries.
     """
 
     key: str
@@ -99,6 +107,8 @@ class Field:
     when: When = always
     strict: bool = False
     optional: bool = False
+    ignored: str = ""
+    lacks: str = ""
 
     def at(self, place: float) -> float:
         """Value at a place of the slider from 0 to 1, with three digits."""
@@ -188,6 +198,8 @@ class Group:
         Values of the table when it is switched on.
     note : str
         What a user must know about the group, such as that its first values are assumptions.
+    tells : callable
+        Sentence on given inputs, such as on values that hold where none are given; may be empty.
     """
 
     title: str
@@ -196,3 +208,4 @@ class Group:
     table: str = ""
     start: Mapping[str, Any] = field(default_factory=dict)
     note: str = ""
+    tells: Callable[[Inputs], str] = _nothing

@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
-from ehlectric.app.catalogue import oil_needs
+from collections.abc import Mapping
+from typing import Any
+
+from ehlectric.app.catalogue import oil, oil_needs
 from ehlectric.app.fields.field import Field, Group, Way
 from ehlectric.app.inputs import Inputs
 
 _SHEET = "lubricant.temperature"
+
+# Thermal expansion of an oil whose data sheet gives none.
+EXPANSION = "6.5e-4 1/K"
 
 # Grades of ISO 3448 that oils for bearings have.
 _GRADES = ("10", "15", "22", "32", "46", "68", "100", "150", "220", "320", "460", "680", "1000")
@@ -16,8 +22,8 @@ def _sheet(inputs: Inputs) -> bool:
     return inputs.value(_SHEET) is not None
 
 
-def _needs_permittivity(inputs: Inputs) -> bool:
-    return "relative_permittivity" in oil_needs(str(inputs.value("lubricant.base")))
+def _permittivity(inputs: Inputs) -> bool:
+    return _sheet(inputs) or "relative_permittivity" in oil_needs(str(inputs.value("lubricant.base")))
 
 
 def _needs_exponent(inputs: Inputs) -> bool:
@@ -32,10 +38,69 @@ def _no(_: Inputs) -> bool:
     return False
 
 
+def assumed(inputs: Inputs) -> str:
+    """Sentence on the properties that a data sheet does not give, with the values taken in their place.
+
+    They are those of the oil that ``lubricant.base`` names, except for what the data sheet replaces.
+
+    Examples
+    --------
+    >>> oil = {"base": "paper", "temperature": {"base_oil": "pao"}}
+    >>> assumed(Inputs({"lubricant": oil})).partition(";")[0]
+    "Assumed, since not given: relative permittivity 2.4 of 'paper'"
+    """
+    given, base = inputs.value("lubricant") or {}, str(inputs.value("lubricant.base"))
+    known = oil(base)
+    if not _sheet(inputs) or not known:
+        return ""
+    parts = []
+    if not given.keys() & {"relative_permittivity", "permittivity_table"}:
+        value = known.get("relative_permittivity")
+        parts.append(f"relative permittivity {value} of {base!r}" if value else "")
+    parts.append(_assumed_with_pressure(given, known, base))
+    if "density_law" not in given:
+        parts.append(f"density over pressure as in {base!r} ({known.get('density_law')})")
+    if inputs.value(f"{_SHEET}.expansion") is None:
+        parts.append(f"thermal expansion {EXPANSION}")
+    text = "; ".join(filter(None, parts))
+    return f"Assumed, since not given: {text}." if text else ""
+
+
+def _assumed_with_pressure(given: Mapping[str, Any], known: Mapping[str, Any], base: str) -> str:
+    """Part of the sentence on the rise of the viscosity with pressure."""
+    law = given.get("viscosity_law") or known.get("viscosity_law")
+    if law != "roelands":
+        return "" if "viscosity_law" in given else f"viscosity over pressure as in {base!r} ({law})"
+    lacks = [_WORDS[name] for name in _WORDS if given.get(name) is None]
+    sheet = given.get("temperature", {})
+    exponent = known.get("roelands_z")
+    if not lacks:
+        return ""
+    if given.get("roelands_z") is not None:
+        return f"{lacks[0]} by Roelands' relation from z and the viscosity"
+    if isinstance(sheet, Mapping) and sheet.get("base_oil"):
+        if len(lacks) == 1:
+            return f"{lacks[0]} by Roelands' relation from the coefficient and the viscosity"
+        return f"{' and '.join(lacks)} as estimated for {sheet['base_oil']}"
+    if exponent is None:
+        return ""
+    own = f"Roelands' z {exponent} of {base!r}"
+    return own if len(lacks) == 1 else f"{own}, which with the viscosity gives the {lacks[0]}"
+
+
+_WORDS = {"pressure_viscosity_coefficient": "pressure-viscosity coefficient", "roelands_z": "Roelands' z"}
+
+
 OIL = Group(
     "Oil",
     (
-        Field("lubricant.base", "Oil", kind="choice", own="From a data sheet"),
+        Field(
+            "lubricant.base",
+            "Oil",
+            kind="choice",
+            own="From a data sheet",
+            lacks="not in the library ({count} oils): give the values of its data sheet",
+        ),
         Field(
             f"{_SHEET}.way_40",
             "At 40 °C given as",
@@ -94,9 +159,17 @@ OIL = Group(
             when=_heated,
             optional=True,
         ),
+        Field("lubricant.relative_permittivity", "Relative permittivity", "", 1.8, 6.0, when=_permittivity),
         Field(
-            "lubricant.relative_permittivity", "Relative permittivity", "", 1.8, 6.0, when=_needs_permittivity
+            "lubricant.pressure_viscosity_coefficient",
+            "Pressure-viscosity coefficient",
+            "1/GPa",
+            5.0,
+            40.0,
+            note="if known",
+            when=_sheet,
         ),
         Field("lubricant.roelands_z", "Roelands' exponent z", "", 0.3, 1.0, when=_needs_exponent),
     ),
+    tells=assumed,
 )

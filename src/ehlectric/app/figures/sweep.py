@@ -247,7 +247,8 @@ def _layout(chart: Chart) -> dict[str, Any]:
     layout: dict[str, Any] = {
         "paper_bgcolor": "rgba(0,0,0,0)",
         "plot_bgcolor": "rgba(0,0,0,0)",
-        "margin": {"l": 60, "r": 10, "t": 10, "b": 50},
+        # The buttons of the figure stand above the map, and not on the title of its colours.
+        "margin": {"l": 60, "r": 10, "t": 40, "b": 50},
         "xaxis": _axis(chart.x),
         "yaxis": _axis(chart.y) if chart.y is not None else {"title": {"text": chart.title}},
         "legend": {"orientation": "h", "x": 0.0, "y": -0.22, "yanchor": "top"},

@@ -79,6 +79,11 @@ class BearingPage:
                 self.solving = Solving(self.session, self._ask, self.go_to)
                 self._notice = ui.label().classes("notice wrong").props('data-testid="notice"')
                 self._notice.set_visibility(False)
+                button = ui.button("Go to the field", on_click=self.form.go_to_wrong, color=None)
+                button.props("no-caps dense data-testid=to-field")
+                button.bind_visibility_from(
+                    self._notice, "visible", lambda told: told and self.form.wrong is not None
+                )
                 self.view = AnswerView()
                 self._downloads = Downloads(self.session, "bearing", self.solving.folder)
 
@@ -154,9 +159,8 @@ class BearingPage:
         self.form.tell(error)
         self.view.stop()
         self.solving.show(None, error)
-        self._notice.text = (
-            f"{error}{'. The answer below is that to earlier inputs.' if self.view.shown else ''}"
-        )
+        earlier = ". The answer below is that to earlier inputs." if self.view.shown else ""
+        self._notice.text = f"{self.form.words(error)}{earlier}"
         self._notice.set_visibility(True)
 
 

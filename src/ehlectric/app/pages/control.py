@@ -4,7 +4,26 @@ from __future__ import annotations
 
 from typing import Any
 
+from nicegui import ui
 from nicegui.element import Element
+
+# Time for which a short message is shown [s].
+_BRIEF = 8.0
+
+
+def brief(label: ui.label, text: str) -> None:
+    """Show a short message in a label for a while; an empty text takes it away."""
+    label.text = text
+    label.set_visibility(bool(text))
+    if not text:
+        return
+
+    def over() -> None:
+        if label.text == text:
+            label.set_visibility(False)
+
+    with label:
+        ui.timer(_BRIEF, over, once=True)
 
 
 class _Shown(Element):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Awaitable, Callable, Sequence
 from contextlib import nullcontext
 from typing import Any
@@ -14,9 +15,11 @@ from ehlectric.app.fields import BEARING_GROUPS
 from ehlectric.app.fields.contact import geometry_of, groups_of
 from ehlectric.app.fields.defaults import default_of
 from ehlectric.app.fields.field import Field, Group
-from ehlectric.app.fields.rules import changed, is_own, own_values
+from ehlectric.app.fields.memory import Memory
+from ehlectric.app.fields.rules import changed, is_own
+from ehlectric.app.fields.words import in_field_unit, shown_text, written_text
 from ehlectric.app.inputs import Inputs
-from ehlectric.app.pages.control import Control, GroupBox
+from ehlectric.app.pages.control import Control, GroupBox, brief
 from ehlectric.app.pages.frame import session_here
 from ehlectric.errors import InputError, LostError
 
@@ -53,6 +56,7 @@ class Form:
         self._change = change
         self._inputs = inputs
         self._groups = groups
+        self._memory = Memory(groups)
         self._wrong: Field | None = None
         self._slid: tuple[Field, float] | None = None
         self._sliding = False
@@ -78,8 +82,8 @@ class Form:
         """Show an error beside its field, and take away the one before."""
         key = error.key if isinstance(error, InputError) else None
         field = None if key is None else self._field_of(key)
-        own = error.text if isinstance(error, InputError) else ""
         exact = field is not None and field.key == key
+        own = in_field_unit(field, error.text) if field is not None and isinstance(error, InputError) else ""
         text = own if exact else "" if error is None else str(error)
         self._wrong = field
         for one, control in self._controls:
@@ -92,6 +96,28 @@ class Form:
             if field.optional:
                 self._mores[title].turn(opened=True)
 
+    def words(self, error: Exception) -> str:
+        """Line on an error for another place of the page, with the name of its field."""
+        key = error.key if isinstance(error, InputError) else None
+        field = next((field for field, _ in self._controls if field.key == key), None)
+        if field is None or not isinstance(error, InputError):
+            return str(error)
+        return f"{field.label}: {in_field_unit(field, error.text)}"
+
+    @property
+    def wrong(self) -> Field | None:
+        """Field beside which an error is shown."""
+        return self._wrong
+
+    def go_to_wrong(self) -> None:
+        """Move the page and the focus to the field that is wrong."""
+        boxes = [control.props["box-id"] for field, control in self._controls if field is self._wrong]
+        for box in boxes:
+            ui.run_javascript(
+                f"const box = document.getElementById({json.dumps(box)});"
+                "if (box) { box.scrollIntoView({block: 'center'}); box.focus({preventScroll: true}); }"
+            )
+
     def set(self, inputs: Inputs) -> None:
         """Show other inputs, as after an undo; nothing is sent."""
         self._slid = None
@@ -101,7 +127,7 @@ class Form:
 
     def _group(self, group: Group) -> None:
         async def switched(event: Any) -> None:
-            await self._apply({group.table: dict(group.start) if event.args else None})
+            await self._apply({group.table: self._memory.table(group) if event.args else None})
 
         first = group in self._groups[:_FIRST]
         box = GroupBox(group.title, title=group.title, note=group.note, opened=group.opened, first=first)
@@ -141,6 +167,7 @@ class Form:
         control = Control(
             field.key, kind=kind, label=field.label, note=field.note, slides=number, options=options
         )
+        control.show(ignored=field.ignored, lacks=field.lacks)
         control.on("commit", committed)
         if number:
             control.on("slide", slid)
@@ -169,11 +196,11 @@ class Form:
     async def _commit(self, field: Field, text: str) -> None:
         self._slid = None
         if field.kind == "ways":
-            await self._apply(field.ways[int(text)].changes)
+            await self._apply(self._memory.way(field, int(text), self._inputs))
         elif text == _OWN:
-            await self._apply(own_values(self._inputs, field.key))
+            await self._apply(self._memory.own(field, self._inputs))
         else:
-            await self._apply({field.key: field.from_text(text)})
+            await self._apply({field.key: field.from_text(written_text(field, text))})
 
     async def _slide(self, field: Field, place: float) -> None:
         self._slid = (field, place)
@@ -192,6 +219,7 @@ class Form:
 
         They are one step to undo, together with those just before of the same dragged slider.
         """
+        self._memory.note(self._inputs)
         before, after = self._inputs, changed(self._inputs, changes)
         self._inputs = after
         self._tell_note(self._also(before, after, changes))
@@ -203,7 +231,8 @@ class Form:
 
     def _also(self, before: Inputs, after: Inputs, changes: Any) -> str:
         """Sentence on the inputs that changed beside those that were asked for."""
-        labels = {field.key: field.label for field, _ in self._controls}
+        fields = {field.key: field for field, _ in self._controls}
+        labels = {key: field.label for key, field in fields.items()}
         old, new = before.flat(), after.flat()
 
         def other(key: str) -> bool:
@@ -211,7 +240,7 @@ class Form:
 
         gone = [labels.get(key, key) for key in old if key not in new and other(key)]
         came = [
-            f"{labels.get(key, key)} = {value}"
+            f"{labels.get(key, key)} = {shown_text(fields[key], str(value)) if key in fields else value}"
             for key, value in new.items()
             if old.get(key) != value and other(key)
         ]
@@ -220,12 +249,12 @@ class Form:
         return f"Also {text}" if text else ""
 
     def _tell_note(self, text: str) -> None:
-        self.note.text = text
-        self.note.set_visibility(bool(text))
+        brief(self.note, text)
 
     def _show(self) -> None:
         """Show the present inputs in all fields."""
         for group in self._groups:
+            self._boxes[group.title].show(tells=group.tells(self._inputs))
             if group.table:
                 self._boxes[group.title].show(on=self._on(group))
             if group.title in self._mores:
@@ -247,8 +276,11 @@ class Form:
             number = field.number(value if value is not None else default)
             moved = {} if number is None else {"place": round(field.place(number), 4)}
             note = field.note if len(field.note) <= _LONGEST_PLACEHOLDER else ""
-            shown = field.text(default) or note or "not given"
-            control.show(text=field.text(value), placeholder=shown, **moved)
+            empty = shown_text(field, field.text(default)) or note or "not given"
+            full = field.text(value)
+            text = shown_text(field, full)
+            rounded = full if len(full) > len(text) + 2 else ""
+            control.show(text=text, full=rounded, placeholder=empty, **moved)
         control.show(shown=self._is_shown(field))
 
     def _show_others(self) -> None:

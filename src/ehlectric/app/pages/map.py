@@ -217,9 +217,9 @@ class MapPart:
             return False
         self._chosen, self._address, refused = number, "", ""
         self._draw()
-        folder, case = str(self.session.folder / "sweep"), dict(ran.value("case"))
+        folder = str(self.session.folder / "sweep")
         try:
-            found = await self.session.work.quick(SWEEP_POINT, folder, case, number)
+            found = await self.session.work.quick(SWEEP_POINT, folder, dict(ran.table), number)
             self._address = f"{found.path}?{found.query}"
         except (InputError, LostError) as error:
             refused = str(error)

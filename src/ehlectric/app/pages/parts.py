@@ -39,20 +39,23 @@ def card(title: str) -> Iterator[ui.element]:
         yield section
 
 
+_TO_ANSWER = "() => document.querySelector('.answer')?.scrollIntoView({ block: 'start' })"
+
+
 class Strip:
     """Short answer that stays at the top of a narrow screen while inputs change; build it in the page itself.
 
-    A screen reader has the answer itself, so that it does not read this one.
+    A screen reader has the answer itself, so that it does not read this one; the button leads to it.
     """
 
     def __init__(self) -> None:
-        with (
-            ui.element("div")
-            .classes("strip grey")
-            .props('data-testid="strip" aria-hidden="true"') as self._box
-        ):
-            self._word = ui.label().classes("word")
-            self._numbers = ui.label()
+        with ui.element("div").classes("strip grey").props('data-testid="strip"') as self._box:
+            self._word = ui.label().classes("word").props('aria-hidden="true"')
+            self._numbers = ui.label().props('aria-hidden="true"')
+            button = ui.element("button").classes("to-answer").props('type="button" data-testid="to-answer"')
+            button.on("click", js_handler=_TO_ANSWER)
+            with button:
+                ui.html("Answer", sanitize=False, tag="span")
 
     def show(self, level: str, word: str, numbers: Iterable[str] = (), *, bound: str = "") -> None:
         """Show the level of a verdict, its word and bound, and a few numbers such as "margin ≤ 1.46"."""

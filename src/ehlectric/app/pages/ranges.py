@@ -10,6 +10,7 @@ from nicegui import ui
 
 from ehlectric.app.answers.sweep import SweepChoices, Variable
 from ehlectric.app.fields import Group
+from ehlectric.app.fields.words import in_field_unit
 from ehlectric.app.inputs import Inputs
 from ehlectric.app.pages.form import Form, groups_for
 from ehlectric.app.pages.parts import card
@@ -128,12 +129,18 @@ class RangesForm:
         if error is None:
             return
         if found is not None:
-            found.tell(error.text)
+            found.tell(self._in_unit(key, error.text))
         elif key and not f"{key}.".startswith("vary."):
             self._values.open()
             self.case.tell(InputError(key.removeprefix("case."), error.text))
         else:
             self._message.text = str(error)
+
+    def _in_unit(self, key: str, text: str) -> str:
+        """Text of an error of a range with its bounds in the unit of the field of its input."""
+        name = key.removeprefix("vary.").rpartition(".")[0]
+        fields = [field for group in self._groups or () for field in group.fields if field.key == name]
+        return in_field_unit(fields[0], text) if fields else text
 
     def _build_axes(self) -> None:
         """Fields of the varied inputs."""
@@ -143,10 +150,13 @@ class RangesForm:
         self._varied.clear()
         with self._varied:
             ranges = ranges_of(self._inputs)
-            for key, values in lists_of(self._inputs).items():
+            lists = lists_of(self._inputs)
+            for key, values in lists.items():
                 ui.label(f"{key} takes {values}, as the file says.").classes("muted")
-            self._axis(0, ranges)
-            if ranges:
+            # A map has two axes, of which lists take some.
+            if ranges or len(lists) < 2:
+                self._axis(0, ranges)
+            if len(ranges) > 1 or (ranges and not lists):
                 self._axis(1, ranges)
         if self._focus in self._selects:
             self._selects[self._focus].run_method("focus")

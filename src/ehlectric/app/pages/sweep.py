@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 import time
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +21,7 @@ from ehlectric.app.pages.parts import card
 from ehlectric.app.pages.ranges import RangesForm, range_of
 from ehlectric.app.pages.starts import SWEEP
 from ehlectric.app.pages.toolbar import Toolbar
-from ehlectric.app.ranges import sweep_file, sweep_inputs, with_ranges
+from ehlectric.app.ranges import same_sweep, sweep_file, sweep_inputs, with_ranges
 from ehlectric.app.session import Session
 from ehlectric.app.work import Job, Work
 from ehlectric.errors import InputError, LostError
@@ -52,8 +53,10 @@ def add(work: Work) -> None:
         page = SweepPage(session_of(work, SWEEP if given is None else given))
         with framed("Sweep: what happens over a range?", _PATH):
             page.build(error)
-        await ui.context.client.connected()
-        await page.begin()
+        client = ui.context.client
+        await client.connected()
+        if not client.is_deleted:
+            await page.begin()
 
 
 class SweepPage:
@@ -64,11 +67,15 @@ class SweepPage:
         self.workers = max(1, cores() - 1)
         self._asked = 0
         self._choices: SweepChoices | None = None
-        # Inputs whose points are in the database; None where nothing was run.
+        # Inputs whose points the map shows; None where nothing was run. The database has them, until a run of
+        # other inputs, the wanted ones, has begun to write its own.
         self._ran: Inputs | None = None
+        self._wanted: Inputs | None = None
         self._job: Job | None = None
         self._started = self._next = 0.0
         self._first = 0
+        # Time of a point in the last run, on all its processes together [s], and its base case.
+        self._pace: tuple[Any, float] | None = None
         self._looking = self._valid = False
 
     @property
@@ -148,7 +155,13 @@ class SweepPage:
             return
         if asked == self._asked:
             self.form.tell(None)
-            self.plan.text = _in_words(found)
+            self.plan.text = _in_words(self._paced(found))
+
+    def _paced(self, plan: SweepPlan) -> SweepPlan:
+        """Plan with the time that the points of the same base case took, where some are solved."""
+        if self._pace is None or self._pace[0] != self.session.inputs.value("case"):
+            return plan
+        return replace(plan, seconds=plan.points * self._pace[1])
 
     def _table(self) -> dict[str, Any]:
         return dict(sweep_file(self.session.inputs).table)
@@ -199,8 +212,12 @@ class SweepPage:
 
     def _finished_folder(self) -> Path | None:
         """Folder of the database, where it has points of the present inputs and is not written to."""
-        same = self._ran is not None and self._ran == sweep_file(self.session.inputs)
-        return self.session.folder / "sweep" if same and not self.stop.enabled else None
+        return self.session.folder / "sweep" if self._same and not self.stop.enabled else None
+
+    @property
+    def _same(self) -> bool:
+        """Whether the map shows the sweep of the present inputs."""
+        return self._ran is not None and same_sweep(self._ran, sweep_file(self.session.inputs))
 
     def _download_of(self, name: str, label: str, test_id: str) -> ui.button:
         async def download() -> None:
@@ -227,9 +244,9 @@ class SweepPage:
         except LostError as error:
             self.failure.text = str(error)
             return
-        self._ran = sweep_file(self.session.inputs)
+        self._wanted = sweep_file(self.session.inputs)
         self._started = self._next = 0.0
-        self.map.began(self._ran)
+        self.state.text = ""
         self._timer.activate()
         self._tell_state()
 
@@ -241,7 +258,7 @@ class SweepPage:
         """Remove the database; its points would have to be solved again."""
         if self._job is None or self._job.over:
             shutil.rmtree(self.folder, ignore_errors=True)
-            self._ran = None
+            self._ran = self._wanted = None
             self.map.clear()
             self.state.text = self.failure.text = ""
             self._tell_state()
@@ -258,9 +275,10 @@ class SweepPage:
             if over:
                 self._timer.deactivate()
                 self._tell_state()
-                self._end(job)
             if over or (job.of and time.monotonic() > self._next):
                 await self._read(running=not over)
+            if over and job is self._job:
+                self._end(job)
         finally:
             self._looking = False
 
@@ -271,25 +289,42 @@ class SweepPage:
         if not self._started:
             self._started, self._first = time.monotonic(), job.done
         self.bar.value = job.done / job.of
-        rate = (job.done - self._first) / max(time.monotonic() - self._started, 1e-9)
-        left = f", about {duration((job.of - job.done) / rate)} left" if rate and job.done < job.of else ""
+        solved, passed = job.done - self._first, time.monotonic() - self._started
+        if solved > 0 and self._wanted is not None:
+            self._pace = (self._wanted.value("case"), passed / solved)
         more = f" ({job.text})" if job.text else ""
-        self.state.text = f"{job.done} of {job.of} points done{more}{left}"
+        self.state.text = f"{job.done} of {job.of} points done{more}{self._left(job, 'about {} left')}"
+
+    def _left(self, job: Job, text: str) -> str:
+        """Time that the other points of a job will take, in a text; empty where none is solved yet."""
+        if self._pace is None or job.done >= job.of or job.done <= self._first:
+            return ""
+        return f", {text.format(duration((job.of - job.done) * self._pace[1]))}"
 
     def _end(self, job: Job) -> None:
-        if job.state == "cancelled":
-            self.state.text = "Stopped: the points that are done are kept, and Resume solves only the others."
+        """Say how a job has ended, after the last look at its points."""
+        if self._wanted is not self._ran:
+            # The job ended before its sweep was in the database, which still has that of the map.
+            self._wanted = self._ran
+        if job.state == "cancelled" and not job.of:
+            self.state.text = "Stopped before the first point was done."
+        elif job.state == "cancelled":
+            rest = self._left(job, "in about {}")
+            self.state.text = f"Stopped: {job.done} of {job.of} points are done and kept. "
+            self.state.text += f"Resume solves only the others{rest}."
         elif job.state == "failed":
             self.failure.text = f"{job.error}. The points that are done are kept; Resume solves the others."
             if isinstance(job.error, InputError):
                 self.failure.text = str(job.error)
-                self._ran = self._ran if self.map.has_points else None
-                self._tell_state()
+        self._tell_state()
 
     async def _read(self, *, running: bool = False) -> None:
-        begun = time.monotonic()
+        """Look at the points, and show them if they are those of the wanted sweep."""
+        begun, wanted = time.monotonic(), self._wanted
+        if wanted is None:
+            return
         try:
-            view = await self.session.work.quick(SWEEP_SEEN, self.folder, self.map.shown)
+            view = await self.session.work.quick(SWEEP_SEEN, self.folder, self.map.shown, dict(wanted.table))
         except (InputError, LostError) as error:
             # A job that has just begun has no database yet.
             if not running and self._job is not None and self._job.state == "done":
@@ -297,13 +332,17 @@ class SweepPage:
             return
         finally:
             self._next = time.monotonic() + max(_LOOK, _SHARE * (time.monotonic() - begun))
+        if view is None or wanted is not self._wanted:
+            return
+        self._ran = wanted
+        self.map.began(wanted)
         self.map.show(view, running=running)
         self._tell_state()
 
     def _tell_state(self) -> None:
         """Enable the buttons that can be used, and name the first one by what it does."""
         running = self._job is not None and not self._job.over
-        same = self._ran is not None and self._ran == sweep_file(self.session.inputs)
+        same = self._same
         remain = self.map.open_points
         finished = same and self.map.finished and not running
         self.run.set_enabled(self._valid and not running and not finished)
@@ -312,7 +351,7 @@ class SweepPage:
         self.clear.set_enabled(not running and self._ran is not None)
         self.bar.set_visibility(running)
         for button in self.downloads:
-            button.set_enabled(not running and self._ran is not None)
+            button.set_enabled(not running and same)
         self.map.outdated(old=self._ran is not None and not same)
 
 

@@ -11,6 +11,7 @@ from nicegui import events, ui
 from ehlectric.app.answers.calls import FILES_UPLOADED
 from ehlectric.app.answers.files import MOST_CASE, MOST_FILES, MOST_SURFACE, Uploaded
 from ehlectric.app.inputs import LONGEST_QUERY, Inputs
+from ehlectric.app.pages.control import brief
 from ehlectric.app.pages.frame import show_address
 from ehlectric.app.pages.weak import weakly
 from ehlectric.app.session import Session
@@ -81,6 +82,7 @@ class Toolbar:
             self._link = ui.input("Link to this page").props('readonly dense outlined data-testid="link"')
             self._link.classes("link").set_visibility(False)
             self._status = ui.label().classes("told-status").props('role="status"')
+            self._toast = ui.label().classes("toast").props('role="status" data-testid="toast"')
             self._error = ui.label().classes("wrong").props('role="alert" data-testid="error-file"')
         session.history.told.append(self._look)
         self._look()
@@ -88,12 +90,12 @@ class Toolbar:
     async def undo(self) -> None:
         """Go back to the inputs before."""
         self.session.history.undo()
-        await self._changed("Undone.")
+        await self._changed("Undone")
 
     async def redo(self) -> None:
         """Take back an undo."""
         self.session.history.redo()
-        await self._changed("Redone.")
+        await self._changed("Redone")
 
     async def copy_link(self) -> None:
         """Copy the address of the page with its inputs, and show it."""
@@ -103,9 +105,9 @@ class Toolbar:
         address = address_of(self._path, self.session.inputs)
         link = f"{await ui.run_javascript('window.location.origin')}{address}"
         self._link.value = link
-        self._link.set_visibility(True)
         copied = await ui.run_javascript(f"return await ({_COPY.format(json.dumps(link))})")
-        self._tell("Link copied." if copied else "Copy the link from the field.")
+        self._link.set_visibility(True)
+        brief(self._toast, "Link copied" if copied else "Copy the link from the field.")
         if not copied:
             self._link.run_method("select")
 
@@ -192,7 +194,7 @@ class Toolbar:
         """Show changed inputs, in the address, too."""
         if self.session.inputs.linkable:
             show_address(self.session.inputs, self._path)
-        self._tell(text)
+        brief(self._toast, text)
         showing = self._show()
         if showing is not None:
             await showing
@@ -203,6 +205,7 @@ class Toolbar:
     def _look(self) -> None:
         """Allow what can be done, and take away what was told of earlier inputs."""
         self._tell()
+        brief(self._toast, "")
         self._link.set_visibility(False)
         history = self.session.history
         self._undo.set_enabled(bool(history.before))

@@ -1,4 +1,5 @@
 // Field of a form: label, slider, text box, list or search, help and error. Its text is local while it is typed.
+const OWN = "~own"; // entry that stands for values of one's own
 const STEPS = 200;
 const SHORT = 20; // characters
 const THROTTLE = 100; // ms between two values of a dragged slider
@@ -21,10 +22,11 @@ export default {
         <div v-else-if="kind === 'search'" class="search">
           <input :id="boxId" ref="box" type="text" role="combobox" autocomplete="off" spellcheck="false"
             aria-autocomplete="list" :aria-expanded="opened ? 'true' : 'false'" :aria-controls="boxId + '-list'"
-            :aria-activedescendant="opened && found.length ? boxId + '-o' + active : null" v-bind="described"
+            :aria-activedescendant="opened && found[active] ? boxId + '-o' + active : null" v-bind="described"
             :data-testid="'field-' + testid" v-model="query" @focus="open" @click="open" @input="search"
             @keydown="keyed" @blur="close">
-          <div v-if="opened" :id="boxId + '-list'" ref="list" class="options" role="listbox" :aria-label="label">
+          <div v-if="opened" :id="boxId + '-list'" ref="list" class="options" role="listbox" :aria-label="label" tabindex="-1">
+            <div v-if="missing" class="options-none" role="status">{{ missing }}</div>
             <div v-for="g in groups" :key="g.name" role="group" :aria-label="g.name || label">
               <div v-if="g.name" class="options-name" aria-hidden="true">{{ g.name }}</div>
               <div v-for="o in g.options" :key="o.value" :id="boxId + '-o' + o.place" role="option"
@@ -32,7 +34,6 @@ export default {
                 :data-testid="'option-' + o.value" @mousedown.prevent="choose(o.value)"
                 @mousemove="active = o.place">{{ o.label }}</div>
             </div>
-            <div v-if="!found.length" class="options-none">nothing found</div>
           </div>
         </div>
         <template v-else>
@@ -40,7 +41,7 @@ export default {
             :class="{ unset: !text }" :aria-label="label + ', slider'" :aria-valuetext="local || placeholder || 'not given'"
             :data-testid="'slider-' + testid" @input="slide" @change="release">
           <input :id="boxId" ref="box" type="text" autocomplete="off" spellcheck="false" :class="{ long: !slides }"
-            :placeholder="placeholder" v-bind="described" :data-testid="'field-' + testid" v-model="local"
+            :placeholder="placeholder" :title="full || null" v-bind="described" :data-testid="'field-' + testid" v-model="local"
             @change="commit" @keydown.enter.prevent="commit" @keydown.esc="local = text">
         </template>
       </div>
@@ -57,6 +58,11 @@ export default {
     error: String,
     shown: { type: Boolean, default: true },
     text: { type: String, default: "" },
+    // Text with all digits, where that in the box is rounded.
+    full: String,
+    // Endings that a search may leave out, and what is told where it finds nothing.
+    ignored: String,
+    lacks: String,
     turn: { type: Number, default: 0 },
     place: { type: Number, default: 0 },
     slides: { type: Boolean, default: false },
@@ -109,11 +115,22 @@ export default {
         .map((end) => this.boxId + end);
       return { "aria-invalid": this.error ? "true" : null, "aria-describedby": by.join(" ") || null };
     },
+    matches() {
+      const query = this.typed ? this.query.toLowerCase() : "";
+      const found = this.matching(query);
+      if (found.length || !this.ignored) return found;
+      const bare = query.replace(new RegExp(this.ignored), "");
+      return /\d/.test(bare) ? this.matching(bare) : found;
+    },
     found() {
-      const words = this.typed ? this.query.toLowerCase().split(/\s+/).filter(Boolean) : [];
-      return this.options
-        .filter((o) => words.every((word) => (o.value + " " + o.label + " " + o.group).toLowerCase().includes(word)))
-        .map((o, place) => ({ ...o, place }));
+      // Where nothing is found, the entry for own values stays.
+      const found = this.matches.length ? this.matches : this.options.filter((o) => o.value === OWN);
+      return found.map((o, place) => ({ ...o, place }));
+    },
+    missing() {
+      if (this.matches.length) return "";
+      const count = this.options.filter((o) => o.value && o.value !== OWN).length;
+      return (this.lacks || "nothing found").replace("{count}", count);
     },
     groups() {
       const groups = [];
@@ -126,6 +143,11 @@ export default {
     },
   },
   methods: {
+    matching(query) {
+      const words = query.split(/\s+/).filter(Boolean);
+      const text = (o) => (o.value + " " + o.label + " " + o.group).toLowerCase();
+      return this.options.filter((o) => words.every((word) => text(o).includes(word)));
+    },
     labelOf(value) {
       const found = this.options.find((o) => o.value === value);
       return found ? found.label : value;
@@ -169,7 +191,7 @@ export default {
     search() {
       this.opened = true;
       this.typed = true;
-      this.active = 0;
+      this.active = this.matches.length ? 0 : -1;
     },
     close() {
       this.opened = false;
@@ -182,7 +204,7 @@ export default {
         if (!this.opened) return this.open();
         const step = event.key === "ArrowDown" ? 1 : -1;
         const count = this.found.length;
-        if (count) this.active = (this.active + step + count) % count;
+        if (count) this.active = this.active < 0 ? 0 : (this.active + step + count) % count;
         this.seen();
       } else if (event.key === "Enter") {
         event.preventDefault();

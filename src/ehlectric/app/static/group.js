@@ -8,16 +8,18 @@ export default {
       <div class="group-body">
         <label v-if="switches" class="switch">
           <input type="checkbox" :checked="on" :data-testid="'switch-' + testid" @change="$emit('switch', $event.target.checked)">
-          Include this
+          Include {{ title.toLowerCase() }}
         </label>
         <p v-if="note && (on || !switches)" class="field-help">{{ note }}</p>
         <slot></slot>
+        <p v-if="tells" class="field-help" :data-testid="'tells-' + testid">{{ tells }}</p>
       </div>
     </details>`,
   props: {
     title: String,
     testid: String,
     note: String,
+    tells: String,
     // Whether the group is opened on a narrow screen, too.
     first: { type: Boolean, default: false },
     opened: { type: Boolean, default: true },

@@ -1,0 +1,126 @@
+"""Form of the pages as a user fills it in: search, own values that come back, units, and the keyboard."""
+
+import pytest
+
+from tests.browser.driving import field, type_into, wait_for_number
+from tests.browser.outputs import address_of, downloaded
+from tests.browser.test_first_page import capacitance
+from tests.helpers.places import EXAMPLES
+
+EXAMPLE = EXAMPLES / "bearing_6208.toml"
+
+
+def search(page, text):
+    """Names of the entries that a search for a bearing finds."""
+    box = field(page, "bearing.base")
+    box.click()
+    box.fill(text)
+    options = page.locator('[data-testid^="option-"]')
+    options.first.wait_for()
+    return [one.get_attribute("data-testid").removeprefix("option-") for one in options.all()]
+
+
+@pytest.mark.slow
+def test_a_bearing_is_found_by_the_names_of_makers(page):
+    for name in ("6208-2RS", "6208-2Z", "6208 ZZ", "6208 C3", "6208-2RS1/C3", "6208"):
+        assert "6208" in search(page, name), name
+    assert search(page, "4711-2Z") == ["~own"]
+    told = page.get_by_role("listbox").inner_text()
+    assert "not in the catalogue" in told
+    assert "own geometry" in told
+    # Enter takes nothing that was not chosen.
+    box = field(page, "bearing.base")
+    box.press("Enter")
+    box.press("Escape")
+    box.press("Tab")
+    assert "6208" in box.input_value()
+
+
+@pytest.mark.slow
+def test_values_of_a_group_and_an_own_oil_come_back(page):
+    wait_for_number(page, "capacitance", capacitance())
+    type_into(page, "motor.common_mode_voltage", "123 V")
+    type_into(page, "lubricant.relative_permittivity", "2.2")
+    page.get_by_test_id("tells-oil").filter(has_text="Roelands", has_not_text="permittivity").wait_for()
+    switch = page.get_by_test_id("switch-motor")
+    switch.uncheck()
+    field(page, "motor.common_mode_voltage").wait_for(state="detached")
+    switch.check()
+    field(page, "motor.common_mode_voltage").wait_for()
+    assert field(page, "motor.common_mode_voltage").input_value() == "123 V"
+    for name in ("fva-3", "~own"):
+        field(page, "lubricant.base").click()
+        page.get_by_test_id(f"option-{name}").click()
+        page.get_by_test_id("tells-oil").wait_for(state="attached" if name == "~own" else "detached")
+    assert field(page, "lubricant.relative_permittivity").input_value() == "2.2"
+
+
+@pytest.mark.slow
+def test_a_long_number_is_short_in_its_box_and_whole_in_the_file(open_page, app_server, tmp_path):
+    table = {"bearing": {"base": "6208", "inner_speed": "181.37993642342187 rad/s", "temperature": "70 degC"}}
+    page = open_page(app_server, address_of("/", table))
+    speed = field(page, "bearing.inner_speed")
+    assert speed.input_value() == "1732.0508 rpm"
+    assert speed.get_attribute("title") == "181.37993642342187 rad/s"
+    speed.focus()
+    speed.press("Enter")
+    temperature = field(page, "bearing.temperature")
+    assert temperature.input_value() == "70 °C"
+    temperature.fill("71 °C")
+    temperature.press("Tab")
+    page.wait_for_function("() => location.search.includes('71')")
+    text = downloaded(page, "download-toml", tmp_path).read_text("utf-8")
+    assert "181.37993642342187 rad/s" in text
+    assert '"71 degC"' in text
+
+
+_FOCUSED = """() => {
+  const e = document.activeElement, style = getComputedStyle(e), box = e.getBoundingClientRect();
+  return {
+    name: e.tagName, test: e.dataset.testid || "", hidden: !!e.closest("[aria-hidden=true]"),
+    outline: style.outlineStyle, wide: parseFloat(style.outlineWidth), size: box.width * box.height,
+  };
+}"""
+
+
+@pytest.mark.slow
+def test_the_focus_is_seen_and_never_lost(page):
+    wait_for_number(page, "capacitance", capacitance())
+    page.locator("main.page").focus()
+    stops = []
+    for _ in range(24):
+        page.keyboard.press("Tab")
+        stops.append(page.evaluate(_FOCUSED))
+    assert "BODY" not in [one["name"] for one in stops]
+    assert not any(one["hidden"] or one["size"] < 16 for one in stops), stops
+    buttons = [one for one in stops if one["test"] in ("copy-link", "compare", "vary", "open-file")]
+    assert len(buttons) == 4
+    assert all(one["outline"] != "none" and one["wide"] >= 1 for one in buttons), buttons
+
+
+@pytest.mark.slow
+def test_messages_do_not_move_the_page(page):
+    wait_for_number(page, "capacitance", capacitance())
+    page.evaluate("window.scrollTo(0, 0)")
+    form = page.get_by_role("form").first
+    before = form.bounding_box()
+    page.get_by_test_id("copy-link").click()
+    page.get_by_test_id("toast").filter(has_text="link").wait_for()
+    assert form.bounding_box() == before
+    type_into(page, "bearing.radial_load", "2 kN")
+    page.evaluate("window.scrollTo(0, 0)")
+    page.get_by_test_id("undo").click()
+    page.get_by_test_id("toast").filter(has_text="Undone").wait_for()
+    assert form.bounding_box() == before
+
+
+@pytest.mark.slow
+def test_the_short_answer_leads_to_the_answer_on_a_phone(open_page, app_server):
+    page = open_page(app_server, "/", width=400, height=800)
+    wait_for_number(page, "capacitance", capacitance())
+    answer = page.locator("section.answer")
+    assert answer.bounding_box()["y"] > 800
+    page.get_by_test_id("to-answer").click()
+    page.wait_for_function("() => document.querySelector('section.answer').getBoundingClientRect().top < 200")
+    bar = page.get_by_test_id("strip").bounding_box()
+    assert bar["y"] + bar["height"] <= answer.bounding_box()["y"] + 1

@@ -1,0 +1,88 @@
+"""Texts of fields: bounds of errors in the unit of the field, signs of units, and long numbers."""
+
+import re
+import tomllib
+
+import pytest
+
+from ehlectric.app.fields import BEARING_GROUPS
+from ehlectric.app.fields.amounts import in_unit, si_unit
+from ehlectric.app.fields.words import in_field_unit, shown_text, with_signs, written_text
+from ehlectric.app.inputs import Inputs
+from ehlectric.cases.any_case import case_of_dict
+from ehlectric.cases.input_keys import input_field, number_of
+from ehlectric.cases.quantity import Quantity
+from ehlectric.errors import InputError
+from ehlectric.runs.example_files import example_text
+
+EXAMPLE = Inputs(tomllib.loads(example_text("bearing_6208")))
+NUMBERS = [field for group in BEARING_GROUPS for field in group.fields if field.kind == "number"]
+WITH_UNIT = [field for field in NUMBERS if field.unit not in ("", "%")]
+
+
+def by_key(found):
+    return found.key
+
+
+def bounds(text):
+    """Numbers of the bounds in a text, before the reason."""
+    return re.findall(r"(?:above|at least|below|at most) (\S+) (\S+?)(?=,| |$|:)", text)
+
+
+@pytest.mark.parametrize("field", WITH_UNIT, ids=by_key)
+def test_bounds_of_an_error_are_in_the_unit_of_the_field(field):
+    """Expected: the bounds of the checks, which are in SI units."""
+    kind = number_of(input_field(field.key))
+    if not isinstance(kind, Quantity):
+        pytest.skip("its own check")
+    with pytest.raises(InputError) as error:
+        kind.parse("fast", written=True)
+    told = bounds(in_field_unit(field, error.value.text))
+    known = [end for end in (kind.above, kind.least, kind.below, kind.most) if abs(end) < float("inf")]
+    assert len(told) == len(known)
+    for (number, unit), end in zip(told, known, strict=True):
+        assert unit == with_signs(field.unit)
+        expected = in_unit(f"{end:.15g} {si_unit(field.unit)}", field.unit)
+        assert float(number) == pytest.approx(expected, rel=1e-4, abs=1e-9)
+    assert "string" not in in_field_unit(field, error.value.text)
+
+
+@pytest.mark.parametrize("field", WITH_UNIT, ids=by_key)
+def test_a_text_in_a_box_is_written_back_as_it_was(field):
+    for place in (0.0, 0.4, 1.0):
+        written = field.from_slider(place)
+        assert written_text(field, shown_text(field, written)) == written
+
+
+@pytest.mark.parametrize("field", WITH_UNIT, ids=by_key)
+def test_units_with_signs_are_taken(field):
+    kind = number_of(input_field(field.key))
+    if isinstance(kind, Quantity):
+        text = field.from_slider(0.6)
+        assert kind.parse(text.replace(field.unit, with_signs(field.unit))) == kind.parse(text)
+
+
+@pytest.mark.parametrize(
+    ("key", "written", "expected"),
+    [
+        ("bearing.inner_speed", "181.37993642342187 rad/s", "1732.0508 rpm"),
+        ("bearing.inner_speed", "3000 rpm", "3000 rpm"),
+        ("bearing.radial_load", "3 kN", "3 kN"),
+        ("bearing.radial_load", "3 furlong", "3 furlong"),
+        ("bearing.temperature", "343.1500000000001 K", "70 °C"),
+        ("bearing.temperature", "warm", "warm"),
+        ("lubricant.temperature.kinematic_viscosity_40", "46 mm^2/s", "46 mm²/s"),
+    ],
+)
+def test_texts_in_boxes(key, written, expected):
+    (field,) = [field for field in NUMBERS if field.key == key]
+    assert shown_text(field, written) == expected
+
+
+def test_an_error_of_a_whole_case_keeps_its_other_words():
+    (field,) = [field for field in NUMBERS if field.key == "bearing.inner_speed"]
+    with pytest.raises(InputError) as error:
+        case_of_dict(EXAMPLE.changed({field.key: "-5 rpm"}).table, written=True)
+    told = in_field_unit(field, error.value.text)
+    assert told.startswith("got '-5 rpm'; expected a number")
+    assert told.endswith("of the inner ring")
