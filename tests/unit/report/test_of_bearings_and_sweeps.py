@@ -69,7 +69,7 @@ def test_the_minimum_film_has_the_contact_that_it_belongs_to():
     result = solve(bearing_case(BALLS, contacts="formula"))
     (loads,) = pictures_of(result, converged=True, names=["bearing_loads"])
     thinnest = min(result.contacts(), key=lambda row: row["minimum_thickness"])
-    film = f"minimum film {thinnest['minimum_thickness'] * 1e6:.3g} µm, {thinnest['ring']} contact"
+    film = f"minimum film {thinnest['minimum_thickness'] * 1e6:.3g} µm ({thinnest['ring']}, element"
     assert film in loads.title
 
 

@@ -39,14 +39,16 @@ def loads(result: BearingResult) -> str:
         min(rows, key=lambda row: row["minimum_thickness"]),
     )
     least = prefixed(thinnest["minimum_thickness"], "m", least=0.1)
-    text = f"Largest load {most['load']:.3g} N, {_contact(most)}; minimum film {least}, {_contact(thinnest)}"
-    text += f" (λ {lambda_ratio(result.solution):.2g})"
+    text = (
+        f"Largest load {most['load']:.3g} N ({_contact(most)}); minimum film {least} ({_contact(thinnest)})"
+    )
+    text += f", λ {lambda_ratio(result.solution):.2g}"
     return text + (": surfaces touch" if lubrication(result.solution) in _TOUCHING else "")
 
 
 def _contact(row: Mapping[str, Any]) -> str:
     """Name of a contact of the table of contacts."""
-    return f"{row['ring']} contact of element {row['element']}"
+    return f"{row['ring']}, element {row['element']}"
 
 
 def circuit(result: BearingResult) -> str:
