@@ -324,8 +324,8 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "weibull-voltage": Cause("Breakdown voltages are those at a probability of 63.2 %.", "note"),
         "speed-left-out": Cause("The figures over speed leave out a speed that cannot be computed."),
         # Sweeps
-        "points-with-warnings": Cause("Solved points of a sweep have a warning of one kind."),
-        "points-with-notes": Cause("Solved points of a sweep have a note of one kind.", "note"),
+        "points-with-warnings": Cause("Solved points of a sweep have warnings."),
+        "points-with-notes": Cause("Solved points of a sweep have notes.", "note"),
         "points-not-usable": Cause("Solved points of a sweep have films that must not be used."),
         "points-of-another-version": Cause("Another version of the program solved points.", "note"),
         "rows-dropped": Cause("Rows of a Sobol design were left out of its sensitivity indices."),

@@ -76,7 +76,7 @@ def small_report(title="Test", text="A sentence.", *, level="yellow", rows=3):
         Text(text),
         Text("Do not use the numbers.", "alarm"),
         Light(level, "Breakdown possible", text),
-        Warnings((WarningLine("severe", "not-converged", "The film did not converge.", text),)),
+        Warnings((WarningLine("severe", "not-converged", "The film did not converge.", (text,)),)),
         Table(
             "Numbers",
             ("name", "value"),

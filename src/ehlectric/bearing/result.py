@@ -10,7 +10,7 @@ from ehlectric.bearing.keys import BEARING_KEYS, CONTACT_KEYS
 from ehlectric.bearing.margin.analysis import MarginAnalysis, analyse_margin
 from ehlectric.bearing.margin.verdict import bearing_verdict
 from ehlectric.bearing.shaft_voltage import shaft_voltage
-from ehlectric.bearing.solution import BearingSolution, capacitance
+from ehlectric.bearing.solution import BearingSolution, capacitance, capacitance_is_bound
 from ehlectric.bearing.storage.dataset import dataset_of
 from ehlectric.bearing.summary import breaks, contact_rows, summary_of
 from ehlectric.bearing.warnings import bearing_warnings
@@ -184,17 +184,18 @@ class BearingResult(Shown):
         return frame
 
     def _headline(self) -> str:
-        """Title, speed, capacitance, first breakdown voltage and shaft voltage on one line.
+        """Title, speed, capacitance, first breakdown voltage and shaft voltage on one line, with bounds.
 
         The verdict is left out: it takes seconds, and a line must not depend on what was asked before.
         """
         voltage, shaft = self.breaks()["first_break"], self.shaft_voltage
+        capacitance = f"{'≤ ' * capacitance_is_bound(self.solution)}{amount(self.capacitance(), 'F')}"
         return headline(
             self.case.title,
             self.case.bearing.base or self.case.bearing.kind,
             f"{rpm(self.case.bearing.inner_speed):.4g} rpm",
-            f"capacitance {amount(self.capacitance(), 'F')}",
-            None if voltage is None else f"first breakdown {voltage:.4g} V",
+            f"capacitance {capacitance}",
+            None if voltage is None else f"first breakdown ≤ {voltage:.4g} V",
             None if shaft is None else f"shaft voltage {shaft:.4g} V",
             "converged" if self.converged else "NOT CONVERGED",
         )

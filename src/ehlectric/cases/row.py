@@ -6,10 +6,13 @@ import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
-from typing import Any
+from typing import Any, Literal, TypeAlias
 
 from ehlectric.cases.quantity import unit_for
 from ehlectric.cases.result_key import Keys, key_of
+
+# Sign of a value that is a bound only; empty for any other value.
+Bound: TypeAlias = Literal["", "≤", "≥"]
 
 # SI unit of each unit that is shown, in the notation of pint, and the factor from the SI unit to the shown
 # unit.
@@ -67,6 +70,8 @@ class Row:
         Format of the shown number.
     alarm : bool
         True if the row says that the numbers must not be used.
+    bound : str
+        "≤" for a value that is an upper bound, "≥" for a lower bound; it holds for both ends of a range.
 
     Raises
     ------
@@ -80,6 +85,8 @@ class Row:
     ('1.235', 'GPa')
     >>> Row("minimum film thickness", 2e-7, "µm", ", at the outlet").text
     '0.2 µm, at the outlet'
+    >>> Row("breakdown voltage", 5.88, "V", bound="≤").text
+    '≤ 5.88 V'
     """
 
     name: str
@@ -88,6 +95,7 @@ class Row:
     note: str = ""
     digits: str = field(default=".4g", kw_only=True)
     alarm: bool = field(default=False, kw_only=True)
+    bound: Bound = field(default="", kw_only=True)
 
     def __post_init__(self) -> None:
         if isinstance(self.value, int | float) and self.unit not in UNITS:
@@ -101,9 +109,14 @@ class Row:
         return format(self.value * UNITS[self.unit][1], self.digits)
 
     @property
+    def bounded(self) -> str:
+        """Value as a string in the shown unit, after the sign of its bound."""
+        return " ".join(filter(None, [self.bound, self.shown]))
+
+    @property
     def text(self) -> str:
-        """Value, unit and note as one string."""
-        value = " ".join(filter(None, [self.shown, self.unit]))
+        """Bound, value, unit and note as one string."""
+        value = " ".join(filter(None, [self.bounded, self.unit]))
         if self.note.startswith((",", ";")):
             return value + self.note
         return " ".join(filter(None, [value, self.note.strip()]))
@@ -114,7 +127,12 @@ class Row:
         return bool(self.name) and not self.text
 
 
-def rows_of(keys: Keys, summary: Mapping[str, Any], entries: Iterable[tuple[str, ...]]) -> Iterator[Row]:
+def rows_of(
+    keys: Keys,
+    summary: Mapping[str, Any],
+    entries: Iterable[tuple[str, ...]],
+    bounds: Mapping[str, Bound] = MappingProxyType({}),
+) -> Iterator[Row]:
     """Rows of the numbers of a summary, without the numbers that are None.
 
     Parameters
@@ -125,6 +143,8 @@ def rows_of(keys: Keys, summary: Mapping[str, Any], entries: Iterable[tuple[str,
         Nested summary, SI units.
     entries : iterable of tuple of str
         Name of the row, dotted key of its number, shown unit, and optionally a note.
+    bounds : mapping of str to str, optional
+        "≤" or "≥" by the dotted keys of numbers that are bounds only.
 
     Raises
     ------
@@ -137,7 +157,7 @@ def rows_of(keys: Keys, summary: Mapping[str, Any], entries: Iterable[tuple[str,
     >>> keys = {"film.error": ResultKey("error"), "film.minimum": ResultKey("minimum", "m")}
     >>> entries = [("error", "film.error", "%"), ("minimum film", "film.minimum", "µm", ", of all")]
     >>> list(rows_of(keys, {"film": {"error": None, "minimum": 1e-7}}, entries))
-    [Row(name='minimum film', value=1e-07, unit='µm', note=', of all', digits='.4g', alarm=False)]
+    [Row(name='minimum film', value=1e-07, unit='µm', note=', of all', digits='.4g', alarm=False, bound='')]
     """
     for name, key, unit, *note in entries:
         value, entry = value_at(summary, key), key_of(keys, key)
@@ -145,7 +165,7 @@ def rows_of(keys: Keys, summary: Mapping[str, Any], entries: Iterable[tuple[str,
             continue
         if UNITS[unit][0] != entry.unit:
             raise ValueError(f"{key} in {entry.unit or 'no unit'} is not shown in {unit or 'no unit'}")
-        yield Row(name, value, unit, *note)
+        yield Row(name, value, unit, *note, bound=bounds.get(key, ""))
 
 
 def value_at(table: Mapping[str, Any], key: str) -> Any:
@@ -165,6 +185,19 @@ def value_at(table: Mapping[str, Any], key: str) -> Any:
         else:
             return None
     return value
+
+
+def amount_row(name: str, value: float, unit: str, note: str = "", *, bound: Bound = "") -> Row:
+    """Row of a value in a prefixed unit that suits it.
+
+    Examples
+    --------
+    >>> row = amount_row("charge relaxation time", 2.1e-3, "s", ", of the oil")
+    >>> row.shown, row.unit, row.text
+    ('2.1', 'ms', '2.1 ms, of the oil')
+    """
+    factor, prefixed = suited(value, unit)
+    return Row(name, f"{factor * value:.4g}", prefixed, note, bound=bound)
 
 
 def amount(value: float, unit: str) -> str:

@@ -69,7 +69,7 @@ class ContactResult(Solution[ConditionsT, FilmT, FieldT]):
             f"{self.conditions.geometry} contact",
             f"minimum film {amount(film.minimum_thickness, 'm')}",
             f"maximum pressure {amount(film.max_pressure, 'Pa')}",
-            f"maximum field {amount(self.field.max_strength, 'V/m')}",
+            f"maximum field ≥ {amount(self.field.max_strength, 'V/m')}",
             "converged" if self.converged else f"NOT CONVERGED ({film.status})",
             verdict=self.verdict,
         )

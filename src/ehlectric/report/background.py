@@ -24,14 +24,13 @@ from ehlectric.tables.html import input_row
 from ehlectric.version import __version__
 
 # Heads of the tables of inputs, and shares of their columns.
-_HEADS, _SHARES = ("input", "value", "origin", "meaning"), (0.25, 0.15, 0.21, 0.39)
+_HEADS, _SHARES = ("input", "value", "origin", "meaning"), (0.25, 0.19, 0.21, 0.35)
 _DOI = "https://doi.org/"
 _UNITS = (
     "Values stand in units that suit them; the input file at the end of the report has them in SI units. "
-    "“given” is a value of the input file, “default” one of the program. A value of the library has the "
-    "number of "
-    "its source and the kind of it: measured, read off a diagram, fitted, published, by rule, estimated or "
-    "assumed."
+    "“default” is the value that the program takes on its own, whether the input file has it or not; “given” "
+    "is any other value of the input file. A value of the library has the number of its source and the kind "
+    "of it: measured, read off a diagram, fitted, published, by rule, estimated or assumed."
 )
 _VARIED = (
     "These are the inputs of the base case. The values of the varied inputs, and of their alternatives such "
@@ -130,7 +129,10 @@ def source_section(case: Case | BearingCase) -> Section:
     solids = tuple((name, _cited(source)) for name, source in material_sources(case))
     if solids:
         blocks.append(Table("Sources of the materials", ("material", "source"), solids))
-    equations = tuple((one.topic, Link(f"{one.citation}, ", _DOI + one.doi)) for one in references_of(case))
+    equations = tuple(
+        (one.topic, Link(f"{one.citation}, ", _DOI + one.doi) if one.doi else one.citation)
+        for one in references_of(case)
+    )
     blocks.append(
         Table("Literature behind the equations", ("for", "publication"), equations, shares=(0.35, 0.65))
     )

@@ -141,7 +141,10 @@ def _in_short(result: Any) -> str:
     line = repr(result)[1:-1].partition(" ")[2]
     title = shorten(getattr(result, "title", "") or result.case.title, 60)
     line = re.sub(r", verdict \w+$", "", line.removeprefix(f"{title!r}: "))
-    return printable(f"{line[:1].upper()}{line[1:]}.")
+    if isinstance(result, BearingResult) and result.case.bearing.base:
+        # The name of a bearing keeps its letters.
+        line = f"Bearing {line}"
+    return printable(f"{line[:1].upper()}{line[1:]}.").replace("≤ ", "≤\xa0").replace("≥ ", "≥\xa0")
 
 
 def _part(result: Any) -> Part:

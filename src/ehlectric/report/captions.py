@@ -37,10 +37,11 @@ CAPTIONS: Mapping[str, str] = MappingProxyType(
         "instant of the same position.",
         # Bearings
         "bearing_loads": "Load and minimum film of the contacts around the bearing.",
-        "bearing_circuit": "Electrical circuit of the bearing in its drive, with the capacitances and "
-        "voltages.",
-        "bearing_pitch": "Capacitance and breakdown voltages while the cage moves by one pitch.",
-        "bearing_impedance": "Magnitude and phase of the impedance of the bearing over frequency.",
+        "bearing_circuit": "Capacitance of each contact and, where one is computed, the bearing voltage at "
+        "which the contact breaks down, over the elements.",
+        "bearing_pitch": "Capacitance and, where they vary, breakdown voltages over one pitch of the cage.",
+        "bearing_impedance": "Magnitude and, where it varies, phase of the impedance of the bearing over "
+        "frequency.",
         "capacitance_over_speed": "Capacitance of the bearing over the speed of the shaft, with contacts by "
         "formula, scaled to the result.",
         "breakdown_over_speed": "First breakdown voltage and shaft voltage over the speed of the shaft, with "
@@ -50,13 +51,19 @@ CAPTIONS: Mapping[str, str] = MappingProxyType(
     }
 )
 
+# Meaning of a mark of sweeps.
+_RING = "A ring marks a point that is less accurate than others, as its warnings in sweep.csv say."
+
 # Captions of maps and lines of a sweep, which are named by the value that they show.
 _OF_SWEEPS = (
     (
         "map_",
-        "Map of the value over the varied inputs, with every point; points without a usable film are marked.",
+        f"Map of the value over the varied inputs. Points without a usable film have marks. {_RING}",
     ),
-    ("lines_", "Lines of the value over the varied inputs; points without a usable film are left out."),
+    (
+        "lines_",
+        f"Lines of the value over the varied inputs; points without a usable film are left out. {_RING}",
+    ),
 )
 
 # Sentence below each figure of a result that is not converged.

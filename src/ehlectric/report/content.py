@@ -101,12 +101,12 @@ class Picture:
 
 @dataclass(frozen=True)
 class WarningLine:
-    """Warning of a result: its severity, its code, what the code means, and its own text."""
+    """Warnings of a result of one kind: severity, code, what the code means, and the text of each of them."""
 
     severity: Severity
     code: str
     meaning: str
-    text: str
+    texts: tuple[str, ...]
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
+from types import MappingProxyType
 from typing import Any
 
 from matplotlib.figure import Figure
@@ -15,6 +16,11 @@ from ehlectric.report.content import Picture, Text
 
 # Values of a sweep that a report draws beside the breakdown voltage; all others are drawn by ehlectric map.
 SWEPT = ("bearing.margin", "bearing.capacitance", "film.minimum_thickness", "field.max_strength")
+
+# Sentences in place of figures that have nothing to show.
+_EMPTY: Mapping[str, str] = MappingProxyType(
+    {"breakdown_over_speed": "There is no figure of the breakdown voltage over the speed: no speed has one."}
+)
 
 # Marks of formulas in titles, which matplotlib draws.
 _FORMULA = re.compile(r"(?<!\\)\$|\\mathrm|[{}]")
@@ -38,9 +44,12 @@ def pictures_of(
         try:
             drawn = figure(result, name, style="screen")
         except InputError as error:
-            yield Text(f"The figure {name} is not drawn: {error.text}.")
+            yield Text(_EMPTY.get(name) or f"The figure {name} is not drawn: {error.text}.")
             continue
-        yield Picture(name, title_of(drawn) or name, caption_of(name, converged=converged), drawn)
+        title = title_of(drawn)
+        if title and converged:
+            _drop_finding(drawn)
+        yield Picture(name, title or name, caption_of(name, converged=converged), drawn)
 
 
 def swept_names(result: Any, breakdown: str) -> list[str]:
@@ -55,3 +64,10 @@ def title_of(drawn: Figure) -> str:
     lines = (line.strip() for line in drawn.get_suptitle().split("\n"))
     text = _FORMULA.sub("", " ".join(filter(None, lines)))
     return printable(text.replace(r"\$", "$").replace("\xa0", " "))
+
+
+def _drop_finding(drawn: Figure) -> None:
+    """Take the finding out of the title of a figure, as the caption has it; lines below it stay."""
+    lines = drawn.get_suptitle().split("\n")
+    below = "\n".join(line for line in lines if not line.strip())
+    drawn.suptitle(below, x=0.01, ha="left")

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from ehlectric.cases.row import Row
-from ehlectric.errors import CODES, ResultWarning, printable
+from ehlectric.errors import CODES, ResultWarning, Severity, printable
 from ehlectric.report.content import Table, Text, WarningLine, Warnings
 
 if TYPE_CHECKING:
@@ -17,16 +18,18 @@ _HEADS, _SHARES = ("quantity", "value", "unit", "note"), (0.42, 0.17, 0.1, 0.31)
 # Order of warnings in a report, the most important first.
 _SEVERITIES = ("severe", "warning", "note")
 
-# Sentence below tables with breakdown voltages: films are isothermal, fully flooded or smooth, so that every
-# breakdown voltage that is computed is an upper bound.
-AT_MOST = (
-    "≤ marks an upper bound: real films are thinner than isothermal, fully flooded, smooth ones, and break "
-    "down at lower voltages."
+# Sentences below tables with bounds, by their signs.
+BOUNDS: Mapping[str, str] = MappingProxyType(
+    {
+        "≤": "≤ marks an upper bound, before a range one of both ends. Real films are thinner than "
+        "isothermal, fully flooded, smooth ones, and break down at lower voltages.",
+        "≥": "≥ marks a lower bound: the field is higher in thinner films.",
+    }
 )
 
 
 def row_tables(rows: Iterable[Row], title: str) -> Iterator[Table | Text]:
-    """Tables of rows, one for each heading; breakdown voltages and margins are marked as upper bounds.
+    """Tables of rows, one for each heading, and a sentence about the bounds in them.
 
     Parameters
     ----------
@@ -41,39 +44,26 @@ def row_tables(rows: Iterable[Row], title: str) -> Iterator[Table | Text]:
             groups.append((printable(row.name), []))
         else:
             groups[-1][1].append(row)
-    marked = False
+    bounds: set[str] = set()
     for caption, group in groups:
         if not group:
             continue
         cells = tuple(tuple(_cells(row)) for row in group)
-        marked = marked or any(is_bound(row) for row in group)
+        bounds |= {row.bound for row in group}
         alarms = tuple(number for number, row in enumerate(group) if row.alarm)
         yield Table(caption, _HEADS, cells, numeric=(1,), alarms=alarms, shares=_SHARES)
-    if marked:
-        yield Text(AT_MOST)
+    meanings = [text for bound, text in BOUNDS.items() if bound in bounds]
+    if meanings:
+        yield Text(" ".join(meanings))
 
 
 def _cells(row: Row) -> Iterator[str]:
     name = printable(row.name)
     indent = "\u2003" * ((len(name) - len(name.lstrip(" "))) // 2)
     yield indent + name.strip()
-    yield printable(f"≤ {row.shown}" if is_bound(row) else row.shown)
+    yield printable(row.bounded).replace("≤ ", "≤\xa0").replace("≥ ", "≥\xa0")
     yield printable(row.unit).replace(" ", "\xa0")
     yield printable(row.note.lstrip(",; ").strip())
-
-
-def is_bound(row: Row) -> bool:
-    """Whether a row is a breakdown voltage or a margin of a film, which are upper bounds.
-
-    Examples
-    --------
-    >>> is_bound(Row("first breakdown voltage", 5.88, "V")), is_bound(Row("shaft voltage", 4.0, "V"))
-    (True, False)
-    """
-    if not isinstance(row.value, float) or "coating" in row.name:
-        return False
-    named = "breakdown" in row.name or "ring-to-ring" in row.name
-    return (row.unit == "V" and named) or row.name.startswith("margin")
 
 
 def cell_table(table: RichTable, caption: str, first: str) -> Table:
@@ -103,14 +93,17 @@ def _plain(cell: object, text: type) -> str:
 
 
 def warning_block(warnings: Sequence[ResultWarning]) -> Warnings | Text:
-    """Warnings with their meaning, the severe ones first; a sentence where there are none."""
+    """Warnings by kind with their meaning, the severe ones first; a sentence where there are none."""
     if not warnings:
         return Text("The result has no warnings.")
     ordered = sorted(warnings, key=lambda warning: _SEVERITIES.index(warning.severity))
+    kinds: dict[tuple[Severity, str], list[str]] = {}
+    for one in ordered:
+        kinds.setdefault((one.severity, one.code), []).append(printable(one.text))
     return Warnings(
         tuple(
-            WarningLine(one.severity, one.code, CODES[one.code].meaning, printable(one.text))
-            for one in ordered
+            WarningLine(severity, code, CODES[code].meaning, tuple(texts))
+            for (severity, code), texts in kinds.items()
         )
     )
 

@@ -90,8 +90,8 @@ LIMITS = (
     Limit(
         "heat and supply of oil",
         "The films are isothermal and fully flooded: heating, starvation and grease thickener are left out. "
-        "Real films are thinner, so breakdown voltages are upper bounds (≤) and field strengths lower "
-        "bounds (≥).",
+        "Real films are thinner, so breakdown voltages are upper bounds (≤) and maximum fields lower bounds "
+        "(≥).",
         _no_factor,
     ),
     Limit(
@@ -190,7 +190,7 @@ class Reference:
     citation : str
         Authors, journal and year.
     doi : str
-        Its DOI.
+        Its DOI; empty where it has none, as a standard.
     used : callable
         Whether it is used in a case.
     """
@@ -222,13 +222,22 @@ def _linear(case: AnyCase) -> bool:
     return not _elliptical(case)
 
 
+def _by_data_sheet(case: AnyCase) -> bool:
+    """Whether the viscosity over temperature follows from two kinematic viscosities."""
+    return case.lubricant.over_temperature and case.lubricant.atmospheric_law is None
+
+
+def _after_roelands(case: AnyCase) -> bool:
+    return "roelands" in (case.lubricant.viscosity_law, case.lubricant.atmospheric_law)
+
+
+# Citation and DOI of the study whose equations of film and field are solved.
+_MORRIS = "Morris, Leighton, Morris, Lubricants 10 (2022) 87", "10.3390/lubricants10050087"
+
 # Publications behind the equations, in the order of a report.
 REFERENCES = (
-    Reference(
-        "equations of film and field, Moes' groups",
-        "Morris, Leighton, Morris, Lubricants 10 (2022) 87",
-        "10.3390/lubricants10050087",
-    ),
+    Reference("equations of film and field, Moes' groups", *_MORRIS, lambda case: not _by_formula(case)),
+    Reference("permittivity law of Clausius and Mossotti", *_MORRIS, _with_law("clausius-mossotti")),
     Reference("dry contact", "Johnson, Contact Mechanics, 1985", "10.1017/CBO9781139171731"),
     Reference(
         "deflection of the surfaces",
@@ -262,6 +271,12 @@ REFERENCES = (
         _elliptical,
     ),
     Reference(
+        "heating by shear in the inlet",
+        "Wilson and Sheu, J. Lubr. Technol. 105 (1983) 187",
+        "",
+        lambda case: isinstance(case, BearingCase) and case.bearing.film_factor == "inlet-shear",
+    ),
+    Reference(
         "loads of balls",
         "Jones, J. Basic Eng. 82 (1960) 309-320",
         "10.1115/1.3662587",
@@ -272,6 +287,26 @@ REFERENCES = (
         "Harris and Kotzalas, Advanced Concepts of Bearing Technology, 5th ed., 2006",
         "10.1201/9781420006582",
         _is_bearing,
+    ),
+    Reference(
+        "loads and profiles of rollers",
+        "ISO/TS 16281:2008, Rolling bearings - Methods for calculating the modified reference rating life "
+        "for universally loaded bearings",
+        "",
+        lambda case: _is_bearing(case) and _linear(case),
+    ),
+    Reference(
+        "viscosity over temperature",
+        "ASTM D341, Walther's equation through two kinematic viscosities",
+        "",
+        _by_data_sheet,
+    ),
+    Reference(
+        "viscosity law of Roelands",
+        "Roelands, Correlational aspects of the viscosity-temperature-pressure relationship of lubricating "
+        "oils, thesis, Delft, 1966",
+        "",
+        _after_roelands,
     ),
     Reference(
         "viscosity law of Barus",
@@ -290,6 +325,12 @@ REFERENCES = (
         "Doolittle, J. Appl. Phys. 22 (1951) 1471",
         "10.1063/1.1699894",
         _with_law("doolittle"),
+    ),
+    Reference(
+        "density law of Dowson and Higginson",
+        "Dowson and Higginson, Elasto-Hydrodynamic Lubrication, 1966",
+        "",
+        _with_law("dowson-higginson"),
     ),
     Reference(
         "density law of Murnaghan",

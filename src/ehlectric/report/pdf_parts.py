@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
 from io import BytesIO
@@ -37,6 +38,9 @@ INK, SOFT, LINE, PANEL = (HexColor(colour) for colour in ("#1a1a1a", "#555555", 
 _LINK, _ALARM = "#0058a3", "#b00020"
 _LIGHTS = {"green": "#009e73", "yellow": "#e69f00", "red": "#d55e00", "grey": "#777777"}
 _SEVERITIES = {"severe": _ALARM, "warning": _LIGHTS["yellow"], "note": _LIGHTS["grey"]}
+
+# Parts of a word after which a line may end.
+_PARTS = re.compile(r"[^_.\-/]*[_.\-/]|[^_.\-/]+")
 
 # Room beside the text of a cell [pt], and characters of a line of a file.
 _PAD, _LINE_LENGTH = 3.0, 96
@@ -97,8 +101,9 @@ def parts_of(block: object, width: float, height: float) -> Iterator[Flowable]:
         case Warnings(lines=lines):
             for line in lines:
                 first = f"<b>{SEVERITY_WORDS[line.severity]}.</b> {escape(line.meaning)}"
-                second = f'{escape(line.text)} <font color="#555555">{escape(line.code)}</font>'
-                yield _panel([first, second], _SEVERITIES[line.severity], width)
+                *others, last = map(escape, line.texts)
+                last = f'{last} <font color="#555555">{escape(line.code)}</font>'
+                yield _panel([first, *others, last], _SEVERITIES[line.severity], width)
                 yield Spacer(1.0, 4.0)
         case Picture():
             yield _picture(block, width, height)
@@ -163,8 +168,8 @@ def _table(table: Table, width: float) -> Flowable:
         colour = _ALARM if number in table.alarms else ""
         rows.append(
             [
-                Paragraph(_markup(cell, colour), style(name, size))
-                for cell, name in zip(row, names, strict=True)
+                Paragraph(_markup(cell, colour, room - 2.0 * _PAD, size), style(name, size))
+                for cell, name, room in zip(row, names, widths, strict=True)
             ]
         )
     look = [
@@ -189,12 +194,23 @@ def _address(link: Link) -> str:
     return link.address.replace("https://doi.org/", "doi:")
 
 
-def _markup(cell: Cell, colour: str) -> str:
-    """Cell in the markup of reportlab, with all of its own characters escaped."""
+def _markup(cell: Cell, colour: str, room: float, size: float) -> str:
+    """Cell in the markup of reportlab, with its own characters escaped, for a column of a width [pt]."""
     if isinstance(cell, Link):
         shown = escape(_address(cell))
         return f'{escape(cell.text)}<a href={quoteattr(cell.address)} color="{_LINK}">{shown}</a>'
-    return f'<font color="{colour}">{escape(cell)}</font>' if colour else escape(cell)
+    text = " ".join(_parted(word, room, size) for word in cell.split(" "))
+    return f'<font color="{colour}">{text}</font>' if colour else text
+
+
+def _parted(word: str, room: float, size: float) -> str:
+    """Word in the markup of reportlab, broken after marks such as "_" where a line cannot hold it."""
+    lines = [""]
+    for part in _PARTS.findall(word):
+        if lines[-1] and stringWidth(lines[-1] + part, fonts(), size) > room:
+            lines.append("")
+        lines[-1] += part
+    return "<br/>".join(map(escape, lines))
 
 
 def _widths(rows: Sequence[Sequence[str]], width: float, size: float) -> list[float]:

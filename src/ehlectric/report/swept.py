@@ -4,20 +4,20 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Iterable, Iterator, Mapping
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 
 from ehlectric.cases.input_keys import unit_of
 from ehlectric.cases.row import value_at
-from ehlectric.cases.units import rpm
 from ehlectric.errors import InputError, printable
 from ehlectric.report.content import Block, Section, Table, Text
 from ehlectric.report.drawn import pictures_of, swept_names
 from ehlectric.report.facts import cell_table, row_tables
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.breakdown_keys import breakdown_of
-from ehlectric.sweep.labels import label_of
+from ehlectric.sweep.labels import CELSIUS, Scale, label_of
 from ehlectric.sweep.points import Point
 from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.sensitivity import sensitivity
@@ -30,6 +30,11 @@ _LISTED = 100
 
 # Largest number of values of a varied input that are listed.
 _SHOWN = 12
+
+# Units of columns, whatever their values: engineers' units, and volts, whose values may span decades.
+_SCALES: Mapping[str, Scale] = MappingProxyType(
+    {"rad/s": Scale(30.0 / np.pi, "rpm"), "K": CELSIUS, "V": Scale(1.0, "V")}
+)
 
 # Results of a point that a report lists, as far as the summaries have them.
 _RESULTS = ("film.minimum_thickness", "field.max_strength", "bearing.capacitance")
@@ -124,7 +129,12 @@ def _points(results: SweepResults) -> Iterator[Block]:
     heads = ("point", *(head for head, _ in inputs), "status", *(head for head, _ in found))
     listed = results.points[:_LISTED]
     rows = tuple(
-        (str(n + 1), *(cells[n] for _, cells in inputs), _status(point), *(cells[n] for _, cells in found))
+        (
+            str(point.number),
+            *(cells[n] for _, cells in inputs),
+            _status(point),
+            *(cells[n] for _, cells in found),
+        )
         for n, point in enumerate(listed)
     )
     numeric = tuple(n for n in range(len(heads)) if heads[n] != "status")
@@ -164,9 +174,7 @@ def _column(results: SweepResults, key: str, values: Iterable[Any]) -> tuple[str
     numbers = np.array([float(value) for value in listed if is_number(value)])
     if not numbers.size:
         return printable(label.name), ["" if value is None else printable(str(value)) for value in listed]
-    if unit_of(key) == "rad/s":
-        return f"{label.name} [rpm]", [f"{rpm(value):.4g}" if is_number(value) else "" for value in listed]
-    scale = label.scaled(numbers)
+    scale = _SCALES.get(label.unit) or label.scaled(np.median(np.abs(numbers), keepdims=True))
     unit = f" [{scale.unit}]" if scale.unit else ""
     return f"{label.name}{unit}", [f"{scale.of(value):.4g}" if is_number(value) else "" for value in listed]
 

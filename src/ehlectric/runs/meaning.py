@@ -144,9 +144,11 @@ def _breakdown_by_formula(
 
 
 def _breakdown_rows(estimate: Mapping[str, Any]) -> Iterator[Row]:
-    yield Row("breakdown voltage", estimate["breakdown_voltage"], "V", f", by formula: {estimate['formula']}")
+    note = f", by formula: {estimate['formula']}"
+    yield Row("breakdown voltage", estimate["breakdown_voltage"], "V", note, bound="≤")
     if estimate["margin"] is not None:
-        yield Row("margin (breakdown / applied)", estimate["margin"], note="by formula: up to 40 % off")
+        note = "by formula: up to 40 % off"
+        yield Row("margin (breakdown / applied)", estimate["margin"], note=note, bound="≤")
 
 
 @check.register

@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING, Any
 from ehlectric.bearing.keys import BEARING_KEYS
 from ehlectric.bearing.margin.sensitivity import OF_TABLE
 from ehlectric.cases.input_keys import unit_of
-from ehlectric.cases.row import Row, amount, rows_of
+from ehlectric.cases.row import Bound, Row, amount, amount_row, rows_of
 from ehlectric.cases.units import rpm_text
 from ehlectric.discharge.verdict import ratio_text
 from ehlectric.sweep.labels import Scale, scale_for
+from ehlectric.tables.bearing_bounds import bounds_of
 from ehlectric.tables.bearing_meter import outside_rows, shaft_rows
 
 if TYPE_CHECKING:
@@ -26,7 +27,8 @@ def loads_table(summary: Mapping[str, Any]) -> Table:
         (
             f"{math.degrees(row['position']):.0f}",
             f"{row['load']:.4g}",
-            f"{math.degrees(row['contact_angle']):.1f}",
+            # "z" prints an angle that is rounded to zero without a sign.
+            f"{math.degrees(row['contact_angle']):z.1f}",
             _number(row["max_pressure"], 1e-9, ".3f"),
             " x ".join(filter(None, [_number(row[f"semi_axis_{axis}"], 1e6, ".4g") for axis in "xy"])),
         )
@@ -51,8 +53,10 @@ def films_table(summary: Mapping[str, Any]) -> Table:
         )
         for row in summary["contacts"]
     )
-    field = "E\n[V/µm]" if driven else "E/V\n[1/µm]"
-    return _contacts_table(summary, (*heads, field, "breakdown\n[V]"), rows)
+    bounds = bounds_of(summary)
+    field = "E\n{} [V/µm]" if driven else "E/V\n{} [1/µm]"
+    field = field.format(bounds.get(f"bearing.{'max_strength' if driven else 'strength_per_volt'}", ""))
+    return _contacts_table(summary, (*heads, field.replace(" \n", "\n"), "breakdown\n≤ [V]"), rows)
 
 
 def _contacts_table(
@@ -87,9 +91,15 @@ def total_rows(summary: Mapping[str, Any]) -> list[Row]:
     Returns
     -------
     list of Row
-        Values in SI units.
+        Values in SI units; the first one is an alarm if a film is not converged.
     """
-    return [*input_rows(summary), *outcome_rows(summary)]
+    return [*_status(summary), *input_rows(summary), *outcome_rows(summary)]
+
+
+def _status(summary: Mapping[str, Any]) -> Iterator[Row]:
+    """Row that warns of films that are not converged."""
+    if not summary["converged"]:
+        yield Row("NOT CONVERGED", note="the film of a contact: do not use these numbers", alarm=True)
 
 
 def outcome_rows(summary: Mapping[str, Any]) -> list[Row]:
@@ -119,17 +129,17 @@ def outcome_rows(summary: Mapping[str, Any]) -> list[Row]:
         ("first breakdown, mean over cage positions", "bearing.first_break_mean", "V"),
         ("first breakdown voltage", "bearing.first_break", "V", first),
     )
-    coated = totals.get("coating_capacitance") is not None
+    coated, bounds = totals.get("coating_capacitance") is not None, bounds_of(summary)
     return [
         Row(f"films, contacts {_HOW[totals['contacts']]}"),
         _lambda_ratio(totals),
         *rows_of(BEARING_KEYS, summary, films),
         Row("computing time", summary["seconds"], "s", digits=".3g"),
         Row("capacitance"),
-        *rows_of(BEARING_KEYS, summary, capacitances),
+        *rows_of(BEARING_KEYS, summary, capacitances, bounds),
         *outside_rows(summary),
         Row("breakdown"),
-        *rows_of(BEARING_KEYS, summary, voltages),
+        *rows_of(BEARING_KEYS, summary, voltages, bounds),
         *(shaft_rows(summary) if coated else ()),
         *_intermittent(totals["lubrication"]),
         *_margin(summary),
@@ -156,8 +166,8 @@ _TOUCH = {
 def _intermittent(state: str) -> Iterator[Row]:
     """Row that says where no voltage is computed, so that nothing reads as safe."""
     if state == "conducting":
-        note = "computed: lambda below 1, contacts open and close and discharge at a low voltage"
-        yield Row("first breakdown voltage", "none", note=note, alarm=True)
+        note = ", lambda below 1: contacts open and close and discharge at a low voltage"
+        yield Row("first breakdown voltage", "not computed", note=note, alarm=True)
     elif state == "partial film":
         note = "lambda below 3, discharges at a lower voltage as contacts open are not computed"
         yield Row("contacts of asperities", "at times", note=note)
@@ -169,13 +179,13 @@ def _leakage(summary: Mapping[str, Any]) -> Iterator[Row]:
     if totals.get("shaft_time_constant") is None:
         return
     yield Row("leakage through the oil")
-    yield Row("charge relaxation time of the oil", amount(totals["relaxation_time"], "s"))
+    yield amount_row("charge relaxation time of the oil", totals["relaxation_time"], "s")
     period = ", compared with 50 to 250 µs of typical inverters"
     if frequency is not None:
         period = f", compared with a period of {amount(1.0 / frequency, 's')} of the inverter"
-    yield Row("time constant of the shaft voltage", amount(totals["shaft_time_constant"], "s"), note=period)
+    yield amount_row("time constant of the shaft voltage", totals["shaft_time_constant"], "s", period)
     if totals.get("coating_capacitance") is not None:
-        yield Row("time constant of the films", amount(totals["film_time_constant"], "s"), note=period)
+        yield amount_row("time constant of the films", totals["film_time_constant"], "s", period)
     lines = (
         ("shaft voltage after an edge", "bearing.shaft_voltage_after_rise", "V"),
         ("shaft voltage after a period", "bearing.shaft_voltage_after_period", "V"),
@@ -186,6 +196,9 @@ def _leakage(summary: Mapping[str, Any]) -> Iterator[Row]:
 def _costs(summary: Mapping[str, Any]) -> Iterator[Row]:
     """Rows of the energy of a discharge, its pit, and the current density."""
     totals = summary["bearing"]
+    # The energy of a voltage that is an upper bound is an upper bound too, although a thinner film has a
+    # higher capacitance: it grows as 1/h at most, and the square of the voltage falls as h^2.
+    bounds: Mapping[str, Bound] = {"breakdown_energy": "≤", "breakdown_pit_diameter": "≤"}
     texts = (
         ("energy at the shaft voltage", "discharge_energy", "J", ", all that is connected to the shaft"),
         ("energy at the first breakdown", "breakdown_energy", "J", ""),
@@ -193,7 +206,7 @@ def _costs(summary: Mapping[str, Any]) -> Iterator[Row]:
         ("pit diameter at the first breakdown", "breakdown_pit_diameter", "m", ""),
     )
     rows = [
-        Row(name, amount(totals[key], unit), note=note)
+        amount_row(name, totals[key], unit, note, bound=bounds.get(key, ""))
         for name, key, unit, note in texts
         if totals.get(key) is not None
     ]
@@ -201,10 +214,10 @@ def _costs(summary: Mapping[str, Any]) -> Iterator[Row]:
     if density is not None:
         low, high = (f"{1e-6 * totals['current_density_limits'][k]:g}" for k in (0, -1))
         over = density > totals["current_density_limits"][0]
-        note = f"A/mm², published limits {low} to {high} A/mm²"
-        rows.append(Row("apparent current density", f"{1e-6 * density:.3g}", note=note, alarm=over))
-        one = f"{1e-6 * totals['element_current_density']:.3g}"
-        rows.append(Row("through one element alone", one, note="A/mm²"))
+        note, name = f", published limits {low} to {high} A/mm²", "apparent current density"
+        rows.append(Row(name, density, "A/mm²", note, digits=".3g", alarm=over))
+        one = totals["element_current_density"]
+        rows.append(Row("through one element alone", one, "A/mm²", digits=".3g"))
     if rows:
         yield Row("discharge")
         yield from rows
@@ -227,6 +240,10 @@ def input_rows(summary: Mapping[str, Any]) -> Iterator[Row]:
             yield Row(f"{name} load", bearing[f"{name}_load"], "N")
     yield Row("temperature", celsius, "°C", "" if over_temperature else ", without effect on the viscosity")
     yield Row(f"viscosity at {celsius} °C" if over_temperature else "viscosity", oil["viscosity"], "mPa s")
+    if oil.get("alpha_star"):
+        ambient = f"{1e9 * oil['pressure_viscosity_coefficient']:.4g} 1/GPa"
+        note = f", reciprocal asymptotic; α = {ambient} at ambient pressure"
+        yield Row("pressure-viscosity coefficient α*", oil["alpha_star"], "1/GPa", note)
     yield from _rings(oil, over_temperature=over_temperature)
     if bearing.get("radial_clearance") is not None:
         yield Row("radial clearance", bearing["radial_clearance"], "µm")
@@ -271,7 +288,7 @@ def _strength(discharge: Mapping[str, Any]) -> Row:
         low, high = (f"{end / 1e6:.4g}" for end in (min(table["strength"]), max(table["strength"])))
         over = "pressure" if "pressure" in table else "temperature"
         return Row(name, f"{low} to {high}", "V/µm", f", table over {over}")
-    return Row(name, "none", note="given: no breakdown voltage")
+    return Row(name, "not given", note=", no breakdown voltage is computed")
 
 
 def _film_factor(summary: Mapping[str, Any]) -> str:
@@ -287,18 +304,20 @@ def _margin(summary: Mapping[str, Any]) -> Iterator[Row]:
     margin, analysis = summary["bearing"]["margin"], summary.get("margin")
     if margin is None:
         return
-    yield Row("margin (first breakdown / shaft voltage)", margin, alarm=margin < 1.0)
+    yield Row("margin (first breakdown / shaft voltage)", margin, alarm=margin < 1.0, bound="≤")
     if analysis is None:
         return
     if analysis["low"] is not None:
-        yield Row("margin within the stated ranges", _between(analysis["low"], analysis["high"]))
+        stated = _between(analysis["low"], analysis["high"])
+        yield Row("margin within the stated ranges", stated, bound="≤")
     yield from _speeds(analysis, broken=margin < 1.0)
     if analysis["effects"] or analysis["left_out"]:
         yield Row("margin if one input changes")
     for effect in analysis["effects"]:
         margins = _between(effect["low_margin"], effect["high_margin"])
         name, _, beside = effect["label"].partition(" (")
-        yield Row(f"{name}, {input_range(effect)}", margins, note=beside.removesuffix(")"))
+        note = f", {beside.removesuffix(')')}" if beside else ""
+        yield Row(f"{name}, {input_range(effect)}", margins, note=note, bound="≤")
     for text in analysis["left_out"]:
         yield Row("not computed", note=text)
 
@@ -314,10 +333,10 @@ def _speeds(analysis: Mapping[str, Any], *, broken: bool) -> Iterator[Row]:
     if lower is None and upper is None and lowest is not None and lowest < highest:
         low, high = rpm_text(lowest), rpm_text(highest)
         beyond = f"above {high}" if broken else f"below {low}"
-        yield Row("critical speed", beyond, note=f"rpm: none from {low} to {high} rpm")
+        yield Row("critical speed", beyond, "rpm", f", none from {low} to {high} rpm")
     if analysis["touching_speed"] is not None:
-        note = "rpm: contacts open and close, discharges are likely"
-        yield Row("surfaces touch below", rpm_text(analysis["touching_speed"]), note=note)
+        note = ", contacts open and close, discharges are likely"
+        yield Row("surfaces touch below", rpm_text(analysis["touching_speed"]), "rpm", note)
 
 
 def _between(low: float, high: float) -> str:

@@ -7,6 +7,7 @@ from typing import Any
 
 from ehlectric.bearing.keys import BEARING_KEYS
 from ehlectric.cases.row import Row, rows_of
+from ehlectric.tables.bearing_bounds import bounds_of
 
 _COATING = "capacitance of the coating", "bearing.coating_capacitance", "pF"
 _SHAFT = "capacitance from shaft to housing", "bearing.shaft_capacitance", "pF", ", smooth films"
@@ -28,18 +29,18 @@ def outside_rows(summary: Mapping[str, Any]) -> Iterator[Row]:
     totals = summary["bearing"]
     if "shaft_capacitance" not in totals:
         return
-    if totals["parallel_capacitance"]:
+    if totals["parallel_capacitance"] or "parallel_capacitance" in summary["inputs"]["bearing"]:
         yield Row("parallel capacitance", totals["parallel_capacitance"], "pF", ", cage, shields and wiring")
     else:
-        yield Row("parallel capacitance", "none", note="given, of cage and wiring")
+        yield Row("parallel capacitance", "not given", note=", taken as 0 (cage, shields and wiring)")
     yield from rows_of(BEARING_KEYS, summary, [_COATING])
     if totals["parallel_capacitance"] or totals["coating_capacitance"] is not None:
-        yield from rows_of(BEARING_KEYS, summary, [_SHAFT])
+        yield from rows_of(BEARING_KEYS, summary, [_SHAFT], bounds_of(summary))
     if totals["meter_capacitance"] is not None:
         rough = "" if totals["roughness_factor"] is None else ", rough films"
         yield Row("capacitance that a meter reads", totals["meter_capacitance"], "pF", rough)
     elif totals["lubrication"] in ("conducting", "partial film"):
-        yield Row("capacitance that a meter reads", "none", note="computed: asperities touch")
+        yield Row("capacitance that a meter reads", "not computed", note=", asperities touch")
 
 
 def shaft_rows(summary: Mapping[str, Any]) -> Iterator[Row]:
@@ -51,4 +52,4 @@ def shaft_rows(summary: Mapping[str, Any]) -> Iterator[Row]:
         ("shaft voltage, ring-to-ring breakdown", "bearing.shaft_through_breakdown", "V"),
         ("breakdown voltage of the coating", "bearing.coating_breakdown", "V"),
     )
-    yield from rows_of(BEARING_KEYS, summary, lines)
+    yield from rows_of(BEARING_KEYS, summary, lines, bounds_of(summary))

@@ -45,7 +45,7 @@ def case_rows(case: Case, conditions: Conditions | PointConditions) -> list[Row]
     rows = [*condition_rows(conditions, case.electric.voltage, case.oil), *_dry_contact(conditions)]
     rows += [Row("film thickness by published formulas")]
     rows += [Row(name, value, "µm") for _, name, value in _by_formula(formulas, thicknesses)]
-    rows += [Row("usual difference from a solved film", "up to 40 %")]
+    rows += [Row("usual difference from a solved film", "up to 40", "%")]
     rows += [Row("numerical model"), *_GRIDS[conditions.geometry](case, conditions)]
     return [*rows, Row("dimensionless velocity parameter Λ", conditions.velocity_parameter)]
 
@@ -120,12 +120,12 @@ def _dry_contact(conditions: Conditions | PointConditions) -> Iterator[Row]:
 
 
 def _line_grid(case: Case, _: Conditions) -> Iterator[Row]:
-    yield Row("grid of the film", str(case.grid.nodes), note="nodes")
+    yield Row("grid of the film", str(case.grid.nodes), "nodes")
     yield _wedge(case)
 
 
 def _point_grid(case: Case, conditions: PointConditions) -> Iterator[Row]:
-    yield Row("grid of the film", f"{case.grid.nodes} x {case.grid.nodes_across}", note="nodes")
+    yield Row("grid of the film", f"{case.grid.nodes} x {case.grid.nodes_across}", "nodes")
     yield Row("half-width of the domain across", conditions.side, note="semi-axes a")
     yield _wedge(case)
 
@@ -226,7 +226,7 @@ def _field(result: Result | PointResult) -> Iterator[Row]:
     if result.rough:
         at += f", {field.max_strength_wall}"
     yield Row("electric field")
-    yield Row("maximum field", field.max_strength, "V/µm", at)
+    yield Row("maximum field", field.max_strength, "V/µm", at, bound="≥")
     name, error = "error of the maximum field", field.strength_error
     yield Row(name, "unknown") if error is None else Row(name, error, "%", digits=".1g")
     name = "maximum field / parallel-plate field"
@@ -244,7 +244,7 @@ def _line_field(result: Result) -> Iterator[Row]:
     yield Row("width of the high-field zone", field.high_field_width, "µm", ", above 95 % of maximum")
     yield Row("capacitance per length", field.capacitance, "nF/m", ", over the field range")
     if result.rough:
-        yield Row("grid of the field", str(field.x.size), note="columns")
+        yield Row("grid of the field", str(field.x.size), "columns")
 
 
 def _point_field(result: PointResult) -> Iterator[Row]:
@@ -263,7 +263,7 @@ def _formulas(result: Result | PointResult) -> Iterator[Row]:
         difference = 100.0 * (value / getattr(result.film, key) - 1.0)
         beside = f", {difference:+.0f} % vs. solved film" if result.converged else ""
         yield Row(name, value, "µm", beside)
-    yield Row("usual difference from a solved film", "up to 40 %")
+    yield Row("usual difference from a solved film", "up to 40", "%")
     yield Row("run")
     yield Row("computing time", result.film_seconds + result.field_seconds, "s", digits=".2g")
 

@@ -35,18 +35,18 @@ def discharge_rows(result: Result | PointResult) -> Iterator[Row]:
 def _breakdown(breakdown: Breakdown, applied: float) -> Iterator[Row]:
     voltage, strength = breakdown.breakdown_voltage, breakdown.dielectric_strength
     if voltage is None or breakdown.margin is None or breakdown.probability is None:
-        yield Row("dielectric strength", "none", note="given: no breakdown voltage")
+        yield Row("dielectric strength", "not given", note=", no breakdown voltage is computed")
         return
     condition = "63.2 % probability" if strength is None else f"{strength / 1e6:.4g} V/µm"
     yield Row("applied voltage", applied, "V")
-    yield Row("breakdown voltage", voltage, "V", f", at {condition}")
+    yield Row("breakdown voltage", voltage, "V", f", at {condition}", bound="≤")
     error = breakdown.breakdown_field_error
     if error is not None and error > _SMALL:
         yield Row("breakdown voltage, error by the field", error, "%", digits=".1g")
     low, high = breakdown.breakdown_voltage_low, breakdown.breakdown_voltage_high
     if low is not None and high is not None:
-        yield Row("breakdown voltage, 5 to 95 %", f"{low:.4g} to {high:.4g}", "V")
-    yield Row("margin (breakdown / applied)", breakdown.margin, alarm=breakdown.margin < 1.0)
+        yield Row("breakdown voltage, 5 to 95 %", f"{low:.4g} to {high:.4g}", "V", bound="≤")
+    yield Row("margin (breakdown / applied)", breakdown.margin, alarm=breakdown.margin < 1.0, bound="≤")
     if breakdown.strength_law == "weibull":
         note = "at the applied voltage"
         yield Row("probability of breakdown", breakdown.probability, note=note, digits=".3g")
@@ -85,12 +85,12 @@ def _capacitances(capacitances: Capacitances, unit: str) -> Iterator[Row]:
 
 def _costs(costs: DischargeCosts) -> Iterator[Row]:
     rows = (
-        ("energy stored in the contact", costs.contact_energy, "nJ"),
-        ("energy of a discharge", costs.discharge_energy, "nJ"),
-        ("energy at the breakdown voltage", costs.breakdown_energy, "nJ"),
-        ("diameter of the pit it melts", costs.pit_diameter, "µm", "; assumption: a hemisphere"),
+        Row("energy stored in the contact", costs.contact_energy, "nJ"),
+        Row("energy of a discharge", costs.discharge_energy, "nJ"),
+        Row("energy at the breakdown voltage", costs.breakdown_energy, "nJ", bound="≤"),
+        Row("diameter of the pit it melts", costs.pit_diameter, "µm", "; assumption: a hemisphere"),
     )
-    yield from (Row(name, value, *unit) for name, value, *unit in rows if value is not None)
+    yield from (row for row in rows if row.value is not None)
     if costs.current_density is not None and costs.current_density_limits is not None:
         limits = ", ".join(f"{limit / 1e6:g}" for limit in costs.current_density_limits)
         yield Row(

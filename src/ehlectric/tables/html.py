@@ -76,7 +76,7 @@ def _verdict(verdict: Any) -> str:
 def _row(row: Row) -> str:
     style = ' style="color:#d55e00"' if row.alarm else ""
     name = escape(row.name).replace("  ", "&emsp;")
-    value, rest = escape(row.shown), escape(f"{row.unit}{row.note}")
+    value, rest = escape(row.bounded), escape(f"{row.unit}{row.note}")
     return (
         f'<tr{style}><td style="text-align:left">{name}</td><td style="text-align:right">{value}</td>'
         f'<td style="text-align:left">{rest}</td></tr>'
@@ -128,7 +128,7 @@ def _scale(key: str, case: Case | BearingCase, values: Sequence[float]) -> Scale
         return CELSIUS
     if unit in ("rad/s", "A/m**2", "m**2/s", "1/Pa", "m**2", "m**3"):
         return scale_for(largest or 1.0, unit)
-    return Scale(*suited(largest, unit))
+    return Scale(*suited(largest or 1.0, unit))
 
 
 def _sweep_rows(sweep: Sweep) -> Iterator[Row]:

@@ -40,10 +40,12 @@ def _coating(reading: MeterReading) -> Iterator[Row]:
     yield Row(
         "share of the voltage on the coating", reading.coating_voltage_share, "%", ", at the minimum film"
     )
-    for name, volts, note in (
-        ("breakdown voltage of the film", reading.film_breakdown_voltage, ", between the bodies"),
-        ("breakdown voltage of the coating", reading.coating_breakdown_voltage, ", with the film bridged"),
-        ("breakdown voltage of both", reading.breakdown_voltage, ", between the bodies"),
-    ):
-        if volts is not None:
-            yield Row(name, volts, "V", note)
+    film, coating, both = (
+        reading.film_breakdown_voltage, reading.coating_breakdown_voltage, reading.breakdown_voltage,
+    )  # fmt: skip
+    if film is not None:
+        yield Row("breakdown voltage of the film", film, "V", ", between the bodies", bound="≤")
+    if coating is not None:
+        yield Row("breakdown voltage of the coating", coating, "V", ", with the film bridged")
+    if both is not None:
+        yield Row("breakdown voltage of both", both, "V", ", between the bodies", bound="≤")

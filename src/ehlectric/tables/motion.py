@@ -6,11 +6,25 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from ehlectric.cases.case import Case
-from ehlectric.cases.row import Row, rows_of, value_at
+from ehlectric.cases.row import Bound, Row, rows_of, value_at
 from ehlectric.contact.kinds import KINDS
 from ehlectric.motion.keys import LINE_KEYS
 from ehlectric.motion.schedule import Schedule
 from ehlectric.tables.contact import condition_rows
+
+# The film is isothermal and fully flooded: real films are thinner, so that their field is higher, and they
+# break down at lower voltages.
+_AT_MOST = ("discharge.breakdown_voltage", "discharge.margin")
+_AT_LEAST = (
+    "field.max_strength",
+    "field.before",
+    "field.local_maxima_quantiles.1",
+    "field.local_maxima_quantiles.2",
+    "stationary.max_strength",
+    "beside_stationary.maximum_strength",
+    "beside_stationary.maximum_strength_stationary",
+)
+_BOUNDS: Mapping[str, Bound] = {key: "≤" if key in _AT_MOST else "≥" for key in (*_AT_MOST, *_AT_LEAST)}
 
 
 def schedule_rows(schedule: Schedule, entrainment_speed: float) -> Iterator[Row]:
@@ -62,7 +76,7 @@ def run_rows(summary: Mapping[str, Any]) -> list[Row]:
     shown = {**summary, "motion": {**summary["motion"], "halvings": halvings}}
     rows = [*condition_rows(conditions, case.electric.voltage, case.oil)]
     for heading, entries in _entries(summary):
-        found = list(rows_of(LINE_KEYS, shown, entries))
+        found = list(rows_of(LINE_KEYS, shown, entries, _BOUNDS))
         rows += [Row(heading), *found] if found else []
     return rows
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ehlectric.cases.row import Row
+from ehlectric.cases.row import Bound, Row
 from ehlectric.sweep.breakdown_keys import breakdown_of
 from ehlectric.sweep.labels import label_of
 from ehlectric.sweep.results import SweepResults
@@ -24,11 +24,15 @@ def spread_rows(results: SweepResults, sensitivity: Sensitivity) -> list[Row]:
     values |= {"minimum": spread.minimum, "maximum": spread.maximum}
     values |= {f"{100.0 * q:g} % quantile": at for q, at in spread.quantiles.items()}
     rows = [Row("samples", str(spread.samples))]
+    breakdown = breakdown_of(results.case, sensitivity.value)
+    at_most = sensitivity.value in (breakdown.value, breakdown.margin)
     for name, value in values.items():
-        rows.append(Row(f"{label.name}, {name}", f"{scale.factor * value:.4g}", scale.unit))
+        # Real films break down at lower voltages; that says nothing about how much the voltages scatter.
+        bound: Bound = "≤" if at_most and name != "standard deviation" else ""
+        rows.append(Row(f"{label.name}, {name}", f"{scale.factor * value:.4g}", scale.unit, bound=bound))
     share = sensitivity.share_below_voltage
     if share is not None:
-        voltage = breakdown_of(results.case, sensitivity.value).voltage_name
+        voltage = breakdown.voltage_name
         rows.append(Row(f"samples below the {voltage}", share, "%", digits=".3g"))
     return rows
 

@@ -32,7 +32,7 @@ def sweep_rows(results: SweepResults) -> list[Row]:
     for status in ("solved", "not converged", "failed"):
         reasons = [point.reason for point in results.points if point.status == status]
         rows.append(Row(f"points {status}", str(len(reasons)), note=f"of {len(results.points)}"))
-        rows += [Row(f"  reason, {_points(count)}", reason) for count, reason in _grouped(reasons)]
+        rows += [Row(f"  reason, {_points(count)}", note=reason) for count, reason in _grouped(reasons)]
     return rows
 
 

@@ -306,7 +306,7 @@ def test_rows_of_the_table(solved):
     assert "energy of a discharge" not in constant
     bare = rows(result_rows(solved("line", {})))
     assert "breakdown voltage" not in bare
-    assert bare["dielectric strength"] == ("none", "given: no breakdown voltage")
+    assert bare["dielectric strength"] == ("not given", ", no breakdown voltage is computed")
     # A single contact has the inputs that decide its film at its head.
     assert list(line_rows)[1:5] == [
         "load per length",

@@ -135,7 +135,7 @@ def test_a_run_says_when_film_and_field_are_at_their_worst(moved):
     film, field = moved["film"], moved["field"]
     expected = f"{film['minimum_thickness'] * 1e6:.4g} µm at {film['minimum_time'] * 1e3:.4g} ms"
     assert named["minimum film, moving roughness"] == expected
-    expected = f"{field['max_strength'] / 1e6:.4g} V/µm at {field['max_strength_time'] * 1e3:.4g} ms"
+    expected = f"≥ {field['max_strength'] / 1e6:.4g} V/µm at {field['max_strength_time'] * 1e3:.4g} ms"
     assert named["maximum field, moving roughness"] == expected
     assert "halvings of time steps" not in named
     halved = {**moved, "motion": moved["motion"] | {"halvings": 3}}

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import textwrap
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
@@ -30,16 +32,23 @@ _TOUCHING = ("conducting", "touching")
 
 
 def loads(result: BearingResult) -> str:
-    """Sentence: the most loaded contact and the minimum film, at the first position of the cage."""
+    """Sentence: the contacts with the largest load and the minimum film, at the first cage position."""
     rows = result.contacts()
     most, thinnest = (
         max(rows, key=lambda row: row["load"]),
         min(rows, key=lambda row: row["minimum_thickness"]),
     )
     least = prefixed(thinnest["minimum_thickness"], "m", least=0.1)
-    text = f"Most loaded contact: {most['ring']}, element {most['element']}, {most['load']:.3g} N; "
-    text += f"minimum film {least} (λ {lambda_ratio(result.solution):.2g})"
+    text = (
+        f"Largest load {most['load']:.3g} N ({_contact(most)}); minimum film {least} ({_contact(thinnest)})"
+    )
+    text += f", λ {lambda_ratio(result.solution):.2g}"
     return text + (": surfaces touch" if lubrication(result.solution) in _TOUCHING else "")
+
+
+def _contact(row: Mapping[str, Any]) -> str:
+    """Name of a contact of the table of contacts."""
+    return f"{row['ring']}, element {row['element']}"
 
 
 def circuit(result: BearingResult) -> str:

@@ -389,12 +389,12 @@ def test_titles_say_the_duty_once(title, line):
 
 def test_titles_say_the_finding(result):
     most = max(result.contacts(), key=lambda row: row["load"])
-    thinnest = 1e6 * min(row["minimum_thickness"] for row in result.contacts())
+    thin = min(result.contacts(), key=lambda row: row["minimum_thickness"])
+    least = 1e6 * thin["minimum_thickness"]
     text = said(figure(result, LOADS))
-    assert text.startswith(
-        f"Most loaded contact: {most['ring']}, element {most['element']}, {most['load']:.3g} N; "
-    )
-    assert f"minimum film {thinnest:.3g} µm (λ {thinnest / 0.03:.2g}) By hand" in text
+    assert text.startswith(f"Largest load {most['load']:.3g} N ({most['ring']}, element {most['element']}); ")
+    film = f"minimum film {least:.3g} µm ({thin['ring']}, element {thin['element']}), λ {least / 0.03:.2g}"
+    assert f"{film} By hand" in text
     found, shaft = result.breaks(), result.shaft_voltage
     assert said(figure(result, CIRCUIT)).startswith(
         f"No breakdown expected: margin {found['first_break'] / shaft:.3g} "

@@ -1,0 +1,103 @@
+"""Rows of a bearing: each column is true by itself, bounds have their sign, and failures come first."""
+
+import re
+
+import pytest
+
+from ehlectric import BearingCase, solve
+from ehlectric.tables.bearing import films_table, loads_table, total_rows
+from tests.helpers.bearings import BALLS, bearing_case, changed
+
+# A unit at the end of a value, and at the beginning of a note.
+VALUE, NOTE = re.compile(r"\d (?:%|[µnpmk]?[smJFVN]|rpm|A/mm²)$"), re.compile(r"^(?:rpm|A/mm²|%)")
+
+
+def summary_of(tables=BALLS, **changes):
+    return solve(bearing_case(tables, contacts="formula", **changes)).summary()
+
+
+def rows(summary):
+    return {row.name: row for row in total_rows(summary)}
+
+
+@pytest.fixture(scope="module")
+def steel():
+    """Summary of steel balls, with all that a discharge costs."""
+    return summary_of(discharge__peak_current="1 A", bearing__inner_speed="1500 rpm")
+
+
+def test_values_and_notes_have_no_units(steel):
+    """Value, unit and note are columns of a report."""
+    for row in total_rows(steel):
+        assert not VALUE.search(row.shown), row
+        assert not NOTE.search(row.note), row
+    assert rows(steel)["charge relaxation time of the oil"].unit == "s"
+    assert rows(steel)["apparent current density"].unit == "A/mm²"
+    assert rows(steel)["surfaces touch below"].unit == "rpm"
+
+
+def test_voltages_are_upper_and_fields_lower_bounds(steel):
+    found = rows(steel)
+    at_most = {name for name, row in found.items() if row.bound == "≤"}
+    assert {
+        "first breakdown voltage", "ring-to-ring breakdown voltage", "energy at the first breakdown",
+        "margin (first breakdown / shaft voltage)", "temperature, 60 to 80 °C",
+    } <= at_most  # fmt: skip
+    assert not {"capacitance of the bearing", "shaft voltage", "energy at the shaft voltage"} & at_most
+    at_least = {name for name, row in found.items() if row.bound == "≥"}
+    assert at_least == {"max field per volt on the bearing", "max field at the shaft voltage"}
+    value = f"{steel['bearing']['first_break']:.4g} V"
+    assert found["first breakdown voltage"].text.startswith(f"≤ {value}")
+    heads = [column.header for column in films_table(steel).columns]
+    assert [head for head in heads if "≤" in head or "≥" in head] == ["E\n≥ [V/µm]", "breakdown\n≤ [V]"]
+
+
+def test_the_capacitance_of_ceramic_elements_is_an_upper_bound():
+    found = rows(summary_of(bearing__element_material="silicon-nitride"))
+    assert found["capacitance of the bearing"].bound == "≤"
+    known = rows(
+        summary_of(bearing__element_material="silicon-nitride", bearing__element_capacitance="10 pF")
+    )
+    assert known["capacitance of the bearing"].bound == ""
+
+
+def test_a_shaft_that_discharges_through_the_oil_has_a_lower_voltage():
+    found = rows(summary_of(discharge__conductivity="1 uS/m", motor__switching_frequency="10 kHz"))
+    assert found["shaft voltage"].bound == "≤"
+    assert found["max field at the shaft voltage"].bound == ""
+    assert found["max field per volt on the bearing"].bound == "≥"
+
+
+def test_what_is_not_computed_says_so_in_the_column_of_values():
+    found = rows(summary_of(bearing__inner_speed="30 rpm", discharge__dielectric_strength="15 V/um"))
+    for name in ("capacitance that a meter reads", "first breakdown voltage"):
+        assert found[name].shown == "not computed"
+        assert not re.match(r"\W*(computed|given)", found[name].note)
+    assert found["first breakdown voltage"].alarm
+    assert found["parallel capacitance"].shown == "not given"
+
+
+def test_a_parallel_capacitance_of_zero_is_given():
+    found = rows(summary_of(bearing__parallel_capacitance="0 pF"))
+    assert found["parallel capacitance"].text.startswith("0 pF")
+
+
+def test_films_that_are_not_converged_are_said_first(steel):
+    first, *others = total_rows({**steel, "converged": False})
+    assert (first.name, first.alarm, first.shown) == ("NOT CONVERGED", True, "")
+    assert "do not use these numbers" in first.note
+    assert others == total_rows(steel)
+
+
+def test_the_pressure_viscosity_coefficient_is_that_of_the_film_formulas(steel):
+    row = rows(steel)["pressure-viscosity coefficient α*"]
+    assert row.value == steel["lubricant"]["alpha_star"]
+    assert f"α = {steel['lubricant']['pressure_viscosity_coefficient'] * 1e9:.4g} 1/GPa" in row.note
+
+
+def test_angles_have_no_negative_zero():
+    summary = solve(BearingCase.from_dict(changed(BALLS, contacts="formula"))).summary()
+    for row in summary["contacts"]:
+        row["contact_angle"] = -1e-5
+    (angles,) = (column for column in loads_table(summary).columns if "angle" in str(column.header))
+    assert set(angles.cells) == {"0.0"}
