@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 from ehlectric.bearing.ring_contacts import BallContact, RollerContact
 from ehlectric.cases.grid import Grid, point_grid
@@ -89,6 +90,12 @@ def ball_grid(contact: BallContact) -> Grid:
     inlet, outlet = max(4.5, min(_ALONG * along, _MOST[0])), max(1.5, min(_BEHIND * along, 0.1 * _MOST[0]))
     side = max(contact.conditions.side, min(1.0 + _ACROSS * across, _MOST[1]))
     nodes = max(257, 8 * math.ceil(inlet + outlet) + 1, 16 * math.ceil(side) + 1)
+    return _point_grid(inlet, outlet, side, nodes)
+
+
+@lru_cache(maxsize=128)
+def _point_grid(inlet: float, outlet: float, side: float, nodes: int) -> Grid:
+    """Grid with lengths in semi-axes; it is made once, as most contacts have the same one."""
     table = {"inlet": -inlet, "outlet": outlet, "side": side, "nodes": nodes, "refine": REFINE}
     return Grid.from_dict(point_grid(table))
 

@@ -216,6 +216,15 @@ class BearingSolution(Values):
         """Whether the films of all contacts are converged."""
         return all(contact.converged for curve in self.curves for contact in curve.solutions)
 
+    @cached_property
+    def least_film(self) -> float:
+        """Smallest film thickness of the loaded contacts, at all positions of the cage [m]."""
+        return min(
+            float(np.min(ring.values.minimum_thickness[ring.solved]))
+            for position in self.positions
+            for ring in position.rings
+        )
+
     def circuits(self, fill: float | str | None = None) -> tuple[Circuit, ...]:
         """Circuit at each position, with "oil" or "air" around the films; by default ``fill`` of the case."""
         if fill is None:
@@ -230,12 +239,7 @@ class BearingSolution(Values):
 
 def lambda_ratio(solution: BearingSolution) -> float:
     """Lambda ratio: smallest film thickness of the loaded contacts over ``composite_rq``, dimensionless."""
-    films = [
-        np.min(ring.values.minimum_thickness[ring.solved])
-        for position in solution.positions
-        for ring in position.rings
-    ]
-    return float(min(films)) / solution.case.bearing.composite_rq
+    return solution.least_film / solution.case.bearing.composite_rq
 
 
 def lubrication(solution: BearingSolution) -> str:
