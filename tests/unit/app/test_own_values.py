@@ -61,7 +61,7 @@ def test_given_values_are_not_told_as_assumed():
         ({BASE_OIL: "pao"}, {"pressure_viscosity_coefficient", "roelands_z"}, "as estimated for pao"),
         ({BASE_OIL: "pao", ALPHA: "15 1/GPa"}, {"roelands_z"}, "from the coefficient and the viscosity"),
     ],
-    ids=str,
+    ids=["library", "alpha", "exponent", "base oil", "base oil and alpha"],
 )
 def test_the_rise_with_pressure_is_told_as_the_case_resolves_it(changes, lacks, told):
     """Keys that the resolved table lacks follow from others; ``lubricant.at`` computes them."""
