@@ -202,9 +202,10 @@ def test_every_regular_expression_of_the_package_is_known():
         "app/compute/bearing_verdict.py": 1,  # sentences of the package
         "app/compute/files.py": 1,  # names of files, cut before
         "app/compute/sweep.py": 1,  # anchored, of an end of a range
+        "app/compute/sweep_view.py": 1,  # warnings of the package
         "app/fields/amounts.py": 3,  # anchored, without a repetition of a repetition
+        "app/fields/words.py": 5,  # errors, which cut texts; a number in them begins at a single place
         "app/inputs.py": 3,  # of a key of at most 500 characters
-        "app/pages/contact.py": 1,  # sentences of the package
         "app/policy.py": 1,  # pages of the package
         "app/ranges.py": 2,  # anchored, without a repetition of a repetition
         "app/uploads.py": 2,  # names of files
@@ -212,7 +213,7 @@ def test_every_regular_expression_of_the_package_is_known():
         "report/build.py": 1,  # the end of a line
         "report/drawn.py": 1,
         "report/html.py": 1,  # titles of the package
-        "report/light.py": 1,
+        "report/light.py": 2,  # sentences of the package
         "cases/depth.py": 1,
         "cases/input_keys.py": 2,  # texts of the package
         "cases/library/grade.py": 1,  # anchored, without a repetition of a repetition
