@@ -8,7 +8,7 @@ from PIL import Image
 
 from tests.browser.driving import wait_for_number
 from tests.browser.outputs import address_of, downloaded, overflow
-from tests.browser.test_contact_page import example, wait_until_solved
+from tests.browser.test_contact_page import wait_until_solved
 from tests.browser.test_first_page import capacitance
 from tests.browser.test_sweep_page import run, sweep, wait_for_points
 
@@ -60,7 +60,7 @@ def compared(page):
 _PAGES = {
     "bearing": (lambda: "/", bearing),
     "contact": (lambda: "/contact", contact),
-    "contact-point": (lambda: address_of("/contact", example("ball_contact")), contact_point),
+    "contact-point": (lambda: "/contact?contact.geometry=point", contact_point),
     "sweep": (lambda: address_of("/sweep", sweep(6)), swept),
     "compare": (lambda: "/compare", compared),
 }
