@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from types import MappingProxyType
 
+from ehlectric.app.answers.told import WITHOUT_PLACE
+
 _HERTZ = ("hertz-pressure",)
 _FILM = ("minimum-film", "central-film")
 _PRESSURE = ("max-pressure",)
@@ -90,23 +92,10 @@ CONTACT_PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "capacitance-bound": ("capacitance",),
         "weibull-voltage": _BREAKDOWN,
         "speed-left-out": (),
-        # Sweeps and measurements
-        "points-with-warnings": (),
-        "points-with-notes": (),
-        "points-not-usable": (),
-        "points-of-another-version": (),
-        "rows-dropped": (),
-        "rows-not-usable": (),
-        "intervals-wide": (),
+        # Measurements
         "formula-films": _FILM,
-        "columns-ignored": (),
-        "rows-without-factor": (),
-        "scatter-only": (),
-        "scatter-large": (),
-        "factor-varies": (),
-        "range-left-out": (),
         # Files of other versions
         "not-usable": _SOLVED,
-        "unclassified": (),
     }
+    | dict.fromkeys(WITHOUT_PLACE, ())
 )

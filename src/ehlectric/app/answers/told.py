@@ -38,6 +38,24 @@ _FILM = ("lambda", *_FIRST)
 _SPARK = ("shaft-voltage", "margin")
 _ALL = ("capacitance", "lambda", "first-break", "shaft-voltage", "margin")
 
+# Codes of sweeps, of measurements, and of no kind: they concern no number of a bearing or of a contact.
+WITHOUT_PLACE = (
+    "points-with-warnings",
+    "points-with-notes",
+    "points-not-usable",
+    "points-of-another-version",
+    "rows-dropped",
+    "rows-not-usable",
+    "intervals-wide",
+    "columns-ignored",
+    "rows-without-factor",
+    "scatter-only",
+    "scatter-large",
+    "factor-varies",
+    "range-left-out",
+    "unclassified",
+)
+
 # Numbers that a warning concerns, by its code; empty for those that concern the whole result or none of the
 # numbers of a bearing. A new code must be given its place here: a test compares this table with all codes.
 PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
@@ -115,25 +133,12 @@ PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "capacitance-bound": ("capacitance", "shaft-voltage"),
         "weibull-voltage": _FIRST,
         "speed-left-out": (),
-        # Sweeps and measurements
-        "points-with-warnings": (),
-        "points-with-notes": (),
-        "points-not-usable": (),
-        "points-of-another-version": (),
-        "rows-dropped": (),
-        "rows-not-usable": (),
-        "intervals-wide": (),
+        # Measurements
         "formula-films": _FILM,
-        "columns-ignored": (),
-        "rows-without-factor": (),
-        "scatter-only": (),
-        "scatter-large": (),
-        "factor-varies": (),
-        "range-left-out": (),
         # Files of other versions
         "not-usable": _ALL,
-        "unclassified": (),
     }
+    | dict.fromkeys(WITHOUT_PLACE, ())
 )
 
 

@@ -44,23 +44,6 @@ _MAIN = (
     *_OF_CONTACT,
 )
 
-# Rows of voltages that are upper bounds of those of real films.
-_VOLTAGES = (
-    "first breakdown",
-    "ring-to-ring breakdown",
-    "ring-to-ring, mean",
-    "shaft voltage of the first breakdown",
-    "shaft voltage, ring-to-ring",
-    "margin (",
-)
-
-# Rows that a warning makes an upper bound, by its code.
-_BOUNDS = {
-    "capacitance-bound": ("capacitance",),
-    "isothermal-film": _VOLTAGES,
-    "smooth-film": _VOLTAGES,
-}
-
 # Rows of films, which are upper bounds where the films are fully flooded, smooth ones.
 _FILMS = ("minimum lambda ratio", "minimum film")
 
@@ -115,7 +98,7 @@ def _contact(case: Case) -> Side:
         title=case.title,
         level=level,
         text=text,
-        results=tuple(_results(_outcomes_first(meaning.rows), _bound_of_contact)),
+        results=tuple(_results(_outcomes_first(meaning.rows), lambda row: row.bound)),
         warnings=told_of(meaning.warnings),
         method="films by formula: usually up to 40 % off a solved film",
     )
@@ -141,24 +124,15 @@ def _films(summary: Mapping[str, Any]) -> Iterator[Row]:
 
 
 def _bounds_of(summary: Mapping[str, Any], codes: set[str]) -> Callable[[Row], str]:
-    """Bound of a row of a bearing; empty for a row that is none."""
-    starts = [start for code in codes for start in _BOUNDS.get(code, ())]
-    if film_is_bound(summary):
-        starts += _FILMS
-    bounded, leaks = tuple(starts), "shaft-leaks" in codes
+    """Bound of a row of a bearing: its own, or that of a film or a critical speed; empty without one."""
+    thinner, leaks = film_is_bound(summary), "shaft-leaks" in codes
 
     def bound(row: Row) -> str:
-        if row.name.startswith(bounded) or (leaks and row.name == _SHAFT):
-            return "≤" if isinstance(row.value, int | float) else ""
-        return speed_bound(row, summary, leaks=leaks)
+        if thinner and row.name.startswith(_FILMS) and isinstance(row.value, int | float):
+            return "≤"
+        return row.bound or speed_bound(row, summary, leaks=leaks)
 
     return bound
-
-
-def _bound_of_contact(row: Row) -> str:
-    """Bound of a row of a contact by formula, whose films are isothermal, fully flooded and smooth."""
-    known = isinstance(row.value, int | float)
-    return "≤" if known and row.name.startswith(_OF_CONTACT) else ""
 
 
 def _results(rows: Iterable[Row], bound: Callable[[Row], str]) -> Iterator[Result]:
@@ -169,15 +143,13 @@ def _results(rows: Iterable[Row], bound: Callable[[Row], str]) -> Iterator[Resul
             group = row.name
         elif group not in _INPUTS and row.name not in _LEFT_OUT:
             number = float(row.value) if isinstance(row.value, int | float) else None
-            # Speeds are texts whose note begins with their unit.
-            unit, note = ("rpm", row.note[3:]) if row.note.startswith("rpm") else (row.unit, row.note)
             yield Result(
                 group=group,
                 name=row.name,
                 value=number,
                 text=row.shown,
-                unit=unit,
-                note=note.lstrip(",;: "),
+                unit=row.unit,
+                note=row.note.lstrip(",;: "),
                 bound=bound(row),
                 main=row.name == _SHAFT or row.name.startswith(_MAIN),
             )

@@ -68,11 +68,6 @@ class MapPart:
         return self._view.counts.get("open", 0) if self._view else 0
 
     @property
-    def has_points(self) -> bool:
-        """Whether points are shown."""
-        return self._view is not None
-
-    @property
     def differs(self) -> bool:
         """Whether the map shows another result than that which is asked for."""
         return self._view is not None and self._drawn != self.shown
