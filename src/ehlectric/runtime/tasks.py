@@ -165,8 +165,7 @@ def finished_tasks(
             for key, value in died + short:
                 yield [(key, _alone(value, crew, call, lost))]
     finally:
-        for future in flying:
-            future.cancel()
+        crew.abandon(flying)
 
 
 def _fill(

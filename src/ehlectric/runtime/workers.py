@@ -8,7 +8,7 @@ from __future__ import annotations
 import os
 import signal
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -31,6 +31,12 @@ def cores() -> int:
     return (os.cpu_count() or 1) if affinity is None else len(affinity(0))
 
 
+def cancel(futures: Iterable[Future[Any]]) -> None:
+    """Cancel the futures whose tasks have not begun."""
+    for future in futures:
+        future.cancel()
+
+
 @dataclass(frozen=True)
 class Crew:
     """Processes or machines that solve tasks.
@@ -47,6 +53,8 @@ class Crew:
         Function that returns what the crew is waiting for, as text; empty if it is working.
     one_machine : bool
         Whether all share the memory of one machine, so that a task finds more of it when it runs alone.
+    abandon : callable
+        Function that is given the futures that nobody waits for any more, and stops what it can of them.
     """
 
     submit: Callable[..., Future[Any]]
@@ -54,6 +62,7 @@ class Crew:
     renew: Callable[[], None] = lambda: None
     waiting: Callable[[], str] = str
     one_machine: bool = False
+    abandon: Callable[[Iterable[Future[Any]]], None] = cancel
 
 
 def crew_of(executor: Executor) -> Crew:
@@ -90,6 +99,7 @@ def processes(number: int) -> Iterator[Crew]:
         The processes.
     """
     pool = _pool(number)
+    abandoned = False
 
     def submit(call: Callable[..., T], *values: Any) -> Future[T]:
         # The first calls start the processes. They inherit the setting that ignores interrupts (Ctrl-C).
@@ -101,13 +111,20 @@ def processes(number: int) -> Iterator[Crew]:
         end_now(pool)
         pool = _pool(number)
 
+    def abandon(futures: Iterable[Future[Any]]) -> None:
+        # Not cancelled one by one: where a process dies at that moment, the pool's own thread then fails.
+        nonlocal abandoned
+        abandoned = abandoned or any(not future.done() for future in futures)
+
     try:
-        yield Crew(submit, lambda: _AHEAD * number + 1, renew, one_machine=True)
+        yield Crew(submit, lambda: _AHEAD * number + 1, renew, one_machine=True, abandon=abandon)
     except BaseException:
         end_now(pool)
         raise
-    # Nothing is in flight, so the processes end by themselves and need not be waited for.
-    pool.shutdown(wait=False)
+    if abandoned:
+        end_now(pool)
+    else:  # The processes end by themselves and need not be waited for.
+        pool.shutdown(wait=False)
 
 
 def _pool(number: int) -> ProcessPoolExecutor:

@@ -3,6 +3,7 @@
 import os
 import signal
 import time
+from concurrent.futures import ProcessPoolExecutor
 from functools import partial
 from pathlib import Path
 
@@ -78,3 +79,18 @@ def test_the_processes_end_with_an_error(tmp_path):
     with pytest.raises(ZeroDivisionError):
         run_all(tasks, lambda _number, _result: None, limit=2)
     assert time.monotonic() - started < 50.0
+
+
+def test_a_run_that_is_stopped_leaves_no_error_of_its_threads(monkeypatch, capfd):
+    """Where tasks wait for a process, and the thread of the pool sees first that the processes have ended."""
+    shutdown = ProcessPoolExecutor.shutdown
+
+    def late(pool, **options):
+        time.sleep(0.5)
+        shutdown(pool, **options)
+
+    monkeypatch.setattr(ProcessPoolExecutor, "shutdown", late)
+    tasks = [partial(divmod, 1, 0), *[partial(time.sleep, 60.0)] * 8]
+    with pytest.raises(ZeroDivisionError):
+        run_all(tasks, lambda _number, _result: None, limit=2)
+    assert "Traceback" not in capfd.readouterr().err
