@@ -121,7 +121,7 @@ grids = either(
         {
             "inlet": st.floats(-100.0, -2.0),
             "outlet": st.floats(2.0, 100.0),
-            "wedge": st.sampled_from(["first-order", "second-order"]),
+            "wedge": st.sampled_from(["first-order", "second-order", "third-order"]),
             "field_range": st.tuples(st.floats(-2.0, -0.1), st.floats(0.1, 2.0)).map(list),
             "field_nodes": st.integers(17, 10**6),
             "field_degree": st.integers(2, 20),
@@ -136,7 +136,7 @@ point_grids = st.fixed_dictionaries(
         "inlet": st.floats(-50.0, -2.0),
         "outlet": st.floats(2.0, 50.0),
         "side": st.floats(1.3, 60.0),
-        "wedge": st.sampled_from(["first-order", "second-order"]),
+        "wedge": st.sampled_from(["first-order", "second-order", "third-order"]),
         "field_range": st.tuples(st.floats(-2.0, -0.1), st.floats(0.1, 1.5)).map(list),
         "field_side": st.floats(1e-3, 1.3),
         "field_nodes": st.integers(17, 4097),

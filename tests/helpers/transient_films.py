@@ -1,5 +1,7 @@
 """Transient films for tests: a contact, a moving ridge, and the time steps."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from ehlectric.contact.problems import film_problem
@@ -14,7 +16,7 @@ def problem_of(paper_case, nodes, **values):
     contact = {"contact.max_hertz_pressure": "0.8 GPa", "contact.entrainment_speed": "1 m/s"}
     grid = {"grid.nodes": nodes, "grid.inlet": -3.0, "grid.outlet": 2.0}
     case = paper_case.replace(contact | grid | values)
-    return film_problem(case, resolve(case))
+    return replace(film_problem(case, resolve(case)), wedge_order=2)
 
 
 def steady(problem):

@@ -76,7 +76,7 @@ def test_film_that_is_not_found_says_so(paper_case):
 
 
 def film_and_field(paper_case, row, field_nodes):
-    result = solve(paper_contact(paper_case, row, field_nodes=field_nodes))
+    result = solve(paper_contact(paper_case, row, wedge="second-order", field_nodes=field_nodes))
     problem = field_problem(result.case, result.conditions, result.film, result.roughness)
     return problem, solve_field(problem)
 

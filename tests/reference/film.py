@@ -11,7 +11,7 @@ import numpy as np
 import sympy
 from numpy.polynomial import chebyshev, polynomial
 
-from ehlectric.film.flow import Fluid
+from ehlectric.film.flow import MEAN_MOBILITY, Fluid
 from ehlectric.film.problem import FilmProblem
 from ehlectric.lubricant.density import dowson_higginson
 from ehlectric.lubricant.viscosity import roelands
@@ -71,7 +71,7 @@ def deflection(x):
     return HALF * _SCALE * (potential + _SERIES[0] * (np.log(2.0) - np.log(HALF)))
 
 
-def problem(nodes, *, second_order):
+def problem(nodes, *, wedge_order, law=MEAN_MOBILITY):
     """The film problem whose exact solution this is."""
 
     def column(values):
@@ -83,12 +83,13 @@ def problem(nodes, *, second_order):
             log_viscosity=lambda p: roelands(p, **VISCOSITY),
             velocity_parameter=VELOCITY_PARAMETER,
             ambient_pressure=0.0,
+            flow=law,
         ),
         nodes,
         inlet=INLET,
         outlet=OUTLET,
         thickness_guess=0.15,
-        second_order=second_order,
+        wedge_order=wedge_order,
         added_gap=lambda x, _: column(thickness(x) - H00 - 0.5 * x**2 - deflection(x)),
         source=lambda x, _: column(_source(_inside(x))),
     )

@@ -113,7 +113,7 @@ class ManufacturedFilm:
         dry = 0.5 * x[:, np.newaxis] ** 2 + 0.5 * RADIUS_RATIO * y**2
         return self.thickness(x, y) - H00 - dry - self.deflection(x, y)
 
-    def problem(self, nodes, nodes_y, *, second_order, symmetric=None):
+    def problem(self, nodes, nodes_y, *, wedge_order, symmetric=None):
         """The film problem whose exact solution this is, on the half that is solved for or on the whole."""
         return FilmProblem(
             Fluid(
@@ -126,7 +126,7 @@ class ManufacturedFilm:
             inlet=INLET,
             outlet=OUTLET,
             thickness_guess=0.15,
-            second_order=second_order,
+            wedge_order=wedge_order,
             geometry=point_geometry(
                 radius_ratio=RADIUS_RATIO, ellipse_ratio=ELLIPSE_RATIO, compliance=COMPLIANCE
             ),

@@ -138,7 +138,11 @@ def test_every_error_is_one_line_that_starts_with_its_key(
         ("solver", 3, ("solver", "3", "a table")),
         ("contact", {"geometry": "ring"}, ("contact.geometry", "'ring'", "'line' or 'point'")),
         ("potential_2", 4, ("potential_2", None, "electric.potential_2")),
-        ("grid", {"wedge": "third"}, ("grid.wedge", "'third'", "'second-order' or 'first-order'")),
+        (
+            "grid",
+            {"wedge": "third"},
+            ("grid.wedge", "'third'", "'third-order', 'second-order' or 'first-order'"),
+        ),
         ("grid", {"node": 4}, ("grid.node", None, "grid.nodes")),
         ("lubricant", {}, ("lubricant.viscosity_law", None, "a value")),
         (

@@ -72,7 +72,7 @@ class Grid(Table):
     inlet: Annotated[float, Quantity("", least=-1000.0, below=-1.0, reason="ahead of the Hertz zone")] = -4.0
     outlet: Annotated[float, Quantity("", above=1.0, most=1000.0, reason="behind the Hertz zone")] = 2.0
     side: Annotated[float, Quantity("", above=1.0, most=100.0, reason="beside the Hertz zone")] | None = None
-    wedge: Literal["second-order", "first-order"] = "second-order"
+    wedge: Literal["third-order", "second-order", "first-order"] = "third-order"
     field_range: tuple[_FieldEnd, _FieldEnd] = (-1.25, 1.25)
     field_side: (
         Annotated[float, Quantity("", least=1e-3, most=100.0, reason="in semi-axes across entrainment")]

@@ -49,12 +49,14 @@ class Motion(Table):
         Raises
         ------
         InputError
-            If no surface is rough, the wedge is not of second order, or the grid is refined.
+            If no surface is rough, the wedge is of first order, or the grid is refined.
         """
         if not rough:
             raise InputError.worded("motion", "needs a rough surface: roughness is what moves")
-        if grid.wedge != "second-order":
-            raise InputError("grid.wedge", got=f"{grid.wedge!r} beside motion", takes="'second-order'")
+        if grid.wedge == "first-order":
+            raise InputError(
+                "grid.wedge", got=f"{grid.wedge!r} beside motion", takes="'third-order' or 'second-order'"
+            )
         if grid.refine is not None:
             raise InputError.worded(
                 "grid.refine",

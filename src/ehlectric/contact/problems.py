@@ -18,7 +18,7 @@ from ehlectric.errors import InputError
 from ehlectric.field.poisson import ATOM, FieldProblem
 from ehlectric.field.poisson_3d import PointFieldProblem
 from ehlectric.film.deflection import Geometry, point_geometry
-from ehlectric.film.flow import Fluid, FluidLaw
+from ehlectric.film.flow import MEAN_MOBILITY, Fluid, FluidLaw
 from ehlectric.film.line import Film
 from ehlectric.film.mesh import Width
 from ehlectric.film.point import PointFilm
@@ -46,6 +46,14 @@ _FIELD_MEMORY = 1e9
 
 # Largest distance, in node spacings, at which a film node counts as an end of the field range.
 _SAME_NODE = 1e-6
+
+# Order of the wedge term and flow through the faces of the film, by ``grid.wedge``. The first two have the
+# flow of the paper.
+SCHEMES = {
+    "first-order": (1, MEAN_MOBILITY),
+    "second-order": (2, MEAN_MOBILITY),
+    "third-order": (3, "newtonian"),
+}
 
 # Largest tolerance at which a film is solved. Up to here its error was at most 3e-5 in 123 random contacts;
 # larger residuals may belong to films that are wrong by per cents.
@@ -250,13 +258,15 @@ def smooth_problem(
     """
     check_tolerance(setup.solver)
     grid, guess = setup.grid, expected.central_thickness
+    wedge_order, flow = SCHEMES[grid.wedge]
+    fluid = fluid_of(setup.oil, conditions.max_pressure, conditions.velocity_parameter)
     return FilmProblem(
-        fluid=fluid_of(setup.oil, conditions.max_pressure, conditions.velocity_parameter),
+        fluid=replace(fluid, flow=flow),
         nodes=grid.nodes,
         inlet=grid.inlet,
         outlet=grid.outlet,
         thickness_guess=guess / conditions.thickness_scale,
-        second_order=grid.wedge == "second-order",
+        wedge_order=wedge_order,
         tolerance=setup.solver.tolerance,
         max_iterations=setup.solver.max_iterations,
         scales=scales_of(setup, conditions),

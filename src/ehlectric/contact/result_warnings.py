@@ -79,7 +79,7 @@ def film_warnings(setup: Case | Setup, film: Film | PointFilm) -> Iterator[Resul
         yield ResultWarning(
             "coarser-grid-unsolved",
             "do not use this film: the next coarser grid was not solved"
-            + ("" if setup.grid.wedge == "second-order" else ", or not with the second-order wedge")
+            + (", or not with the third-order wedge" if setup.grid.wedge == "first-order" else "")
             + ", so the discretisation error is unknown and probably large; use more grid.nodes",
         )
     elif error is not None and error > max(0.01, setup.grid.refine or 0.0):

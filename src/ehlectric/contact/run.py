@@ -67,7 +67,7 @@ def run(
     """
     load_library()
     prepared = check_case(case)
-    solvers.check(case)
+    case = solvers.accept(case)
     names = (*FILES, *(further or ()), *others)
     with alone_in(folder, names) as folder:
         result = solve(

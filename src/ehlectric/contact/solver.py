@@ -49,14 +49,14 @@ class Solvers:
         Name of the solvers in commands and in results.
     film, field : mapping
         Function that solves a film problem or a field problem, by the geometry of the contact.
-    check : callable
-        Function that raises an InputError for a case that these solvers cannot solve.
+    accept : callable
+        Function that returns a case as these solvers solve it, or raises an InputError if they cannot.
     """
 
     name: str
     film: Mapping[str, Callable[..., Any]]
     field: Mapping[str, Callable[..., Any]]
-    check: Callable[[Case], object]
+    accept: Callable[[Case], Case]
 
     def __repr__(self) -> str:
         return f"<Solvers {self.name!r}>"
@@ -66,7 +66,7 @@ OWN = Solvers(
     "ehlectric",
     film={geometry: kind.solve_film for geometry, kind in KINDS.items()},
     field={geometry: kind.solve_field for geometry, kind in KINDS.items()},
-    check=lambda _case: None,
+    accept=lambda case: case,
 )
 
 
@@ -121,7 +121,7 @@ def solve(
     >>> round(solve(case).film.minimum_thickness * 1e6, 2)
     0.74
     """
-    solvers.check(case)
+    case = solvers.accept(case)
     if case.motion is not None:
         raise InputError(
             "motion",

@@ -8,7 +8,7 @@ from ehlectric.arrays import Array
 from ehlectric.film.deflection import Geometry
 from ehlectric.film.flow import Fluid
 from ehlectric.film.mesh import Mesh, at_centre
-from ehlectric.film.nested import second_order_film
+from ehlectric.film.nested import accurate_film
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.state import GridSolution, State
 
@@ -73,26 +73,26 @@ def film_error(problem: FilmProblem, fine: tuple[Mesh, State], coarse: tuple[Mes
     -------
     float or None
         Relative error of the minimum or of the central film thickness, whichever is larger. None if the
-        wedge term is of first order, and the second-order term does not converge on either grid.
+        wedge term is of first order, and the third-order term does not converge on either grid.
 
     Notes
     -----
-    With the second-order wedge term, this is Richardson's estimate. With the first-order term, the error of
-    the wedge and the other errors may have opposite signs. The film thickness is then not monotone in the
-    number of nodes, and Richardson's estimate may vanish. The film is therefore solved with the second-order
-    term on both grids too, from the first-order film as initial guess. The estimate is the difference of both
-    films on the fine grid plus Richardson's estimate of the second-order film.
+    With a wedge term of second or third order, this is Richardson's estimate. With the first-order term, the
+    error of the wedge and the other errors may have opposite signs. The film thickness is then not monotone
+    in the number of nodes, and Richardson's estimate may vanish. The film is therefore solved with the
+    third-order term on both grids too, from the first-order film as initial guess. The estimate is the
+    difference of both films on the fine grid plus Richardson's estimate of the third-order film.
     """
     films = [(mesh, state.thickness) for mesh, state in (fine, coarse)]
-    if problem.second_order:
+    if problem.wedge_order > 1:
         return richardson(films[0], films[1], order=2)
-    second = [second_order_film(problem, mesh.x.size, state) for mesh, state in (fine, coarse)]
-    if any(solution.status != "converged" for solution in second):
+    better = [accurate_film(problem, mesh.x.size, state) for mesh, state in (fine, coarse)]
+    if any(solution.status != "converged" for solution in better):
         return None
-    better = [(solution.level.mesh, solution.state.thickness) for solution in second]
-    first_order, second_order = (_key_thicknesses(*film) for film in (films[0], better[0]))
-    of_wedge = np.abs(first_order - second_order) / second_order
-    return float(np.max(of_wedge + _grid_differences(better[0], better[1], order=2)))
+    accurate = [(solution.level.mesh, solution.state.thickness) for solution in better]
+    first_order, third_order = (_key_thicknesses(*film) for film in (films[0], accurate[0]))
+    of_wedge = np.abs(first_order - third_order) / third_order
+    return float(np.max(of_wedge + _grid_differences(accurate[0], accurate[1], order=2)))
 
 
 def discretisation_error(

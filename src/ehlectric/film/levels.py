@@ -182,7 +182,7 @@ def hierarchy(
     inlet: float,
     outlet: float,
     geometry: Geometry,
-    second_order: bool,
+    wedge_order: int,
     width: Width | None = None,
     source: Callable[[Array, Array], Array] | None = None,
 ) -> list[Level]:
@@ -227,7 +227,7 @@ def hierarchy(
                 deflection=Deflection.on(mesh, geometry),
                 dry_gap=geometry.dry_gap(mesh.x, mesh.y),
                 load=geometry.load,
-                wedge=wedge_stencil(mesh.shape, mesh.dx, second_order=second_order),
+                wedge=wedge_stencil(mesh.shape, mesh.dx, order=wedge_order),
                 rate=1.0 / mesh.dx,
                 source=right,
                 to_finer=up,

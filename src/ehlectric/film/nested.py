@@ -89,8 +89,8 @@ def nested_iteration(problem: FilmProblem, progress: Progress | None) -> list[Gr
     return solutions
 
 
-def second_order_film(problem: FilmProblem, nodes: int, start: State) -> GridSolution:
-    """Solution with the second-order wedge term, from a solution with the first-order term.
+def accurate_film(problem: FilmProblem, nodes: int, start: State) -> GridSolution:
+    """Solution with the wedge term and the flow of the highest order, from a solution of first order.
 
     Parameters
     ----------
@@ -110,7 +110,14 @@ def second_order_film(problem: FilmProblem, nodes: int, start: State) -> GridSol
     width = problem.width
     if width is not None and nodes != problem.nodes:
         width = width.coarser()
-    posed = replace(problem, nodes=nodes, width=width, second_order=True, tolerance=NESTED_TOLERANCE)
+    posed = replace(
+        problem,
+        fluid=replace(problem.fluid, flow="newtonian"),
+        nodes=nodes,
+        width=width,
+        wedge_order=3,
+        tolerance=NESTED_TOLERANCE,
+    )
     levels = _levels(posed, roughness=1.0)
     return _solve_grid(posed, levels, start, None, spike=True)
 
@@ -144,7 +151,7 @@ def _levels(problem: FilmProblem, *, roughness: float) -> list[Level]:
         inlet=problem.inlet,
         outlet=problem.outlet,
         geometry=geometry,
-        second_order=problem.second_order,
+        wedge_order=problem.wedge_order,
         width=problem.width,
         source=problem.source,
     )
@@ -292,10 +299,9 @@ def _from_hertz(
     centre = at_centre(level.mesh, state.thickness)
     state = State.of(level, state.pressure, problem.thickness_guess - centre)
     state = state.lifted(0.5 * problem.thickness_guess)
-    if problem.second_order:
+    if problem.wedge_order > 1:
         monotone = [
-            replace(level, wedge=wedge_stencil(level.mesh.shape, level.mesh.dx, second_order=False))
-            for level in levels
+            replace(level, wedge=wedge_stencil(level.mesh.shape, level.mesh.dx, order=1)) for level in levels
         ]
         start = _solve_grid(problem, monotone, state, progress, spike=False)
         yield start

@@ -50,8 +50,8 @@ class FilmProblem:
         Ends of the domain along x, in half-widths; inlet < -1 and outlet > 1.
     thickness_guess : float
         Central film thickness H of the initial guess; a film-thickness formula is accurate enough.
-    second_order : bool
-        Whether the upstream wedge term is of second order; otherwise it is of first order.
+    wedge_order : int
+        Order of the wedge term: 1, 2 or 3.
     tolerance : float
         Largest scaled residual of a converged solution, a pressure over p_h.
     max_iterations : int
@@ -74,7 +74,7 @@ class FilmProblem:
     inlet: float
     outlet: float
     thickness_guess: float
-    second_order: bool = True
+    wedge_order: int = 2
     tolerance: float = 1e-9
     max_iterations: int = 30
     scales: Scales = Scales()
@@ -85,8 +85,8 @@ class FilmProblem:
 
     @property
     def order(self) -> int:
-        """Order of the discretisation, 1 or 2."""
-        return 2 if self.second_order else 1
+        """Order of the discretisation, 1 or 2: the flow through the faces is accurate to second order."""
+        return min(2, self.wedge_order)
 
 
 def velocity_parameter(

@@ -7,7 +7,7 @@ Dimensionless, with X = x/b, Y = y/b, P = p/p_h and H = h R/b^2:
 The first term is the wedge (Couette) term, the others are the Poiseuille term. A line contact has no term in
 Y. Arrays have the shape (nx, ny), with x along entrainment. The Poiseuille term is a central difference of
 second order; its flux is computed in ``ehlectric.film.flow``. The wedge term is an upstream difference of
-first order (eq. 7 of Morris et al. (2022), doi:10.3390/lubricants10050087) or of second order.
+first order (eq. 7 of Morris et al. (2022), doi:10.3390/lubricants10050087), of second or of third order.
 """
 
 from __future__ import annotations
@@ -71,8 +71,13 @@ class Stencil:
         return dense.reshape(nx * ny, nx * ny)
 
 
-def wedge_stencil(shape: tuple[int, int], dx: float, *, second_order: bool) -> Stencil:
-    """Upstream difference d/dX of the wedge term; the two end rows are zero.
+# Mass rho H at the face i+1/2 from the nodes i-1, i and i+1, by the order of the wedge term: that of the
+# upstream node, of a line through the two upstream nodes, and of a parabola through all three.
+_AT_FACE = {1: (0.0, 1.0, 0.0), 2: (-0.5, 1.5, 0.0), 3: (-0.125, 0.75, 0.375)}
+
+
+def wedge_stencil(shape: tuple[int, int], dx: float, *, order: int) -> Stencil:
+    """Upstream-weighted difference d/dX of the wedge term; the two end rows are zero.
 
     Parameters
     ----------
@@ -80,8 +85,8 @@ def wedge_stencil(shape: tuple[int, int], dx: float, *, second_order: bool) -> S
         Numbers of nodes (nx, ny).
     dx : float
         Grid spacing dX, dimensionless.
-    second_order : bool
-        Whether the difference is of second order; otherwise it is of first order.
+    order : int
+        Order of the mass at the faces: 1, 2 or 3.
 
     Returns
     -------
@@ -90,16 +95,24 @@ def wedge_stencil(shape: tuple[int, int], dx: float, *, second_order: bool) -> S
 
     Notes
     -----
-    In flux form the second-order scheme takes (3 f_i - f_(i-1))/2 at the face i+1/2. The first face has no
-    second upstream node and takes the mean of its two nodes. Row 1 is then the first-order difference, but
-    the flux is of second order everywhere.
+    The difference of the masses at the two faces of a node. The first face has no second upstream node; above
+    the first order it takes the mean of its two nodes. The third order is that of B. P. Leonard, Comput.
+    Methods Appl. Mech. Eng. 19 (1979) 59, doi:10.1016/0045-7825(79)90034-3.
+
+    Examples
+    --------
+    A parabola is differentiated exactly by the third order, at the inner nodes behind the first:
+
+    >>> x = np.linspace(0.0, 5.0, 6)[:, np.newaxis]
+    >>> [wedge_stencil((6, 1), 1.0, order=order)(x**2)[2:5, 0].tolist() for order in (1, 2, 3)]
+    [[3.0, 5.0, 7.0], [4.0, 6.0, 8.0], [4.0, 6.0, 8.0]]
     """
+    far, near, ahead = _AT_FACE[order]
     c = np.zeros((ALONG, *shape))
-    if second_order:
-        c[0], c[1], c[2] = 0.5 / dx, -2.0 / dx, 1.5 / dx
-        c[0, 1], c[1, 1], c[2, 1] = 0.0, -1.0 / dx, 1.0 / dx
-    else:
-        c[1], c[2] = -1.0 / dx, 1.0 / dx
+    for row, part in enumerate((-far, far - near, near - ahead, ahead)):
+        c[row] = part / dx
+    if order > 1:
+        c[:3, 1] = np.array([0.0, far - 0.5, near - 0.5])[:, np.newaxis] / dx
     c[:, 0] = c[:, -1] = 0.0
     return Stencil(c)
 
@@ -185,11 +198,12 @@ def linearise(flow: Flow, wedge: Stencil, thickness: Array, mesh: Mesh) -> tuple
     by_p = np.zeros((rows, *thickness.shape))
     by_h = np.zeros((rows, *thickness.shape))
     mass_p = k.density_p * thickness
-    for row, shift in ((0, 2), (1, 1), (2, 0)):
-        w = wedge.coefficients[row, shift:]
-        stop = -shift or None
-        by_p[row, shift:] = w * mass_p[:stop]
-        by_h[row, shift:] = w * k.density[:stop]
+    for row, (shift, _) in enumerate(OFFSETS[:ALONG]):
+        here = slice(max(0, -shift), -shift if shift > 0 else None)
+        there = slice(max(0, shift), shift if shift < 0 else None)
+        w = wedge.coefficients[row, here]
+        by_p[row, here] = w * mass_p[there]
+        by_h[row, here] = w * k.density[there]
 
     for by, along in ((by_p, flow.along.by_pressure()), (by_h, flow.along.by_thickness())):
         for row, part in zip((1, 2, 3), along, strict=True):

@@ -141,7 +141,7 @@ class UnsteadyFilm:
             geometry=problem.geometry
             if standing is None
             else replace(problem.geometry, dry_gap=lambda x, y: dry(x, y) + standing(x, y)),
-            second_order=True,
+            wedge_order=2,
             width=problem.width,
         )
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import zip_longest
 from typing import Any
@@ -95,7 +95,9 @@ class TransientContact:
     @cached_property
     def problem(self) -> FilmProblem:
         """Film problem without moving roughness; the roughness of surfaces at rest is part of the gap."""
-        return self.kind.film_problem(self.case, self.travelled, self.conditions, self.roughness)
+        problem = self.kind.film_problem(self.case, self.travelled, self.conditions, self.roughness)
+        # The scheme in time is of second order, and the film that it starts from must agree with it.
+        return replace(problem, wedge_order=2)
 
     def moving_gap(self, time: float, x: Array, y: Array) -> Array:
         """Contribution of moving roughness to the dimensionless gap; peaks reduce the gap.

@@ -153,7 +153,7 @@ def equations_of(problem: FilmProblem, nodes: int) -> FilmEquations:
         gap=0.5 * x**2 + added,
         source=source,
         load=LINE.load,
-        second_order=problem.second_order,
+        second_order=problem.wedge_order > 1,
     )
 
 

@@ -8,8 +8,11 @@ from ehlectric.errors import InputError, shown
 from ehlectric.paper import fas, sor
 
 
-def _check(case: Case) -> None:
-    """Raise an InputError if the paper's methods cannot solve a case: no line contact, or unsuitable grid."""
+def _accepted(case: Case) -> Case:
+    """Case as the paper's methods solve it, which have no wedge of third order.
+
+    Raises an InputError if they cannot solve it: no line contact, an unsuitable grid, or this wedge.
+    """
     if case.contact.geometry != "line":
         raise InputError.worded(
             "contact.geometry",
@@ -19,7 +22,16 @@ def _check(case: Case) -> None:
             takes="'line'",
         )
     fas.grid_sizes(case.grid.nodes)
+    if case.grid.wedge != "third-order":
+        return case
+    if "wedge" in case.grid.model_fields_set:
+        raise InputError(
+            "grid.wedge",
+            got="'third-order' for the solver 'paper'",
+            takes="'second-order' or 'first-order', or no wedge",
+        )
+    return case.model_copy(update={"grid": case.grid.model_copy(update={"wedge": "second-order"})})
 
 
-PAPER = Solvers("paper", film={"line": fas.solve_film}, field={"line": sor.solve_field}, check=_check)
+PAPER = Solvers("paper", film={"line": fas.solve_film}, field={"line": sor.solve_field}, accept=_accepted)
 SOLVERS = {solvers.name: solvers for solvers in (OWN, PAPER)}

@@ -17,7 +17,7 @@ from tests.reference.martin import exit_angle, film_coefficient
 INLET = -10.0  # in sqrt(2 R h0)
 
 
-def martin_film(nodes, *, second_order):
+def martin_film(nodes, *, wedge_order):
     """Rigid isoviscous contact whose exact H is 1 at X = 0.
 
     The load integral is pi/2, and w = k eta u R/h0 gives H0 = k lambda/(6 pi).
@@ -34,16 +34,16 @@ def martin_film(nodes, *, second_order):
         inlet=INLET * np.sqrt(2.0),
         outlet=np.sqrt(2.0),
         thickness_guess=2.0,
-        second_order=second_order,
+        wedge_order=wedge_order,
         geometry=RIGID_LINE,
     )
     return solve_film(problem)
 
 
-@pytest.mark.parametrize(("second_order", "order"), [(False, 1.0), (True, 2.0)])
-def test_rigid_isoviscous_film_converges_to_martin(slope, second_order, order):
+@pytest.mark.parametrize(("wedge_order", "order"), [(1, 1.0), (2, 2.0), (3, 2.0)])
+def test_rigid_isoviscous_film_converges_to_martin(slope, wedge_order, order):
     intervals = np.array([825, 1650, 3300, 6600])
-    films = [martin_film(n + 1, second_order=second_order) for n in intervals]
+    films = [martin_film(n + 1, wedge_order=wedge_order) for n in intervals]
     assert all(film.converged for film in films)
     errors = [abs(film.minimum_thickness - 1.0) for film in films]
     assert errors[-1] < (2e-3 if order == 1.0 else 1e-5)
@@ -51,7 +51,7 @@ def test_rigid_isoviscous_film_converges_to_martin(slope, second_order, order):
 
 
 def test_rigid_film_cavitates_where_martin_does():
-    film = martin_film(6601, second_order=True)
+    film = martin_film(6601, wedge_order=2)
     begin = film.x[1:][film.cavitated[1:]][0]
     exact = np.sqrt(2.0) * np.tan(exit_angle(INLET))
     assert begin == pytest.approx(exact, abs=2.0 * (film.x[1] - film.x[0]))

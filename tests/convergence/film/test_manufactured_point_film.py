@@ -9,9 +9,9 @@ from tests.reference.point_film import INLET, OUTLET, ManufacturedFilm
 SPAN = OUTLET - INLET
 
 
-def errors(exact, nodes, *, second_order):
+def errors(exact, nodes, *, wedge_order):
     """Largest error of P and of H, and that of H00, on three quarters as many intervals across."""
-    film = solve_point_film(exact.problem(nodes, 3 * (nodes // 4) + 1, second_order=second_order))
+    film = solve_point_film(exact.problem(nodes, 3 * (nodes // 4) + 1, wedge_order=wedge_order))
     assert film.converged
     assert not np.any(film.cavitated[1:-1, 1:-1])
     pressure = film.pressure - exact.pressure(film.x, film.y)
@@ -31,7 +31,7 @@ def errors(exact, nodes, *, second_order):
 def test_second_order(slope, skew, nodes):
     """Errors fall with dX^2, to at most five times that of P, twice of H and half of H00."""
     nodes = np.array(nodes)
-    found = np.array([errors(ManufacturedFilm(skew), n, second_order=True) for n in nodes])
+    found = np.array([errors(ManufacturedFilm(skew), n, wedge_order=2) for n in nodes])
     dx = SPAN / (nodes - 1)
     assert np.all(found[-1] < np.array([5.0, 2.0, 0.6]) * dx[-1] ** 2)
     for quantity, column in zip(("P", "H", "H00"), found.T, strict=True):
@@ -39,11 +39,11 @@ def test_second_order(slope, skew, nodes):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("second_order", "order", "off"), [(False, 1.0, 0.13), (True, 2.0, 0.07)])
-def test_orders(slope, second_order, order, off):
+@pytest.mark.parametrize(("wedge_order", "order", "off"), [(1, 1.0, 0.13), (2, 2.0, 0.07), (3, 2.0, 0.07)])
+def test_orders(slope, wedge_order, order, off):
     """On finer grids; the first-order wedge still feels the second order of everything else."""
     nodes = np.array([129, 257, 513])
-    found = np.array([errors(ManufacturedFilm(), n, second_order=second_order) for n in nodes])
+    found = np.array([errors(ManufacturedFilm(), n, wedge_order=wedge_order) for n in nodes])
     for quantity, column in zip(("P", "H", "H00"), found.T, strict=True):
         assert slope(SPAN / (nodes - 1), column) == pytest.approx(order, abs=off), quantity
 
@@ -52,7 +52,7 @@ def test_orders(slope, second_order, order, off):
 def test_half_of_the_contact_is_the_whole_one():
     """The symmetric film solved on the whole domain, to the tolerance of both solutions."""
     half, whole = (
-        solve_point_film(ManufacturedFilm().problem(65, 49, second_order=True, symmetric=symmetric))
+        solve_point_film(ManufacturedFilm().problem(65, 49, wedge_order=2, symmetric=symmetric))
         for symmetric in (True, False)
     )
     np.testing.assert_allclose(whole.pressure, half.pressure, atol=1e-8)

@@ -33,7 +33,7 @@ def test_defaults_are_those_of_the_paper():
     case = Case.from_dict(TABLE)
     assert (case.electric.potential_1, case.electric.potential_2) == (-1.0, 1.0)
     assert (case.grid.nodes, case.grid.inlet, case.grid.outlet) == (3201, -4.0, 2.0)
-    assert case.grid.wedge == "second-order"
+    assert case.grid.wedge == "third-order"
     assert case.grid.field_range == (-1.25, 1.25)
     assert case.lubricant.ambient_pressure == 1e5
     assert case.lubricant.viscosity == 0.04
@@ -110,7 +110,7 @@ BAD = [
     (changed(grid={"field_range": [1.0, -1.0]}), r"grid\.field_range: got \[1, -1\]"),
     (changed(grid={"field_range": [1.0]}), r"grid\.field_range: got .* expected a list of two numbers"),
     (changed(grid={"field_range": 1.0}), r"grid\.field_range: got 1\.0; expected a list of two numbers"),
-    (changed(grid={"wedge": "third"}), r"grid\.wedge: got 'third'; expected 'second-order' or 'first-order'"),
+    (changed(grid={"wedge": "third"}), r"grid\.wedge: got 'third'; expected 'third-order', 'second-order' or 'first-order'"),
 ]  # fmt: skip
 
 

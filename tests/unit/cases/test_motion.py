@@ -48,7 +48,7 @@ BAD_CASES = [
     ({"roughness": []}, "motion: needs a rough surface: roughness is what moves"),
     (
         {"grid": {"wedge": "first-order"}},
-        "grid.wedge: got 'first-order' beside motion; expected 'second-order'",
+        "grid.wedge: got 'first-order' beside motion; expected 'third-order' or 'second-order'",
     ),
     (
         {"grid": {"refine": "3 %"}},

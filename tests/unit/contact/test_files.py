@@ -45,7 +45,10 @@ contacts = st.fixed_dictionaries(
         ),
         "discharge": st.one_of(st.none(), discharges),
         "grid": st.fixed_dictionaries(
-            {"nodes": st.integers(65, 300), "wedge": st.sampled_from(["first-order", "second-order"])}
+            {
+                "nodes": st.integers(65, 300),
+                "wedge": st.sampled_from(["first-order", "second-order", "third-order"]),
+            }
         ),
         "solver": st.fixed_dictionaries({"max_iterations": st.sampled_from([1, 5, 30, 30])}),
     }

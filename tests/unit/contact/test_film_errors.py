@@ -12,7 +12,7 @@ def thicknesses(film):
 
 
 def richardsons(fine, coarse):
-    """Estimates of the errors of h_min and h(0) by two films of second order, the minimum with order 1.25."""
+    """Estimates of the errors of h_min and h(0) by two accurate films, the minimum with order 1.25."""
     gains = 2.0 ** np.array([1.25, 2.0]) - 1.0
     return np.abs(thicknesses(fine) - thicknesses(coarse)) / gains / thicknesses(fine)
 
@@ -23,8 +23,8 @@ def test_discretisation_error_is_richardsons(paper_case):
     assert fine.discretisation_error == pytest.approx(max(richardsons(fine, coarse)), rel=1e-4, abs=0.0)
 
 
-def test_first_order_error_is_the_distance_from_second_order(paper_case):
-    """From three solutions of their own: two of second order, one of first order."""
+def test_first_order_error_is_the_distance_from_the_best_one(paper_case):
+    """From three solutions of their own: two of third order, one of first order."""
     fine, coarse = (film_of(paper_case, n) for n in (801, 401))
     first = film_of(paper_case, 801, "first-order")
     distance = np.abs(thicknesses(first) / thicknesses(fine) - 1.0)
@@ -32,7 +32,7 @@ def test_first_order_error_is_the_distance_from_second_order(paper_case):
     assert first.discretisation_error == pytest.approx(expected, rel=1e-3, abs=0.0)
 
 
-def film_of(case, nodes, wedge="second-order", **keys):
+def film_of(case, nodes, wedge="third-order", **keys):
     return solve(case.replace({"grid.nodes": nodes, "grid.wedge": wedge} | keys)).film
 
 
@@ -53,7 +53,7 @@ def test_first_order_error_is_not_underestimated(paper_case, pressure, speed, no
 
 @pytest.mark.slow
 def test_first_order_errors_of_random_contacts(paper_case):
-    """Of 60 contacts; the truth is a film of second order on 12 801 nodes."""
+    """Of 60 contacts; the truth is a film of third order on 12 801 nodes."""
     random = np.random.default_rng(16)
     ratios = []
     for _ in range(60):

@@ -217,7 +217,7 @@ WARNINGS = [
         "coarser-grid-unsolved",
     ),
     (
-        {"grid.nodes": 401, "contact.entrainment_speed": 0.5},
+        {"grid.nodes": 401, "grid.wedge": "second-order", "contact.entrainment_speed": 0.5},
         "discretisation error of the film .*; do not use this film",
         "grid-far-too-coarse",
     ),

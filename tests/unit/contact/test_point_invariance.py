@@ -83,7 +83,9 @@ def test_field_of_similar_contacts_is_similar():
         assert capacitance == pytest.approx(3.0 * theirs["capacitance_by_zone"][name], rel=1e-7, abs=0.0)
 
 
-@pytest.mark.parametrize("wedge", [pytest.param("first-order", marks=pytest.mark.slow), "second-order"])
+@pytest.mark.parametrize(
+    "wedge", [pytest.param("first-order", marks=pytest.mark.slow), "second-order", "third-order"]
+)
 def test_half_of_the_contact_is_the_whole_one(wedge):
     """Solved for y >= 0 or for the whole domain, to the tolerance of both."""
     case = point(grid={"nodes": 65, "wedge": wedge})
@@ -105,7 +107,7 @@ def test_any_number_of_nodes_across():
     """Odd numbers are solved by half, even ones as a whole: neighbours differ by their grids alone."""
     films = {}
     for nodes_y in (72, 73, 74):
-        case = point(grid={"nodes": 65, "nodes_y": nodes_y})
+        case = point(grid={"nodes": 65, "nodes_y": nodes_y, "wedge": "second-order"})
         problem = point_film_problem(case, resolve_point(case))
         assert problem.width.halved == (nodes_y % 2 == 1)
         film = films[nodes_y] = solve_point_film(problem)

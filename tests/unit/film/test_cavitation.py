@@ -35,7 +35,7 @@ def test_edges_of_the_domain_are_at_ambient_pressure():
 
 def test_solved_film_fulfils_the_complementarity_condition():
     """P >= P_amb and r = 0 in the full film; P = P_amb and r >= 0 at the cavitated nodes."""
-    problem = exact.problem(401, second_order=True)
+    problem = exact.problem(401, wedge_order=2)
     solution = nested_iteration(problem, None)[-1]
     full, excess = solution.final.full_film, solution.state.pressure - problem.fluid.ambient_pressure
     cavitated = ~full & solution.level.mesh.inner

@@ -10,7 +10,7 @@ from ehlectric.film.levels import hierarchy
 
 @pytest.fixture
 def levels():
-    return hierarchy(101, inlet=-3.0, outlet=2.0, geometry=LINE, second_order=True)
+    return hierarchy(101, inlet=-3.0, outlet=2.0, geometry=LINE, wedge_order=2)
 
 
 def test_one_spacing_a_step_is_the_upstream_difference_of_second_order(levels):

@@ -7,7 +7,7 @@ import pytest
 
 from ehlectric.film import flow as flows
 from ehlectric.film import reynolds
-from ehlectric.film.flow import Dependence, FaceFlow, Flow, Fluid, evaluate, flow
+from ehlectric.film.flow import FaceFlow, Flow, Fluid, Sides, evaluate, flow
 from ehlectric.film.line import solve_film
 from ehlectric.film.mesh import Mesh, Width
 from ehlectric.film.problem import FilmProblem
@@ -24,14 +24,13 @@ def sheared(fluid, pressure, thickness, mesh):
     eps, h = (0.5 * (values[1:] + values[:-1]) for values in (k.eps, thickness))
     gradient = np.diff(pressure, axis=0) / mesh.dx
     squared = (h * gradient / STRESS) ** 2
-    nothing = np.zeros_like(thickness)
+    of_eps = 0.5 * gradient * (1.0 + squared) / mesh.dx
+    of_gap = eps * gradient * squared / h / mesh.dx
     along = FaceFlow(
         flux=eps * gradient * (1.0 + squared) / mesh.dx,
         conductance=eps * (1.0 + 3.0 * squared) / mesh.dx**2,
-        dependences=(
-            Dependence(0.5 * gradient * (1.0 + squared) / mesh.dx, k.eps_p, k.eps_h),
-            Dependence(eps * gradient * squared / h / mesh.dx, nothing, nothing + 1.0),
-        ),
+        by_properties=Sides(of_eps * k.eps_p[:-1], of_eps * k.eps_p[1:]),
+        by_gap=Sides(of_eps * k.eps_h[:-1] + of_gap, of_eps * k.eps_h[1:] + of_gap),
     )
     return Flow(k, along, None)
 
@@ -59,7 +58,7 @@ def test_derivatives_of_another_law_reach_the_jacobian(shear_thinning):
         random.random(30),
     )
     change = change[:, np.newaxis]
-    wedge = reynolds.wedge_stencil(mesh.shape, mesh.dx, second_order=True)
+    wedge = reynolds.wedge_stencil(mesh.shape, mesh.dx, order=2)
 
     def residual(p, h):
         return reynolds.residual(flow(shear_thinning, p, h, mesh), wedge, h, mesh)

@@ -10,13 +10,13 @@ from ehlectric.film.mesh import Width
 
 
 def line():
-    return hierarchy(65, inlet=-3.0, outlet=2.0, geometry=LINE, second_order=True)[0]
+    return hierarchy(65, inlet=-3.0, outlet=2.0, geometry=LINE, wedge_order=2)[0]
 
 
 def point(*, symmetric):
     geometry = point_geometry(radius_ratio=1.0, ellipse_ratio=1.0, compliance=2.0 / np.pi**2)
     width = Width(15, 2.0, symmetric=symmetric)
-    return hierarchy(17, inlet=-3.0, outlet=2.0, geometry=geometry, second_order=True, width=width)[0]
+    return hierarchy(17, inlet=-3.0, outlet=2.0, geometry=geometry, wedge_order=2, width=width)[0]
 
 
 LEVELS = pytest.mark.parametrize("level", [line(), point(symmetric=True), point(symmetric=False)])
@@ -51,7 +51,7 @@ def test_entries_and_blocks_are_parts_of_the_matrix():
 
 def test_elastic_weight_is_the_diagonal_of_the_wedge_term_less_its_neighbour():
     """What a dipole of pressure does to the first-order wedge term at its own node."""
-    level = hierarchy(65, inlet=-3.0, outlet=2.0, geometry=LINE, second_order=False)[0]
+    level = hierarchy(65, inlet=-3.0, outlet=2.0, geometry=LINE, wedge_order=1)[0]
     gap = Gap.of(level, np.zeros((65, 1)), 0.0)
     single = np.zeros((65, 1))
     single[30] = 1.0

@@ -93,7 +93,7 @@ def test_value_at_the_centre(nodes_y, symmetric):
 def test_every_grid_covers_the_same_domain(nodes, nodes_y, symmetric):
     """The same half or the whole, with half as many intervals each; interpolation moves no node."""
     width = Width(nodes_y, SIDE, symmetric=symmetric)
-    levels = hierarchy(nodes, inlet=INLET, outlet=OUTLET, geometry=CIRCLE, second_order=True, width=width)
+    levels = hierarchy(nodes, inlet=INLET, outlet=OUTLET, geometry=CIRCLE, wedge_order=2, width=width)
     assert len(levels) >= 2
     assert levels[-1].weights.size <= COARSEST_POINT
     for level in levels:
@@ -116,7 +116,7 @@ def test_every_grid_covers_the_same_domain(nodes, nodes_y, symmetric):
 def test_narrow_domains_keep_their_nodes_along_entrainment_at_first():
     """Six long, 0.6 wide and as many nodes either way: dX is ten dY, five, 2.5 and 1.25 of them."""
     width = Width(257, 0.3)
-    levels = hierarchy(257, inlet=-4.5, outlet=1.5, geometry=CIRCLE, second_order=True, width=width)
+    levels = hierarchy(257, inlet=-4.5, outlet=1.5, geometry=CIRCLE, wedge_order=2, width=width)
     assert [level.mesh.shape for level in levels[:5]] == [
         (257, 129),
         (257, 65),
@@ -168,6 +168,6 @@ def test_averaging_keeps_constants(shape, symmetric):
 
 
 def test_line_contacts_inject_their_residuals():
-    fine, coarse = hierarchy(201, inlet=-4.0, outlet=2.0, geometry=LINE, second_order=True)
+    fine, coarse = hierarchy(201, inlet=-4.0, outlet=2.0, geometry=LINE, wedge_order=2)
     values = np.random.default_rng(6).random(fine.mesh.shape)
     np.testing.assert_allclose(coarse.restrict(values), values[::2], rtol=1e-13)

@@ -50,7 +50,7 @@ def jacobians(problem, *, symmetric=True):
         inlet=problem.inlet,
         outlet=problem.outlet,
         geometry=problem.geometry,
-        second_order=problem.second_order,
+        wedge_order=problem.wedge_order,
         width=width,
     )
     return multigrid.linearise_levels(
@@ -142,9 +142,9 @@ def test_iterations_of_a_newton_step(name):
 @pytest.mark.slow
 @pytest.mark.parametrize("name", CASES)
 @pytest.mark.parametrize("nodes", [65, 129, 257, 513])
-@pytest.mark.parametrize("second_order", [True, False])
-def test_iterations_by_grid(name, nodes, second_order):
-    problem = dataclasses.replace(problem_of(name, nodes), second_order=second_order)
+@pytest.mark.parametrize("wedge_order", [1, 2, 3])
+def test_iterations_by_grid(name, nodes, wedge_order):
+    problem = dataclasses.replace(problem_of(name, nodes), wedge_order=wedge_order)
     solutions = solved(problem)
     assert solutions[-1].status == "converged"
     assert max(krylov_iterations(solutions[-1:])) <= 30

@@ -14,9 +14,9 @@ from tests.reference import film as exact
 
 def relaxed(dent):
     """What the window makes of the solution of the manufactured film with a dent in its pressure."""
-    problem = exact.problem(801, second_order=True)
+    problem = exact.problem(801, wedge_order=2)
     level, *_ = hierarchy(
-        801, inlet=exact.INLET, outlet=exact.OUTLET, geometry=problem.geometry, second_order=True,
+        801, inlet=exact.INLET, outlet=exact.OUTLET, geometry=problem.geometry, wedge_order=2,
         source=problem.source,
     )  # fmt: skip
     film = solve_film(problem)

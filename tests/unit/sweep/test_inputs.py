@@ -220,8 +220,8 @@ BAD = [
     ),
     ({"grid.field_range": {"from": 1, "to": 2, "count": 2}}, r"^vary\.grid\.field_range: got a range"),
     (
-        {"grid.wedge": ["third-order"]},
-        r"^vary\.grid\.wedge: got 'third-order'; expected 'second-order' or 'first-order'",
+        {"grid.wedge": ["fourth-order"]},
+        r"^vary\.grid\.wedge: got 'fourth-order'; expected 'third-order', 'second-order' or 'first-order'",
     ),
     (
         {"lubricant.viscosity_law": ["roeland"]},
