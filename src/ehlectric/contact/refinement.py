@@ -11,12 +11,10 @@ from ehlectric.cases.grid import Grid
 from ehlectric.contact.memory import check_grid
 from ehlectric.contact.setup import Setup
 from ehlectric.errors import InputError, ResultWarning
+from ehlectric.film.accuracy.adaptive import UNKNOWN
 from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
-
-# Number of successive grids without an error estimate after which refinement stops. Each grid takes several
-# times as long as the grid before.
-_UNKNOWN = 3
+from ehlectric.film.problem import FilmProblem
 
 
 @dataclass(frozen=True)
@@ -41,7 +39,12 @@ class Refined:
     warnings: tuple[ResultWarning, ...]
 
 
-def refined(setup: Setup, geometry: str, solved: Callable[[Setup], Film | PointFilm]) -> Refined:
+def refined(
+    setup: Setup,
+    geometry: str,
+    problem_of: Callable[[Setup], FilmProblem],
+    solved: Callable[[FilmProblem], Film | PointFilm],
+) -> Refined:
     """Solve a film, and refine its grid until the discretisation error is below ``grid.refine``.
 
     The film is solved on one grid only if ``grid.refine`` is None.
@@ -52,8 +55,10 @@ def refined(setup: Setup, geometry: str, solved: Callable[[Setup], Film | PointF
         Setup with the first grid.
     geometry : str
         Geometry of the contact, "line" or "point".
+    problem_of : callable
+        Function that makes the film problem: setup -> problem.
     solved : callable
-        Function that solves the film: setup -> film.
+        Function that solves the film and refines its grid: problem -> film.
 
     Returns
     -------
@@ -61,25 +66,30 @@ def refined(setup: Setup, geometry: str, solved: Callable[[Setup], Film | PointF
         Film of the last grid, with a warning if the target error was not reached.
     """
     started, target = time.perf_counter(), setup.grid.refine
+    first = replace(setup, grid=setup.grid.model_copy(update={"refine": None}))
+    problem = problem_of(first)
+    if target is None:
+        return Refined(solved(problem), first, time.perf_counter() - started, ())
+    grids, refusal = _finer_grids(first.grid, geometry, rough=bool(setup.roughness))
+    film = solved(replace(problem, target_error=target, most_nodes=grids[-1].nodes))
+    grid = next(grid for grid in grids if grid.nodes == film.x.size)
     warnings: tuple[ResultWarning, ...] = ()
-    current = replace(setup, grid=setup.grid.model_copy(update={"refine": None}))
-    errors: list[float | None] = []
-    film = solved(current)
-    while target is not None and not _within(film, target):
-        errors.append(film.discretisation_error)
-        if len(errors) >= _UNKNOWN and not any(errors[-_UNKNOWN:]):
-            unknown = f"the error is unknown on {_UNKNOWN} grids in succession"
-            warnings = (_not_reached(target, current.grid, unknown),)
-            break
+    if film.discretisation_error is None or film.discretisation_error > target:
+        unknown = f"the error is unknown on {UNKNOWN} grids in succession"
+        warnings = (_not_reached(target, grid, str(refusal) if grid is grids[-1] else unknown),)
+    return Refined(film, replace(first, grid=grid), time.perf_counter() - started, warnings)
+
+
+def _finer_grids(grid: Grid, geometry: str, *, rough: bool) -> tuple[list[Grid], InputError]:
+    """Grid and all grids with twice as many intervals each, up to the first one that is refused, and why."""
+    grids = [grid]
+    while True:
         try:
-            finer = _doubled(current.grid)
-            check_grid(geometry, finer, rough=bool(setup.roughness))
+            finer = _doubled(grids[-1])
+            check_grid(geometry, finer, rough=rough)
         except InputError as error:
-            warnings = (_not_reached(target, current.grid, str(error)),)
-            break
-        current = replace(current, grid=finer)
-        film = solved(current)
-    return Refined(film, current, time.perf_counter() - started, warnings)
+            return grids, error
+        grids.append(finer)
 
 
 def _not_reached(target: float, grid: Grid, reason: str) -> ResultWarning:
@@ -98,8 +108,3 @@ def _doubled(grid: Grid) -> Grid:
         return Grid.from_dict(table)
     except InputError as error:
         raise error.under("grid") from None
-
-
-def _within(film: Film | PointFilm, target: float) -> bool:
-    """Whether the discretisation error of a film is known and at most the target."""
-    return film.discretisation_error is not None and film.discretisation_error <= target

@@ -239,9 +239,8 @@ def _solved(
     films = refined(
         Setup.of(case),
         geometry,
-        lambda setup: solvers.film[geometry](
-            kind.film_problem(setup, conditions, rough), progress=_logged(progress)
-        ),
+        lambda setup: kind.film_problem(setup, conditions, rough),
+        lambda problem: solvers.film[geometry](problem, progress=_logged(progress)),
     )
     film = films.film
     LOGGER.info(

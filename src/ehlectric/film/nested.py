@@ -6,7 +6,7 @@ contact still does not converge, its roughness is raised from zero in steps (con
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -41,7 +41,9 @@ _TRIAL_GRID_POINT = 65
 _HOPELESS = 0.2
 
 
-def nested_iteration(problem: FilmProblem, progress: Progress | None) -> list[GridSolution]:
+def nested_iteration(
+    problem: FilmProblem, progress: Progress | None, known: Sequence[GridSolution] = ()
+) -> list[GridSolution]:
     """Solve the film on a sequence of grids, from coarse to fine.
 
     Parameters
@@ -50,12 +52,14 @@ def nested_iteration(problem: FilmProblem, progress: Progress | None) -> list[Gr
         Dimensionless problem of the contact.
     progress : callable or None
         Function that is called with (nodes, Newton step, residual) before every Newton step.
+    known : sequence of GridSolution
+        Solutions on the coarser grids of the same problem, as this function returns them.
 
     Returns
     -------
     list of GridSolution
-        All solutions in the order in which they were computed. The last one is the solution of ``problem`` on
-        its own grid, with its status. No error is raised if it did not converge.
+        All solutions in the order in which they were computed, after the known ones. The last one is the
+        solution of ``problem`` on its own grid, with its status. No error is raised if it did not converge.
 
     Notes
     -----
@@ -64,9 +68,9 @@ def nested_iteration(problem: FilmProblem, progress: Progress | None) -> list[Gr
     on this grid. Where the film then collapses at less than a fifth of the roughness, the finer grids are
     left out: the iteration ends with a collapsed film.
     """
-    solutions: list[GridSolution] = []
-    tried = problem.added_gap is None
-    for levels in reversed(_grids(problem)):
+    solutions = list(known)
+    tried = problem.added_gap is None or bool(known)
+    for levels in reversed(_grids(problem, solved=known[-1].level.nodes if known else 0)):
         best = None
         if solutions and solutions[-1].status == "converged":
             best = _from_coarser(problem, levels, solutions[-1], progress)
@@ -122,15 +126,16 @@ def accurate_film(problem: FilmProblem, nodes: int, start: State) -> GridSolutio
     return _solve_grid(posed, levels, start, None, spike=True)
 
 
-def _grids(problem: FilmProblem) -> list[list[Level]]:
+def _grids(problem: FilmProblem, *, solved: int) -> list[list[Level]]:
     """Grids of the nested iteration from the finest on, each with the coarser grids of its preconditioner.
 
-    There are at least two grids, for the error estimate. Each has half the intervals of the grid before,
+    Grids of at most ``solved`` nodes along x are left out. If none is solved, there are at least two grids,
+    for the error estimate. Each has half the intervals of the grid before,
     along both axes. The grids of a preconditioner may have half the intervals along one axis only.
     """
     least = FIRST_GRID if problem.width is None else _FIRST_GRID_POINT
     grids = [_levels(problem, roughness=1.0)]
-    while len(grids) < 2 or problem.nodes // 2 + 1 >= least:
+    while (len(grids) < 2 and not solved) or problem.nodes // 2 + 1 >= max(least, solved + 1):
         width = None if problem.width is None else problem.width.coarser()
         problem = replace(problem, nodes=problem.nodes // 2 + 1, width=width)
         coarser = grids[-1][1:]

@@ -8,8 +8,8 @@ import numpy as np
 from scipy.interpolate import RegularGridInterpolator
 
 from ehlectric.arrays import Array
+from ehlectric.film.accuracy.adaptive import refined_solutions
 from ehlectric.film.estimates import side_deficit
-from ehlectric.film.nested import nested_iteration
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.solution import FilmSolution, quiet_solution, stationary_film
 from ehlectric.film.state import COLLAPSED, Progress
@@ -160,7 +160,7 @@ def solve_point_film(problem: FilmProblem, *, progress: Progress | None = None) 
     """
     assert problem.width is not None
     with quiet_solution():
-        solutions = nested_iteration(problem, progress)
+        problem, solutions = refined_solutions(problem, progress)
         mesh, state = solutions[-1].level.mesh, solutions[-1].state
         return PointFilm.of(
             stationary_film(problem, solutions, mesh.mirrored),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ehlectric.arrays import Array
 from ehlectric.film.deflection import LINE, Geometry
@@ -67,6 +67,11 @@ class FilmProblem:
     source : callable, optional
         Right side of the Reynolds equation: function of X (nx,) and Y (ny,) -> (nx, ny); zero by default. It
         serves manufactured solutions, and surfaces that absorb or release oil.
+    target_error : float, optional
+        Relative discretisation error to which the grid is refined: its intervals are doubled until the
+        estimate is as small. By default the film is solved on ``nodes`` only.
+    most_nodes : int
+        Largest number of nodes along x of a refined grid.
     """
 
     fluid: Fluid
@@ -82,11 +87,18 @@ class FilmProblem:
     width: Width | None = None
     added_gap: Callable[[Array, Array], Array] | None = None
     source: Callable[[Array, Array], Array] | None = None
+    target_error: float | None = None
+    most_nodes: int = 10_000_001
 
     @property
     def order(self) -> int:
         """Order of the discretisation, 1 or 2: the flow through the faces is accurate to second order."""
         return min(2, self.wedge_order)
+
+    def doubled(self) -> FilmProblem:
+        """Problem on the grid with twice as many intervals along both axes."""
+        width = None if self.width is None else replace(self.width, nodes=2 * self.width.nodes - 1)
+        return replace(self, nodes=2 * self.nodes - 1, width=width)
 
 
 def velocity_parameter(

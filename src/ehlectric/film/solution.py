@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlectric.arrays import Array, Mask
+from ehlectric.film.accuracy.adaptive import comparable
 from ehlectric.film.accuracy.max_pressure import max_pressure_error
 from ehlectric.film.accuracy.rough_film import rough_film_error
 from ehlectric.film.estimates import inlet_deficit
@@ -138,7 +139,7 @@ def stationary_film(problem: FilmProblem, solutions: list[GridSolution], shaped:
     state, final, level = finest.state, finest.final, finest.level
     steps = tuple(step for solution in solutions for step in solution.steps)
     mass = final.coefficients.density * state.thickness
-    coarser = _comparable(problem, solutions)
+    coarser = comparable(problem, solutions)
     return FilmSolution(
         x=scales.length * level.mesh.x,
         pressure=shaped(pressure_of(scales, state, final.full_film)),
@@ -157,15 +158,6 @@ def stationary_film(problem: FilmProblem, solutions: list[GridSolution], shaped:
         inlet_deficit=inlet_deficit(problem.fluid, problem.geometry, level.mesh, state.pressure, mass),
         max_pressure_error=max_pressure_error(finest, coarser),
     )
-
-
-def _comparable(problem: FilmProblem, solutions: list[GridSolution]) -> GridSolution | None:
-    """Solution on the next coarser grid for the same surfaces, for the error estimate; None if missing."""
-    if any(g.status == "converged" and g.level.nodes == problem.nodes for g in solutions[:-1]):
-        # The roughness was raised in steps on the finest grid, so the coarser grid's film belongs to other
-        # surfaces.
-        return None
-    return next((g for g in reversed(solutions) if g.level.nodes < problem.nodes), None)
 
 
 def pressure_of(scales: Scales, state: State, full_film: Mask) -> Array:
