@@ -293,9 +293,8 @@ def _mean_mobility(
 def mean_fluidity(fluid: Fluid, pressure: Array, thickness: Array, mesh: Mesh) -> Flow:
     """Poiseuille flow of a Newtonian fluid whose viscosity varies exponentially between two nodes.
 
-    F = (rho H^3 / lambda) f dP/dX. Density and film thickness of a face are the means of its two nodes, and f
-    is the mean of eta_0/eta over the pressure between the nodes. For ln eta linear in P this is the
-    logarithmic mean, and the flow is exact however much the viscosity changes from node to node.
+    F = (rho H^3 / lambda) f dP/dX with the means of rho and H of the two nodes, and the mean f of eta_0/eta
+    over the pressure between them. For ln eta linear in P, f is the logarithmic mean.
 
     Parameters
     ----------
@@ -314,8 +313,8 @@ def mean_fluidity(fluid: Fluid, pressure: Array, thickness: Array, mesh: Mesh) -
     Notes
     -----
     The same mean is that of D. L. Scharfetter and H. K. Gummel, IEEE Trans. Electron Devices 16 (1969) 64,
-    doi:10.1109/T-ED.1969.16566, for the current in a semiconductor. In the inlet of a thin film the viscosity
-    changes by a large factor from node to node; the mean of the mobilities then lets too much oil flow back.
+    doi:10.1109/T-ED.1969.16566, for semiconductors. In the inlet of a thin film the viscosity changes by a
+    large factor between nodes; the mean of the mobilities then lets too much oil flow back.
 
     Examples
     --------
