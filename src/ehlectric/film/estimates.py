@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from ehlectric.arrays import Array
@@ -11,6 +13,13 @@ from ehlectric.film.mesh import Mesh, at_centre
 from ehlectric.film.nested import accurate_film
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.state import GridSolution, State
+
+# Factor by which the change of the minimum from the coarser grid exceeds its error on the finer one, with the
+# scheme of third order; see ``of_three_grids``.
+_MINIMUM_GAIN = 1.8
+
+# Smallest estimate of the scheme of third order, as all grids may agree by chance.
+_LEAST_ESTIMATE = 5e-5
 
 # Lowest order of convergence of the minimum film thickness observed with the scheme of second order.
 MINIMUM_ORDER = 1.25
@@ -59,8 +68,71 @@ def _key_thicknesses(mesh: Mesh, thickness: Array) -> Array:
     return np.array([np.min(thickness), at_centre(mesh, thickness)])
 
 
-def film_error(problem: FilmProblem, fine: tuple[Mesh, State], coarse: tuple[Mesh, State]) -> float | None:
-    """Relative discretisation error of a film, estimated from its converged states on two grids.
+def of_three_grids(films: Sequence[tuple[Mesh, Array]]) -> float:
+    """Estimate of the discretisation error of a film with the third-order wedge, from three grids.
+
+    Parameters
+    ----------
+    films : sequence of pairs of Mesh and ndarray
+        Three grids over the same domain from the finest on, each with half the intervals of the grid before,
+        and film thickness (nx, ny) in any unit.
+
+    Returns
+    -------
+    float
+        Relative error of the minimum or of the central film thickness, whichever is larger.
+
+    Notes
+    -----
+    Two minima may agree by chance, as the lowest node lies anywhere beside the lowest place. The change from
+    the coarser to the coarsest grid, reduced by the expected order, is therefore a second estimate of the
+    change, and the larger one counts. Minima are compared between the nodes, and the distance of the lowest
+    node from the lowest place is added. Of 500 random line contacts 2 % exceeded the estimate, none of them
+    twofold; in the median it is four to five times the true error.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> found = ((9, 1.0), (5, 1.01), (3, 1.02))
+    >>> films = [(Mesh.over(nodes, -1.0, 1.0), np.full((nodes, 1), film)) for nodes, film in found]
+    >>> round(of_three_grids(films), 4)
+    0.0056
+    """
+    minima, centres = np.array([[_lowest(*film), at_centre(*film)] for film in films]).T
+    least = float(np.min(films[0][1]))
+    of_minimum = _change(minima, MINIMUM_ORDER) / _MINIMUM_GAIN + (least - minima[0])
+    of_centre = _change(centres, 2.0) / 3.0
+    return float(max(of_minimum / least, of_centre / centres[0], _LEAST_ESTIMATE))
+
+
+def _change(values: Array, order: float) -> float:
+    """Change of a value between the two finest of three grids, by both pairs of grids."""
+    fine, coarse = np.abs(np.diff(values))
+    return float(max(fine, coarse / 2.0**order))
+
+
+def _lowest(mesh: Mesh, thickness: Array) -> float:
+    """Lowest film thickness between the nodes, by a parabola along each axis through the lowest node."""
+    whole = mesh.mirrored(thickness)
+    at = np.unravel_index(int(np.argmin(whole)), whole.shape)
+    lowest = float(whole[at])
+    for axis, place in enumerate(at):
+        if 0 < place < whole.shape[axis] - 1:
+            before, here, after = np.take(
+                np.moveaxis(whole, axis, 0)[:, at[1 - axis]], [place - 1, place, place + 1]
+            )
+            bend = before - 2.0 * here + after
+            lowest -= float((after - before) ** 2 / (8.0 * bend)) if bend > 0.0 else 0.0
+    return lowest
+
+
+def film_error(
+    problem: FilmProblem,
+    fine: tuple[Mesh, State],
+    coarse: tuple[Mesh, State],
+    coarsest: tuple[Mesh, State] | None = None,
+) -> float | None:
+    """Relative discretisation error of a film, estimated from its converged states on two or three grids.
 
     Parameters
     ----------
@@ -68,6 +140,8 @@ def film_error(problem: FilmProblem, fine: tuple[Mesh, State], coarse: tuple[Mes
         Dimensionless problem of the contact.
     fine, coarse : pair of Mesh and State
         Grid and state of the film, on the grid of the problem and on the next coarser grid.
+    coarsest : pair of Mesh and State, optional
+        Grid and state on the next but one coarser grid.
 
     Returns
     -------
@@ -77,13 +151,16 @@ def film_error(problem: FilmProblem, fine: tuple[Mesh, State], coarse: tuple[Mes
 
     Notes
     -----
-    With a wedge term of second or third order, this is Richardson's estimate. With the first-order term, the
+    With a wedge term of third order and three grids, this is the estimate ``of_three_grids``; otherwise, with
+    a wedge term of second or third order, Richardson's estimate. With the first-order term, the
     error of the wedge and the other errors may have opposite signs. The film thickness is then not monotone
     in the number of nodes, and Richardson's estimate may vanish. The film is therefore solved with the
     third-order term on both grids too, from the first-order film as initial guess. The estimate is the
     difference of both films on the fine grid plus Richardson's estimate of the third-order film.
     """
     films = [(mesh, state.thickness) for mesh, state in (fine, coarse)]
+    if problem.wedge_order > 2 and coarsest is not None:
+        return of_three_grids([*films, (coarsest[0], coarsest[1].thickness)])
     if problem.wedge_order > 1:
         return richardson(films[0], films[1], order=2)
     better = [accurate_film(problem, mesh.x.size, state) for mesh, state in (fine, coarse)]
@@ -96,15 +173,26 @@ def film_error(problem: FilmProblem, fine: tuple[Mesh, State], coarse: tuple[Mes
 
 
 def discretisation_error(
-    problem: FilmProblem, fine: GridSolution, coarse: GridSolution | None
+    problem: FilmProblem, fine: GridSolution, coarser: Sequence[GridSolution]
 ) -> float | None:
-    """Relative discretisation error of a film, estimated from its solutions on two grids.
+    """Relative discretisation error of a film, estimated from its solutions on up to three grids.
 
-    None if there is no coarser grid, or if either solution did not converge; see ``film_error``.
+    None if there is no coarser grid, or if the solution on it or on the fine grid did not converge; see
+    ``film_error``. A film that did not converge on the coarsest of three grids counts as zero there.
     """
-    if coarse is None or fine.status != "converged" or coarse.status != "converged":
+    if not coarser or fine.status != "converged" or coarser[0].status != "converged":
         return None
-    return film_error(problem, (fine.level.mesh, fine.state), (coarse.level.mesh, coarse.state))
+    coarse, *others = coarser
+    coarsest = _or_no_film(others[0]) if others else None
+    return film_error(problem, (fine.level.mesh, fine.state), (coarse.level.mesh, coarse.state), coarsest)
+
+
+def _or_no_film(grid: GridSolution) -> tuple[Mesh, State]:
+    """Grid and state of a solution; one that did not converge counts as no film, whose thickness is zero."""
+    state = grid.state
+    if grid.status != "converged":
+        state = State(state.pressure, state.h00, np.zeros_like(state.thickness))
+    return grid.level.mesh, state
 
 
 def inlet_deficit(fluid: Fluid, geometry: Geometry, mesh: Mesh, pressure: Array, mass: Array) -> float:

@@ -24,7 +24,7 @@ NESTED_TOLERANCE = 1e-6
 
 # The nested iteration starts on the coarsest grid with at least this many nodes along x, in a line and in a
 # point contact. A quarter of the nodes would not resolve a thin film.
-FIRST_GRID = 201
+FIRST_GRID = 101
 _FIRST_GRID_POINT = 33
 
 # Continuation in roughness height: first and smallest increment as fractions of the full height, and the

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.film.accuracy.adaptive import comparable
+from ehlectric.film.accuracy.adaptive import coarser_solutions
 from ehlectric.film.accuracy.max_pressure import max_pressure_error
 from ehlectric.film.accuracy.rough_film import rough_film_error
 from ehlectric.film.estimates import inlet_deficit
@@ -139,7 +139,7 @@ def stationary_film(problem: FilmProblem, solutions: list[GridSolution], shaped:
     state, final, level = finest.state, finest.final, finest.level
     steps = tuple(step for solution in solutions for step in solution.steps)
     mass = final.coefficients.density * state.thickness
-    coarser = comparable(problem, solutions)
+    coarser = coarser_solutions(problem, solutions)
     return FilmSolution(
         x=scales.length * level.mesh.x,
         pressure=shaped(pressure_of(scales, state, final.full_film)),
@@ -156,7 +156,7 @@ def stationary_film(problem: FilmProblem, solutions: list[GridSolution], shaped:
         steps=steps,
         discretisation_error=rough_film_error(problem, finest, coarser),
         inlet_deficit=inlet_deficit(problem.fluid, problem.geometry, level.mesh, state.pressure, mass),
-        max_pressure_error=max_pressure_error(finest, coarser),
+        max_pressure_error=max_pressure_error(finest, coarser[0] if coarser else None),
     )
 
 

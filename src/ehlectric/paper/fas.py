@@ -17,7 +17,7 @@ from ehlectric.film.deflection import LINE
 from ehlectric.film.estimates import film_error, inlet_deficit
 from ehlectric.film.line import Film
 from ehlectric.film.mesh import Mesh
-from ehlectric.film.nested import FIRST_GRID, NESTED_TOLERANCE
+from ehlectric.film.nested import NESTED_TOLERANCE
 from ehlectric.film.newton import ROUNDING
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.solution import film_status
@@ -34,6 +34,9 @@ BEFORE, AFTER = 3, 2
 # largest number of nodes of the coarsest grid.
 COARSEST = 101
 LARGEST_COARSEST = 201
+
+# The nested iteration starts on the coarsest grid with at least this many nodes.
+FIRST_GRID = 201
 
 # Change of ln eps between neighbouring nodes above which their residuals are left out on the coarser grid: it
 # cannot resolve such a change.

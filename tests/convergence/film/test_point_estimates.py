@@ -4,6 +4,9 @@ import numpy as np
 import pytest
 
 from ehlectric import Case, solve
+from ehlectric.contact.problems import point_film_problem
+from ehlectric.contact.resolve import resolve_point
+from ehlectric.film.point import solve_point_film
 from tests.helpers.places import EXAMPLES
 
 # Of the pitch circle and of the ball [m].
@@ -66,3 +69,45 @@ def test_estimates_over_the_grids():
     # grids as much too coarse for it.
     for ours, theirs, part in zip(minima, (0.050e-6, 0.100e-6, 0.111e-6), (0.4, 0.1, 0.1), strict=True):
         assert ours == pytest.approx(theirs, rel=part, abs=0.0)
+
+
+def random_point_contacts(count):
+    """M log-uniform in [5, 2000], L uniform in [2, 20], and Ry/Rx log-uniform in [0.3, 40]."""
+    random = np.random.default_rng(5)
+    modulus, viscosity, alpha, radius = 226e9, 0.04, 22e-9, 10e-3
+    for _ in range(count):
+        moes_m, ratio = (
+            np.exp(random.uniform(np.log(low), np.log(high))) for low, high in ((5, 2000), (0.3, 40))
+        )
+        speed = (random.uniform(2.0, 20.0) / (alpha * modulus)) ** 4
+        yield {
+            "geometry": "point",
+            "radius_x": radius,
+            "radius_y": radius * ratio,
+            "reduced_modulus": modulus,
+            "load": moes_m * speed**0.75 * modulus * radius**2,
+            "entrainment_speed": 0.5 * speed * modulus * radius / viscosity,
+        }
+
+
+@pytest.mark.slow
+def test_third_order_errors_of_random_contacts():
+    """Of 40 contacts on 129 x 129 nodes, against 257 x 257: the true error is above at most one estimate."""
+    ratios = []
+    for contact in random_point_contacts(40):
+        case = Case.from_dict({"contact": contact, "lubricant": {"base": "paper"}, "grid": {"nodes": 129}})
+        found, fine = (alone(case.replace({"grid.nodes": n})) for n in (129, 257))
+        assert found.converged
+        if found.discretisation_error is not None:
+            pairs = (
+                (getattr(f, key) for f in (found, fine)) for key in ("minimum_thickness", "central_thickness")
+            )
+            ratios.append(max(abs(a / b - 1.0) for a, b in pairs) / found.discretisation_error)
+    assert len(ratios) > 30
+    assert sum(ratio > 1.0 for ratio in ratios) <= 1
+    assert max(ratios) < 2.0
+
+
+def alone(case):
+    """Film of a smooth point contact, without its field."""
+    return solve_point_film(point_film_problem(case, resolve_point(case)))

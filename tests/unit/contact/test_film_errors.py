@@ -5,6 +5,9 @@ import pytest
 
 from ehlectric import InputError, solve
 from ehlectric.contact.check import check_case
+from ehlectric.contact.problems import film_problem
+from ehlectric.contact.resolve import resolve
+from ehlectric.film.line import solve_film
 
 
 def thicknesses(film):
@@ -18,9 +21,30 @@ def richardsons(fine, coarse):
 
 
 def test_discretisation_error_is_richardsons(paper_case):
-    """From two solutions of their own."""
-    fine, coarse = (film_of(paper_case, n) for n in (1601, 801))
+    """From two solutions of their own, of second order."""
+    fine, coarse = (film_of(paper_case, n, "second-order") for n in (1601, 801))
     assert fine.discretisation_error == pytest.approx(max(richardsons(fine, coarse)), rel=1e-4, abs=0.0)
+
+
+def lowest(film):
+    """Minimum of the parabola through the lowest node and its neighbours."""
+    least = int(np.argmin(film.thickness))
+    near = slice(least - 1, least + 2)
+    a, b, c = np.polyfit(film.x[near] / film.scales.length, film.thickness[near], 2)
+    return c - b**2 / (4.0 * a)
+
+
+def test_discretisation_error_of_third_order_is_that_of_three_grids(paper_case):
+    """From three solutions of their own: the larger of two changes of h_min and of h(0)."""
+    films = [film_of(paper_case, n) for n in (1601, 801, 401)]
+    minima, centres = np.array([[lowest(film), film.central_thickness] for film in films]).T
+    change = max(abs(minima[0] - minima[1]), abs(minima[1] - minima[2]) / 2.0**1.25)
+    least = films[0].minimum_thickness
+    of_minimum = (change / 1.8 + least - minima[0]) / least
+    change = max(abs(centres[0] - centres[1]), abs(centres[1] - centres[2]) / 4.0)
+    expected = max(of_minimum, change / 3.0 / centres[0])
+    assert expected > 5e-5
+    assert films[0].discretisation_error == pytest.approx(expected, rel=1e-3, abs=0.0)
 
 
 def test_first_order_error_is_the_distance_from_the_best_one(paper_case):
@@ -49,6 +73,31 @@ def test_first_order_error_is_not_underestimated(paper_case, pressure, speed, no
     error = np.max(np.abs(thicknesses(film) / thicknesses(true) - 1.0))
     assert film.discretisation_error is None or error < film.discretisation_error < 3.0 * error
     assert target is None or film.discretisation_error <= target
+
+
+@pytest.mark.slow
+def test_third_order_errors_of_random_contacts(paper_case):
+    """Of 500 contacts: the true error, by four times the nodes, is above the estimate in less than 5 %."""
+    random = np.random.default_rng(19)
+    ratios = []
+    while len(ratios) < 500:
+        keys = {
+            "contact.max_hertz_pressure": 1e9 * np.exp(random.uniform(np.log(0.3), np.log(2.5))),
+            "contact.entrainment_speed": np.exp(random.uniform(np.log(0.1), np.log(15.0))),
+        }
+        nodes = int(random.choice([401, 601, 801, 1601]))
+        film, fine = (alone(paper_case.replace(keys | {"grid.nodes": n})) for n in (nodes, 4 * nodes - 3))
+        if film.converged and film.discretisation_error is not None:
+            error = np.max(np.abs(thicknesses(film) / thicknesses(fine) - 1.0))
+            ratios.append(error / film.discretisation_error)
+    assert np.mean(np.array(ratios) > 1.0) < 0.05
+    assert max(ratios) < 2.0
+    assert np.median(ratios) > 0.1
+
+
+def alone(case):
+    """Film of a smooth line contact, without its field."""
+    return solve_film(film_problem(case, resolve(case)))
 
 
 @pytest.mark.slow

@@ -110,7 +110,7 @@ def thicknesses(film):
     return np.array([film.minimum_thickness, film.central_thickness])
 
 
-@pytest.mark.parametrize("wedge", [SLOW("first-order"), "third-order"])
+@pytest.mark.parametrize("wedge", [SLOW("first-order"), "second-order"])
 def test_discretisation_error_is_richardsons(wedge):
     """From two solutions of their own; of first order with the distance from the third order."""
 
@@ -118,7 +118,8 @@ def test_discretisation_error_is_richardsons(wedge):
         case = ellipse(nodes, nodes_y=nodes, wedge=wedge)
         return solve_point_film(point_film_problem(case, resolve_point(case)))
 
-    fine, coarse = (film(nodes, "third-order") for nodes in (129, 65))
+    better = "third-order" if wedge == "first-order" else wedge
+    fine, coarse = (film(nodes, better) for nodes in (129, 65))
     estimates = np.abs(thicknesses(coarse) / thicknesses(fine) - 1.0) / (2.0 ** np.array([1.25, 2.0]) - 1.0)
     found = fine
     if wedge == "first-order":

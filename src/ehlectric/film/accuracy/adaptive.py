@@ -63,13 +63,14 @@ def solution_error(problem: FilmProblem, solutions: list[GridSolution]) -> float
     float or None
         Relative error of the minimum or of the central film thickness, whichever is larger; None if unknown.
     """
-    return rough_film_error(problem, solutions[-1], comparable(problem, solutions))
+    return rough_film_error(problem, solutions[-1], coarser_solutions(problem, solutions))
 
 
-def comparable(problem: FilmProblem, solutions: list[GridSolution]) -> GridSolution | None:
-    """Solution on the next coarser grid for the same surfaces, for error estimates; None if missing."""
+def coarser_solutions(problem: FilmProblem, solutions: list[GridSolution]) -> list[GridSolution]:
+    """Last solutions on the coarser grids for the same surfaces, from the finest on, for error estimates."""
     if any(g.status == "converged" and g.level.nodes == problem.nodes for g in solutions[:-1]):
         # The roughness was raised in steps on the finest grid, so the coarser grid's film belongs to other
         # surfaces.
-        return None
-    return next((g for g in reversed(solutions) if g.level.nodes < problem.nodes), None)
+        return []
+    by_nodes = {solution.level.nodes: solution for solution in solutions}
+    return [by_nodes[nodes] for nodes in sorted(by_nodes, reverse=True) if nodes < problem.nodes]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -28,7 +28,9 @@ _CANDIDATE = 2.0
 _CENTRE = 1.5
 
 
-def rough_film_error(problem: FilmProblem, fine: GridSolution, coarse: GridSolution | None) -> float | None:
+def rough_film_error(
+    problem: FilmProblem, fine: GridSolution, coarser: Sequence[GridSolution]
+) -> float | None:
     """Relative discretisation error of a film with smooth or rough surfaces.
 
     Parameters
@@ -37,8 +39,8 @@ def rough_film_error(problem: FilmProblem, fine: GridSolution, coarse: GridSolut
         Dimensionless problem of the contact.
     fine : GridSolution
         Film on the grid of the problem.
-    coarse : GridSolution or None
-        Film on the next coarser grid for the same surfaces.
+    coarser : sequence of GridSolution
+        Films on the coarser grids for the same surfaces, from the finest on.
 
     Returns
     -------
@@ -58,10 +60,10 @@ def rough_film_error(problem: FilmProblem, fine: GridSolution, coarse: GridSolut
       (amplitude reduction, doi:10.1016/S0167-8922(08)70440-1): they keep their amplitude in the film. What
       the heights of the surface between the nodes exceed the line through the nodes, the film loses.
     """
-    error = discretisation_error(problem, fine, coarse)
-    if error is None or coarse is None or problem.added_gap is None:
+    error = discretisation_error(problem, fine, coarser)
+    if error is None or problem.added_gap is None:
         return error
-    films = [(grid.level.mesh, grid.state.thickness) for grid in (fine, coarse)]
+    films = [(grid.level.mesh, grid.state.thickness) for grid in (fine, coarser[0])]
     between = roughness_between_nodes(problem.added_gap, *films[0])
     of_grids = _of_two_grids(films[0], films[1], order=problem.order)
     return float(max(error, of_grids)) + between
