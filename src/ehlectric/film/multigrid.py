@@ -126,8 +126,9 @@ class DenseSolver:
         The rows of the derivatives must be zero at cavitated nodes.
         """
         n = full_film.size
+        # LAPACK takes columns, which are the rows of the transposed matrix here: nothing is copied.
         matrix = np.zeros((n + 1, n + 1))
-        matrix[:n, :n] = by_p.matrix() + by_h.matrix() @ gap.matrix()
+        matrix[:n, :n] = by_p.matrix() + by_h.times(gap.matrix())
         matrix[:n, n] = by_h.coefficients.sum(axis=0).ravel()
         matrix[n, :n] = np.where(full_film, gap.load_weights(), 0.0).ravel()
         cavitated = np.flatnonzero(~full_film.ravel())
@@ -244,14 +245,22 @@ def _two_cycles(jacobians: list[Linearised], r: Array, load: float) -> tuple[Arr
     """
     finest = jacobians[0]
     right = np.append(finest.scale * r, load)
-    changes, images = [], []
-    left = right
-    for _ in range(2):
-        changes.append(cycled(jacobians, left))
-        images.append(finest.image(changes[-1]))
-        parts = np.linalg.lstsq(np.stack(images, axis=1), right)[0]
-        left = right - parts @ images
-        if np.linalg.norm(left) <= _ENOUGH * np.linalg.norm(right):
-            break
-    change = parts @ changes
+    first = cycled(jacobians, right)
+    image = finest.image(first)
+    square = np.vdot(image, image)
+    change, left = _best_multiple(first, image, right)
+    if np.linalg.norm(left) > _ENOUGH * np.linalg.norm(right):
+        second = cycled(jacobians, left)
+        next_image = finest.image(second)
+        # The second image is made orthogonal to the first, so that both have their best multiple.
+        part = np.vdot(image, next_image) / square if square > 0.0 else 0.0
+        added, _ = _best_multiple(second - part * first, next_image - part * image, left)
+        change = change + added
     return change[:-1].reshape(r.shape), float(change[-1])
+
+
+def _best_multiple(change: Array, image: Array, right: Array) -> tuple[Array, Array]:
+    """Multiple of a change whose image is nearest to the right side, and what is left of the right side."""
+    square = np.vdot(image, image)
+    part = np.vdot(image, right) / square if square > 0.0 else 0.0
+    return part * change, right - part * image

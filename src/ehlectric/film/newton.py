@@ -7,10 +7,10 @@ Reynolds equation at the nodes with a full film, P = P_amb at the cavitated node
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
-from scipy.sparse.linalg import LinearOperator, gcrotmk
 
 from ehlectric.arrays import Array
 from ehlectric.film.cavitation import full_film_nodes, with_refilled_nodes
@@ -200,15 +200,72 @@ def _direction(fluid: Fluid, levels: list[Level], state: State, now: Residual) -
         cycles += 1
         return cycled(jacobians, image)
 
-    # Flexible GMRES is needed, as the preconditioner varies: its cycles on coarser grids adapt to the right
-    # side.
-    solution, _ = gcrotmk(
-        LinearOperator((right.size, right.size), matvec=finest.image, dtype=right.dtype),
-        right,
-        rtol=LINEAR_TOLERANCE,
-        M=LinearOperator((right.size, right.size), matvec=precondition, dtype=right.dtype),
-        m=KRYLOV_LIMIT,
-        k=0,
-        maxiter=1,
+    solution = flexible_gmres(
+        finest.image, precondition, right, tolerance=LINEAR_TOLERANCE, limit=KRYLOV_LIMIT
     )
     return to_ambient + solution[:-1].reshape(state.pressure.shape), float(solution[-1]), cycles
+
+
+def flexible_gmres(
+    operator: Callable[[Array], Array],
+    precondition: Callable[[Array], Array],
+    right: Array,
+    *,
+    tolerance: float,
+    limit: int,
+) -> Array:
+    """Solution of a linear system by GMRES with a preconditioner that may vary from iteration to iteration.
+
+    The preconditioner is on the right, so that the norm of the residual itself becomes smallest.
+
+    Parameters
+    ----------
+    operator : callable
+        Matrix times a vector (n,).
+    precondition : callable
+        Approximate solution (n,) for a right side (n,).
+    right : ndarray, shape (n,)
+        Right side.
+    tolerance : float
+        Norm of the residual over the norm of the right side at which to stop.
+    limit : int
+        Largest number of iterations.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        Solution; the last iterate if the limit is reached.
+
+    Notes
+    -----
+    Y. Saad, SIAM J. Sci. Comput. 14 (1993) 461, doi:10.1137/0914028, algorithm 2.2.
+
+    Examples
+    --------
+    >>> matrix = np.array([[2.0, 1.0], [0.0, 1.0]])
+    >>> right = np.array([3.0, 1.0])
+    >>> found = flexible_gmres(lambda v: matrix @ v, lambda v: v, right, tolerance=1e-12, limit=2)
+    >>> bool(np.allclose(found, 1.0))
+    True
+    """
+    norm = float(np.linalg.norm(right))
+    if norm == 0.0:
+        return np.zeros_like(right)
+    basis, changes = [right / norm], []
+    hessenberg = np.zeros((limit + 1, limit))
+    for k in range(limit):
+        changes.append(precondition(basis[k]))
+        image = operator(changes[k])
+        before = float(np.linalg.norm(image))
+        for row, vector in enumerate(basis):
+            hessenberg[row, k] = np.vdot(vector, image)
+            image -= hessenberg[row, k] * vector
+        after = hessenberg[k + 1, k] = float(np.linalg.norm(image))
+        small = hessenberg[: k + 2, : k + 1]
+        parts = np.linalg.lstsq(small, norm * np.eye(k + 2)[0])[0]
+        left = np.linalg.norm(small @ parts - norm * np.eye(k + 2)[0])
+        # The image of the last change may be one of those before, up to rounding.
+        if not (left > tolerance * norm and after > np.finfo(float).eps * before):
+            break
+        basis.append(image / after)
+    return np.asarray(parts @ changes)
