@@ -52,7 +52,8 @@ class Gap:
 
     def along(self, distance: int | NDArray[np.int64]) -> Array:
         """Derivative of H at a node by P of the node that is ``distance`` nodes away along x."""
-        return self.level.deflection.influence[np.abs(distance), 0]
+        derivative: Array = self.level.deflection.influence[np.abs(distance), 0]
+        return derivative
 
     def block(self, rows: slice, columns: slice) -> Array:
         """Derivative of H at the nodes ``rows`` of a line contact by P at some of these nodes.

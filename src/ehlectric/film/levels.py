@@ -17,8 +17,12 @@ from ehlectric.film.reynolds import Stencil, wedge_stencil
 
 # The hierarchy ends at the first grid with at most this many nodes, in a line and in a point contact. The
 # dense solve on this grid costs less than one more grid.
-COARSEST = 101
+COARSEST = 201
 COARSEST_POINT = 600
+
+# Line contacts with more nodes than the first number end at the second one: the dense solve is then a small
+# part of a cycle, and an exact solution on 201 nodes overshoots more beside the pressure spike.
+_LARGE, _COARSEST_OF_LARGE = 10_000, 101
 
 # Ratio dX/dY of the grid spacings above which the next coarser grid has fewer nodes across entrainment only.
 NEARER = 1.5
@@ -248,7 +252,9 @@ def _keep_freed_memory() -> None:
 def _meshes(nodes: int, inlet: float, outlet: float, width: Width | None) -> list[Mesh]:
     """Meshes of the hierarchy, from the finest to the coarsest."""
     meshes = [Mesh.over(nodes, inlet, outlet, width)]
-    coarsest = COARSEST if width is None else COARSEST_POINT
+    coarsest = COARSEST_POINT
+    if width is None:
+        coarsest = COARSEST if nodes <= _LARGE else _COARSEST_OF_LARGE
     while meshes[-1].weights.size > coarsest or len(meshes) < 2:
         mesh = meshes[-1]
         # Only lines along x are relaxed. Where the nodes across are much closer, only the y axis is
