@@ -115,7 +115,9 @@ def newton(
         if eliminate_spike:
             state, now = _without_spike(fluid, level, state, now)
         jacobians = _linearised(fluid, levels, state, now, last=jacobians if loose else [])
-        close = linear_tolerance(now.norm, before, tolerance) if loose else LINEAR_TOLERANCE
+        close = LINEAR_TOLERANCE
+        if loose:
+            close = linear_tolerance(now.norm, before, tolerance if transient else 0.0)
         dp, dh00, krylov = _direction(fluid, jacobians, state, now, close)
         before = now.norm
         full = State.of(level, state.pressure + dp, state.h00 + dh00)
@@ -207,7 +209,7 @@ def linear_tolerance(norm: float, before: float, tolerance: float) -> float:
     norm, before : float
         Residual before this Newton step and before the last one; infinity before the first step.
     tolerance : float
-        Residual at which Newton's method stops.
+        Residual at which Newton's method stops; zero to gain digits in the last step, too.
 
     Returns
     -------
