@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from scipy import fft
@@ -203,9 +204,10 @@ class Deflection:
         include the distances to the mirror image.
         """
         nx, lines = influence.shape
-        mx = fft.next_fast_len(2 * nx - 1, real=True)
+        # The largest distances nx - 1 and 1 - nx may fall on one another, as the coefficients are even.
+        mx = fft.next_fast_len(2 * nx - 2, real=True)
         # A cosine transform needs only one half of the period of an even sequence.
-        my = fft.next_fast_len(lines - 1) if symmetric else fft.next_fast_len(2 * lines - 1)
+        my = fft.next_fast_len(lines - 1) if symmetric else fft.next_fast_len(2 * lines - 2)
         my = 1 if lines == 1 else my
         wrapped = np.zeros((mx, my + 1 if symmetric else my))
         wrapped[:nx, :lines] = influence
@@ -216,6 +218,7 @@ class Deflection:
         spectrum = _transform(wrapped, wrapped.shape, symmetric=symmetric).real.copy()
         return cls(influence, spectrum, (mx, wrapped.shape[1]), symmetric)
 
+    @cached_property
     def matrix(self) -> Array:
         """Deflection operator as a dense matrix over the nodes, y fastest, shape (nx ny, nx ny)."""
         nx, lines = self.influence.shape

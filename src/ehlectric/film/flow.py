@@ -395,6 +395,5 @@ def _with_mirror(values: Array, mesh: Mesh) -> Array:
 
 # Name of the law with the flow through a face of the paper.
 MEAN_MOBILITY = "newtonian, mean mobility"
-
 # Laws of the flow through a face, by name.
 FLOWS: Mapping[str, FlowLaw] = {"newtonian": mean_fluidity, MEAN_MOBILITY: mean_mobility}

@@ -14,6 +14,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.linalg import toeplitz
 
 from ehlectric.arrays import Array
@@ -49,9 +50,10 @@ class Gap:
         """Change of H (nx, ny) and of the load by a change of P (nx, ny) and of H00."""
         return self.level.deflection(dp) + dh00, self.load(dp)
 
-    def along(self, distance: int) -> float:
+    def along(self, distance: int | NDArray[np.int64]) -> Array:
         """Derivative of H at a node by P of the node that is ``distance`` nodes away along x."""
-        return float(self.level.deflection.influence[abs(distance), 0])
+        derivative: Array = self.level.deflection.influence[np.abs(distance), 0]
+        return derivative
 
     def block(self, rows: slice, columns: slice) -> Array:
         """Derivative of H at the nodes ``rows`` of a line contact by P at some of these nodes.
@@ -64,7 +66,7 @@ class Gap:
 
     def matrix(self) -> Array:
         """Derivative of H by P of all nodes, dense, shape (nx ny, nx ny); for the coarsest grid."""
-        return self.level.deflection_matrix
+        return self.level.deflection.matrix
 
     def load_weights(self) -> Array:
         """Derivative of the load by P of the nodes, shape (nx, ny)."""

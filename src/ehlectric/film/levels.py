@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache
 from typing import TypeAlias
 
 import numpy as np
@@ -17,8 +17,12 @@ from ehlectric.film.reynolds import Stencil, wedge_stencil
 
 # The hierarchy ends at the first grid with at most this many nodes, in a line and in a point contact. The
 # dense solve on this grid costs less than one more grid.
-COARSEST = 101
+COARSEST = 201
 COARSEST_POINT = 600
+
+# Line contacts with more nodes than the first number end at the second one: the dense solve is then a small
+# part of a cycle, and an exact solution on 201 nodes overshoots more beside the pressure spike.
+_LARGE, _COARSEST_OF_LARGE = 10_000, 101
 
 # Ratio dX/dY of the grid spacings above which the next coarser grid has fewer nodes across entrainment only.
 NEARER = 1.5
@@ -170,11 +174,6 @@ class Level:
             return self.inject(residual)
         return self.averaged(residual)
 
-    @cached_property
-    def deflection_matrix(self) -> Array:
-        """Dense matrix of the deflection, shape (nx ny, nx ny); used on the coarsest grid only."""
-        return self.deflection.matrix()
-
 
 def hierarchy(
     nodes: int,
@@ -213,6 +212,7 @@ def hierarchy(
     Half of an odd number of intervals is rounded up. Two such grids share only their end nodes, and the
     transfers interpolate at all others.
     """
+    _keep_freed_memory()
     meshes = _meshes(nodes, inlet, outlet, width)
     levels = []
     for k, mesh in enumerate(meshes):
@@ -238,10 +238,23 @@ def hierarchy(
     return levels
 
 
+@cache
+def _keep_freed_memory() -> None:
+    """Let the C library keep up to 64 MB of freed memory for the next arrays of this process.
+
+    glibc returns freed memory to the system above twice the size of the largest array that was freed so far,
+    up to 32 MB. The arrays of a Newton step would be returned and requested again all the time, which takes
+    a sixth of the time of a point contact. The pages of this array are not touched, so it costs nothing.
+    """
+    np.empty(2**22 - 2**13)
+
+
 def _meshes(nodes: int, inlet: float, outlet: float, width: Width | None) -> list[Mesh]:
     """Meshes of the hierarchy, from the finest to the coarsest."""
     meshes = [Mesh.over(nodes, inlet, outlet, width)]
-    coarsest = COARSEST if width is None else COARSEST_POINT
+    coarsest = COARSEST_POINT
+    if width is None:
+        coarsest = COARSEST if nodes <= _LARGE else _COARSEST_OF_LARGE
     while meshes[-1].weights.size > coarsest or len(meshes) < 2:
         mesh = meshes[-1]
         # Only lines along x are relaxed. Where the nodes across are much closer, only the y axis is

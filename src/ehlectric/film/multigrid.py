@@ -7,7 +7,7 @@ the way back.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -22,6 +22,10 @@ from ehlectric.film.reynolds import Stencil, linearise, poiseuille_weight
 
 # Change of ln eps between neighbours above which a coarser grid cannot resolve the solution.
 _UNRESOLVED = 1.5
+
+# Largest change of ln eps at any node up to which a preconditioner is kept. Up to 2 it costs no more GMRES
+# iterations than a new one.
+_ALIKE = 0.6
 
 # Fraction of the residual below which one cycle on a coarser grid is enough, and no second cycle follows.
 _ENOUGH = 0.1
@@ -47,6 +51,10 @@ class Linearised:
         Reciprocal of the diagonal of the Reynolds equation, and the diagonal; both zero at cavitated nodes.
     resolved : ndarray of bool, shape (nx, ny)
         Nodes whose residual is passed to the coarser grids.
+    log_viscosity : ndarray, shape (nx, ny)
+        ln(eta/eta_0) at the state.
+    kept : Linearised or None
+        Similar Jacobian at an older state, whose line relaxation is used instead of a new one.
     """
 
     gap: Gap
@@ -57,6 +65,8 @@ class Linearised:
     scale: Array
     unscale: Array
     resolved: Mask
+    log_viscosity: Array
+    kept: Linearised | None = None
 
     @classmethod
     def of(cls, gap: Gap, at_faces: Flow, full_film: Mask) -> Linearised:
@@ -74,6 +84,7 @@ class Linearised:
             scale=np.divide(1.0, diagonal, out=np.zeros(full_film.shape), where=full_film),
             unscale=np.where(full_film, diagonal, 0.0),
             resolved=_resolved(level, at_faces.coefficients.eps, full_film),
+            log_viscosity=at_faces.coefficients.log_viscosity,
         )
 
     @property
@@ -94,6 +105,8 @@ class Linearised:
     @cached_property
     def relax(self) -> LineRelaxation:
         """Line relaxation with this Jacobian, a function r (nx, ny) -> dP (nx, ny)."""
+        if self.kept is not None:
+            return self.kept.relax
         distributed = distributed_nodes(self.level, self.poiseuille, self.full_film)
         return LineRelaxation.of(self.gap, (self.by_p, self.by_h), self.full_film, distributed)
 
@@ -126,8 +139,9 @@ class DenseSolver:
         The rows of the derivatives must be zero at cavitated nodes.
         """
         n = full_film.size
+        # LAPACK takes columns, which are the rows of the transposed matrix here: nothing is copied.
         matrix = np.zeros((n + 1, n + 1))
-        matrix[:n, :n] = by_p.matrix() + by_h.matrix() @ gap.matrix()
+        matrix[:n, :n] = by_p.matrix() + by_h.times(gap.matrix())
         matrix[:n, n] = by_h.coefficients.sum(axis=0).ravel()
         matrix[n, :n] = np.where(full_film, gap.load_weights(), 0.0).ravel()
         cavitated = np.flatnonzero(~full_film.ravel())
@@ -194,6 +208,39 @@ def linearise_levels(
     return jacobians
 
 
+def with_kept_preconditioner(
+    jacobians: list[Linearised], at_faces: Flow, thickness: Array, full_film: Mask
+) -> list[Linearised] | None:
+    """Jacobian at a new state with the coarser grids and the line relaxation of an older state.
+
+    Parameters
+    ----------
+    jacobians : list of Linearised
+        Jacobians at the older state, from the finest grid to the coarsest; may be empty.
+    at_faces : Flow
+        Flow on the finest grid at the new state.
+    thickness, full_film : ndarray, shape (nx, ny)
+        Film thickness H and full-film nodes of the new state.
+
+    Returns
+    -------
+    list of Linearised or None
+        None where the states differ too much for the older preconditioner, or are cavitated elsewhere.
+    """
+    if len(jacobians) < 2:
+        return None
+    last, *coarser = jacobians
+    old = last.kept or last
+    if not np.array_equal(old.full_film, full_film):
+        return None
+    thinner = np.abs(np.log(thickness / old.gap.thickness))
+    thicker = np.abs(at_faces.coefficients.log_viscosity - old.log_viscosity)
+    if not np.max((thicker + 3.0 * thinner)[full_film], initial=0.0) < _ALIKE:
+        return None
+    new = Linearised.of(Gap(old.level, thickness), at_faces, full_film)
+    return [replace(new, kept=old), *coarser]
+
+
 def v_cycle(jacobians: list[Linearised], r: Array, load: float) -> tuple[Array, float]:
     """One V-cycle: approximate solution of J (dP, dH00) = (r, load) on the full-film nodes.
 
@@ -244,14 +291,22 @@ def _two_cycles(jacobians: list[Linearised], r: Array, load: float) -> tuple[Arr
     """
     finest = jacobians[0]
     right = np.append(finest.scale * r, load)
-    changes, images = [], []
-    left = right
-    for _ in range(2):
-        changes.append(cycled(jacobians, left))
-        images.append(finest.image(changes[-1]))
-        parts = np.linalg.lstsq(np.stack(images, axis=1), right)[0]
-        left = right - parts @ images
-        if np.linalg.norm(left) <= _ENOUGH * np.linalg.norm(right):
-            break
-    change = parts @ changes
+    first = cycled(jacobians, right)
+    image = finest.image(first)
+    square = np.vdot(image, image)
+    change, left = _best_multiple(first, image, right)
+    if np.linalg.norm(left) > _ENOUGH * np.linalg.norm(right):
+        second = cycled(jacobians, left)
+        next_image = finest.image(second)
+        # The second image is made orthogonal to the first, so that both have their best multiple.
+        part = np.vdot(image, next_image) / square if square > 0.0 else 0.0
+        added, _ = _best_multiple(second - part * first, next_image - part * image, left)
+        change = change + added
     return change[:-1].reshape(r.shape), float(change[-1])
+
+
+def _best_multiple(change: Array, image: Array, right: Array) -> tuple[Array, Array]:
+    """Multiple of a change whose image is nearest to the right side, and what is left of the right side."""
+    square = np.vdot(image, image)
+    part = np.vdot(image, right) / square if square > 0.0 else 0.0
+    return part * change, right - part * image

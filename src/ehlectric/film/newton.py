@@ -7,17 +7,17 @@ Reynolds equation at the nodes with a full film, P = P_amb at the cavitated node
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
-from scipy.sparse.linalg import LinearOperator, gcrotmk
 
 from ehlectric.arrays import Array
 from ehlectric.film.cavitation import full_film_nodes, with_refilled_nodes
 from ehlectric.film.flow import Fluid, flow
 from ehlectric.film.gap import Gap
 from ehlectric.film.levels import Level
-from ehlectric.film.multigrid import cycled, linearise_levels
+from ehlectric.film.multigrid import Linearised, cycled, linearise_levels, with_kept_preconditioner
 from ehlectric.film.reynolds import poiseuille_weight, residual
 from ehlectric.film.spike import relax_spike, step_length
 from ehlectric.film.state import GridSolution, NewtonStep, Progress, Residual, State, Status
@@ -34,8 +34,12 @@ ROUNDING = 40.0 * np.finfo(float).eps
 # films at the corners of the Moes map.
 _SMALLEST_GAP = 1e-8
 
-# Relative tolerance of the linear solutions: Newton's method gains about three digits per step.
+# Smallest relative tolerance of the linear solutions: Newton's method gains about three digits per step.
 LINEAR_TOLERANCE = 1e-3
+
+# Relative tolerance of the first linear solution and of the least accurate one, and the multiple of the
+# squared reduction of the residual in the last step.
+_FIRST_TOLERANCE, _LOOSEST, _FORCING = 0.03, 0.1, 0.5
 
 # Largest number of GMRES iterations per Newton step.
 KRYLOV_LIMIT = 60
@@ -58,6 +62,7 @@ def newton(
     min_iterations: int = 0,
     progress: Progress | None = None,
     eliminate_spike: bool = False,
+    transient: bool = False,
 ) -> GridSolution:
     """Solve the film equations on the first of ``levels`` by Newton's method.
 
@@ -84,6 +89,8 @@ def newton(
     eliminate_spike : bool
         Whether to solve the strongly nonlinear nodes separately before each step. This helps with initial
         guesses from a coarser grid.
+    transient : bool
+        Whether the solution is a time step, whose initial guess is close.
 
     Returns
     -------
@@ -93,19 +100,33 @@ def newton(
     level = levels[0]
     # The residual contains differences of H over dX, so that rounding of H causes a residual of this size.
     tolerance = max(tolerance, ROUNDING * level.rate)
+    # In a stationary line contact the pressure spike dominates the norm of the residual. A linear system that
+    # is not solved closely leaves errors in the inlet, which take more Newton steps on fine grids. There an
+    # older preconditioner takes more iterations, too.
+    loose = transient or level.mesh.dy is not None
     steps: list[NewtonStep] = []
     grown = 0  # successive steps in which the full film has grown
     now = assess(fluid, level, state)
+    jacobians: list[Linearised] = []
+    before = np.inf
     while len(steps) < min_iterations or (now.norm > tolerance and len(steps) < max_iterations):
         if progress is not None:
             progress(level.nodes, len(steps), now.norm)
         if eliminate_spike:
             state, now = _without_spike(fluid, level, state, now)
-        dp, dh00, krylov = _direction(fluid, levels, state, now)
-        dh, _ = Gap(level, state.thickness).change(dp, dh00)
+        jacobians = _linearised(fluid, levels, state, now, last=jacobians if loose else [])
+        close = LINEAR_TOLERANCE
+        if loose:
+            close = linear_tolerance(now.norm, before, tolerance if transient else 0.0)
+        dp, dh00, krylov = _direction(fluid, jacobians, state, now, close)
+        before = now.norm
+        full = State.of(level, state.pressure + dp, state.h00 + dh00)
+        dh = full.thickness - state.thickness
         length = step_length(state.thickness, dp, dh, pressure_step=PRESSURE_STEP, gap_step=GAP_STEP)
         steps.append(NewtonStep(level.nodes, now.norm, krylov))
-        candidate = State.of(level, state.pressure + length * dp, state.h00 + length * dh00)
+        candidate = full
+        if length < 1.0:
+            candidate = State.of(level, state.pressure + length * dp, state.h00 + length * dh00)
         assessed = assess(fluid, level, candidate)
         if not (np.isfinite(assessed.norm) and np.min(candidate.thickness) > _SMALLEST_GAP):
             return GridSolution(level, state, now, tuple(steps), "diverged")
@@ -180,15 +201,51 @@ def _without_spike(fluid: Fluid, level: Level, state: State, now: Residual) -> t
     return relaxed, assess(fluid, level, relaxed)
 
 
-def _direction(fluid: Fluid, levels: list[Level], state: State, now: Residual) -> tuple[Array, float, int]:
+def linear_tolerance(norm: float, before: float, tolerance: float) -> float:
+    """Relative tolerance of the linear system of a Newton step.
+
+    Parameters
+    ----------
+    norm, before : float
+        Residual before this Newton step and before the last one; infinity before the first step.
+    tolerance : float
+        Residual at which Newton's method stops; zero to gain digits in the last step, too.
+
+    Returns
+    -------
+    float
+        Tolerance from ``LINEAR_TOLERANCE`` to 0.1.
+
+    Notes
+    -----
+    Choice 2 of S. C. Eisenstat and H. F. Walker, SIAM J. Sci. Comput. 17 (1996) 16, doi:10.1137/0917003: far
+    from the solution the linear model is not worth a close solution. Close to it, a tenth of ``tolerance``
+    is enough.
+    """
+    predicted = _FIRST_TOLERANCE if np.isinf(before) else _FORCING * (norm / before) ** 2
+    return min(_LOOSEST, max(LINEAR_TOLERANCE, predicted, 0.1 * tolerance / norm))
+
+
+def _linearised(
+    fluid: Fluid, levels: list[Level], state: State, now: Residual, *, last: list[Linearised]
+) -> list[Linearised]:
+    """Jacobians on all grids at a state; the coarser ones are those of the last step where they serve."""
+    kept = with_kept_preconditioner(last, now.flow, state.thickness, now.full_film)
+    if kept is not None:
+        return kept
+    return linearise_levels(
+        levels, fluid, now.flow, pressure=state.pressure, thickness=state.thickness, full_film=now.full_film
+    )
+
+
+def _direction(
+    fluid: Fluid, jacobians: list[Linearised], state: State, now: Residual, tolerance: float
+) -> tuple[Array, float, int]:
     """Changes dP (nx, ny) and dH00 of a Newton step, and the number of GMRES iterations.
 
     The pressure of cavitated nodes changes to ambient. The change at the other nodes solves the linear
     system. The preconditioner is on the right, so that GMRES minimises the residual itself.
     """
-    jacobians = linearise_levels(
-        levels, fluid, now.flow, pressure=state.pressure, thickness=state.thickness, full_film=now.full_film
-    )
     finest = jacobians[0]
     to_ambient = np.where(now.full_film, 0.0, fluid.ambient_pressure - state.pressure)
     change, load_change = finest(to_ambient, 0.0)
@@ -200,15 +257,88 @@ def _direction(fluid: Fluid, levels: list[Level], state: State, now: Residual) -
         cycles += 1
         return cycled(jacobians, image)
 
-    # Flexible GMRES is needed, as the preconditioner varies: its cycles on coarser grids adapt to the right
-    # side.
-    solution, _ = gcrotmk(
-        LinearOperator((right.size, right.size), matvec=finest.image, dtype=right.dtype),
-        right,
-        rtol=LINEAR_TOLERANCE,
-        M=LinearOperator((right.size, right.size), matvec=precondition, dtype=right.dtype),
-        m=KRYLOV_LIMIT,
-        k=0,
-        maxiter=1,
-    )
+    solution = flexible_gmres(finest.image, precondition, right, tolerance=tolerance, limit=KRYLOV_LIMIT)
     return to_ambient + solution[:-1].reshape(state.pressure.shape), float(solution[-1]), cycles
+
+
+def flexible_gmres(
+    operator: Callable[[Array], Array],
+    precondition: Callable[[Array], Array],
+    right: Array,
+    *,
+    tolerance: float,
+    limit: int,
+) -> Array:
+    """Solution of a linear system by GMRES with a preconditioner that may vary from iteration to iteration.
+
+    The preconditioner is on the right, so that the norm of the residual itself becomes smallest.
+
+    Parameters
+    ----------
+    operator : callable
+        Matrix times a vector (n,).
+    precondition : callable
+        Approximate solution (n,) for a right side (n,).
+    right : ndarray, shape (n,)
+        Right side.
+    tolerance : float
+        Norm of the residual over the norm of the right side at which to stop.
+    limit : int
+        Largest number of iterations.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        Solution; the last iterate if the limit is reached.
+
+    Notes
+    -----
+    Y. Saad, SIAM J. Sci. Comput. 14 (1993) 461, doi:10.1137/0914028, algorithm 2.2.
+
+    Examples
+    --------
+    >>> matrix = np.array([[2.0, 1.0], [0.0, 1.0]])
+    >>> right = np.array([3.0, 1.0])
+    >>> found = flexible_gmres(lambda v: matrix @ v, lambda v: v, right, tolerance=1e-12, limit=2)
+    >>> bool(np.allclose(found, 1.0))
+    True
+    """
+    norm = float(np.linalg.norm(right))
+    if norm == 0.0:
+        return np.zeros_like(right)
+    basis, changes = [right / norm], []
+    # Columns of the triangular factor of the Hessenberg matrix, the rotations that make it triangular, and
+    # the rotated right side, whose last entry is the norm of the residual.
+    columns: list[Array] = []
+    rotations: list[tuple[float, float]] = []
+    rotated = [norm]
+    for _ in range(limit):
+        changes.append(precondition(basis[-1]))
+        image = operator(changes[-1])
+        length = float(np.linalg.norm(image))
+        column = np.zeros(limit + 1)
+        for row, vector in enumerate(basis):
+            column[row] = np.vdot(vector, image)
+            image -= column[row] * vector
+        after = float(np.linalg.norm(image))
+        for row, (cos, sin) in enumerate(rotations):
+            here, below = column[row], column[row + 1]
+            column[row], column[row + 1] = cos * here + sin * below, cos * below - sin * here
+        last = len(rotations)
+        diagonal = float(np.hypot(column[last], after))
+        if not diagonal > 0.0:
+            changes.pop()
+            break
+        rotations.append((column[last] / diagonal, after / diagonal))
+        column[last] = diagonal
+        columns.append(column)
+        cos, sin = rotations[-1]
+        rotated[-1:] = [cos * rotated[-1], -sin * rotated[-1]]
+        # The image of the last change may be one of those before, up to rounding.
+        if not (abs(rotated[-1]) > tolerance * norm and after > np.finfo(float).eps * length):
+            break
+        basis.append(image / after)
+    if not changes:
+        return np.zeros_like(right)
+    triangle = np.stack(columns, axis=1)[: len(columns)]
+    return np.asarray(np.linalg.solve(triangle, rotated[:-1]) @ changes)

@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 from scipy.linalg import lapack
 
 from ehlectric.arrays import Array, Mask
@@ -43,8 +44,8 @@ class LineRelaxation:
     half_band : int
         Number of nodes on each side whose influence is kept.
     factors : tuple
-        For each of the two sets of lines: the lines, and the LU factors and pivots of their common band
-        matrix.
+        For each of the two sets of lines: the lines, and the LU factors and pivots of the transpose of their
+        common band matrix.
     """
 
     by_p: Stencil
@@ -62,17 +63,16 @@ class LineRelaxation:
 
         ``full_film`` and ``distributed`` are masks of nodes (nx, ny).
         """
-        level = gap.level
-        beside = _beside(level)
-        band = half_band(level)
-        matrix = _banded(gap, stencils, distributed, band)
-        matrix[2 * band][~full_film.T] = 1.0
+        band = half_band(gap.level)
+        rows = _rows(gap, stencils, distributed, band)
+        rows[~full_film.T, 2 * band] = 1.0
         factors = []
         for lines in (slice(0, None, 2), slice(1, None, 2))[: full_film.shape[1]]:
-            part = matrix[:, lines].reshape(3 * band + 1, -1)
+            # The rows of the matrix are the columns of its transpose, which LAPACK factorises.
+            part = rows[lines].reshape(-1, 3 * band + 1).T
             lu, pivots, _ = lapack.dgbtrf(part, band, band, overwrite_ab=1)
             factors.append((lines, lu, pivots))
-        return cls(stencils[0], full_film, distributed, beside, band, tuple(factors))
+        return cls(stencils[0], full_film, distributed, _beside(gap.level), band, tuple(factors))
 
     def __call__(self, r: Array) -> Array:
         """Change dP (nx, ny) that solves (band of the Jacobian) dP = r at the full-film nodes.
@@ -84,7 +84,7 @@ class LineRelaxation:
             if lines.start:
                 r = r - self.by_p.add_across(dp, np.zeros_like(r))
             right = r[:, lines].T.reshape(-1)
-            solution, _ = lapack.dgbtrs(lu, self.half_band, self.half_band, right, pivots)
+            solution, _ = lapack.dgbtrs(lu, self.half_band, self.half_band, right, pivots, trans=1)
             unknown = solution.reshape(-1, r.shape[0]).T
             dp[:, lines] = unknown
             shared = np.where(self.distributed[:, lines], unknown, 0.0)
@@ -128,28 +128,32 @@ def _shifted(offset: int) -> tuple[slice, slice]:
     return slice(None, -offset), slice(offset, None)
 
 
-def _diagonal(gap: Gap, stencils: tuple[Stencil, Stencil], offset: int) -> Array:
-    """Entries J_(i, i+offset) of the Jacobian along x, shape (nx, ny)."""
-    by_p, by_h = (stencil.coefficients for stencil in stencils)
-    diagonal = np.zeros(by_p.shape[1:])
-    for row, (shift, _) in enumerate(OFFSETS[:ALONG]):
-        diagonal += by_h[row] * gap.along(shift - offset)
-        if shift == offset:
-            diagonal += by_p[row]
-    return diagonal
+def _rows(gap: Gap, stencils: tuple[Stencil, Stencil], distributed: Mask, band: int) -> Array:
+    """Rows of the band of the Jacobian for the distributed unknowns, shape (ny, nx, 3 band + 1).
 
-
-def _banded(gap: Gap, stencils: tuple[Stencil, Stencil], distributed: Mask, band: int) -> Array:
-    """Band of the Jacobian for the distributed unknowns as LAPACK stores it, shape (3 band + 1, ny, nx)."""
+    The diagonal has the index 2 band. The first ``band`` entries are space for the factorisation.
+    """
     nx, ny = distributed.shape
-    matrix = np.zeros((3 * band + 1, ny, nx))
-    diagonals = {offset: _diagonal(gap, stencils, offset) for offset in range(-band - 1, band + 2)}
-    for offset in range(-band, band + 1):
-        rows = slice(max(0, -offset), min(nx, nx - offset))
-        columns = slice(max(0, offset), min(nx, nx + offset))
-        entry = diagonals[offset][rows]
-        for shift, share in _beside(gap.level):
-            added = share * diagonals[offset + shift][rows]
-            entry = entry + np.where(distributed[columns], added, 0.0)
-        matrix[2 * band - offset, :, columns] = entry.T
-    return matrix
+    offsets = np.arange(-band - 1, band + 2)
+    steps = np.array([step for step, _ in OFFSETS[:ALONG]])
+    by_p, by_h = (np.ascontiguousarray(part.coefficients[:ALONG].transpose(2, 1, 0)) for part in stencils)
+    # Derivatives by P of all nodes within the band and one beyond, and of these by the flow at fixed H.
+    nodal = by_h @ gap.along(steps[:, np.newaxis] - offsets)
+    nodal[..., steps[0] + band + 1 : steps[-1] + band + 2] += by_p
+    rows = np.empty((ny, nx, 3 * band + 1))
+    rows[..., :band] = 0.0
+    kept, inner = rows[..., band:], slice(1, -1)
+    # An unknown beside node i, at i + offset, also changes P of the nodes over which it is distributed.
+    padded = np.zeros((ny, nx + 2 * band))
+    padded[:, band:-band] = distributed.T
+    kept[...] = sum(
+        share * nodal[..., inner.start + offset : inner.stop + offset or None]
+        for offset, share in _beside(gap.level)
+    )
+    kept *= sliding_window_view(padded, 2 * band + 1, axis=1)
+    kept += nodal[..., inner]
+    # The matrix ends with the line.
+    for k in range(band):
+        kept[:, k, : band - k] = 0.0
+        kept[:, nx - 1 - k, band + 1 + k :] = 0.0
+    return rows

@@ -61,14 +61,34 @@ class Stencil:
 
     def matrix(self) -> Array:
         """Operator as a dense matrix over the nodes, y fastest, shape (nx ny, nx ny)."""
-        c = self.coefficients
-        _, nx, ny = c.shape
+        _, nx, ny = self.coefficients.shape
         dense = np.zeros((nx, ny, nx, ny))
-        i, j = np.indices((nx, ny))
-        for row, (q, p) in zip(c, OFFSETS, strict=False):
-            there = (i + q >= 0) & (i + q < nx) & (j + p >= 0) & (j + p < ny)
-            dense[i[there], j[there], i[there] + q, j[there] + p] += row[there]
+        # Position of the neighbours in the flattened matrix: one step along the diagonal is n + 1 entries.
+        i, j = np.ogrid[:nx, :ny]
+        place = (i * ny + j) * (nx * ny + 1)
+        flat = dense.reshape(-1)
+        for row, (q, p) in zip(self.coefficients, OFFSETS, strict=False):
+            here, _ = _neighbours(q, p)
+            flat[place[here] + (q * ny + p)] += row[here]
         return dense.reshape(nx * ny, nx * ny)
+
+    def times(self, operator: Array) -> Array:
+        """Product with a dense matrix over the nodes, y fastest, shape (nx ny, n)."""
+        _, nx, ny = self.coefficients.shape
+        blocks = operator.reshape(nx, ny, -1)
+        product = self.coefficients[2, :, :, np.newaxis] * blocks
+        for row, (q, p) in zip(self.coefficients, OFFSETS, strict=False):
+            if q or p:
+                here, there = _neighbours(q, p)
+                product[here] += row[here][:, :, np.newaxis] * blocks[there]
+        return product.reshape(nx * ny, -1)
+
+
+def _neighbours(q: int, p: int) -> tuple[tuple[slice, slice], tuple[slice, slice]]:
+    """Index of the nodes that have a neighbour q steps along x and p across it, and of these neighbours."""
+    here = tuple(slice(max(0, -step), -step if step > 0 else None) for step in (q, p))
+    there = tuple(slice(max(0, step), step if step < 0 else None) for step in (q, p))
+    return (here[0], here[1]), (there[0], there[1])
 
 
 # Mass rho H at the face i+1/2 from the nodes i-1, i and i+1, by the order of the wedge term: that of the

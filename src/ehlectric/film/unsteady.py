@@ -222,6 +222,7 @@ class UnsteadyFilm:
                 max_iterations=iterations,
                 min_iterations=1,
                 eliminate_spike=spike,
+                transient=True,
             )
             krylov = sum(one.krylov_iterations for one in solution.steps)
             effort += Effort(len(solution.steps), krylov)

@@ -61,7 +61,7 @@ def test_half_of_the_operator_is_the_whole_one(nx, ny):
     np.testing.assert_allclose(expected, expected[:, ::-1], rtol=1e-12)
     operator = Deflection.on(mesh, geometry)
     np.testing.assert_allclose(operator(half), expected[:, ny - 1 :], rtol=1e-12)
-    by_matrix = (operator.matrix() @ half.ravel()).reshape(mesh.shape)
+    by_matrix = (operator.matrix @ half.ravel()).reshape(mesh.shape)
     np.testing.assert_allclose(by_matrix, expected[:, ny - 1 :], rtol=1e-12)
 
 
@@ -76,7 +76,7 @@ def test_whole_operator_is_the_sum_over_cells():
             direct[i, j] += influence[abs(i - k), abs(j - m)] * pressure[k, m]
     operator = Deflection.on(mesh, geometry)
     np.testing.assert_allclose(operator(pressure), direct, rtol=1e-12)
-    np.testing.assert_allclose((operator.matrix() @ pressure.ravel()), direct.ravel(), rtol=1e-12)
+    np.testing.assert_allclose((operator.matrix @ pressure.ravel()), direct.ravel(), rtol=1e-12)
 
 
 RATIOS = (1.0, 4.0, 0.25)

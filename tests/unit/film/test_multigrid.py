@@ -50,7 +50,7 @@ def test_deflection_is_the_convolution():
             shifts = influence[np.abs(np.arange(37) - i)][:, np.abs(np.arange(5) - j)]
             direct[i, j] = np.sum(shifts * pressure)
     np.testing.assert_allclose(operator(pressure), direct, rtol=1e-10)
-    np.testing.assert_allclose(operator.matrix() @ pressure.ravel(), direct.ravel(), rtol=1e-10)
+    np.testing.assert_allclose(operator.matrix @ pressure.ravel(), direct.ravel(), rtol=1e-10)
 
 
 def jacobians(nodes):
