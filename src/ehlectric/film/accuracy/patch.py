@@ -53,8 +53,8 @@ class Patch:
 
     @classmethod
     def around(cls, problem: FilmProblem, coarse: GridSolution) -> Patch | None:
-        """Patch in which the film of a point contact is decided; None where it would fill the domain."""
-        if problem.width is None or coarse.status != "converged":
+        """Patch where the film of a smooth point contact is decided; None where it would fill the domain."""
+        if problem.width is None or problem.added_gap is not None or coarse.status != "converged":
             return None
         mesh = coarse.level.mesh
         length = np.sqrt(2.0 * max(at_centre(mesh, coarse.state.thickness), 0.0))
@@ -175,7 +175,7 @@ class Joined:
     def __call__(self, coarse: NDArray[Any], fine: NDArray[Any]) -> NDArray[Any]:
         """Nodal values (nx, ny) from those on both meshes.
 
-        Outside the patch the coarse values are interpolated, and flags are taken from the nearest coarse node.
+        Outside the patch the coarse values are interpolated; flags are those of the nearest coarse node.
         """
         mesh, values = self.coarse, self.coarse.mirrored(coarse)
         if values.dtype == bool:
