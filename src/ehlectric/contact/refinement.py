@@ -7,6 +7,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
 
+import numpy as np
+
 from ehlectric.cases.grid import Grid
 from ehlectric.contact.memory import check_grid
 from ehlectric.contact.setup import Setup
@@ -72,7 +74,8 @@ def refined(
         return Refined(solved(problem), first, time.perf_counter() - started, ())
     grids, refusal = _finer_grids(first.grid, geometry, rough=bool(setup.roughness))
     film = solved(replace(problem, target_error=target, most_nodes=grids[-1].nodes))
-    grid = next(grid for grid in grids if grid.nodes == film.x.size)
+    closest = (film.x[-1] - film.x[0]) / float(np.min(np.diff(film.x)))
+    grid = min(grids, key=lambda grid: abs(grid.nodes - 1 - closest))
     warnings: tuple[ResultWarning, ...] = ()
     if film.discretisation_error is None or film.discretisation_error > target:
         unknown = f"the error is unknown on {UNKNOWN} grids in succession"

@@ -132,6 +132,8 @@ class Level:
         Full weighting of residuals of the next finer grid; None for the finest and for line contacts.
     distribution : tuple of (int, float)
         Distribution of one unknown of the line relaxation over the nodes of its line: (offset, part).
+    edge_excess : ndarray, shape (nx, ny), or float
+        Pressure above ambient on the edges of the domain, zero inside.
     """
 
     mesh: Mesh
@@ -146,6 +148,7 @@ class Level:
     from_finer: Transfer | None
     averaged: Transfer | None
     distribution: Distribution = DIPOLE
+    edge_excess: Array | float = 0.0
 
     @property
     def nodes(self) -> int:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.film.accuracy.adaptive import refined_solutions
+from ehlectric.film.accuracy.adaptive import refined_solution
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.solution import FilmSolution, quiet_solution, stationary_film
 from ehlectric.film.state import COLLAPSED, Progress
@@ -100,5 +100,4 @@ def solve_film(problem: FilmProblem, *, progress: Progress | None = None) -> Fil
     'converged'
     """
     with quiet_solution():
-        problem, solutions = refined_solutions(problem, progress)
-        return Film.of(stationary_film(problem, solutions, lambda values: values[:, 0]))
+        return Film.of(stationary_film(refined_solution(problem, progress), lambda values: values[:, 0]))

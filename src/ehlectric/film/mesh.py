@@ -128,6 +128,11 @@ class Mesh:
             inner[:, 0] &= self.symmetric
         return inner
 
+    @property
+    def edge(self) -> Mask:
+        """Mask of the nodes on the edges of the domain, shape (nx, ny); a line of symmetry is not an edge."""
+        return ~self.inner
+
     def mirrored(self, values: NDArray[Any]) -> NDArray[Any]:
         """Values over the whole contact, from nodal values (nx, ny).
 

@@ -151,7 +151,7 @@ def _levels(problem: FilmProblem, *, roughness: float) -> list[Level]:
     if added is not None:
         smooth = geometry.dry_gap
         geometry = replace(geometry, dry_gap=lambda x, y: smooth(x, y) + roughness * added(x, y))
-    return hierarchy(
+    levels = hierarchy(
         problem.nodes,
         inlet=problem.inlet,
         outlet=problem.outlet,
@@ -160,6 +160,11 @@ def _levels(problem: FilmProblem, *, roughness: float) -> list[Level]:
         width=problem.width,
         source=problem.source,
     )
+    if problem.edge_pressure is None:
+        return levels
+    mesh = levels[0].mesh
+    excess = problem.edge_pressure(mesh.x, mesh.y) - problem.fluid.ambient_pressure
+    return [replace(levels[0], edge_excess=np.where(mesh.edge, excess, 0.0)), *levels[1:]]
 
 
 def _is_trial_grid(problem: FilmProblem, solution: GridSolution) -> bool:

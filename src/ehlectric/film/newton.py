@@ -167,7 +167,7 @@ def assess(fluid: Fluid, level: Level, state: State) -> Residual:
     gap = Gap(level, thickness)
     r = residual(at_faces, level.wedge, thickness, mesh) - level.source
     poiseuille = poiseuille_weight(at_faces, mesh)
-    excess = state.pressure - fluid.ambient_pressure
+    excess = state.pressure - fluid.ambient_pressure - level.edge_excess
     full_film = full_film_nodes(
         excess, r, poiseuille=poiseuille, rate=level.rate, thickness=thickness, inner=mesh.inner
     )
@@ -247,7 +247,8 @@ def _direction(
     system. The preconditioner is on the right, so that GMRES minimises the residual itself.
     """
     finest = jacobians[0]
-    to_ambient = np.where(now.full_film, 0.0, fluid.ambient_pressure - state.pressure)
+    resting = fluid.ambient_pressure + levels[0].edge_excess
+    to_ambient = np.where(now.full_film, 0.0, resting - state.pressure)
     change, load_change = finest(to_ambient, 0.0)
     right = np.append(-finest.scale * (now.reynolds + change), now.load - load_change)
     cycles = 0

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.interpolate import RegularGridInterpolator
 
 from ehlectric.arrays import Array
-from ehlectric.film.accuracy.adaptive import refined_solutions
+from ehlectric.film.accuracy.adaptive import refined_solution
 from ehlectric.film.estimates import side_deficit
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.solution import FilmSolution, quiet_solution, stationary_film
@@ -160,13 +160,15 @@ def solve_point_film(problem: FilmProblem, *, progress: Progress | None = None) 
     """
     assert problem.width is not None
     with quiet_solution():
-        problem, solutions = refined_solutions(problem, progress)
-        mesh, state = solutions[-1].level.mesh, solutions[-1].state
+        found = refined_solution(problem, progress)
+        whole, patch = found.whole, found.patch
+        mesh = whole.level.mesh
+        y = mesh.whole_y if patch is None else patch.join(found.last.level.mesh).y
         return PointFilm.of(
-            stationary_film(problem, solutions, mesh.mirrored),
-            y=problem.scales.length * mesh.whole_y,
+            stationary_film(found, mesh.mirrored),
+            y=problem.scales.length * y,
             semi_axis_y=semi_axis_across(problem),
-            side_deficit=side_deficit(problem, mesh, state.pressure, state.thickness),
+            side_deficit=side_deficit(problem, mesh, whole.state.pressure, whole.state.thickness),
         )
 
 

@@ -67,6 +67,9 @@ class FilmProblem:
     source : callable, optional
         Right side of the Reynolds equation: function of X (nx,) and Y (ny,) -> (nx, ny); zero by default. It
         serves manufactured solutions, and surfaces that absorb or release oil.
+    edge_pressure : callable, optional
+        Pressure P on the edges of the domain, in place of ambient pressure: function of X (nx,) and Y (ny,)
+        -> (nx, ny), of which only the edges count.
     target_error : float, optional
         Relative discretisation error to which the grid is refined: its intervals are doubled until the
         estimate is as small. By default the film is solved on ``nodes`` only.
@@ -87,6 +90,7 @@ class FilmProblem:
     width: Width | None = None
     added_gap: Callable[[Array, Array], Array] | None = None
     source: Callable[[Array, Array], Array] | None = None
+    edge_pressure: Callable[[Array, Array], Array] | None = None
     target_error: float | None = None
     most_nodes: int = 10_000_001
 

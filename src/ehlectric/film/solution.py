@@ -11,12 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.film.accuracy.adaptive import coarser_solutions
+from ehlectric.film.accuracy.adaptive import RefinedSolution
 from ehlectric.film.accuracy.max_pressure import max_pressure_error
 from ehlectric.film.accuracy.rough_film import rough_film_error
 from ehlectric.film.estimates import inlet_deficit
 from ehlectric.film.mesh import Mesh
-from ehlectric.film.problem import FilmProblem, Scales
+from ehlectric.film.problem import Scales
 from ehlectric.film.state import GridSolution, NewtonStep, State, Status, film_touches
 from ehlectric.runtime.threads import one_blas_thread
 from ehlectric.runtime.values import Values
@@ -118,46 +118,74 @@ def quiet_solution() -> Iterator[None]:
 Shaped = Callable[[NDArray[Any]], NDArray[Any]]
 
 
-def stationary_film(problem: FilmProblem, solutions: list[GridSolution], shaped: Shaped) -> FilmSolution:
+def stationary_film(found: RefinedSolution, shaped: Shaped) -> FilmSolution:
     """Stationary film in SI units from the dimensionless solutions on all grids.
 
     Parameters
     ----------
-    problem : FilmProblem
-        Dimensionless problem of the contact.
-    solutions : list of GridSolution
-        Solutions that ``nested_iteration`` returns; the last is that on the finest grid.
+    found : RefinedSolution
+        Solutions on all grids.
     shaped : callable
-        Function that brings nodal values (nx, ny) into their shape in the film.
+        Function that brings nodal values (nx, ny) of the whole domain into their shape in the film.
 
     Returns
     -------
     FilmSolution
-        Film on the finest grid, with residuals, Newton steps and error estimates.
+        Film on the finest grid, with residuals, Newton steps and error estimates. Where this grid is a patch,
+        the film has its nodes inside the patch, and coarse ones outside.
     """
-    finest, scales = solutions[-1], problem.scales
-    state, final, level = finest.state, finest.final, finest.level
-    steps = tuple(step for solution in solutions for step in solution.steps)
-    mass = final.coefficients.density * state.thickness
-    coarser = coarser_solutions(problem, solutions)
+    problem, finest, whole = found.problem, found.last, found.whole
+    scales, coarser = problem.scales, found.coarser
+    steps = tuple(step for solution in found.solutions for step in solution.steps)
+    x, values = _nodal(found, shaped)
     return FilmSolution(
-        x=scales.length * level.mesh.x,
-        pressure=shaped(pressure_of(scales, state, final.full_film)),
-        thickness=shaped(scales.thickness * state.thickness),
-        deflection=shaped(scales.thickness * level.deflection(state.pressure)),
-        density=shaped(final.coefficients.density),
-        cavitated=shaped(~final.full_film),
+        x=scales.length * x,
+        **values,
         scales=scales,
-        status=film_status(finest.status, level.mesh, state.thickness),
-        load_residual=abs(final.load) / level.load,
-        reynolds_residual=shaped(final.scaled),
-        residual=final.norm,
-        newton_iterations=sum(step.nodes == problem.nodes for step in steps),
+        status=film_status(finest.status, finest.level.mesh, finest.state.thickness),
+        load_residual=abs(finest.final.load) / finest.level.load,
+        residual=finest.final.norm,
+        newton_iterations=sum(
+            len(each.steps) for each in found.solutions if each.level.mesh.dx == finest.level.mesh.dx
+        ),
         steps=steps,
         discretisation_error=rough_film_error(problem, finest, coarser),
-        inlet_deficit=inlet_deficit(problem.fluid, problem.geometry, level.mesh, state.pressure, mass),
+        inlet_deficit=inlet_deficit(
+            problem.fluid,
+            problem.geometry,
+            whole.level.mesh,
+            whole.state.pressure,
+            whole.final.coefficients.density * whole.state.thickness,
+        ),
         max_pressure_error=max_pressure_error(finest, coarser[0] if coarser else None),
     )
+
+
+def _nodal(found: RefinedSolution, shaped: Shaped) -> tuple[Array, dict[str, Any]]:
+    """Positions X along entrainment, and nodal values of the film by the names of its attributes."""
+    scales, finest, patch = found.problem.scales, found.last, found.patch
+    if patch is None:
+        values = _values(scales, finest, 0.0)
+        return finest.level.mesh.x, {name: shaped(each) for name, each in values.items()}
+    mesh = finest.level.mesh
+    joined = patch.join(mesh)
+    outer = patch.outer_deflection(patch.times(mesh))(mesh.x, mesh.y)
+    fine = _values(scales, finest, outer)
+    coarse = _values(scales, patch.coarse, 0.0)
+    return joined.x, {name: joined(coarse[name], fine[name]) for name in fine}
+
+
+def _values(scales: Scales, solution: GridSolution, outer: Array | float) -> dict[str, NDArray[Any]]:
+    """Nodal values of a solution (nx, ny) by their names; ``outer`` is the deflection from outside."""
+    state, final = solution.state, solution.final
+    return {
+        "pressure": pressure_of(scales, state, final.full_film),
+        "thickness": scales.thickness * state.thickness,
+        "deflection": scales.thickness * (solution.level.deflection(state.pressure) + outer),
+        "density": final.coefficients.density,
+        "cavitated": ~final.full_film,
+        "reynolds_residual": final.scaled,
+    }
 
 
 def pressure_of(scales: Scales, state: State, full_film: Mask) -> Array:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
+from ehlectric.film.accuracy.patch import Patch
 from ehlectric.film.accuracy.rough_film import rough_film_error
 from ehlectric.film.nested import nested_iteration
 from ehlectric.film.problem import FilmProblem
@@ -12,9 +15,54 @@ from ehlectric.film.state import GridSolution, Progress
 UNKNOWN = 3
 
 
-def refined_solutions(
-    problem: FilmProblem, progress: Progress | None
-) -> tuple[FilmProblem, list[GridSolution]]:
+@dataclass(frozen=True)
+class RefinedSolution:
+    """Solution of a film on its last grid, which may be a patch of a coarser grid over the whole domain.
+
+    Attributes
+    ----------
+    problem : FilmProblem
+        Problem of the last grid.
+    solutions : list of GridSolution
+        Solutions on all grids, as ``nested_iteration`` returns them.
+    patch : Patch or None
+        Patch that the last grid covers; None if it covers the whole domain.
+    """
+
+    problem: FilmProblem
+    solutions: list[GridSolution]
+    patch: Patch | None = None
+
+    @property
+    def last(self) -> GridSolution:
+        """Solution on the last grid."""
+        return self.solutions[-1]
+
+    @property
+    def whole(self) -> GridSolution:
+        """Solution on the last grid over the whole domain."""
+        return self.last if self.patch is None else self.patch.coarse
+
+    @property
+    def error(self) -> float | None:
+        """Relative discretisation error, estimated from the last grids; None if unknown."""
+        return rough_film_error(self.problem, self.last, self.coarser)
+
+    @property
+    def coarser(self) -> list[GridSolution]:
+        """Last solutions on the coarser grids for the same surfaces, from the finest on."""
+        if any(g.status == "converged" and _alike(g, self.last) for g in self.solutions[:-1]):
+            # The roughness was raised in steps on the finest grid, so the film of the coarser grid belongs to
+            # other surfaces.
+            return []
+        found = [self.last]
+        for solution in reversed(self.solutions):
+            if solution.level.mesh.dx > 1.1 * found[-1].level.mesh.dx:
+                found.append(solution)
+        return found[1:]
+
+
+def refined_solution(problem: FilmProblem, progress: Progress | None) -> RefinedSolution:
     """Solve the film, and refine its grid until the discretisation error is below the target of the problem.
 
     Parameters
@@ -26,51 +74,42 @@ def refined_solutions(
 
     Returns
     -------
-    problem : FilmProblem
-        Problem with the number of nodes of the last grid.
-    solutions : list of GridSolution
-        Solutions on all grids, as ``nested_iteration`` returns them.
+    RefinedSolution
+        Solutions on all grids.
 
     Notes
     -----
-    The intervals are doubled along both axes. The refinement ends below the target, at ``most_nodes``, or
-    after three grids in succession whose error is unknown because a film did not converge.
+    The spacings are halved along both axes, in a point contact only on a patch where its film is decided. The
+    refinement ends below the target, at ``most_nodes`` over the whole domain, or after three grids in
+    succession whose error is unknown because a film did not converge.
     """
-    solutions = nested_iteration(problem, progress)
-    target, unknown = problem.target_error, 0
+    found = RefinedSolution(problem, nested_iteration(problem, progress))
+    target, unknown, times = problem.target_error, 0, 1
     while target is not None:
-        error = solution_error(problem, solutions)
+        error, times = found.error, 2 * times
         unknown = unknown + 1 if error is None else 0
-        finer = problem.doubled()
-        if (error is not None and error <= target) or unknown >= UNKNOWN or finer.nodes > problem.most_nodes:
+        if (error is not None and error <= target) or unknown >= UNKNOWN:
             break
-        problem, solutions = finer, nested_iteration(finer, progress, solutions)
-    return problem, solutions
+        if times * (problem.nodes - 1) + 1 > problem.most_nodes:
+            break
+        found = _finer(found, progress)
+    return found
 
 
-def solution_error(problem: FilmProblem, solutions: list[GridSolution]) -> float | None:
-    """Relative discretisation error of the last solution, estimated from those on the coarser grids.
-
-    Parameters
-    ----------
-    problem : FilmProblem
-        Problem of the last solution.
-    solutions : list of GridSolution
-        Solutions on all grids, as ``nested_iteration`` returns them.
-
-    Returns
-    -------
-    float or None
-        Relative error of the minimum or of the central film thickness, whichever is larger; None if unknown.
-    """
-    return rough_film_error(problem, solutions[-1], coarser_solutions(problem, solutions))
+def _finer(found: RefinedSolution, progress: Progress | None) -> RefinedSolution:
+    """Solution with half of the spacings, on a patch where there is one."""
+    patch = found.patch
+    if patch is None and found.error is not None:
+        patch = Patch.around(found.problem, found.last)
+    if patch is None:
+        finer = found.problem.doubled()
+    else:
+        finer = patch.refined(2 * patch.times(found.last.level.mesh))
+    return RefinedSolution(finer, nested_iteration(finer, progress, found.solutions), patch)
 
 
-def coarser_solutions(problem: FilmProblem, solutions: list[GridSolution]) -> list[GridSolution]:
-    """Last solutions on the coarser grids for the same surfaces, from the finest on, for error estimates."""
-    if any(g.status == "converged" and g.level.nodes == problem.nodes for g in solutions[:-1]):
-        # The roughness was raised in steps on the finest grid, so the coarser grid's film belongs to other
-        # surfaces.
-        return []
-    by_nodes = {solution.level.nodes: solution for solution in solutions}
-    return [by_nodes[nodes] for nodes in sorted(by_nodes, reverse=True) if nodes < problem.nodes]
+def _alike(solution: GridSolution, other: GridSolution) -> bool:
+    """Whether two solutions have the same grid."""
+    return (
+        solution.level.mesh.shape == other.level.mesh.shape and solution.level.mesh.dx == other.level.mesh.dx
+    )

@@ -23,6 +23,15 @@ def interpolated(mesh: Mesh, values: Array, x: Array, y: Array) -> Array:
     return result
 
 
+def cropped(coarse: Values, fine: Mesh) -> Values:
+    """Nodal values (nx, ny) of a coarse grid on its nodes within the domain of a fine grid."""
+    mesh, values = coarse
+    reach = 1e-9 * (fine.x[-1] - fine.x[0])
+    rows = (mesh.x >= fine.x[0] - reach) & (mesh.x <= fine.x[-1] + reach)
+    lines = np.abs(mesh.y) <= fine.y[-1] + reach
+    return Mesh(mesh.x[rows], mesh.y[lines], mesh.symmetric), values[np.ix_(rows, lines)]
+
+
 def position(mesh: Mesh, index: int) -> tuple[float, float]:
     """Position (X, Y) of a node with its index in the flattened nodal values."""
     along, across = np.unravel_index(index, mesh.shape)
@@ -35,7 +44,8 @@ def change_near(fine: Values, coarse: Values, places: list[tuple[float, float]])
     Parameters
     ----------
     fine, coarse : pair of Mesh and ndarray
-        Grid and nodal values (nx, ny), on a grid and on the next coarser grid over the same domain.
+        Grid and nodal values (nx, ny), on a grid and on the next coarser grid over the same domain or a
+        larger one.
     places : list of (float, float)
         Positions (X, Y).
 
@@ -53,7 +63,7 @@ def change_near(fine: Values, coarse: Values, places: list[tuple[float, float]])
     >>> [round(change_near(values, shifted, [(x, 0.0)]), 3) for x in (-1.0, 0.0)]
     [0.0, 0.1]
     """
-    mesh, values = coarse
+    mesh, values = cropped(coarse, fine[0])
     difference = np.abs(interpolated(*fine, mesh.x, mesh.y) - values)
     largest = 0.0
     for at_x, at_y in places:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.film.accuracy.between_grids import Values, change_near, interpolated
+from ehlectric.film.accuracy.between_grids import Values, change_near, cropped, interpolated
 from ehlectric.film.estimates import MINIMUM_ORDER, discretisation_error
 from ehlectric.film.mesh import Mesh, at_centre
 from ehlectric.film.problem import FilmProblem
@@ -102,7 +102,7 @@ def change_of_minimum(fine: Values, coarse: Values) -> float:
     >>> round(change_of_minimum(on_fine, on_coarse), 3)
     0.3
     """
-    mesh, film = coarse
+    mesh, film = cropped(coarse, fine[0])
     there = interpolated(*fine, mesh.x, mesh.y)
     change = np.abs(there - film)
     lowest = float(np.min(fine[1]))
