@@ -247,7 +247,7 @@ def _direction(
     system. The preconditioner is on the right, so that GMRES minimises the residual itself.
     """
     finest = jacobians[0]
-    resting = fluid.ambient_pressure + levels[0].edge_excess
+    resting = fluid.ambient_pressure + finest.level.edge_excess
     to_ambient = np.where(now.full_film, 0.0, resting - state.pressure)
     change, load_change = finest(to_ambient, 0.0)
     right = np.append(-finest.scale * (now.reynolds + change), now.load - load_change)
