@@ -1,6 +1,6 @@
 """Table of the atlas from the files of its computation.
 
-    python -m ehlectric.atlas.assemble FOLDER ATLAS.npz
+python -m ehlectric.atlas.assemble FOLDER ATLAS.npz
 """
 
 from __future__ import annotations

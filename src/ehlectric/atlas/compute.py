@@ -1,6 +1,6 @@
 """Computation of the atlas: every node is solved once and appended to a file, so that it can be resumed.
 
-    python -m ehlectric.atlas.compute FOLDER --kind points --part 0 --parts 2 --until 18:05
+python -m ehlectric.atlas.compute FOLDER --kind points --part 0 --parts 2 --until 18:05
 """
 
 from __future__ import annotations

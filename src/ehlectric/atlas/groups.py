@@ -1,7 +1,7 @@
 """Dimensionless groups of the atlas, and the dimensionless film problems that have them.
 
-A smooth, fully flooded, isothermal contact with one oil has Moes' groups M and L, and for points the ratio k of
-the semi-axes, k = a/b with a across entrainment. The scales of the film equations follow from them alone:
+A smooth, fully flooded, isothermal contact has Moes' groups M and L, and for points the ratio k of the
+semi-axes, k = a/b with a across entrainment. The scales of the film equations follow from them alone:
 
     lines:  lambda = 3 pi^2/(8 M^2),  alpha p_h = L (M/(2 pi))^(1/2),  H_Moes = (8 M/pi) H
     points: q = (2/pi) R_D(0, k^2, 1),  N = M q^(1/4)/k^(3/4),  lambda = 4 pi/N^(4/3),
@@ -59,7 +59,7 @@ class Groups:
 
     @property
     def _q(self) -> float:
-        """q = (2/pi) R_D(0, k^2, 1), with which b^3 = q F Rx/E'."""
+        """Factor q = (2/pi) R_D(0, k^2, 1) of b^3 = q F Rx/E'."""
         assert self.ratio is not None
         return 2.0 / math.pi * float(elliprd(0.0, self.ratio**2, 1.0))
 
@@ -86,7 +86,7 @@ class Groups:
 
     @property
     def hertz_number(self) -> float:
-        """alpha p_h, the Hertz pressure in units of 1/alpha."""
+        """Product alpha p_h, the Hertz pressure in units of 1/alpha."""
         if self.ratio is None:
             return self.moes_l * math.sqrt(self.moes_m / (2.0 * math.pi))
         moved = self.moes_m ** (1.0 / 3.0) / self._q ** (2.0 / 3.0)
@@ -160,9 +160,7 @@ def film_problem(
     compliance = 3.0 / math.pi**2 / k * groups.moes_m ** (1.0 / 3.0) * groups._q ** (-2.0 / 3.0) / load
     least = min(4.5, _SIDE + 1.4 / k)
     side = max(least * k, _SIDE * k + _SIDE_LENGTHS * length * math.sqrt(groups.radius_ratio))
-    geometry = point_geometry(
-        radius_ratio=1.0 / groups.radius_ratio, ellipse_ratio=k, compliance=compliance
-    )
+    geometry = point_geometry(radius_ratio=1.0 / groups.radius_ratio, ellipse_ratio=k, compliance=compliance)
     return replace(problem, geometry=geometry, width=Width(nodes=nodes, side=side))
 
 
