@@ -15,10 +15,10 @@ from ehlectric.commands.terminal import print_rows, user_errors
 from ehlectric.errors import InputError, shown
 
 if TYPE_CHECKING:
-    from ehlectric.atlas.contact import ContactFilm
-    from ehlectric.atlas.film import AtlasFilm
-    from ehlectric.atlas.groups import Groups
     from ehlectric.cases.row import Row
+    from ehlectric.film.atlas.contact import ContactFilm
+    from ehlectric.film.atlas.film import AtlasFilm
+    from ehlectric.film.atlas.groups import Groups
 
 # Options of a contact in numbers with units: name, SI unit.
 _UNITS = {"radius": "m", "radius_across": "m", "modulus": "Pa", "speed": "m/s"}
@@ -68,8 +68,8 @@ def film(
 
 def _by_groups(m: float | None, l: float | None, k: float | None) -> tuple[Groups, AtlasFilm, None]:  # noqa: E741
     """Film of Moes' groups."""
-    from ehlectric.atlas.film import atlas_film
-    from ehlectric.atlas.groups import Groups
+    from ehlectric.film.atlas.film import atlas_film
+    from ehlectric.film.atlas.groups import Groups
 
     for name, value in (("--m", m), ("--l", l), ("--k", k)):
         if (value is None and name != "--k") or (value is not None and not 0.0 < value < math.inf):
@@ -84,8 +84,8 @@ def _by_numbers(
     given: dict[str, str | None], load: str | None, oil: str | None, temperature: str | None
 ) -> ContactFilm:
     """Film of a contact in SI units and an oil."""
-    from ehlectric.atlas.contact import contact_film
     from ehlectric.cases.oils import named
+    from ehlectric.film.atlas.contact import contact_film
     from ehlectric.formulas.film_line import LineContact
     from ehlectric.formulas.film_point import PointContact
 

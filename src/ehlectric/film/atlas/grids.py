@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.atlas.groups import Groups, groups_of
+from ehlectric.film.atlas.groups import Groups, groups_of
 
 # Exponent of the load group in the lubricant coordinate Y = L N^(1/6). In bearings L falls and N rises with
 # the viscosity and the speed, so that L and N are correlated, whereas Y and N are hardly so.
@@ -42,10 +42,15 @@ class Axes:
     ratio: Array | None = None
 
     @property
+    def nodes(self) -> tuple[Array, ...]:
+        """Nodes along each axis."""
+        axes = (self.load, self.lubricant)
+        return axes if self.ratio is None else (*axes, self.ratio)
+
+    @property
     def shape(self) -> tuple[int, ...]:
         """Numbers of nodes."""
-        sizes = (self.load.size, self.lubricant.size)
-        return sizes if self.ratio is None else (*sizes, self.ratio.size)
+        return tuple(axis.size for axis in self.nodes)
 
     def groups(self, at: tuple[int, ...]) -> Groups:
         """Groups of the contact at a node."""

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.interpolate import RectBivariateSpline, make_interp_spline
 
 from ehlectric.arrays import Array
-from ehlectric.atlas.groups import Groups
+from ehlectric.film.atlas.groups import Groups
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.state import GridSolution
 from ehlectric.formulas.hertz_line import line_gap
@@ -23,6 +23,8 @@ from ehlectric.formulas.hertz_point import DryContact, point_deflection
 #   the same integral of the dry gap plus h(0).
 #   minimum_x, minimum_y: place of the minimum in semi-axes b and a.
 NAMES = ("central", "minimum", "mean", "pressure", "zone", "inlet", "outlet", "minimum_x", "minimum_y")
+
+_MIDDLE = np.zeros(())
 
 # Points of the quadrature over the Hertz ellipse, and over the area outside.
 _RADII, _ANGLES = 48, 96
@@ -70,11 +72,11 @@ def _of_point(groups: Groups, x: Array, y: Array, maps: list[Array]) -> Array:
     radius = np.sqrt(0.5 * (points[:, np.newaxis] + 1.0))
     angle = 2.0 * np.pi * np.arange(_ANGLES) / _ANGLES
     disc = (radius * np.cos(angle), k * radius * np.sin(angle))
-    centre, mass_0 = math.exp(float(film(0.0, 0.0)[0, 0])), float(mass(0.0, 0.0)[0, 0])
+    centre, mass_0 = math.exp(float(film.ev(_MIDDLE, _MIDDLE))), float(mass.ev(_MIDDLE, _MIDDLE))
     mean = 0.5 * float(weights @ np.exp(film.ev(*disc)).mean(axis=1))
     zone = 0.5 * float(weights @ np.exp(mass_0 - mass.ev(*disc)).mean(axis=1))
     least = _least(film, x, y, thickness)
-    p_0 = float(RectBivariateSpline(x, y, pressure, s=0)(0.0, 0.0)[0, 0])
+    p_0 = float(RectBivariateSpline(x, y, pressure, s=0).ev(_MIDDLE, _MIDDLE))
     films = [unit * math.exp(mass_0), unit * least[0], unit * mean]
     outside = _outside(groups, film, centre)
     return np.array([*films, p_0, zone, *outside, least[1], abs(least[2]) / k])
@@ -82,7 +84,7 @@ def _of_point(groups: Groups, x: Array, y: Array, maps: list[Array]) -> Array:
 
 def _least(film: RectBivariateSpline, x: Array, y: Array, thickness: Array) -> tuple[float, float, float]:
     """Smallest film thickness between the nodes and its place, by a spline of ln H."""
-    i, j = np.unravel_index(np.argmin(thickness), thickness.shape)
+    i, j = map(int, np.unravel_index(np.argmin(thickness), thickness.shape))
     at_x = np.linspace(x[max(i - 1, 0)], x[min(i + 1, x.size - 1)], 41)
     at_y = np.linspace(y[max(j - 1, 0)], y[min(j + 1, y.size - 1)], 41)
     values = film(at_x, at_y)

@@ -11,11 +11,11 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.atlas.coefficient import OilGroups, reference_laws
-from ehlectric.atlas.grids import lubricant_coordinate
-from ehlectric.atlas.groups import Groups
-from ehlectric.atlas.measures import NAMES
-from ehlectric.atlas.table import table
+from ehlectric.film.atlas.coefficient import OilGroups, reference_laws
+from ehlectric.film.atlas.grids import lubricant_coordinate
+from ehlectric.film.atlas.groups import Groups
+from ehlectric.film.atlas.measures import NAMES
+from ehlectric.film.atlas.table import table
 
 Laws = tuple[Callable[..., Any], Callable[..., Any]]
 

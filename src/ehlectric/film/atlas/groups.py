@@ -75,14 +75,14 @@ class Groups:
         """N of a point contact, M of a line contact: the group of the velocity parameter lambda."""
         if self.ratio is None:
             return self.moes_m
-        return self.moes_m * self._q**0.25 / self.ratio**0.75
+        return float(self.moes_m * self._q**0.25 / self.ratio**0.75)
 
     @property
     def velocity_parameter(self) -> float:
         """Velocity parameter lambda = 6 eta0 u_s R^2/(b^3 p_h)."""
         if self.ratio is None:
             return 3.0 * math.pi**2 / (8.0 * self.moes_m**2)
-        return 4.0 * math.pi / self.load_group ** (4.0 / 3.0)
+        return float(4.0 * math.pi / self.load_group ** (4.0 / 3.0))
 
     @property
     def hertz_number(self) -> float:
@@ -90,7 +90,7 @@ class Groups:
         if self.ratio is None:
             return self.moes_l * math.sqrt(self.moes_m / (2.0 * math.pi))
         moved = self.moes_m ** (1.0 / 3.0) / self._q ** (2.0 / 3.0)
-        return 1.5 / math.pi * self.moes_l * moved / self.ratio
+        return float(1.5 / math.pi * self.moes_l * moved / self.ratio)
 
     @property
     def thickness_unit(self) -> float:
@@ -105,10 +105,10 @@ class Groups:
         speed, coefficient = 0.5 * _U, self.moes_l / _U**0.25
         if self.ratio is None:
             line = LineContact(1.0, 1.0, self.moes_m * _U**0.5, speed, 1.0, coefficient)
-            return moes(line).central_thickness / _U**0.5
+            return float(moes(line).central_thickness / _U**0.5)
         load = self.moes_m * _U**0.75
         point = PointContact(1.0, self.radius_ratio, 1.0, load, speed, 1.0, coefficient)
-        return nijenbanning_venner_moes(point).central_thickness / _U**0.5
+        return float(nijenbanning_venner_moes(point).central_thickness / _U**0.5)
 
 
 def groups_of(load_group: float, moes_l: float, ratio: float | None = None) -> Groups:

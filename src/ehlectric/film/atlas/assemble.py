@@ -1,6 +1,6 @@
 """Table of the atlas from the files of its computation.
 
-python -m ehlectric.atlas.assemble FOLDER ATLAS.npz
+python -m ehlectric.film.atlas.assemble FOLDER ATLAS.npz
 """
 
 from __future__ import annotations
@@ -13,14 +13,17 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.atlas.coefficient import REFERENCE, OilGroups, reference_laws
-from ehlectric.atlas.grids import LINES, POINTS, Axes
-from ehlectric.atlas.groups import TOLERANCE, Groups
-from ehlectric.atlas.measures import NAMES
+from ehlectric.film.atlas.coefficient import REFERENCE, OilGroups, reference_laws
+from ehlectric.film.atlas.grids import LINES, POINTS, Axes
+from ehlectric.film.atlas.groups import TOLERANCE, Groups
+from ehlectric.film.atlas.measures import NAMES
 from ehlectric.version import __version__
 
 _CENTRAL, _MINIMUM, _MEAN, _PRESSURE = map(NAMES.index, ("central", "minimum", "mean", "pressure"))
 _PLACES = NAMES.index("minimum_x")
+
+# Least share of solved nodes of an outermost plane of the table that is kept.
+_LEAST_SHARE = 0.5
 
 # Largest relative difference of two grids that is extrapolated to a vanishing node spacing.
 _SMALL = 0.2
@@ -57,11 +60,23 @@ def assembled(folder: Path, kind: str, axes: Axes) -> dict[str, Any]:
             step = (fine - coarse) / 3.0
             step[_PLACES:] = 0.0
             values[at] = fine + np.where(np.abs(step) < _SMALL / 3.0, step, 0.0)
-            errors[at] = np.abs(step)
+            # The extrapolated value is better than either grid; half of its step bounds its error.
+            errors[at] = 0.5 * np.abs(step)
             solved[at] = True
     fill(values, solved)
     made = {"computed": [min(dates), max(dates)] if dates else [], "seconds": round(seconds)}
-    return {"values": values, "errors": errors, "solved": solved, "made": made}
+    kept = np.ix_(*(_kept(solved, axis) for axis in range(solved.ndim)))
+    values, errors, solved = values[kept], errors[kept], solved[kept]
+    fill(values, solved)
+    nodes = [axis[index.ravel()] for axis, index in zip(axes.nodes, kept, strict=True)]
+    return {"values": values, "errors": errors, "solved": solved, "made": made, "nodes": nodes}
+
+
+def _kept(solved: Mask, axis: int) -> list[int]:
+    """Indices along an axis without its ends where less than half of the nodes are solved."""
+    share = solved.mean(axis=tuple(i for i in range(solved.ndim) if i != axis))
+    good = np.flatnonzero(share >= _LEAST_SHARE)
+    return list(range(int(good[0]), int(good[-1]) + 1))
 
 
 def fill(values: Array, solved: Mask) -> None:
@@ -89,10 +104,9 @@ def main() -> None:
         made = assembled(chosen.folder, kind, axes)
         arrays |= {f"{kind}_values": made["values"].astype(np.float32)}
         arrays |= {f"{kind}_errors": made["errors"].astype(np.float32), f"{kind}_solved": made["solved"]}
-        arrays |= {f"{kind}_load": axes.load, f"{kind}_lubricant": axes.lubricant}
-        if axes.ratio is not None:
-            arrays[f"{kind}_ratio"] = axes.ratio
-        provenance[kind] = made["made"] | {"nodes": axes.shape, "solved": int(made["solved"].sum())}
+        for name, nodes in zip(("load", "lubricant", "ratio"), made["nodes"], strict=False):
+            arrays[f"{kind}_{name}"] = nodes
+        provenance[kind] = made["made"] | {"nodes": made["solved"].shape, "solved": int(made["solved"].sum())}
     np.savez_compressed(chosen.table, provenance=json.dumps(provenance), **arrays)
 
 

@@ -7,9 +7,9 @@ from functools import lru_cache
 
 import numpy as np
 
-from ehlectric.atlas.coefficient import OilGroups
-from ehlectric.atlas.film import AtlasFilm, atlas_film
-from ehlectric.atlas.groups import Groups
+from ehlectric.film.atlas.coefficient import OilGroups
+from ehlectric.film.atlas.film import AtlasFilm, atlas_film
+from ehlectric.film.atlas.groups import Groups
 from ehlectric.formulas.film_line import LineContact
 from ehlectric.formulas.film_point import PointContact
 from ehlectric.formulas.hertz_point import axis_ratio
@@ -81,8 +81,7 @@ def contact_film(contact: LineContact | PointContact, oil: Oil) -> ContactFilm:
     groups = Groups(moved.moes_m, moved.moes_l, ratio)
     film = atlas_film(groups, laws, groups_of_oil)
     unit = radius * float(np.sqrt(2.0 * moved._u))
-    films = (unit * value for value in (film.central, film.minimum, film.mean))
-    return ContactFilm(*films, groups, film)
+    return ContactFilm(unit * film.central, unit * film.minimum, unit * film.mean, groups, film)
 
 
 @lru_cache(maxsize=64)

@@ -5,17 +5,17 @@ import math
 import numpy as np
 import pytest
 
-from ehlectric.atlas.coefficient import OilGroups, film_coefficient, reference_laws
-from ehlectric.atlas.contact import contact_film
-from ehlectric.atlas.film import atlas_film
-from ehlectric.atlas.groups import Groups, film_problem, groups_of
-from ehlectric.atlas.table import Table, provenance, tensor_spline
 from ehlectric.cases.grid import Grid
 from ehlectric.cases.oils.lubricant import Lubricant
 from ehlectric.contact.conditions import line_conditions, point_conditions
 from ehlectric.contact.problems import geometry_of
 from ehlectric.contact.solver import solve_contact
 from ehlectric.errors import InputError
+from ehlectric.film.atlas.coefficient import OilGroups, film_coefficient, reference_laws
+from ehlectric.film.atlas.contact import contact_film
+from ehlectric.film.atlas.film import atlas_film
+from ehlectric.film.atlas.groups import Groups, film_problem, groups_of
+from ehlectric.film.atlas.table import Table, provenance, tensor_spline
 from ehlectric.lubricant.density import incompressible
 from ehlectric.lubricant.viscosity import barus
 

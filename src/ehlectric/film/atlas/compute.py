@@ -1,6 +1,6 @@
 """Computation of the atlas: every node is solved once and appended to a file, so that it can be resumed.
 
-python -m ehlectric.atlas.compute FOLDER --kind points --part 0 --parts 2 --until 18:05
+python -m ehlectric.film.atlas.compute FOLDER --kind points --part 0 --parts 2 --until 18:05
 """
 
 from __future__ import annotations
@@ -13,10 +13,10 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from ehlectric.atlas.coefficient import OilGroups, reference_laws
-from ehlectric.atlas.grids import LINES, POINTS
-from ehlectric.atlas.groups import Groups, film_problem
-from ehlectric.atlas.measures import measured
+from ehlectric.film.atlas.coefficient import OilGroups, reference_laws
+from ehlectric.film.atlas.grids import LINES, POINTS
+from ehlectric.film.atlas.groups import Groups, film_problem
+from ehlectric.film.atlas.measures import measured
 from ehlectric.film.nested import nested_iteration
 from ehlectric.film.solution import quiet_solution
 from ehlectric.version import __version__
