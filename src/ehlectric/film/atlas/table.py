@@ -57,9 +57,11 @@ class Table:
 
         At a node of the coarser grid it is the largest one of its neighbours.
         """
-        every = tuple(slice(None, None, 2) for _ in self.axes)
         logs = [np.log(axis) for axis in self.axes]
-        coarse = tensor_spline([axis[::2] for axis in logs], self.values[every])
+        # Both ends of an axis belong to every second node, so that nothing is extrapolated.
+        every = [np.unique(np.append(np.arange(0, axis.size, 2), axis.size - 1)) for axis in logs]
+        nodes = [axis[index] for axis, index in zip(logs, every, strict=True)]
+        coarse = tensor_spline(nodes, self.values[np.ix_(*every)])
         at = np.stack(np.meshgrid(*logs, indexing="ij"), axis=-1)
         missed = np.where(self.solved[..., np.newaxis], np.abs(coarse(at) - self.values), 0.0)
         return _HALVED * _largest_near(missed)
