@@ -1,7 +1,7 @@
 """The atlas against contacts that are solved for the comparison: ``python -m benchmarks.atlas lines 300``.
 
-Oils and groups are drawn at random. Each film is compared with the atlas: median, 95 % and largest difference,
-and the share inside the stated error.
+Oils and groups are drawn at random. Each film is compared with the atlas: median, 95 % and largest
+difference, and the share inside the stated error.
 """
 
 import math

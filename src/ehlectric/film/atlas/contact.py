@@ -69,7 +69,7 @@ def contact_film(contact: LineContact | PointContact, oil: Oil) -> ContactFilm:
     >>> ball = PointContact(10e-3, 10e-3, 226e9, 20.0, 2.0, oil.viscosity, 0.0)
     >>> film = contact_film(ball, oil)
     >>> round(film.central_thickness * 1e6, 2)
-    0.44
+    0.42
     """
     laws = (oil.log_viscosity, oil.density_ratio)
     groups_of_oil = _groups_of(oil)
