@@ -12,6 +12,7 @@ import typer
 from ehlectric.commands.bearing import bearing, bearings
 from ehlectric.commands.check import check
 from ehlectric.commands.contact import plot, run
+from ehlectric.commands.film import film
 from ehlectric.commands.library.oils import oil, oils
 from ehlectric.commands.maps import draw_maps, sensitivity
 from ehlectric.commands.motion import animate
@@ -49,6 +50,15 @@ _COMMANDS = (
     ("run", run, "Solve a contact.", ("run case.toml -o results", "run case.toml --format pdf --format svg")),
     ("bearing", bearing, "Solve a whole rolling bearing.", ("bearing bearing.toml --contacts formula",)),
     ("bearings", bearings, "List the bearings of the library.", ("bearings", "bearings --json")),
+    (
+        "film",
+        film,
+        "Film of a contact, at once.",
+        (
+            "film --m 200 --l 10 --k 1",
+            'film --oil fva-3 --temperature "70 degC" --radius "8 mm" --load "100 kN/m" --speed "4 m/s"',
+        ),
+    ),
     ("oils", oils, "List the oils of the library.", ("oils", "oils --json")),
     (
         "oil",

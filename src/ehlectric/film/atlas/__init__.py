@@ -1,0 +1,1 @@
+"""Atlas of films: dimensionless films of smooth contacts, solved once, and interpolated."""

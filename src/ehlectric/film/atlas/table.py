@@ -1,0 +1,139 @@
+"""Tables of the atlas: interpolation between its nodes, its error, and the range in which it answers."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from importlib.resources import files
+from typing import Any
+
+import numpy as np
+from scipy.interpolate import NdBSpline, make_interp_spline
+
+from ehlectric.arrays import Array, Mask
+from ehlectric.errors import InputError
+
+# The error of a spline through every node over that of a spline through every second one: a sixteenth for
+# smooth values; kinks, where the minimum changes its place or a spike passes the centre, do worse.
+_HALVED = 1.0 / 5.0
+
+
+@dataclass(frozen=True, eq=False)
+class Table:
+    """Films of one kind of contact on a tensor grid in the logarithms of its coordinates.
+
+    Attributes
+    ----------
+    names : tuple of str
+        Names of the coordinates, for messages.
+    axes : tuple of ndarray
+        Nodes along each axis.
+    values, errors : ndarray, shape (..., n)
+        Stored numbers at the nodes, and the errors of their discretisation.
+    solved : ndarray of bool, shape (...)
+        Nodes with a converged film.
+    """
+
+    names: tuple[str, ...]
+    axes: tuple[Array, ...]
+    values: Array
+    errors: Array
+    solved: Mask
+
+    @cached_property
+    def _spline(self) -> NdBSpline:
+        return tensor_spline([np.log(axis) for axis in self.axes], self.values)
+
+    @cached_property
+    def _error(self) -> NdBSpline:
+        """Error of discretisation and interpolation, linear between nodes."""
+        total = self.errors + self.interpolation_errors
+        return tensor_spline([np.log(axis) for axis in self.axes], total, degree=1)
+
+    @cached_property
+    def interpolation_errors(self) -> Array:
+        """Estimated error of interpolation near each node, from a spline through every second node.
+
+        At a node of the coarser grid it is the largest one of its neighbours.
+        """
+        logs = [np.log(axis) for axis in self.axes]
+        # Both ends of an axis belong to every second node, so that nothing is extrapolated.
+        every = [np.unique(np.append(np.arange(0, axis.size, 2), axis.size - 1)) for axis in logs]
+        nodes = [axis[index] for axis, index in zip(logs, every, strict=True)]
+        coarse = tensor_spline(nodes, self.values[np.ix_(*every)])
+        at = np.stack(np.meshgrid(*logs, indexing="ij"), axis=-1)
+        missed = np.where(self.solved[..., np.newaxis], np.abs(coarse(at) - self.values), 0.0)
+        return _HALVED * _largest_near(missed)
+
+    def __call__(self, *at: float) -> tuple[Array, Array]:
+        """Stored numbers and their errors at a point, which must lie in the range of the table."""
+        self.check(*at)
+        logs = np.log(at)[np.newaxis]
+        return self._spline(logs)[0], self._error(logs)[0]
+
+    def check(self, *at: float) -> None:
+        """Raise an InputError for a point outside the table, or in a cell with a node without a film."""
+        for name, axis, value in zip(self.names, self.axes, at, strict=True):
+            if not axis[0] <= value <= axis[-1]:
+                raise InputError(
+                    name, got=f"{value:.4g}", takes=f"{axis[0]:.4g} to {axis[-1]:.4g}, the range of the atlas"
+                )
+        cell = []
+        for axis, value in zip(self.axes, at, strict=True):
+            i = min(max(int(np.searchsorted(axis, value)) - 1, 0), axis.size - 2)
+            cell.append(slice(i, i + 2))
+        if not self.solved[tuple(cell)].all():
+            where = ", ".join(f"{name} = {value:.4g}" for name, value in zip(self.names, at, strict=True))
+            raise InputError(
+                "atlas", got=where, takes="a contact near solved ones; the atlas has no film there: solve it"
+            )
+
+
+def tensor_spline(logs: list[Array], values: Array, degree: int = 3) -> NdBSpline:
+    """Spline through values (..., n) on a tensor grid; lower degrees where an axis has few nodes."""
+    knots, degrees, coefficients = [], [], values
+    for number, axis in enumerate(logs):
+        k = min(degree, axis.size - 1)
+        spline = make_interp_spline(axis, np.moveaxis(coefficients, number, 0), k)
+        coefficients = np.moveaxis(spline.c, 0, number)
+        knots.append(spline.t)
+        degrees.append(k)
+    return NdBSpline(tuple(knots), np.ascontiguousarray(coefficients), tuple(degrees))
+
+
+def _largest_near(values: Array) -> Array:
+    """Largest value of a node and its neighbours along each axis but the last."""
+    for axis in range(values.ndim - 1):
+        ends = [(1, 1) if i == axis else (0, 0) for i in range(values.ndim)]
+        wide = np.pad(values, ends, mode="edge")
+        n = values.shape[axis]
+        values = np.maximum.reduce([np.take(wide, range(i, i + n), axis) for i in range(3)])
+    return values
+
+
+@lru_cache(maxsize=1)
+def _file() -> dict[str, Any]:
+    """Content of the data file, read at the first use."""
+    with files(__package__).joinpath("films.npz").open("rb") as file, np.load(file) as arrays:
+        return {name: arrays[name] for name in arrays.files}
+
+
+@lru_cache(maxsize=2)
+def table(kind: str) -> Table:
+    """Table of "points" or "lines"."""
+    data, names = _file(), ("moes_n", "moes_y", "ratio") if kind == "points" else ("moes_m", "moes_y")
+    parts = ("load", "lubricant", "ratio")[: len(names)]
+    return Table(
+        names,
+        tuple(data[f"{kind}_{part}"] for part in parts),
+        np.asarray(data[f"{kind}_values"], dtype=float),
+        np.asarray(data[f"{kind}_errors"], dtype=float),
+        data[f"{kind}_solved"],
+    )
+
+
+def provenance() -> dict[str, Any]:
+    """Version, dates and settings with which the atlas was computed."""
+    made: dict[str, Any] = json.loads(str(_file()["provenance"]))
+    return made

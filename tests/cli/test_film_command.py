@@ -1,0 +1,38 @@
+"""The film command, as a user types it."""
+
+import json
+
+import pytest
+
+
+def test_film_of_groups(ehlectric):
+    done = ehlectric("film", "--m", "50", "--l", "10")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "central film" in done.stdout
+    assert "±" in done.stdout
+
+
+def test_film_of_a_contact(ehlectric):
+    contact = ("--radius", "8 mm", "--load", "100 kN/m", "--speed", "4 m/s")
+    done = ehlectric("film", "--oil", "fva-3", "--temperature", "70 degC", *contact, "--json")
+    assert done.returncode == 0, done.stderr
+    numbers = json.loads(done.stdout)
+    assert numbers["ratio"] is None
+    # Solved on 3201 nodes: 0.507 um.
+    assert numbers["central_thickness"] == pytest.approx(0.507e-6, rel=0.01)
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("--m", "50"), "--l: got nothing"),
+        (("--m", "1e9", "--l", "10"), "the range of the atlas"),
+        (("--oil", "fva-3", "--temperature", "70 degC", "--radius", "8 kg"), "--radius"),
+        (("--radius", "8 mm"), "--oil: got nothing"),
+    ],
+)
+def test_mistakes(ehlectric, words, said):
+    done = ehlectric("film", *words)
+    assert done.returncode == 2
+    assert said in done.stderr
+    assert done.stdout == ""

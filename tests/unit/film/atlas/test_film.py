@@ -1,0 +1,141 @@
+"""Films of the atlas against contacts that are solved here and not in it."""
+
+import math
+
+import numpy as np
+import pytest
+
+from ehlectric.cases.grid import Grid
+from ehlectric.cases.oils.lubricant import Lubricant
+from ehlectric.contact.conditions import line_conditions, point_conditions
+from ehlectric.contact.problems import geometry_of
+from ehlectric.contact.solver import solve_contact
+from ehlectric.errors import InputError
+from ehlectric.film.atlas.coefficient import OilGroups, film_coefficient, reference_laws
+from ehlectric.film.atlas.contact import contact_film
+from ehlectric.film.atlas.film import atlas_film
+from ehlectric.film.atlas.groups import Groups, film_problem, groups_of
+from ehlectric.film.atlas.table import Table, provenance, tensor_spline
+from ehlectric.lubricant.density import incompressible
+from ehlectric.lubricant.viscosity import barus
+
+PAPER = Lubricant.from_dict({"base": "paper"}).at(None)
+
+
+def inside(found, solved, error):
+    """Whether a number keeps its stated error, with room for the error of the film solved here."""
+    return abs(found / solved - 1.0) <= error + 0.004
+
+
+def test_groups_are_those_of_conditions():
+    """Velocity parameter, Hertz pressure and unit of the film follow from M, L and k."""
+    line = line_conditions(
+        PAPER, reduced_radius=0.01, reduced_modulus=226e9, load_per_length=2e5, entrainment_speed=3.0
+    )
+    groups = Groups(line.contact.moes_m, line.contact.moes_l)
+    alpha = PAPER.alpha_star
+    assert groups.velocity_parameter == pytest.approx(line.velocity_parameter)
+    assert groups.hertz_number == pytest.approx(alpha * line.max_pressure)
+    point = point_conditions(
+        PAPER, radii=(0.008, 0.05), reduced_modulus=226e9, load=100.0, entrainment_speed=3.0
+    )
+    groups = Groups(point.contact.moes_m, point.contact.moes_l, point.ratio)
+    assert groups.velocity_parameter == pytest.approx(point.velocity_parameter)
+    assert groups.hertz_number == pytest.approx(alpha * point.max_pressure)
+    assert groups.radius_ratio == pytest.approx(0.05 / 0.008)
+    unit = point.radius_x * math.sqrt(2.0 * point.contact._u)
+    assert groups.thickness_unit * unit == pytest.approx(point.thickness_scale)
+    again = groups_of(groups.load_group, groups.moes_l, groups.ratio)
+    assert again.moes_m == pytest.approx(groups.moes_m)
+
+
+def test_problem_of_a_point_is_that_of_its_conditions():
+    point = point_conditions(
+        PAPER, radii=(0.008, 0.05), reduced_modulus=226e9, load=100.0, entrainment_speed=3.0
+    )
+    groups = Groups(point.contact.moes_m, point.contact.moes_l, point.ratio)
+    problem = film_problem(groups, (PAPER.log_viscosity, PAPER.density_ratio), PAPER.alpha_star, 65)
+    expected = geometry_of(point)
+    assert problem.geometry.load == pytest.approx(expected.load)
+    influences = [geometry.influence((5, 5), 0.1, 0.1) for geometry in (problem.geometry, expected)]
+    np.testing.assert_allclose(*influences, rtol=1e-9)
+
+
+def test_coefficient_of_an_incompressible_barus_oil_is_its_alpha():
+    def law(pressure):
+        return barus(pressure, pressure_viscosity_coefficient=1.7e-8)
+
+    assert film_coefficient(law, incompressible) == pytest.approx(1.7e-8, rel=1e-9)
+    oil = OilGroups.of(law, incompressible)
+    assert (oil.shape, oil.compressibility) == (pytest.approx(0.0, abs=1e-9), 0.0)
+
+
+@pytest.mark.parametrize(
+    ("name", "temperature", "load", "speed"),
+    [("fva-3", 343.15, 1e5, 4.0), ("iso-vg-32", 313.15, 3e5, 1.0), ("e-axle-fluid", 353.15, 5e4, 10.0)],
+)
+def test_line_contacts_of_library_oils(name, temperature, load, speed):
+    oil = Lubricant.from_dict({"base": name}).at(temperature)
+    conditions = line_conditions(
+        oil, reduced_radius=8e-3, reduced_modulus=226e9, load_per_length=load, entrainment_speed=speed
+    )
+    found = contact_film(conditions.contact, oil)
+    # The default domain, from -4 half-widths, takes 2 % off the films of these light contacts.
+    film = solve_contact(conditions, oil, grid=Grid(nodes=9601, inlet=-18.0)).film
+    assert inside(found.central_thickness, film.central_thickness, found.errors["central"])
+    assert inside(found.minimum_thickness, film.minimum_thickness, found.errors["minimum"])
+    assert inside(found.mean_thickness, film.mean_thickness, found.errors["mean"])
+    assert found.errors["central"] < 0.03
+
+
+def test_outside_the_atlas_the_range_is_named():
+    with pytest.raises(InputError, match="the range of the atlas"):
+        atlas_film(Groups(1e6, 10.0))
+    with pytest.raises(InputError, match="to 20, the range"):
+        atlas_film(groups_of(100.0, 10.0, 30.0))
+
+
+def test_a_cell_without_a_film_is_refused():
+    axes = (np.array([1.0, 2.0, 4.0]), np.array([1.0, 2.0, 4.0]))
+    solved = np.ones((3, 3), dtype=bool)
+    solved[2, 2] = False
+    made = Table(("a", "b"), axes, np.ones((3, 3, 2)), np.zeros((3, 3, 2)), solved)
+    assert made(1.5, 3.0)[0] == pytest.approx([1.0, 1.0])
+    with pytest.raises(InputError, match="solve it"):
+        made(3.0, 3.0)
+
+
+def test_stated_error_of_interpolation_holds_between_nodes():
+    """A smooth function on a coarse grid: the estimate is above the error at most points."""
+    axes = [np.linspace(0.0, 3.0, 9), np.linspace(0.0, 2.0, 7)]
+    x, y = np.meshgrid(*axes, indexing="ij")
+    values = np.sin(2.0 * x + y)[..., np.newaxis]
+    made = Table(
+        ("a", "b"),
+        tuple(np.exp(axis) for axis in axes),
+        values,
+        np.zeros_like(values),
+        np.ones(x.shape, dtype=bool),
+    )
+    rng = np.random.default_rng(1)
+    kept = 0
+    for at in rng.uniform(0.0, [3.0, 2.0], (50, 2)):
+        value, error = made(*np.exp(at))
+        kept += abs(value[0] - math.sin(2.0 * at[0] + at[1])) <= error[0]
+    assert kept >= 47
+
+
+def test_spline_reproduces_cubics():
+    axes = [np.linspace(0.0, 1.0, 5), np.linspace(0.0, 1.0, 6)]
+    x, y = np.meshgrid(*axes, indexing="ij")
+    spline = tensor_spline(axes, (x**3 * y**2)[..., np.newaxis])
+    assert spline(np.array([[0.3, 0.7]]))[0, 0] == pytest.approx(0.3**3 * 0.7**2)
+
+
+def test_the_file_names_its_version_and_oil():
+    made = provenance()
+    assert made["version"]
+    assert made["oil"]["viscosity"]["roelands_z"] == 0.67
+    assert made["lines"]["solved"] > 400
+    density = reference_laws()[1]
+    assert float(density(np.array([1e9]))[0][0]) == pytest.approx((0.59 + 1.34) / 1.59)
