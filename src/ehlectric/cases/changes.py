@@ -155,7 +155,7 @@ def drop(table: dict[str, Any], key: str) -> None:
 
 # Keys of a grid that stay if the geometry changes. Lengths and numbers of nodes are removed, because the
 # other geometry has other units of length and other defaults.
-_GRID_OF_ANY = ("wedge", "field_degree", "refine")
+_GRID_OF_ANY = ("wedge", "field_degree", "refine", "error")
 
 
 def drop_geometry(table: dict[str, Any], geometry: str) -> None:

@@ -70,7 +70,7 @@ def spacings(setup: Case | Setup, conditions: PointConditions) -> tuple[float, f
     """Node spacings of the film of a point contact, along and across entrainment [m]."""
     domain, grid = domain_of(setup, conditions), setup.grid
     along, across = domain.outlet - domain.inlet, 2.0 * domain.side
-    return along / (grid.nodes - 1), across / (grid.nodes_across - 1)
+    return along / (grid.nodes_along - 1), across / (grid.nodes_across - 1)
 
 
 def geometry_of(conditions: PointConditions) -> Geometry:
@@ -114,7 +114,7 @@ def _symmetric(setup: Case | Setup, conditions: PointConditions, rough: Sequence
     if not rough:
         return True
     domain, grid = domain_of(setup, conditions), setup.grid
-    x = np.linspace(domain.inlet, domain.outlet, grid.nodes)
+    x = np.linspace(domain.inlet, domain.outlet, grid.nodes_along)
     y = np.linspace(-domain.side, domain.side, grid.nodes_across)
     heights = heights_of(rough, x, y)
     difference = np.max(np.abs(heights - heights[:, :, ::-1]))
@@ -221,7 +221,7 @@ def line_domain_of(setup: Case | Setup, conditions: Conditions) -> Domain:
 
 def spacing(setup: Case | Setup, conditions: Conditions) -> float:
     """Node spacing of the film of a line contact [m]."""
-    return conditions.half_width * (setup.grid.outlet - setup.grid.inlet) / (setup.grid.nodes - 1)
+    return conditions.half_width * (setup.grid.outlet - setup.grid.inlet) / (setup.grid.nodes_along - 1)
 
 
 def check_tolerance(solver: Solver) -> None:
@@ -262,7 +262,7 @@ def smooth_problem(
     fluid = fluid_of(setup.oil, conditions.max_pressure, conditions.velocity_parameter)
     return FilmProblem(
         fluid=replace(fluid, flow=flow),
-        nodes=grid.nodes,
+        nodes=grid.nodes_along,
         inlet=grid.inlet,
         outlet=grid.outlet,
         thickness_guess=guess / conditions.thickness_scale,

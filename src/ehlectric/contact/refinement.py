@@ -28,7 +28,7 @@ class Refined:
     film : Film or PointFilm
         Film on the last grid.
     setup : Setup
-        Setup with the last grid; its ``grid.refine`` is None.
+        Setup with the last grid, which has no target.
     seconds : float
         Time taken to solve the films on all grids [s].
     warnings : tuple of ResultWarning
@@ -47,9 +47,9 @@ def refined(
     problem_of: Callable[[Setup], FilmProblem],
     solved: Callable[[FilmProblem], Film | PointFilm],
 ) -> Refined:
-    """Solve a film, and refine its grid until the discretisation error is below ``grid.refine``.
+    """Solve a film, and refine its grid until the discretisation error is below ``grid.target``.
 
-    The film is solved on one grid only if ``grid.refine`` is None.
+    The film is solved on one grid only if the grid has no target.
 
     Parameters
     ----------
@@ -67,15 +67,16 @@ def refined(
     Refined
         Film of the last grid, with a warning if the target error was not reached.
     """
-    started, target = time.perf_counter(), setup.grid.refine
-    first = replace(setup, grid=setup.grid.model_copy(update={"refine": None}))
+    started, target = time.perf_counter(), setup.grid.target
+    grid = setup.grid.first().model_copy(update={"refine": None, "error": None})
+    first = replace(setup, grid=grid)
     problem = problem_of(first)
     if target is None:
         return Refined(solved(problem), first, time.perf_counter() - started, ())
-    grids, refusal = _finer_grids(first.grid, geometry, rough=bool(setup.roughness))
-    film = solved(replace(problem, target_error=target, most_nodes=grids[-1].nodes))
+    grids, refusal = _finer_grids(grid, geometry, rough=bool(setup.roughness))
+    film = solved(replace(problem, target_error=target, most_nodes=grids[-1].nodes_along))
     closest = (film.x[-1] - film.x[0]) / float(np.min(np.diff(film.x)))
-    grid = min(grids, key=lambda grid: abs(grid.nodes - 1 - closest))
+    grid = min(grids, key=lambda grid: abs(grid.nodes_along - 1 - closest))
     warnings: tuple[ResultWarning, ...] = ()
     if film.discretisation_error is None or film.discretisation_error > target:
         unknown = f"the error is unknown on {UNKNOWN} grids in succession"
@@ -96,7 +97,9 @@ def _finer_grids(grid: Grid, geometry: str, *, rough: bool) -> tuple[list[Grid],
 
 
 def _not_reached(target: float, grid: Grid, reason: str) -> ResultWarning:
-    text = f"grid.refine: an error of {100 * target:g} % was not reached with {grid.nodes} nodes; {reason}"
+    text = (
+        f"grid.refine: an error of {100 * target:g} % was not reached with {grid.nodes_along} nodes; {reason}"
+    )
     return ResultWarning("refine-not-reached", text)
 
 

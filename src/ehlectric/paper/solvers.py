@@ -21,7 +21,7 @@ def _accepted(case: Case) -> Case:
             got=shown(case.contact.geometry),
             takes="'line'",
         )
-    fas.grid_sizes(case.grid.nodes)
+    fas.grid_sizes(case.grid.nodes_along)
     if case.grid.wedge != "third-order":
         return case
     if "wedge" in case.grid.model_fields_set:

@@ -119,13 +119,21 @@ def _dry_contact(conditions: Conditions | PointConditions) -> Iterator[Row]:
     yield Row("lubrication regime", regime)
 
 
+def _nodes(case: Case, nodes: str) -> Row:
+    """Nodes of the film, or the error to which its grid is refined."""
+    target = case.grid.target
+    if target is None:
+        return Row("grid of the film", nodes, "nodes")
+    return Row("grid of the film", f"refined to an error of {100.0 * target:g} %")
+
+
 def _line_grid(case: Case, _: Conditions) -> Iterator[Row]:
-    yield Row("grid of the film", str(case.grid.nodes), "nodes")
+    yield _nodes(case, str(case.grid.nodes))
     yield _wedge(case)
 
 
 def _point_grid(case: Case, conditions: PointConditions) -> Iterator[Row]:
-    yield Row("grid of the film", f"{case.grid.nodes} x {case.grid.nodes_across}", "nodes")
+    yield _nodes(case, f"{case.grid.nodes_along} x {case.grid.nodes_across}")
     yield Row("half-width of the domain across", conditions.side, note="semi-axes a")
     yield _wedge(case)
 

@@ -101,7 +101,7 @@ def check_contact(table: Mapping[str, Any], folder: str) -> ContactCheck:
 
 def _is_quick(case: Case) -> bool:
     smooth = not case.roughness and case.motion is None and case.grid.refine is None
-    return smooth and case.contact.geometry == "line" and case.grid.nodes <= _QUICK
+    return smooth and case.contact.geometry == "line" and case.grid.nodes_along <= _QUICK
 
 
 def _check_numbers(summary: Mapping[str, Any]) -> list[Number]:
