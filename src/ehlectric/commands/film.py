@@ -52,8 +52,8 @@ def film(
 ) -> None:
     """Print the films of a smooth contact at once, interpolated between solved ones, each with its error.
 
-    The contact is given by --m, --l and --k, or by --oil, --radius, --modulus, --load and --speed. Films are isothermal
-    and fully flooded. Outside the range of the atlas nothing is printed but the range.
+    The contact is given by --m, --l and --k, or by --oil, --radius, --modulus, --load and --speed. Films are
+    isothermal and fully flooded. Outside the range of the atlas nothing is printed but the range.
     """
     with user_errors():
         given = {"radius": radius, "radius_across": radius_across, "modulus": modulus, "speed": speed}
