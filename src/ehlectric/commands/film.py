@@ -57,7 +57,12 @@ def film(
     """
     with user_errors():
         given = {"radius": radius, "radius_across": radius_across, "modulus": modulus, "speed": speed}
-        if m is not None or l is not None:
+        if m is not None or l is not None or k is not None:
+            given_too = {"oil": oil, "temperature": temperature, "load": load} | given
+            for name, value in given_too.items():
+                if value is not None:
+                    option = f"--{name.replace('_', '-')}"
+                    raise InputError(option, got="it beside --m, --l or --k", takes="one way of the two")
             groups, result, found = _by_groups(m, l, k)
         else:
             found = _by_numbers(given, load, oil, temperature)
