@@ -113,13 +113,14 @@ def estimates(case: dict[str, Any]) -> Iterator[Estimates]:
         if problem.nodes not in found or raised:
             return
         for nodes in GRIDS[conditions.geometry][1]:
-            fine, coarse = found.get(nodes), found.get(nodes // 2 + 1)
+            fine, coarse, coarsest = (found.get((nodes - 1) // part + 1) for part in (1, 2, 4))
             if fine is not None and coarse is not None:
-                yield _compared(problem, fine, coarse, found[problem.nodes])
+                coarser = [coarse] if coarsest is None else [coarse, coarsest]
+                yield _compared(problem, fine, coarser, found[problem.nodes])
 
 
 def _compared(
-    problem: FilmProblem, fine: GridSolution, coarse: GridSolution, true: GridSolution
+    problem: FilmProblem, fine: GridSolution, coarser: list[GridSolution], true: GridSolution
 ) -> Estimates:
     thicknesses = [
         np.array([np.min(s.state.thickness), at_centre(s.level.mesh, s.state.thickness)])
@@ -127,10 +128,10 @@ def _compared(
     ]
     pressures = [float(np.max(s.state.pressure)) for s in (fine, true)]
     values = (
-        discretisation_error(problem, fine, coarse),
-        rough_film_error(problem, fine, coarse),
+        discretisation_error(problem, fine, coarser),
+        rough_film_error(problem, fine, coarser),
         float(np.max(np.abs(thicknesses[0] - thicknesses[1]) / thicknesses[0])),
-        max_pressure_error(fine, coarse),
+        max_pressure_error(fine, coarser[0]),
         abs(pressures[0] - pressures[1]) / pressures[0],
     )
     return Estimates(fine.level.mesh.x.size, *(float(v if v is not None else np.nan) for v in values))

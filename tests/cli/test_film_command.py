@@ -13,7 +13,7 @@ def test_film_of_groups(ehlectric):
 
 
 def test_film_of_a_contact(ehlectric):
-    contact = ("--radius", "8 mm", "--load", "100 kN/m", "--speed", "4 m/s")
+    contact = ("--radius", "8 mm", "--modulus", "226 GPa", "--load", "100 kN/m", "--speed", "4 m/s")
     done = ehlectric("film", "--oil", "fva-3", "--temperature", "70 degC", *contact, "--json")
     assert done.returncode == 0, done.stderr
     numbers = json.loads(done.stdout)
@@ -29,6 +29,12 @@ def test_film_of_a_contact(ehlectric):
         (("--m", "1e9", "--l", "10"), "the range of the atlas"),
         (("--oil", "fva-3", "--temperature", "70 degC", "--radius", "8 kg"), "--radius"),
         (("--radius", "8 mm"), "--oil: got nothing"),
+        (("--m", "50", "--l", "10", "--oil", "fva-3"), "--oil: got it beside --m, --l or --k"),
+        (
+            ("--m", "1e6", "--l", "10", "--k", "1"),
+            "the range of the atlas in N, which is M times a function of k",
+        ),
+        (("--oil", "fva-3", "--temperature", "70 degC", "--radius", "8 mm"), "--modulus: got nothing"),
     ],
 )
 def test_mistakes(ehlectric, words, said):

@@ -43,7 +43,11 @@ KINDS = {
     "across": {"contact": BEARING, "title": "A ball of a deep groove ball bearing 6208"},
     "along": {"contact": {"radius_x": "200 mm", "load": "60 N"}, "grid": {"nodes_y": 73}, "title": "Along"},
     "unsolved": {"contact": BEARING | {"entrainment_speed": "0.05 m/s"}, "solver": {"max_iterations": 2}},
-    "gaussian": {"grid": {"nodes_y": 49}, "roughness": [GAUSSIAN], "title": "Rough, $"},
+    "gaussian": {
+        "grid": {"nodes_y": 49, "wedge": "second-order"},
+        "roughness": [GAUSSIAN],
+        "title": "Rough, $",
+    },
 }
 
 

@@ -39,13 +39,17 @@ def test_films_of_fva_3_of_the_library():
 
 @pytest.mark.slow
 def test_shape_of_thin_films():
-    """One viscosity fits the film at 1 m/s; with the rig's own zero the others follow within 3 %."""
+    """One viscosity fits the film at 1 m/s; with the rig's own zero the others follow within 3 %.
+
+    The zero was checked twice; it is known to half of the difference, which counts beside the 3 %.
+    """
     speed, logged = film_log("40C")
     chosen = [0, 4, 8, 10]
-    film = logged[chosen] - zero_checks("40C")[0]
+    zeros = np.array(zero_checks("40C"))
+    film = logged[chosen] - np.mean(zeros)
     computed = central_films(ball_on_disc(OILS["unnamed"], nodes=513), speed[chosen])
     assert np.min(speed[chosen]) > 0.2
-    np.testing.assert_allclose(computed, film, rtol=0.03)
+    np.testing.assert_allclose(computed, film, rtol=0.03, atol=0.5 * np.ptp(zeros))
 
 
 @pytest.mark.parametrize(("nodes", "rows"), [(129, [2, 5]), pytest.param(257, ALL, marks=pytest.mark.slow)])

@@ -183,7 +183,7 @@ def test_estimate_of_a_minimum_that_jumps_between_valleys():
 
 def test_estimate_of_the_maximum_pressure():
     """It moves from 4.6 to 5.3 GPa where the film is known to 1 %."""
-    case = rough_case(speed=1.0)
+    case = rough_case(speed=1.0).replace({"grid.wedge": "second-order"})
     coarse, fine = (film_alone(case.replace({"grid.nodes": n})) for n in (3201, 12_801))
     assert coarse.discretisation_error < 0.01
     true = fine.max_pressure / coarse.max_pressure - 1.0

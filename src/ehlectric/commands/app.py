@@ -56,7 +56,10 @@ _COMMANDS = (
         "Film of a contact, at once.",
         (
             "film --m 200 --l 10 --k 1",
-            'film --oil fva-3 --temperature "70 degC" --radius "8 mm" --load "100 kN/m" --speed "4 m/s"',
+            (
+                'film --oil fva-3 --temperature "70 degC" --radius "8 mm" --modulus "226 GPa"'
+                ' --load "100 kN/m" --speed "4 m/s"'
+            ),
         ),
     ),
     ("oils", oils, "List the oils of the library.", ("oils", "oils --json")),

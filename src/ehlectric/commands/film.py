@@ -43,19 +43,26 @@ def film(
     radius_across: Annotated[
         str | None, _option("LENGTH", "Reduced radius across; without it, a line.")
     ] = None,
-    modulus: Annotated[str, _option("PRESSURE", "Reduced modulus E', by default that of steel.")] = "226 GPa",
+    modulus: Annotated[
+        str | None, _option("PRESSURE", "Reduced modulus E', 226 GPa for steel on steel.")
+    ] = None,
     load: Annotated[str | None, _option("LOAD", "Load of a point in N, of a line in N/m.")] = None,
     speed: Annotated[str | None, _option("SPEED", "Mean (u1 + u2)/2 of the surface speeds.")] = None,
     as_json: Json = False,
 ) -> None:
     """Print the films of a smooth contact at once, interpolated between solved ones, each with its error.
 
-    The contact is given by --m, --l and --k, or by --oil, --radius, --load and --speed. Films are isothermal
-    and fully flooded. Outside the range of the atlas nothing is printed but the range.
+    The contact is given by --m, --l and --k, or by --oil, --radius, --modulus, --load and --speed. Films are
+    isothermal and fully flooded. Outside the range of the atlas nothing is printed but the range.
     """
     with user_errors():
         given = {"radius": radius, "radius_across": radius_across, "modulus": modulus, "speed": speed}
-        if m is not None or l is not None:
+        if m is not None or l is not None or k is not None:
+            given_too = {"oil": oil, "temperature": temperature, "load": load} | given
+            for name, value in given_too.items():
+                if value is not None:
+                    option = f"--{name.replace('_', '-')}"
+                    raise InputError(option, got="it beside --m, --l or --k", takes="one way of the two")
             groups, result, found = _by_groups(m, l, k)
         else:
             found = _by_numbers(given, load, oil, temperature)

@@ -15,8 +15,9 @@ function in ``FLOWS``.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import TypeAlias
 
 import numpy as np
@@ -177,6 +178,9 @@ class Flow:
 
 FlowLaw: TypeAlias = Callable[[Fluid, Array, Array, Mesh], Flow]
 
+# Flow along the first axis, from quantities at the nodes (n, m) and the spacing.
+FaceLaw: TypeAlias = Callable[..., FaceFlow]
+
 
 def flow(fluid: Fluid, pressure: Array, thickness: Array, mesh: Mesh) -> Flow:
     """Flow of the lubricant through all faces of a grid, after the law that the fluid names.
@@ -249,29 +253,12 @@ def evaluate(fluid: Fluid, pressure: Array, thickness: Array) -> Coefficients:
 def mean_mobility(fluid: Fluid, pressure: Array, thickness: Array, mesh: Mesh) -> Flow:
     """Poiseuille flow of a Newtonian fluid, F = eps dP/dX with the mean eps of the two nodes.
 
-    It is the discretisation of Morris et al. (2022), doi:10.3390/lubricants10050087.
-
-    Parameters
-    ----------
-    fluid : Fluid
-        Lubricant.
-    pressure, thickness : ndarray, shape (nx, ny)
-        Pressure P and film thickness H, dimensionless, H > 0.
-    mesh : Mesh
-        Grid.
-
-    Returns
-    -------
-    Flow
-        Fluxes, conductances and derivatives; the fluxes are accurate to second order.
+    It is the discretisation of Morris et al. (2022), doi:10.3390/lubricants10050087. Parameters and result
+    are those of ``mean_fluidity``; the fluxes are accurate to second order, too.
     """
     k = evaluate(fluid, pressure, thickness)
     nodes = (k.eps, k.eps_p, k.eps_h, pressure)
-    along = _mean_mobility(*nodes, spacing=mesh.dx)
-    if mesh.dy is None:
-        return Flow(k, along, None)
-    lines = (_with_mirror(values, mesh).T for values in nodes)
-    return Flow(k, along, _mean_mobility(*lines, spacing=mesh.dy, across=True))
+    return _along_and_across(k, nodes, mesh, _mean_mobility, partial(_mean_mobility, across=True))
 
 
 def _mean_mobility(
@@ -332,11 +319,7 @@ def mean_fluidity(fluid: Fluid, pressure: Array, thickness: Array, mesh: Mesh) -
     density = k.density / fluid.velocity_parameter
     density_p = k.density_p / fluid.velocity_parameter
     nodes = (k.log_viscosity, k.log_viscosity_p, k.fluidity, density, density_p, thickness, pressure)
-    along = _mean_fluidity(*nodes, spacing=mesh.dx)
-    if mesh.dy is None:
-        return Flow(k, along, None)
-    lines = (_with_mirror(values, mesh).T for values in nodes)
-    return Flow(k, along, _mean_fluidity(*lines, spacing=mesh.dy))
+    return _along_and_across(k, nodes, mesh, _mean_fluidity, _mean_fluidity)
 
 
 def _mean_fluidity(
@@ -386,6 +369,17 @@ def _logarithmic_mean(log_viscosity: Array, fluidity: Array) -> tuple[Array, Arr
     by_before = np.where(alike, -before * (0.5 + change / 6.0), (before - mean) * over)
     by_after = np.where(alike, -before * (0.5 + change / 3.0), (mean - after) * over)
     return mean, by_before, by_after
+
+
+def _along_and_across(
+    k: Coefficients, nodes: Sequence[Array], mesh: Mesh, along: FaceLaw, across: FaceLaw
+) -> Flow:
+    """Flow by laws of the flow along an axis, from quantities at the nodes (nx, ny)."""
+    flow_along = along(*nodes, spacing=mesh.dx)
+    if mesh.dy is None:
+        return Flow(k, flow_along, None)
+    lines = (_with_mirror(values, mesh).T for values in nodes)
+    return Flow(k, flow_along, across(*lines, spacing=mesh.dy))
 
 
 def _with_mirror(values: Array, mesh: Mesh) -> Array:

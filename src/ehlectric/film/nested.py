@@ -130,8 +130,8 @@ def _grids(problem: FilmProblem, *, solved: int) -> list[list[Level]]:
     """Grids of the nested iteration from the finest on, each with the coarser grids of its preconditioner.
 
     Grids of at most ``solved`` nodes along x are left out. If none is solved, there are at least two grids,
-    for the error estimate. Each has half the intervals of the grid before,
-    along both axes. The grids of a preconditioner may have half the intervals along one axis only.
+    for the error estimate. Each has half the intervals of the grid before, along both axes. The grids of a
+    preconditioner may have half the intervals along one axis only.
     """
     least = FIRST_GRID if problem.width is None else _FIRST_GRID_POINT
     grids = [_levels(problem, roughness=1.0)]

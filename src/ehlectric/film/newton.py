@@ -233,6 +233,7 @@ def _linearised(
     kept = with_kept_preconditioner(last, now.flow, state.thickness, now.full_film)
     if kept is not None:
         return kept
+    last.clear()  # its factors would need as much memory as the new ones
     return linearise_levels(
         levels, fluid, now.flow, pressure=state.pressure, thickness=state.thickness, full_film=now.full_film
     )

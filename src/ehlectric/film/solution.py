@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from ehlectric.arrays import Array, Mask
 from ehlectric.film.accuracy.adaptive import RefinedSolution
 from ehlectric.film.accuracy.max_pressure import max_pressure_error
-from ehlectric.film.accuracy.rough_film import rough_film_error
 from ehlectric.film.estimates import inlet_deficit
 from ehlectric.film.mesh import Mesh
 from ehlectric.film.problem import Scales
@@ -149,7 +148,7 @@ def stationary_film(found: RefinedSolution, shaped: Shaped) -> FilmSolution:
             len(each.steps) for each in found.solutions if each.level.mesh.dx == finest.level.mesh.dx
         ),
         steps=steps,
-        discretisation_error=rough_film_error(problem, finest, coarser),
+        discretisation_error=found.error,
         inlet_deficit=inlet_deficit(
             problem.fluid,
             problem.geometry,

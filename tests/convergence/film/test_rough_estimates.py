@@ -7,21 +7,25 @@ from benchmarks.rough_estimates import drawn, estimates
 from tests.helpers.places import DEKTAK
 
 
+def drawn_with(wedge, number):
+    """Random rough line contact, with a scheme of the wedge term."""
+    case = drawn(np.random.default_rng([11, number]), "line", DEKTAK.parent)
+    return case | {"grid": case["grid"] | {"wedge": wedge}}
+
+
 @pytest.mark.slow
-def test_estimates_of_random_rough_contacts_are_seldom_exceeded():
+@pytest.mark.parametrize("wedge", ["second-order", "third-order"])
+def test_estimates_of_random_rough_contacts_are_seldom_exceeded(wedge):
     """Waves, Gaussian, self-affine and measured profiles, at random loads and speeds."""
-    rows = [
-        row
-        for number in range(20)
-        for row in estimates(drawn(np.random.default_rng([11, number]), "line", DEKTAK.parent))
-    ]
+    rows = [row for number in range(20) for row in estimates(drawn_with(wedge, number))]
     assert len(rows) > 50
     names = vars(rows[0])
     column = {name: np.array([getattr(row, name) for row in rows]) for name in names}
     ratio = column["true_film"] / column["film"]
     assert np.mean(ratio > 1.0) <= 0.1
     assert np.max(ratio) < 2.0
-    assert np.median(1.0 / ratio) < 4.0
-    # The set is one in which the difference of the two minima does not do.
-    assert np.mean(column["true_film"] > column["two_minima"]) > 0.2
+    # That of the third-order wedge takes a third grid, and is more careful.
+    assert np.median(1.0 / ratio) < {"second-order": 4.0, "third-order": 6.0}[wedge]
+    # The set is one in which the error of a smooth film does not do.
+    assert np.mean(column["true_film"] > column["two_minima"]) > 0.15
     assert np.mean(column["true_pressure"] > column["pressure"]) <= 0.1

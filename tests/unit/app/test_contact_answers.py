@@ -152,7 +152,9 @@ def test_every_code_of_a_warning_has_a_place_on_the_contact_page():
 
 
 def solved_coarsely(tmp_path):
-    table = table_of("ball_contact", grid=SMALL, discharge={"dielectric_strength": "15 V/um"})
+    table = table_of(
+        "ball_contact", grid=SMALL | {"wedge": "second-order"}, discharge={"dielectric_strength": "15 V/um"}
+    )
     return solve_at_once(table, str(tmp_path))
 
 

@@ -255,7 +255,7 @@ def test_paper_result_needs_no_warning(paper_result):
 @pytest.mark.slow
 def test_roughness_higher_than_the_film_is_raised_in_vain(paper_case):
     """The smooth film is solved; with ever smaller rises of the roughness there is a height with none."""
-    rough = {"surface": 2, "generator": "gaussian", "rq": "200 nm", "correlation_length": "5 um", "seed": 1}
+    rough = {"surface": 2, "generator": "gaussian", "rq": "400 nm", "correlation_length": "5 um", "seed": 1}
     changes = {"contact.max_hertz_pressure": "1 GPa", "contact.entrainment_speed": 0.2, "grid.nodes": 801}
     result = solve(paper_case.replace(changes | {"roughness": [rough]}))
     assert not result.converged

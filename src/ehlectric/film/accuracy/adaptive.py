@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 from ehlectric.film.accuracy.patch import Patch
 from ehlectric.film.accuracy.rough_film import rough_film_error
@@ -43,12 +44,12 @@ class RefinedSolution:
         """Solution on the last grid over the whole domain."""
         return self.last if self.patch is None else self.patch.coarse
 
-    @property
+    @cached_property
     def error(self) -> float | None:
         """Relative discretisation error, estimated from the last grids; None if unknown."""
         return rough_film_error(self.problem, self.last, self.coarser)
 
-    @property
+    @cached_property
     def coarser(self) -> list[GridSolution]:
         """Last solutions on the coarser grids for the same surfaces, from the finest on."""
         if any(g.status == "converged" and _alike(g, self.last) for g in self.solutions[:-1]):

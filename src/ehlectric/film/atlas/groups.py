@@ -1,11 +1,14 @@
 """Dimensionless groups of the atlas, and the dimensionless film problems that have them.
 
 A smooth, fully flooded, isothermal contact has Moes' groups M and L, and for points the ratio k of the
-semi-axes, k = a/b with a across entrainment. The scales of the film equations follow from them alone:
+semi-axes, k = a/b with a across entrainment. The scales of the film equations follow from them alone. For
+lines
 
-    lines:  lambda = 3 pi^2/(8 M^2),  alpha p_h = L (M/(2 pi))^(1/2),  H_Moes = (8 M/pi) H
-    points: q = (2/pi) R_D(0, k^2, 1),  N = M q^(1/4)/k^(3/4),  lambda = 4 pi/N^(4/3),
-            alpha p_h = 3 L M^(1/3)/(2 pi k q^(2/3)),  H_Moes = (q M)^(2/3) H
+    lambda = 3 pi^2/(8 M^2),   alpha p_h = L (M/(2 pi))^(1/2),   H_Moes = (8 M/pi) H,
+
+and for points, with q = (2/pi) R_D(0, k^2, 1) and N = M q^(1/4)/k^(3/4),
+
+    lambda = 4 pi/N^(4/3),   alpha p_h = 3 L M^(1/3)/(2 pi k q^(2/3)),   H_Moes = (q M)^(2/3) H
 
 with H = h R/b^2 and H_Moes = (h/R) (eta0 u_s/(E' R))^(-1/2); R is the radius along entrainment.
 """

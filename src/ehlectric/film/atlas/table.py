@@ -18,6 +18,9 @@ from ehlectric.errors import InputError
 # smooth values; kinks, where the minimum changes its place or a spike passes the centre, do worse.
 _HALVED = 1.0 / 5.0
 
+# What a coordinate is that is not a group of Moes.
+_MEANING = {"moes_n": " in N, which is M times a function of k", "moes_y": " in Y, which is L N^(1/6)"}
+
 
 @dataclass(frozen=True, eq=False)
 class Table:
@@ -76,9 +79,8 @@ class Table:
         """Raise an InputError for a point outside the table, or in a cell with a node without a film."""
         for name, axis, value in zip(self.names, self.axes, at, strict=True):
             if not axis[0] <= value <= axis[-1]:
-                raise InputError(
-                    name, got=f"{value:.4g}", takes=f"{axis[0]:.4g} to {axis[-1]:.4g}, the range of the atlas"
-                )
+                said = f"{axis[0]:.4g} to {axis[-1]:.4g}, the range of the atlas{_MEANING.get(name, '')}"
+                raise InputError(name, got=f"{value:.4g}", takes=said)
         cell = []
         for axis, value in zip(self.axes, at, strict=True):
             i = min(max(int(np.searchsorted(axis, value)) - 1, 0), axis.size - 2)
