@@ -142,9 +142,10 @@ class Case(Tabled, Table):
             self.meter.check(self.contact, length, rough=bool(self.roughness), moves=moves)
         if self.motion is not None:
             self.motion.check(self.grid, rough=bool(self.roughness))
-        if (self.roughness or self.motion is not None) and self.grid.error is None:
-            # Roughness sets the spacing; a grid that its film is refined to could be very fine.
+        if self.motion is not None:
             object.__setattr__(self, "grid", self.grid.fixed())
+        elif self.roughness:
+            object.__setattr__(self, "grid", self.grid.of_roughness())
         return self
 
     @property

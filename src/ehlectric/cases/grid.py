@@ -164,6 +164,15 @@ class Grid(Table):
             return self
         return self.model_copy(update={"nodes": _FIXED[self.of_point]})
 
+    def of_roughness(self) -> Grid:
+        """Grid of a rough contact: without nodes it begins with the default number, which is then refined.
+
+        Roughness needs a spacing of its own, which a coarse first grid does not have.
+        """
+        if self._given:
+            return self
+        return self.fixed().model_copy(update={"refine": self.target, "error": None})
+
     @model_validator(mode="after")
     def _check(self) -> Self:
         domain = self.outlet - self.inlet

@@ -18,6 +18,10 @@ from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
 from ehlectric.film.problem import FilmProblem
 
+# How often the intervals of a rough contact's grid are doubled at the most. Roughness that no grid resolves,
+# such as white noise, would take them up to the memory of the machine.
+_MOST_DOUBLED = {"line": 4, "point": 2}
+
 
 @dataclass(frozen=True)
 class Refined:
@@ -65,7 +69,8 @@ def refined(
     Returns
     -------
     Refined
-        Film of the last grid, with a warning if the target error was not reached.
+        Film of the last grid, with a warning if the target error was not reached. The grid of a rough line
+        contact has at most sixteen times the intervals of the first one, that of a point contact four times.
     """
     started, target = time.perf_counter(), setup.grid.target
     grid = setup.grid.first().model_copy(update={"refine": None, "error": None})
@@ -80,27 +85,28 @@ def refined(
     warnings: tuple[ResultWarning, ...] = ()
     if film.discretisation_error is None or film.discretisation_error > target:
         unknown = f"the error is unknown on {UNKNOWN} grids in succession"
-        warnings = (_not_reached(target, grid, str(refusal) if grid is grids[-1] else unknown),)
+        why = refusal if grid is grids[-1] else unknown
+        warnings = (_not_reached("refine" if setup.grid.refine else "error", target, grid, why),)
     return Refined(film, replace(first, grid=grid), time.perf_counter() - started, warnings)
 
 
-def _finer_grids(grid: Grid, geometry: str, *, rough: bool) -> tuple[list[Grid], InputError]:
+def _finer_grids(grid: Grid, geometry: str, *, rough: bool) -> tuple[list[Grid], str]:
     """Grid and all grids with twice as many intervals each, up to the first one that is refused, and why."""
-    grids = [grid]
+    grids, most = [grid], _MOST_DOUBLED[geometry]
     while True:
+        if rough and len(grids) > most:
+            return grids, f"a rough contact is refined {most} times at the most; give more grid.nodes"
         try:
             finer = _doubled(grids[-1])
             check_grid(geometry, finer, rough=rough)
         except InputError as error:
-            return grids, error
+            return grids, str(error)
         grids.append(finer)
 
 
-def _not_reached(target: float, grid: Grid, reason: str) -> ResultWarning:
-    text = (
-        f"grid.refine: an error of {100 * target:g} % was not reached with {grid.nodes_along} nodes; {reason}"
-    )
-    return ResultWarning("refine-not-reached", text)
+def _not_reached(key: str, target: float, grid: Grid, reason: str) -> ResultWarning:
+    reached = f"an error of {100 * target:g} % was not reached with {grid.nodes_along} nodes"
+    return ResultWarning("refine-not-reached", f"grid.{key}: {reached}; {reason}")
 
 
 def _doubled(grid: Grid) -> Grid:

@@ -204,6 +204,7 @@ def solve_contact(
     0.8
     """
     kind = KINDS[conditions.geometry]
+    grid = grid.of_roughness() if roughness else grid
     setup = Setup(
         oil=oil,
         grid=grid,
