@@ -268,7 +268,7 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "not-converged": Cause("The iteration of the film did not converge.", "severe"),
         "surfaces-touch": Cause("The surfaces of the computed film would touch in places."),
         "thinner-than-atom": Cause("The film is thinner than an atom in places."),
-        "refine-not-reached": Cause("The target error of grid.refine was not reached."),
+        "refine-not-reached": Cause("The error of the film that was asked for was not reached."),
         "error-unknown": Cause("The discretisation error of a rough contact's film is unknown."),
         "coarser-grid-unsolved": Cause("The discretisation error is unknown and probably large.", "severe"),
         "grid-too-coarse": Cause("The estimated discretisation error of the film is large."),

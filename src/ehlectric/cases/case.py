@@ -144,8 +144,6 @@ class Case(Tabled, Table):
             self.motion.check(self.grid, rough=bool(self.roughness))
         if self.motion is not None:
             object.__setattr__(self, "grid", self.grid.fixed())
-        elif self.roughness:
-            object.__setattr__(self, "grid", self.grid.of_roughness())
         return self
 
     @property
@@ -153,6 +151,11 @@ class Case(Tabled, Table):
         """Oil at the temperature of the contact: its numbers and its laws over pressure."""
         oil = self.lubricant.at(self.contact.temperature)
         return oil if self._laws is None else self._laws.applied(oil)
+
+    @property
+    def first_grid(self) -> Grid:
+        """Grid on which the film is solved first, with its number of nodes."""
+        return self.grid.first(rough=bool(self.roughness))
 
     @property
     def own_laws(self) -> SampledLaws | None:

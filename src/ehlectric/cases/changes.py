@@ -179,6 +179,7 @@ def displace_alternatives(table: dict[str, Any], changes: Mapping[str, Any], geo
         "discharge": (STRENGTHS, TABLES),
         "meter": (FILLINGS,),
         "motion": ((("passes",), ("duration",)),),
+        "grid": tuple((("error",), (key,)) for key in ("nodes", "nodes_y", "refine")),
     }
     displace(table, changes, alternatives)
     displace_oil(table.get("lubricant", {}), nested(changes, "lubricant"))

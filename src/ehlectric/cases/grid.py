@@ -144,14 +144,15 @@ class Grid(Table):
     def _given(self) -> bool:
         return self.nodes is not None or self.nodes_y is not None
 
-    def first(self) -> Grid:
+    def first(self, *, rough: bool = False) -> Grid:
         """Grid with which a refinement begins: this one if it has nodes, else a coarse one.
 
-        A grid with ``nodes_y`` alone has the number of nodes along entrainment of a grid that is not refined.
+        With ``nodes_y`` alone it has the number of nodes along entrainment of a grid that is not refined. So
+        has that of a rough contact, since roughness needs a spacing that a coarse grid does not have.
         """
         if self.nodes is not None:
             return self
-        if self.nodes_y is not None:
+        if rough or self.nodes_y is not None:
             return self.fixed()
         intervals = _FIRST[self.of_point]
         while (self.outlet - self.inlet) / intervals > 1.01 * _DEFAULT_LENGTH / _FIRST[self.of_point]:
@@ -164,14 +165,6 @@ class Grid(Table):
             return self
         return self.model_copy(update={"nodes": _FIXED[self.of_point]})
 
-    def of_roughness(self) -> Grid:
-        """Grid of a rough contact: without nodes it begins with the default number, which is then refined.
-
-        Roughness needs a spacing of its own, which a coarse first grid does not have.
-        """
-        if self._given:
-            return self
-        return self.fixed().model_copy(update={"refine": self.target, "error": None})
 
     @model_validator(mode="after")
     def _check(self) -> Self:

@@ -46,8 +46,8 @@ def check_memory(case: Case) -> None:
         If film and field, or the recorded instants of a motion, need more than the available memory.
     """
     if case.motion is not None:
-        _check_record(case.motion, case.grid, _NODES[case.contact.geometry](case.grid))
-    check_grid(case.contact.geometry, case.grid, rough=bool(case.roughness))
+        _check_record(case.motion, case.first_grid, _NODES[case.contact.geometry](case.first_grid))
+    check_grid(case.contact.geometry, case.first_grid, rough=bool(case.roughness))
 
 
 def check_grid(geometry: str, grid: Grid, *, rough: bool) -> None:

@@ -73,7 +73,7 @@ def refined(
         contact has at most sixteen times the intervals of the first one, that of a point contact four times.
     """
     started, target = time.perf_counter(), setup.grid.target
-    grid = setup.grid.first().model_copy(update={"refine": None, "error": None})
+    grid = setup.first_grid.model_copy(update={"refine": None, "error": None})
     first = replace(setup, grid=grid)
     problem = problem_of(first)
     if target is None:

@@ -204,7 +204,6 @@ def solve_contact(
     0.8
     """
     kind = KINDS[conditions.geometry]
-    grid = grid.of_roughness() if roughness else grid
     setup = Setup(
         oil=oil,
         grid=grid,
@@ -214,7 +213,7 @@ def solve_contact(
         roughness=tuple(roughness),
         title=title,
     )
-    check_grid(conditions.geometry, grid, rough=bool(setup.roughness))
+    check_grid(conditions.geometry, setup.first_grid, rough=bool(setup.roughness))
     domain = kind.domain(setup, conditions)
     return _solved(
         PreparedContact(

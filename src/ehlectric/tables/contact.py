@@ -133,7 +133,7 @@ def _line_grid(case: Case, _: Conditions) -> Iterator[Row]:
 
 
 def _point_grid(case: Case, conditions: PointConditions) -> Iterator[Row]:
-    yield _nodes(case, f"{case.grid.nodes_along} x {case.grid.nodes_across}")
+    yield _nodes(case, f"{case.first_grid.nodes_along} x {case.first_grid.nodes_across}")
     yield Row("half-width of the domain across", conditions.side, note="semi-axes a")
     yield _wedge(case)
 
@@ -187,7 +187,9 @@ def _film(result: Result | PointResult) -> Iterator[Row]:
     yield Row("mean film thickness", film.mean_thickness, "µm", f", in the {zone}")
     yield Row("maximum pressure", film.max_pressure, "GPa", _pressure_error(film.max_pressure_error))
     nodes = " x ".join(str(count) for count in film.thickness.shape)
-    name, grid, error = "discretisation error of the film", f", {nodes} nodes", film.discretisation_error
+    target = result.case.grid.target
+    asked = "" if target is None else f", {100.0 * target:g} % asked"
+    name, grid, error = "discretisation error of the film", f", {nodes} nodes{asked}", film.discretisation_error
     yield Row(name, "unknown", note=grid) if error is None else Row(name, error, "%", grid, digits=".2g")
     steps = "V-cycles" if result.film_solver == "paper" else "Newton steps"
     after = f"after {film.newton_iterations} {steps}"

@@ -21,15 +21,15 @@ BEARING = start("bearing_6208")
 # Strength of the first answers, that of the bearing: an assumption.
 _STRENGTH = {"discharge.dielectric_strength": "15 V/um"}
 
-# Grid of the point contact. It is larger than that of the example, so that the film has no warning about it,
+# Domain of the point contact. It is larger than that of the example, so that the film has no warning about it,
 # also with the oil and the speed of the line contact with which the page begins.
-_POINT_GRID = {"grid.nodes": 385, "grid.inlet": -6.0, "grid.side": 5.0}
+_POINT_DOMAIN = {"grid.inlet": -6.0, "grid.side": 5.0}
 
 
 def contact_start(geometry: str) -> Inputs:
     """Inputs with which the page of a line contact or of a point contact begins, with an assumed strength."""
     if geometry == "point":
-        return start("ball_contact").changed({**_STRENGTH, **_POINT_GRID})
+        return start("ball_contact").changed({**_STRENGTH, **_POINT_DOMAIN})
     return start("line_contact").changed(_STRENGTH)
 
 
