@@ -31,8 +31,8 @@ class Refined:
     ----------
     film : Film or PointFilm
         Film on the last grid.
-    setup : Setup
-        Setup with the last grid, which has no target.
+    first, setup : Setup
+        Setup with the first grid and with the last one, which have no target.
     seconds : float
         Time taken to solve the films on all grids [s].
     warnings : tuple of ResultWarning
@@ -40,6 +40,7 @@ class Refined:
     """
 
     film: Any
+    first: Setup
     setup: Setup
     seconds: float
     warnings: tuple[ResultWarning, ...]
@@ -77,7 +78,7 @@ def refined(
     first = replace(setup, grid=grid)
     problem = problem_of(first)
     if target is None:
-        return Refined(solved(problem), first, time.perf_counter() - started, ())
+        return Refined(solved(problem), first, first, time.perf_counter() - started, ())
     grids, refusal = _finer_grids(grid, geometry, rough=bool(setup.roughness))
     film = solved(replace(problem, target_error=target, most_nodes=grids[-1].nodes_along))
     closest = (film.x[-1] - film.x[0]) / float(np.min(np.diff(film.x)))
@@ -87,7 +88,7 @@ def refined(
         unknown = f"the error is unknown on {UNKNOWN} grids in succession"
         why = refusal if grid is grids[-1] else unknown
         warnings = (_not_reached("refine" if setup.grid.refine else "error", target, grid, why),)
-    return Refined(film, replace(first, grid=grid), time.perf_counter() - started, warnings)
+    return Refined(film, first, replace(first, grid=grid), time.perf_counter() - started, warnings)
 
 
 def _finer_grids(grid: Grid, geometry: str, *, rough: bool) -> tuple[list[Grid], str]:

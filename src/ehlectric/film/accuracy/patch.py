@@ -53,8 +53,8 @@ class Patch:
 
     @classmethod
     def around(cls, problem: FilmProblem, coarse: GridSolution) -> Patch | None:
-        """Patch where the film of a smooth point contact is decided; None where it would fill the domain."""
-        if problem.width is None or problem.added_gap is not None or coarse.status != "converged":
+        """Patch where the film of a point contact is decided; None where it would fill the domain."""
+        if problem.width is None or coarse.status != "converged":
             return None
         mesh = coarse.level.mesh
         length = np.sqrt(2.0 * max(at_centre(mesh, coarse.state.thickness), 0.0))
