@@ -20,7 +20,7 @@ from ehlectric.film.problem import FilmProblem
 
 # How often the intervals of a rough contact's grid are doubled at the most. Roughness that no grid resolves,
 # such as white noise, would take them up to the memory of the machine.
-_MOST_DOUBLED = {"line": 4, "point": 2}
+_MOST_DOUBLED = {"line": 3, "point": 2}
 
 
 @dataclass(frozen=True)
@@ -71,7 +71,7 @@ def refined(
     -------
     Refined
         Film of the last grid, with a warning if the target error was not reached. The grid of a rough line
-        contact has at most sixteen times the intervals of the first one, that of a point contact four times.
+        contact has at most eight times the intervals of the first one, that of a point contact four times.
     """
     started, target = time.perf_counter(), setup.grid.target
     grid = setup.first_grid.model_copy(update={"refine": None, "error": None})
