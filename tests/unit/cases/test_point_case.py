@@ -104,7 +104,7 @@ def test_grid_of_a_point_has_its_own_defaults():
     part = point(grid={"nodes": 129}).grid
     assert (part.nodes, part.inlet) == (129, -4.5)
     line = Case.from_dict({"contact": PAPER_CONTACT, "lubricant": {"base": "paper"}}).grid
-    assert (line.nodes, line.inlet, line.field_side) == (3201, -4.0, None)
+    assert (line.nodes, line.inlet, line.field_side) == (None, -4.0, None)
 
 
 def test_parts_make_a_case_as_tables_do():
