@@ -13,17 +13,23 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
+from ehlectric.film.accuracy.patch import Patch
 from ehlectric.film.atlas.coefficient import OilGroups, reference_laws
-from ehlectric.film.atlas.grids import LINES, POINTS
+from ehlectric.film.atlas.grids import LINES, POINTS, Axes
 from ehlectric.film.atlas.groups import Groups, film_problem
 from ehlectric.film.atlas.measures import measured
 from ehlectric.film.nested import nested_iteration
+from ehlectric.film.problem import FilmProblem
 from ehlectric.film.solution import quiet_solution
+from ehlectric.film.state import GridSolution
 from ehlectric.version import __version__
 
 # Nodes along and across a point contact, by the smallest film H = h R/b^2 down to which they serve.
 _NODES = ((0.25, 129), (0.08, 193), (0.02, 257), (0.01, 385), (0.0, 513))
 _LINE_NODES = 3201
+
+# Film H below which a patch with half of the spacings is solved too.
+_PATCHED = 0.006
 
 # Factors of the number of nodes with which a film that does not converge is tried again.
 _TRIES = (1.0, 1.25, 0.8)
@@ -58,14 +64,31 @@ def record(groups: Groups, laws: tuple[Any, Any], alpha: float) -> dict[str, Any
         problem = film_problem(groups, laws, alpha, nodes)
         with quiet_solution():
             solutions = nested_iteration(problem, None)
-        status = solutions[-1].status
+            status = solutions[-1].status
+            if status == "converged":
+                row |= _measures(groups, problem, solutions)
         if status == "converged":
-            half = [s for s in solutions if s.level.nodes == nodes // 2 + 1 and s.status == "converged"]
-            row["fine"] = measured(groups, problem, solutions[-1]).tolist()
-            row["coarse"] = measured(groups, problem, half[-1]).tolist() if half else None
             break
     made = {"status": status, "nodes": nodes, "seconds": round(time.perf_counter() - start, 2)}
     return row | made | {"version": __version__, "date": _now()}
+
+
+def _measures(groups: Groups, problem: FilmProblem, solutions: list[GridSolution]) -> dict[str, Any]:
+    """Numbers on the finest grid and on those with half and a quarter of its intervals.
+
+    A thin film has a patch with half of the spacings as its finest grid.
+    """
+    last, films = solutions[-1], []
+    patch = Patch.around(problem, last) if groups.ratio and _film(groups) < _PATCHED else None
+    if patch is not None:
+        inside = nested_iteration(patch.refined(2), None, solutions)[-1]
+        if inside.status == "converged":
+            films.append(measured(groups, problem, inside, patch).tolist())
+    films.append(measured(groups, problem, last).tolist())
+    half = [s for s in solutions if s.level.nodes == problem.nodes // 2 + 1 and s.status == "converged"]
+    films += [measured(groups, problem, half[-1]).tolist()] if half else []
+    patched = patch is not None and inside.status == "converged"
+    return dict(zip(("fine", "coarse", "coarser"), [*films, None, None], strict=False)) | {"patched": patched}
 
 
 def _left_out(groups: Groups) -> bool:
@@ -85,12 +108,20 @@ def _now() -> str:
     return datetime.now(UTC).isoformat(timespec="seconds")
 
 
+def rows_of(path: Path, kind: str, axes: Axes) -> Iterator[tuple[tuple[int, ...], dict[str, Any]]]:
+    """Rows of a folder with their nodes; rows of contacts that are no nodes of the axes are left out."""
+    for file in sorted(path.glob(f"{kind}-*.jsonl")):
+        for line in file.read_text(encoding="utf-8").splitlines():
+            row = json.loads(line)
+            at = axes.at(Groups(row["m"], row["l"], row["k"]))
+            if at is not None:
+                yield at, row
+
+
 def _remaining(path: Path, kind: str, part: int, parts: int) -> Iterator[tuple[int, ...]]:
     """Nodes of this part that no file of the folder has yet."""
-    done: set[tuple[int, ...]] = set()
-    for file in path.glob(f"{kind}-*.jsonl"):
-        done |= {tuple(json.loads(line)["at"]) for line in file.read_text(encoding="utf-8").splitlines()}
     axes = POINTS if kind == "points" else LINES
+    done = {at for at, _ in rows_of(path, kind, axes)}
     for number, at in enumerate(axes.order()):
         if number % parts == part and at not in done:
             yield at
@@ -111,7 +142,7 @@ def main() -> None:
         for at in list(_remaining(chosen.folder, chosen.kind, chosen.part, chosen.parts)):
             if chosen.until and f"{datetime.now(UTC):%H:%M}" >= chosen.until:
                 return
-            row = {"at": at} | record(axes.groups(at), laws, oil.alpha)
+            row = record(axes.groups(at), laws, oil.alpha)
             file.write(json.dumps(row) + "\n")
             file.flush()
 

@@ -58,22 +58,72 @@ class Axes:
         ratio = None if self.ratio is None else float(self.ratio[at[2]])
         return groups_of(load, lubricant / load**_SKEW, ratio)
 
+    def at(self, groups: Groups) -> tuple[int, ...] | None:
+        """Indices of the node with these groups; None where the axes have no such node."""
+        place = [groups.load_group, lubricant_coordinate(groups)]
+        place += [] if self.ratio is None else [groups.ratio or 1.0]
+        at = []
+        for axis, value in zip(self.nodes, place, strict=True):
+            index = int(np.argmin(np.abs(np.log(axis / value))))
+            if abs(axis[index] / value - 1.0) > _ALIKE:
+                return None
+            at.append(index)
+        return tuple(at)
+
     def order(self) -> list[tuple[int, ...]]:
-        """All nodes: first k >= 1 below the largest load group, and of them every second one."""
-        nodes = list(np.ndindex(*self.shape))
-        return sorted(nodes, key=lambda at: (self._is_late(at), any(i % 2 for i in at), at))
+        """Nodes to solve, the most wanted first; splines through these give the others."""
+        ranked = [(_rank(self, at), at) for at in np.ndindex(*self.shape)]
+        return [at for rank, at in sorted((rank, at) for rank, at in ranked if rank is not None)]
 
-    def _is_late(self, at: tuple[int, ...]) -> int:
-        """2 for narrow contacts, 1 for the thinnest films, which take longest, 0 for all others."""
-        if self.ratio is not None and self.ratio[at[2]] < 1.0:
-            return 2
-        return int(at[0] == self.load.size - 1)
 
+def _rank(axes: Axes, at: tuple[int, ...]) -> int | None:
+    """Place of a node in the order of the computation; None for a node that is not solved."""
+    if axes.ratio is None:
+        return 0
+    load, ratio = axes.load[at[0]], axes.ratio[at[2]]
+    between = at[1] % 2 == 1
+    if ratio < 1.0:
+        return None if between or load in _BETWEEN else 5
+    # Only light contacts, and those near the largest Hertz pressure, change fast with Y.
+    if between and load > _LIGHT:
+        return 4 if ratio >= _BALLS and axes.lubricant[at[1]] > _HIGH else None
+    return (0 if ratio >= _BALLS else 2) + int(load <= _LIGHT)
+
+
+# Load group up to which every lubricant coordinate is solved, and the coordinate beyond which this holds for
+# all loads; least ratio of the semi-axes of the balls of bearings, which come first.
+_LIGHT, _HIGH, _BALLS = 130.0, 70.0, 4.0
+
+# Relative distance within which a contact is at a node.
+_ALIKE = 1e-6
+
+# Load groups that are not solved for contacts wide along entrainment.
+_BETWEEN = (4.0, 7.4, 14.0, 30.0, 75.0, 250.0, 1100.0, 5500.0, 12000.0)
 
 # Films change their regime at small load groups, where the nodes are closer; beyond, films follow powers.
 POINTS = Axes(
-    np.array([3.0, 5.5, 10.0, 20.0, 45.0, 130.0, 500.0, 2500.0, 12000.0]),
-    np.geomspace(5.0, 112.0, 5),
+    np.array(
+        [
+            3.0,
+            4.0,
+            5.5,
+            7.4,
+            10.0,
+            14.0,
+            20.0,
+            30.0,
+            45.0,
+            75.0,
+            130.0,
+            250.0,
+            500.0,
+            1100.0,
+            2500.0,
+            5500.0,
+            12000.0,
+        ]
+    ),  # fmt: skip
+    np.geomspace(5.0, 112.0, 9),
     np.array([0.25, 0.5, 1.0, 2.0, 4.5, 9.5, 20.0]),
 )
 LINES = Axes(np.geomspace(0.2, 800.0, 25), np.geomspace(1.5, 112.0, 19))

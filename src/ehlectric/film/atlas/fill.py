@@ -1,0 +1,80 @@
+"""Nodes of the atlas without a solved film, from their neighbours: between solved nodes, and beyond them."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.interpolate import BSpline, make_interp_spline
+
+from ehlectric.arrays import Array, Mask
+
+# The error of a spline through every node over that of a spline through every second one: a sixteenth for
+# smooth values; kinks, where the minimum changes its place or a spike passes the centre, do worse.
+HALVED = 1.0 / 5.0
+
+
+def fill_between(values: Array, errors: Array, solved: Mask, logs: list[Array]) -> None:
+    """Fill nodes between solved ones of a line along an axis, and take them as solved.
+
+    Parameters
+    ----------
+    values, errors : ndarray, shape (..., n)
+        Stored numbers at the nodes and their errors; changed.
+    solved : ndarray of bool, shape (...)
+        Nodes with a film; changed.
+    logs : list of ndarray
+        Logarithms of the nodes along each axis.
+
+    Notes
+    -----
+    The second axis is filled first, then the last and the first one. The numbers are those of a cubic spline
+    through the solved nodes of the line. To the errors of the neighbours a fifth of the error is added that a
+    spline through every second solved node has.
+    """
+    for axis in (1, *range(solved.ndim - 1, 1, -1), 0):
+        before = solved.copy()
+        lines = [np.moveaxis(array, axis, 0) for array in (values, errors, solved)]
+        for at in np.ndindex(*lines[2].shape[1:]):
+            known = np.flatnonzero(np.moveaxis(before, axis, 0)[(slice(None), *at)])
+            if known.size >= 3:
+                _fill_line(logs[axis], known, *(line[(slice(None), *at)] for line in lines))
+
+
+def _fill_line(x: Array, known: Array, values: Array, errors: Array, solved: Mask) -> None:
+    """Fill the nodes of one line between its known ones; the arrays are changed."""
+    between = [i for i in range(int(known[0]), int(known[-1])) if i not in set(known.tolist())]
+    if not between:
+        return
+    every = np.unique(np.append(known[::2], known[-1]))
+    missed = np.abs(_spline(x, every, values)(x[known]) - values[known])
+    # A node of the coarser spline has no difference of its own, but those of its neighbours.
+    wide = np.pad(missed, [(1, 1), (0, 0)], mode="edge")
+    missed = HALVED * np.maximum(np.maximum(wide[:-2], wide[1:-1]), wide[2:])
+    total = make_interp_spline(x[known], errors[known] + missed, 1)
+    filled = _spline(x, known, values)(x[between])
+    values[between], errors[between], solved[between] = filled, total(x[between]), True
+
+
+def _spline(x: Array, nodes: Array, values: Array) -> BSpline:
+    return make_interp_spline(x[nodes], values[nodes], min(3, nodes.size - 1))
+
+
+def fill_beyond(values: Array, solved: Mask, logs: list[Array]) -> None:
+    """Fill all nodes that are left, so that splines have values there: by lines through two solved nodes.
+
+    A table is not read in a cell with such a node; they only support its neighbours.
+    """
+    known = solved.copy()
+    for axis in (1, 0, *range(solved.ndim - 1, 1, -1)):
+        lines, mask = np.moveaxis(values, axis, 0), np.moveaxis(known, axis, 0)
+        for at in np.ndindex(*mask.shape[1:]):
+            line, found = (slice(None), *at), np.flatnonzero(mask[(slice(None), *at)])
+            for i in range(mask.shape[0]) if found.size >= 2 else ():
+                if not mask[(i, *at)]:
+                    a, b = sorted(found, key=lambda node: abs(node - i))[:2]
+                    part = (logs[axis][i] - logs[axis][a]) / (logs[axis][b] - logs[axis][a])
+                    lines[line][i] = (1.0 - part) * lines[line][a] + part * lines[line][b]
+            if found.size >= 2:
+                mask[line] = True
+    where = np.argwhere(known)
+    for node in np.argwhere(~known):
+        values[tuple(node)] = values[tuple(where[np.argmin(np.sum((where - node) ** 2, axis=1))])]
