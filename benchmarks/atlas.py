@@ -2,8 +2,8 @@
 
 Oils and groups are drawn at random; contact number i is the same in every run. Solved contacts are appended
 to ``benchmarks/data/KIND-random.jsonl.gz``, so that a run goes on where the last one ended, and several runs
-may share the work with ``--part`` and ``--parts``. Each film is then compared with the atlas: median, 95 % and
-largest difference, and the share inside the stated error.
+may share the work with ``--part`` and ``--parts``. Each film is then compared with the atlas: median, 95 %
+and largest difference, and the share inside the stated error.
 """
 
 import argparse

@@ -3,7 +3,6 @@
 python -m benchmarks.atlas_catalogue    says how many of them lie inside the atlas
 """
 
-import math
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -62,18 +61,14 @@ class CatalogueContact:
     pressure: float
 
     @property
-    def inside(self):
-        """Whether the atlas has a film."""
+    def film(self):
+        """Film of the atlas; None where it has none."""
         try:
-            atlas_film(self.groups, (self.oil.log_viscosity, self.oil.density_ratio), self.oil_groups)
+            return atlas_film(
+                self.groups, (self.oil.log_viscosity, self.oil.density_ratio), _oil_groups(self.oil)
+            )
         except InputError:
-            return False
-        return True
-
-    @property
-    def oil_groups(self):
-        """Groups of the oil."""
-        return _oil_groups(self.oil)
+            return None
 
 
 @lru_cache(maxsize=64)
@@ -96,17 +91,17 @@ def catalogue_contacts(kind):
 
 def _at_speeds(bearing, load, celsius):
     """Contacts at all speeds; the forces of slow shafts serve all, without the centrifugal ones."""
-    case = BearingCase.from_dict(
-        {
-            "bearing": {
-                "base": bearing.name, "radial_load": load, "axial_load": 0.1 * load if bearing.contact_angle else 0.0,
-                "inner_speed": "1000 rpm", "temperature": f"{celsius} degC",
-                "composite_rq": "0.03 um",
-            } | _of_kind(bearing),
-            "lubricant": OIL,
-            "contacts": "formula",
-        }
-    )  # fmt: skip
+    table = {
+        "base": bearing.name,
+        "radial_load": load,
+        "axial_load": 0.1 * load if bearing.contact_angle else 0.0,
+        "inner_speed": "1000 rpm",
+        "temperature": f"{celsius} degC",
+        "composite_rq": "0.03 um",
+    }
+    table |= {} if bearing.contact_angle else {"radial_clearance": "10 um"}
+    table |= {} if bearing.roller_length is None else {"profile": "none"}
+    case = BearingCase.from_dict({"bearing": table, "lubricant": OIL, "contacts": "formula"})
     prepared = prepare_bearing(case, 1)
     made = []
     for ring in prepared.rings:
@@ -115,12 +110,6 @@ def _at_speeds(bearing, load, celsius):
             moved = replace(ring, speed=ring.speed * speed / 1000.0)
             made.append(_contact(bearing.name, moved, heaviest))
     return made
-
-
-def _of_kind(bearing):
-    """Keys of a bearing file that depend on the kind of the bearing."""
-    keys = {} if bearing.contact_angle else {"radial_clearance": "10 um"}
-    return keys if bearing.roller_length is None else keys | {"profile": "none"}
 
 
 def _contact(name, ring, load):
@@ -136,14 +125,19 @@ def _contact(name, ring, load):
 def main():
     for kind in ("points", "lines"):
         found = catalogue_contacts(kind)
-        inside = np.array([contact.inside for contact in found])
-        print(f"{kind}: {inside.sum()} of {inside.size} inside, {100.0 * inside.mean():.0f} %")
-        rows = np.array(
-            [(c.groups.load_group, lubricant_coordinate(c.groups), c.groups.ratio or math.nan, c.pressure / 1e9, c.groups.hertz_number)
-             for c in found]
-        )
-        for name, column in zip(("N", "Y", "k", "GPa", "alpha p_h"), rows.T, strict=True):
-            print(name, *(f"{value:.4g}" for value in np.quantile(column, [0, 0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99, 1])))
+        inside = sum(contact.film is not None for contact in found)
+        print(f"{kind}: {inside} of {len(found)} in the atlas, {100.0 * inside / len(found):.0f} %")
+        groups = [contact.groups for contact in found]
+        columns = {
+            "N": [g.load_group for g in groups],
+            "Y": [lubricant_coordinate(g) for g in groups],
+            "k": [g.ratio or np.nan for g in groups],
+            "GPa": [contact.pressure / 1e9 for contact in found],
+            "alpha p_h": [g.hertz_number for g in groups],
+        }
+        for name, values in columns.items():
+            parts = np.quantile(values, [0.0, 0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99, 1.0])
+            print(f"{name:>9s}", *(f"{value:9.4g}" for value in parts))
 
 
 if __name__ == "__main__":

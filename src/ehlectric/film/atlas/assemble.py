@@ -16,7 +16,7 @@ import numpy as np
 from ehlectric.arrays import Array, Mask
 from ehlectric.film.atlas.coefficient import REFERENCE, OilGroups, reference_laws
 from ehlectric.film.atlas.compute import rows_of
-from ehlectric.film.atlas.fill import fill_between, fill_beyond
+from ehlectric.film.atlas.fill import extend, fill_between, fill_beyond
 from ehlectric.film.atlas.grids import LINES, POINTS, Axes
 from ehlectric.film.atlas.groups import TOLERANCE, Groups
 from ehlectric.film.atlas.measures import NAMES
@@ -29,8 +29,12 @@ _PLACES = NAMES.index("minimum_x")
 # that differ more are not resolved on either grid.
 _RESOLVED = 0.3
 
+# Largest Hertz pressure over 1/alpha of nodes that are extrapolated from lower ones, so that contacts below
+# the largest that is solved lie in a cell.
+_NEAR = 165.0
+
 # Least share of solved nodes of an outermost plane of the table that is kept.
-_LEAST_SHARE = 0.5
+_LEAST_SHARE = 0.25
 
 # Largest relative difference of two grids that is extrapolated to a vanishing node spacing.
 _SMALL = 0.2
@@ -64,6 +68,9 @@ def assembled(folder: Path, kind: str, axes: Axes) -> dict[str, Any]:
     number = int(solved.sum())
     logs = [np.log(axis) for axis in axes.nodes]
     fill_between(values, errors, solved, logs)
+    if axes.ratio is not None:
+        wanted = [axes.groups(at).hertz_number <= _NEAR for at in np.ndindex(*axes.shape)]
+        extend(values, errors, solved, np.reshape(wanted, axes.shape), logs)
     made = {
         "computed": [min(dates), max(dates)] if dates else [], "seconds": round(seconds), "solved": number,
     }  # fmt: skip
@@ -97,7 +104,7 @@ def _extrapolated(groups: Groups, row: dict[str, Any]) -> tuple[Array, Array, bo
 
 
 def _kept(solved: Mask, axis: int) -> list[int]:
-    """Indices along an axis without its ends where less than half of the nodes are solved."""
+    """Indices along an axis without its ends where too few nodes are solved."""
     share = solved.mean(axis=tuple(i for i in range(solved.ndim) if i != axis))
     good = np.flatnonzero(share >= _LEAST_SHARE)
     return list(range(int(good[0]), int(good[-1]) + 1))

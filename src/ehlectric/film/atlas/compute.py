@@ -15,7 +15,7 @@ from typing import Any
 
 from ehlectric.film.accuracy.patch import Patch
 from ehlectric.film.atlas.coefficient import OilGroups, reference_laws
-from ehlectric.film.atlas.grids import LINES, POINTS, Axes
+from ehlectric.film.atlas.grids import LINES, MOST_HERTZ, POINTS, Axes
 from ehlectric.film.atlas.groups import Groups, film_problem
 from ehlectric.film.atlas.measures import measured
 from ehlectric.film.nested import nested_iteration
@@ -33,9 +33,6 @@ _PATCHED = 0.006
 
 # Factors of the number of nodes with which a film that does not converge is tried again.
 _TRIES = (1.0, 1.25, 0.8)
-
-# Largest Hertz pressure over 1/alpha that is solved: 5 GPa with 20 1/GPa. Higher ones converge slowly.
-_MOST_HERTZ = 100.0
 
 # Smallest film H = h R/b^2 that is solved for narrow contacts; thinner ones need thousands of nodes.
 _LEAST_NARROW = 0.004
@@ -96,7 +93,7 @@ def _left_out(groups: Groups) -> bool:
     if groups.ratio is None:
         return False
     thin = groups.ratio < _NARROW and _film(groups) < _LEAST_NARROW
-    return thin or groups.hertz_number > _MOST_HERTZ
+    return thin or groups.hertz_number > MOST_HERTZ
 
 
 def _film(groups: Groups) -> float:

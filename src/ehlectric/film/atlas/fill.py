@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.interpolate import BSpline, make_interp_spline
 
 from ehlectric.arrays import Array, Mask
@@ -31,18 +32,19 @@ def fill_between(values: Array, errors: Array, solved: Mask, logs: list[Array]) 
     spline through every second solved node has.
     """
     for axis in (1, *range(solved.ndim - 1, 1, -1), 0):
-        before = solved.copy()
-        lines = [np.moveaxis(array, axis, 0) for array in (values, errors, solved)]
-        for at in np.ndindex(*lines[2].shape[1:]):
-            known = np.flatnonzero(np.moveaxis(before, axis, 0)[(slice(None), *at)])
-            if known.size >= 3:
-                _fill_line(logs[axis], known, *(line[(slice(None), *at)] for line in lines))
+        on_lines, off_lines = np.moveaxis(values, axis, 0), np.moveaxis(errors, axis, 0)
+        mask = np.moveaxis(solved, axis, 0)
+        for at in np.ndindex(*mask.shape[1:]):
+            line = (slice(None), *at)
+            if np.count_nonzero(mask[line]) >= 3:
+                _fill_line(logs[axis], on_lines[line], off_lines[line], mask[line])
 
 
-def _fill_line(x: Array, known: Array, values: Array, errors: Array, solved: Mask) -> None:
-    """Fill the nodes of one line between its known ones; the arrays are changed."""
-    between = [i for i in range(int(known[0]), int(known[-1])) if i not in set(known.tolist())]
-    if not between:
+def _fill_line(x: Array, values: Array, errors: Array, solved: Mask) -> None:
+    """Fill the nodes of one line between its solved ones; the arrays are changed."""
+    known = np.flatnonzero(solved)
+    between = np.setdiff1d(np.arange(known[0], known[-1]), known)
+    if not between.size:
         return
     every = np.unique(np.append(known[::2], known[-1]))
     missed = np.abs(_spline(x, every, values)(x[known]) - values[known])
@@ -54,8 +56,39 @@ def _fill_line(x: Array, known: Array, values: Array, errors: Array, solved: Mas
     values[between], errors[between], solved[between] = filled, total(x[between]), True
 
 
-def _spline(x: Array, nodes: Array, values: Array) -> BSpline:
+def _spline(x: Array, nodes: NDArray[np.intp], values: Array) -> BSpline:
     return make_interp_spline(x[nodes], values[nodes], min(3, nodes.size - 1))
+
+
+def extend(values: Array, errors: Array, solved: Mask, wanted: Mask, logs: list[Array]) -> None:
+    """Fill wanted nodes at the upper end of a line along the second axis, and take them as solved.
+
+    Parameters
+    ----------
+    values, errors, solved, logs : as in ``fill_between``
+        Arrays of the table; changed.
+    wanted : ndarray of bool, shape (...)
+        Nodes to fill; those between or below solved ones stay.
+
+    Notes
+    -----
+    Beyond the largest Hertz pressure that is solved films follow powers. The numbers lie on the parabola
+    through the last three solved nodes of the line; twice its difference from the line through the last two
+    is added to the error of the last node.
+    """
+    x = logs[1]
+    for i, *rest in np.ndindex(solved.shape[0], *solved.shape[2:]):
+        line = (i, slice(None), *rest)
+        known = np.flatnonzero(solved[line])
+        beyond = np.flatnonzero(wanted[line] & ~solved[line])
+        beyond = beyond[beyond > known[-1]] if known.size >= 3 else beyond[:0]
+        if beyond.size:
+            last = known[-3:]
+            curve = make_interp_spline(x[last], values[line][last], 2)(x[beyond])
+            straight = make_interp_spline(x[last[1:]], values[line][last[1:]], 1)(x[beyond])
+            values[line][beyond] = curve
+            errors[line][beyond] = errors[line][last[-1]] + 2.0 * np.abs(curve - straight)
+            solved[line][beyond] = True
 
 
 def fill_beyond(values: Array, solved: Mask, logs: list[Array]) -> None:

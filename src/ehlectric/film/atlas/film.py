@@ -11,8 +11,9 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array
+from ehlectric.errors import InputError
 from ehlectric.film.atlas.coefficient import OilGroups, reference_laws
-from ehlectric.film.atlas.grids import lubricant_coordinate
+from ehlectric.film.atlas.grids import MOST_HERTZ, lubricant_coordinate
 from ehlectric.film.atlas.groups import Groups
 from ehlectric.film.atlas.measures import NAMES
 from ehlectric.film.atlas.table import table
@@ -109,8 +110,14 @@ def atlas_film(groups: Groups, laws: Laws | None = None, oil: OilGroups | None =
     known = laws is not None
     laws = reference_laws() if laws is None else laws
     oil = OilGroups.of(*laws) if oil is None else oil
-    at = (groups.load_group, lubricant_coordinate(groups))
     point = groups.ratio is not None
+    if point and groups.hertz_number > MOST_HERTZ:
+        raise InputError(
+            "atlas",
+            got=f"alpha p_h = {groups.hertz_number:.4g}",
+            takes=f"at most {MOST_HERTZ:g}, the range of the atlas of points",
+        )
+    at = (groups.load_group, lubricant_coordinate(groups))
     stored, errors = table("points" if point else "lines")(*at, *((groups.ratio,) if point else ()))
     logs = dict(zip(NAMES, stored.tolist(), strict=True))
     pressure, number = math.exp(logs["pressure"]), groups.hertz_number

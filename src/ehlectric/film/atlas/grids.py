@@ -9,6 +9,9 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.film.atlas.groups import Groups, groups_of
 
+# Largest Hertz pressure of points over 1/alpha: 5 GPa with 20 1/GPa. Higher ones converge slowly.
+MOST_HERTZ = 100.0
+
 # Exponent of the load group in the lubricant coordinate Y = L N^(1/6). In bearings L falls and N rises with
 # the viscosity and the speed, so that L and N are correlated, whereas Y and N are hardly so.
 _SKEW = 1.0 / 6.0
@@ -80,19 +83,26 @@ def _rank(axes: Axes, at: tuple[int, ...]) -> int | None:
     """Place of a node in the order of the computation; None for a node that is not solved."""
     if axes.ratio is None:
         return 0
-    load, ratio = axes.load[at[0]], axes.ratio[at[2]]
-    between = at[1] % 2 == 1
+    load, lubricant, ratio = axes.load[at[0]], axes.lubricant[at[1]], axes.ratio[at[2]]
+    between, light, ball = at[1] % 2 == 1, load <= _LIGHT, ratio >= _BALLS
     if ratio < 1.0:
-        return None if between or load in _BETWEEN else 5
+        return None if between or load in _BETWEEN else 6
     # Only light contacts, and those near the largest Hertz pressure, change fast with Y.
-    if between and load > _LIGHT:
-        return 4 if ratio >= _BALLS and axes.lubricant[at[1]] > _HIGH else None
-    return (0 if ratio >= _BALLS else 2) + int(load <= _LIGHT)
+    if light:
+        return 1 if ball else 3
+    if between:
+        return 5 if ball and lubricant > _HIGH else None
+    # The thinnest films take longest.
+    if load > _HEAVY and (lubricant < _LOW or (load > _HEAVIEST and not ball)):
+        return 7
+    return 4 if not ball else 2 if _HEAVY < load < _HEAVIEST else 0
 
 
 # Load group up to which every lubricant coordinate is solved, and the coordinate beyond which this holds for
-# all loads; least ratio of the semi-axes of the balls of bearings, which come first.
+# all loads; least ratio of the semi-axes of the balls of bearings, which come first; lubricant coordinate
+# below which no bearing is, and load groups beyond which films are thin, and thinnest.
 _LIGHT, _HIGH, _BALLS = 130.0, 70.0, 4.0
+_LOW, _HEAVY, _HEAVIEST = 9.0, 3000.0, 10000.0
 
 # Relative distance within which a contact is at a node.
 _ALIKE = 1e-6
@@ -101,29 +111,12 @@ _ALIKE = 1e-6
 _BETWEEN = (4.0, 7.4, 14.0, 30.0, 75.0, 250.0, 1100.0, 5500.0, 12000.0)
 
 # Films change their regime at small load groups, where the nodes are closer; beyond, films follow powers.
+_SMALL = 3.0, 4.0, 5.5, 7.4, 10.0, 14.0, 20.0, 30.0, 45.0, 75.0, 130.0
+_LOADS = (*_SMALL, 250.0, 500.0, 1100.0, 2500.0, 5500.0, 12000.0)
+
 POINTS = Axes(
-    np.array(
-        [
-            3.0,
-            4.0,
-            5.5,
-            7.4,
-            10.0,
-            14.0,
-            20.0,
-            30.0,
-            45.0,
-            75.0,
-            130.0,
-            250.0,
-            500.0,
-            1100.0,
-            2500.0,
-            5500.0,
-            12000.0,
-        ]
-    ),  # fmt: skip
-    np.geomspace(5.0, 112.0, 9),
+    np.array(_LOADS),
+    np.append(np.geomspace(5.0, 112.0, 9), 175.0),
     np.array([0.25, 0.5, 1.0, 2.0, 4.5, 9.5, 20.0]),
 )
 LINES = Axes(np.geomspace(0.2, 800.0, 25), np.geomspace(1.5, 112.0, 19))
