@@ -89,7 +89,7 @@ def _rank(axes: Axes, at: tuple[int, ...]) -> int | None:
         return None if between or load in _BETWEEN else 6
     # Only light contacts, and those near the largest Hertz pressure, change fast with Y.
     if light:
-        return 1 if ball else 3
+        return 1 if ball and ratio < _NARROW else 3
     if between:
         return 5 if ball and lubricant > _HIGH else None
     # The thinnest films take longest.
@@ -102,7 +102,7 @@ def _rank(axes: Axes, at: tuple[int, ...]) -> int | None:
 # all loads; least ratio of the semi-axes of the balls of bearings, which come first; lubricant coordinate
 # below which no bearing is, and load groups beyond which films are thin, and thinnest.
 _LIGHT, _HIGH, _BALLS = 130.0, 70.0, 4.0
-_LOW, _HEAVY, _HEAVIEST = 9.0, 3000.0, 10000.0
+_LOW, _HEAVY, _HEAVIEST, _NARROW = 9.0, 3000.0, 10000.0, 12.0
 
 # Relative distance within which a contact is at a node.
 _ALIKE = 1e-6
