@@ -22,7 +22,9 @@ from ehlectric.film.atlas.groups import TOLERANCE, Groups
 from ehlectric.film.atlas.measures import NAMES
 from ehlectric.version import __version__
 
-_CENTRAL, _MINIMUM, _MEAN, _PRESSURE = map(NAMES.index, ("central", "minimum", "mean", "pressure"))
+_CENTRAL, _MINIMUM, _MEAN, _PRESSURE, _ZONE = map(
+    NAMES.index, ("central", "minimum", "mean", "pressure", "zone")
+)
 _PLACES = NAMES.index("minimum_x")
 
 # Largest difference of the logarithms of the minimum film on two grids with which a node is taken. Side lobes
@@ -34,7 +36,7 @@ _RESOLVED = 0.3
 _NEAR = 165.0
 
 # Least share of solved nodes of an outermost plane of the table that is kept.
-_LEAST_SHARE = 0.25
+_LEAST_SHARE = 0.05
 
 # Largest relative difference of two grids that is extrapolated to a vanishing node spacing.
 _SMALL = 0.2
@@ -43,13 +45,15 @@ _SMALL = 0.2
 def stored(groups: Groups, numbers: Array) -> Array:
     """Numbers of ``NAMES`` as the table stores them: logarithms of smooth ratios, and places.
 
-    The central film is stored as a thickness, because rho h has a spike where the pressure has one.
+    The central film is stored as a thickness, because rho h has a spike where the pressure has one. Where
+    the spike passes the centre, the central film has a kink. The minimum, the mean and the mean of
+    1/(rho h) do not, and are therefore stored without it.
     """
     logs = np.log(np.maximum(numbers[:_PLACES], 1e-12))
     peak = numbers[_PRESSURE] * groups.hertz_number / OilGroups.of(*reference_laws()).alpha
+    logs[_ZONE] -= logs[_CENTRAL] - np.log(groups.formula)
     logs[_CENTRAL] -= float(np.log(reference_laws()[1](np.array([peak]))[0][0]))
-    logs[[_MINIMUM, _MEAN]] -= logs[_CENTRAL]
-    logs[_CENTRAL] -= np.log(groups.formula)
+    logs[[_CENTRAL, _MINIMUM, _MEAN]] -= np.log(groups.formula)
     return np.concatenate([logs, numbers[_PLACES:]])
 
 
@@ -99,8 +103,7 @@ def _extrapolated(groups: Groups, row: dict[str, Any]) -> tuple[Array, Array, bo
     if len(steps) > 1:
         change = 0.5 * np.abs(films[0] + steps[0] - films[1] - steps[1])
         error = np.minimum(error, np.maximum(0.25 * error, change))
-    of_minimum = 3.0 * (steps[0][_MINIMUM] + steps[0][_CENTRAL])
-    return films[0] + used, error, bool(abs(of_minimum) < _RESOLVED)
+    return films[0] + used, error, bool(3.0 * abs(steps[0][_MINIMUM]) < _RESOLVED)
 
 
 def _kept(solved: Mask, axis: int) -> list[int]:

@@ -18,6 +18,7 @@ from ehlectric.film.atlas.coefficient import OilGroups, reference_laws
 from ehlectric.film.atlas.grids import LINES, MOST_HERTZ, POINTS, Axes
 from ehlectric.film.atlas.groups import Groups, film_problem
 from ehlectric.film.atlas.measures import measured
+from ehlectric.film.mesh import at_centre
 from ehlectric.film.nested import nested_iteration
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.solution import quiet_solution
@@ -28,8 +29,9 @@ from ehlectric.version import __version__
 _NODES = ((0.25, 129), (0.08, 193), (0.02, 257), (0.01, 385), (0.0, 513))
 _LINE_NODES = 3201
 
-# Film H below which a patch with half of the spacings is solved too.
-_PATCHED = 0.006
+# Change of the central film from the grid with half the intervals above which the intervals are doubled, and
+# the number of nodes up to which they are.
+_CHANGE, _MOST_DOUBLED = 0.02, 300
 
 # Factors of the number of nodes with which a film that does not converge is tried again.
 _TRIES = (1.0, 1.25, 0.8)
@@ -56,12 +58,16 @@ def record(groups: Groups, laws: tuple[Any, Any], alpha: float) -> dict[str, Any
     start, row = time.perf_counter(), {"m": groups.moes_m, "l": groups.moes_l, "k": groups.ratio}
     if _left_out(groups):
         return row | {"status": "left out", "nodes": 0, "seconds": 0.0, "date": _now()}
+    first = nodes_for(groups)
     for factor in _TRIES:
-        nodes = 2 * int(factor * nodes_for(groups) / 2.0) + 1
+        nodes = 2 * int(factor * first / 2.0) + 1
         problem = film_problem(groups, laws, alpha, nodes)
         with quiet_solution():
             solutions = nested_iteration(problem, None)
-            status = solutions[-1].status
+            while _is_coarse(problem, solutions):
+                problem = problem.doubled()
+                solutions = nested_iteration(problem, None, solutions)
+            nodes, status = problem.nodes, solutions[-1].status
             if status == "converged":
                 row |= _measures(groups, problem, solutions)
         if status == "converged":
@@ -70,13 +76,26 @@ def record(groups: Groups, laws: tuple[Any, Any], alpha: float) -> dict[str, Any
     return row | made | {"version": __version__, "date": _now()}
 
 
+def _is_coarse(problem: FilmProblem, solutions: list[GridSolution]) -> bool:
+    """Whether the film in the middle of a point contact changes much from the grid with half the intervals.
+
+    So do light contacts where the spike of the pressure passes the centre: their grids reach far ahead.
+    """
+    if problem.width is None or problem.nodes > _MOST_DOUBLED or solutions[-1].status != "converged":
+        return False
+    half = [s for s in solutions if s.level.nodes == problem.nodes // 2 + 1 and s.status == "converged"]
+    films = [at_centre(s.level.mesh, s.state.thickness) for s in (*half[-1:], solutions[-1])]
+    return abs(films[0] / films[-1] - 1.0) > _CHANGE
+
+
 def _measures(groups: Groups, problem: FilmProblem, solutions: list[GridSolution]) -> dict[str, Any]:
     """Numbers on the finest grid and on those with half and a quarter of its intervals.
 
-    A thin film has a patch with half of the spacings as its finest grid.
+    The finest grid is a patch with half of the spacings where it is much smaller than the domain: it takes
+    less than half of the time of the whole domain, and the minimum film needs it.
     """
     last, films = solutions[-1], []
-    patch = Patch.around(problem, last) if groups.ratio and _film(groups) < _PATCHED else None
+    patch = Patch.around(problem, last)
     if patch is not None:
         inside = nested_iteration(patch.refined(2), None, solutions)[-1]
         if inside.status == "converged":

@@ -12,6 +12,9 @@ from ehlectric.arrays import Array, Mask
 # smooth values; kinks, where the minimum changes its place or a spike passes the centre, do worse.
 HALVED = 1.0 / 5.0
 
+# Share of solved nodes, over the largest of all planes, above which a plane serves to fill others.
+_FULL = 0.75
+
 
 def fill_between(values: Array, errors: Array, solved: Mask, logs: list[Array]) -> None:
     """Fill nodes between solved ones of a line along an axis, and take them as solved.
@@ -27,17 +30,57 @@ def fill_between(values: Array, errors: Array, solved: Mask, logs: list[Array]) 
 
     Notes
     -----
-    The second axis is filled first, then the last and the first one. The numbers are those of a cubic spline
+    The second axis is filled first, then the third and the first one. The numbers are those of a cubic spline
     through the solved nodes of the line. To the errors of the neighbours a fifth of the error is added that a
     spline through every second solved node has.
     """
-    for axis in (1, *range(solved.ndim - 1, 1, -1), 0):
-        on_lines, off_lines = np.moveaxis(values, axis, 0), np.moveaxis(errors, axis, 0)
-        mask = np.moveaxis(solved, axis, 0)
-        for at in np.ndindex(*mask.shape[1:]):
-            line = (slice(None), *at)
-            if np.count_nonzero(mask[line]) >= 3:
-                _fill_line(logs[axis], on_lines[line], off_lines[line], mask[line])
+    _fill_lines(values, errors, solved, logs, 1)
+    if solved.ndim == 3:
+        _fill_planes(values, errors, solved, logs)
+        _fill_lines(values, errors, solved, logs, 2)
+    _fill_lines(values, errors, solved, logs, 0)
+
+
+def _fill_planes(values: Array, errors: Array, solved: Mask, logs: list[Array]) -> None:
+    """Fill planes of the third axis that are solved for few nodes of the first one.
+
+    A spline along the third axis through the other planes is off by little, and this changes slowly along the
+    first axis: the difference at the solved nodes is interpolated, and kept beyond the last of them, where it
+    is added to the error.
+    """
+    share = solved.mean(axis=(0, 1))
+    full = np.flatnonzero(share > _FULL * np.max(share))
+    for plane in np.setdiff1d(np.arange(full[0], full[-1]), full):
+        for j in range(solved.shape[1]):
+            line, x = (slice(None), j, plane), logs[2]
+            around = [np.intersect1d(full, np.flatnonzero(known)) for known in solved[:, j]]
+            inside = np.array([known.size > 1 and known[0] < plane < known[-1] for known in around])
+            guess = np.zeros_like(values[line])
+            for i in np.flatnonzero(inside):
+                guess[i] = _spline(x, around[i], values[i, j])(x[plane])
+            known = solved[line] & inside
+            if not known.any():
+                continue
+            off, doubt, filled = values[line] - guess, errors[line].copy(), known.copy()
+            if np.count_nonzero(known) >= 3:
+                _fill_line(logs[0], off, doubt, filled)
+            nodes = np.flatnonzero(filled)
+            for i in np.flatnonzero(inside & ~solved[line]):
+                near = nodes[np.argmin(np.abs(nodes - i))]
+                beyond = np.abs(off[near]) if near != i else 0.0
+                values[i, j, plane] = guess[i] + off[near]
+                errors[i, j, plane] = np.max(errors[i, j, around[i]], axis=0) + doubt[near] + beyond
+                solved[i, j, plane] = True
+
+
+def _fill_lines(values: Array, errors: Array, solved: Mask, logs: list[Array], axis: int) -> None:
+    """Fill the nodes between solved ones of all lines along an axis; the arrays are changed."""
+    on_lines, off_lines = np.moveaxis(values, axis, 0), np.moveaxis(errors, axis, 0)
+    mask = np.moveaxis(solved, axis, 0)
+    for at in np.ndindex(*mask.shape[1:]):
+        line = (slice(None), *at)
+        if np.count_nonzero(mask[line]) >= 3:
+            _fill_line(logs[axis], on_lines[line], off_lines[line], mask[line])
 
 
 def _fill_line(x: Array, values: Array, errors: Array, solved: Mask) -> None:

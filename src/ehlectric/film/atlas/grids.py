@@ -83,32 +83,37 @@ def _rank(axes: Axes, at: tuple[int, ...]) -> int | None:
     """Place of a node in the order of the computation; None for a node that is not solved."""
     if axes.ratio is None:
         return 0
-    load, lubricant, ratio = axes.load[at[0]], axes.lubricant[at[1]], axes.ratio[at[2]]
+    load, lubricant, ratio = (float(axis[index]) for axis, index in zip(axes.nodes, at, strict=True))
     between, light, ball = at[1] % 2 == 1, load <= _LIGHT, ratio >= _BALLS
-    if ratio < 1.0:
-        return None if between or load in _BETWEEN else 6
+    if ratio < 1.0 or ratio in _SPARSE:
+        return None if between or load not in _SPARSE_LOADS[ratio] else _SPARSE.get(ratio, 7)
     # Only light contacts, and those near the largest Hertz pressure, change fast with Y.
     if light:
-        return 1 if ball and ratio < _NARROW else 3
+        return 1 if ball and ratio < _NARROW else 5
     if between:
-        return 5 if ball and lubricant > _HIGH else None
+        return 8 if ball and lubricant > _HIGH else None
     # The thinnest films take longest.
-    if load > _HEAVY and (lubricant < _LOW or (load > _HEAVIEST and not ball)):
-        return 7
-    return 4 if not ball else 2 if _HEAVY < load < _HEAVIEST else 0
+    wide, narrow = not ball, ratio > _NARROW and lubricant > _LONG
+    if load > _HEAVY and (lubricant < _LOW or (load > _HEAVIEST and (wide or narrow))):
+        return 9
+    return 4 if not ball else 6 if _HEAVY < load < _HEAVIEST else 0
 
 
 # Load group up to which every lubricant coordinate is solved, and the coordinate beyond which this holds for
 # all loads; least ratio of the semi-axes of the balls of bearings, which come first; lubricant coordinate
-# below which no bearing is, and load groups beyond which films are thin, and thinnest.
+# below which no bearing is, and load groups beyond which films are thin, and thinnest; ratio above balls.
 _LIGHT, _HIGH, _BALLS = 130.0, 70.0, 4.0
-_LOW, _HEAVY, _HEAVIEST, _NARROW = 9.0, 3000.0, 10000.0, 12.0
+_LOW, _HEAVY, _HEAVIEST, _NARROW, _LONG = 9.0, 3000.0, 10000.0, 12.0, 50.0
+
+# Ratios of the semi-axes that are solved for few load groups, with their rank, and these load groups. Films
+# change slowly with the ratio, but the side lobes of heavily loaded contacts do not.
+_SPARSE = {1.4: 5, 3.0: 3, 6.5: 2}
+_FEW = (5.5, 20.0, 130.0, 500.0, 2500.0)
+_WIDE = (3.0, 5.5, 10.0, 20.0, 45.0, 130.0, 500.0, 2500.0)
+_SPARSE_LOADS = {0.25: _WIDE, 0.5: _WIDE, 1.4: _FEW, 3.0: _FEW, 6.5: (*_FEW, 12000.0)}
 
 # Relative distance within which a contact is at a node.
 _ALIKE = 1e-6
-
-# Load groups that are not solved for contacts wide along entrainment.
-_BETWEEN = (4.0, 7.4, 14.0, 30.0, 75.0, 250.0, 1100.0, 5500.0, 12000.0)
 
 # Films change their regime at small load groups, where the nodes are closer; beyond, films follow powers.
 _SMALL = 3.0, 4.0, 5.5, 7.4, 10.0, 14.0, 20.0, 30.0, 45.0, 75.0, 130.0
@@ -117,6 +122,6 @@ _LOADS = (*_SMALL, 250.0, 500.0, 1100.0, 2500.0, 5500.0, 12000.0)
 POINTS = Axes(
     np.array(_LOADS),
     np.append(np.geomspace(5.0, 112.0, 9), 175.0),
-    np.array([0.25, 0.5, 1.0, 2.0, 4.5, 9.5, 20.0]),
+    np.array([0.25, 0.5, 1.0, 1.4, 2.0, 3.0, 4.5, 6.5, 9.5, 20.0]),
 )
 LINES = Axes(np.geomspace(0.2, 800.0, 25), np.geomspace(1.5, 112.0, 19))
