@@ -86,7 +86,7 @@ def _rank(axes: Axes, at: tuple[int, ...]) -> int | None:
     load, lubricant, ratio = (float(axis[index]) for axis, index in zip(axes.nodes, at, strict=True))
     between, light, ball = at[1] % 2 == 1, load <= _LIGHT, ratio >= _BALLS
     if ratio < 1.0 or ratio in _SPARSE:
-        return None if between or load not in _SPARSE_LOADS[ratio] else _SPARSE.get(ratio, 7)
+        return None if between or load not in _SPARSE_LOADS[ratio] else _SPARSE.get(ratio, 4)
     # Only light contacts, and those near the largest Hertz pressure, change fast with Y.
     if light:
         return 1 if ball and ratio < _NARROW else 5
@@ -109,7 +109,7 @@ _LOW, _HEAVY, _HEAVIEST, _NARROW, _LONG = 9.0, 3000.0, 10000.0, 12.0, 50.0
 # change slowly with the ratio, but the side lobes of heavily loaded contacts do not.
 _SPARSE = {1.4: 5, 3.0: 3, 6.5: 2}
 _FEW = (5.5, 20.0, 130.0, 500.0, 2500.0)
-_WIDE = (3.0, 5.5, 10.0, 20.0, 45.0, 130.0, 500.0, 2500.0)
+_WIDE = (3.0, 5.5, 10.0, 20.0, 45.0, 130.0, 500.0)
 _SPARSE_LOADS = {0.25: _WIDE, 0.5: _WIDE, 1.4: _FEW, 3.0: _FEW, 6.5: (*_FEW, 12000.0)}
 
 # Relative distance within which a contact is at a node.
