@@ -11,8 +11,9 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array
+from ehlectric.errors import InputError
 from ehlectric.film.atlas.coefficient import OilGroups, reference_laws
-from ehlectric.film.atlas.grids import lubricant_coordinate
+from ehlectric.film.atlas.grids import MOST_HERTZ, lubricant_coordinate
 from ehlectric.film.atlas.groups import Groups
 from ehlectric.film.atlas.measures import NAMES
 from ehlectric.film.atlas.table import table
@@ -109,23 +110,31 @@ def atlas_film(groups: Groups, laws: Laws | None = None, oil: OilGroups | None =
     known = laws is not None
     laws = reference_laws() if laws is None else laws
     oil = OilGroups.of(*laws) if oil is None else oil
-    at = (groups.load_group, lubricant_coordinate(groups))
     point = groups.ratio is not None
+    if point and groups.hertz_number > MOST_HERTZ:
+        raise InputError(
+            "atlas",
+            got=f"alpha p_h = {groups.hertz_number:.4g}",
+            takes=f"at most {MOST_HERTZ:g}, the range of the atlas of points",
+        )
+    at = (groups.load_group, lubricant_coordinate(groups))
     stored, errors = table("points" if point else "lines")(*at, *((groups.ratio,) if point else ()))
     logs = dict(zip(NAMES, stored.tolist(), strict=True))
     pressure, number = math.exp(logs["pressure"]), groups.hertz_number
     reference = reference_groups()
     of_reference = groups.formula * math.exp(logs["central"])
-    mass = of_reference * _ratio(reference_laws()[1], pressure * number / reference.alpha)
-    mass *= _factor("central", groups, oil)
+    mass_of_reference = of_reference * _ratio(reference_laws()[1], pressure * number / reference.alpha)
+    mass = mass_of_reference * _factor("central", groups, oil)
     central = mass / _ratio(laws[1], pressure * number / oil.alpha)
+    # The mean changes from oil to oil as the central film does.
+    mean = groups.formula * math.exp(logs["mean"]) * central / of_reference
     return AtlasFilm(
         central=central,
-        minimum=of_reference * math.exp(logs["minimum"]) * _factor("minimum", groups, oil),
-        mean=central * math.exp(logs["mean"]) * _factor("mean", groups, oil),
+        minimum=groups.formula * math.exp(logs["minimum"]) * _factor("minimum", groups, oil),
+        mean=mean * _factor("mean", groups, oil),
         mass=mass,
         central_pressure=pressure,
-        zone=math.exp(logs["zone"]),
+        zone=math.exp(logs["zone"]) * mass_of_reference / groups.formula,
         inlet=math.exp(logs["inlet"]) * _factor("inlet", groups, oil),
         outlet=math.exp(logs["outlet"]) * _factor("outlet", groups, oil),
         minimum_at=(logs["minimum_x"], logs["minimum_y"]),
@@ -146,9 +155,8 @@ def _errors(groups: Groups, errors: Array, spread: dict[str, float]) -> dict[str
         name: float(error) + more * spread.get(name, _OTHER)
         for name, error in zip(NAMES, errors, strict=True)
     }
-    # The minimum and the mean are stored over the central film.
-    for name in ("minimum", "mean"):
-        total[name] += float(errors[NAMES.index("central")])
+    # The mean of 1/(rho h) is stored without the central film.
+    total["zone"] += float(errors[NAMES.index("central")])
     return total
 
 

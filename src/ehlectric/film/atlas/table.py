@@ -13,10 +13,7 @@ from scipy.interpolate import NdBSpline, make_interp_spline
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.errors import InputError
-
-# The error of a spline through every node over that of a spline through every second one: a sixteenth for
-# smooth values; kinks, where the minimum changes its place or a spike passes the centre, do worse.
-_HALVED = 1.0 / 5.0
+from ehlectric.film.atlas.fill import HALVED
 
 # What a coordinate is that is not a group of Moes.
 _MEANING = {"moes_n": " in N, which is M times a function of k", "moes_y": " in Y, which is L N^(1/6)"}
@@ -67,7 +64,7 @@ class Table:
         coarse = tensor_spline(nodes, self.values[np.ix_(*every)])
         at = np.stack(np.meshgrid(*logs, indexing="ij"), axis=-1)
         missed = np.where(self.solved[..., np.newaxis], np.abs(coarse(at) - self.values), 0.0)
-        return _HALVED * _largest_near(missed)
+        return HALVED * _largest_near(missed)
 
     def __call__(self, *at: float) -> tuple[Array, Array]:
         """Stored numbers and their errors at a point, which must lie in the range of the table."""
