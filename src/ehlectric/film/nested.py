@@ -8,10 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
+from ehlectric.film.deflection import Geometry
 from ehlectric.film.levels import Level, hierarchy
 from ehlectric.film.mesh import Mesh, at_centre
 from ehlectric.film.newton import assess, newton
@@ -26,6 +28,14 @@ NESTED_TOLERANCE = 1e-6
 # point contact. A quarter of the nodes would not resolve a thin film.
 FIRST_GRID = 101
 _FIRST_GRID_POINT = 33
+
+# Largest number of nodes of a line contact whose linear systems are solved directly, without coarser grids:
+# the factorisation then takes less time than the cycles.
+_DIRECT = 401
+
+# Largest number of nodes of a smooth line contact whose grids are kept for the next contact, and number of
+# such grids, which take about 10 MB at most.
+_MOST_KEPT, _GRIDS_KEPT = 3201, 12
 
 # Continuation in roughness height: first and smallest increment as fractions of the full height, and the
 # tolerance of the intermediate films.
@@ -151,20 +161,33 @@ def _levels(problem: FilmProblem, *, roughness: float) -> list[Level]:
     if added is not None:
         smooth = geometry.dry_gap
         geometry = replace(geometry, dry_gap=lambda x, y: smooth(x, y) + roughness * added(x, y))
-    levels = hierarchy(
-        problem.nodes,
-        inlet=problem.inlet,
-        outlet=problem.outlet,
-        geometry=geometry,
-        wedge_order=problem.wedge_order,
-        width=problem.width,
-        source=problem.source,
-    )
+    if added is None and problem.width is None and problem.source is None and problem.nodes <= _MOST_KEPT:
+        levels = list(
+            _line_levels(problem.nodes, problem.inlet, problem.outlet, geometry, problem.wedge_order)
+        )
+    else:
+        levels = hierarchy(
+            problem.nodes,
+            inlet=problem.inlet,
+            outlet=problem.outlet,
+            geometry=geometry,
+            wedge_order=problem.wedge_order,
+            width=problem.width,
+            source=problem.source,
+        )
     if problem.edge_pressure is None:
         return levels
     mesh = levels[0].mesh
     excess = problem.edge_pressure(mesh.x, mesh.y) - problem.fluid.ambient_pressure
     return [replace(levels[0], edge_excess=np.where(mesh.edge, excess, 0.0)), *levels[1:]]
+
+
+@lru_cache(maxsize=_GRIDS_KEPT)
+def _line_levels(
+    nodes: int, inlet: float, outlet: float, geometry: Geometry, wedge_order: int
+) -> tuple[Level, ...]:
+    """Grids of a smooth line contact, which are the same for all contacts on as many nodes."""
+    return tuple(hierarchy(nodes, inlet=inlet, outlet=outlet, geometry=geometry, wedge_order=wedge_order))
 
 
 def _is_trial_grid(problem: FilmProblem, solution: GridSolution) -> bool:
@@ -260,9 +283,10 @@ def _solve_grid(
     to solve the nodes of the pressure spike separately.
     """
     finest = levels[0].nodes == problem.nodes
+    direct = problem.width is None and levels[0].nodes <= _DIRECT
     return newton(
         problem.fluid,
-        levels,
+        levels[:1] if direct else levels,
         state,
         tolerance=problem.tolerance if finest else max(problem.tolerance, NESTED_TOLERANCE),
         max_iterations=problem.max_iterations,

@@ -104,6 +104,7 @@ def newton(
     # is not solved closely leaves errors in the inlet, which take more Newton steps on fine grids. There an
     # older preconditioner takes more iterations, too.
     loose = transient or level.mesh.dy is not None
+    direct = len(levels) == 1
     steps: list[NewtonStep] = []
     grown = 0  # successive steps in which the full film has grown
     now = assess(fluid, level, state)
@@ -114,7 +115,7 @@ def newton(
             progress(level.nodes, len(steps), now.norm)
         if eliminate_spike:
             state, now = _without_spike(fluid, level, state, now)
-        jacobians = _linearised(fluid, levels, state, now, last=jacobians if loose else [])
+        jacobians = _linearised(fluid, levels, state, now, last=jacobians if loose or direct else [])
         close = LINEAR_TOLERANCE
         if loose:
             close = linear_tolerance(now.norm, before, tolerance if transient else 0.0)
@@ -252,6 +253,9 @@ def _direction(
     to_ambient = np.where(now.full_film, 0.0, resting - state.pressure)
     change, load_change = finest(to_ambient, 0.0)
     right = np.append(-finest.scale * (now.reynolds + change), now.load - load_change)
+    if len(jacobians) == 1 and finest.kept is None:
+        solution = cycled(jacobians, right)
+        return to_ambient + solution[:-1].reshape(state.pressure.shape), float(solution[-1]), 1
     cycles = 0
 
     def precondition(image: Array) -> Array:
