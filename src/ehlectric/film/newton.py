@@ -47,6 +47,10 @@ KRYLOV_LIMIT = 60
 # Residual below which a film that has grown in two successive steps is filled over many nodes at a time.
 _NEAR = 1e-3
 
+# Largest number of nodes of a stationary line contact on which a new factorisation takes less time than an
+# iteration with an older one.
+_FACTORISED = 201
+
 # Weight of the relative load imbalance in the residual: the load is balanced ten times as closely as the
 # Reynolds equation.
 _LOAD_WEIGHT = 10.0
@@ -101,10 +105,9 @@ def newton(
     # The residual contains differences of H over dX, so that rounding of H causes a residual of this size.
     tolerance = max(tolerance, ROUNDING * level.rate)
     # In a stationary line contact the pressure spike dominates the norm of the residual. A linear system that
-    # is not solved closely leaves errors in the inlet, which take more Newton steps on fine grids. There an
-    # older preconditioner takes more iterations, too.
+    # is not solved closely leaves errors in the inlet, which take more Newton steps on fine grids.
     loose = transient or level.mesh.dy is not None
-    direct = len(levels) == 1
+    keeps = loose or level.nodes > _FACTORISED
     steps: list[NewtonStep] = []
     grown = 0  # successive steps in which the full film has grown
     now = assess(fluid, level, state)
@@ -115,7 +118,7 @@ def newton(
             progress(level.nodes, len(steps), now.norm)
         if eliminate_spike:
             state, now = _without_spike(fluid, level, state, now)
-        jacobians = _linearised(fluid, levels, state, now, last=jacobians if loose or direct else [])
+        jacobians = _linearised(fluid, levels, state, now, last=jacobians if keeps else [])
         close = LINEAR_TOLERANCE
         if loose:
             close = linear_tolerance(now.norm, before, tolerance if transient else 0.0)
