@@ -47,9 +47,9 @@ KRYLOV_LIMIT = 60
 # Residual below which a film that has grown in two successive steps is filled over many nodes at a time.
 _NEAR = 1e-3
 
-# Largest number of nodes of a stationary line contact on which a new factorisation takes less time than an
-# iteration with an older one.
-_FACTORISED = 201
+# Numbers of nodes of a stationary line contact between which an older preconditioner is kept. On fewer nodes
+# a new one takes less time than an iteration; on more nodes an older one takes one and a half times as many.
+_KEPT = (201, 10_000)
 
 # Weight of the relative load imbalance in the residual: the load is balanced ten times as closely as the
 # Reynolds equation.
@@ -107,7 +107,7 @@ def newton(
     # In a stationary line contact the pressure spike dominates the norm of the residual. A linear system that
     # is not solved closely leaves errors in the inlet, which take more Newton steps on fine grids.
     loose = transient or level.mesh.dy is not None
-    keeps = loose or level.nodes > _FACTORISED
+    keeps = _keeps(levels, transient=transient)
     steps: list[NewtonStep] = []
     grown = 0  # successive steps in which the full film has grown
     now = assess(fluid, level, state)
@@ -140,6 +140,14 @@ def newton(
         state, now = candidate, assessed
     status: Status = "converged" if now.norm <= tolerance else "stalled"
     return GridSolution(level, state, now, tuple(steps), status)
+
+
+def _keeps(levels: list[Level], *, transient: bool) -> bool:
+    """Whether the preconditioner of one Newton step may serve the next."""
+    least, most = _KEPT
+    if levels[0].mesh.dy is None and not transient:
+        return least < levels[0].nodes < most
+    return len(levels) > 1
 
 
 def _refilled(now: Residual) -> Residual:
