@@ -11,7 +11,6 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.lib.stride_tricks import as_strided
 from scipy.linalg import lapack
 
 from ehlectric.arrays import Array, Mask
@@ -27,6 +26,9 @@ _UNRESOLVED = 1.5
 # Largest change of ln eps at any node up to which a preconditioner is kept. Up to 2 it costs no more GMRES
 # iterations than a new one.
 _ALIKE = 0.6
+
+# Steps along x to the nodes that a row of a stencil couples.
+_STEPS = tuple(step for step, _ in OFFSETS[:ALONG])
 
 # Fraction of the residual below which one cycle on a coarser grid is enough, and no second cycle follows.
 _ENOUGH = 0.1
@@ -150,7 +152,7 @@ class DenseSolver:
         n = part.stop - part.start
         matrix = np.zeros((n + 1, n + 1))
         if full_film.shape[1] == 1:
-            _fill_of_line(matrix[:n, :n], gap, by_p, by_h, part)
+            _fill_of_line(matrix, gap, by_p, by_h, part)
         else:
             matrix[:n, :n] = (by_p.matrix() + by_h.times(gap.matrix()))[part, part]
         matrix[:n, n] = by_h.coefficients.sum(axis=0).ravel()[part]
@@ -173,21 +175,20 @@ class DenseSolver:
 def _fill_of_line(matrix: Array, gap: Gap, by_p: Stencil, by_h: Stencil, part: slice) -> None:
     """Write the Jacobian of some nodes of a line contact by the pressures of these nodes into ``matrix``.
 
-    A row depends on the distance of the nodes only. All rows over this distance are one product with the
-    derivatives of H by P, and the matrix is a view of it whose rows begin further left from row to row.
+    ``matrix`` has one more row and column than there are nodes. The derivatives of H depend on the distance
+    of the nodes only. All rows over this distance are one product of matrices, and the Jacobian is a view of
+    it whose rows begin one distance further left from row to row.
     """
-    n = len(matrix)
-    distances = np.arange(1 - n, n)
-    steps = np.array([step for step, _ in OFFSETS[:ALONG]])
-    kernel = gap.along(np.minimum(np.abs(distances - steps[:, np.newaxis]), gap.level.nodes - 1))
-    rows = by_h.coefficients[:ALONG, part, 0].T @ kernel
-    size = rows.itemsize
-    matrix[...] = as_strided(rows[0, n - 1 :], (n, n), ((2 * n - 2) * size, size))
-    for row, (step, _) in zip(by_p.coefficients[:ALONG, part, 0], OFFSETS, strict=False):
-        diagonal = as_strided(
-            matrix[max(0, -step) :, max(0, step) :], (max(0, n - abs(step)),), (sum(matrix.strides),)
-        )
-        diagonal += row[max(0, -step) : n - max(0, step)]
+    n, nodes = len(matrix) - 1, gap.level.nodes
+    kernel = gap.level.deflection.beside(_STEPS)[:, nodes - n : nodes + n - 1]
+    over_distance = (by_h.coefficients[:ALONG, part, 0].T @ kernel).reshape(-1)
+    matrix[:n, :n] = over_distance[n - 1 : n - 1 + n * (2 * n - 2)].reshape(n, 2 * n - 2)[:, :n]
+    flat = matrix.reshape(-1)
+    for row, step in zip(by_p.coefficients[:ALONG, part, 0], _STEPS, strict=True):
+        first, count = max(0, -step), n - abs(step)
+        if count > 0:
+            start = first * (n + 2) + step
+            flat[start : start + count * (n + 2) : n + 2] += row[first : first + count]
 
 
 def _resolved(level: Level, eps: Array, full_film: Mask) -> Mask:

@@ -262,7 +262,7 @@ def _direction(
     finest = jacobians[0]
     resting = fluid.ambient_pressure + finest.level.edge_excess
     to_ambient = np.where(now.full_film, 0.0, resting - state.pressure)
-    change, load_change = finest(to_ambient, 0.0)
+    change, load_change = finest(to_ambient, 0.0) if to_ambient.any() else (0.0, 0.0)
     right = np.append(-finest.scale * (now.reynolds + change), now.load - load_change)
     if len(jacobians) == 1 and finest.kept is None:
         solution = cycled(jacobians, right)
