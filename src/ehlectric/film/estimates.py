@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cache
 
 import numpy as np
 
@@ -231,13 +232,20 @@ def inlet_deficit(fluid: Fluid, geometry: Geometry, mesh: Mesh, pressure: Array,
     increments = 0.5 * (fluidity[1:] + fluidity[:-1]) * np.diff(pressure)
     inside = float(np.max(np.cumsum(increments)))
     # With X = inlet/t and 0 < t < 1 the integrand is smooth: it is about t^2.
-    points, weights = np.polynomial.legendre.leggauss(40)
+    points, weights = _gauss_points()
     t = 0.5 * (points + 1.0)
     gap = float(mass[0]) + 0.5 * float(x[0]) ** 2 * (1.0 / t**2 - 1.0)
     gradient = fluid.velocity_parameter * (gap - flow) / gap**3
     before = float(np.sum(0.5 * weights * gradient * abs(float(x[0])) / t**2))
     before /= 1.0 + 2.0 * geometry.radius_ratio / 3.0
     return before / (before + inside) if before > 0.0 else 0.0
+
+
+@cache
+def _gauss_points() -> tuple[Array, Array]:
+    """Points and weights of Gauss-Legendre quadrature between -1 and 1; their search takes a millisecond."""
+    points, weights = np.polynomial.legendre.leggauss(40)
+    return points, weights
 
 
 def side_deficit(problem: FilmProblem, mesh: Mesh, pressure: Array, thickness: Array) -> float:
