@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ehlectric.bearing.by_formula import formula_case
+from ehlectric.bearing.quick.ways import quick_case
 from ehlectric.bearing.margin.critical_speed import LEAST, MOST
 from ehlectric.bearing.solution import CONDUCTING
 from ehlectric.bearing.solving.contacts_and_circuit import solution_of
@@ -63,7 +63,7 @@ def over_speed(case: BearingCase, count: int = COUNT) -> tuple[list[Speed], list
     >>> slow["capacitance"] > fast["capacitance"], left_out
     (True, [])
     """
-    changed, refused = formula_case(case)
+    changed, refused = quick_case(case)
     left_out = []
     if refused is not None:
         text = f"figures over speed are incomplete: {refused}"

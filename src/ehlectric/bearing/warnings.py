@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 
 from ehlectric.bearing.breakdown import breakdown_of, strength_per_volt
-from ehlectric.bearing.by_formula import formula_error
+from ehlectric.bearing.quick.errors import formula_error
 from ehlectric.bearing.contacts import ContactSolution
 from ehlectric.bearing.discharges.energy import current_warnings
 from ehlectric.bearing.discharges.leakage import leakage_warnings

@@ -11,7 +11,7 @@ from typing import Any
 import xarray as xr
 from matplotlib.figure import Figure
 
-from ehlectric.bearing.by_formula import formula_case
+from ehlectric.bearing.quick.ways import quick_case
 from ehlectric.bearing.result import BearingResult
 from ehlectric.cases.measurements.factors import FilmFactors
 from ehlectric.cases.table import nearest
@@ -214,7 +214,7 @@ def _save_measured(factors: FilmFactors, folder: Path, formats: Sequence[str]) -
 
 def _names_of_bearing(result: BearingResult) -> list[str]:
     """Names of the figures of a bearing, also over speed as far as formulas compute them."""
-    case, _ = formula_case(result.case)
+    case, _ = quick_case(result.case)
     if case is None:
         return list(bearing.bearing_figures_of(result))
     breaks = case.discharge.has_strength and not result.solution.conditions.ceramic

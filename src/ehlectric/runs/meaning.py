@@ -153,12 +153,13 @@ def _breakdown_rows(estimate: Mapping[str, Any]) -> Iterator[Row]:
 
 @check.register
 def _check_bearing(case: BearingCase) -> Meaning:
-    from ehlectric.bearing.by_formula import formula_case, formula_error
+    from ehlectric.bearing.quick.errors import formula_error
+    from ehlectric.bearing.quick.ways import quick_case
     from ehlectric.bearing.solver import check_bearing
     from ehlectric.tables.bearing import input_rows, outcome_rows
 
     check_bearing(case)
-    judged, refused = formula_case(case)
+    judged, refused = quick_case(case)
     if judged is None:
         reason = "film formulas need a piezoviscous oil; ehlectric bearing solves the contacts"
         return _without_films(case, reason)

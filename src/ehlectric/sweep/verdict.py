@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.bearing.by_formula import formula_factor
+from ehlectric.bearing.quick.errors import formula_factor
 from ehlectric.cases.any_case import AnyCase
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.row import value_at

@@ -23,7 +23,7 @@ from ehlectric.app.figures.bearing_speeds import (
     capacitance_figure,
     speed_rows,
 )
-from ehlectric.bearing.by_formula import formula_error
+from ehlectric.bearing.quick.errors import formula_error
 from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solution import capacitance_is_bound
 from ehlectric.bearing.solver import solve_bearing

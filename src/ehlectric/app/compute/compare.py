@@ -13,7 +13,7 @@ from ehlectric.app.compute.bearing_verdict import quick_verdict
 from ehlectric.app.compute.cases import case_of
 from ehlectric.app.compute.contact import verdict_by_formula
 from ehlectric.app.compute.warnings import told_of
-from ehlectric.bearing.by_formula import formula_error
+from ehlectric.bearing.quick.errors import formula_error
 from ehlectric.bearing.solver import solve_bearing
 from ehlectric.bearing.summary import summary_of
 from ehlectric.cases.bearings.case import BearingCase

@@ -15,7 +15,7 @@ from ehlectric.app.answers.told import Told
 from ehlectric.app.compute.sweep import is_stored, named
 from ehlectric.app.compute.warnings import told_of
 from ehlectric.app.figures.sweep import figure_of
-from ehlectric.bearing.by_formula import formula_error
+from ehlectric.bearing.quick.errors import formula_error
 from ehlectric.cases.any_case import AnyCase
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.input_keys import unit_of

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from ehlectric.bearing.breakdown import breakdown_of
-from ehlectric.bearing.by_formula import formula_case
+from ehlectric.bearing.quick.ways import quick_case
 from ehlectric.bearing.shaft_voltage import margin, shaft_voltage
 from ehlectric.bearing.solution import BearingSolution, insulating, lambda_ratio
 from ehlectric.bearing.solving.contacts_and_circuit import solution_of
@@ -124,7 +124,7 @@ class FormulaMargins:
 
 def _solved(case: BearingCase) -> BearingSolution:
     """Solution of a case with contacts by formula, with a constant strength where formulas need one."""
-    by_formula, refused = formula_case(case, constant=True)
+    by_formula, refused = quick_case(case, constant=True)
     if by_formula is None:
         assert refused is not None
         raise refused

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from ehlectric.bearing.breakdown import Breakdown, breakdown_of
-from ehlectric.bearing.by_formula import formula_error, formula_factor
+from ehlectric.bearing.quick.errors import formula_error, formula_factor
 from ehlectric.bearing.discharges.leakage import leakage_warnings, shaft_leakage
 from ehlectric.bearing.margin.analysis import MarginAnalysis
 from ehlectric.bearing.margin.critical_speed import Intervals, SpeedRange

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from ehlectric.bearing.by_formula import formula_case
+from ehlectric.bearing.quick.ways import quick_case
 from ehlectric.bearing.meter.reading import meter_capacitance
 from ehlectric.bearing.preparation import PreparedBearing, prepare_bearing, with_film_factor
 from ehlectric.bearing.solution import BearingSolution, lambda_ratio
@@ -80,7 +80,7 @@ class OperatingPoint:
         """
         # What is in parallel is taken off the measured values.
         alone = {} if case.bearing.parallel_capacitance is None else {"bearing.parallel_capacitance": None}
-        changed, refused = formula_case(case.replace({**changes, **alone}), constant=True)
+        changed, refused = quick_case(case.replace({**changes, **alone}), constant=True)
         if changed is None:
             assert refused is not None
             raise refused

@@ -32,6 +32,10 @@ from ehlectric.errors import InputError
 from ehlectric.runtime.display import Tabled, headline
 from ehlectric.runtime.values import is_number
 
+# Ways to the contacts of a bearing; those but the first do not solve them, and the best one comes first.
+Contacts = Literal["solved", "atlas", "formula"]
+QUICK: tuple[Contacts, ...] = ("atlas", "formula")
+
 # Alternative keys, by table: a key that changes replaces its alternatives.
 _ALTERNATIVES: dict[str, Groups] = {
     "bearing": (
@@ -96,7 +100,7 @@ class BearingCase(Tabled, Table):
     title : str, optional
         Title of tables and figures.
     contacts : str, optional
-        "solved", or "formula" for contacts from film-thickness formulas.
+        "solved", "atlas" for contacts from the atlas of films, or "formula" for film-thickness formulas.
     discharge, motor, solver, ranges : mapping, optional
         Further tables, as in a bearing file.
 
@@ -124,7 +128,7 @@ class BearingCase(Tabled, Table):
     ADVICE: ClassVar = _ADVICE
 
     title: Title = ""
-    contacts: Literal["solved", "formula"] = "solved"
+    contacts: Contacts = "solved"
     bearing: Bearing
     lubricant: Lubricant
     discharge: BearingDischarge = BearingDischarge()
@@ -217,7 +221,7 @@ class BearingCase(Tabled, Table):
         *,
         lubricant: Lubricant | Keys | str,
         title: str = "",
-        contacts: Literal["solved", "formula"] = "solved",
+        contacts: Contacts = "solved",
         discharge: BearingDischarge | Keys | None = None,
         motor: Motor | Keys | None = None,
         solver: Solver | Keys | None = None,
@@ -233,7 +237,7 @@ class BearingCase(Tabled, Table):
         title : str, optional
             Title of tables and figures.
         contacts : str, optional
-            "solved", or "formula" for contacts from film-thickness formulas.
+            "solved", "atlas" for contacts from the atlas of films, or "formula" for film-thickness formulas.
         discharge, motor, solver, ranges : optional
             Further tables, as in a bearing file.
         **bearing

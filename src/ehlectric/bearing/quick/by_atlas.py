@@ -1,0 +1,177 @@
+"""Contacts of a bearing from the atlas of films, and by formula where the atlas has no film."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import lru_cache
+
+import numpy as np
+
+from ehlectric.arrays import Array
+from ehlectric.bearing.contacts import ContactSolution
+from ehlectric.bearing.quick.by_formula import ball_by_formula, roller_by_formula
+from ehlectric.bearing.quick.dry import LINE, POINT, hertz_area, hertz_mean, permittivity, quick_solution
+from ehlectric.bearing.quick.errors import FORMULA_OF_BALLS, FORMULA_OF_ROLLERS
+from ehlectric.bearing.ring_contacts import BallContact, Contact, RollerContact, check_contact
+from ehlectric.contact.conditions import default_side
+from ehlectric.errors import InputError, ResultWarning
+from ehlectric.film.atlas.contact import ContactFilm, contact_film
+from ehlectric.formulas.hertz_line import line_gap
+from ehlectric.formulas.hertz_point import dry_contact, point_deflection
+from ehlectric.lubricant.oil import Oil
+
+# Keys of the errors with which the atlas says that it has no film of a contact.
+_LEFT = ("moes_m", "moes_n", "moes_y", "ratio", "atlas")
+
+# Nodes and weights on 0 to 1 with which the gap outside the Hertz area is integrated. The integrals of a
+# ball's contact are within 0.1 % of those with three times as many nodes.
+_NODES, _WEIGHTS = (0.5 * values for values in np.polynomial.legendre.leggauss(32))
+_NODES = _NODES + 0.5
+
+# Integral over a part of the dry gap outside the Hertz area: weights and gaps, both dimensionless.
+_Part = tuple[Array, Array]
+
+
+def ball_by_atlas(contact: BallContact) -> ContactSolution:
+    """Film, capacitances and voltages of a ball's contact from the atlas of films.
+
+    Parameters
+    ----------
+    contact : BallContact
+        Contact and load.
+
+    Returns
+    -------
+    ContactSolution
+        Numbers with the error that the atlas states for the films. Outside the atlas they are those of
+        ``ball_by_formula``, with the error of that formula and a warning.
+
+    Raises
+    ------
+    InputError
+        As ``check_contact`` does.
+
+    Notes
+    -----
+    Over the Hertz area the capacitance is that of the film of the atlas with the permittivity under the Hertz
+    pressure. Around it, inside the domain of the atlas, it is that of the dry gap plus the central film,
+    times the ratio that the atlas has for inlet or outlet, with the permittivity at ambient pressure. The
+    largest field strength is the voltage over the minimum film thickness.
+    """
+    check_contact(contact)
+    film = _film(contact)
+    if film is None:
+        return _left(ball_by_formula(contact), FORMULA_OF_BALLS - 1.0)
+    conditions = contact.conditions
+    radius = conditions.radius_x
+    # The gap over b^2/Rx depends on the ratio of the radii alone, and dA/h has the unit Rx.
+    middle = film.central_thickness * radius / conditions.semi_axis_x**2
+    parts = _around_ball(conditions.radius_y / radius)
+    return _solution(contact, film, [radius * _integral(part, middle) for part in parts])
+
+
+def roller_by_atlas(contact: RollerContact) -> ContactSolution:
+    """Film, capacitances and voltages of a roller's contact from the atlas of films.
+
+    Parameters, returned values, errors and notes are those of ``ball_by_atlas``, with the formula of
+    ``roller_by_formula`` outside the atlas.
+    """
+    check_contact(contact)
+    film = _film(contact)
+    if film is None:
+        return _left(roller_by_formula(contact), FORMULA_OF_ROLLERS - 1.0)
+    conditions = contact.conditions
+    radius, b = conditions.reduced_radius, conditions.half_width
+    middle = film.central_thickness * radius / b**2
+    unit = contact.length * radius / b
+    return _solution(contact, film, [unit * _integral(part, middle) for part in _around_roller()])
+
+
+def _film(contact: Contact) -> ContactFilm | None:
+    """Film of a contact; None outside the atlas."""
+    try:
+        return contact_film(contact.conditions.contact, contact.ring.oil)
+    except InputError as error:
+        if error.key not in _LEFT:
+            raise
+        return None
+
+
+def _left(solution: ContactSolution, error: float) -> ContactSolution:
+    """Contact by formula, which says that the atlas has no film of it."""
+    text = f"outside the atlas of films: the film is by formula, and may be {100.0 * error:.0f} % off"
+    warning = ResultWarning("atlas-left", text)
+    return replace(solution, error=error, warnings=(warning, *solution.warnings))
+
+
+def _solution(contact: Contact, film: ContactFilm, around: list[float]) -> ContactSolution:
+    """Numbers of a contact; ``around`` are the integrals of dA/h of the dry gap before and behind [m]."""
+    oil, numbers = contact.ring.oil, film.film
+    # The atlas has the mean of 1/(rho h) over that in the middle, where the mass is most alike for all oils.
+    mass = film.central_thickness * numbers.mass / numbers.central
+    mean = hertz_mean(contact, _permittivity_of_mass(oil))
+    hertz = numbers.zone * mean * hertz_area(contact) / mass
+    outside = oil.relative_permittivity * (numbers.inlet * around[0] + numbers.outlet * around[1])
+    return quick_solution(
+        contact,
+        (film.minimum_thickness, film.central_thickness),
+        inside=hertz + outside,
+        hertz=hertz,
+        error=max(film.errors["central"], film.errors["minimum"]),
+    )
+
+
+def _permittivity_of_mass(oil: Oil) -> Callable[[Array], Array]:
+    """Relative permittivity times density ratio of an oil over the pressure [Pa]."""
+    return lambda pressure: permittivity(oil, pressure) * oil.density_ratio(pressure)[0]
+
+
+def _integral(part: _Part, middle: float) -> float:
+    """Integral of dA/h over a part of the gap, widened by the film in the middle; dimensionless."""
+    weights, gap = part
+    return float(np.sum(weights / (middle + gap)))
+
+
+@lru_cache(maxsize=1)
+def _around_roller() -> tuple[_Part, _Part]:
+    """Gap before and behind the Hertz zone of a roller, with lengths in b and gaps in b^2/R.
+
+    Nodes are dense at the edge of the zone, where the gap begins with a power of 1.5.
+    """
+    parts = []
+    for end in LINE:
+        length = abs(end) - 1.0
+        x = 1.0 + length * _NODES**3
+        parts.append((length * 3.0 * _NODES**2 * _WEIGHTS, line_gap(x)))
+    return parts[0], parts[1]
+
+
+@lru_cache(maxsize=32)
+def _around_ball(radius_ratio: float) -> tuple[_Part, _Part]:
+    """Gap before and behind the middle of a ball's contact, outside the Hertz ellipse.
+
+    Lengths are in b and gaps in b^2/Rx. Beside the ellipse, x is the cosine of an angle, so that its edge is
+    smooth in this angle; away from it nodes are dense at the edge.
+    """
+    dry = dry_contact(1.0, 1.0, radius_ratio, 1.0)
+    b, a = dry.semi_axis_x, dry.semi_axis_y
+    side = default_side(a / b)
+    # Beside the ellipse: angle and distance from its edge.
+    angle, far = 0.5 * np.pi * _NODES[:, np.newaxis], _NODES**3
+    edge = np.sin(angle)
+    beside = np.cos(angle), edge + (side - edge) * far
+    weights = 0.5 * np.pi * edge * _WEIGHTS[:, np.newaxis] * (side - edge) * 3.0 * _NODES**2 * _WEIGHTS
+    parts = []
+    for end in POINT:
+        length = abs(end) - 1.0
+        ahead = 1.0 + length * _NODES[:, np.newaxis] ** 3, side * _NODES
+        more = length * 3.0 * (_NODES**2 * _WEIGHTS)[:, np.newaxis] * side * _WEIGHTS
+        # Both halves across entrainment.
+        both = 2.0 * a / b * np.stack([weights, more])
+        x, y = (np.stack(np.broadcast_arrays(*pair)) for pair in zip(beside, ahead, strict=True))
+        x, y = b * x, a * y
+        rigid = 0.5 * (x**2 + y**2 / radius_ratio)
+        gap = np.maximum(0.0, rigid + point_deflection(x, y, dry, 1.0) - dry.approach) / b**2
+        parts.append((both, gap))
+    return parts[0], parts[1]
