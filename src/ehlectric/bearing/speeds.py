@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from ehlectric.bearing.quick.ways import quick_case
 from ehlectric.bearing.margin.critical_speed import LEAST, MOST
+from ehlectric.bearing.quick.ways import quick_case
 from ehlectric.bearing.solution import CONDUCTING
 from ehlectric.bearing.solving.contacts_and_circuit import solution_of
 from ehlectric.bearing.summary import summary_of

@@ -8,13 +8,13 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 
 from ehlectric.bearing.breakdown import breakdown_of, strength_per_volt
-from ehlectric.bearing.quick.errors import formula_error
 from ehlectric.bearing.contacts import ContactSolution
 from ehlectric.bearing.discharges.energy import current_warnings
 from ehlectric.bearing.discharges.leakage import leakage_warnings
 from ehlectric.bearing.fits.warnings import class_warnings, fit_warnings
 from ehlectric.bearing.limits import TAKEN, groove_ratio, shoulder_angle
 from ehlectric.bearing.meter.reading import shaft_path
+from ehlectric.bearing.quick.errors import formula_error
 from ehlectric.bearing.shaft_voltage import film_voltage, shaft_voltage
 from ehlectric.bearing.solution import (
     BearingSolution,

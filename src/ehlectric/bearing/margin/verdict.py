@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from ehlectric.bearing.breakdown import Breakdown, breakdown_of
-from ehlectric.bearing.quick.errors import formula_error, formula_factor
 from ehlectric.bearing.discharges.leakage import leakage_warnings, shaft_leakage
 from ehlectric.bearing.margin.analysis import MarginAnalysis
 from ehlectric.bearing.margin.critical_speed import Intervals, SpeedRange
 from ehlectric.bearing.meter.reading import film_share, shaft_path
+from ehlectric.bearing.quick.errors import formula_error, formula_factor
 from ehlectric.bearing.shaft_voltage import shaft_voltage
 from ehlectric.bearing.solution import BearingSolution, lambda_ratio, lubrication
 from ehlectric.bearing.warnings import bearing_warnings

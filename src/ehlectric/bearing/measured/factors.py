@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.bearing.quick.errors import formula_error, formula_factor
 from ehlectric.bearing.measured.forward import FilmState, OperatingPoint, check_films_measured
 from ehlectric.bearing.measured.inverse import NoFactorError, film_factor_of, slope_at
 from ehlectric.bearing.measured.ranges import background_effect, shared_effects
 from ehlectric.bearing.measured.solved import Correction, solved_correction
+from ehlectric.bearing.quick.errors import formula_error, formula_factor
 from ehlectric.bearing.solution import CONDUCTING
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.measurements.average import mean_factor, slope_of

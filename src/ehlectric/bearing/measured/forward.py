@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from ehlectric.bearing.quick.ways import quick_case
 from ehlectric.bearing.meter.reading import meter_capacitance
 from ehlectric.bearing.preparation import PreparedBearing, prepare_bearing, with_film_factor
+from ehlectric.bearing.quick.ways import quick_case
 from ehlectric.bearing.solution import BearingSolution, lambda_ratio
 from ehlectric.bearing.solving.contacts_and_circuit import POSITIONS, solution_of_prepared
 from ehlectric.cases import library

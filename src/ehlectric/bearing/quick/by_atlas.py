@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import replace
 from functools import lru_cache
+from typing import TypeAlias, TypeVar
 
 import numpy as np
 
@@ -24,10 +26,19 @@ from ehlectric.lubricant.oil import Oil
 # Keys of the errors with which the atlas says that it has no film of a contact.
 _LEFT = ("moes_m", "moes_n", "moes_y", "ratio", "atlas")
 
-# Nodes and weights on 0 to 1 with which the gap outside the Hertz area is integrated. The integrals of a
-# ball's contact are within 0.1 % of those with three times as many nodes.
+# Loads at which the atlas is asked for the nearest film that it has: their ratio, how many there are either way,
+# and how often the last ratio is halved.
+_STEP, _STEPS, _HALVINGS = 1.3, 15, 6
+
+# Nodes and weights on 0 to 1 with which the gap outside the Hertz area is integrated. The integrals are within
+# 1e-4 of those with three times as many nodes.
 _NODES, _WEIGHTS = (0.5 * values for values in np.polynomial.legendre.leggauss(32))
 _NODES = _NODES + 0.5
+
+# Kind of a contact, and functions that compute one: as it is, and with factors of the films of a formula.
+C = TypeVar("C", BallContact, RollerContact)
+Way: TypeAlias = Callable[[C], ContactSolution]
+ScaledWay: TypeAlias = Callable[[C, tuple[float, float]], ContactSolution]
 
 # Integral over a part of the dry gap outside the Hertz area: weights and gaps, both dimensionless.
 _Part = tuple[Array, Array]
@@ -45,7 +56,8 @@ def ball_by_atlas(contact: BallContact) -> ContactSolution:
     -------
     ContactSolution
         Numbers with the error that the atlas states for the films. Outside the atlas they are those of
-        ``ball_by_formula``, with the error of that formula and a warning.
+        ``ball_by_formula`` times their ratio at the nearest load that the atlas has, with the error of that
+        formula and a warning.
 
     Raises
     ------
@@ -62,7 +74,7 @@ def ball_by_atlas(contact: BallContact) -> ContactSolution:
     check_contact(contact)
     film = _film(contact)
     if film is None:
-        return _left(ball_by_formula(contact), FORMULA_OF_BALLS - 1.0)
+        return _left(contact, (ball_by_atlas, ball_by_formula), FORMULA_OF_BALLS - 1.0)
     conditions = contact.conditions
     radius = conditions.radius_x
     # The gap over b^2/Rx depends on the ratio of the radii alone, and dA/h has the unit Rx.
@@ -80,7 +92,7 @@ def roller_by_atlas(contact: RollerContact) -> ContactSolution:
     check_contact(contact)
     film = _film(contact)
     if film is None:
-        return _left(roller_by_formula(contact), FORMULA_OF_ROLLERS - 1.0)
+        return _left(contact, (roller_by_atlas, roller_by_formula), FORMULA_OF_ROLLERS - 1.0)
     conditions = contact.conditions
     radius, b = conditions.reduced_radius, conditions.half_width
     middle = film.central_thickness * radius / b**2
@@ -98,11 +110,55 @@ def _film(contact: Contact) -> ContactFilm | None:
         return None
 
 
-def _left(solution: ContactSolution, error: float) -> ContactSolution:
-    """Contact by formula, which says that the atlas has no film of it."""
+def _left(contact: C, ways: tuple[Way[C], ScaledWay[C]], error: float) -> ContactSolution:
+    """Contact outside the atlas: by formula, joined to the atlas at the nearest load that it has.
+
+    Parameters
+    ----------
+    contact : BallContact or RollerContact
+        Contact that the atlas does not have.
+    ways : tuple of callable
+        Contact from the atlas, and by formula with factors of its films.
+    error : float
+        Relative error of the formula.
+    """
+    by_atlas, by_formula = ways
     text = f"outside the atlas of films: the film is by formula, and may be {100.0 * error:.0f} % off"
+    edge, factors = _edge(contact), (1.0, 1.0)
+    solution = by_formula(contact, factors)
+    if edge is not None:
+        # Without a step at the edge of the atlas, all quantities can be interpolated over the load.
+        own, formula = by_atlas(edge).values, by_formula(edge, factors).values
+        factors = (
+            own.minimum_thickness / formula.minimum_thickness,
+            own.central_thickness / formula.central_thickness,
+        )
+        formula, solution = by_formula(edge, factors).values, by_formula(contact, factors)
+        values = solution.values
+        inside, hertz = own.inside / formula.inside, own.hertz / formula.hertz
+        values = replace(values, inside=inside * values.inside, hertz=hertz * values.hertz)
+        solution = replace(solution, values=values)
     warning = ResultWarning("atlas-left", text)
     return replace(solution, error=error, warnings=(warning, *solution.warnings))
+
+
+def _edge(contact: C) -> C | None:
+    """Same contact under the load nearest to its own that the atlas has; None where it has none near."""
+    for number in range(1, _STEPS + 1):
+        for step in (_STEP, 1.0 / _STEP):
+            inside = replace(contact, load=contact.load * step**number)
+            if _film(inside) is None:
+                continue
+            outside, ratio = contact.load * step ** (number - 1), step
+            for _ in range(_HALVINGS):
+                ratio = math.sqrt(ratio)
+                between = replace(contact, load=outside * ratio)
+                if _film(between) is None:
+                    outside = between.load
+                else:
+                    inside = between
+            return inside
+    return None
 
 
 def _solution(contact: Contact, film: ContactFilm, around: list[float]) -> ContactSolution:

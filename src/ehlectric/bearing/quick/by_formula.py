@@ -21,13 +21,15 @@ from ehlectric.formulas.hertz_line import line_pressure
 from ehlectric.formulas.hertz_point import point_pressure
 
 
-def ball_by_formula(contact: BallContact) -> ContactSolution:
+def ball_by_formula(contact: BallContact, scale: tuple[float, float] = (1.0, 1.0)) -> ContactSolution:
     """Film, capacitances and voltages of a ball's contact by film formulas.
 
     Parameters
     ----------
     contact : BallContact
         Contact and load.
+    scale : tuple of float
+        Factors of the minimum and of the central film; 1 for the films of the formula.
 
     Returns
     -------
@@ -50,25 +52,28 @@ def ball_by_formula(contact: BallContact) -> ContactSolution:
     dry, oil = contact.dry, contact.ring.oil
     b, a = dry.semi_axis_x, dry.semi_axis_y
     film = chittenden(contact.conditions.contact)
-    (x, y), gap = ball_gap(contact, film.central_thickness)
+    least, central = scale[0] * film.minimum_thickness, scale[1] * film.central_thickness
+    (x, y), gap = ball_gap(contact, central)
     pressure = dry.max_pressure * point_pressure(x[:, np.newaxis] / b, y / b, a / b)
     mean = hertz_mean(contact, lambda p: permittivity(oil, p))
     return quick_solution(
         contact,
-        (film.minimum_thickness, film.central_thickness),
+        (least, central),
         inside=float(np.vdot(areas((x, y)), permittivity(oil, pressure) / gap)),
-        hertz=mean * hertz_area(contact) / film.central_thickness,
+        hertz=mean * hertz_area(contact) / central,
         error=None,
     )
 
 
-def roller_by_formula(contact: RollerContact) -> ContactSolution:
+def roller_by_formula(contact: RollerContact, scale: tuple[float, float] = (1.0, 1.0)) -> ContactSolution:
     """Film, capacitances and voltages of a roller's contact by film formulas.
 
     Parameters
     ----------
     contact : RollerContact
         Contact and load.
+    scale : tuple of float
+        Factors of the minimum and of the central film; 1 for the films of the formula.
 
     Returns
     -------
@@ -89,13 +94,14 @@ def roller_by_formula(contact: RollerContact) -> ContactSolution:
     check_contact(contact)
     conditions, length, oil = contact.conditions, contact.length, contact.ring.oil
     film = pan_hamrock(conditions.contact)
-    x, gap = roller_gap(contact, film.central_thickness)
+    least, central = scale[0] * film.minimum_thickness, scale[1] * film.central_thickness
+    x, gap = roller_gap(contact, central)
     pressure = conditions.max_pressure * line_pressure(x / conditions.half_width)
     mean = hertz_mean(contact, lambda p: permittivity(oil, p))
     return quick_solution(
         contact,
-        (film.minimum_thickness, film.central_thickness),
+        (least, central),
         inside=length * float(np.vdot(areas((x,)), permittivity(oil, pressure) / gap)),
-        hertz=mean * hertz_area(contact) / film.central_thickness,
+        hertz=mean * hertz_area(contact) / central,
         error=None,
     )

@@ -51,9 +51,7 @@ def check_quick(contacts: str, discharge: Discharge, oil: Oil) -> None:
         )
 
 
-def quick_case(
-    case: BearingCase, *, constant: bool = False
-) -> tuple[BearingCase | None, InputError | None]:
+def quick_case(case: BearingCase, *, constant: bool = False) -> tuple[BearingCase | None, InputError | None]:
     """Case of a bearing with contacts that are not solved, and what cannot be computed without that.
 
     Parameters
