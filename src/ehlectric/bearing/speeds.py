@@ -1,4 +1,4 @@
-"""Bearing at several shaft speeds, with contacts by formula."""
+"""Bearing at several shaft speeds, without solving its contacts."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ _ABOVE, _TRIES = 1e-3, 4
 
 
 def over_speed(case: BearingCase, count: int = COUNT) -> tuple[list[Speed], list[ResultWarning]]:
-    """Summaries of a bearing at speeds around that of its case, with contacts by formula.
+    """Summaries of a bearing at speeds around that of its case, with contacts from the atlas.
 
     Parameters
     ----------
     case : BearingCase
-        Case of the bearing; the temperature is the same at all speeds.
+        Case of the bearing; with contacts by formula it keeps these. The temperature is the same at all speeds.
     count : int
         Number of speeds, from a tenth of the case's speed to four times this speed.
 

@@ -26,12 +26,12 @@ from ehlectric.lubricant.oil import Oil
 # Keys of the errors with which the atlas says that it has no film of a contact.
 _LEFT = ("moes_m", "moes_n", "moes_y", "ratio", "atlas")
 
-# Loads at which the atlas is asked for the nearest film that it has: their ratio, how many there are either way,
-# and how often the last ratio is halved.
+# Loads at which the atlas is asked for the nearest film that it has: their ratio, how many there are either
+# way, and how often the last ratio is halved.
 _STEP, _STEPS, _HALVINGS = 1.3, 15, 6
 
-# Nodes and weights on 0 to 1 with which the gap outside the Hertz area is integrated. The integrals are within
-# 1e-4 of those with three times as many nodes.
+# Nodes and weights on 0 to 1 with which the gap outside the Hertz area is integrated. The integrals are
+# within 1e-4 of those with three times as many nodes.
 _NODES, _WEIGHTS = (0.5 * values for values in np.polynomial.legendre.leggauss(32))
 _NODES = _NODES + 0.5
 
@@ -55,9 +55,10 @@ def ball_by_atlas(contact: BallContact) -> ContactSolution:
     Returns
     -------
     ContactSolution
-        Numbers with the error that the atlas states for the films. Outside the atlas they are those of
-        ``ball_by_formula`` times their ratio at the nearest load that the atlas has, with the error of that
-        formula and a warning.
+        Numbers with the error that the atlas states for the films. Outside the atlas the films at the nearest
+        load that it has change with the load as in the formula of Nijenbanning, Venner and Moes (rollers: of
+        Moes). Without such a load they are those of ``ball_by_formula``. Both have the error of a formula,
+        and a warning.
 
     Raises
     ------
@@ -124,18 +125,20 @@ def _left(contact: C, ways: tuple[Way[C], ScaledWay[C]], error: float) -> Contac
     """
     by_atlas, by_formula = ways
     text = f"outside the atlas of films: the film is by formula, and may be {100.0 * error:.0f} % off"
-    edge, factors = _edge(contact), (1.0, 1.0)
-    solution = by_formula(contact, factors)
+    edge, solution = _edge(contact), by_formula(contact, (1.0, 1.0))
     if edge is not None:
-        # Without a step at the edge of the atlas, all quantities can be interpolated over the load.
-        own, formula = by_atlas(edge).values, by_formula(edge, factors).values
-        factors = (
-            own.minimum_thickness / formula.minimum_thickness,
-            own.central_thickness / formula.central_thickness,
+        # Without a step at the edge of the atlas, all quantities can be interpolated over the load. From
+        # there the films change as those of a formula that holds for light contacts, too.
+        own, trend = by_atlas(edge).values, contact.film / edge.film
+        films, values = (own.minimum_thickness, own.central_thickness), solution.values
+        solution = by_formula(
+            contact,
+            (trend * films[0] / values.minimum_thickness, trend * films[1] / values.central_thickness),
         )
-        formula, solution = by_formula(edge, factors).values, by_formula(contact, factors)
+        plain = by_formula(edge, (1.0, 1.0)).values
+        joined = by_formula(edge, (films[0] / plain.minimum_thickness, films[1] / plain.central_thickness))
+        inside, hertz = own.inside / joined.values.inside, own.hertz / joined.values.hertz
         values = solution.values
-        inside, hertz = own.inside / formula.inside, own.hertz / formula.hertz
         values = replace(values, inside=inside * values.inside, hertz=hertz * values.hertz)
         solution = replace(solution, values=values)
     warning = ResultWarning("atlas-left", text)

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from ehlectric.cases.bearings.case import QUICK, BearingCase
+from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.cases.bearings.ways import OF_CONTACTS, QUICK, quick_way
 from ehlectric.cases.discharge import Discharge
 from ehlectric.errors import InputError
 from ehlectric.lubricant.oil import Oil
-
-# Contacts of a quick case in words.
-OF_CONTACTS = {"atlas": "contacts from the atlas", "formula": "contacts by formula"}
 
 
 def is_quick(case: object) -> bool:
@@ -70,7 +68,7 @@ def quick_case(case: BearingCase, *, constant: bool = False) -> tuple[BearingCas
     refused : InputError or None
         Key that cannot be used, and why.
     """
-    contacts = case.contacts if case.contacts in QUICK else QUICK[0]
+    contacts = quick_way(case.contacts)
     changed, discharge, bearing = case.replace({"contacts": contacts}), case.discharge, case.bearing
     try:
         oil = case.lubricant.at(bearing.oil_temperature, bearing.temperature_key())

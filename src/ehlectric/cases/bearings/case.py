@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self, Unpack
+from typing import TYPE_CHECKING, Any, ClassVar, Self, Unpack
 
 from pydantic import field_serializer, field_validator, model_validator
 
@@ -13,6 +13,7 @@ from ehlectric.cases.bearings.bearing import Bearing
 from ehlectric.cases.bearings.coating import COATING_ALTERNATIVES
 from ehlectric.cases.bearings.discharge import BearingDischarge
 from ehlectric.cases.bearings.motor import Motor
+from ehlectric.cases.bearings.ways import Contacts
 from ehlectric.cases.changes import Groups, displace, flattened, nested, set_keys
 from ehlectric.cases.depth import refuse_deep
 from ehlectric.cases.discharge import STRENGTHS, TABLES
@@ -31,10 +32,6 @@ from ehlectric.cases.units import ROTATION, rpm
 from ehlectric.errors import InputError
 from ehlectric.runtime.display import Tabled, headline
 from ehlectric.runtime.values import is_number
-
-# Ways to the contacts of a bearing; those but the first do not solve them, and the best one comes first.
-Contacts = Literal["solved", "atlas", "formula"]
-QUICK: tuple[Contacts, ...] = ("atlas", "formula")
 
 # Alternative keys, by table: a key that changes replaces its alternatives.
 _ALTERNATIVES: dict[str, Groups] = {
