@@ -32,7 +32,8 @@ def over_speed(case: BearingCase, count: int = COUNT) -> tuple[list[Speed], list
     Parameters
     ----------
     case : BearingCase
-        Case of the bearing; with contacts by formula it keeps these. The temperature is the same at all speeds.
+        Case of the bearing, whose contacts stay by formula where they are. The temperature is the same at
+        all speeds.
     count : int
         Number of speeds, from a tenth of the case's speed to four times this speed.
 

@@ -90,7 +90,8 @@ class QuickMargins:
         own, quick = MarginPoint(solved, lambda_ratio(solution)), _solved(solution.case)
         point = _point(quick)
         if point.margin == 0.0:
-            raise InputError.worded(None, "without solved contacts the surfaces touch already in the case itself")
+            text = "without solved contacts the surfaces touch already in the case itself"
+            raise InputError.worded(None, text)
         ratios = own.margin / point.margin, own.lambda_ratio / point.lambda_ratio
         return cls(solution.case, own, *ratios, quick)
 

@@ -36,9 +36,10 @@ def margin_range(
 
     Notes
     -----
-    The ends are found one input at a time, and then taken together: 2n + 2 bearings with contacts from the atlas for n ranges.
-    This is the range of the margin where every input acts in one direction over its range. It is wider than
-    an interval of confidence, because all inputs are seldom at their worst at once.
+    The ends are found one input at a time, and then taken together: 2n + 2 bearings with contacts from
+    the atlas for n ranges. This is the range of the margin where every input acts in one direction over
+    its range. It is wider than an interval of confidence, because all inputs are seldom at their worst at
+    once.
     """
     by_key = {effect.key: effect for effect in effects}
     ranges = margins.case.ranges or ()

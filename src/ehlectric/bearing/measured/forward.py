@@ -1,4 +1,4 @@
-"""Capacitance of a bearing over its film factor, at one speed and temperature, without solving its contacts."""
+"""Capacitance of a bearing over its film factor, at one speed and temperature, with quick contacts."""
 
 from __future__ import annotations
 

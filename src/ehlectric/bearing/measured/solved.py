@@ -111,8 +111,8 @@ def solved_correction(
     Notes
     -----
     Each bearing is solved at the speed of a row, with the film factor that explains it by quick contacts
-    and the table so far. Between these rows the ratio solved/quick depends on the film, of which the capacitance is
-    the measure, and hardly on the speed.
+    and the table so far. Between these rows the ratio solved/quick depends on the film, of which the
+    capacitance is the measure, and hardly on the speed.
     """
     correction, places = Correction.none(), _spread(targets)
     for number, place in enumerate(places, 1):

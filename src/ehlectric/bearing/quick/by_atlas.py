@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import TypeAlias, TypeVar
 
 import numpy as np
@@ -35,10 +35,10 @@ _STEP, _STEPS, _HALVINGS = 1.3, 15, 6
 _NODES, _WEIGHTS = (0.5 * values for values in np.polynomial.legendre.leggauss(32))
 _NODES = _NODES + 0.5
 
-# Kind of a contact, and functions that compute one: as it is, and with factors of the films of a formula.
+# Kind of a contact, and functions that compute one: from the atlas, and by formula with further options.
 C = TypeVar("C", BallContact, RollerContact)
 Way: TypeAlias = Callable[[C], ContactSolution]
-ScaledWay: TypeAlias = Callable[[C, tuple[float, float]], ContactSolution]
+FormulaWay: TypeAlias = Callable[..., ContactSolution]
 
 # Integral over a part of the dry gap outside the Hertz area: weights and gaps, both dimensionless.
 _Part = tuple[Array, Array]
@@ -111,7 +111,7 @@ def _film(contact: Contact) -> ContactFilm | None:
         return None
 
 
-def _left(contact: C, ways: tuple[Way[C], ScaledWay[C]], error: float) -> ContactSolution:
+def _left(contact: C, ways: tuple[Way[C], FormulaWay], error: float) -> ContactSolution:
     """Contact outside the atlas: by formula, joined to the atlas at the nearest load that it has.
 
     Parameters
@@ -119,25 +119,23 @@ def _left(contact: C, ways: tuple[Way[C], ScaledWay[C]], error: float) -> Contac
     contact : BallContact or RollerContact
         Contact that the atlas does not have.
     ways : tuple of callable
-        Contact from the atlas, and by formula with factors of its films.
+        Contact from the atlas, and by formula or with the gap of given films.
     error : float
         Relative error of the formula.
     """
-    by_atlas, by_formula = ways
+    by_atlas, by_formula = ways[0], partial(ways[1], wide=True)
     text = f"outside the atlas of films: the film is by formula, and may be {100.0 * error:.0f} % off"
-    edge, solution = _edge(contact), by_formula(contact, (1.0, 1.0))
-    if edge is not None:
+    edge = _edge(contact)
+    if edge is None:
+        solution: ContactSolution = by_formula(contact)
+    else:
         # Without a step at the edge of the atlas, all quantities can be interpolated over the load. From
         # there the films change as those of a formula that holds for light contacts, too.
         own, trend = by_atlas(edge).values, contact.film / edge.film
-        films, values = (own.minimum_thickness, own.central_thickness), solution.values
-        solution = by_formula(
-            contact,
-            (trend * films[0] / values.minimum_thickness, trend * films[1] / values.central_thickness),
-        )
-        plain = by_formula(edge, (1.0, 1.0)).values
-        joined = by_formula(edge, (films[0] / plain.minimum_thickness, films[1] / plain.central_thickness))
-        inside, hertz = own.inside / joined.values.inside, own.hertz / joined.values.hertz
+        least, central = own.minimum_thickness, own.central_thickness
+        joined = by_formula(edge, (least, central)).values
+        solution = by_formula(contact, (trend * least, trend * central))
+        inside, hertz = own.inside / joined.inside, own.hertz / joined.hertz
         values = solution.values
         values = replace(values, inside=inside * values.inside, hertz=hertz * values.hertz)
         solution = replace(solution, values=values)
@@ -178,6 +176,7 @@ def _solution(contact: Contact, film: ContactFilm, around: list[float]) -> Conta
         inside=hertz + outside,
         hertz=hertz,
         error=max(film.errors["central"], film.errors["minimum"]),
+        wide=True,
     )
 
 

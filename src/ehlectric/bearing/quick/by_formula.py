@@ -15,21 +15,25 @@ from ehlectric.bearing.quick.dry import (
 )
 from ehlectric.bearing.ring_contacts import BallContact, RollerContact, check_contact
 from ehlectric.field.zones import areas
-from ehlectric.formulas.film_line import pan_hamrock
+from ehlectric.formulas.film_line import BothThicknesses, pan_hamrock
 from ehlectric.formulas.film_point import chittenden
 from ehlectric.formulas.hertz_line import line_pressure
 from ehlectric.formulas.hertz_point import point_pressure
 
 
-def ball_by_formula(contact: BallContact, scale: tuple[float, float] = (1.0, 1.0)) -> ContactSolution:
+def ball_by_formula(
+    contact: BallContact, scale: tuple[float, float] = (1.0, 1.0), *, wide: bool = False
+) -> ContactSolution:
     """Film, capacitances and voltages of a ball's contact by film formulas.
 
     Parameters
     ----------
     contact : BallContact
         Contact and load.
-    scale : tuple of float
-        Factors of the minimum and of the central film; 1 for the films of the formula.
+    films : tuple of float, optional
+        Minimum and central film thickness [m] in place of those of the formula.
+    wide : bool
+        Whether the domain is that on which the contact would be solved, instead of the default one.
 
     Returns
     -------
@@ -51,8 +55,7 @@ def ball_by_formula(contact: BallContact, scale: tuple[float, float] = (1.0, 1.0
     check_contact(contact)
     dry, oil = contact.dry, contact.ring.oil
     b, a = dry.semi_axis_x, dry.semi_axis_y
-    film = chittenden(contact.conditions.contact)
-    least, central = scale[0] * film.minimum_thickness, scale[1] * film.central_thickness
+    least, central = films or _films(chittenden(contact.conditions.contact))
     (x, y), gap = ball_gap(contact, central)
     pressure = dry.max_pressure * point_pressure(x[:, np.newaxis] / b, y / b, a / b)
     mean = hertz_mean(contact, lambda p: permittivity(oil, p))
@@ -61,19 +64,23 @@ def ball_by_formula(contact: BallContact, scale: tuple[float, float] = (1.0, 1.0
         (least, central),
         inside=float(np.vdot(areas((x, y)), permittivity(oil, pressure) / gap)),
         hertz=mean * hertz_area(contact) / central,
-        error=None,
+        wide=wide,
     )
 
 
-def roller_by_formula(contact: RollerContact, scale: tuple[float, float] = (1.0, 1.0)) -> ContactSolution:
+def roller_by_formula(
+    contact: RollerContact, scale: tuple[float, float] = (1.0, 1.0), *, wide: bool = False
+) -> ContactSolution:
     """Film, capacitances and voltages of a roller's contact by film formulas.
 
     Parameters
     ----------
     contact : RollerContact
         Contact and load.
-    scale : tuple of float
-        Factors of the minimum and of the central film; 1 for the films of the formula.
+    films : tuple of float, optional
+        Minimum and central film thickness [m] in place of those of the formula.
+    wide : bool
+        Whether the domain is that on which the contact would be solved, instead of the default one.
 
     Returns
     -------
@@ -93,8 +100,7 @@ def roller_by_formula(contact: RollerContact, scale: tuple[float, float] = (1.0,
     """
     check_contact(contact)
     conditions, length, oil = contact.conditions, contact.length, contact.ring.oil
-    film = pan_hamrock(conditions.contact)
-    least, central = scale[0] * film.minimum_thickness, scale[1] * film.central_thickness
+    least, central = films or _films(pan_hamrock(conditions.contact))
     x, gap = roller_gap(contact, central)
     pressure = conditions.max_pressure * line_pressure(x / conditions.half_width)
     mean = hertz_mean(contact, lambda p: permittivity(oil, p))
@@ -103,5 +109,10 @@ def roller_by_formula(contact: RollerContact, scale: tuple[float, float] = (1.0,
         (least, central),
         inside=length * float(np.vdot(areas((x,)), permittivity(oil, pressure) / gap)),
         hertz=mean * hertz_area(contact) / central,
-        error=None,
+        wide=wide,
     )
+
+
+def _films(film: BothThicknesses) -> tuple[float, float]:
+    """Minimum and central film thickness of a formula [m]."""
+    return film.minimum_thickness, film.central_thickness

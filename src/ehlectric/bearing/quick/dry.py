@@ -33,6 +33,10 @@ POINT, LINE = (-4.5, 1.5), (-4.0, 2.0)
 _NODES = 97, 65
 _LINE_NODES = 1601
 
+# Nodes and weights on 0 to 1 with which the gap further away is integrated.
+_AT, _PART = (0.5 * values for values in np.polynomial.legendre.leggauss(12))
+_AT = _AT + 0.5
+
 # Pressures of a dry contact over its maximum, and the parts of its area that have them. Over an ellipse the
 # part with ratios up to t is t^2; over a strip the ratio is the cosine of an angle whose sine is the place.
 _RATIO, _WEIGHT = np.polynomial.legendre.leggauss(24)
@@ -117,7 +121,13 @@ def _axes(contact: Contact) -> tuple[float, float]:
 
 
 def quick_solution(
-    contact: Contact, films: tuple[float, float], *, inside: float, hertz: float, error: float | None
+    contact: Contact,
+    films: tuple[float, float],
+    *,
+    inside: float,
+    hertz: float,
+    error: float | None = None,
+    wide: bool = False,
 ) -> ContactSolution:
     """Numbers of a contact without a solved film.
 
@@ -128,9 +138,12 @@ def quick_solution(
     films : tuple of float
         Minimum and central film thickness [m].
     inside, hertz : float
-        Integral of eps_r dA/h over the domain, and over the Hertz area [m].
+        Integral of eps_r dA/h over the default domain of solved contacts, and over the Hertz area [m].
     error : float or None
         Relative error of the films; None where it is unknown.
+    wide : bool
+        Whether the domain is that on which the contact would be solved, which is wider for light loads. The
+        dry gap is integrated in the part that is added.
 
     Returns
     -------
@@ -139,7 +152,10 @@ def quick_solution(
     """
     ring, groups, oil = contact.ring, contact.conditions.contact, contact.ring.oil
     eps_r = ring.conditions.oil.relative_permittivity
-    outside, mismatch = _outside(contact, films[1])
+    domain = _domain(contact, wide=wide)
+    outside, mismatch = _outside(contact, domain, films[1])
+    if wide:
+        inside += oil.relative_permittivity * _further(contact, domain, films[1])
     axes = _axes(contact)
     values = ContactValues(
         max_pressure=contact.conditions.max_pressure,
@@ -155,10 +171,12 @@ def quick_solution(
         breakdown_voltage=gap_breakdown(ring.discharge, films[0]),
         hertz=epsilon_0 * hertz,
     )
+    grid = ball_grid(contact) if isinstance(contact, BallContact) else roller_grid(contact)
+    setup = Setup(oil=oil, grid=grid)
     if isinstance(contact, BallContact):
-        warnings = point_case_warnings(Setup(oil=oil, grid=ball_grid(contact)), contact.conditions)
+        warnings = point_case_warnings(setup, contact.conditions)
     else:
-        warnings = line_case_warnings(Setup(oil=oil, grid=roller_grid(contact)), contact.conditions)
+        warnings = line_case_warnings(setup, contact.conditions)
     return ContactSolution(
         load=contact.load,
         values=values,
@@ -171,9 +189,67 @@ def quick_solution(
     )
 
 
-def _outside(contact: Contact, central: float) -> tuple[float, float]:
+def _domain(contact: Contact, *, wide: bool) -> tuple[float, float, float]:
+    """Ends along entrainment and side of the domain in semi-axes: default, or that of a solved contact."""
+    if isinstance(contact, RollerContact):
+        grid = roller_grid(contact)
+        return (grid.inlet, grid.outlet, 1.0) if wide else (*LINE, 1.0)
+    grid = ball_grid(contact)
+    assert grid.side is not None
+    return (grid.inlet, grid.outlet, grid.side) if wide else (*POINT, contact.conditions.side)
+
+
+def _outside(contact: Contact, domain: tuple[float, float, float], central: float) -> tuple[float, float]:
     """Capacitance in vacuum [F] around the domain, and how far its gap is off at the edge, relative."""
-    if isinstance(contact, BallContact):
-        return around_ball(contact, *ball_gap(contact, central))
-    x, gap = roller_gap(contact, central)
-    return around_roller(contact.ring, contact.conditions.half_width, x, gap), 0.0
+    if isinstance(contact, RollerContact):
+        b = contact.conditions.half_width
+        x = np.array(domain[:2])
+        gap = central + b**2 / contact.conditions.reduced_radius * line_gap(x)
+        return around_roller(contact.ring, b, b * x, gap), 0.0
+    dry, side = contact.dry, domain[2]
+    x = dry.semi_axis_x * np.linspace(*domain[:2], _NODES[0])
+    y = dry.semi_axis_y * np.linspace(-side, side, _NODES[1])
+    # Only the gap at the edge is used.
+    gap = np.full(_NODES, central)
+    for edge in (np.s_[0, :], np.s_[-1, :], np.s_[:, 0], np.s_[:, -1]):
+        gap[edge] = central + _opened(contact, *(axis[edge] for axis in np.meshgrid(x, y, indexing="ij")))
+    return around_ball(contact, (x, y), gap)
+
+
+def _opened(contact: BallContact, x: Array, y: Array) -> Array:
+    """Gap of a ball's dry contact [m] at positions [m]."""
+    conditions, dry = contact.conditions, contact.dry
+    rigid = x**2 / (2.0 * conditions.radius_x) + y**2 / (2.0 * conditions.radius_y)
+    return np.maximum(0.0, rigid + point_deflection(x, y, dry, conditions.reduced_modulus) - dry.approach)
+
+
+def _further(contact: Contact, domain: tuple[float, float, float], central: float) -> float:
+    """Integral of dA/h [m] between the default domain and a wider one."""
+    total = 0.0
+    if isinstance(contact, RollerContact):
+        b = contact.conditions.half_width
+        scale = b**2 / contact.conditions.reduced_radius
+        for near, far in zip(LINE, domain[:2], strict=True):
+            x, weights = _geometric(abs(near), abs(far))
+            total += contact.length * b * float(np.sum(weights / (central + scale * line_gap(x))))
+        return total
+    dry, side, far = contact.dry, contact.conditions.side, domain[2]
+    across = far * _AT**2, far * 2.0 * _AT * _PART
+    strips = [(_geometric(abs(near), abs(end)), across) for near, end in zip(POINT, domain[:2], strict=True)]
+    for sign in (-1.0, 1.0):
+        end = abs(POINT[0 if sign < 0.0 else 1])
+        strips.append(((end * _AT, end * _PART), _geometric(side, far)))
+    for (x, along), (y, beside) in strips:
+        if along[0] * beside[0] == 0.0:
+            continue
+        at = dry.semi_axis_x * x[:, np.newaxis], dry.semi_axis_y * y
+        inverse = 1.0 / (central + _opened(contact, *np.broadcast_arrays(*at)))
+        total += 2.0 * dry.semi_axis_x * dry.semi_axis_y * float(along @ inverse @ beside)
+    return total
+
+
+def _geometric(near: float, far: float) -> tuple[Array, Array]:
+    """Nodes and weights from ``near`` to ``far``, denser at the near end."""
+    ratio = np.log(far / near)
+    nodes = near * np.exp(ratio * _AT)
+    return nodes, ratio * nodes * _PART
