@@ -22,7 +22,7 @@ from ehlectric.formulas.hertz_point import point_pressure
 
 
 def ball_by_formula(
-    contact: BallContact, scale: tuple[float, float] = (1.0, 1.0), *, wide: bool = False
+    contact: BallContact, films: tuple[float, float] | None = None, *, wide: bool = False
 ) -> ContactSolution:
     """Film, capacitances and voltages of a ball's contact by film formulas.
 
@@ -69,7 +69,7 @@ def ball_by_formula(
 
 
 def roller_by_formula(
-    contact: RollerContact, scale: tuple[float, float] = (1.0, 1.0), *, wide: bool = False
+    contact: RollerContact, films: tuple[float, float] | None = None, *, wide: bool = False
 ) -> ContactSolution:
     """Film, capacitances and voltages of a roller's contact by film formulas.
 
