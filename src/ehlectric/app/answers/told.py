@@ -110,7 +110,7 @@ PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "steps-halved": (),
         # Bearings
         "formula-contacts": ("capacitance", *_FILM),
-        "atlas-contacts": (),
+        "atlas-contacts": ("capacitance", *_FILM),
         "atlas-left": ("capacitance", *_FILM),
         "atlas-left-light": (),
         "isothermal-film": _FILM,
