@@ -10,9 +10,9 @@ import pytest
 from ehlectric.app.answers.bearing import BearingAnswer
 from ehlectric.app.answers.told import PLACES, Told, beside, counts, elsewhere
 from ehlectric.app.compute.bearing import (
-    quick_answer,
     answer_of,
     bearing_case,
+    quick_answer,
     solve_contacts,
     whole_quick_answer,
 )

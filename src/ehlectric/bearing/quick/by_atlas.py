@@ -68,9 +68,10 @@ def ball_by_atlas(contact: BallContact) -> ContactSolution:
     Notes
     -----
     Over the Hertz area the capacitance is that of the film of the atlas with the permittivity under the Hertz
-    pressure. Around it, inside the domain of the atlas, it is that of the dry gap plus the central film,
-    times the ratio that the atlas has for inlet or outlet, with the permittivity at ambient pressure. The
-    largest field strength is the voltage over the minimum film thickness.
+    pressure, which is lowered to the central pressure of the atlas in light contacts. Around it, inside the
+    domain of the atlas, it is that of the dry gap plus the central film, times the ratio that the atlas has
+    for inlet or outlet, with the permittivity at ambient pressure. The largest field strength is the voltage
+    over the minimum film thickness.
     """
     check_contact(contact)
     film = _film(contact)
@@ -167,7 +168,11 @@ def _solution(contact: Contact, film: ContactFilm, around: list[float]) -> Conta
     oil, numbers = contact.ring.oil, film.film
     # The atlas has the mean of 1/(rho h) over that in the middle, where the mass is most alike for all oils.
     mass = film.central_thickness * numbers.mass / numbers.central
-    mean = hertz_mean(contact, _permittivity_of_mass(oil))
+    # In a light contact the pressure reaches far ahead of the zone, and is lower in it. Where a spike passes
+    # the middle, its pressure is not that of the zone.
+    share = min(1.0, numbers.central_pressure)
+    law = _permittivity_of_mass(oil)
+    mean = hertz_mean(contact, lambda pressure: law(share * pressure))
     hertz = numbers.zone * mean * hertz_area(contact) / mass
     outside = oil.relative_permittivity * (numbers.inlet * around[0] + numbers.outlet * around[1])
     return quick_solution(
