@@ -271,7 +271,7 @@ def test_differences_of_solved_contacts(summary):
 
 def test_the_words_of_a_margin_below_one_are_those_of_the_level():
     """Yellow is likely and red is expected, in the verdict, beside the margin, and in the figure."""
-    likely = whole_quick_answer(inputs(inner_speed="970 rpm"))
+    likely = whole_quick_answer(inputs(inner_speed="1200 rpm"))
     weak = tomllib.loads(TEXT) | {"discharge": {"dielectric_strength": "5 V/um"}}
     for answer, level, word in (
         (likely, "yellow", "likely"),
