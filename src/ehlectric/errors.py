@@ -298,7 +298,7 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "steps-halved": Cause("Some time steps had to be halved.", "note"),
         # Bearings
         "formula-contacts": Cause("The contacts of the bearing are computed by formulas."),
-        "atlas-contacts": Cause("The contacts of the bearing are those of the atlas of films.", "note"),
+        "atlas-contacts": Cause("Contacts have the films of the atlas.", "note"),
         "atlas-left": Cause("The atlas has no film of a contact, which is computed by formula."),
         "atlas-left-light": Cause(
             "The atlas has no film of a light contact, which is computed by formula.", "note"
