@@ -298,6 +298,11 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "steps-halved": Cause("Some time steps had to be halved.", "note"),
         # Bearings
         "formula-contacts": Cause("The contacts of the bearing are computed by formulas."),
+        "atlas-contacts": Cause("Contacts have the films of the atlas.", "note"),
+        "atlas-left": Cause("The atlas has no film of a contact, which is computed by formula."),
+        "atlas-left-light": Cause(
+            "The atlas has no film of a light contact, which is computed by formula.", "note"
+        ),
         "isothermal-film": Cause("The films are isothermal and fully flooded.", "note"),
         "temperature-unused": Cause("The films use a given viscosity at any temperature.", "note"),
         "viscosity-of-base": Cause("The viscosity is that of a lubricant of the library at any temperature."),

@@ -30,7 +30,7 @@ def printed_by(*arguments, cwd):
 @pytest.fixture(scope="module")
 def bearing_output(tmp_path_factory):
     example = str(ROOT / "examples" / "bearing_6208.toml")
-    arguments = ("bearing", example, "--contacts", "formula", "--no-plots", "-o", "out")
+    arguments = ("bearing", example, "--contacts", "atlas", "--no-plots", "-o", "out")
     return printed_by(*arguments, cwd=tmp_path_factory.mktemp("bearing"))
 
 

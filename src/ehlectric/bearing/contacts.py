@@ -85,7 +85,8 @@ class ContactSolution(Values):
     values : ContactValues
         Film, capacitances and voltages.
     error : float or None
-        Estimated discretisation error of the film, relative; None where it is unknown.
+        Estimated error of the film, relative: of the discretisation, or as the atlas or a formula states it.
+        None where it is unknown.
     moes_m, moes_l : float
         Load parameter M and lubricant parameter L of Moes, dimensionless.
     mismatch : float

@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 
-from ehlectric.bearing.by_formula import check_formula
 from ehlectric.bearing.conditions import BearingConditions, RingConditions, Solid
 from ehlectric.bearing.fits.mounted import MountedClearance, mounted_clearance
 from ehlectric.bearing.kinds import KINDS, kind_of
@@ -19,6 +18,7 @@ from ehlectric.bearing.loads.geometry import Geometry
 from ehlectric.bearing.loads.kinematics import rolling_speeds
 from ehlectric.bearing.loads.ring import Operation
 from ehlectric.bearing.loads.totals import Equilibrium, mirrored
+from ehlectric.bearing.quick.ways import check_quick, is_quick
 from ehlectric.bearing.ring_contacts import RingContacts
 from ehlectric.cases.bearings.bearing import Bearing
 from ehlectric.cases.bearings.case import BearingCase
@@ -191,8 +191,8 @@ def prepare_bearing(case: BearingCase, positions: int) -> PreparedBearing:
         Where the bearing cannot carry its load, or is beyond the limits of the model.
     """
     conditions = resolve_bearing(case)
-    if case.contacts == "formula":
-        check_formula(conditions.discharge, conditions.oil)
+    if is_quick(case):
+        check_quick(case.contacts, conditions.discharge, conditions.oil)
     check_load(conditions)
     equilibria = equilibria_of(conditions, positions)
     for at in equilibria:

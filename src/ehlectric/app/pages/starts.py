@@ -35,7 +35,7 @@ def contact_start(geometry: str) -> Inputs:
 
 SWEEP = Inputs(
     {
-        "case": dict(BEARING.changed({"contacts": "formula"}).table),
+        "case": dict(BEARING.changed({"contacts": "atlas"}).table),
         "vary": {
             "bearing": {
                 "inner_speed": {"from": "300 rpm", "to": "6000 rpm", "count": 8, "spacing": "log"},

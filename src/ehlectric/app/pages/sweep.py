@@ -376,7 +376,7 @@ def _in_words(plan: SweepPlan) -> str:
             ": each takes as long as one solution, seconds for a contact and a minute or more for a bearing."
         )
     else:
-        text += f", by formula: about {duration(plan.seconds)}."
+        text += f", without solving contacts: about {duration(plan.seconds)}."
     if plan.refused:
         text += f" {plan.refused} of {plan.corners} corners of the ranges are no valid case: {plan.reason}."
     return text
