@@ -17,7 +17,7 @@ from ehlectric.cases.changes import displace_alternatives, drop_geometry, flatte
 from ehlectric.cases.contact import Contact
 from ehlectric.cases.depth import refuse_deep
 from ehlectric.cases.discharge import Discharge
-from ehlectric.cases.grid import POINT_GRID_KEYS, Electric, Grid, Solver, point_grid
+from ehlectric.cases.grid import Electric, Grid, Solver, point_grid
 from ehlectric.cases.keywords.constructors import tables, takes
 from ehlectric.cases.keywords.types import Keys, LineKeys, PointKeys
 from ehlectric.cases.meter import Meter
@@ -126,12 +126,7 @@ class Case(Tabled, Table):
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        if self.contact.geometry != "point":
-            for key in POINT_GRID_KEYS:
-                if getattr(self.grid, key) is not None:
-                    raise InputError.worded(
-                        f"grid.{key}", "is not used by a line contact, only where contact.geometry is 'point'"
-                    )
+        self.grid.check_geometry(self.contact.geometry)
         self.lubricant.at(self.contact.temperature)
         check_geometry(self.roughness, self.contact.geometry)
         if self.discharge is not None:

@@ -165,6 +165,13 @@ class Grid(Table):
             return self
         return self.model_copy(update={"nodes": _FIXED[self.of_point]})
 
+    def check_geometry(self, geometry: str) -> None:
+        """Raise an InputError if the grid of a line contact has a key of point contacts."""
+        for key in POINT_GRID_KEYS if geometry != "point" else ():
+            if getattr(self, key) is not None:
+                raise InputError.worded(
+                    f"grid.{key}", "is not used by a line contact, only where contact.geometry is 'point'"
+                )
 
     @model_validator(mode="after")
     def _check(self) -> Self:

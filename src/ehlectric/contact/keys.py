@@ -78,7 +78,7 @@ _FILM: Keys = {
         "error of the maximum pressure",
     ),
     "solver": ResultKey('solver of the film: "ehlectric" or "paper"'),
-    "nodes": ResultKey("nodes of the film; with a grid that is refined those of the last one"),
+    "nodes": ResultKey("nodes of the film, of the last grid where it is refined"),
 }
 _POINT_FILM: Keys = {
     **_FILM,
@@ -94,7 +94,7 @@ _POINT_FILM: Keys = {
         "mean film thickness within the Hertz ellipse", "m", "mean film thickness", r"$\bar{h}$"
     ),
     "load_residual": ResultKey("abs(∫∫P dX dY/(2 π k/3) − 1)"),
-    "nodes": ResultKey("nodes [along, across] of the film; with a grid that is refined those of the last one"),
+    "nodes": ResultKey("nodes [along, across] of the film, of the last grid where it is refined"),
     "inlet_deficit": ResultKey("share of the reduced pressure that would build up upstream of the domain"),
     "side_deficit": ResultKey(
         "share of the reduced pressure that the sides cut off, where the pressure is set to ambient"

@@ -174,7 +174,7 @@ def _nodal(found: RefinedSolution, shaped: Shaped) -> tuple[Array, dict[str, Any
     added = patch.problem.added_gap
     if added is None:
         return joined.x, {name: joined(coarse[name], fine[name]) for name in fine}
-    # Roughness is no smooth function that may be interpolated between the coarse nodes; the film without it is.
+    # The film without roughness is smooth enough to be interpolated between the coarse nodes.
     for values, on in ((coarse, patch.coarse.level.mesh), (fine, mesh)):
         values["thickness"] = values["thickness"] - scales.thickness * added(on.x, on.y)
     nodal = {name: joined(coarse[name], fine[name]) for name in fine}

@@ -189,7 +189,8 @@ def _film(result: Result | PointResult) -> Iterator[Row]:
     nodes = " x ".join(str(count) for count in film.thickness.shape)
     target = result.case.grid.target
     asked = "" if target is None else f", {100.0 * target:g} % asked"
-    name, grid, error = "discretisation error of the film", f", {nodes} nodes{asked}", film.discretisation_error
+    name, error = "discretisation error of the film", film.discretisation_error
+    grid = f", {nodes} nodes{asked}"
     yield Row(name, "unknown", note=grid) if error is None else Row(name, error, "%", grid, digits=".2g")
     steps = "V-cycles" if result.film_solver == "paper" else "Newton steps"
     after = f"after {film.newton_iterations} {steps}"

@@ -21,8 +21,8 @@ BEARING = start("bearing_6208")
 # Strength of the first answers, that of the bearing: an assumption.
 _STRENGTH = {"discharge.dielectric_strength": "15 V/um"}
 
-# Domain of the point contact. It is larger than that of the example, so that the film has no warning about it,
-# also with the oil and the speed of the line contact with which the page begins.
+# Domain of the point contact, larger than that of the example, so that the film has no warning about it, also
+# with the oil and the speed of the line contact with which the page begins.
 _POINT_DOMAIN = {"grid.inlet": -6.0, "grid.side": 5.0}
 
 
