@@ -13,10 +13,10 @@ from ehlectric.motion.stored_run import MotionRun
 # The minimum counts as near its lowest value over time up to this multiple of it.
 _NEAR_LOWEST = 1.05
 
-# Parts of the change from the companion that are the error of the run: of the minimum with the order that is
-# observed at the constriction, and of the central film with an order of 1.6, below the expected order of 2.
-_OF_MINIMUM = 1.0 / (2.0**MINIMUM_ORDER - 1.0)
-_OF_CENTRE = 0.5
+# Part of the change from the companion that is the error of the run. The scheme is of second order, of which a
+# third is left. The minimum at the constriction converges more slowly, and so does a film wave that is short
+# against the grid; the order of the minimum covers both.
+_PART_LEFT = 1.0 / (2.0**MINIMUM_ORDER - 1.0)
 
 # Smallest estimate, as the films may agree by chance.
 _LEAST = 5e-5
@@ -83,11 +83,11 @@ def estimated(lowest: tuple[Array, Array], central: tuple[Array, Array], minimum
 
     Examples
     --------
-    The scheme is of second order: of a change of 4 % about a third is left, here estimated as a half.
+    Of a change of 4 % a third is left where the grid resolves the film; the estimate is larger:
 
     >>> constant = np.ones(3)
     >>> round(estimated((constant, constant), (constant, 1.04 * constant), 1.0).central, 3)
-    0.02
+    0.029
     """
     fine, coarse = lowest
     near = (fine <= _NEAR_LOWEST * np.min(fine)) | (coarse <= _NEAR_LOWEST * np.min(coarse))
@@ -95,6 +95,6 @@ def estimated(lowest: tuple[Array, Array], central: tuple[Array, Array], minimum
     between = max(minimum - float(np.min(fine)), 0.0)
     of_centre = float(np.max(np.abs(central[0] - central[1]) / central[0]))
     return RunErrors(
-        minimum=max((_OF_MINIMUM * change + between) / minimum, _LEAST),
-        central=max(_OF_CENTRE * of_centre, _LEAST),
+        minimum=max((_PART_LEFT * change + between) / minimum, _LEAST),
+        central=max(_PART_LEFT * of_centre, _LEAST),
     )
