@@ -13,8 +13,8 @@ from ehlectric.motion.stored_run import MotionRun
 # The minimum counts as near its lowest value over time up to this multiple of it.
 _NEAR_LOWEST = 1.05
 
-# Part of the change from the companion that is the error of the run. The scheme is of second order, of which a
-# third is left. The minimum at the constriction converges more slowly, and so does a film wave that is short
+# Part of the change from the companion that is the error of the run. With second order a third would be left.
+# The minimum at the constriction converges more slowly, and so does a film wave that is short
 # against the grid; the order of the minimum covers both.
 _PART_LEFT = 1.0 / (2.0**MINIMUM_ORDER - 1.0)
 

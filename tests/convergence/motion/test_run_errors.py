@@ -28,7 +28,7 @@ def run_of(case, refined, folder):
 
 
 def true_error(run, reference, refined, *, order):
-    """Larger of the errors of the minimum over time and of the central film, by Richardson's extrapolation."""
+    """Larger of the errors of the minimum over time and of the central film, extrapolated."""
     left = 1.0 / (1.0 - refined**-order)
     minimum = float(np.min(run.values("minimum_thickness")))
     of_minimum = abs(minimum / float(np.min(reference.values("lowest_thickness"))) - 1.0)
