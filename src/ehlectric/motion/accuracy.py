@@ -81,6 +81,10 @@ def estimated(lowest: tuple[Array, Array], central: tuple[Array, Array], minimum
     which the minimum of either film is within 5 % of its lowest value over time. The distance of the lowest
     node from the lowest place between the nodes is added.
 
+    Of 32 line and point contacts with waves, asperities and pits at slide-to-roll ratios from -1 to 2, one
+    exceeded the estimate, by a factor of 1.6: a film wave of five nodes. The true error was about half of the
+    estimate in the median. It was found from grids and steps that were two or four times as fine.
+
     Examples
     --------
     Of a change of 4 % a third is left where the grid resolves the film; the estimate is larger:

@@ -1,7 +1,7 @@
 """Companion of a run: the same motion on every second node with steps twice as long, for an error estimate.
 
-The companion is solved beside the run. It takes part of the time of the run, about a third for a line contact
-and a seventh for a point contact: it has half the steps, each with half or a quarter of the nodes.
+The companion is solved beside the run. It takes about a fifth of the time of the run: it has half the steps,
+each with half the nodes of a line contact or a quarter of those of a point contact.
 ``ehlectric.motion.accuracy`` compares the two films.
 """
 
