@@ -99,7 +99,7 @@ def of_three_grids(films: Sequence[tuple[Mesh, Array]]) -> float:
     >>> round(of_three_grids(films), 4)
     0.0056
     """
-    minima, centres = np.array([[_lowest(*film), at_centre(*film)] for film in films]).T
+    minima, centres = np.array([[lowest(*film), at_centre(*film)] for film in films]).T
     least = float(np.min(films[0][1]))
     of_minimum = _change(minima, MINIMUM_ORDER) / _MINIMUM_GAIN + (least - minima[0])
     of_centre = _change(centres, 2.0) / 3.0
@@ -112,19 +112,38 @@ def _change(values: Array, order: float) -> float:
     return float(max(fine, coarse / 2.0**order))
 
 
-def _lowest(mesh: Mesh, thickness: Array) -> float:
-    """Lowest film thickness between the nodes, by a parabola along each axis through the lowest node."""
+def lowest(mesh: Mesh, thickness: Array) -> float:
+    """Lowest film thickness between the nodes, by a parabola along each axis through the lowest node.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Grid.
+    thickness : ndarray, shape (nx, ny)
+        Film thickness, in any unit.
+
+    Returns
+    -------
+    float
+        Lowest film thickness, in the unit of ``thickness``.
+
+    Examples
+    --------
+    >>> mesh = Mesh.over(4, -1.0, 2.0)
+    >>> round(lowest(mesh, 1.0 + (mesh.x[:, np.newaxis] - 0.4) ** 2), 12)
+    1.0
+    """
     whole = mesh.mirrored(thickness)
     at = np.unravel_index(int(np.argmin(whole)), whole.shape)
-    lowest = float(whole[at])
+    least = float(whole[at])
     for axis, place in enumerate(at):
         if 0 < place < whole.shape[axis] - 1:
             before, here, after = np.take(
                 np.moveaxis(whole, axis, 0)[:, at[1 - axis]], [place - 1, place, place + 1]
             )
             bend = before - 2.0 * here + after
-            lowest -= float((after - before) ** 2 / (8.0 * bend)) if bend > 0.0 else 0.0
-    return lowest
+            least -= float((after - before) ** 2 / (8.0 * bend)) if bend > 0.0 else 0.0
+    return least
 
 
 def film_error(

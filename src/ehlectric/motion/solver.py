@@ -21,6 +21,7 @@ from ehlectric.film.point import PointFilm
 from ehlectric.film.solution import FilmSolution, pressure_of, quiet_solution
 from ehlectric.film.state import Progress
 from ehlectric.film.unsteady import History, Instant, UnsteadyFilm
+from ehlectric.motion.companion import KeyFilms
 from ehlectric.motion.contact import TransientContact
 
 
@@ -141,6 +142,10 @@ class TransientSolver:
             minimum_position=tuple(float(axis[k]) for axis, k in zip(axes, place, strict=True)),
             max_pressure=float(np.max(pressure_of(scales, instant.state, instant.full_film))),
         )
+
+    def key_films(self, instant: Instant) -> KeyFilms:
+        """Film thicknesses of an instant that are compared with those of the companion."""
+        return KeyFilms.of(self._film.level.mesh, instant, self.contact.problem.scales.thickness)
 
     def film(self, instant: Instant) -> Film | PointFilm:
         """Film at an instant, SI units."""
