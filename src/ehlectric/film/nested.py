@@ -180,11 +180,7 @@ def _levels(problem: FilmProblem, *, roughness: float) -> list[Level]:
             width=problem.width,
             source=problem.source,
         )
-    if problem.edge_pressure is None:
-        return levels
-    mesh = levels[0].mesh
-    excess = problem.edge_pressure(mesh.x, mesh.y) - problem.fluid.ambient_pressure
-    return [replace(levels[0], edge_excess=np.where(mesh.edge, excess, 0.0)), *levels[1:]]
+    return [replace(levels[0], edge_excess=problem.edge_excess(levels[0].mesh)), *levels[1:]]
 
 
 @lru_cache(maxsize=_GRIDS_KEPT)

@@ -11,12 +11,12 @@ import math
 from dataclasses import dataclass, replace
 
 from ehlectric.errors import ConvergenceError
+from ehlectric.film.accuracy.moving_patch import MovingFilm
 from ehlectric.film.estimates import lowest
 from ehlectric.film.mesh import Mesh, at_centre
-from ehlectric.film.nested import nested_iteration
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.solution import quiet_solution
-from ehlectric.film.unsteady import History, Instant, UnsteadyFilm
+from ehlectric.film.unsteady import History, Instant
 from ehlectric.motion.contact import TransientContact
 
 # Number of steps of the run in a step of the companion.
@@ -58,16 +58,17 @@ class Companion:
     """
 
     def __init__(self, contact: TransientContact) -> None:
-        self._problem = on_every_second_node(contact.problem)
         self._step = STRIDE * contact.schedule.step
         self._scale = contact.problem.scales.thickness
-        self._film = UnsteadyFilm(self._problem, contact.moving_gap)
+        self._moving = MovingFilm(on_every_second_node(contact.problem), contact.moving_gap)
 
     def start(self) -> History | None:
         """Stationary film before the motion; None where it does not converge."""
-        with quiet_solution():
-            steady = nested_iteration(self._problem, None)[-1]
-        return self._film.start(steady, self._step) if steady.status == "converged" else None
+        try:
+            return self._moving.start(self._step)
+        except ConvergenceError:
+            # The run itself goes on; the summary says that its error is unknown.
+            return None
 
     def resumed(self, history: History | None, done: int) -> History | None:
         """Films from which the companion goes on after step ``done`` of the run.
@@ -99,7 +100,7 @@ class Companion:
             return history
         with quiet_solution():
             try:
-                return self._film.advance(history, self._step)
+                return self._moving.film.advance(history, self._step)
             except ConvergenceError:
                 # The run itself goes on; the summary says that its error is unknown.
                 return None
@@ -108,7 +109,7 @@ class Companion:
         """Key film thicknesses after a step of the run; NaN between two steps and without a film."""
         if history is None or step % STRIDE:
             return KeyFilms()
-        return KeyFilms.of(self._film.level.mesh, history.now, self._scale)
+        return KeyFilms.of(self._moving.film.level.mesh, history.now, self._scale)
 
 
 def on_every_second_node(problem: FilmProblem) -> FilmProblem:
