@@ -248,8 +248,8 @@ _VOLTAGES: Keys = {
         "A/m**2",
     ),
     "discretisation_error": ResultKey(
-        "maximum estimated error of the solved films; null where one is not known, and for contacts that are "
-        "not solved"
+        "maximum estimated error of the solved films; null where one is not known, and for contacts from the "
+        "atlas"
     ),
     "film_error": ResultKey(
         "estimated error of the films and their interpolation over the load; for contacts from the atlas "

@@ -101,7 +101,7 @@ def _totals(solution: BearingSolution) -> dict[str, Any]:
     strength, shaft, across = strength_per_volt(solution), shaft_voltage(solution), film_voltage(solution)
     leaks, rough = shaft_leakage(solution), rough_capacitance(solution)
     errors = [contact.error for curve in solution.curves for contact in curve.solutions]
-    solved = solution.case.contacts == "solved"
+    estimated = solution.case.contacts != "atlas"
     known = [error for error in errors if error is not None]
     return {
         "contacts": solution.case.contacts,
@@ -130,7 +130,7 @@ def _totals(solution: BearingSolution) -> dict[str, Any]:
         "film_voltage_after_period": _part(across, None if leaks is None else leaks.film_after_period),
         "shaft_voltage_after_rise": _part(shaft, None if leaks is None else leaks.after_rise),
         **dataclasses.asdict(bearing_costs(solution)),
-        "discretisation_error": max(known) if solved and len(known) == len(errors) else None,
+        "discretisation_error": max(known) if estimated and len(known) == len(errors) else None,
         "film_error": film_error(solution),
         "interpolation_error": max(curve.interpolation_error for curve in solution.curves),
     }

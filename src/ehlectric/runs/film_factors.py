@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from ehlectric.bearing.measured.factors import bearing_factors
 from ehlectric.cases.bearings.case import BearingCase
-from ehlectric.cases.bearings.ways import QUICK
+from ehlectric.cases.bearings.ways import QUICK, Contacts
 from ehlectric.cases.case import Case
 from ehlectric.cases.measurements.factors import FilmFactors
 from ehlectric.cases.measurements.reading import Measurement, read_measurement
@@ -148,7 +148,7 @@ def film_factors(
         return bearing_factors(case, rows, workers=workers, **options)
     if background is not None:
         raise InputError.worded("background", "is taken off a capacitance, and a film has none")
-    way = next((one for one in QUICK if one == contacts), "solved")
+    way: Contacts = next((one for one in QUICK if one == contacts), "solved")
     return contact_factors(case, rows, contacts=way, **options)
 
 

@@ -68,6 +68,14 @@ def test_the_answer_at_once_has_the_numbers_of_the_command(quick, summary):
     assert (quick.contacts, quick.whole, quick.margin, quick.converged) == ("atlas", False, None, True)
 
 
+def test_a_case_by_formula_keeps_its_choice():
+    """Its films differ from those of the atlas, and their error is that of the formula."""
+    answer = quick_answer(inputs() | {"contacts": "formula"})
+    assert answer.contacts == "formula"
+    assert answer.how.startswith("Contacts by formula: films may be 30 % off.")
+    assert "formula-contacts" in [told.code for told in answer.warnings]
+
+
 def test_the_whole_answer_has_the_verdict_of_the_command(whole, summary):
     assert (whole.text, whole.level) == (summary["verdict"], summary["margin"]["level"])
     assert whole.margin == summary["margin"]

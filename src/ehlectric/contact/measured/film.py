@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from ehlectric.arrays import Array
+from ehlectric.cases.bearings.ways import Contacts
 from ehlectric.cases.case import Case
 from ehlectric.cases.measurements.average import mean_factor, slope_of
 from ehlectric.cases.measurements.factors import FilmFactors, fitted_columns
@@ -21,8 +22,6 @@ from ehlectric.contact.solver import solve
 from ehlectric.errors import ConvergenceError, InputError, ResultWarning
 from ehlectric.film.atlas.contact import contact_film
 from ehlectric.runtime.progress import Progress, silent
-
-Contacts = Literal["solved", "atlas", "formula"]
 
 # Formula of the central film by the geometry of the contact: those that hold in all regimes.
 FORMULA = {"line": "moes", "point": "nijenbanning_venner_moes"}
