@@ -6,7 +6,7 @@ from scipy.interpolate import PchipInterpolator
 
 from ehlectric.contact.problems import film_problem
 from ehlectric.contact.resolve import resolve
-from ehlectric.film import newton, nested
+from ehlectric.film import nested, newton
 from ehlectric.film.line import solve_film
 
 
