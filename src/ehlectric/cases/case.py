@@ -329,7 +329,7 @@ class Case(Tabled, Table):
 
         A new key replaces its alternative: a Hertz pressure replaces the load, two radii replace the reduced
         radius, and a new ``lubricant.base`` replaces all values of the lubricant. A new geometry removes the
-        keys that only the old geometry has, and the lengths and nodes of its grid.
+        keys that only the old geometry has, and the lengths, nodes and error of its grid.
 
         Parameters
         ----------

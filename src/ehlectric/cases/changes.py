@@ -153,9 +153,9 @@ def drop(table: dict[str, Any], key: str) -> None:
             del table[first]
 
 
-# Keys of a grid that stay if the geometry changes. Lengths and numbers of nodes are removed, because the
-# other geometry has other units of length and other defaults.
-_GRID_OF_ANY = ("wedge", "field_degree", "refine", "error")
+# Keys of a grid that stay if the geometry changes. Lengths, numbers of nodes and the error are removed,
+# because the other geometry has other units of length and other defaults.
+_GRID_OF_ANY = ("wedge", "field_degree", "refine")
 
 
 def drop_geometry(table: dict[str, Any], geometry: str) -> None:

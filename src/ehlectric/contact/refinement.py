@@ -18,9 +18,10 @@ from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
 from ehlectric.film.problem import FilmProblem
 
-# How often the intervals of a rough contact's grid are doubled at the most. Roughness that no grid resolves,
-# such as white noise, would take them up to the memory of the machine.
-_MOST_DOUBLED = {"line": 3, "point": 2}
+# How often the intervals of a grid are doubled at the most, with smooth and with rough surfaces. A film whose
+# estimate does not fall, such as one under white noise, would take them up to the memory of the machine.
+_MOST_DOUBLED = {"line": 8, "point": 5}
+_MOST_DOUBLED_ROUGH = {"line": 3, "point": 2}
 
 
 @dataclass(frozen=True)
@@ -70,8 +71,9 @@ def refined(
     Returns
     -------
     Refined
-        Film of the last grid, with a warning if the target error was not reached. The grid of a rough line
-        contact has at most eight times the intervals of the first one, that of a point contact four times.
+        Film of the last grid, with a warning if the target error was not reached. The intervals of a line
+        contact's grid are doubled at most eight times, those of a point contact's five times; with rough
+        surfaces three times and twice.
     """
     started, target = time.perf_counter(), setup.grid.target
     grid = setup.first_grid.model_copy(update={"refine": None, "error": None})
@@ -93,10 +95,11 @@ def refined(
 
 def _finer_grids(grid: Grid, geometry: str, *, rough: bool) -> tuple[list[Grid], str]:
     """Grid and all grids with twice as many intervals each, up to the first one that is refused, and why."""
-    grids, most = [grid], _MOST_DOUBLED[geometry]
+    grids, most = [grid], (_MOST_DOUBLED_ROUGH if rough else _MOST_DOUBLED)[geometry]
     while True:
-        if rough and len(grids) > most:
-            return grids, f"a rough contact is refined {most} times at the most; give more grid.nodes"
+        if len(grids) > most:
+            kind = "rough" if rough else "smooth"
+            return grids, f"a {kind} contact is refined {most} times at the most; begin with more grid.nodes"
         try:
             finer = _doubled(grids[-1])
             check_grid(geometry, finer, rough=rough)

@@ -137,7 +137,7 @@ def test_rough_film_on_a_patch_is_that_of_the_whole_domain(name):
     whole = solve(rough.replace({"grid.nodes": 257}), beside_smooth=False)
     first = rough.replace({"grid.nodes": 129, "grid.refine": 1e-4})
     with pytest.MonkeyPatch.context() as patched:
-        patched.setattr("ehlectric.contact.refinement._MOST_DOUBLED", {"point": 1})
+        patched.setattr("ehlectric.contact.refinement._MOST_DOUBLED_ROUGH", {"point": 1})
         result = solve(first)
     film = result.film
     assert film.converged

@@ -72,7 +72,7 @@ ONLY: Mapping[str, tuple[str, ...]] = {
         *(f"{body}.{key}" for body in _BODIES for key in ("radius_x", "radius_y")),
     ),
 }
-_GRID_OF_ANY = ("grid.wedge", "grid.field_degree", "grid.refine", "grid.error")
+_GRID_OF_ANY = ("grid.wedge", "grid.field_degree", "grid.refine")
 
 # Dimensions of a bearing, which belong to its base.
 DIMENSIONS = (
