@@ -31,6 +31,10 @@ _PLACES = NAMES.index("minimum_x")
 # that differ more are not resolved on either grid.
 _RESOLVED = 0.3
 
+# Least pressure in the middle that is stored, over the Hertz pressure: beside a spike the spline through the
+# nodes of a grid goes below zero, and the density does not depend on lower ones.
+_LEAST_PRESSURE = 0.03
+
 # Largest Hertz pressure over 1/alpha of nodes that are extrapolated from lower ones, so that contacts below
 # the largest that is solved lie in a cell.
 _NEAR = 165.0
@@ -50,6 +54,7 @@ def stored(groups: Groups, numbers: Array) -> Array:
     1/(rho h) do not, and are therefore stored without it.
     """
     logs = np.log(np.maximum(numbers[:_PLACES], 1e-12))
+    logs[_PRESSURE] = max(logs[_PRESSURE], np.log(_LEAST_PRESSURE))
     peak = numbers[_PRESSURE] * groups.hertz_number / OilGroups.of(*reference_laws()).alpha
     logs[_ZONE] -= logs[_CENTRAL] - np.log(groups.formula)
     logs[_CENTRAL] -= float(np.log(reference_laws()[1](np.array([peak]))[0][0]))

@@ -59,11 +59,10 @@ def _fill_planes(values: Array, errors: Array, solved: Mask, logs: list[Array]) 
             for i in np.flatnonzero(inside):
                 guess[i] = _spline(x, around[i], values[i, j])(x[plane])
             known = solved[line] & inside
-            if not known.any():
+            if np.count_nonzero(known) < 3:
                 continue
             off, doubt, filled = values[line] - guess, errors[line].copy(), known.copy()
-            if np.count_nonzero(known) >= 3:
-                _fill_line(logs[0], off, doubt, filled)
+            _fill_line(logs[0], off, doubt, filled)
             nodes = np.flatnonzero(filled)
             for i in np.flatnonzero(inside & ~solved[line]):
                 near = nodes[np.argmin(np.abs(nodes - i))]

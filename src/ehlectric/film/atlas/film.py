@@ -34,8 +34,8 @@ _OIL = {
 }
 
 # Spread between oils that 95 % of the fitted contacts keep: after the correction, and without it, for
-# contacts whose oil is not known. Below ``_LIGHT``, by M of a line, the spread is twice as large: the spike
-# of the pressure passes the centre there.
+# contacts whose oil is not known. Below ``_LIGHT``, by M of a line, the spread and the error of the table are
+# twice as large: the spike of the pressure passes the centre there.
 _SPREAD = {"central": 0.006, "minimum": 0.015, "mean": 0.016, "zone": 0.002, "inlet": 0.025, "outlet": 0.028}
 _WHOLE = {"central": 0.020, "minimum": 0.032, "mean": 0.021, "zone": 0.004, "inlet": 0.030, "outlet": 0.031}
 _OTHER = 0.01
@@ -152,7 +152,7 @@ def _errors(groups: Groups, errors: Array, spread: dict[str, float]) -> dict[str
     """Relative errors by name: of the table, and the spread between oils."""
     more = 2.0 if _line_load(groups) < _LIGHT else 1.0
     total = {
-        name: float(error) + more * spread.get(name, _OTHER)
+        name: more * (float(error) + spread.get(name, _OTHER))
         for name, error in zip(NAMES, errors, strict=True)
     }
     # The mean of 1/(rho h) is stored without the central film.
