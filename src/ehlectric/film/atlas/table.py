@@ -15,6 +15,9 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.errors import InputError
 from ehlectric.film.atlas.fill import HALVED
 
+# Relative distance within which a coordinate is that of a node.
+_ALIKE = 1e-9
+
 # What a coordinate is that is not a group of Moes.
 _MEANING = {"moes_n": " in N, which is M times a function of k", "moes_y": " in Y, which is L N^(1/6)"}
 
@@ -80,8 +83,10 @@ class Table:
                 raise InputError(name, got=f"{value:.4g}", takes=said)
         cell = []
         for axis, value in zip(self.axes, at, strict=True):
-            i = min(max(int(np.searchsorted(axis, value)) - 1, 0), axis.size - 2)
-            cell.append(slice(i, i + 2))
+            i = int(np.argmin(np.abs(axis - value)))
+            # On a node, as round contacts are, only the node itself decides.
+            j = i if abs(axis[i] - value) <= _ALIKE * value else i + 1 if value > axis[i] else i - 1
+            cell.append(slice(min(i, j), max(i, j) + 1))
         if not self.solved[tuple(cell)].all():
             where = ", ".join(f"{name} = {value:.4g}" for name, value in zip(self.names, at, strict=True))
             raise InputError(
