@@ -39,6 +39,9 @@ _LEAST_PRESSURE = 0.03
 # the largest that is solved lie in a cell.
 _NEAR = 165.0
 
+# Load group up to which nodes are not extrapolated: the spike of the pressure passes the centre.
+_LIGHT = 40.0
+
 # Least share of solved nodes of an outermost plane of the table that is kept.
 _LEAST_SHARE = 0.05
 
@@ -78,8 +81,10 @@ def assembled(folder: Path, kind: str, axes: Axes) -> dict[str, Any]:
     logs = [np.log(axis) for axis in axes.nodes]
     fill_between(values, errors, solved, logs)
     if axes.ratio is not None:
-        wanted = [axes.groups(at).hertz_number <= _NEAR for at in np.ndindex(*axes.shape)]
-        extend(values, errors, solved, np.reshape(wanted, axes.shape), logs)
+        wanted = np.zeros(axes.shape, dtype=bool)
+        for at in np.ndindex(*axes.shape):
+            wanted[at] = axes.load[at[0]] > _LIGHT and axes.groups(at).hertz_number <= _NEAR
+        extend(values, errors, solved, wanted, logs)
     made = {
         "computed": [min(dates), max(dates)] if dates else [], "seconds": round(seconds), "solved": number,
     }  # fmt: skip

@@ -35,11 +35,14 @@ _OIL = {
 
 # Spread between oils that 95 % of the fitted contacts keep: after the correction, and without it, for
 # contacts whose oil is not known. Below ``_LIGHT``, by M of a line, the spread and the error of the table are
-# twice as large: the spike of the pressure passes the centre there.
+# twice as large, and that of the central film four times: the spike of the pressure passes the centre there.
 _SPREAD = {"central": 0.006, "minimum": 0.015, "mean": 0.016, "zone": 0.002, "inlet": 0.025, "outlet": 0.028}
 _WHOLE = {"central": 0.020, "minimum": 0.032, "mean": 0.021, "zone": 0.004, "inlet": 0.030, "outlet": 0.031}
 _OTHER = 0.01
 _LIGHT = 5.0
+
+# Largest change of the density for a change of the pressure by a factor of e, at pressures of light contacts.
+_DENSITY = 0.15
 
 
 @dataclass(frozen=True)
@@ -155,8 +158,13 @@ def _errors(groups: Groups, errors: Array, spread: dict[str, float]) -> dict[str
         name: more * (float(error) + spread.get(name, _OTHER))
         for name, error in zip(NAMES, errors, strict=True)
     }
+    central, pressure = (float(errors[NAMES.index(name)]) for name in ("central", "pressure"))
+    if more > 1.0:
+        # The kink of the central film where the spike passes the centre, and the density there.
+        total["central"] += more * central
+        total["zone"] += _DENSITY * min(pressure, 1.0)
     # The mean of 1/(rho h) is stored without the central film.
-    total["zone"] += float(errors[NAMES.index("central")])
+    total["zone"] += 2.0 * more * central if more > 1.0 else central
     return total
 
 
