@@ -36,7 +36,7 @@ _OIL = {
 # Spread between oils that 95 % of the fitted contacts keep: after the correction, and without it, for
 # contacts whose oil is not known. Below ``_LIGHT``, by M of a line, the spread and the error of the table are
 # twice as large, and that of the central film four times: the spike of the pressure passes the centre there.
-_SPREAD = {"central": 0.006, "minimum": 0.015, "mean": 0.016, "zone": 0.002, "inlet": 0.025, "outlet": 0.028}
+_SPREAD = {"central": 0.006, "minimum": 0.015, "mean": 0.016, "zone": 0.003, "inlet": 0.025, "outlet": 0.028}
 _WHOLE = {"central": 0.020, "minimum": 0.032, "mean": 0.021, "zone": 0.004, "inlet": 0.030, "outlet": 0.031}
 _OTHER = 0.01
 _LIGHT = 5.0
@@ -113,15 +113,17 @@ def atlas_film(groups: Groups, laws: Laws | None = None, oil: OilGroups | None =
     known = laws is not None
     laws = reference_laws() if laws is None else laws
     oil = OilGroups.of(*laws) if oil is None else oil
-    point = groups.ratio is not None
-    if point and groups.hertz_number > MOST_HERTZ:
+    line = groups.ratio is None
+    films = table("lines" if line else "points")
+    at = (groups.load_group, lubricant_coordinate(groups), *(() if groups.ratio is None else (groups.ratio,)))
+    films.check_range(*at)
+    if not line and groups.hertz_number > MOST_HERTZ:
         raise InputError(
             "atlas",
             got=f"alpha p_h = {groups.hertz_number:.4g}",
             takes=f"at most {MOST_HERTZ:g}, the range of the atlas of points",
         )
-    at = (groups.load_group, lubricant_coordinate(groups))
-    stored, errors = table("points" if point else "lines")(*at, *((groups.ratio,) if point else ()))
+    stored, errors = films(*at)
     logs = dict(zip(NAMES, stored.tolist(), strict=True))
     pressure, number = math.exp(logs["pressure"]), groups.hertz_number
     reference = reference_groups()

@@ -75,12 +75,16 @@ class Table:
         logs = np.log(at)[np.newaxis]
         return self._spline(logs)[0], self._error(logs)[0]
 
-    def check(self, *at: float) -> None:
-        """Raise an InputError for a point outside the table, or in a cell with a node without a film."""
+    def check_range(self, *at: float) -> None:
+        """Raise an InputError for a point outside the table."""
         for name, axis, value in zip(self.names, self.axes, at, strict=True):
             if not axis[0] <= value <= axis[-1]:
                 said = f"{axis[0]:.4g} to {axis[-1]:.4g}, the range of the atlas{_MEANING.get(name, '')}"
                 raise InputError(name, got=f"{value:.4g}", takes=said)
+
+    def check(self, *at: float) -> None:
+        """Raise an InputError for a point outside the table, or in a cell with a node without a film."""
+        self.check_range(*at)
         cell = []
         for axis, value in zip(self.axes, at, strict=True):
             i = int(np.argmin(np.abs(axis - value)))
