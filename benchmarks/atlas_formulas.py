@@ -126,7 +126,7 @@ def draw():
     from ehlectric.film.atlas.table import table as atlas_table
 
     axis = atlas_table("points").axes[0]
-    loads = np.geomspace(axis[0], axis[-1], 120)
+    loads = np.geomspace(axis[0], axis[-1], 400)
     figure, axes = plt.subplots(2, 3, figsize=(8.0, 5.0), sharex=True, sharey="row", layout="constrained")
     for (upper, lower), ratio in zip(axes.T, (1.0, 4.5, 9.5), strict=True):
         found = curves(ratio, 35.0, loads)
@@ -139,7 +139,7 @@ def draw():
             upper.plot(loads, values, label=name, **style)
             lower.plot(loads, 100.0 * (values / found["atlas"] - 1.0), **style)
         upper.set(title=f"k = {ratio:g}", xscale="log", yscale="log")
-        lower.set(xlabel="N", ylim=(-45.0, 45.0))
+        lower.set(xlabel="N", ylim=(-15.0, 45.0))
         for part in (upper, lower):
             part.grid(alpha=0.3)
     axes[0, 0].set_ylabel(r"$h(0)/(R\sqrt{\eta_0 u_s/(E'R)})$")

@@ -31,9 +31,16 @@ _PLACES = NAMES.index("minimum_x")
 # that differ more are not resolved on either grid.
 _RESOLVED = 0.3
 
+# Least pressure in the middle that is stored, over the Hertz pressure: beside a spike the spline through the
+# nodes of a grid goes below zero, and the density does not depend on lower ones.
+_LEAST_PRESSURE = 0.03
+
 # Largest Hertz pressure over 1/alpha of nodes that are extrapolated from lower ones, so that contacts below
 # the largest that is solved lie in a cell.
 _NEAR = 165.0
+
+# Load group up to which nodes are not extrapolated: the spike of the pressure passes the centre.
+_LIGHT = 40.0
 
 # Least share of solved nodes of an outermost plane of the table that is kept.
 _LEAST_SHARE = 0.05
@@ -50,6 +57,7 @@ def stored(groups: Groups, numbers: Array) -> Array:
     1/(rho h) do not, and are therefore stored without it.
     """
     logs = np.log(np.maximum(numbers[:_PLACES], 1e-12))
+    logs[_PRESSURE] = max(logs[_PRESSURE], np.log(_LEAST_PRESSURE))
     peak = numbers[_PRESSURE] * groups.hertz_number / OilGroups.of(*reference_laws()).alpha
     logs[_ZONE] -= logs[_CENTRAL] - np.log(groups.formula)
     logs[_CENTRAL] -= float(np.log(reference_laws()[1](np.array([peak]))[0][0]))
@@ -73,8 +81,10 @@ def assembled(folder: Path, kind: str, axes: Axes) -> dict[str, Any]:
     logs = [np.log(axis) for axis in axes.nodes]
     fill_between(values, errors, solved, logs)
     if axes.ratio is not None:
-        wanted = [axes.groups(at).hertz_number <= _NEAR for at in np.ndindex(*axes.shape)]
-        extend(values, errors, solved, np.reshape(wanted, axes.shape), logs)
+        wanted = np.zeros(axes.shape, dtype=bool)
+        for at in np.ndindex(*axes.shape):
+            wanted[at] = axes.load[at[0]] > _LIGHT and axes.groups(at).hertz_number <= _NEAR
+        extend(values, errors, solved, wanted, logs)
     made = {
         "computed": [min(dates), max(dates)] if dates else [], "seconds": round(seconds), "solved": number,
     }  # fmt: skip

@@ -59,11 +59,10 @@ def _fill_planes(values: Array, errors: Array, solved: Mask, logs: list[Array]) 
             for i in np.flatnonzero(inside):
                 guess[i] = _spline(x, around[i], values[i, j])(x[plane])
             known = solved[line] & inside
-            if not known.any():
+            if np.count_nonzero(known) < 3:
                 continue
             off, doubt, filled = values[line] - guess, errors[line].copy(), known.copy()
-            if np.count_nonzero(known) >= 3:
-                _fill_line(logs[0], off, doubt, filled)
+            _fill_line(logs[0], off, doubt, filled)
             nodes = np.flatnonzero(filled)
             for i in np.flatnonzero(inside & ~solved[line]):
                 near = nodes[np.argmin(np.abs(nodes - i))]
@@ -79,7 +78,9 @@ def _fill_lines(values: Array, errors: Array, solved: Mask, logs: list[Array], a
     mask = np.moveaxis(solved, axis, 0)
     for at in np.ndindex(*mask.shape[1:]):
         line = (slice(None), *at)
-        if np.count_nonzero(mask[line]) >= 3:
+        known = np.flatnonzero(mask[line])
+        # Two solved nodes serve for the one ratio of the semi-axes between them.
+        if known.size >= 3 or (axis == 2 and known.size == 2 and known[1] - known[0] == 2):
             _fill_line(logs[axis], on_lines[line], off_lines[line], mask[line])
 
 
@@ -91,6 +92,8 @@ def _fill_line(x: Array, values: Array, errors: Array, solved: Mask) -> None:
         return
     every = np.unique(np.append(known[::2], known[-1]))
     missed = np.abs(_spline(x, every, values)(x[known]) - values[known])
+    if known.size == 2:
+        missed += np.abs(values[known[1]] - values[known[0]])
     # A node of the coarser spline has no difference of its own, but those of its neighbours.
     wide = np.pad(missed, [(1, 1), (0, 0)], mode="edge")
     missed = HALVED * np.maximum(np.maximum(wide[:-2], wide[1:-1]), wide[2:])

@@ -107,7 +107,7 @@ _LOW, _HEAVY, _HEAVIEST, _NARROW, _LONG = 9.0, 3000.0, 10000.0, 12.0, 50.0
 
 # Ratios of the semi-axes that are solved for few load groups, with their rank, and these load groups. Films
 # change slowly with the ratio, but the side lobes of heavily loaded contacts do not.
-_SPARSE = {1.4: 5, 3.0: 3, 6.5: 2}
+_SPARSE = {1.4: 4, 3.0: 0, 6.5: 0}
 _FEW = (5.5, 20.0, 130.0, 500.0, 2500.0)
 _WIDE = (3.0, 5.5, 10.0, 20.0, 45.0, 130.0, 500.0)
 _SPARSE_LOADS = {0.25: _WIDE, 0.5: _WIDE, 1.4: _FEW, 3.0: _FEW, 6.5: (*_FEW, 12000.0)}

@@ -15,6 +15,9 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.errors import InputError
 from ehlectric.film.atlas.fill import HALVED
 
+# Relative distance within which a coordinate is that of a node.
+_ALIKE = 1e-9
+
 # What a coordinate is that is not a group of Moes.
 _MEANING = {"moes_n": " in N, which is M times a function of k", "moes_y": " in Y, which is L N^(1/6)"}
 
@@ -72,16 +75,22 @@ class Table:
         logs = np.log(at)[np.newaxis]
         return self._spline(logs)[0], self._error(logs)[0]
 
-    def check(self, *at: float) -> None:
-        """Raise an InputError for a point outside the table, or in a cell with a node without a film."""
+    def check_range(self, *at: float) -> None:
+        """Raise an InputError for a point outside the table."""
         for name, axis, value in zip(self.names, self.axes, at, strict=True):
             if not axis[0] <= value <= axis[-1]:
                 said = f"{axis[0]:.4g} to {axis[-1]:.4g}, the range of the atlas{_MEANING.get(name, '')}"
                 raise InputError(name, got=f"{value:.4g}", takes=said)
+
+    def check(self, *at: float) -> None:
+        """Raise an InputError for a point outside the table, or in a cell with a node without a film."""
+        self.check_range(*at)
         cell = []
         for axis, value in zip(self.axes, at, strict=True):
-            i = min(max(int(np.searchsorted(axis, value)) - 1, 0), axis.size - 2)
-            cell.append(slice(i, i + 2))
+            i = int(np.argmin(np.abs(axis - value)))
+            # On a node, as round contacts are, only the node itself decides.
+            j = i if abs(axis[i] - value) <= _ALIKE * value else i + 1 if value > axis[i] else i - 1
+            cell.append(slice(min(i, j), max(i, j) + 1))
         if not self.solved[tuple(cell)].all():
             where = ", ".join(f"{name} = {value:.4g}" for name, value in zip(self.names, at, strict=True))
             raise InputError(

@@ -111,7 +111,7 @@ def test_point_contacts_of_library_oils(name, temperature, load, lubricant, rati
     assert inside(found.mass, solved["central"], found.errors["central"])
     assert inside(found.minimum, solved["minimum"], found.errors["minimum"])
     assert inside(found.mean, solved["mean"], found.errors["mean"])
-    assert found.errors["central"] < 0.05
+    assert found.errors["minimum"] < 0.08
 
 
 def test_film_on_a_patch_is_that_on_the_whole_grid():
@@ -152,6 +152,9 @@ def test_a_cell_without_a_film_is_refused():
     assert made(1.5, 3.0)[0] == pytest.approx([1.0, 1.0])
     with pytest.raises(InputError, match="solve it"):
         made(3.0, 3.0)
+    assert made(2.0, 3.0)[0] == pytest.approx([1.0, 1.0])
+    with pytest.raises(InputError, match="solve it"):
+        made(4.0, 3.0)
 
 
 def test_stated_error_of_interpolation_holds_between_nodes():
