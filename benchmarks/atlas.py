@@ -65,7 +65,7 @@ def oils(rng):
 DATA = Path(__file__).parent / "data"
 
 # Load groups and ratios of the semi-axes that are drawn: round and narrow contacts, and wide ones.
-RANGES = {"points": ((3.1, 11500.0), (1.0, 19.0)), "wide": ((3.1, 2300.0), (0.26, 1.0))}
+RANGES = {"points": ((3.1, 11500.0), (1.0, 19.0)), "wide": ((3.1, 19.0), (0.26, 1.0))}
 
 
 def drawn(rng, kind):
