@@ -255,7 +255,10 @@ _VOLTAGES: Keys = {
         "estimated error of the films and their interpolation over the load; for contacts from the atlas "
         "of loads above 2 % of the largest, for contacts by formula that of the formula"
     ),
-    "interpolation_error": ResultKey("maximum error at a load that is left out of the interpolation"),
+    "interpolation_error": ResultKey(
+        "maximum error at a load that is left out of the interpolation; of the breakdown voltage only for at "
+        "least 2 % of the largest load"
+    ),
 }
 _MECHANICS: Keys = {
     "max_load": ResultKey("load of the most loaded contact with the outer ring", "N"),

@@ -52,6 +52,9 @@ class Kind(Generic[G, C]):
         Contact -> whether the domain holds the length over which the film builds up.
     rigid_capacitance : callable
         Contacts with a ring and gap [m] -> capacitance in vacuum [F] of a rigid element and its raceway.
+    loads : int
+        Number of loads that are solved for each ring, without those of light elements. Rollers, whose films
+        change more between them, are solved ten times as fast as balls.
     dry_exponents : tuple of float
         Exponents of the load in the Hertz pressure and in the semi-axes along and across the rolling
         direction.
@@ -65,6 +68,7 @@ class Kind(Generic[G, C]):
     quick: Mapping[str, Callable[[C], ContactSolution]]
     fits: Callable[[C], bool]
     rigid_capacitance: Callable[[RingContacts[G], float], float]
+    loads: int
     dry_exponents: tuple[float, float, float]
 
 
@@ -103,6 +107,7 @@ _BALLS = Kind[BallBearing, BallContact](
     quick={"atlas": ball_by_atlas, "formula": ball_by_formula},
     fits=ball_fits,
     rigid_capacitance=rigid_ball,
+    loads=5,
     dry_exponents=(1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0),
 )
 _ROLLERS = Kind[RollerBearing, RollerContact](
@@ -114,6 +119,7 @@ _ROLLERS = Kind[RollerBearing, RollerContact](
     quick={"atlas": roller_by_atlas, "formula": roller_by_formula},
     fits=roller_fits,
     rigid_capacitance=rigid_roller,
+    loads=10,
     dry_exponents=(0.5, 0.5, 0.0),
 )
 

@@ -28,9 +28,8 @@ from ehlectric.formulas.hertz_line import reduced_modulus
 from ehlectric.lubricant.oil import Oil
 from ehlectric.lubricant.temperature import inlet_shear_factor
 
-# Number of loads that are solved for each ring, without those of light elements, and the least of these loads
-# over the largest.
-LOADS, _LEAST = 6, 0.02
+# Least load over the largest of those that are not the loads of light elements.
+_LEAST = 0.02
 
 # Least load that is solved over the largest: the films of lighter contacts hardly change the circuit of the
 # bearing.
@@ -263,13 +262,14 @@ def least_load(ring: RingContacts[Any]) -> float:
 def loads_to_solve(prepared: PreparedBearing, ring: RingContacts[Any]) -> list[float]:
     """Loads of a ring's contacts to solve [N], by increasing load.
 
-    Six loads are evenly spaced in their logarithm. Lighter loads come before them where elements carry
+    The number of loads of the kind is evenly spaced in their logarithm. Lighter loads come before them where elements carry
     hardly more than their centrifugal force.
     """
     all_loads = np.concatenate([at.ring(inner=ring.inner).load for at in prepared.equilibria])
     largest = float(np.max(all_loads))
     least = float(np.min(all_loads[all_loads >= _LEAST * largest]))
-    loads = np.geomspace(least, largest, LOADS) if largest / least > _ALIKE else np.array([largest])
+    number = kind_of(ring).loads
+    loads = np.geomspace(least, largest, number) if largest / least > _ALIKE else np.array([largest])
     # Elements that are pressed outward only by their centrifugal force carry far less than the others.
     light = all_loads[(all_loads > 0.0) & (all_loads < _LEAST * largest)]
     lightest = least_load(ring)
