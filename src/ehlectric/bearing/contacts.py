@@ -220,8 +220,8 @@ def without_regime(warnings: Iterable[ResultWarning]) -> tuple[ResultWarning, ..
     return tuple(warning for warning in warnings if warning.code not in left_out)
 
 
-# Least load over the largest for which the interpolation of the breakdown voltage counts. The films of lighter
-# contacts are thicker: they never break down first.
+# Least load over the largest for which the interpolation of the breakdown voltage counts. The films of
+# lighter contacts are thicker: they never break down first.
 _BREAKS_FIRST = 0.02
 
 

@@ -28,8 +28,9 @@ from ehlectric.formulas.hertz_line import reduced_modulus
 from ehlectric.lubricant.oil import Oil
 from ehlectric.lubricant.temperature import inlet_shear_factor
 
-# Least load over the largest of those that are not the loads of light elements.
-_LEAST = 0.02
+# Least load over the largest of those that are not the loads of light elements, and number of loads down to
+# it whose contacts come from the atlas or by formula: they take milliseconds.
+_LEAST, _QUICK_LOADS = 0.02, 16
 
 # Least load that is solved over the largest: the films of lighter contacts hardly change the circuit of the
 # bearing.
@@ -259,16 +260,17 @@ def least_load(ring: RingContacts[Any]) -> float:
     return math.inf
 
 
-def loads_to_solve(prepared: PreparedBearing, ring: RingContacts[Any]) -> list[float]:
+def loads_to_solve(prepared: PreparedBearing, ring: RingContacts[Any], *, quick: bool) -> list[float]:
     """Loads of a ring's contacts to solve [N], by increasing load.
 
-    The number of loads of the kind is evenly spaced in their logarithm. Lighter loads come before them where elements carry
+    The loads of the kind, or more for a quick way, are evenly spaced in their logarithm. Lighter loads come
+    before them where elements carry
     hardly more than their centrifugal force.
     """
     all_loads = np.concatenate([at.ring(inner=ring.inner).load for at in prepared.equilibria])
     largest = float(np.max(all_loads))
     least = float(np.min(all_loads[all_loads >= _LEAST * largest]))
-    number = kind_of(ring).loads
+    number = _QUICK_LOADS if quick else kind_of(ring).loads
     loads = np.geomspace(least, largest, number) if largest / least > _ALIKE else np.array([largest])
     # Elements that are pressed outward only by their centrifugal force carry far less than the others.
     light = all_loads[(all_loads > 0.0) & (all_loads < _LEAST * largest)]

@@ -180,6 +180,8 @@ def _levels(problem: FilmProblem, *, roughness: float) -> list[Level]:
             width=problem.width,
             source=problem.source,
         )
+    if problem.edge_pressure is None:
+        return levels
     return [replace(levels[0], edge_excess=problem.edge_excess(levels[0].mesh)), *levels[1:]]
 
 

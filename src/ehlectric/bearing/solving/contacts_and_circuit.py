@@ -108,8 +108,9 @@ def _tasks(
     """Functions that solve the contacts with one ring, by increasing load."""
     ring = prepared.inner if inner else prepared.outer
     kind = kind_of(ring)
-    contacts = [kind.contact(ring, load) for load in loads_to_solve(prepared, ring)]
-    if is_quick(case):
+    quick = is_quick(case)
+    contacts = [kind.contact(ring, load) for load in loads_to_solve(prepared, ring, quick=quick)]
+    if quick:
         return [partial(kind.quick[case.contacts], contact) for contact in contacts]
     return [partial(kind.solve, contact, case.solver) for contact in contacts]
 
