@@ -264,8 +264,7 @@ def loads_to_solve(prepared: PreparedBearing, ring: RingContacts[Any], *, quick:
     """Loads of a ring's contacts to solve [N], by increasing load.
 
     The loads of the kind, or more for a quick way, are evenly spaced in their logarithm. Lighter loads come
-    before them where elements carry
-    hardly more than their centrifugal force.
+    before them where elements carry hardly more than their centrifugal force.
     """
     all_loads = np.concatenate([at.ring(inner=ring.inner).load for at in prepared.equilibria])
     largest = float(np.max(all_loads))

@@ -172,7 +172,7 @@ class RangesForm:
             kinds = {
                 "atlas": "from the atlas: half a second each",
                 "formula": "by formula: half a second each",
-                "solved": "solved: a minute or more each",
+                "solved": "solved: ten seconds or more each",
             }
             self._select("case.contacts", "Contacts of the bearing", kinds, self._contacts)
         self._page = ui.link("Open the base case on its page", "/", new_tab=True)

@@ -373,7 +373,7 @@ def _in_words(plan: SweepPlan) -> str:
     text = f"{plan.points} points {where}"
     if plan.seconds is None:
         text += (
-            ": each takes as long as one solution, seconds for a contact and a minute or more for a bearing."
+            ": each takes as long as one solution, a second for a contact and ten or more for a bearing."
         )
     else:
         text += f", without solving contacts: about {duration(plan.seconds)}."
